@@ -1,10 +1,10 @@
-//! The keys of a scene file, from the core's one table: for the terminal, for the documents, and as a JSON Schema.
+//! The keys of a scene file from the core's table: for the terminal, for the manual, and as a JSON Schema.
 
 use serde_json::{Map, Value, json};
 use shearbed::Observable;
 use shearbed::scene::{Absent, Holds, Key, MAX_FLOW_STEPS, TABLES, keys};
 
-/// Each key with what it means, its unit, what it may hold, and what it is where it is not given.
+/// Each key with its meaning, unit, allowed values, and the value if it is not given.
 pub fn rows() -> impl Iterator<Item = [String; 5]> {
     keys().map(|key| {
         let absent = match key.absent {
@@ -17,7 +17,7 @@ pub fn rows() -> impl Iterator<Item = [String; 5]> {
     })
 }
 
-/// As plain lines, a key each.
+/// The keys as plain text.
 pub fn text() -> String {
     let line = |[path, meaning, unit, holds, absent]: [String; 5]| {
         let unit = if unit.is_empty() { unit } else { format!(" [{unit}]") };
@@ -26,14 +26,14 @@ pub fn text() -> String {
     rows().map(line).collect()
 }
 
-/// As a table in Markdown.
+/// The keys as a Markdown table.
 pub fn markdown() -> String {
     let line = |row: [String; 5]| format!("| `{} |\n", row.join(" | ").replacen(" |", "` |", 1));
     let head = "| key | meaning | unit | allowed | without it |\n| --- | --- | --- | --- | --- |\n";
     head.to_owned() + &rows().map(line).collect::<String>()
 }
 
-/// As a JSON Schema of whole scenes.
+/// A JSON Schema of whole scenes.
 pub fn schema() -> Value {
     let title = keys().take_while(|key| !key.path.contains('.'));
     let tables =
@@ -44,7 +44,7 @@ pub fn schema() -> Value {
     whole
 }
 
-/// An object with these keys; a table comes with its own object.
+/// The schema of an object with these keys; a table comes with the schema of its own object.
 fn object<'a>(keys: impl Iterator<Item = (&'a Key, Option<Value>)>) -> Value {
     let (mut properties, mut required) = (Map::new(), Vec::new());
     for (key, table) in keys {

@@ -1,4 +1,4 @@
-//! The built-in scenes: the paper's figures, one file each in `validation/scenes/`, declared once here.
+//! The built-in scenes: the paper's figures, one file each in `validation/scenes/`, declared only here.
 
 use shearbed::Scene;
 use shearbed::{Error, scene};
@@ -6,9 +6,9 @@ use shearbed::{Error, scene};
 /// A scene that is part of the program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct BuiltIn {
-    /// Its name on the command line: the stem of its file's name.
+    /// Name on the command line: the stem of the file's name.
     pub name: &'static str,
-    /// Its file's text.
+    /// Text of the file.
     pub text: &'static str,
 }
 
@@ -42,12 +42,12 @@ built_in! {
     "extension"
 }
 
-/// The built-in scene of this name.
+/// The built-in scene called `name`, or `None`.
 pub fn find(name: &str) -> Option<&'static BuiltIn> {
     ALL.iter().find(|scene| scene.name == name)
 }
 
-/// Up to three names of built-in scenes that `name` may have meant, the closest first.
+/// Up to three names of built-in scenes of which `name` may be a misspelling, the closest first.
 pub fn close_to(name: &str) -> Vec<&'static str> {
     let mut close: Vec<_> = ALL
         .iter()

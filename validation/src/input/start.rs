@@ -1,4 +1,4 @@
-//! Rods of which a file beside the scene says what each is: length, r_e, direction and place.
+//! Rods defined by a file beside the scene: length, r_e, direction and position of each.
 
 mod table;
 
@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use table::read;
 
-/// The files that were read for scenes of one folder: each is read once, and its rods are held once.
+/// The files read for scenes of one folder: each is read once, and its rods are stored once.
 #[derive(Clone, Debug, Default)]
 pub struct Starts {
     folder: PathBuf,
@@ -20,22 +20,22 @@ pub struct Starts {
 struct Start {
     crc32: String,
     own: Arc<OwnRods>,
-    /// The line of each rod.
+    /// The line of each rod in the file.
     lines: Arc<Vec<u64>>,
 }
 
 impl Starts {
-    /// For scenes whose files are in this folder; nothing is read yet.
+    /// For scenes whose files are in `folder`; reads nothing yet.
     pub fn beside(folder: &Path) -> Self {
         Self { folder: folder.to_owned(), read: BTreeMap::new() }
     }
 
-    /// The checksum (CRC-32) of each file that was read.
+    /// The checksums (CRC-32) of the files read.
     pub fn checksums(&self) -> BTreeMap<&str, &str> {
         (self.read.iter()).map(|(file, start)| (file.as_str(), start.crc32.as_str())).collect()
     }
 
-    /// The files that were read.
+    /// The paths of the files read.
     pub fn files(&self) -> impl Iterator<Item = PathBuf> {
         self.read.keys().map(|file| self.folder.join(file))
     }
@@ -44,7 +44,7 @@ impl Starts {
     ///
     /// # Errors
     ///
-    /// The file, line, column and value, and what is allowed.
+    /// A message with file, line, column and value, and what is allowed.
     pub fn fill(&mut self, scene: &mut Scene) -> Result<(), String> {
         let Some(RodsFile { file, crc32, .. }) = &scene.particles.rods else {
             return Ok(());
@@ -78,7 +78,7 @@ impl Starts {
     }
 }
 
-/// Checks that the scene can have the rods of a file; an error starts with the line.
+/// Checks that the scene allows the rods of a file; an error starts with the line.
 fn fits(scene: &Scene, start: &Start) -> Result<(), String> {
     let (count, rows, own) = (scene.particles.count, start.lines.len(), &start.own);
     if rows != count {
@@ -107,7 +107,7 @@ mod tests {
         scene
     }
 
-    /// Removed after it was read: a file that is read again would be missed.
+    /// The file is removed after reading, so that a second reading would fail.
     #[test]
     fn a_file_is_read_and_held_once_for_all_scenes() {
         let first = of_a_file(1, false);
@@ -123,7 +123,7 @@ mod tests {
         assert!(Arc::ptr_eq(&of(&a), &of(&b)));
     }
 
-    /// Two rods at 50 per cm³: H = 3.42 mm.
+    /// Two rods at 50 per cm³: the side is H = 3.42 mm.
     #[test]
     fn rods_that_the_scene_cannot_have_are_told_with_their_line() {
         let dir = tempfile::tempdir().unwrap();
@@ -144,7 +144,7 @@ mod tests {
             let refused = fill(text, true).unwrap_err();
             assert!(refused.starts_with("particles.rods: ") && refused.contains(said), "{refused}");
         }
-        // Free rods may be discs, and are nowhere.
+        // Free rods may be discs, and their positions are ignored.
         assert_eq!(fill("aspect_ratio,x1_mm,x2_mm,x3_mm\n2,1,2,3\n0.5,3,4,1\n", false), Ok(()));
     }
 }

@@ -2,24 +2,24 @@
 
 use serde::Serialize;
 
-/// How a model relates to the truth, M ≈ δ·truth, free of what the experiments' own scatter explains.
+/// Relation of a model to the truth, M ≈ δ·truth, after the scatter of the experiments is subtracted.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Bias {
     /// δ: above 1, the model's values are too large.
     pub delta: f64,
     /// The model's relative standard deviation about δ·truth.
     pub sigma_m: f64,
-    /// The relative standard uncertainty of the experiments that was taken out.
+    /// The relative standard uncertainty of the experiments, which was subtracted.
     pub sigma_e: f64,
 }
 
-/// δ and σ_M of pairs (model, experiment), all positive, of experiments with the relative standard uncertainty `sigma_e`
+/// δ and σ_M of positive pairs (model, experiment), for experiments with the relative standard uncertainty `sigma_e`
 /// (McGrattan & Toman, Metrologia 48 (2011) 173; FDS Validation Guide, "Calculating Model Uncertainty"):
 ///
 /// σ_M² + σ_E² = 1/(n−1) Σ (ln(M_i/E_i) − mean)², δ = exp(mean + σ_M²/2 − σ_E²/2).
 ///
-/// A model cannot be shown to be better than what it is compared with: σ_E is taken no larger than σ_M. `None` for
-/// fewer than two pairs, or where a value is not positive.
+/// A model cannot be shown to be better than the experiments: σ_E is limited to σ_M. `None` for fewer than two pairs, or if
+/// a value is not positive.
 pub fn bias(pairs: &[(f64, f64)], sigma_e: f64) -> Option<Bias> {
     let positive = pairs.iter().all(|&(model, experiment)| model > 0.0 && experiment > 0.0);
     if pairs.len() < 2 || !positive {

@@ -1,4 +1,4 @@
-//! The comparison of model and experiment in the terms of ASME V&V 20, with a goodness of fit.
+//! The comparison of model and experiment in the terms of ASME V&V 20, with a goodness-of-fit test.
 
 #[cfg(test)]
 mod tests;
@@ -15,16 +15,16 @@ use nalgebra::{DMatrix, DVector, RowDVector};
 use shearbed::Scene;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
-/// How often and with which random numbers the model runs.
+/// Number of runs of the model, and their random numbers.
 #[derive(Clone, Copy, Debug)]
 pub struct Runs {
-    /// Independent replicas.
+    /// Number of independent replicas.
     pub replicas: u64,
-    /// The seed of their streams.
+    /// Seed of their random streams.
     pub seed: u64,
 }
 
-/// Compares the points of curves of one scene with replicas of that scene, changed by `change`.
+/// Compares measured curves of the scene named `scene` with replicas of that scene, altered by `change`.
 pub fn compare(
     scene: &str,
     curves: &[MeasuredCurve],
@@ -36,7 +36,7 @@ pub fn compare(
     let points = assessed.points;
     let n = points.len() as f64;
     let mean = |value: &dyn Fn(&Point) -> f64| points.iter().map(value).sum::<f64>() / n;
-    // The experiments' part of FDS's scatter: reading off and conditions, relative to what was measured.
+    // The experiments' part of FDS's scatter: reading uncertainty and conditions, relative to the measured values.
     let sigma_e = mean(&|p| (p.u_d.powi(2) + p.u_input.powi(2)) / p.measured.powi(2)).sqrt();
     let pairs: Vec<_> = points.iter().map(|p| (p.simulated, p.measured)).collect();
     Ok(Comparison {
@@ -52,23 +52,23 @@ pub fn compare(
     })
 }
 
-/// χ² = Eᵀ V⁻¹ E, and the probability of a larger one. The full covariance: points share the model's replicas and, where
-/// the same rods were measured, those too. NaN where there is no V⁻¹.
+/// χ² = Eᵀ V⁻¹ E, and the probability of a larger one. V is the full covariance: points share the model's replicas and, if the
+/// same rods were measured, also those. NaN if there is no V⁻¹.
 fn goodness_of_fit(error: &DVector<f64>, solver: Option<&Solver>) -> (f64, f64) {
     let chi_square = solver.map_or(f64::NAN, |v| v.chi_square(error));
     let law = ChiSquared::new(error.len() as f64);
     (chi_square, law.map_or(f64::NAN, |law| law.sf(chi_square)))
 }
 
-/// The α that fits curves of several scenes best, by one step of weighted least squares from the scenes' own α. `change`
-/// changes what the model runs unseen by the estimate.
+/// The best fit of α to curves of several scenes, by one step of weighted least squares from the scenes' own α. `change` alters
+/// the model's runs without the estimate's knowledge.
 pub fn alpha(curves: &[MeasuredCurve], change: Change, runs: Runs) -> Result<AlphaFit, String> {
     let (mut score, mut information, mut start) = (0.0, 0.0, f64::NAN);
     let mut names: Vec<_> = curves.iter().map(|curve| curve.scene).collect();
     names.sort_unstable();
     names.dedup();
     for (k, name) in names.into_iter().enumerate() {
-        // Scenes are independent: each has random numbers of its own.
+        // Scenes are independent: each has its own random numbers.
         let runs = Runs { seed: runs.seed ^ k as u64, ..runs };
         let here: Vec<_> = curves.iter().filter(|curve| curve.scene == name).cloned().collect();
         start = built_in(name)?.interaction.map_or(f64::NAN, |interaction| interaction.alpha);
@@ -97,7 +97,7 @@ fn built_in(name: &str) -> Result<Scene, String> {
     scene.scene().map_err(|error| error.to_string())
 }
 
-/// E with its covariance.
+/// The errors E with their covariance.
 struct Assessed {
     scene: Scene,
     points: Vec<Point>,
@@ -115,7 +115,7 @@ impl Assessed {
         let model = model::run(&scene, &places, replicas, 1)?;
         let mut assessed =
             Self { error: DVector::zeros(places.len()), points: Vec::new(), solver: None, scene };
-        // What points share is a covariance: a step or a wrong input moves them together.
+        // Shared causes give covariances: a time step or a wrong input moves all points together.
         let step = assessed.step_error(&model, &places, replicas)?;
         let inputs = assessed.input_errors(curves, replicas)?;
         let rods = rods(&model.spread, curves, assessed.scene.particles.count);
@@ -157,7 +157,7 @@ impl Assessed {
         Ok(assessed)
     }
 
-    /// The time step's error, S − S(Δt → 0) of first order, from a run with half the step. Free rods take no steps.
+    /// The time step's error, S − S(Δt → 0) to first order, from a run with half the step; 0 for free rods, which take no steps.
     fn step_error(
         &self,
         model: &Model,
@@ -171,7 +171,7 @@ impl Assessed {
         Ok(2.0 * (DVector::from_vec(model.value.clone()) - DVector::from_vec(half.value)))
     }
 
-    /// How far each stated input moves every point when it is one standard deviation off.
+    /// The change of every point per standard deviation of each stated input.
     fn input_errors(&self, curves: &[MeasuredCurve], replicas: u64) -> Result<Vec<DVector<f64>>, String> {
         let mut errors = Vec::new();
         for (index, (_, value)) in INPUTS.iter().enumerate() {
@@ -188,7 +188,7 @@ impl Assessed {
         Ok(errors)
     }
 
-    /// dS/dvalue at every point, from runs with the value larger and smaller by a `share`; 0 where the scene has none.
+    /// dS/dvalue at every point, from runs with the value larger and smaller by `share`; 0 if the scene has no such value.
     fn slope(
         &self,
         curves: &[MeasuredCurve],
@@ -218,7 +218,7 @@ fn measured(curves: &[MeasuredCurve]) -> impl Iterator<Item = &Measured> {
     curves.iter().flat_map(|curve| &curve.points)
 }
 
-/// Where the points lie in the periods of this scene: a time in seconds or strain is another t/T when r_e is another.
+/// The points' times in periods of this scene: a time in seconds or strain is a different t/T if r_e is different.
 fn places(curves: &[MeasuredCurve], scene: &Scene) -> Result<Vec<MeasuredAt>, String> {
     let mut places = Vec::new();
     for curve in curves {
@@ -234,8 +234,8 @@ fn places(curves: &[MeasuredCurve], scene: &Scene) -> Result<Vec<MeasuredAt>, St
     Ok(places)
 }
 
-/// The spread of a mean over the experiment's rods, where their number is known: that of a mean over the scene's rods,
-/// scaled. Curves of a scene are of the same rods.
+/// The scatter of a mean over the experiment's rods, scaled from that over the scene's rods; 0 if their number is unknown. Curves of a
+/// scene are of the same rods.
 fn rods(spread: &DMatrix<f64>, curves: &[MeasuredCurve], count: usize) -> DMatrix<f64> {
     let factors = curves.iter().flat_map(|curve| {
         let factor = curve.provenance.rods.map_or(0.0, |rods| (count as f64 / rods).sqrt());

@@ -1,4 +1,4 @@
-//! What a comparison of measured points with the model brings.
+//! The results of a comparison of measured points with the model.
 
 use super::bias::Bias;
 use serde::Serialize;
@@ -6,17 +6,17 @@ use serde::Serialize;
 /// A point with the model's value and every standard uncertainty of their difference.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Point {
-    /// x1, x2 or x3.
+    /// Name of the observable: x1, x2 or x3.
     pub observable: &'static str,
-    /// Its time.
+    /// Time t/T.
     pub t_over_t: f64,
-    /// D.
+    /// D, the measured value.
     pub measured: f64,
-    /// S.
+    /// S, the simulated value.
     pub simulated: f64,
     /// E = S − D.
     pub error: f64,
-    /// u_D: reading off in y, in x through the slope of S, and the experiment's number of rods.
+    /// u_D: reading uncertainty in y, that in x through the slope of S, and the experiment's number of rods.
     pub u_d: f64,
     /// u_num: replicas, time step, interpolation.
     pub u_num: f64,
@@ -26,12 +26,12 @@ pub struct Point {
     pub u_val: f64,
 }
 
-/// Model against experiment under the conditions of one scene.
+/// Comparison of model and experiment under the conditions of one scene.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Comparison {
-    /// The scene.
+    /// Name of the scene.
     pub scene: String,
-    /// Every point.
+    /// All points.
     pub points: Vec<Point>,
     /// The mean of E.
     pub mean_error: f64,
@@ -39,23 +39,23 @@ pub struct Comparison {
     pub rms_error: f64,
     /// The share of points with |E| ≤ 2 u_val.
     pub within_two_u_val: f64,
-    /// FDS's bias and scatter; `None` for fewer than two points or values that are not positive.
+    /// FDS's bias and scatter; `None` for fewer than two points, or if a value is not positive.
     pub bias: Option<Bias>,
-    /// Whether the provenance states uncertainties of the experiment's conditions; u_input is 0 where it does not.
+    /// True if the provenance states uncertainties of the experiment's conditions; else u_input is 0.
     pub inputs_stated: bool,
-    /// Eᵀ V⁻¹ E, V the covariance of E.
+    /// χ² = Eᵀ V⁻¹ E with the covariance V of E.
     pub chi_square: f64,
     /// The probability of a larger χ² if the model were right.
     pub p: f64,
 }
 
-/// α as the measured points have it.
+/// The fit of α to measured points.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct AlphaFit {
     /// The estimate.
     pub alpha: f64,
     /// Its standard error.
     pub se: f64,
-    /// The points behind it.
+    /// Number of points fitted.
     pub points: usize,
 }

@@ -1,8 +1,8 @@
-//! The covariance of many points that share few causes: solved in their number, not in its cube.
+//! The covariance of many points with few shared causes: the cost of solving is linear in the number of points, not cubic.
 
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
-/// V = D + UᵀU: the variances D that are each point's own, and in each row of U a cause that moves all points together.
+/// V = D + UᵀU: D are the points' own variances, and each row of U is a cause that moves all points together.
 pub(super) struct Covariance {
     /// D.
     pub(super) own: DVector<f64>,
@@ -10,7 +10,7 @@ pub(super) struct Covariance {
     pub(super) shared: DMatrix<f64>,
 }
 
-/// V with what solving it takes. With A = U D^−½, V = D^½ (1 + AᵀA) D^½.
+/// A solver for V. With A = U D^−½, V = D^½ (1 + AᵀA) D^½.
 pub(super) struct Solver {
     /// D^½.
     root: DVector<f64>,
@@ -27,7 +27,7 @@ impl Covariance {
         &self.own + DVector::from_iterator(self.own.len(), shared)
     }
 
-    /// What solves V x = e; none where a point's own variance is not positive or a number is not finite.
+    /// A solver for V x = e; `None` if a point's own variance is not positive, or a number is not finite.
     pub(super) fn solver(&self) -> Option<Solver> {
         if !self.own.iter().all(|own| *own > 0.0 && own.is_finite()) {
             return None;
@@ -58,7 +58,7 @@ impl Solver {
         self.split(e).1.component_div(&self.root)
     }
 
-    /// eᵀ V⁻¹ e = |f − Aᵀy|² + |y|²: a sum of squares, of which y makes the least, so that an error of y counts squared.
+    /// eᵀ V⁻¹ e = |f − Aᵀy|² + |y|², a sum of squares that y minimises, so that an error of y enters squared.
     pub(super) fn chi_square(&self, e: &DVector<f64>) -> f64 {
         let (y, rest) = self.split(e);
         rest.norm_squared() + y.norm_squared()
@@ -82,14 +82,14 @@ mod tests {
                 own: DVector::from_fn(points, |k, _| 0.3 + 0.1 * (k as f64).cos()),
                 shared: noise(causes, points),
             };
-            // The textbook's way, in the cube of the number of points.
+            // The textbook's method, with a cost cubic in the number of points.
             let whole =
                 DMatrix::from_diagonal(&covariance.own) + covariance.shared.transpose() * &covariance.shared;
             assert_relative_eq!(covariance.variances(), whole.diagonal(), max_relative = 1e-13);
             let e: DVector<f64> = noise(points, 1).column(0).into();
             let expected = whole.cholesky().unwrap().solve(&e);
             let solver = covariance.solver().unwrap();
-            // The condition of these is below 1e4: 1e-10 is far above its round-off.
+            // The condition number is below 1e4: 1e-10 is far above the round-off.
             assert_relative_eq!(solver.solve(&e), expected, epsilon = 1e-10);
             assert_relative_eq!(solver.chi_square(&e), e.dot(&expected), max_relative = 1e-10);
         }

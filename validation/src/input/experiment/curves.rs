@@ -1,4 +1,4 @@
-//! From a pair of files to curves in the model's units, sorted by time.
+//! Reads pairs of files into curves in the model's units, sorted by time.
 
 use super::error::{DataError, read_text};
 use super::provenance::{Axis, Key, Layout, OBSERVABLES, Projection, Provenance};
@@ -9,8 +9,8 @@ use crate::input::scenes;
 use std::collections::HashMap;
 use std::path::Path;
 
-/// The largest standard uncertainty of a time, in periods. Projections have the period T/2, so that ± a quarter of T is one
-/// whole oscillation: a point of a more uncertain time says nothing of the model, but makes it run for long.
+/// The largest standard uncertainty of a time, in periods. Projections have the period T/2, so ± a quarter of T is one whole
+/// oscillation: a point with a more uncertain time contains no information, but makes the model run for long.
 const MOST_UNCERTAIN: f64 = 0.25;
 
 const TIME_UNCERTAINTY: &str =
@@ -62,7 +62,7 @@ pub(super) fn read(path: &Path, source: &Source) -> Result<Vec<MeasuredCurve>, D
             Layout::Columns => Some(column(&provenance, key)),
             Layout::WebPlotDigitizer => key.dataset.clone(),
         };
-        // A name is needed only where there are several.
+        // A name is needed only if there are several datasets.
         let only = wanted.is_none() && datasets.len() == 1;
         let dataset = datasets.iter().find(|dataset| only || Some(&dataset.name) == wanted.as_ref());
         let dataset = dataset.ok_or_else(|| {
@@ -76,7 +76,7 @@ pub(super) fn read(path: &Path, source: &Source) -> Result<Vec<MeasuredCurve>, D
     provenance.curves.iter().map(curve).collect()
 }
 
-/// The name of a curve's column in the project's layout.
+/// The name of the column of a curve in the project's layout.
 fn column(provenance: &Provenance, key: &Key) -> String {
     let name = OBSERVABLES[key.channel];
     match provenance.y.quantity {
@@ -100,7 +100,7 @@ fn convert(
     for row in &dataset.rows {
         on_axis(file, row.line, "x", row.x, &provenance.x, row.u_x)?;
         on_axis(file, row.line, "y", row.y, &provenance.y, row.u_y)?;
-        // 0 and −0 are one number.
+        // 0 and −0 are the same number.
         let place = [row.x + 0.0, row.y + 0.0].map(f64::to_bits);
         if let Some(first) = seen.insert(place, row.line) {
             let message = format!(
@@ -112,7 +112,7 @@ fn convert(
     }
     let scene = scenes::find(key.scene).and_then(|built_in| built_in.scene().ok());
     let particles = scene.map(|scene| scene.particles);
-    // Every source's scenes exist and are valid: a test says so.
+    // A test checks that the scenes of every source exist and are valid.
     let (aspect_ratio, length_mm) = particles.map_or((f64::NAN, f64::NAN), |p| (p.aspect_ratio, p.length_mm));
     let period = provenance.x.quantity.per_period(aspect_ratio);
     let most = MOST_UNCERTAIN * period;
@@ -139,7 +139,7 @@ fn convert(
     Ok(MeasuredCurve { scene: key.scene, channel: key.channel, points, provenance: provenance.clone() })
 }
 
-/// Refuses a value beyond the reference points by more than reading off at an end explains.
+/// Fails if a value is beyond the reference points by more than the reading uncertainty explains.
 fn on_axis<Q>(
     file: &str,
     line: usize,

@@ -1,4 +1,4 @@
-//! Why measured points were refused.
+//! Errors in files of measured points.
 
 use crate::files::bounded;
 use crate::files::text::Shown;
@@ -6,12 +6,12 @@ use std::fmt;
 use std::io;
 use std::path::Path;
 
-/// A file that was refused: where, what is there, and what is allowed.
+/// An error in a file: the place, the content, and what is allowed.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct DataError {
     /// The file or folder.
     pub file: String,
-    /// The line at fault, from 1; `None` where the whole file is.
+    /// Number of the line, from 1; `None` if the error is of the whole file.
     pub line: Option<usize>,
     /// The key or column, its value and what is allowed.
     pub message: String,
@@ -40,12 +40,12 @@ impl fmt::Display for DataError {
 
 impl std::error::Error for DataError {}
 
-/// The error that a file cannot be read.
+/// The error of a file that cannot be read.
 pub(super) fn unreadable(file: &Path, error: &io::Error) -> DataError {
     DataError::whole(file, format!("cannot be read: {error}"))
 }
 
-/// The longest file of measured points.
+/// Size limit in bytes of a file of measured points.
 pub(crate) const MOST_BYTES: u64 = 64 << 20;
 
 /// The text of a file in UTF-8, without a byte-order mark.

@@ -1,4 +1,4 @@
-//! Keys of a provenance file one by one, with errors that name file, line, key, value and what is allowed.
+//! Reads the keys of a provenance file, with errors that name file, line, key, value and what is allowed.
 
 use super::error::DataError;
 use shearbed::Error;
@@ -20,13 +20,13 @@ fn located(file: &str, SceneProblem { line, message, .. }: SceneProblem) -> Data
 /// A table of the file.
 pub(super) struct Keys<'a> {
     file: &'a str,
-    /// Its name up to those of its keys, as `x.`; empty for the whole file.
+    /// Prefix of the dotted paths of its keys, such as `x.`; empty for the whole file.
     path: String,
     table: Table<'a>,
 }
 
 impl<'a> Keys<'a> {
-    /// The table of a whole file.
+    /// The root table of a file.
     pub(super) fn of_file(file: &'a str, document: &'a Document) -> Self {
         Self { file, path: String::new(), table: document.root() }
     }
@@ -35,28 +35,28 @@ impl<'a> Keys<'a> {
         Self { path: format!("{}{key}.", self.path), table, ..*self }
     }
 
-    /// The line of a key, or of its table where it is missing.
+    /// The line of `key`, or of its table if the key is missing.
     pub(super) fn line(&self, key: &str) -> usize {
         self.table.line(key)
     }
 
-    /// The error that `key` is missing or has another value than is allowed.
+    /// The error that `key` is missing or has a value other than `allowed`.
     pub(super) fn refused(&self, key: &str, allowed: &str) -> DataError {
         located(self.file, self.table.refused(key, allowed))
     }
 
-    /// True if the key is there.
+    /// True if the table has the key.
     pub(super) fn has(&self, key: &str) -> bool {
         self.table.has(key)
     }
 
-    /// A text that is not empty.
+    /// The text at `key`, trimmed and not empty.
     pub(super) fn text(&self, key: &str, allowed: &str) -> Result<String, DataError> {
         let text = self.table.read::<String>(key).map(|text| text.trim().to_owned());
         text.filter(|text| !text.is_empty()).ok_or_else(|| self.refused(key, allowed))
     }
 
-    /// A finite number for which `holds`.
+    /// The finite number at `key`, for which `holds` must be true.
     pub(super) fn number(
         &self,
         key: &str,
@@ -67,26 +67,26 @@ impl<'a> Keys<'a> {
         number.ok_or_else(|| self.refused(key, allowed))
     }
 
-    /// Every number of an array of finite numbers.
+    /// The array of finite numbers at `key`.
     pub(super) fn numbers(&self, key: &str, allowed: &str) -> Result<Vec<f64>, DataError> {
         let numbers = self.table.read::<Vec<f64>>(key);
         let finite = |numbers: &Vec<f64>| numbers.iter().all(|number| number.is_finite());
         numbers.filter(finite).ok_or_else(|| self.refused(key, allowed))
     }
 
-    /// The table of this key.
+    /// The table at `key`.
     pub(super) fn table(&self, key: &str, allowed: &str) -> Result<Self, DataError> {
         let table = self.table.table(key).ok_or_else(|| self.refused(key, allowed))?;
         Ok(self.inner(key, table))
     }
 
-    /// The array of tables of this key, one at least.
+    /// The array of tables at `key`, at least one.
     pub(super) fn tables(&self, key: &str, allowed: &str) -> Result<Vec<Self>, DataError> {
         let tables = self.table.tables(key).ok_or_else(|| self.refused(key, allowed))?;
         Ok(tables.into_iter().map(|table| self.inner(key, table)).collect())
     }
 
-    /// Refuses keys that are none of these.
+    /// Fails if the table has a key that is not among `known`.
     pub(super) fn only(&self, known: &[&str]) -> Result<(), DataError> {
         let unknown = self.table.keys().find(|name| !known.contains(name));
         unknown.map_or(Ok(()), |name| {

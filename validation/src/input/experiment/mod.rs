@@ -1,7 +1,7 @@
 //! Measured points of experiments: reading them, and comparing them with the model.
 //!
-//! One folder for each source under a data folder, laid out as `validation/data`; in it pairs of files, `NAME.toml` with
-//! where the points come from and `NAME.csv` with the points. `docs/src/validation/points.md` has the formats and the formulas.
+//! Each source has a folder under a data folder, laid out as `validation/data`; the folder has pairs of files, `NAME.toml` with the
+//! provenance and `NAME.csv` with the points. Formats and formulas are in `docs/src/validation/points.md`.
 
 mod bias;
 mod compare;
@@ -39,11 +39,11 @@ pub struct Source {
     pub label: &'static str,
     /// The built-in scenes of its conditions.
     pub scenes: &'static [&'static str],
-    /// Points at later t/T are read and drawn but not judged.
+    /// The latest t/T of points that are judged; later points are read and drawn.
     pub judged_up_to: f64,
 }
 
-/// Fig. 4. Twenty periods: the oscillations are long damped out then, and to simulate more only takes time.
+/// Fig. 4. Up to twenty periods: the oscillations are damped out long before, and a longer simulation only costs time.
 pub const OKAGAWA_MASON: Source = Source {
     folder: "okagawa-mason-1973",
     label: "Okagawa & Mason (1973)",
@@ -51,7 +51,7 @@ pub const OKAGAWA_MASON: Source = Source {
     judged_up_to: 20.0,
 };
 
-/// Fig. 5. The paper claims agreement at t/T = 3, and says of later times that the experiment drifts for an unknown
+/// Fig. 5. The paper claims agreement at t/T = 3, and says that the experiment drifts at later times for an unknown
 /// reason.
 pub const ANCZUROWSKI: Source = Source {
     folder: "anczurowski-cox-mason-1967",
@@ -68,11 +68,11 @@ pub const SOURCES: [Source; 2] = [OKAGAWA_MASON, ANCZUROWSKI];
 pub struct Measured {
     /// The source and its figure, for a legend.
     pub label: String,
-    /// x1, x2 or x3.
+    /// Name of the observable: x1, x2 or x3.
     pub observable: &'static str,
-    /// t/T.
+    /// Time t/T.
     pub x: f64,
-    /// A mean projection, as a fraction of the rod's length.
+    /// The mean projection, as a fraction of the rod's length.
     pub y: f64,
     /// One standard deviation of x.
     pub u_x: f64,
@@ -83,17 +83,17 @@ pub struct Measured {
 /// The measured points of one observable under the conditions of one scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MeasuredCurve {
-    /// A built-in scene.
+    /// Name of a built-in scene.
     pub scene: &'static str,
-    /// 0, 1, 2 for x1, x2, x3.
+    /// Index of the observable: 0, 1, 2 for x1, x2, x3.
     pub channel: usize,
-    /// By ascending time.
+    /// The points, sorted by time.
     pub points: Vec<Measured>,
-    /// Where they come from.
+    /// Provenance of the points.
     pub provenance: Provenance,
 }
 
-/// Every curve of a source under `data`; none where the source has no folder or no files there.
+/// All curves of a source under `data`; empty if the source has no folder or no files there.
 pub fn read(data: &Path, source: &Source) -> Result<Vec<MeasuredCurve>, DataError> {
     let folder = data.join(source.folder);
     if !folder.exists() {
@@ -124,7 +124,7 @@ pub fn read(data: &Path, source: &Source) -> Result<Vec<MeasuredCurve>, DataErro
     Ok(found)
 }
 
-/// Reads everything under `data`, and refuses points in places that nobody reads.
+/// Reads all measured points under `data`; fails if there are files in folders that no source reads.
 pub fn check(data: &Path) -> Result<(), DataError> {
     for source in &SOURCES {
         read(data, source)?;
@@ -145,7 +145,7 @@ pub fn check(data: &Path) -> Result<(), DataError> {
     }
 }
 
-/// The checksum of every file that is read under `data`, by its path from there.
+/// The checksums (CRC-32) of all files read under `data`, by their path relative to `data`.
 pub fn digest(data: &Path) -> Result<BTreeMap<String, u32>, DataError> {
     let mut sums = BTreeMap::new();
     for source in &SOURCES {
@@ -163,7 +163,7 @@ pub fn digest(data: &Path) -> Result<BTreeMap<String, u32>, DataError> {
     Ok(sums)
 }
 
-/// Every measured point under the conditions of a scene, for pictures; none without data.
+/// All measured points under the conditions of a scene, for pictures; empty without data.
 pub fn points_for(data: Option<&Path>, scene_name: &str) -> Result<Vec<Measured>, DataError> {
     let mut points = Vec::new();
     for source in SOURCES.iter().filter(|source| source.scenes.contains(&scene_name)) {
@@ -174,7 +174,7 @@ pub fn points_for(data: Option<&Path>, scene_name: &str) -> Result<Vec<Measured>
     Ok(points)
 }
 
-/// What is in a folder, by name.
+/// The entries of a folder, sorted by name.
 fn files(folder: &Path) -> Result<Vec<PathBuf>, DataError> {
     let refused = |error: std::io::Error| unreadable(folder, &error);
     let entries = std::fs::read_dir(folder).map_err(refused)?;

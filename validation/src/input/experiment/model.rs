@@ -1,4 +1,4 @@
-//! The model's values at the times of measured points, with what they do not tell exactly.
+//! The model's values at the times of measured points, with their uncertainties.
 
 use nalgebra::DMatrix;
 use rayon::prelude::*;
@@ -7,36 +7,36 @@ use shearbed::plan::Plan;
 use shearbed::run::run_replica;
 use shearbed::{Observable, Scene};
 
-/// Where a curve of the model is wanted.
+/// A place on a curve of the model.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct MeasuredAt {
-    /// t/T.
+    /// Time t/T.
     pub(super) turns: f64,
     /// One standard deviation of t/T.
     pub(super) u_turns: f64,
-    /// 0, 1, 2 for x1, x2, x3.
+    /// Index of the observable: 0, 1, 2 for x1, x2, x3.
     pub(super) channel: usize,
 }
 
-/// The model at some places.
+/// The model's values at some places.
 #[derive(Clone, Debug)]
 pub(super) struct Model {
     /// Means over rods and replicas.
     pub(super) value: Vec<f64>,
-    /// The variance that an uncertain time gives each value.
+    /// The variance of each value due to its uncertain time.
     pub(super) time_variance: Vec<f64>,
-    /// How far linear interpolation is from the cubic that is used: more than the cubic's own error.
+    /// The difference between linear and the cubic interpolation that is used: more than the cubic's own error.
     pub(super) interpolation: Vec<f64>,
-    /// A row for each replica and a column for each place: spreadᵀ·spread is the covariance of one replica's values, and
-    /// that over the number of replicas the one of `value`.
+    /// A row for each replica, a column for each place: spreadᵀ·spread is the covariance of one replica's values, and divided by the number
+    /// of replicas that of `value`.
     pub(super) spread: DMatrix<f64>,
 }
 
-/// What is evaluated at each place: the value, the value by linear interpolation, and at the two outer nodes.
+/// Number of values computed at each place: the value, the linearly interpolated value, and the values at the two outer nodes.
 const EACH: usize = 4;
 
-/// Runs replicas of a scene with an output in each of its steps, for as long as the places need. The steps may be finer
-/// than those outputs, by the factor `finer`.
+/// Runs replicas of a scene with an output per step, for as long as the places require. The time steps may be finer than the
+/// outputs, by the factor `finer`.
 pub(super) fn run(scene: &Scene, places: &[MeasuredAt], replicas: u64, finer: u64) -> Result<Model, String> {
     let mut scene = scene.clone();
     let per_period = scene.steps_per_unit();
@@ -73,8 +73,8 @@ pub(super) fn run(scene: &Scene, places: &[MeasuredAt], replicas: u64, finer: u6
     let each = || means.chunks_exact(EACH);
     Ok(Model {
         value: each().map(|mean| mean[0]).collect(),
-        // The mean of (S(t + ε) − S(t))² over a Gaussian ε by Gauss–Hermite's rule of three nodes: u_t²·(dS/dt)² where S is
-        // straight, and still right on a peak, where the slope alone would be 0.
+        // The mean of (S(t + ε) − S(t))² over a Gaussian ε by Gauss–Hermite's rule of three nodes: u_t²·(dS/dt)² if S is straight, and
+        // also right at a peak, where the slope alone would give 0.
         time_variance: each()
             .map(|mean| ((mean[2] - mean[0]).powi(2) + (mean[3] - mean[0]).powi(2)) / 6.0)
             .collect(),
@@ -83,8 +83,8 @@ pub(super) fn run(scene: &Scene, places: &[MeasuredAt], replicas: u64, finer: u6
     })
 }
 
-/// Lagrange's polynomial through the `order` outputs around `at`, counted in outputs. Before the first output the curve
-/// stays what it was there.
+/// The value at `at`, counted in outputs, of Lagrange's polynomial through the `order` outputs around it. Before the first output
+/// the curve is constant.
 pub(crate) fn interpolate(outputs: usize, at: f64, order: usize, value: impl Fn(usize) -> f64) -> f64 {
     let at = at.clamp(0.0, (outputs - 1) as f64);
     let order = order.min(outputs);

@@ -1,10 +1,10 @@
-//! Where measured points come from: what the TOML file beside each CSV file says.
+//! Provenance of measured points: the content of the TOML file beside each CSV file.
 
 use serde::Serialize;
 use shearbed::Scene;
 use shearbed::model::jeffery;
 
-/// How the CSV file is laid out.
+/// Layout of the CSV file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub enum Layout {
     /// The project's columns, named in the first line.
@@ -13,22 +13,22 @@ pub enum Layout {
     WebPlotDigitizer,
 }
 
-/// The quantity along x; the name holds the unit.
+/// The quantity along x; the column's name contains the unit.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub enum Time {
     /// t/T, T of the scene's mean aspect ratio.
     Periods,
-    /// Seconds, in an experiment of this shear rate.
+    /// Seconds, in an experiment with this shear rate.
     Seconds {
-        /// G of the experiment.
+        /// Shear rate G of the experiment in 1/s.
         shear_rate_per_s: f64,
     },
-    /// G·t.
+    /// Strain G·t.
     Strain,
 }
 
 impl Time {
-    /// The name of its column.
+    /// The name of the column.
     pub fn column(self) -> &'static str {
         match self {
             Self::Periods => "t_over_T",
@@ -37,7 +37,7 @@ impl Time {
         }
     }
 
-    /// How much of it is one period of rods of this aspect ratio (eq. 15).
+    /// The length of one period (eq. 15) of rods of this aspect ratio, in this quantity.
     pub fn per_period(self, aspect_ratio: f64) -> f64 {
         match self {
             Self::Periods => 1.0,
@@ -49,10 +49,10 @@ impl Time {
     }
 }
 
-/// The quantity along y; the name holds the unit.
+/// The quantity along y; the column's name contains the unit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub enum Projection {
-    /// Of the rod's length.
+    /// A fraction of the rod's length.
     Fraction,
     /// Millimetres.
     Millimetres,
@@ -61,16 +61,16 @@ pub enum Projection {
 /// A calibrated axis.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Axis<Q> {
-    /// What is drawn along it, and in which unit.
+    /// The quantity along the axis, with its unit.
     pub quantity: Q,
-    /// The values of the reference points by which it was calibrated, in that unit.
+    /// The values of the reference points of the calibration, in that unit.
     pub calibration: Vec<f64>,
-    /// One standard deviation of what was read off, in that unit.
+    /// One standard deviation of a reading, in that unit.
     pub standard_uncertainty: f64,
 }
 
 impl<Q> Axis<Q> {
-    /// The least and the most of the reference points.
+    /// The smallest and the largest of the reference points.
     pub fn range(&self) -> (f64, f64) {
         let least = self.calibration.iter().copied().fold(f64::INFINITY, f64::min);
         let most = self.calibration.iter().copied().fold(f64::NEG_INFINITY, f64::max);
@@ -78,26 +78,26 @@ impl<Q> Axis<Q> {
     }
 }
 
-/// Which scene and observable a dataset of the CSV file is compared with.
+/// The scene and observable that a dataset of the CSV file is compared with.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Key {
-    /// A built-in scene.
+    /// Name of a built-in scene.
     pub scene: &'static str,
-    /// 0, 1, 2 for x1, x2, x3.
+    /// Index of the observable: 0, 1, 2 for x1, x2, x3.
     pub channel: usize,
-    /// The dataset's name, where the file has several.
+    /// Name of the dataset, if the file has several.
     pub dataset: Option<String>,
-    /// Its line in the provenance file.
+    /// Line number in the provenance file.
     pub line: usize,
 }
 
 /// The names of the observables, by channel.
 pub const OBSERVABLES: [&str; 3] = ["x1", "x2", "x3"];
 
-/// A key of `[inputs]` with the value in a scene that it is an uncertainty of; `None` where the scene has none.
+/// A key of `[inputs]`, and the value in a scene to which the uncertainty applies; `None` if the scene has no such value.
 type Input = (&'static str, fn(&mut Scene) -> Option<&mut f64>);
 
-/// What the experiment's conditions are known to only so well.
+/// The experiment's conditions that may be uncertain.
 pub(super) const INPUTS: [Input; 5] = [
     ("alpha", |scene| Some(&mut scene.interaction.as_mut()?.alpha)),
     ("concentration_per_cm3", |scene| scene.interaction.as_mut()?.concentration_per_cm3.as_mut()),
@@ -106,29 +106,29 @@ pub(super) const INPUTS: [Input; 5] = [
     ("aspect_ratio_sd_percent", |scene| Some(&mut scene.particles.aspect_ratio_sd_percent)),
 ];
 
-/// Everything a provenance file says.
+/// The content of a provenance file.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Provenance {
-    /// The paper that shows the points.
+    /// The paper with the points.
     pub paper: String,
-    /// Its figure or table.
+    /// The figure or table of the paper.
     pub figure: String,
-    /// Who read them off.
+    /// The person who digitised the points.
     pub digitised_by: String,
-    /// With which tool and version.
+    /// The digitising tool and its version.
     pub tool: String,
-    /// When, as YYYY-MM-DD.
+    /// The date of digitising, as YYYY-MM-DD.
     pub date: String,
-    /// How the CSV file is laid out.
+    /// Layout of the CSV file.
     pub csv: Layout,
-    /// Rods that each point is a mean over, where that is known.
+    /// Number of rods averaged in each point, if known.
     pub rods: Option<f64>,
     /// The time axis.
     pub x: Axis<Time>,
     /// The axis of projections.
     pub y: Axis<Projection>,
-    /// What is in the CSV file.
+    /// The curves in the CSV file.
     pub curves: Vec<Key>,
-    /// One standard deviation of the experiment's conditions, by the index in the list of inputs.
+    /// One standard deviation of each stated condition, with its index in the list of inputs.
     pub inputs: Vec<(usize, f64)>,
 }

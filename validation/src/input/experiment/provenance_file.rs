@@ -1,4 +1,4 @@
-//! Reading a provenance file, with errors that name the line, the key, its value and what is allowed.
+//! Reads a provenance file, with errors that name the line, the key, its value and what is allowed.
 
 use super::Source;
 use super::error::DataError;
@@ -65,7 +65,7 @@ fn date(all: &Keys<'_>) -> Result<String, DataError> {
     }
 }
 
-/// Whether a text is a day of the calendar, as YYYY-MM-DD.
+/// True if the text is a calendar day, as YYYY-MM-DD.
 fn is_day(text: &str) -> bool {
     let shape = text.chars().map(|c| if c.is_ascii_digit() { '0' } else { c });
     if !shape.eq("0000-00-00".chars()) {
@@ -171,7 +171,7 @@ fn curves(all: &Keys<'_>, csv: Layout, source: &Source) -> Result<Vec<Key>, Data
     Ok(keys)
 }
 
-/// Refuses points of other rods than the scenes'.
+/// Fails if the points are of rods with another aspect ratio than the scenes'.
 fn own_aspect_ratio(all: &Keys<'_>, curves: &[Key]) -> Result<(), DataError> {
     if !all.has("aspect_ratio") {
         return Ok(());

@@ -3,12 +3,12 @@
 use super::error::DataError;
 use csv::{ReaderBuilder, StringRecord, Trim};
 
-/// Points under one name, in the units of the file.
+/// Points of one column or dataset, in the units of the file.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Dataset {
-    /// The column's or the dataset's name; empty in an export of two columns.
+    /// Name of the column or dataset; empty for an export of two columns.
     pub(crate) name: String,
-    /// In the order of the file.
+    /// The points in the order of the file.
     pub(crate) rows: Vec<DataRow>,
 }
 
@@ -18,21 +18,21 @@ pub(crate) struct DataRow {
     pub(crate) line: usize,
     pub(crate) x: f64,
     pub(crate) y: f64,
-    /// Uncertainties of this point, where it has its own.
+    /// Uncertainties of this point, if the file states them.
     pub(crate) u_x: Option<f64>,
     pub(crate) u_y: Option<f64>,
 }
 
-/// A line of the file that is not blank, in cells.
+/// A line of the file that is not blank, split into cells.
 struct Record {
     line: usize,
     cells: StringRecord,
 }
 
-/// The most lines of a file: more than any figure has points; comparing them takes half a minute.
+/// The largest number of lines of a file: more than the points of any figure; a comparison then takes half a minute.
 const MOST_LINES: usize = 20_000;
 
-/// Refuses a first line whose cells are apart by semicolons or tabs, with the mend: numbers have decimal commas there.
+/// Fails if the cells of the first line are separated by semicolons or tabs, and says what to do: such files have decimal commas.
 pub(crate) fn commas(file: &str, text: &str) -> Result<(), DataError> {
     let Some((index, first)) = text.lines().enumerate().find(|(_, line)| !line.trim().is_empty()) else {
         return Ok(());
@@ -52,7 +52,7 @@ pub(crate) fn commas(file: &str, text: &str) -> Result<(), DataError> {
     Ok(())
 }
 
-/// Line by line, so that every error has the line that an editor shows.
+/// Reads line by line, so that every error has the line number that an editor shows.
 fn records(file: &str, text: &str) -> Result<Vec<Record>, DataError> {
     commas(file, text)?;
     let lines = text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty());
@@ -81,8 +81,8 @@ fn number(file: &str, line: usize, column: &str, cell: &str) -> Result<f64, Data
     })
 }
 
-/// Reads the project's columns: `x`, each of `ys`, and where there are any their uncertainties `NAME_u`. A blank `y` was
-/// not measured; a blank uncertainty is that of the provenance file.
+/// Reads the project's columns: `x`, each of `ys`, and their uncertainties `NAME_u` if given. A blank `y` was not measured; for a
+/// blank uncertainty that of the provenance file applies.
 pub(crate) fn columns(file: &str, text: &str, x: &str, ys: &[String]) -> Result<Vec<Dataset>, DataError> {
     let records = records(file, text)?;
     let Some((header, body)) = records.split_first() else {
@@ -154,8 +154,8 @@ fn positive(file: &str, line: usize, column: &str, cell: &str) -> Result<Option<
     }
 }
 
-/// Reads WebPlotDigitizer's export: two columns without a header; or all datasets side by side, the first line with a
-/// name over the first of each two columns, the second `X,Y` for each, and blanks below the shorter ones.
+/// Reads WebPlotDigitizer's export: two columns without a header; or all datasets side by side, where the first line has a name
+/// over the first column of each pair, the second has `X,Y` for each pair, and cells below shorter datasets are blank.
 pub(super) fn webplotdigitizer(file: &str, text: &str) -> Result<Vec<Dataset>, DataError> {
     let records = records(file, text)?;
     let Some(first) = records.first() else {
@@ -193,7 +193,7 @@ pub(super) fn webplotdigitizer(file: &str, text: &str) -> Result<Vec<Dataset>, D
         for (k, dataset) in datasets.iter_mut().enumerate() {
             let cell = |place: usize| cells.get(place).unwrap_or_default();
             let (x, y) = (cell(2 * k), cell(2 * k + 1));
-            // Only where there are several datasets can one be shorter.
+            // Only with several datasets can one be shorter.
             if names.len() > 1 && x.is_empty() && y.is_empty() {
                 continue;
             }

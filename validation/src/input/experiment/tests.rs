@@ -42,7 +42,7 @@ fn curves(provenance: &str, points: impl AsRef<[u8]>) -> Vec<MeasuredCurve> {
     read(folder(provenance, points).path(), &OKAGAWA_MASON).unwrap()
 }
 
-/// The refusal, without the folders before the file's name.
+/// The error without the folders before the file's name.
 fn refusal(provenance: &str, points: impl AsRef<[u8]>) -> String {
     let dir = folder(provenance, points);
     let error = check(dir.path()).unwrap_err().to_string();

@@ -1,31 +1,31 @@
-//! Numbers that others published on related suspensions, shipped in `validation/published` with their provenance. Whether a
-//! set was measured or simulated is part of its type.
+//! Published results on related suspensions, shipped in `validation/published` with their provenance. The type of a set says
+//! whether it was measured or simulated.
 
-/// Measured in an experiment.
+/// Marks results measured in an experiment.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Measured;
 
-/// Computed by another program.
+/// Marks results computed by another program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Simulated;
 
-/// A set of rows of one origin.
+/// A data set of one origin.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Published<Origin, Row> {
     /// [`Measured`] or [`Simulated`].
     pub origin: Origin,
-    /// Who published them, and where they were read.
+    /// The publication, and where this project read the data.
     pub source: &'static str,
-    /// The rows.
+    /// The rows of the data set.
     pub rows: Vec<Row>,
 }
 
 /// C_I at a volume fraction times physical aspect ratio.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Coefficient {
-    /// φ r_p.
+    /// The volume fraction times the physical aspect ratio, φ r_p.
     pub phi_rp: f64,
-    /// C_I.
+    /// The coefficient C_I.
     pub c_i: f64,
 }
 
@@ -61,7 +61,7 @@ pub fn sph_fibres() -> Published<Simulated, Run> {
     }
 }
 
-/// The numbers of every row but the head; what is no number is NaN, and a test says that there is none.
+/// The numbers of every row except the header; NaN for cells that are no number, and a test checks that there are none.
 fn numbers(text: &'static str) -> impl Iterator<Item = Vec<f64>> {
     let number = |cell: &str| cell.parse().unwrap_or(f64::NAN);
     text.lines().skip(1).map(move |line| line.split(',').map(number).collect())
@@ -95,12 +95,12 @@ mod tests {
 
     #[test]
     fn the_first_half_turn_of_a_free_rod_is_half_its_period() {
-        // A rod in the shear plane from axis 1: a_11 = 1/(1 + r_e² tan² ωt), with ω = 1/(r_e + 1/r_e).
+        // A rod turning in the shear plane from axis 1: a_11 = 1/(1 + r_e² tan² ωt), with ω = 1/(r_e + 1/r_e).
         let r_e: f64 = 4.0;
         let a11 = |t: f64| 1.0 / (1.0 + (r_e * (t / (r_e + 1.0 / r_e)).tan()).powi(2));
         let run: Run = (0..2000).map(|k| 0.01 * f64::from(k)).map(|t| [t, a11(t)]).collect();
         let half = std::f64::consts::PI * 4.25;
-        // Outputs are 0.01 apart.
+        // The outputs are 0.01 apart.
         assert!((first_half_turn(&run).unwrap() - half).abs() <= 0.01);
     }
 }

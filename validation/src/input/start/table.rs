@@ -2,25 +2,25 @@
 
 use shearbed::scene::OwnRods;
 
-/// The columns that are read, in groups of which a file has all or none.
+/// The columns that are read, in groups; a file has all columns of a group or none.
 const P: [&str; 3] = ["p1", "p2", "p3"];
 const PLACE: [&str; 3] = ["x1_mm", "x2_mm", "x3_mm"];
 const ASPECT_RATIO: [&str; 1] = ["aspect_ratio"];
 const LENGTH: [&str; 1] = ["length_mm"];
 
-/// The column that numbers the rods: ascending, each number once.
+/// The column of the rods' numbers, ascending without repetition.
 const ROD: &str = "rod";
 
-/// The columns that say of which replica and time a row is: one value each in all rows.
+/// The columns of replica and time: each has the same value in all rows.
 const ONE_VALUE: [&str; 2] = ["replica", "time_s"];
 
-/// What else may stand in the file, as in `rods.csv`.
+/// Other columns that the file may have, as `rods.csv` does; they are ignored.
 const OTHERS: [&str; 2] = ["strain", "collided"];
 
-/// How far the length of p may be from 1: a direction in five decimals or more. It is divided out.
+/// The largest deviation of |p| from 1, as for directions of five or more decimals; p is then normalised.
 const OFF_UNIT: f64 = 1e-5;
 
-/// The columns of a group that the file has.
+/// The columns of a group in the file, `None` if it has none.
 struct Group<const K: usize>(Option<[usize; K]>);
 
 impl<const K: usize> Group<K> {
@@ -46,7 +46,7 @@ impl<const K: usize> Group<K> {
     }
 }
 
-/// The rods, row by row, and the line of each; of an error the line first.
+/// The rods, row by row, and the line of each; an error starts with the line.
 pub(super) fn read(bytes: &[u8]) -> Result<(OwnRods, Vec<u64>), String> {
     let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(bytes);
     let in_words = |error: csv::Error| {
@@ -94,7 +94,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<(OwnRods, Vec<u64>), String> {
         };
         order.next(&head, line, number)?;
         if let Some(direction) = p.values(number)? {
-            // Exact operations only, for the same bits on every machine.
+            // Only exactly rounded operations, for the same bits on every machine.
             let length = direction.map(|x| x * x).iter().sum::<f64>().sqrt();
             if (length - 1.0).abs() > OFF_UNIT {
                 let [p1, p2, p3] = direction;
@@ -104,7 +104,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<(OwnRods, Vec<u64>), String> {
             }
             push(&mut own.p, direction.map(|x| x / length));
         }
-        // Free rods have no place, and rods.csv empty cells.
+        // Free rods have no position, and empty cells in rods.csv.
         let empty = |places: &[usize; 3]| places.iter().all(|place| record.get(*place) == Some(""));
         if !places.0.as_ref().is_some_and(empty) {
             if own.place_mm.is_none() && !lines.is_empty() && places.0.is_some() {
@@ -127,7 +127,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<(OwnRods, Vec<u64>), String> {
     Ok((own, lines))
 }
 
-/// Lines of bytes from the first on. The reader of CSV counts blank lines, and the second half of CRLF, to the row after them.
+/// Counts lines of bytes. The CSV reader counts blank lines, and the second half of CRLF, to the row after them.
 struct Place<'a> {
     bytes: &'a [u8],
     line: u64,
@@ -139,7 +139,7 @@ impl<'a> Place<'a> {
         Self { bytes, line: 1, offset: 0 }
     }
 
-    /// The line of what stands at this place, or after line ends there; places must grow.
+    /// The line of the text at this byte, or after line ends there; bytes must ascend.
     fn line(&mut self, byte: u64) -> u64 {
         let start = (byte as usize).min(self.bytes.len());
         let blank = self.bytes[start..].iter().take_while(|byte| matches!(byte, b'\r' | b'\n')).count();
@@ -156,13 +156,13 @@ fn push(axes: &mut Option<[Vec<f64>; 3]>, values: [f64; 3]) {
     }
 }
 
-/// The rows of one replica at one time, in the order of their rods' numbers.
+/// Checks that rows belong to one replica at one time and are in the order of the rods' numbers.
 ///
-/// Rods are taken row by row: rows in another order, or of two times or replicas, would be another suspension.
+/// Rods are read row by row: rows in another order, or of two times or replicas, would be another suspension.
 struct Order {
     rod: Option<usize>,
     one_value: [Option<usize>; 2],
-    /// The last rod, and the line and the values of the first row.
+    /// The last rod; and the line and the values of the first row.
     last: Option<f64>,
     first: Option<(u64, [Option<f64>; 2])>,
 }
@@ -172,7 +172,7 @@ impl Order {
         Self { rod: place(ROD), one_value: ONE_VALUE.map(place), last: None, first: None }
     }
 
-    /// Takes the next row; `number` reads a column of it.
+    /// Checks the next row; `number` reads one of its columns.
     fn next(
         &mut self,
         head: &csv::StringRecord,
@@ -208,7 +208,7 @@ impl Order {
     }
 }
 
-/// The start of a cell, for a message: a file that is no start is not shown.
+/// The start of a cell for a message, so that a file of other content is not shown in full.
 fn snippet(cell: &str) -> String {
     const MOST: usize = 20;
     match cell.char_indices().nth(MOST) {
@@ -231,7 +231,7 @@ mod tests {
         let (own, lines) = read(text.as_bytes()).unwrap();
         let [p1, p2, p3] = own.p.unwrap();
         assert_eq!((p1, p3[0], lines), (vec![0.6, 0.0], 0.8, vec![2, 3]));
-        // 0.70711² · 2 = 1.0000091 is divided out.
+        // 0.70711² · 2 = 1.0000091 is normalised.
         assert!((p2[1] - 0.5f64.sqrt()).abs() < 1e-15 && (p3[1] + 0.5f64.sqrt()).abs() < 1e-15);
         assert!(own.aspect_ratio.is_none() && own.length_mm.is_none() && own.place_mm.is_none());
 
@@ -240,7 +240,7 @@ mod tests {
         assert_eq!((own.length_mm, own.aspect_ratio), (Some(vec![0.5, 0.7]), Some(vec![11.0, 12.0])));
         let places = [[1.0, 4.0], [2.0, 5.0], [3.0, 6.0]].map(Vec::from);
         assert_eq!((own.place_mm, own.p, lines), (Some(places), None, vec![2, 3]));
-        // As rods.csv has free rods.
+        // Free rods, as in rods.csv.
         let (own, _) = read(b"length_mm,x1_mm,x2_mm,x3_mm\n0.5,,,\n0.5,,,\n").unwrap();
         assert_eq!((own.place_mm, own.length_mm), (None, Some(vec![0.5, 0.5])));
     }
@@ -292,7 +292,7 @@ mod tests {
                 "3: time_s = 73.7 is not allowed: line 2 has 0, and a start has the rods of one replica at one time",
             ),
             ("time_s,p1,p2,p3\nnow,1,0,0\n", "2: time_s = now is not allowed"),
-            // Of a file that is no start at most the first letters are shown.
+            // A file of other content is shown by its first letters at most.
             (
                 "-----BEGIN PRIVATE KEY OF SOMEBODY-----\nMIIE\n",
                 "1: unknown column \"-----BEGIN PRIVATE K…\"; allowed",

@@ -2,7 +2,7 @@ use super::*;
 use crate::input::experiment::{Axis, Layout, Projection, Provenance, Time};
 use approx::assert_relative_eq;
 
-/// Three synthetic points of the scene Fig. 4 at n = 100, with the values `y` at early times, in seconds.
+/// Three synthetic points for the scene of Fig. 4 at n = 100, with the values `y` at early times, in seconds.
 fn synthetic(y: [f64; 3]) -> MeasuredCurve {
     let axis_s = Axis {
         quantity: Time::Seconds { shear_rate_per_s: 0.5 },
@@ -43,7 +43,7 @@ fn compared(curve: &MeasuredCurve) -> Comparison {
     compare(curve.scene, std::slice::from_ref(curve), |_| {}, Runs { replicas: 20, seed: 1 }).unwrap()
 }
 
-/// The index of an input.
+/// The index of the input `name`.
 fn input(name: &str) -> usize {
     INPUTS.iter().position(|(found, _)| *found == name).unwrap()
 }
@@ -93,7 +93,7 @@ fn each_source_of_uncertainty_counts() {
     };
     let u_d = |change: &dyn Fn(&mut MeasuredCurve)| u(change, |point| point.u_d).powi(2);
     let none = u_d(&|_| {});
-    // Four times the rods have a quarter of the variance.
+    // Four times as many rods have a quarter of the variance.
     let few = u_d(&|curve| curve.provenance.rods = Some(100.0)) - none;
     let many = u_d(&|curve| curve.provenance.rods = Some(400.0)) - none;
     assert!(few > 0.0);

@@ -34,7 +34,7 @@ fn bad_points_are_refused_with_their_line() {
 
 #[test]
 fn what_would_run_for_long_is_refused() {
-    // In t/T, a quarter of a period is 0.25 itself.
+    // In t/T, a quarter of a period is 0.25.
     let own = |u: &str| format!("t_over_T,x1,t_over_T_u\n0.4,0.3,0.25\n0.5,0.4,{u}\n");
     let found = refusal(PROVENANCE, own("0.26"));
     let expected =
