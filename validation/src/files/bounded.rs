@@ -1,8 +1,8 @@
-//! The one way in which files are read: regular files alone, never waiting, and never more than a limit.
+//! The only way in which files are read: regular files alone, without waiting, and up to a size limit.
 //!
-//! A file may be a link to an endless device, a pipe that nobody writes to, or grow while it is read, and may have been
-//! written by a stranger or edited since this program wrote it. Nothing else in this crate opens a file for reading:
-//! clippy refuses it (`clippy.toml`).
+//! A file may be a link to an endless device or a pipe without a writer, may grow while it is read, and may have been written by
+//! a stranger or edited since this program wrote it. Nothing else in this crate opens a file for reading: clippy forbids it
+//! (`clippy.toml`).
 
 use std::fs::{File, FileType, OpenOptions};
 use std::io::{self, Read};
@@ -12,17 +12,17 @@ use std::path::Path;
 ///
 /// # Errors
 ///
-/// The system's, and `InvalidInput` for anything that is not a regular file, which is named: a pipe, a device, a socket
+/// Those of the system, and `InvalidInput` if the file is not a regular one; the message names its kind: a pipe, a device, a socket
 /// or a folder.
 pub fn open(path: &Path) -> io::Result<File> {
     open_with(path, OpenOptions::new().read(true))
 }
 
-/// Opens a regular file as `options` say, for writing too, following links, without waiting for the other end of a pipe.
+/// Opens a regular file with `options`, also for writing, following links, without waiting for the other end of a pipe.
 ///
 /// # Errors
 ///
-/// The system's, and `InvalidInput` for anything that is not a regular file, which is named.
+/// Those of the system, and `InvalidInput` if the file is not a regular one; the message names its kind.
 #[expect(clippy::disallowed_methods, reason = "every other function of this crate opens files by this one")]
 pub fn open_with(path: &Path, options: &mut OpenOptions) -> io::Result<File> {
     without_waiting(options);
@@ -31,7 +31,7 @@ pub fn open_with(path: &Path, options: &mut OpenOptions) -> io::Result<File> {
             regular(&file)?;
             Ok(file)
         }
-        // The system's words for a pipe without a reader, or a socket, are "No such device or address".
+        // For a pipe without a reader or a socket the system says "No such device or address".
         Err(error) => match std::fs::metadata(path).map(|found| found.file_type()) {
             Ok(kind) if !kind.is_file() && !kind.is_dir() => Err(not_regular(kind)),
             _ => Err(error),
@@ -39,11 +39,11 @@ pub fn open_with(path: &Path, options: &mut OpenOptions) -> io::Result<File> {
     }
 }
 
-/// Refuses an open file that is not a regular one.
+/// Fails if an open file is not a regular one.
 ///
 /// # Errors
 ///
-/// `InvalidInput`, with what the file is.
+/// `InvalidInput`, with the kind of the file.
 pub fn regular(file: &File) -> io::Result<()> {
     let kind = file.metadata()?.file_type();
     match kind.is_file() {
@@ -57,11 +57,11 @@ fn not_regular(kind: FileType) -> io::Error {
     io::Error::new(io::ErrorKind::InvalidInput, message)
 }
 
-/// Reads a regular file of at most `most` bytes, counted while they are read.
+/// Reads a regular file of at most `most` bytes, which are counted while they are read.
 ///
 /// # Errors
 ///
-/// Those of [`open`], and `FileTooLarge` for a longer file, of which at most `most` + 1 bytes are ever in memory.
+/// Those of [`open`], and `FileTooLarge` for a longer file, of which at most `most` + 1 bytes are held in memory.
 pub fn bytes(path: &Path, most: u64) -> io::Result<Vec<u8>> {
     let mut file = open(path)?.take(most.saturating_add(1));
     let mut bytes = Vec::new();
@@ -77,7 +77,7 @@ fn too_long(most: u64) -> io::Error {
     io::Error::new(io::ErrorKind::FileTooLarge, message)
 }
 
-/// Reads a regular file of at most `most` bytes to its end and keeps only its length and its checksum (CRC-32).
+/// The length and the checksum (CRC-32) of a regular file of at most `most` bytes.
 ///
 /// # Errors
 ///
@@ -182,7 +182,7 @@ mod tests {
             let error = bytes(path, u64::MAX).unwrap_err().to_string();
             assert_eq!(error, format!("it is {what}; a regular file is needed"));
         }
-        // For writing too, where the system would say "No such device or address" of a pipe without a reader.
+        // Also for writing, where the system would say "No such device or address" for a pipe without a reader.
         let error = open_with(&pipe, OpenOptions::new().write(true)).unwrap_err();
         assert_eq!(error.to_string(), "it is a pipe; a regular file is needed");
     }

@@ -1,4 +1,4 @@
-//! Which build of the program this is. What was not known when it was built is "unknown".
+//! Identifies this build of the program. Values that were unknown at build time are "unknown".
 
 use serde::Serialize;
 use serde_json::{Value, json};
@@ -6,13 +6,13 @@ use serde_json::{Value, json};
 /// A build of the program.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Build {
-    /// The program's name.
+    /// Name of the program.
     pub program: &'static str,
-    /// The version of the package.
+    /// Version of the package.
     pub version: &'static str,
-    /// The commit of the sources it was built from, with `-dirty` where they had been changed since.
+    /// Commit of the sources, with `-dirty` if they had been changed.
     pub commit: &'static str,
-    /// The compiler.
+    /// Version of the compiler.
     pub rustc: &'static str,
     /// `release`, or `development` with debug assertions.
     pub build: &'static str,
@@ -27,12 +27,12 @@ pub const BUILD: Build = Build {
     build: if cfg!(debug_assertions) { "development" } else { "release" },
 };
 
-/// This build as an object, to which the rest of a record is added.
+/// This build as an object to which the rest of a record can be added.
 pub fn record() -> Value {
     json!(BUILD)
 }
 
-/// A record with the build that made it.
+/// A record with the build that wrote it.
 #[derive(Serialize)]
 struct Made<'a, T> {
     #[serde(flatten)]
@@ -41,7 +41,7 @@ struct Made<'a, T> {
     data: &'a T,
 }
 
-/// Any structure as JSON, after the build that made it.
+/// A structure as JSON, preceded by the build that wrote it.
 pub fn json(data: &impl Serialize) -> Result<String, String> {
     let made = Made { build: BUILD, data };
     let text = serde_json::to_string_pretty(&made).map_err(|error| error.to_string())?;

@@ -1,9 +1,9 @@
-//! Where two records differ.
+//! Finds the first difference between two records.
 
 use serde_json::Value;
 
-/// The first place where two records differ, as `scene.particles.count`, and what stands there in each; null where
-/// one has nothing.
+/// The first path at which two records differ, such as `scene.particles.count`, and both values; null for a missing
+/// value.
 pub(crate) fn difference(one: &Value, other: &Value) -> Option<(String, Value, Value)> {
     at("", one, other)
 }

@@ -1,5 +1,5 @@
-//! Reading and writing: one bounded reader, one rule for what may be overwritten, checkpoints, ranks of an MPI job. It knows scenes
-//! as the core has them, and nothing of physics beyond.
+//! Reading and writing: a bounded reader, the rule for overwriting, checkpoints, ranks of an MPI job. This module depends on the core's
+//! scenes, but on no other physics.
 
 pub mod bounded;
 pub mod build;

@@ -1,4 +1,4 @@
-//! Writing files so that a set of them appears together or not at all, and that two processes do not mix theirs.
+//! Writes sets of files such that a set appears as a whole or not at all, and that two processes do not mix their files.
 
 mod claim;
 mod folder;
@@ -21,13 +21,13 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-/// A file's name, which may begin with a folder's as `curves/fig5.csv`, and its contents.
+/// A file's name, possibly with a folder such as `curves/fig5.csv`, and its contents.
 pub type Output = (String, String);
 
-/// Why nothing was written: the file or folder, and the reason.
+/// The reason why a file or folder could not be written.
 #[derive(Debug)]
 pub struct OutputError {
-    /// What could not be written.
+    /// The file or folder.
     pub path: PathBuf,
     /// The system's reason.
     pub reason: io::Error,
@@ -41,7 +41,7 @@ impl std::fmt::Display for OutputError {
 
 impl std::error::Error for OutputError {}
 
-/// Why a file or folder was left as it is: its name, what it holds or why it cannot be written, and what to do.
+/// The reason why a file or folder was left unchanged: its name, its contents or why it cannot be written, and what to do.
 #[derive(Debug)]
 pub struct Refused(pub String);
 
@@ -62,12 +62,12 @@ fn at(path: &Path) -> impl FnOnce(io::Error) -> OutputError {
     |reason| OutputError { path, reason }
 }
 
-/// How long a writer waits for another one: sets of files are written in far less.
+/// How long a writer waits for another one; writing a set of files takes far less.
 const PATIENCE: Duration = Duration::from_secs(20);
 
-/// Whether `bytes` can be written in `dir`, or where it does not exist in the folder above it: they are written to a
-/// file without a name, of which nothing is left even by a kill. For a command that works long before it writes. A folder
-/// in which another process is at work is refused, and what a killed one left there is put right.
+/// Checks, for commands that work long before they write, that `bytes` bytes can be written in `dir`, or if it does not exist
+/// in the folder above it. They are written to an unnamed file, of which nothing remains, even after a kill. Fails if another
+/// process is writing in the folder; repairs what a killed process left there.
 pub fn probe(dir: &Path, bytes: u64) -> Result<(), OutputError> {
     if dir.is_dir() {
         Claim::new(dir, PATIENCE)?;
@@ -76,7 +76,7 @@ pub fn probe(dir: &Path, bytes: u64) -> Result<(), OutputError> {
     let existing = dir.ancestors().find(|folder| folder.exists());
     let existing = existing.filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(here);
     let mut file = tempfile::tempfile_in(existing).map_err(at(dir))?;
-    // Noise, which no file system compresses.
+    // The bytes are noise, which no file system compresses.
     let mut noise = 1_u32;
     let block: Vec<u8> = std::iter::repeat_with(|| {
         noise = noise.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
@@ -91,9 +91,9 @@ pub fn probe(dir: &Path, bytes: u64) -> Result<(), OutputError> {
     })
 }
 
-/// Writes all files into `dir`, which is made where it does not exist. A new folder appears with all of them; in one
-/// that exists the files of two sets never stand side by side (see [`Claim::write_all`]). On any error before the last
-/// moment nothing that was there has changed.
+/// Writes all files into `dir`, which is created if it does not exist. A new folder appears with all of them; in an existing
+/// folder the files of two sets are never side by side (see [`Claim::write_all`]). An error before the final step leaves all
+/// existing files unchanged.
 pub fn write_all<C: AsRef<[u8]>>(dir: &Path, files: &[(String, C)]) -> Result<(), OutputError> {
     if !dir.exists() && appear(dir, files)? {
         return Ok(());
@@ -101,12 +101,12 @@ pub fn write_all<C: AsRef<[u8]>>(dir: &Path, files: &[(String, C)]) -> Result<()
     Claim::new(dir, PATIENCE)?.write_all(files, &[])
 }
 
-/// Writes one file, at once or not at all. A link is followed. A file that is there already is replaced by `force` alone; one
-/// with these contents is left.
+/// Writes one file, as a whole or not at all, following links. An existing file with other contents is replaced only with `force`;
+/// a file with the same contents is left.
 ///
 /// # Errors
 ///
-/// A file with other contents, or what is no regular file, which is named; or what cannot be written.
+/// If there is a file with other contents, or no regular file (its kind is named), or if the file cannot be written.
 pub fn write_one(path: &Path, contents: &[u8], force: bool) -> Result<(), Refused> {
     let target = followed(path);
     let name = target.file_name().map(|name| name.to_string_lossy().into_owned());
@@ -118,7 +118,7 @@ pub fn write_one(path: &Path, contents: &[u8], force: bool) -> Result<(), Refuse
     if !folder.exists() && appear(folder, &files).map_err(at_file)? {
         return Ok(());
     }
-    // Before the claim: in a folder that nobody writes in, as /dev, the reason is what the file is.
+    // Checked before the claim: in a folder that is not writable, such as /dev, the reason is the kind of the file.
     holds(&target, contents).map_err(at(path))?;
     let claim = Claim::new(folder, PATIENCE).map_err(at_file)?;
     match holds(&target, contents).map_err(at(path))? {
@@ -130,7 +130,7 @@ pub fn write_one(path: &Path, contents: &[u8], force: bool) -> Result<(), Refuse
     }
 }
 
-/// Whether a regular file has these contents; none where there is no file.
+/// True if the regular file at `path` has these contents; `None` if there is no file.
 fn holds(path: &Path, contents: &[u8]) -> io::Result<Option<bool>> {
     match bounded::length_and_crc32(path, contents.len() as u64) {
         Ok((bytes, crc32)) => Ok(Some(Sum::from_parts(bytes, crc32) == Sum::of(contents))),
@@ -140,10 +140,10 @@ fn holds(path: &Path, contents: &[u8]) -> io::Result<Option<bool>> {
     }
 }
 
-/// The file that links lead to, whether it is there or not.
+/// The file that links lead to, whether it exists or not.
 pub fn followed(path: &Path) -> PathBuf {
     let mut path = path.to_owned();
-    // Links in a circle lead nowhere; as many are followed as Linux does.
+    // Circular links have no end; as many are followed as Linux does.
     for _ in 0..40 {
         let Ok(next) = fs::read_link(&path) else {
             break;
@@ -212,8 +212,8 @@ pub fn write_folder(dir: &Path, files: &[Output]) -> Result<(), OutputError> {
     written
 }
 
-/// Empties the folder `part` but for a lock and writes files there, to the disk. Errors name the folder `dir`, to which
-/// they belong.
+/// Empties the folder `part` except for a lock, and writes files there, to the disk. Errors name the folder `dir`, to which the
+/// files belong.
 fn refill<C: AsRef<[u8]>>(part: &Path, dir: &Path, files: &[(String, C)]) -> Result<(), OutputError> {
     let empty = || {
         for entry in fs::read_dir(part)? {

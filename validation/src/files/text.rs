@@ -1,20 +1,20 @@
-//! Texts of other people where they could do harm: on a terminal, in cells of a table, in a shell.
+//! Makes texts of other people harmless: on a terminal, in cells of a table, in a shell.
 
 use std::borrow::Cow;
 use std::ffi::OsStr;
 use std::io::Write;
 use std::path::Path;
 
-/// Whether a character commands a terminal, turns the direction of writing, is invisible, or is not allowed in HTML and SVG.
-/// Line feeds and tabulators are none.
+/// True if a character controls a terminal, changes the direction of writing, is invisible, or is not allowed in HTML and SVG. Line feeds
+/// and tabulators are allowed.
 fn commands(c: char) -> bool {
     (c.is_control() && !matches!(c, '\n' | '\t'))
         || matches!(c, '\u{2028}' | '\u{2029}' | '\u{fff9}'..='\u{fffb}' | '\u{fffe}' | '\u{ffff}')
         || invisible(c)
 }
 
-/// Whether a character is drawn as nothing where a font does as it should (Unicode's Default_Ignorable_Code_Point), as the
-/// zero-width space and those that turn the direction of writing: names that differ by one look the same.
+/// True if fonts should draw nothing for a character (Unicode's Default_Ignorable_Code_Point), such as the zero-width space and
+/// those that change the direction of writing: names that differ only by such a character look the same.
 fn invisible(c: char) -> bool {
     matches!(c,
         '\u{ad}' | '\u{34f}' | '\u{61c}' | '\u{115f}' | '\u{1160}' | '\u{17b4}' | '\u{17b5}' | '\u{180b}'..='\u{180f}'
@@ -23,7 +23,7 @@ fn invisible(c: char) -> bool {
         | '\u{e0000}'..='\u{e0fff}')
 }
 
-/// A text in which every character that is not for reading is written out, as `\u{1b}`.
+/// The text with every character of `commands` escaped, such as `\u{1b}`.
 pub(crate) fn readable(text: &str) -> Cow<'_, str> {
     if !text.contains(commands) {
         return Cow::Borrowed(text);
@@ -37,8 +37,8 @@ pub(crate) fn readable(text: &str) -> Cow<'_, str> {
     Cow::Owned(all)
 }
 
-/// Writes a text to standard error in one piece: whoever reads what several processes write to it puts pieces together as they
-/// come, and another's may come between. Where it cannot be written, the exit code and the files have to say it.
+/// Writes a text to standard error in one call: a reader of several processes' output joins the pieces as they arrive, possibly
+/// with another process's in between. Errors are ignored: then only the exit code and the files show the failure.
 pub(crate) fn complain(text: &str) {
     let _ = std::io::stderr().write_all(text.as_bytes());
 }
@@ -75,21 +75,21 @@ impl Shown for Path {
     }
 }
 
-/// The most characters of a message for the terminal.
+/// Limit of a message on the terminal, in characters.
 const MOST: usize = 8192;
 
-/// The most characters of a value of somebody else's file in a message.
+/// Limit of a value from a user's file in a message, in characters.
 const SNIPPET: usize = 40;
 
-/// The start of a value in quotes, for a message: enough to find it in its file, and no more of what may be private.
+/// The start of a value in quotes, for a message: enough to find it in its file, and little of what may be private.
 pub(crate) fn snippet(value: &str) -> String {
     let start: String = value.chars().take(SNIPPET).collect();
     let more = if start.len() < value.len() { "…" } else { "" };
     format!("\"{}{more}\"", line(&start).replace('"', "\\\""))
 }
 
-/// A text of which the middle is left out where it is too long to be read: what is at fault stands at the start, and what is
-/// allowed at the end.
+/// The text, with the middle left out if it is too long: the error is at the start of a message, and what is allowed at the
+/// end.
 pub(crate) fn shortened(text: &str) -> Cow<'_, str> {
     let length = text.chars().count();
     if length <= MOST {
@@ -164,18 +164,18 @@ fn aligned(rows: &[Vec<String>], pad: impl Fn(&str, usize) -> String) -> String 
     rows.iter().map(line).collect()
 }
 
-/// A cell of a table in CSV that no spreadsheet takes for a formula: a text that begins as one has an apostrophe before it.
-/// Numbers stay as they are.
+/// A CSV cell that no spreadsheet treats as a formula: a text that begins like a formula gets an apostrophe before it. Numbers are
+/// unchanged.
 pub(crate) fn cell(text: &str) -> String {
-    // The wide forms too, which spreadsheets in East Asia take for the narrow ones.
+    // Full-width forms too, which East Asian spreadsheets treat like the others.
     let formula = text.starts_with(['=', '+', '-', '@', '\t', '\r', '\n', '|', '%', '＝', '＋', '－', '＠']);
     let number = text.parse::<f64>().is_ok();
     let mark = if formula && !number { "'" } else { "" };
     format!("{mark}{}", readable(text))
 }
 
-/// A command line that a POSIX shell reads as these words; a word with bytes that no text has is written as bash and zsh
-/// read it.
+/// A command line that a POSIX shell splits into these words; a word that is not valid text is quoted in the form of bash and
+/// zsh.
 pub(crate) fn command<W: AsRef<OsStr>>(words: impl IntoIterator<Item = W>) -> String {
     let words: Vec<_> = words.into_iter().map(|word| quoted(word.as_ref())).collect();
     words.join(" ")
@@ -287,7 +287,7 @@ mod tests {
         }
     }
 
-    /// What bash makes of the command line, word by word.
+    /// The words into which bash splits the command line.
     #[cfg(unix)]
     #[test]
     fn a_shell_reads_the_same_words() {

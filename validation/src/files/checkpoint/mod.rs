@@ -1,7 +1,7 @@
-//! Checkpoints: the state of an unfinished command in one file, from which the same command goes on.
+//! Checkpoints: the state of an unfinished command in one file, from which the same command resumes.
 //!
 //! A line with the format's number, a line of JSON with the command and its inputs, the state in MessagePack, and the CRC-32 of
-//! all before in four bytes. It is replaced whole: a kill leaves the old one or the new one.
+//! all this in four bytes. The file is replaced as a whole: an interruption leaves the old one or the new one.
 
 mod replicas;
 mod saved;
@@ -25,34 +25,34 @@ use std::fs::File;
 use std::io::{self, BufRead, BufReader, Read, Seek, Write};
 use std::path::Path;
 
-/// How every checkpoint begins, before the number of its format.
+/// The start of every checkpoint, before the number of its format.
 const HEAD: &str = "shearbed checkpoint ";
-/// The format that is written and read.
+/// The number of the format.
 const FORMAT: u32 = 3;
-/// The checksum at the end.
+/// Size in bytes of the checksum at the end.
 const SUM: u64 = 4;
-/// The longest first line, and the longest second one.
+/// Size limits in bytes of the first and the second line.
 const LINES: [u64; 2] = [64, 1 << 20];
 
-/// The checkpoint of one command, which no other process writes meanwhile.
+/// The checkpoint of one command; no other process writes the file as long as this exists.
 pub struct Checkpoint {
     file: Replaced,
     origin: Origin,
 }
 
 impl Checkpoint {
-    /// Claims the file for a command, this build and `inputs`, an object with all else that the results depend on.
+    /// Claims the file for a command, this build and `inputs`, an object with everything else on which the results depend.
     pub fn open(path: &Path, command: &str, mut inputs: Value) -> Result<Self, Refused> {
         inputs["build"] = build::record();
         Ok(Self { file: Replaced::claim(path)?, origin: Origin::new(command, inputs) })
     }
 
-    /// Its file.
+    /// The path of the file.
     pub fn path(&self) -> &Path {
         self.file.path()
     }
 
-    /// The state in the file; `None` where there is no file.
+    /// The state in the file; `None` if there is no file.
     pub fn read<T: DeserializeOwned>(&self) -> Result<Option<T>, Refused> {
         match bounded::open(self.path()) {
             Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
@@ -64,12 +64,12 @@ impl Checkpoint {
         }
     }
 
-    /// Replaces the state.
+    /// Replaces the state in the file.
     pub fn write(&self, state: &impl Serialize) -> Result<(), OutputError> {
         self.begin(state)?.finish()
     }
 
-    /// Writes the state beside the file; [`Part::finish`] puts it in place.
+    /// Writes the state beside the file; [`Part::finish`] moves it into place.
     fn begin(&self, state: &impl Serialize) -> Result<Part<'_>, OutputError> {
         self.file.write(|file| {
             let mut file = Summed(file, Hasher::new());
@@ -80,7 +80,7 @@ impl Checkpoint {
         })
     }
 
-    /// The error that this file cannot be used, with the reason and what to do.
+    /// The error that this file cannot be used, with the reason and what to do next.
     pub fn refused(&self, why: &str) -> Refused {
         Refused(format!(
             "--checkpoint {}: {why}; give another name, or remove it to start anew; nothing was changed",
@@ -127,7 +127,7 @@ impl Checkpoint {
     }
 }
 
-/// The system's reason below an error of the encoder, as a full disk; the encoder's own words where there is none.
+/// The system's error behind an error of the encoder, such as a full disk; the encoder's own message if there is none.
 fn cause(error: rmp_serde::encode::Error) -> io::Error {
     let mut below: Option<&(dyn std::error::Error + 'static)> = Some(&error);
     while let Some(found) = below {
@@ -142,7 +142,7 @@ fn cause(error: rmp_serde::encode::Error) -> io::Error {
     io::Error::other(error)
 }
 
-/// The next line, of at most `most` bytes, without its end.
+/// The next line, of at most `most` bytes, without its line end.
 fn line(file: &mut impl BufRead, most: u64) -> io::Result<String> {
     let mut bytes = Vec::new();
     file.take(most).read_until(b'\n', &mut bytes)?;
@@ -150,7 +150,7 @@ fn line(file: &mut impl BufRead, most: u64) -> io::Result<String> {
     Ok(String::from_utf8_lossy(&bytes).into_owned())
 }
 
-/// A writer that sums up what it writes.
+/// A writer that also computes the checksum of its output.
 struct Summed<W>(W, Hasher);
 
 impl<W: Write> Write for Summed<W> {

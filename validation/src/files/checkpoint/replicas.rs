@@ -1,7 +1,7 @@
-//! The replicas of a run with a checkpoint.
+//! Runs replicas with a checkpoint.
 //!
-//! Replicas start in order, each in a pool of threads of its own: so few finished ones wait for their turn in the sum, and none
-//! waits in the middle of a step for another one, as it might in one pool for all.
+//! Replicas start in order, each in its own pool of threads. So only few finished replicas wait for their turn in the sum, and none waits
+//! in the middle of a step for another one, as could happen in a common pool.
 
 use super::saved::{Progress, Saved, without_replicas};
 use super::{Checkpoint, on_stop, stays};
@@ -20,22 +20,22 @@ use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
 
-/// The longest wait for the states of replicas when a signal ends the program; a later one is saved as it last was.
+/// The longest wait for the states of replicas when a signal ends the program; for slower replicas the last state is saved.
 const PATIENCE: Duration = Duration::from_secs(10);
 
 struct State {
     saved: Saved,
-    /// The replicas of the run so far: none after them begins.
+    /// The number of replicas of the current run: no replica from this index on begins.
     all: u64,
-    /// No replica begins after it, but for the first two.
+    /// After this time no replica begins, except the first two.
     deadline: Option<Instant>,
-    /// True if the file lacks some of it.
+    /// True if the file does not contain the whole state.
     new: bool,
-    /// The next replica to begin.
+    /// Index of the next replica to begin.
     next: u64,
-    /// The replicas in work, and in which round of questions each has answered last.
+    /// The replicas in work, with the last round of requests that each has answered.
     in_work: BTreeMap<u64, u64>,
-    /// The first replica that stopped.
+    /// The first replica that failed, with its error.
     stopped: Option<(u64, Error)>,
     ended: bool,
 }
@@ -45,20 +45,20 @@ pub struct Replicas {
     plan: Plan,
     file: Checkpoint,
     every: Duration,
-    /// Rounds of questions so far.
+    /// Number of rounds of requests so far.
     round: AtomicU64,
     state: Mutex<State>,
-    /// Signals an answer of a replica, or the end.
+    /// Notified by an answer of a replica, and by the end.
     changed: Condvar,
 }
 
 impl Replicas {
-    /// Opens the checkpoint at `path`, to be written at least every `every`, for at most the plan's replicas. One of fewer
-    /// replicas of the same scene is gone on with; [`Self::write`] makes the file where there is none.
+    /// Opens the checkpoint at `path`, to be written at least every `every`, for at most the plan's replicas. A checkpoint with fewer
+    /// replicas of the same scene is continued; if there is none, [`Self::write`] makes it.
     ///
     /// # Errors
     ///
-    /// A checkpoint of another scene or seed, or of more replicas; a damaged one.
+    /// If the checkpoint is of another scene or seed, has more replicas, or is damaged.
     pub fn open(plan: &Plan, path: &Path, every: Duration) -> Result<Arc<Self>, Refused> {
         let file = Checkpoint::open(path, "run", json!({ "scene": without_replicas(plan.scene()) }))?;
         let saved = Saved::read(&file, plan)?;
@@ -80,7 +80,7 @@ impl Replicas {
             changed: Condvar::new(),
             file,
         });
-        // Weak: the file is let go of when the run is over.
+        // A weak reference, so that the file is released when the run is over.
         let (last, path) = (Arc::downgrade(&replicas), path.to_owned());
         on_stop(move || match last.upgrade() {
             Some(replicas) => Some(replicas.last_words()),
@@ -89,16 +89,16 @@ impl Replicas {
         Ok(replicas)
     }
 
-    /// Its file.
+    /// The path of the file.
     pub fn path(&self) -> &Path {
         self.file.path()
     }
 
-    /// Writes the file as it was opened.
+    /// Writes the state as it was opened to the file.
     ///
     /// # Errors
     ///
-    /// A file that cannot be written.
+    /// If the file cannot be written.
     pub fn write(&self) -> Result<(), OutputError> {
         self.file.write(&self.state().saved)
     }
@@ -119,9 +119,9 @@ impl Replicas {
         self.state().saved.tally.clone()
     }
 
-    /// Runs the plan's replicas that are left. `finished` is called after each replica; `saved` after each checkpoint with something
-    /// new, the last one at the end of the run, or with the reason why it could not be written: the run ends after that call.
-    /// The results are the bits of [`shearbed::run::ensemble::run`].
+    /// Runs the plan's remaining replicas. Calls `finished` after each replica, and `saved` after each checkpoint with new contents,
+    /// including the last one at the end of the run, or with the reason why writing failed; then the run ends after that call. The
+    /// results are the bits of [`shearbed::run::ensemble::run`].
     pub fn run(
         &self,
         threads: usize,
@@ -132,7 +132,7 @@ impl Replicas {
         Ok(self.tally().results(&self.plan))
     }
 
-    /// The same for the first `all` replicas; after the deadline none begins, but for the first two.
+    /// Like `run` for the first `all` replicas; after the deadline none begins, except the first two.
     pub fn run_to(
         &self,
         threads: usize,
@@ -160,7 +160,7 @@ impl Replicas {
                     scope.spawn(move || {
                         match rayon::ThreadPoolBuilder::new().num_threads(own).build() {
                             Ok(pool) => pool.install(|| self.work(finished)),
-                            // In the pool of all, where it is only slower to answer.
+                            // In the common pool, where it only answers more slowly.
                             Err(_) => self.work(finished),
                         }
                     })
@@ -183,7 +183,7 @@ impl Replicas {
         }
     }
 
-    /// Runs one replica after the other.
+    /// Runs replicas, one after the other, until none is left.
     fn work(&self, finished: &(impl Fn() + Sync)) {
         while let Some((replica, from, mut answered)) = self.begin() {
             let end = go_on(&self.plan, replica, from, |state| {
@@ -198,10 +198,10 @@ impl Replicas {
         }
     }
 
-    /// The next replica, where it was left, and the round of questions that need not be answered.
+    /// The next replica, the state from which it resumes, and the last round of requests that it need not answer.
     fn begin(&self) -> Option<(u64, Option<Halfway>, u64)> {
         let mut state = self.state();
-        // What was done before its turn may be added up by now.
+        // A replica that was finished before its turn may be in the sum by now.
         state.next = state.next.max(state.saved.tally.replicas());
         while state.saved.done.contains_key(&state.next) {
             state.next += 1;
@@ -219,7 +219,7 @@ impl Replicas {
 
     fn answer(&self, replica: u64, round: u64, halfway: &dyn Fn() -> Halfway) {
         let mut state = self.state();
-        // First the old one: there is memory for one.
+        // The old state is removed first, because there is memory for only one.
         state.saved.halfway.remove(&replica);
         state.saved.halfway.insert(replica, halfway());
         state.new = true;
@@ -248,7 +248,7 @@ impl Replicas {
         self.changed.notify_all();
     }
 
-    /// Saves again and again until the run has ended.
+    /// Saves at regular intervals until the run has ended.
     fn save_regularly(&self, saved: &impl Fn(Result<Progress, OutputError>)) {
         loop {
             let wait = self.changed.wait_timeout_while(self.state(), self.every, |state| !state.ended);
@@ -267,8 +267,8 @@ impl Replicas {
         }
     }
 
-    /// Checkpoints every replica: asks each for its state, waits for the answers up to `patience`, and writes the file if
-    /// something is new. Returns the progress in the file, and true if it was written.
+    /// Checkpoints every replica: requests their states, waits up to `patience` for the answers, and writes the file if there is anything
+    /// new. Returns the progress in the file, and true if it was written.
     fn save(&self, patience: Option<Duration>) -> Result<(Progress, bool), OutputError> {
         let mut state = self.state();
         let round = self.round.fetch_add(1, Ordering::Relaxed) + 1;
@@ -287,7 +287,7 @@ impl Replicas {
         }
         let part = self.file.begin(&state.saved)?;
         state.new = false;
-        // The disk may be slow: replicas need not wait for it.
+        // The lock is released, so that replicas do not wait for a slow disk.
         drop(state);
         if let Err(error) = part.finish() {
             self.state().new = true;
@@ -296,7 +296,7 @@ impl Replicas {
         Ok((progress, true))
     }
 
-    /// Saves before the program ends; returns how to go on.
+    /// Saves before the program ends; returns a message that says how to resume.
     fn last_words(&self) -> String {
         let path = self.file.path().shown();
         match self.save(Some(PATIENCE)) {

@@ -15,24 +15,24 @@ use std::fmt;
 /// The contents of a checkpoint of a run.
 #[derive(Serialize, Deserialize)]
 pub(super) struct Saved {
-    /// Replicas that the last command asked for.
+    /// Number of replicas that the last command requested.
     asked: u64,
-    /// The first replicas, added up.
+    /// The sum of the first replicas.
     pub(super) tally: Tally,
-    /// Finished replicas that wait for one before them.
+    /// Finished replicas that wait for earlier ones.
     pub(super) done: BTreeMap<u64, Replica>,
-    /// The last state of replicas in work.
+    /// The last states of replicas in work.
     pub(super) halfway: BTreeMap<u64, Halfway>,
 }
 
 /// The progress of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Progress {
-    /// Replicas that are done.
+    /// Number of finished replicas.
     pub done: u64,
-    /// Replicas that were left in the middle.
+    /// Number of replicas saved in the middle of their work.
     pub halfway: usize,
-    /// Replicas of the whole run.
+    /// Number of replicas of the whole run.
     pub all: u64,
 }
 
@@ -43,7 +43,7 @@ impl fmt::Display for Progress {
     }
 }
 
-/// A scene without its number of replicas: all that one replica depends on.
+/// The scene without its number of replicas: everything on which a single replica depends.
 pub fn without_replicas(scene: &Scene) -> Value {
     let mut scene = json!(scene.resolved());
     if let Some(ensemble) = scene["ensemble"].as_object_mut() {
@@ -53,11 +53,11 @@ pub fn without_replicas(scene: &Scene) -> Value {
 }
 
 impl Saved {
-    /// The contents of a file, to be gone on with up to the plan's replicas; nothing yet where there is no file.
+    /// The contents of a file, to be continued up to the plan's replicas; an empty state if there is no file.
     ///
     /// # Errors
     ///
-    /// A file of more replicas, or a damaged one.
+    /// If the file has more replicas than the plan, or is damaged.
     pub(super) fn read(file: &Checkpoint, plan: &Plan) -> Result<Self, Refused> {
         let all = plan.scene().ensemble.replicas;
         let mut saved: Self = file.read()?.unwrap_or_else(|| Self {
@@ -86,7 +86,7 @@ impl Saved {
         saved.asked = all;
         let misfit = |why: &str| file.refused(&format!("is damaged: {why}"));
         saved.tally.check(plan).map_err(misfit)?;
-        // What an earlier command began beyond this plan's replicas stays for a later one.
+        // Replicas beyond this plan's that an earlier command began are kept for a later one.
         let most = if all > 1 { plan.with_replicas(MAX_REPLICAS) } else { plan.clone() };
         let left = has..most.scene().ensemble.replicas;
         if !saved.done.keys().chain(saved.halfway.keys()).all(|replica| left.contains(replica)) {
@@ -97,7 +97,7 @@ impl Saved {
         Ok(saved)
     }
 
-    /// Adds up what is done and whose turn it is, up to `all` replicas.
+    /// Moves finished replicas whose turn it is into the sum, up to `all` replicas.
     pub(super) fn add_up(&mut self, all: u64) {
         while self.tally.replicas() < all
             && let Some(next) = self.done.remove(&self.tally.replicas())

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::PathBuf;
 use tempfile::TempDir;
 
-/// Numbers that texts lose.
+/// Numbers that a text format may not preserve.
 fn state() -> Vec<f64> {
     vec![0.1, -0.0, f64::NAN, 5e-324, f64::INFINITY, 1.0 / 3.0]
 }
@@ -27,7 +27,7 @@ fn kept() -> (TempDir, PathBuf) {
     (dir, path)
 }
 
-/// Why the file is refused with these bytes; it stays as it was.
+/// The reason why the file is refused with these bytes; it must not change.
 fn refused(path: &Path, bytes: &[u8], seed: u64) -> String {
     fs::write(path, bytes).unwrap();
     let Refused(why) = opened(path, seed).read::<Vec<f64>>().unwrap_err();
@@ -36,7 +36,7 @@ fn refused(path: &Path, bytes: &[u8], seed: u64) -> String {
     why
 }
 
-/// The same bytes with a checksum that is right.
+/// The same bytes with a correct checksum.
 fn summed(mut bytes: Vec<u8>) -> Vec<u8> {
     bytes.truncate(bytes.len() - SUM as usize);
     let sum = crc32fast::hash(&bytes).to_be_bytes();
@@ -89,7 +89,7 @@ fn other_work_and_other_formats_are_refused_by_name() {
         let why = refused(&path, &summed(other), 1);
         assert!(why.contains(&format!("is of other work: build.{build} was \"Z")), "{why}");
     }
-    // The checksum is right, and what it sums up is not the state.
+    // The checksum is correct, but the contents are no state.
     let mut cut = whole.clone();
     cut.remove(whole.len() - 5);
     assert!(refused(&path, &summed(cut), 1).contains("is damaged"));
@@ -113,7 +113,7 @@ fn one_process_at_a_time_and_files_alone() {
     assert!(Checkpoint::open(Path::new("/proc/x"), "test", json!({})).is_err());
 }
 
-/// As a checkpoint of a run has it.
+/// The layout of a run's checkpoint.
 #[derive(serde::Serialize)]
 struct Kept {
     asked: u64,
@@ -122,7 +122,7 @@ struct Kept {
     halfway: std::collections::BTreeMap<u64, shearbed::run::resume::Halfway>,
 }
 
-/// Replica 0 is added up, 2 waits for its turn, 3 is halfway.
+/// Replica 0 is in the sum, 2 waits for its turn, 3 is in work.
 #[test]
 fn nothing_that_is_done_is_run_again() {
     use crate::judge::lab;
@@ -170,12 +170,12 @@ fn nothing_that_is_done_is_run_again() {
             "{threads}"
         );
         assert_eq!((finished.into_inner(), run.progress()), (4, of_run(6, 0)));
-        // What was told last is what the file has.
+        // The progress reported last is that in the file.
         assert_eq!(last.into_inner().unwrap(), Some(of_run(6, 0)));
     }
 }
 
-/// A disk with room for this number of bytes.
+/// A disk with free space for this number of bytes.
 struct Full(usize);
 
 impl Write for Full {
@@ -189,7 +189,7 @@ impl Write for Full {
     }
 }
 
-/// Wherever the disk is full, in a length, a name or a number: the reason is the disk's.
+/// Wherever the disk becomes full, in a length, a name or a number, the reason is the disk's.
 #[test]
 fn a_full_disk_is_told_in_the_systems_words() {
     let state =
@@ -204,7 +204,7 @@ fn a_full_disk_is_told_in_the_systems_words() {
     assert_eq!(cause(own).kind(), io::ErrorKind::Other);
 }
 
-/// A signal that comes before anything was done does not say that nothing is kept where the file is there.
+/// A signal before any work was done reports the checkpoint if the file exists.
 #[test]
 fn a_signal_tells_of_the_file_that_is_there() {
     let dir = tempfile::tempdir().unwrap();

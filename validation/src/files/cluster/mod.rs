@@ -1,10 +1,10 @@
-//! Work over the ranks of an MPI job, with the feature `mpi`; without it there is one rank, and nothing here does
-//! more than a loop.
+//! Shares work among the ranks of an MPI job, with the feature `mpi`; without it there is one rank, and everything here is
+//! no more than a loop.
 //!
-//! Every rank runs the same command on the same input and comes to the same calls of [`share`] and [`from_root`] in
-//! the same order. Rank 0, the root, alone writes and prints. A job's result does not depend on the rank that makes
-//! it, and results come back in the order of jobs: so the root goes on with the bits that one process has. A rank
-//! that fails says why and ends all others ([`Joined::fail`]).
+//! Every rank runs the same command on the same input and makes the same calls of [`share`] and [`from_root`] in the same
+//! order. Only rank 0, the root, writes and prints. A job's result does not depend on the rank that runs it, and results are
+//! returned in the order of jobs, so the root has the same bits as a single process. A rank that fails reports why and ends
+//! all others ([`Joined::fail`]).
 
 #[cfg(not(feature = "mpi"))]
 mod alone;
@@ -26,8 +26,8 @@ use serde::de::DeserializeOwned;
 use serde_json::Value;
 use std::process::ExitCode;
 
-/// Compares the inputs of all ranks, before anything runs: every command comes here first, whatever it does, so that ranks
-/// that were given different things do not wait for each other. The error, on the root, names the rank and the key.
+/// Compares the inputs of all ranks. Every command calls this before anything else, so that ranks with different inputs do not wait for
+/// each other. The error, on the root, names the rank and the key.
 pub fn agree(command: &str, mut input: Value) -> Result<(), String> {
     input["command"] = command.into();
     input["build"] = build::record();
@@ -35,7 +35,7 @@ pub fn agree(command: &str, mut input: Value) -> Result<(), String> {
     from_root(|| all_as_first(&all.unwrap_or_default()))
 }
 
-/// Whether all ranks have the input of the first.
+/// Fails unless all ranks have the input of the first.
 fn all_as_first(inputs: &[Value]) -> Result<(), String> {
     for (rank, input) in inputs.iter().enumerate() {
         if let Some((key, there, here)) = difference(input, &inputs[0]) {
@@ -48,7 +48,7 @@ fn all_as_first(inputs: &[Value]) -> Result<(), String> {
     Ok(())
 }
 
-/// Does every job in this process. `arrived` is called with each result in order; so are the results.
+/// Runs all jobs in this process. Calls `arrived` with each result in order, and returns the results in order.
 pub fn in_order<T, E>(
     jobs: usize,
     job: impl Fn(usize) -> Result<T, E>,
@@ -65,7 +65,7 @@ where
     (0..jobs).map(done).collect::<Result<_, E>>().map(Some)
 }
 
-/// Says why this process failed; its exit code.
+/// Reports why this process failed, and returns its exit code.
 pub fn failed(message: &str, code: u8) -> ExitCode {
     complain(&format!("error: {}\n", text::message(message)));
     ExitCode::from(code)

@@ -1,4 +1,4 @@
-//! The ranks of an MPI job. One thread at a time talks to MPI; jobs use threads of their own.
+//! The ranks of an MPI job. Only one thread at a time calls MPI; jobs use their own threads.
 
 use super::{failed, in_order};
 use mpi::environment::{Universe, is_initialized};
@@ -13,20 +13,20 @@ use std::sync::atomic::{AtomicI32, Ordering};
 use std::thread::sleep;
 use std::time::Duration;
 
-/// The job this process has joined.
+/// The MPI job that this process has joined.
 pub struct Joined(Universe);
 
-/// How long a rank that has nothing to do sleeps before it looks again. Waiting inside MPI would keep a core busy.
+/// Sleep of an idle rank between two polls. Waiting inside MPI would keep a core busy.
 const IDLE: Duration = Duration::from_millis(1);
 
-/// How long a failing rank lets the root fail first: bad input fails everywhere, and is to be told once.
+/// Delay of a failing rank, so that the root fails first: bad input fails on all ranks, and should be reported once.
 const COURTESY: Duration = Duration::from_secs(2);
 
-/// Tags from 1 to this: MPI grants all up to 32 767.
+/// Tags go from 1 to this: MPI guarantees tags up to 32 767.
 const LAST_TAG: i32 = 32_000;
 
 impl Joined {
-    /// Joins the job that `mpirun` has started, or one of this process alone.
+    /// Joins the job started by `mpirun`, or a job of this process alone.
     pub fn new() -> Result<Self, String> {
         match mpi::initialize_with_threading(Threading::Serialized) {
             Some((universe, granted)) if granted >= Threading::Serialized => Ok(Self(universe)),
@@ -37,12 +37,12 @@ impl Joined {
         }
     }
 
-    /// Runs a command; a panic, which has said why, is its failure: ending without the others would leave them waiting.
+    /// Runs a command; a panic, which has printed its message, becomes an error: if the process ended, the other ranks would wait.
     pub fn caught<T>(&self, command: impl FnOnce() -> T) -> Result<T, String> {
         catch_unwind(AssertUnwindSafe(command)).map_err(|_| "the program broke off".to_owned())
     }
 
-    /// Says why the command failed, and ends all ranks with this exit code.
+    /// Reports why the command failed, and ends all ranks with this exit code.
     pub fn fail(self, message: &str, code: u8) -> ExitCode {
         let Some(world) = world() else {
             return failed(message, code);
@@ -55,7 +55,7 @@ impl Joined {
         world.abort(code.into())
     }
 
-    /// The end of a command that did not fail: waits for all ranks.
+    /// Ends a command that did not fail, after waiting for all ranks.
     pub fn end(self) -> ExitCode {
         let mut barrier = self.0.world().immediate_barrier();
         while let Err(waiting) = barrier.test() {
@@ -66,25 +66,25 @@ impl Joined {
     }
 }
 
-/// All ranks, where there are others.
+/// All ranks; `None` if there is only one.
 fn world() -> Option<SimpleCommunicator> {
-    // A test that calls the library has joined nothing.
+    // A test that calls the library has not joined a job.
     let joined = is_initialized().then(SimpleCommunicator::world);
     joined.filter(|world| world.size() > 1)
 }
 
-/// Whether this rank writes and prints.
+/// True if this rank writes and prints.
 pub fn is_root() -> bool {
     world().is_none_or(|world| world.rank() == 0)
 }
 
-/// How many ranks there are.
+/// Number of ranks.
 pub fn size() -> usize {
     world().map_or(1, |world| world.size() as usize)
 }
 
-/// Does every job once: rank k the jobs k, k + size and so on. `arrived` is called on the root with each result, in
-/// any order. On the root, all results in order; elsewhere none.
+/// Runs every job once: rank k runs the jobs k, k + size and so on. Calls `arrived` on the root with each result, in any order.
+/// Returns all results in order on the root, `None` on the other ranks.
 pub fn share<T, E>(
     jobs: usize,
     job: impl Fn(usize) -> Result<T, E>,
@@ -130,7 +130,7 @@ where
     Ok(Some(all.into_iter().flatten().collect()))
 }
 
-/// What the root makes, on every rank.
+/// The result of `make`, which runs on the root, on every rank.
 pub fn from_root<T, E>(make: impl FnOnce() -> Result<T, E>) -> Result<T, E>
 where
     T: Serialize + DeserializeOwned,
@@ -148,20 +148,20 @@ where
     Ok(made.unwrap_or_else(|| decoded(&bytes)))
 }
 
-/// A tag for each call: a rank may be ahead of the root by some.
+/// A new tag for each call: a rank may be some calls ahead of the root.
 fn next_tag() -> Tag {
     static CALLS: AtomicI32 = AtomicI32::new(0);
     1 + CALLS.fetch_add(1, Ordering::Relaxed).rem_euclid(LAST_TAG)
 }
 
-/// A job and its result, if one has come.
+/// The index of a job and its result, if one has arrived.
 fn received<T: DeserializeOwned>(world: &SimpleCommunicator, tag: Tag) -> Option<(usize, T)> {
     let found = world.any_process().immediate_matched_probe_with_tag(tag);
     let (bytes, _) = found?.matched_receive_vec::<u8>();
     Some(decoded(&bytes))
 }
 
-/// MessagePack: every bit of a number arrives, NaN too, and fields have their names.
+/// Encodes as MessagePack with field names; all bits of numbers are preserved, including NaN.
 fn encoded<T: Serialize>(value: &T) -> Vec<u8> {
     rmp_serde::to_vec_named(value).unwrap_or_else(|error| panic!("plain data can be sent: {error}"))
 }

@@ -1,4 +1,4 @@
-//! The replicas of one scene over ranks.
+//! Shares the replicas of one scene among ranks.
 
 use super::{share, size};
 use shearbed::Error;
@@ -6,16 +6,16 @@ use shearbed::run::ensemble::{self, Tally};
 use shearbed::{Plan, Results};
 use std::ops::Range;
 
-/// Runs every replica of a plan, each rank its part of them on the threads of the current rayon pool; `finished` is
-/// called after each replica of this rank. On the root the results, bit for bit those of [`shearbed::run::ensemble::run`];
-/// elsewhere none.
+/// Runs every replica of a plan; each rank runs its share on the threads of the current rayon pool and calls `finished` after each of its
+/// replicas. Returns the results on the root, bit for bit those of [`shearbed::run::ensemble::run`], and `None` on the other
+/// ranks.
 pub fn ensemble(plan: &Plan, finished: impl Fn() + Sync) -> Result<Option<Results>, Error> {
     let mut tally = Tally::new(plan);
     let root = extend(plan, &mut tally, 0..plan.scene().ensemble.replicas, finished)?;
     Ok(root.then(|| tally.results(plan)))
 }
 
-/// Adds the next replicas of a plan to the root's `tally` in the same way. True on the root.
+/// Like `ensemble`, but adds the next `replicas` of a plan to the root's `tally`. Returns true on the root.
 pub fn extend(
     plan: &Plan,
     tally: &mut Tally,

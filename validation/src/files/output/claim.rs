@@ -1,4 +1,4 @@
-//! The lock on a folder: one process writes there at a time.
+//! The lock on a folder, which lets only one process at a time write there.
 
 use super::{OutputError, RECORD, at, refill};
 use crate::files::bounded;
@@ -9,16 +9,16 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
-/// The file whose lock is the claim; the system lets go of it when a process ends in any way.
+/// The locked file; the system releases the lock when the process ends in any way.
 pub(super) const LOCK: &str = ".shearbed-lock";
-/// A set of files that is being written.
+/// Folder of an incomplete set of files.
 const PART: &str = ".shearbed-part";
-/// A complete set of files that belongs one folder up.
+/// Folder of a complete set of files, to be moved one folder up.
 const READY: &str = ".shearbed-ready";
 /// Prefix of lock and temporary files.
 const OURS: &str = ".shearbed-";
 
-/// The most other processes that may make the folder and remove it again between two steps of one claim.
+/// Limit of how often other processes may make the folder and remove it again between two steps of one claim.
 const OTHERS: usize = 1000;
 
 /// A lock on a folder: no other process that claims the folder writes there.
@@ -34,13 +34,13 @@ pub struct Claim {
 #[derive(Debug)]
 pub(super) struct Lock {
     path: PathBuf,
-    /// Held open.
+    /// Kept open, as closing releases the lock.
     _file: File,
 }
 
 /// Held while a set of files is written.
 static WRITING: Mutex<()> = Mutex::new(());
-/// The locks of this process.
+/// Paths of all locks of this process.
 static LOCKS: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 
 fn held<T>(mutex: &'static Mutex<T>) -> MutexGuard<'static, T> {
@@ -57,19 +57,19 @@ pub(super) fn writing() -> MutexGuard<'static, ()> {
     held(&WRITING)
 }
 
-/// Waits until no files are being written and ends the process, leaving nothing half done.
+/// Waits until no files are being written, then ends the process, so that no set of files is incomplete.
 pub(crate) fn stop(code: i32) -> ! {
     let _writing = writing();
     for lock in held(&LOCKS).iter() {
-        // What is not removed here the next claim takes over.
+        // A lock file that cannot be removed here is taken over by the next claim.
         let _ = fs::remove_file(lock);
     }
     std::process::exit(code)
 }
 
 impl Claim {
-    /// Claims a folder, which is made where it does not exist, waiting so long for others. Then what a killed process
-    /// left there is put right: a set of files that was complete is moved into place, one that was not is removed.
+    /// Claims a folder, which is created if it does not exist, waiting up to `patience` for other processes. Then repairs what
+    /// a killed process left there: a complete set of files is moved into place, an incomplete one is removed.
     pub fn new(dir: &Path, patience: Duration) -> Result<Self, OutputError> {
         let made = !dir.exists();
         let busy = "another shearbed is at work in this folder; wait for it, or give another --out";
@@ -89,10 +89,10 @@ impl Claim {
         Ok(claim)
     }
 
-    /// Writes all files. They are written to the disk under a hidden name; then the old files of these names are removed,
-    /// and the new ones moved into place, JSON last and the folder's record after it. So files of two sets never stand side by
-    /// side, and a process that is killed in between leaves a set without its record, which the next claim makes whole. Then
-    /// the files `left_over` of an earlier set are removed.
+    /// Writes all files. They are written to the disk under a hidden name; then old files with these names are removed, and the new
+    /// ones moved into place, JSON last and after it the folder's record. So files of two sets are never side by side, and a process
+    /// killed in between leaves a set without its record, which the next claim completes. At last the files `left_over` of an earlier
+    /// set are removed.
     pub fn write_all<C: AsRef<[u8]>>(
         &self,
         files: &[(String, C)],
@@ -167,7 +167,7 @@ impl Claim {
         Ok(())
     }
 
-    /// Ends the claim of a folder that now has the name `dir`.
+    /// Updates a claim whose folder was renamed to `dir`.
     pub(super) fn moved_to(mut self, dir: &Path) {
         if let Some(lock) = &mut self.lock {
             lock.moved_to(dir.join(LOCK));
@@ -180,15 +180,15 @@ impl Drop for Claim {
     fn drop(&mut self) {
         drop(self.lock.take());
         if self.made {
-            // Only where nothing was written.
+            // Succeeds only if nothing was written.
             let _ = fs::remove_dir(&self.dir);
         }
     }
 }
 
 impl Lock {
-    /// Makes the file `name` in a folder, and the folder where it does not exist, waiting so long for other processes that
-    /// hold it: then the error's kind is `WouldBlock`, and `Unsupported` where the file system grants no locks.
+    /// Makes and locks the file `name` in a folder, which is created if it does not exist. Waits up to `patience` for another process that
+    /// holds the lock, then fails with `WouldBlock`; fails with `Unsupported` if the file system has no locks.
     pub(super) fn new(
         dir: &Path,
         name: &str,
@@ -200,7 +200,7 @@ impl Lock {
         let mut gone = 0;
         let file = loop {
             match fs::create_dir_all(dir) {
-                // Another process had the folder and removed it just now; a third may have made it again. What is no folder stays.
+                // Another process has just removed the folder; a third may have made it again. If it is no folder, this fails.
                 Err(error)
                     if error.kind() == io::ErrorKind::AlreadyExists
                         && dir.symlink_metadata().map_or(true, |found| found.is_dir()) =>
@@ -212,8 +212,8 @@ impl Lock {
             let mut options = OpenOptions::new();
             options.write(true).create(true).truncate(false);
             let file = match bounded::open_with(&path, &mut options) {
-                // The folder was removed just now, and may be there again. A link that leads nowhere stays, and there
-                // are file systems, as /proc, that say this of every new file.
+                // The folder has just been removed, and may exist again. A link to nowhere remains an error, and some file systems, such as
+                // /proc, say this of every new file.
                 Err(error)
                     if error.kind() == io::ErrorKind::NotFound && !path.is_symlink() && gone < OTHERS =>
                 {
@@ -227,7 +227,7 @@ impl Lock {
                 file => file.map_err(&at)?,
             };
             match file.try_lock() {
-                // Whoever held it may have removed it: then it locks nothing.
+                // The process that held the file may have removed it: then the lock has no effect.
                 Ok(()) if is_there(&file) => break file,
                 Ok(()) => continue,
                 Err(TryLockError::WouldBlock) if start.elapsed() < patience => {
@@ -244,7 +244,7 @@ impl Lock {
         Ok(Self { path, _file: file })
     }
 
-    /// Notes the file's new name.
+    /// Updates the path of a renamed file.
     fn moved_to(&mut self, path: PathBuf) {
         held(&LOCKS).retain(|held| *held != self.path);
         self.path = path;
@@ -253,7 +253,7 @@ impl Lock {
 
 impl Drop for Lock {
     fn drop(&mut self) {
-        // Removed while it is locked: nobody else can hold it.
+        // Removed while it is locked, so that no other process can hold it.
         let _ = fs::remove_file(&self.path);
         held(&LOCKS).retain(|held| *held != self.path);
     }
@@ -266,13 +266,13 @@ fn is_there(file: &File) -> bool {
     file.metadata().is_ok_and(|metadata| metadata.nlink() > 0)
 }
 
-/// True: an open file cannot be removed here.
+/// Always true: open files cannot be removed on this system.
 #[cfg(not(unix))]
 fn is_there(_: &File) -> bool {
     true
 }
 
-/// The files of a folder and of those in it, as paths from there.
+/// The files in a folder and its subfolders, as paths relative to it.
 fn names(dir: &Path) -> io::Result<Vec<PathBuf>> {
     let mut found = Vec::new();
     for entry in fs::read_dir(dir)? {

@@ -1,5 +1,5 @@
-//! The one rule of overwriting, for every command: what a command did not write itself, or wrote from other inputs, stays
-//! without `--force`.
+//! The rule for overwriting, for all commands: without `--force`, files that a command did not write itself, or wrote from other
+//! inputs, are left unchanged.
 
 use super::record::{Origin, RECORD, Record, State};
 use super::{Claim, Output, PATIENCE, Refused, appear};
@@ -9,7 +9,7 @@ use serde_json::Value;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// The refusal to replace a file, and how to go on.
+/// The error that a file would be overwritten, and what to do next.
 pub(super) fn in_the_way(path: &Path, what: &str, other: &str) -> Refused {
     Refused(format!(
         "{}: {what}; --force overwrites it, {other} leaves it; nothing was changed",
@@ -17,7 +17,7 @@ pub(super) fn in_the_way(path: &Path, what: &str, other: &str) -> Refused {
     ))
 }
 
-/// How most commands are given another folder or file.
+/// The option by which most commands take another folder or file.
 pub(super) const OTHER_OUT: &str = "another --out";
 
 /// A folder for the results of one command; it need not exist yet.
@@ -28,12 +28,12 @@ pub struct ResultFolder {
     force: bool,
     /// Earlier results that the new ones contain.
     earlier: Option<Origin>,
-    /// How another folder is given.
+    /// How to give the command another folder, for messages.
     other: &'static str,
 }
 
 impl ResultFolder {
-    /// `inputs` is an object with all that the results depend on; the program's version is added.
+    /// `inputs` is an object with everything on which the results depend; the program's version is added.
     pub fn new(dir: &Path, command: &str, mut inputs: Value, force: bool) -> Self {
         inputs["version"] = BUILD.version.into();
         Self {
@@ -45,17 +45,17 @@ impl ResultFolder {
         }
     }
 
-    /// The same for a command that has its folder as an argument, without `--out`.
+    /// Adapts messages to a command that takes its folder as an argument, without `--out`.
     pub fn as_argument(self) -> Self {
         Self { other: "another folder", ..self }
     }
 
-    /// The same where results of this origin may be replaced too: the new ones contain them.
+    /// Allows results of the origin `earlier` to be replaced too, because the new ones contain them.
     pub fn extends(self, earlier: Option<Origin>) -> Self {
         Self { earlier, ..self }
     }
 
-    /// The folder.
+    /// The path of the folder.
     pub fn dir(&self) -> &Path {
         &self.dir
     }
@@ -65,18 +65,18 @@ impl ResultFolder {
         &self.origin
     }
 
-    /// True if this command has written the folder, from the same inputs.
+    /// True if this command wrote the folder from the same inputs.
     pub fn is_own(&self) -> bool {
         let own = |record: Record| record.origin == self.origin;
         Record::read(&self.dir).is_ok_and(|record| record.is_some_and(own))
     }
 
-    /// Refuses to write files of these names, unless nothing is in the way, or this command has written the folder before
-    /// from the same inputs (or from those of [`Self::extends`]) and nobody has changed these files since.
+    /// Fails if files with these names must not be written. They may be written if none exists, or if this command wrote the folder before
+    /// from the same inputs (or those of [`Self::extends`]) and the files have not been changed since.
     ///
     /// # Errors
     ///
-    /// The file that is in the way, who wrote it, and what to do.
+    /// Names the file that would be overwritten, the command that wrote it, and what to do next.
     pub fn check<N: AsRef<str>>(&self, names: &[N]) -> Result<(), Refused> {
         if self.force {
             return Ok(());
@@ -114,12 +114,12 @@ impl ResultFolder {
         })
     }
 
-    /// Writes files and their record, if the command may. They appear together; what it wrote there before under other names
-    /// is removed, unless somebody has changed it.
+    /// Writes files and their record, if the command may. They appear together; files that it wrote there before under other names are
+    /// removed, unless they have been changed.
     ///
     /// # Errors
     ///
-    /// Those of [`Self::check`], or what cannot be written; then nothing has changed.
+    /// Those of [`Self::check`], or if writing fails; then nothing has changed.
     pub fn write(&self, mut files: Vec<Output>) -> Result<(), Refused> {
         let record = Record::new(&self.origin, &files).file();
         let names: Vec<String> = files.iter().map(|(name, _)| name.clone()).collect();
@@ -132,7 +132,7 @@ impl ResultFolder {
         Ok(claim.write_all(&files, &self.left_over(&names))?)
     }
 
-    /// The files that the folder's record lists beside `names`, as they were written: beside new results they would pass for
+    /// The unchanged files that the folder's record lists besides `names`: left beside new results, they would be mistaken for
     /// them.
     pub(crate) fn left_over(&self, names: &[String]) -> Vec<String> {
         let Ok(Some(record)) = Record::read(&self.dir) else {
@@ -156,7 +156,7 @@ mod tests {
         names.iter().map(file).collect()
     }
 
-    /// What was refused, without the folder's name before it.
+    /// The error without the folder's name.
     fn refused(folder: &ResultFolder, names: &[&str]) -> String {
         let Refused(message) = folder.write(files(names)).unwrap_err();
         message.replace(&format!("{}/", folder.dir.display()), "")
@@ -179,7 +179,7 @@ mod tests {
         let own = folder(dir, "run", 1);
         own.write(files(&["a.csv", "b/c.csv"])).unwrap();
         fs::write(dir.join("user.csv"), "mine").unwrap();
-        // Again, and by the record what it no longer writes goes; what is the user's stays.
+        // A second write removes files in the record that are no longer written; the user's files stay.
         own.write(files(&["a.csv"])).unwrap();
         assert_eq!(names(dir), ["a.csv", "b", "shearbed.json", "user.csv"]);
         assert!(!dir.join("b/c.csv").exists());
@@ -201,7 +201,7 @@ mod tests {
         );
         fs::write(dir.join("a.csv"), "of b.csv\n").unwrap();
         assert_eq!(refused(&own, &["a.csv"]), shown("a.csv: was changed after `shearbed run` wrote it"));
-        // What was changed does not go either where it is no longer written.
+        // Changed files stay too, even if they are no longer written.
         own.write(files(&["d.csv"])).unwrap();
         assert_eq!(names(dir), ["a.csv", "b", "d.csv", "shearbed.json", "user.csv"]);
         ResultFolder::new(dir, "fit", json!({}), true).write(files(&["e.csv"])).unwrap();
@@ -232,7 +232,7 @@ mod tests {
             let found = refused(&own, &["a.csv"]);
             assert!(found.starts_with(why), "{found}");
         }
-        // A record that lists files elsewhere does not lead there.
+        // A record that lists files outside the folder is not followed.
         let outside = dir.path().join("outside.csv");
         fs::write(&outside, "of ../outside.csv\n").unwrap();
         let inner = dir.path().join("inner");

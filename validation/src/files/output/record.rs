@@ -1,7 +1,7 @@
 //! `shearbed.json`: which command wrote a folder, from which inputs, and the folder's files with their checksums.
 //!
-//! Every folder of results has one, a point of a sweep and exported problems too. By it overwriting is decided
-//! ([`super::ResultFolder`]), and `plot` and `compare` see files that were changed since.
+//! Every folder of results has this file, including points of a sweep and exported problems. It decides about overwriting
+//! ([`super::ResultFolder`]), and lets `plot` and `compare` detect files that were changed since.
 
 use super::Output;
 use crate::files::bounded;
@@ -15,29 +15,29 @@ use std::path::{Component, Path};
 
 /// The name of the file, which is written last.
 pub const RECORD: &str = "shearbed.json";
-/// The format that is written and read.
+/// The number of the format.
 const FORMAT: u32 = 1;
-/// The longest record.
+/// Size limit of a record in bytes.
 const MOST_BYTES: u64 = 64 << 20;
 
-/// A command and everything that its results depend on. Checkpoints have one too.
+/// A command and everything on which its results depend; checkpoints have one too.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Origin {
-    /// The command, as `run`.
+    /// Name of the command, such as `run`.
     pub command: String,
-    /// An object; files are in it by their checksums.
+    /// An object of inputs; files are represented by their checksums.
     pub inputs: Value,
 }
 
 impl Origin {
     /// A command with its inputs.
     pub fn new(command: &str, inputs: Value) -> Self {
-        // As text: what was written and read again is compared with the same.
+        // Converted by text, because it will be compared with inputs that were written and read again.
         let inputs = serde_json::from_str(&inputs.to_string()).unwrap_or(inputs);
         Self { command: command.to_owned(), inputs }
     }
 
-    /// The first input that was another one here than it is in `now`: `scene.m was 3 and is 4 now`.
+    /// The first difference from the inputs `now`, in words: `scene.m was 3 and is 4 now`.
     pub fn difference(&self, now: &Self) -> Option<String> {
         let words = |(key, was, is): (String, Value, Value)| format!("{key} was {was} and is {is} now");
         match self.command == now.command {
@@ -54,16 +54,16 @@ pub struct Record {
     /// The command that wrote the folder, and its inputs.
     #[serde(flatten)]
     pub origin: Origin,
-    /// Length and checksum of each file by its name; of a sweep's points the record alone is listed.
+    /// Length and checksum of each file by its name; for points of a sweep only their records are listed.
     pub files: BTreeMap<String, Sum>,
 }
 
 /// The length and the checksum (CRC-32 as eight hexadecimal digits) of a file.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Sum {
-    /// Its length.
+    /// Length in bytes.
     pub bytes: u64,
-    /// Its checksum.
+    /// Checksum as eight hexadecimal digits.
     pub crc32: String,
 }
 
@@ -81,7 +81,7 @@ impl Sum {
 }
 
 impl Record {
-    /// The record of files from this origin.
+    /// The record of `files` written from `origin`.
     pub fn new<C: AsRef<[u8]>>(origin: &Origin, files: &[(String, C)]) -> Self {
         let sum = |(name, contents): &(String, C)| (name.clone(), Sum::of(contents.as_ref()));
         Self { format: FORMAT, origin: origin.clone(), files: files.iter().map(sum).collect() }
@@ -94,11 +94,11 @@ impl Record {
         (RECORD.to_owned(), text + "\n")
     }
 
-    /// The record of a folder; none where there is no such file, or no such folder.
+    /// The record of a folder; `None` if there is no such file or folder.
     ///
     /// # Errors
     ///
-    /// Why the file cannot be read, without its name.
+    /// The reason why the file cannot be read, without its name.
     pub fn read(dir: &Path) -> Result<Option<Self>, String> {
         let text = match bounded::text(&dir.join(RECORD), MOST_BYTES) {
             Err(error) if absent(&error) => return Ok(None),
@@ -114,7 +114,7 @@ impl Record {
         }
     }
 
-    /// Refuses a file of the folder that has another sum than the record lists; the error is without the file's name.
+    /// Fails if a file of the folder has another sum than the record lists; the error does not contain the file's name.
     pub fn check(&self, name: &str, sum: &Sum) -> Result<(), String> {
         match self.files.get(name) {
             Some(listed) if listed == sum => Ok(()),
@@ -125,7 +125,7 @@ impl Record {
         }
     }
 
-    /// The files that are listed and still as they were written. A record that names a file elsewhere is not followed.
+    /// The listed files that have not been changed. Names that lead outside the folder are ignored.
     pub(super) fn unchanged(&self, dir: &Path) -> impl Iterator<Item = &String> {
         let inside = |name: &str| {
             let mut parts = Path::new(name).components();
@@ -135,7 +135,7 @@ impl Record {
         self.files.keys().filter(move |name| inside(name)).filter(as_written)
     }
 
-    /// Whether a file of the folder is as it was written; nothing is known of a name that is not listed.
+    /// The state of a file of the folder compared with the record.
     pub(super) fn state(&self, dir: &Path, name: &str) -> io::Result<State> {
         let path = dir.join(name);
         match (self.files.get(name), fs::symlink_metadata(&path)) {
@@ -153,7 +153,7 @@ impl Record {
     }
 }
 
-/// A file in a folder with a record.
+/// The state of a file in a folder with a record.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum State {
     Absent,
@@ -162,7 +162,7 @@ pub(super) enum State {
     Foreign,
 }
 
-/// True where there is no such file. A file in place of a folder counts too: the writer reports it.
+/// True if there is no such file. A file in place of a folder counts too: the writer reports it.
 fn absent(error: &io::Error) -> bool {
     matches!(error.kind(), ErrorKind::NotFound | ErrorKind::NotADirectory)
 }

@@ -1,4 +1,4 @@
-//! A single file that is replaced, whole, as often as one process likes.
+//! A single file that one process replaces repeatedly, always as a whole.
 
 use super::claim::{Lock, writing};
 use super::{OutputError, at};
@@ -8,8 +8,8 @@ use std::path::{Path, PathBuf};
 use std::sync::MutexGuard;
 use std::time::Duration;
 
-/// A file that no other process replaces while this lives. Beside it lie, hidden, its lock and what is being written; a
-/// process that is killed may leave them, and the next one takes them over.
+/// A file that no other process replaces while this exists. Its lock and the file being written are hidden beside it; a killed process
+/// may leave them, and the next one takes them over.
 #[derive(Debug)]
 pub struct Replaced {
     path: PathBuf,
@@ -18,7 +18,7 @@ pub struct Replaced {
 }
 
 impl Replaced {
-    /// Claims a file, which need not exist; its folder is made where it does not.
+    /// Claims a file, which need not exist; creates its folder if that does not exist.
     pub fn claim(path: &Path) -> Result<Self, OutputError> {
         let not_a_file = || io::Error::new(io::ErrorKind::InvalidInput, "the name of a file is allowed");
         let name = path.file_name().ok_or_else(not_a_file).map_err(at(path))?;
@@ -37,19 +37,19 @@ impl Replaced {
         Ok(Self { path: path.to_owned(), part: dir.join(format!(".checkpoint-{name}.part")), _lock: lock })
     }
 
-    /// The file.
+    /// The path of the file.
     pub fn path(&self) -> &Path {
         &self.path
     }
 
-    /// Writes what comes into the file's place when it is finished: at every moment the old or the new stands there, whole and
-    /// on the disk.
+    /// Writes new contents, which `Part::finish` moves into place: at every moment either the old or the new file is there, complete
+    /// and on the disk.
     pub fn write(
         &self,
         write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
     ) -> Result<Part<'_>, OutputError> {
         let writing = writing();
-        // What is in the way of it stays.
+        // An obstacle at the place of the new file stays.
         let part = anew(&self.part).map_err(at(&self.path))?;
         let written = || {
             let mut file = BufWriter::new(part);
@@ -69,7 +69,7 @@ impl Replaced {
     }
 }
 
-/// A new file in place of what a killed process left of one; what is no regular file, as a link or a pipe, is refused.
+/// A new file in place of the remains of a killed process; fails if there is no regular file but a link or a pipe, for example.
 fn anew(path: &Path) -> io::Result<File> {
     match fs::symlink_metadata(path) {
         Ok(found) if found.is_file() => fs::remove_file(path)?,
@@ -83,7 +83,7 @@ fn anew(path: &Path) -> io::Result<File> {
     File::create_new(path)
 }
 
-/// What was written and is not yet in its place. Nothing else is written meanwhile.
+/// New contents that are not yet in place. Nothing else is written meanwhile.
 pub struct Part<'a> {
     of: &'a Replaced,
     file: File,
@@ -91,18 +91,18 @@ pub struct Part<'a> {
 }
 
 impl Part<'_> {
-    /// Brings it to the disk, and into its place.
+    /// Writes the contents to the disk and moves them into place.
     pub fn finish(self) -> Result<(), OutputError> {
         let Replaced { path, part, .. } = self.of;
         let moved = self.file.sync_all().and_then(|()| fs::rename(part, path));
         moved.map_err(|error| self.of.given_up(error))?;
-        // Where a folder cannot be synchronised, the name comes to the disk when the system likes.
+        // If a folder cannot be synchronised, the system decides when the name reaches the disk.
         let _ = part.parent().map(synchronise);
         Ok(())
     }
 }
 
-/// Brings the names in a folder to the disk.
+/// Writes the names in a folder to the disk.
 #[expect(
     clippy::disallowed_methods,
     reason = "a folder, which bounded::open refuses, and which nothing waits for"

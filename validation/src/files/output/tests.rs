@@ -59,7 +59,7 @@ fn a_folder_that_is_a_file_is_named() {
     assert_eq!(fs::read_to_string(&file).unwrap(), "old");
 }
 
-/// Claims of one folder make it and remove it, each by itself, and none is in the way of another.
+/// Threads claim, make and remove one folder independently, without disturbing each other.
 #[test]
 fn a_folder_that_others_make_and_remove_is_claimed() {
     let dir = tempfile::tempdir().unwrap();
