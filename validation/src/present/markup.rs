@@ -1,13 +1,13 @@
-//! Plain text as the writers show it: `code`, equations and figures that are cited, subscripts.
+//! Plain text for the writers: finds `code`, cited equations and figures, subscripts.
 
 use super::plot::power_of_ten;
 
 /// A part of a text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Piece<'a> {
-    /// As it stands, but for subscripts.
+    /// Plain text, which may have subscripts.
     Text(&'a str),
-    /// What stood in backticks.
+    /// Text that was in backticks.
     Code(&'a str),
     /// The number of a cited equation, as `15` or `A.7`.
     Equation(&'a str),
@@ -15,7 +15,7 @@ pub(crate) enum Piece<'a> {
     Figure(&'a str),
 }
 
-/// What the numbers that follow a word like "eqs" count.
+/// What the numbers after a word such as "eqs" refer to.
 #[derive(Clone, Copy, PartialEq)]
 enum Citing {
     Nothing,
@@ -23,7 +23,7 @@ enum Citing {
     Figures,
 }
 
-/// The pieces of a text, in order; together they are the text without its backticks.
+/// The pieces of a text, in order; joined, they are the text without its backticks.
 pub(crate) fn pieces(text: &str) -> Vec<Piece<'_>> {
     let mut pieces = Vec::new();
     for (k, part) in text.split('`').enumerate() {
@@ -42,7 +42,7 @@ fn prose<'a>(text: &'a str, pieces: &mut Vec<Piece<'a>>) {
     for word in text.split_inclusive(char::is_whitespace) {
         match word.trim().trim_start_matches('(') {
             "eq." | "eqs" | "Eq." | "Eqs" => citing = Citing::Equations,
-            // "before Fig. 7" is a place in the text, and says nothing of the figure.
+            // "before Fig. 7" is a place in the text, not a statement about the figure.
             "Fig." | "Figs" if matches!(last, "before" | "after") => citing = Citing::Nothing,
             "Fig." | "Figs" => citing = Citing::Figures,
             // "eqs 5 and 6"
@@ -63,11 +63,11 @@ fn prose<'a>(text: &'a str, pieces: &mut Vec<Piece<'a>>) {
     }
 }
 
-/// The numbers in a word, as "A.7–A.14,", and what is between them.
+/// The numbers in a word such as "A.7–A.14,", and the text between them.
 fn numbers<'a>(word: &'a str, citing: Citing, pieces: &mut Vec<Piece<'a>>) {
     let in_number = |c: char| c.is_ascii_alphanumeric() || c == '.';
     let is_number = |text: &str| !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit());
-    // Where the text before the next number starts, and where to look for it.
+    // Start of the text before the next number, and position from which to search.
     let (mut text, mut at) = (0, 0);
     while let Some(start) = word[at..].find(in_number).map(|start| at + start) {
         let rest = &word[start..];
@@ -89,7 +89,7 @@ fn numbers<'a>(word: &'a str, citing: Citing, pieces: &mut Vec<Piece<'a>>) {
     pieces.push(Piece::Text(&word[text..]));
 }
 
-/// True if a text cites this figure of the paper, alone or within a range.
+/// True if a text cites this figure of the paper, singly or within a range.
 pub(crate) fn cites_figure(text: &str, figure: u32) -> bool {
     let (mut last, mut through) = (None, false);
     for piece in pieces(text) {
@@ -111,8 +111,8 @@ pub(crate) fn cites_figure(text: &str, figure: u32) -> bool {
     false
 }
 
-/// A text cut into what stands on the line and what stands below it, as the 1 of x_1: an underscore after a single
-/// letter, with a number or a short word behind it. Names in code have longer words before theirs.
+/// Splits a text into parts on the line and subscripts (true), such as the 1 of x_1: an underscore after a single letter, followed
+/// by a number or a short word. Names in code have longer words before the underscore.
 pub(crate) fn subscripts(text: &str) -> Vec<(bool, &str)> {
     let mut parts = Vec::new();
     let mut start = 0;
@@ -135,11 +135,11 @@ pub(crate) fn subscripts(text: &str) -> Vec<(bool, &str)> {
     parts
 }
 
-/// The subscript that a text starts with, or nothing.
+/// The subscript at the start of a text, or an empty text.
 fn below(text: &str) -> &str {
     let end = |inside: fn(&char) -> bool| text.chars().take_while(inside).map(char::len_utf8).sum::<usize>();
     let digits = end(|c| c.is_ascii_digit());
-    // A superscript two is numeric to Unicode, but no part of a subscript.
+    // Unicode counts a superscript two as numeric, but it does not belong to a subscript.
     let word = end(|c| c.is_alphabetic() || c.is_ascii_digit() || *c == '_');
     match () {
         () if digits > 0 => &text[..digits],
@@ -148,7 +148,7 @@ fn below(text: &str) -> &str {
     }
 }
 
-/// A text whose numbers like 1.2e-3 are written 1.2·10⁻³, 1e-9 as 10⁻⁹, and 4e0 as 4.
+/// The text with numbers such as 1.2e-3 written as 1.2·10⁻³, 1e-9 as 10⁻⁹, and 4e0 as 4.
 pub(crate) fn powers(text: &str) -> String {
     let mut typeset = String::new();
     let mut rest = text;
@@ -159,7 +159,7 @@ pub(crate) fn powers(text: &str) -> String {
         let sign = usize::from(after.starts_with('-'));
         let digits = after[sign..].bytes().take_while(u8::is_ascii_digit).count();
         let (exponent, tail) = after.split_at(sign + digits);
-        // No part of a word or of a name, as in `a1e2`.
+        // The number must not be part of a word or a name, such as `a1e2`.
         let alone = !head.ends_with(|c: char| c.is_alphanumeric() || c == '_')
             && !tail.starts_with(|c: char| c.is_alphanumeric() || c == '_');
         match (exponent.parse::<i32>(), mantissa.parse::<f64>().is_ok() && alone) {
@@ -182,7 +182,7 @@ pub(crate) fn powers(text: &str) -> String {
     typeset + rest
 }
 
-/// A text with its subscripts as characters, where all of a subscript's are there.
+/// The text with subscripts as Unicode characters, if there are characters for all of a subscript.
 pub(crate) fn unicode(text: &str) -> String {
     let mut typeset = String::new();
     for (below, part) in subscripts(text) {
@@ -205,7 +205,7 @@ fn subscript(c: char) -> Option<char> {
     FROM.find(c).and_then(|at| TO.chars().nth(at))
 }
 
-/// For Markdown: a text that stays in its cell and is no markup, but for what stands in backticks.
+/// The text for a Markdown cell: on one line, without markup except for code.
 pub(crate) fn markdown(text: &str) -> String {
     let mut escaped = String::new();
     for piece in pieces(text) {

@@ -1,4 +1,4 @@
-//! What is shown: the contract of a study, the report, plots, tables and markup. It may use `judge` and what is below.
+//! Output for readers: the contract of a study, the report, plots, tables and markup. It may use `judge` and all modules below.
 
 pub(crate) mod markup;
 pub mod plot;

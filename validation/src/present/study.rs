@@ -13,26 +13,26 @@ use serde::{Deserialize, Serialize};
 
 /// A study, declared once.
 pub struct Study {
-    /// Its name, in words joined by `-`; its anchor is `study-NAME`.
+    /// Name, in words joined by `-`; the anchor is `study-NAME`.
     pub name: &'static str,
-    /// What it is about.
+    /// Title of the study.
     pub title: &'static str,
     /// The question that it answers.
     pub question: &'static str,
-    /// The cases that judge it.
+    /// The cases that judge the study.
     pub cases: &'static [&'static str],
-    /// The command that repeats it.
+    /// The command that repeats the study.
     pub command: &'static str,
-    /// Its parts that `shearbed bench --case` takes by name, in the order in which they run. Without parts it is in the report alone.
+    /// Names of its parts for `shearbed bench --case`, in the order of a run. A study without parts appears only in the report.
     pub parts: &'static [&'static str],
     /// True if ranks share its work; otherwise only the root runs it.
     pub shared: bool,
-    /// Measures it. A shared study returns `None` on all ranks but the root.
+    /// Runs the study. A shared study returns `None` on all ranks but the root.
     pub run: fn(&Request) -> Result<Option<Findings>, String>,
 }
 
 impl Study {
-    /// Runs it on the ranks that share it. `None` where no part is wanted, and on all ranks but the root.
+    /// Runs the study on the ranks that share it. `None` if no part is requested, and on all ranks but the root.
     pub fn found(&self, request: &Request) -> Result<Option<Findings>, String> {
         let wanted = self.parts.is_empty() || self.parts.iter().any(|part| (request.wanted)(part));
         match wanted && (self.shared || cluster::is_root()) {
@@ -42,26 +42,26 @@ impl Study {
     }
 }
 
-/// What is asked of a study.
+/// The request to run a study.
 pub struct Request<'a> {
-    /// How hard to work, and with which seed.
+    /// The effort and the seed.
     pub effort: &'a Effort,
-    /// True for the parts that are wanted.
+    /// True for the requested parts.
     pub wanted: &'a dyn Fn(&str) -> bool,
-    /// Called after each piece of work, in studies that have many.
+    /// Called after each piece of work, in studies with many.
     pub finished: &'a dyn Fn(),
 }
 
-/// What a study found.
+/// The findings of a study.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Findings {
     /// The answer to its question, in a sentence.
     pub answer: String,
     /// Pictures beside their tables.
     pub exhibits: Vec<Exhibit>,
-    /// Its records: names of files, and what is in them.
+    /// Its records: names and contents of files.
     pub files: Vec<Output>,
-    /// The scenes behind it.
+    /// The scenes that were run.
     pub plans: Vec<ScenePlan>,
 }
 
@@ -108,21 +108,21 @@ impl From<ReportTable> for Exhibit {
 /// A picture with its caption.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct ReportFigure {
-    /// Its name, in words joined by `-`; its anchor is `figure-NAME`.
+    /// Name, in words joined by `-`; the anchor is `figure-NAME`.
     pub name: String,
     /// The picture.
     pub figure: Figure,
-    /// What to see.
+    /// A caption that says what to see.
     pub caption: String,
     /// Equations and figures of the paper.
     pub source: String,
-    /// The cases that judge what is shown, which link here.
+    /// The cases that judge the picture, which link to it.
     pub cases: Vec<String>,
 }
 
 impl ReportFigure {
-    /// A picture by its name and title, its caption, and the names of its axes with their units. A name that starts with
-    /// `log ` is that of a logarithmic axis; the word itself is not shown.
+    /// A picture from its name and title, its caption, and the names of its axes with units. A name that starts with `log ` makes
+    /// the axis logarithmic; this word is not shown.
     pub fn new([name, title]: [&str; 2], caption: impl Into<String>, [x, y]: [&str; 2]) -> Self {
         let axis = |name: &str| match name.strip_prefix("log ") {
             Some(name) => (name.to_owned(), true),
@@ -145,13 +145,13 @@ impl ReportFigure {
         self
     }
 
-    /// What the axes cover at least, from low to high.
+    /// Sets the ranges, from low to high, that the axes cover at least.
     pub fn spans(mut self, x: Option<(f64, f64)>, y: Option<(f64, f64)>) -> Self {
         (self.figure.x_span, self.figure.y_span) = (x, y);
         self
     }
 
-    /// Its source, and the cases that judge it.
+    /// Sets the source, and the cases that judge the picture.
     pub fn judged(self, source: &str, cases: &[&str]) -> Self {
         let cases = cases.iter().map(|case| (*case).to_owned()).collect();
         Self { source: source.into(), cases, ..self }
@@ -161,14 +161,14 @@ impl ReportFigure {
 /// How a scene behind a figure was run.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct ScenePlan {
-    /// The built-in scene's name.
+    /// Name of the built-in scene.
     pub scene: String,
-    /// Its title.
+    /// Title of the scene.
     pub title: String,
-    /// The seed of its random numbers.
+    /// Seed of its random numbers.
     pub seed: u64,
-    /// The command that repeats it.
+    /// The command that repeats the run.
     pub command: String,
-    /// What ran and what was left out, as `shearbed plan` prints it.
+    /// The stages that ran and those that were dropped, as `shearbed plan` prints them.
     pub text: String,
 }

@@ -1,4 +1,4 @@
-//! A table: named columns over records, declared once, and every writer of it; rows as CSV by what they serialize to.
+//! Tables: columns over records, declared once, and all their writers; and rows as CSV by their serialized fields.
 
 #[cfg(test)]
 mod tests;
@@ -9,22 +9,22 @@ use crate::present::markup;
 use serde::{Deserialize, Serialize};
 use std::borrow::Borrow;
 
-/// What a cell holds as data.
+/// The value of a cell as data.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(untagged)]
 pub enum Datum {
-    /// Nothing is there.
+    /// No value.
     #[default]
     Nothing,
-    /// Words.
+    /// A text.
     Text(String),
-    /// A whole number.
+    /// An integer.
     Count(u64),
     /// Any other number.
     Number(f64),
 }
 
-/// `data! { TYPE, value => datum; … }`: what a type is as data.
+/// `data! { TYPE, value => datum; … }` converts values of a type to data.
 macro_rules! data {
     ($($from:ty, $value:ident => $datum:expr;)*) => {
         $(impl From<$from> for Datum {
@@ -43,7 +43,7 @@ data! {
     &str, text => Self::Text(text.into());
 }
 
-/// Values with their standard errors, as columns of estimates take them.
+/// Conversions to a value with its standard error, for columns of estimates.
 macro_rules! estimates {
     ($($from:ty, $estimate:ident => $pair:expr;)*) => {
         $(impl From<$from> for (f64, f64) {
@@ -71,29 +71,29 @@ impl<T: Into<Datum>> From<Option<T>> for Datum {
     }
 }
 
-/// A table in plain text. A text in backticks is code, and a link where it is a case's name.
+/// A table in plain text. A text in backticks is code, and a link if it is the name of a case.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct ReportTable {
-    /// Its name, in words joined by `-`; its anchor is `table-NAME`.
+    /// Name, in words joined by `-`; the anchor is `table-NAME`.
     pub name: String,
-    /// What it holds, in a few words.
+    /// Content of the table, in a few words.
     pub title: String,
-    /// What to see.
+    /// A caption that says what to see.
     pub caption: String,
     /// The heads of the columns, with units.
     pub columns: Vec<String>,
-    /// The cells as they are shown, row by row.
+    /// The cells as shown, row by row.
     pub rows: Vec<Vec<String>>,
-    /// The heads of the data: a column of estimates has two.
+    /// The heads of the data columns; a column of estimates has two.
     pub heads: Vec<String>,
     /// The cells as data, in full precision.
     pub data: Vec<Vec<Datum>>,
 }
 
-/// A cell: as it is shown, if there is anything, and as data.
+/// A cell: the text shown, if any, and its data.
 type Cell = (Option<String>, Vec<Datum>);
 
-/// A column over records: its name, and what its cell shows and holds.
+/// A column over records: its name, and the text and data of its cells.
 pub struct Column<'a, R> {
     name: String,
     heads: Vec<String>,
@@ -102,13 +102,13 @@ pub struct Column<'a, R> {
 }
 
 impl<R> Column<'_, R> {
-    /// The same column with other words where there is no value.
+    /// The same column with another text for missing values.
     pub fn or(self, none: &'static str) -> Self {
         Self { none, ..self }
     }
 }
 
-/// What is shown where there is no value.
+/// The text for a missing value.
 pub const NONE: &str = "–";
 
 fn column<'a, R>(name: impl Into<String>, cell: impl Fn(&R) -> Cell + 'a) -> Column<'a, R> {
@@ -116,12 +116,12 @@ fn column<'a, R>(name: impl Into<String>, cell: impl Fn(&R) -> Cell + 'a) -> Col
     Column { heads: vec![name.clone()], name, cell: Box::new(cell), none: NONE }
 }
 
-/// A column of words.
+/// A column of texts.
 pub fn words<'a, R, T: Into<String>>(name: impl Into<String>, of: impl Fn(&R) -> T + 'a) -> Column<'a, R> {
     field(name, move |record| Datum::Text(of(record).into()))
 }
 
-/// A column of data, shown as they are.
+/// A column of data, shown unchanged.
 pub fn field<'a, R, T: Into<Datum>>(name: impl Into<String>, of: impl Fn(&R) -> T + 'a) -> Column<'a, R> {
     column(name, move |record| {
         let datum = of(record).into();
@@ -135,7 +135,7 @@ pub fn field<'a, R, T: Into<Datum>>(name: impl Into<String>, of: impl Fn(&R) -> 
     })
 }
 
-/// A column of numbers in a format; a number that is not there is `–`.
+/// A column of numbers in a format; a missing number is shown as `–`.
 pub fn number<'a, R, T: Into<Option<f64>>>(
     name: impl Into<String>,
     format: impl Fn(f64) -> String + 'a,
@@ -147,7 +147,7 @@ pub fn number<'a, R, T: Into<Option<f64>>>(
     })
 }
 
-/// A column of numbers with two digits of their standard errors; its data are two columns.
+/// A column of numbers with two digits of their standard errors; it has two columns of data.
 pub fn estimate<'a, R, T: Into<Option<(f64, f64)>>>(
     name: impl Into<String>,
     of: impl Fn(&R) -> T + 'a,
@@ -155,7 +155,7 @@ pub fn estimate<'a, R, T: Into<Option<(f64, f64)>>>(
     with_errors(name, two_digits, of)
 }
 
-/// The same of differences, with their signs.
+/// Like [`estimate`], for differences, which are shown with their signs.
 pub fn difference<'a, R, T: Into<Option<(f64, f64)>>>(
     name: impl Into<String>,
     of: impl Fn(&R) -> T + 'a,
@@ -184,12 +184,12 @@ pub fn decimals(places: usize) -> impl Fn(f64) -> String + Copy {
     move |number| format!("{number:.places$}")
 }
 
-/// A format as 1.2e-3, with `places` decimals.
+/// A format such as 1.2e-3, with `places` decimals.
 pub fn powers(places: usize) -> impl Fn(f64) -> String + Copy {
     move |number| format!("{number:.places$e}")
 }
 
-/// A number with two digits of its standard error; without one, with six decimals at most.
+/// A number with two digits of its standard error; without an error, with six decimals at most.
 pub fn two_digits(number: f64, se: f64) -> String {
     if !(se > 0.0 && se.is_finite()) {
         let rounded = (1e6 * number).round() / 1e6;
@@ -222,7 +222,7 @@ fn text_of(writer: csv::Writer<Vec<u8>>) -> Result<String, String> {
     String::from_utf8(bytes).map_err(|error| error.to_string())
 }
 
-/// A table of words alone.
+/// A table of texts.
 pub fn of_words(
     name: &str,
     title: &str,
@@ -244,7 +244,7 @@ pub fn of_words(
 }
 
 impl ReportTable {
-    /// A table by its name and title, its caption, its records, owned or borrowed, and the columns over them.
+    /// A table from its name and title, its caption, its records (owned or borrowed), and the columns over them.
     pub fn new<R>(
         [name, title]: [&str; 2],
         caption: impl Into<String>,
@@ -270,9 +270,9 @@ impl ReportTable {
         }
     }
 
-    /// How many letters the table is wide where sentences are broken and numbers are not, with two between columns.
+    /// The width of the table in letters, if sentences may be wrapped but numbers may not, with two between columns.
     pub(crate) fn letters_across(&self) -> usize {
-        /// Where a sentence is broken.
+        /// Width at which a sentence is wrapped.
         const SENTENCE: usize = 24;
         let word = |text: &str| text.split(' ').map(|word| word.chars().count()).max().unwrap_or(0);
         let cell = |text: &String| match text.contains('±') {
@@ -286,8 +286,8 @@ impl ReportTable {
         (0..self.columns.len()).map(column).sum()
     }
 
-    /// The data as CSV. Every number is the shortest text that reads back as the same bits; what is not there is empty,
-    /// and a text that a spreadsheet would take for a formula has an apostrophe before it.
+    /// The data as CSV. Every number is the shortest text that reads back as the same bits; missing values are empty, and a text
+    /// that a spreadsheet would treat as a formula has an apostrophe before it.
     pub fn csv(&self) -> Result<String, String> {
         let safe = |datum: &Datum| match datum {
             Datum::Text(text) => Datum::Text(cell(text)),
@@ -304,7 +304,7 @@ impl ReportTable {
         text_of(writer)
     }
 
-    /// For the terminal: its title, columns of even width, and what to see.
+    /// The table for the terminal: title, columns of even width, and caption.
     pub fn text(&self) -> String {
         let lines = || std::iter::once(&self.columns).chain(&self.rows);
         let width = |column: usize| {
@@ -321,12 +321,12 @@ impl ReportTable {
         format!("{text}\n{}\n\n", self.caption)
     }
 
-    /// Its caption and its cells as Markdown.
+    /// The caption and the cells as Markdown.
     pub fn markdown(&self) -> String {
         format!("{}\n\n{}", self.caption, self.cells_as_markdown())
     }
 
-    /// Its cells alone.
+    /// The cells as Markdown.
     pub(crate) fn cells_as_markdown(&self) -> String {
         let line = |cells: &[String]| {
             let cells: Vec<_> = cells.iter().map(|cell| markup::markdown(cell)).collect();

@@ -1,6 +1,6 @@
-//! A small check that tests of pictures and reports share.
+//! A check of XML for tests of pictures and reports.
 
-/// Every tag is closed, in order, no text has a bare `<`, `>` or `&`, and every character is one that XML 1.0 allows.
+/// True if all tags are closed in order, no text has a bare `<`, `>` or `&`, and XML 1.0 allows every character.
 pub(crate) fn is_well_formed(xml: &str) -> bool {
     let allowed = |c: char| !c.is_control() || matches!(c, '\t' | '\n' | '\r');
     if !xml.chars().all(|c| allowed(c) && !matches!(c, '\u{fffe}' | '\u{ffff}')) {

@@ -11,13 +11,13 @@ use super::{Drawn, Figure};
 use plotters::coord::Shift;
 use plotters::prelude::*;
 
-/// Half the length of the cap of an error bar, and the width of a band's edge: not a curve's, so that neither is dashed.
+/// Half the length of an error bar's cap, and the width of a band's edge; both differ from a curve's, so that neither is dashed.
 const CAP: i32 = 4 * FINE;
 const EDGE_WIDTH: u32 = 3;
 
 type Chart<'a, DB> = ChartContext<'a, DB, Cartesian2d<Axis, Axis>>;
 
-/// A point in placed values, with the ends of its error bars; NaN for what it does not have.
+/// A point in placed values, with the ends of its error bars; missing ones are NaN.
 struct Placed {
     x: f64,
     y: f64,
@@ -53,7 +53,7 @@ fn placed(figure: &Figure, x: &[f64], y: &[f64], x_error: Errors, y_error: Error
         .collect()
 }
 
-/// Draws axes and data so that all of it is in the area.
+/// Draws the axes and the data, all within `area`.
 pub(super) fn draw<DB: DrawingBackend>(
     figure: &Figure,
     legend: &Legend,
@@ -74,7 +74,7 @@ where
     };
     let x = shown().flat_map(|p| [p.x, p.left, p.right]);
     let x = x.chain(span(figure.x_span, figure.x_log));
-    // A curve may end at the frame, half a marker may not.
+    // A curve may end at the frame, but a marker must not be cut.
     let marked = figure.curves.iter().any(super::Curve::is_marked);
     let margin = if points.is_empty() && !marked { 0.0 } else { 0.04 };
     let exact = |ends: Option<(f64, f64)>, log| {
@@ -100,7 +100,7 @@ where
     if !shown().any(|p| window.has((p.x, p.y))) {
         chart.draw_series([Text::new("no data", centre, text(TEXT))])?;
     }
-    // What is grey lies beneath.
+    // Grey series are drawn first, below the others.
     let mut order: Vec<_> = (0..curves.len()).collect();
     order.sort_by_key(|series| is_coloured(looks[*series]));
     for series in &order {
@@ -145,12 +145,12 @@ where
 {
     let widest = y.ticks.iter().map(|(_, label)| text_width(label, TEXT)).max();
     let (left, bottom) = (widest.unwrap_or(0) + 40 * FINE, 50 * FINE);
-    // Smaller where a name is long, but not so small that nobody reads it.
+    // Smaller letters for a long name, but not too small to read.
     let fit = |name: &str, room: i32| {
         let size = TEXT * f64::from(room) / f64::from(text_width(name, TEXT));
         size.clamp(0.7 * TEXT, TEXT)
     };
-    // Half of a label stands beyond the end of the axis.
+    // Half of the last label extends beyond the end of the axis.
     let beyond = x.ticks.iter().map(|(_, label)| text_width(label, TEXT) / 2 + FINE).max().unwrap_or(0);
     let right = (24 * FINE).max(legend.width()).max(beyond);
     let (width, height) = area.dim_in_pixel();
@@ -178,14 +178,14 @@ where
     Ok(chart)
 }
 
-/// The translucent band with a thin edge, cut at the frame.
+/// Draws the translucent band with a thin edge, cut at the frame.
 fn band<DB: DrawingBackend>(chart: &mut Chart<DB>, curve: &[Placed], index: usize, window: &Window) -> Drawn
 where
     DB::ErrorType: 'static,
 {
     for run in curve.split(|p| !p.is_finite() || !p.high.is_finite()) {
         let above = run.iter().map(|p| (p.x, p.high));
-        // A logarithmic axis has no place for what is below 0.
+        // A logarithmic axis has no place for values below 0.
         let below = run.iter().map(|p| (p.x, if p.low.is_nan() { window.y.0 } else { p.low }));
         if run.len() > 1 {
             let outline = above.clone().chain(below.clone().rev()).collect();
@@ -237,7 +237,7 @@ where
     let ink = || colour(index).stroke_width(BAR_WIDTH);
     for p in points.iter().filter(|p| window.has((p.x, p.y))) {
         if p.right.is_finite() {
-            // Caps at the ends that are inside.
+            // Caps are drawn only at ends inside the frame.
             let ends = [p.left.max(left), p.right.min(right)];
             chart.draw_series([PathElement::new(ends.map(|x| (x, p.y)).to_vec(), ink())])?;
             for x in [p.left, p.right].into_iter().filter(|x| (left..=right).contains(x)) {

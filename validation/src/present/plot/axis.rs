@@ -1,13 +1,13 @@
-//! An axis: what it covers, where its ticks are and what they say.
+//! An axis: its range, its ticks and their labels.
 
 use super::style::{FINE, TEXT, text_width};
 use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, Ranged, ValueFormatter};
 use std::ops::Range;
 
-/// Larger magnitudes are taken for infinite: differences of two of them would be.
+/// Larger magnitudes are treated as infinite, because differences of two of them would be.
 const LARGEST: f64 = 1e300;
 
-/// Where a value lies on an axis: itself, or its logarithm. NaN where it has no place there.
+/// The place of a value on an axis: the value or its logarithm; NaN if it has no place there.
 pub(super) fn place(value: f64, log: bool) -> f64 {
     let placed = if log { value.log10() } else { value };
     if placed.abs() <= LARGEST { placed } else { f64::NAN }
@@ -17,14 +17,14 @@ pub(super) fn place(value: f64, log: bool) -> f64 {
 pub(super) struct Axis {
     pub(super) low: f64,
     pub(super) high: f64,
-    /// Where the ticks are, and what they say.
+    /// The places of the ticks, and their labels.
     pub(super) ticks: Vec<(f64, String)>,
-    /// Between the powers of a logarithmic axis, from 2 to 9 of each: without them it looks like a linear one.
+    /// Small ticks of a logarithmic axis, at 2 to 9 times each power: without them it would look linear.
     pub(super) between: Vec<f64>,
 }
 
 impl Axis {
-    /// An axis that covers all `placed` values that are finite, with a margin in parts of what it covers.
+    /// An axis that covers all finite `placed` values, with a margin as a part of their range.
     pub(super) fn over(placed: impl Iterator<Item = f64>, log: bool, margin: f64) -> Self {
         let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
         for value in placed.filter(|value| value.is_finite()) {
@@ -37,7 +37,7 @@ impl Axis {
         if log { logarithmic(low, high) } else { linear(low, high, margin) }
     }
 
-    /// The axis of these ends and no others, in placed values.
+    /// An axis with exactly these ends, in placed values.
     pub(super) fn exactly((low, high): (f64, f64), log: bool) -> Self {
         let axis = if log { logarithmic(low, high) } else { linear(low, high, 0.0) };
         let inside = |place: f64| (low..=high).contains(&place);
@@ -49,7 +49,7 @@ impl Axis {
         }
     }
 
-    /// Without the labels that would meet their neighbours where the axis is so long.
+    /// Removes labels that would touch their neighbours on an axis of this length.
     pub(super) fn legible(mut self, length: i32) -> Self {
         let widest = self.ticks.iter().map(|(_, label)| text_width(label, TEXT)).max().unwrap_or(0);
         let apart = self.ticks.windows(2).map(|pair| pair[1].0 - pair[0].0).fold(f64::INFINITY, f64::min);
@@ -91,7 +91,7 @@ impl ValueFormatter<f64> for Axis {
 fn linear(low: f64, high: f64, margin: f64) -> Axis {
     let size = low.abs().max(high.abs());
     let span = high - low;
-    // Flat but for round-off: the axis shows the value, and not its last bits.
+    // Constant but for round-off: the axis then shows the value, not its last bits.
     let pad = if span <= 1e-9 * size || span < 1e-290 {
         if size > 1e-280 { 0.1 * size } else { 1.0 }
     } else {
@@ -107,7 +107,7 @@ fn linear(low: f64, high: f64, margin: f64) -> Axis {
     Axis { low, high, ticks, between: Vec::new() }
 }
 
-/// The least 1, 2 or 5 times a power of ten that is not below `least`.
+/// The smallest 1, 2 or 5 times a power of ten that is not below `least`.
 fn round_step(least: f64) -> f64 {
     let power = 10f64.powf(least.log10().floor());
     let factors = [1.0, 2.0, 5.0];
@@ -129,7 +129,7 @@ fn linear_label(tick: f64, step: f64, largest: f64) -> String {
     }
 }
 
-/// Ends on 1, 2 or 5 times a power of ten; ticks there, or at the powers alone where there are many.
+/// A logarithmic axis that ends at 1, 2 or 5 times a power of ten; ticks there, or only at powers if there are many.
 fn logarithmic(low: f64, high: f64) -> Axis {
     let (mut low, mut high) = (one_two_five_below(low), -one_two_five_below(-high));
     if low == high {
@@ -145,7 +145,7 @@ fn logarithmic(low: f64, high: f64) -> Axis {
         .flat_map(|exponent| (2..10).map(move |factor| f64::from(exponent) + f64::from(factor).log10()))
         .filter(inside)
         .collect();
-    // One way of writing them along an axis.
+    // All labels of an axis have the same form.
     let plain = low >= -2.0 - 1e-9 && high <= 4.0 + 1e-9;
     let ticks = exponents()
         .filter(|exponent| exponent % stride == 0)
@@ -180,7 +180,7 @@ fn logarithmic_label(factor: f64, exponent: i32, plain: bool) -> String {
     }
 }
 
-/// 10 with its exponent raised.
+/// 10 with its exponent as a superscript.
 pub(crate) fn power_of_ten(exponent: i32) -> String {
     let digits = exponent.to_string();
     let raised = digits.chars().map(|c| match c {

@@ -1,8 +1,8 @@
-//! Where the texts of a picture are: a test of them all. Widths are those of the widest font that a browser falls back to.
+//! The boxes of all texts of a picture, for tests. Widths are those of the widest font that a browser falls back to.
 
 use super::style::{FINE, text_width};
 
-/// A text and the room that it takes.
+/// A text and its box.
 #[derive(Clone, Debug)]
 pub(crate) struct Box {
     pub(super) text: String,
@@ -21,7 +21,7 @@ fn number(tag: &str, name: &str) -> f64 {
     attribute(tag, name).and_then(|text| text.parse().ok()).unwrap_or(0.0)
 }
 
-/// Every text of a picture.
+/// The boxes of all texts of a picture.
 pub(super) fn boxes(svg: &str) -> Vec<Box> {
     let of = |part: &str| {
         let (tag, rest) = part.split_once('>')?;
@@ -29,7 +29,7 @@ pub(super) fn boxes(svg: &str) -> Vec<Box> {
         let text = text.replace("&lt;", "<").replace("&gt;", ">").replace("&amp;", "&");
         let (x, y, size) = (number(tag, "x"), number(tag, "y"), number(tag, "font-size"));
         let width = f64::from(text_width(&text, (size / f64::from(FINE)).round()));
-        // Letters stand from 0.76 of their size above the line to a quarter below.
+        // Letters extend from 0.76 of their size above the line to a quarter below.
         let down = match attribute(tag, "dy") {
             Some("0.76em") => 0.76 * size,
             Some("0.5ex") => 0.27 * size,
@@ -43,7 +43,7 @@ pub(super) fn boxes(svg: &str) -> Vec<Box> {
         let (along, across) = ((start, start + width), (down - 0.76 * size, down + 0.22 * size));
         let turned = attribute(tag, "transform").is_some_and(|t| t.contains("rotate"));
         let (left, right, top, bottom) = match turned {
-            // By 270 degrees: along goes up.
+            // Rotated by 270 degrees: the text runs upwards.
             true => (x + across.0, x + across.1, y - along.1, y - along.0),
             false => (x + along.0, x + along.1, y + across.0, y + across.1),
         };
@@ -52,7 +52,7 @@ pub(super) fn boxes(svg: &str) -> Vec<Box> {
     svg.split("<text").skip(1).filter_map(of).collect()
 }
 
-/// What leaves the view box, and which texts overlap.
+/// Messages on texts that leave the view box and on texts that overlap.
 pub(crate) fn faults(svg: &str) -> Vec<String> {
     let view: Vec<f64> = (attribute(svg, "viewBox").unwrap_or_default().split(' '))
         .map(|number| number.parse().unwrap_or(0.0))

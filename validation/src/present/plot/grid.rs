@@ -1,4 +1,4 @@
-//! Maps of classes, as small multiples: a cell for each row and column, told apart by colour and by a glyph.
+//! Maps of classes, as small multiples: a cell for each row and column; classes differ by colour and glyph.
 
 use super::axis::power_of_ten;
 use super::style::{CLASSES, FINE, MARGIN, ROW, SMALL_BOLD, TEXT, class_ink, glyph, text, text_width};
@@ -6,22 +6,22 @@ use super::{Drawn, Figure, Grid, Map};
 use plotters::coord::Shift;
 use plotters::prelude::*;
 
-/// Letters inside the panels.
+/// Size of letters inside the panels.
 const SMALL: f64 = 11.0;
 const CELL_HEIGHT: i32 = 15 * FINE;
 const GAP: i32 = 10 * FINE;
 const KEY: i32 = 16 * FINE;
 
-/// Where everything is.
+/// Positions and sizes in a picture of maps.
 pub(super) struct Layout {
-    /// Panels side by side.
+    /// Number of panels side by side.
     across: usize,
-    /// The room for the rows' names, left of each panel.
+    /// Width of the rows' names, left of each panel.
     names: i32,
     cell_width: i32,
-    /// Of the picture.
+    /// Width of the picture.
     width: i32,
-    /// The legend, in rows of classes with their left edges.
+    /// The rows of the legend: classes with their left edges.
     keys: Vec<Vec<(usize, i32)>>,
     pub(super) height: i32,
 }
@@ -32,7 +32,7 @@ impl Layout {
         let names = names.unwrap_or(0) + GAP;
         let columns = grid.columns.len().max(1) as i32;
         let room = width - 2 * MARGIN;
-        // Cells no narrower than a glyph, names no wider than they are.
+        // Cells are at least as wide as a glyph and as the columns' names need.
         let widest = |across: usize| (room / across as i32 - names - GAP) / columns;
         let least = (grid.columns.iter().map(|c| text_width(c, SMALL) / 3).max()).unwrap_or(0);
         let fits = |across: &usize| widest(*across) >= least.max(9 * FINE);
@@ -52,13 +52,13 @@ impl Layout {
         }
     }
 
-    /// A title, the rows, and the columns' names.
+    /// The height of a panel: title, rows, and the columns' names.
     fn panel_height(grid: &Grid) -> i32 {
         ROW + grid.rows.len() as i32 * CELL_HEIGHT + ROW
     }
 }
 
-/// The classes that occur, in rows no wider than the figure.
+/// The legend: the classes that occur, in rows no wider than the figure.
 fn keys(grid: &Grid, most: i32) -> Vec<Vec<(usize, i32)>> {
     let occurs =
         |class: &usize| grid.maps.iter().flat_map(|map| map.cells.iter().flatten()).any(|c| c == class);
@@ -78,7 +78,7 @@ fn keys(grid: &Grid, most: i32) -> Vec<Vec<(usize, i32)>> {
     rows
 }
 
-/// Draws legend, panels and the axes' names, the first line with its top at `top`.
+/// Draws legend, panels and the axes' names, with the top at `top`.
 pub(super) fn draw<DB: DrawingBackend>(
     canvas: &DrawingArea<DB, Shift>,
     figure: &Figure,
@@ -175,7 +175,7 @@ where
         let x = x + (layout.cell_width - text_width(name, SMALL)) / 2;
         canvas.draw(&Text::new(name.as_str(), (x, foot + 2 * FINE), text(SMALL)))?;
     }
-    // A column's value is at its middle; what is beyond the picture is cut.
+    // A column's value is at its centre; values beyond the picture are left out.
     let width = grid.columns.len() as f64;
     let inside = map.limit.iter().filter(|(column, _)| (-0.5..=width - 0.5).contains(column));
     let path: Vec<_> = inside
@@ -191,7 +191,7 @@ where
     Ok(())
 }
 
-/// A decade as an axis names it.
+/// The label of a power of ten on an axis.
 pub(crate) fn decade(exponent: i32) -> String {
     match exponent {
         0 => "1".into(),

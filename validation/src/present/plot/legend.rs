@@ -1,5 +1,5 @@
-//! The legend: rows above the axes, where it covers no data; where that were more than five entries, labels beside the
-//! axes, each as near to the end of its curve as the others let it.
+//! The legend: rows above the axes, where it covers no data; with more than five entries, labels beside the axes, each as near to the
+//! end of its curve as the others allow.
 
 use super::style::{
     FINE, MARGIN, MARKER, ROW, SMALL_MARKER, TEXT, curve, cut, looks, marker, text, text_width, wrap,
@@ -10,38 +10,38 @@ use plotters::prelude::*;
 
 const SAMPLE: i32 = 34 * FINE;
 const GAP: i32 = 6 * FINE;
-/// Letters beside the axes, the lines that they take, and the samples before them.
+/// Size of letters beside the axes, height of their lines, and length of the samples before them.
 const SMALL: f64 = 12.0;
 const LINE: i32 = 16 * FINE;
 const SHORT: i32 = 18 * FINE;
-/// Above the axes there are no more entries than these.
+/// Largest number of entries above the axes.
 const MOST: usize = 5;
 
-/// What an entry shows beside its label.
+/// The sample that an entry shows beside its label.
 #[derive(Clone, Copy)]
 enum Mark {
-    /// With a marker where the curve has them.
+    /// A curve's sample; true with a marker.
     Curve(usize, bool),
     Points(usize),
     Band,
 }
 
-/// One entry and where it stands in its row.
+/// An entry and its position in its row.
 struct Entry {
     mark: Mark,
     label: String,
     x: i32,
 }
 
-/// All entries.
+/// All entries of the legend.
 pub(super) struct Legend {
     rows: Vec<Vec<Entry>>,
-    /// Beside the axes: which series, and its label.
+    /// Entries beside the axes: index of the series, its sample, and the lines of its label.
     beside: Vec<(usize, Mark, Vec<String>)>,
 }
 
 impl Legend {
-    /// For a picture of a width.
+    /// The legend of a picture of this width.
     pub(super) fn of(figure: &Figure, width: i32) -> Self {
         let looks = looks(figure);
         let curves = figure.curves.iter().map(|curve| &curve.label);
@@ -67,29 +67,29 @@ impl Legend {
         Self { rows: rows(above, width), beside }
     }
 
-    /// The rows above the axes.
+    /// The height of the rows above the axes.
     pub(super) fn height(&self) -> i32 {
         self.rows.len() as i32 * ROW
     }
 
-    /// The height that the labels beside the axes need.
+    /// The height of the labels beside the axes.
     pub(super) fn height_beside(&self) -> i32 {
         self.beside.len() as i32 * self.entry_height()
     }
 
-    /// The height of an entry beside the axes: that of the one with most lines.
+    /// The height of an entry beside the axes, as for the one with most lines.
     fn entry_height(&self) -> i32 {
         self.beside.iter().map(|(_, _, lines)| lines.len()).max().unwrap_or(1) as i32 * LINE
     }
 
-    /// The room right of the axes.
+    /// The width needed right of the axes.
     pub(super) fn width(&self) -> i32 {
         let lines = self.beside.iter().flat_map(|(_, _, lines)| lines);
         let widths = lines.map(|line| text_width(line, SMALL));
         widths.max().map_or(0, |width| width + SHORT + 2 * GAP)
     }
 
-    /// Draws what is above the axes, with its top at `top`.
+    /// Draws the rows above the axes, with the top at `top`.
     pub(super) fn draw<DB: DrawingBackend>(&self, canvas: &DrawingArea<DB, Shift>, top: i32) -> Drawn
     where
         DB::ErrorType: 'static,
@@ -105,7 +105,7 @@ impl Legend {
         Ok(())
     }
 
-    /// Draws what is beside the axes, whose right edge and height are given; `end` is where a series ends.
+    /// Draws the labels beside the axes, from `left` and within `height`; `end` gives the height at which a series ends.
     pub(super) fn draw_beside<DB: DrawingBackend>(
         &self,
         canvas: &DrawingArea<DB, Shift>,
@@ -120,7 +120,7 @@ impl Legend {
             (self.beside.iter()).map(|(series, mark, lines)| (end(*series), *mark, lines)).collect();
         let ends = || wanted.iter().map(|entry| entry.0);
         let apart_by = ends().max().unwrap_or(0) - ends().min().unwrap_or(0);
-        // Where most ends are closer than their labels can be, the order in which they were given says more.
+        // If most ends are closer than their labels can be, the given order is more useful.
         if 2 * apart_by > self.height_beside() {
             wanted.sort_by_key(|entry| entry.0);
         }
@@ -158,7 +158,7 @@ fn rows(entries: impl Iterator<Item = (Mark, String)>, width: i32) -> Vec<Vec<En
     rows
 }
 
-/// Places, moved until they ascend, each is `least` from the next and all are inside.
+/// The places, moved such that they ascend, are at least `least` apart, and stay inside.
 fn apart(mut places: Vec<i32>, least: i32, (top, bottom): (i32, i32)) -> Vec<i32> {
     let mut next = top;
     for place in &mut places {

@@ -1,4 +1,4 @@
-//! Letters of DejaVu Sans: how wide a text is, and its outline.
+//! Letters of DejaVu Sans: the width of a text, and its outline.
 
 use std::sync::LazyLock;
 use tiny_skia::PathBuilder;
@@ -9,7 +9,7 @@ type Font = LazyLock<Option<Face<'static>>>;
 static PLAIN: Font = Font::new(|| Face::parse(include_bytes!("../../../fonts/DejaVuSans.ttf"), 0).ok());
 static BOLD: Font = Font::new(|| Face::parse(include_bytes!("../../../fonts/DejaVuSans-Bold.ttf"), 0).ok());
 
-/// A letter that the fonts lack is taken to be as wide as it is high, as the widest are.
+/// Width of a letter that the fonts lack: as wide as high, as the widest letters are.
 const UNKNOWN: f64 = 1.0;
 
 /// A letter of one of the fonts.
@@ -20,7 +20,7 @@ struct Glyph {
 }
 
 impl Glyph {
-    /// A plain one where there is no bold one.
+    /// The glyph of a letter, plain if there is no bold one; `None` if the fonts lack it.
     fn of(letter: char, bold: bool) -> Option<Self> {
         let fonts = if bold { [&BOLD, &PLAIN] } else { [&PLAIN, &BOLD] };
         fonts.into_iter().find_map(|font| {
@@ -29,7 +29,7 @@ impl Glyph {
         })
     }
 
-    /// A length in sizes of the letters.
+    /// A length in units of the letters' size.
     fn ems(self, units: f32) -> f32 {
         units / f32::from(self.face.units_per_em())
     }
@@ -43,23 +43,23 @@ impl Glyph {
     }
 }
 
-/// Combining marks stand on the letter before.
+/// True for combining marks, which are placed on the letter before.
 fn is_mark(letter: char) -> bool {
     ('\u{300}'..'\u{370}').contains(&letter)
 }
 
-/// The width of a text in sizes of its letters.
+/// The width of a text in units of the letters' size.
 pub(super) fn ems(text: &str, bold: bool) -> f64 {
     let letters = text.chars().filter(|letter| !is_mark(*letter));
     let width = |letter| Glyph::of(letter, bold).map_or(UNKNOWN, |glyph| f64::from(glyph.advance()));
     letters.map(width).sum()
 }
 
-/// A text's outline in sizes of its letters, from (0, 0) on, with what is above the line above 0.
+/// A text's outline in units of the letters' size, starting at (0, 0), with y upwards.
 pub(super) struct Line {
     pub(super) outline: PathBuilder,
     pub(super) width: f32,
-    /// Letters that the fonts do not have: empty boxes stand for them.
+    /// Letters that the fonts lack, drawn as empty boxes.
     pub(super) missing: Vec<char>,
 }
 
@@ -94,7 +94,7 @@ impl Line {
         (glyph.face).outline_glyph(glyph.id, &mut Pen { path, scale, x, y });
     }
 
-    /// An upright box, with another inside that is wound the other way and so left white.
+    /// Draws an upright box whose inside is white, because the inner outline runs the other way.
     fn draw_box(&mut self) {
         let (left, right) = (self.width + 0.1, self.width + UNKNOWN as f32 - 0.1);
         let (thick, top) = (0.05, 0.7);
@@ -111,7 +111,7 @@ impl Line {
     }
 }
 
-/// How far a mark is moved to stand over the middle of a letter, and clear of it.
+/// The shift that puts a mark over the middle of a letter, without touching it.
 fn above(letter: Glyph, mark: Glyph) -> (f32, f32) {
     let Some((below, over)) = letter.extent().zip(mark.extent()) else {
         return (0.0, 0.0);
@@ -168,7 +168,7 @@ mod tests {
 
     #[test]
     fn widths_are_those_of_the_font() {
-        // From DejaVu Sans 2.37 by fontTools: advances of 2048 an em.
+        // From DejaVu Sans 2.37 by fontTools: advances in units of 1/2048 em.
         for (letter, plain, bold) in [('m', 1995.0, 2134.0), ('i', 569.0, 702.0), ('⁶', 821.0, 897.0)] {
             let text = letter.to_string();
             assert_eq!(ems(&text, false), plain / 2048.0, "{letter}");

@@ -1,7 +1,7 @@
-//! Pictures of curves, points and maps as SVG, PNG or PDF: plain data in, a file's contents out.
+//! Pictures of curves, points and maps as SVG, PNG or PDF, from plain data.
 //!
-//! Curves differ by colour (Okabe & Ito's palette, safe for the colour-blind), by dashes and, where their points are
-//! few, by markers, points by colour and marker; the legend stands above the axes, where it covers no data.
+//! Curves differ by colour (Okabe & Ito's palette, safe for the colour-blind), by dashes and, if they have few points, by
+//! markers; points differ by colour and marker. The legend is above the axes, where it covers no data.
 
 mod axes;
 mod axis;
@@ -34,7 +34,7 @@ use std::error::Error;
 use style::{AXES_HEIGHT, FINE, MARGIN, ROW, TITLE, WIDTH};
 pub use theme::Theme;
 
-/// A curve with, perhaps, its 95 % band.
+/// A curve, optionally with its 95 % band.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Curve {
     /// Its name in the legend.
@@ -42,10 +42,10 @@ pub struct Curve {
     /// Abscissas.
     #[serde(deserialize_with = "numbers")]
     pub x: Vec<f64>,
-    /// Ordinates; the curve is broken where one is not finite.
+    /// Ordinates; the curve is interrupted at values that are not finite.
     #[serde(deserialize_with = "numbers")]
     pub y: Vec<f64>,
-    /// Half the width of the 95 % band about it, drawn as a translucent area.
+    /// Half the width of the 95 % band around the curve, drawn as a translucent area.
     #[serde(deserialize_with = "some_numbers")]
     pub half_band: Option<Vec<f64>>,
 }
@@ -71,14 +71,14 @@ impl Curve {
         Self { label, x, y, half_band: y_error }
     }
 
-    /// True if each of its points is marked: there are few, and each is a result of its own. A line through two is a
-    /// guide for the eye, and theory has no points.
+    /// True if the curve's points are marked: there are few, and each is a result by itself. A line through two points guides
+    /// the eye, and theory has no points.
     fn is_marked(&self) -> bool {
         (3..=40).contains(&self.x.len()) && !self.label.ends_with(", theory")
     }
 }
 
-/// Single points with, perhaps, error bars.
+/// Single points, optionally with error bars.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Points {
     /// Their name in the legend.
@@ -86,7 +86,7 @@ pub struct Points {
     /// Abscissas.
     #[serde(deserialize_with = "numbers")]
     pub x: Vec<f64>,
-    /// Ordinates; a point with one that is not finite is left out.
+    /// Ordinates; points with values that are not finite are left out.
     #[serde(deserialize_with = "numbers")]
     pub y: Vec<f64>,
     /// Half the length of the horizontal error bars.
@@ -120,73 +120,73 @@ impl Points {
     }
 }
 
-/// A map: which class of what was found in each row and column.
+/// A map: the class in each row and column.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Map {
-    /// What it is of.
+    /// Title of the map.
     pub title: String,
-    /// The number of the class in each cell, row by row.
+    /// Index of the class in each cell, row by row.
     pub cells: Vec<Vec<usize>>,
-    /// A line of theory through it, in columns and rows: 0 is the middle of the first.
+    /// A line of theory, in units of columns and rows: 0 is the centre of the first.
     pub limit: Vec<(f64, f64)>,
 }
 
 /// Maps with the same rows and columns, side by side.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Grid {
-    /// What the classes are called.
+    /// Names of the classes.
     pub classes: Vec<String>,
-    /// The columns' names; empty where there is no room for one.
+    /// The columns' names; empty if there is no space for one.
     pub columns: Vec<String>,
-    /// What every column is, as data.
+    /// The values of the columns, for the data files.
     pub values: Vec<String>,
     /// The rows' names.
     pub rows: Vec<String>,
     /// The maps.
     pub maps: Vec<Map>,
-    /// What the line is.
+    /// Name of the line of theory.
     pub limit_name: String,
 }
 
 /// A picture.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Figure {
-    /// What is shown.
+    /// Title of the figure.
     pub title: String,
-    /// The horizontal axis, with its unit.
+    /// Name of the horizontal axis, with its unit.
     pub x_name: String,
-    /// The vertical axis, with its unit; some 40 letters fit.
+    /// Name of the vertical axis, with its unit; about 40 letters fit.
     pub y_name: String,
     /// Curves, drawn beneath the points.
     pub curves: Vec<Curve>,
     /// Points.
     pub points: Vec<Points>,
-    /// A logarithmic horizontal axis; what is not positive has no place on it.
+    /// True for a logarithmic horizontal axis; values that are not positive are left out.
     pub x_log: bool,
-    /// A logarithmic vertical axis.
+    /// True for a logarithmic vertical axis.
     pub y_log: bool,
-    /// What the horizontal axis covers at least; data beyond it widen it.
+    /// Range that the horizontal axis covers at least; data beyond it widen it.
     pub x_span: Option<(f64, f64)>,
-    /// What the vertical axis covers at least.
+    /// Range that the vertical axis covers at least.
     pub y_span: Option<(f64, f64)>,
-    /// What the horizontal axis covers, from and to: data beyond it are cut off.
+    /// Exact range of the horizontal axis: data beyond it are cut off.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub x_range: Option<(f64, f64)>,
-    /// What the vertical axis covers.
+    /// Exact range of the vertical axis.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub y_range: Option<(f64, f64)>,
     /// Maps, in place of curves and points.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub grid: Option<Grid>,
-    /// Width and height of the whole picture in pixels of 1/96 inch, where it is not as large as it needs.
+    /// Width and height of the whole picture in pixels of 1/96 inch; `None` for the size that it needs.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub size: Option<(u32, u32)>,
-    /// The ground that it is for.
+    /// The background for which it is drawn.
     #[serde(default, skip_serializing_if = "is_light")]
     pub theme: Theme,
 }
 
-/// Numbers of a record: JSON has null for those that are not finite.
+/// Numbers of a record: JSON has null for values that are not finite.
 fn numbers<'de, D: Deserializer<'de>>(record: D) -> Result<Vec<f64>, D::Error> {
     some_numbers(record).map(Option::unwrap_or_default)
 }
@@ -200,17 +200,17 @@ fn is_light(theme: &Theme) -> bool {
     *theme == Theme::Light
 }
 
-/// A picture as a file that has no letters of its own.
+/// A picture as a file that needs no fonts.
 pub struct Drawing {
-    /// The file.
+    /// Contents of the file.
     pub bytes: Vec<u8>,
-    /// Characters that the fonts here do not have; each is drawn as an empty box.
+    /// Characters that the fonts lack; each is drawn as an empty box.
     pub missing: BTreeSet<char>,
 }
 
 type Drawn = Result<(), Box<dyn Error>>;
 
-/// The figure as an SVG document, which may also stand inside HTML. Texts are typeset: x_1 is x₁.
+/// The figure as an SVG document, which may also be embedded in HTML. Texts are typeset: x_1 becomes x₁.
 pub fn svg(figure: &Figure) -> Result<String, String> {
     let figure = &typeset(figure);
     let parts = Parts::of(figure);
@@ -221,10 +221,10 @@ pub fn svg(figure: &Figure) -> Result<String, String> {
     Ok(figure.theme.svg(finish(figure, &drawing, (parts.width, parts.height))))
 }
 
-/// Axes are never lower, whatever size is asked for.
+/// Smallest height of the axes, whatever size is requested.
 const LEAST_AXES: i32 = 140 * FINE;
 
-/// What is above the axes, and how high everything is.
+/// The parts above the axes, and the size of the picture.
 struct Parts {
     title: Vec<String>,
     legend: Legend,
@@ -236,7 +236,7 @@ struct Parts {
 impl Parts {
     fn of(figure: &Figure) -> Self {
         let width = figure.size.map_or(WIDTH, |(width, _)| width as i32 * FINE);
-        // Maps are as high as their cells.
+        // The height of maps follows from their cells.
         let asked = figure.size.filter(|_| figure.grid.is_none());
         let title = style::wrap(&figure.title, width - 2 * MARGIN, TITLE);
         let legend = Legend::of(figure, width);
@@ -270,7 +270,7 @@ impl Parts {
     }
 }
 
-/// As [`svg`], with the first curve in bold black and the others in grey.
+/// Like [`svg`], with the first curve in bold black and the others in grey.
 pub fn svg_of_one(figure: &Figure) -> Result<String, String> {
     let drawn = svg(figure)?;
     let looks = style::looks(figure);
@@ -291,13 +291,13 @@ fn typeset(figure: &Figure) -> Figure {
         titles.chain(names)
     });
     for text in texts.into_iter().chain(curves).chain(points).chain(maps) {
-        // XML has no place for some characters, not even escaped.
+        // XML does not allow some characters, not even escaped.
         *text = readable(&unicode(&powers(text))).into_owned();
     }
     figure
 }
 
-/// Sizes the document, names it for those who cannot see it, and adds what plotters lacks: dashes.
+/// Sets the document's size, adds names for screen readers, and adds dashes, which plotters lacks.
 fn finish(figure: &Figure, drawing: &str, (width, height): (i32, i32)) -> String {
     let labels: Vec<_> = (figure.curves.iter().map(|c| c.label.as_str()))
         .chain(figure.points.iter().map(|p| p.label.as_str()))

@@ -1,6 +1,6 @@
-//! Letters and units of what the program's columns and keys are: for axes and legends.
+//! Symbols and units of the program's columns and keys, for axes and legends.
 
-/// A column of `shearbed run`, as `X̄₁` for `x1`; one without a letter is itself.
+/// The symbol of a column of `shearbed run`, such as `X̄₁` for `x1`; the column's name if it has no symbol.
 pub(crate) fn channel(column: &str) -> String {
     let digits = |text: &str| !text.is_empty() && text.bytes().all(|byte| (b'1'..=b'3').contains(&byte));
     match column {
@@ -16,7 +16,7 @@ pub(crate) fn channel(column: &str) -> String {
     }
 }
 
-/// A column of times.
+/// The label of a column of times.
 pub(crate) fn time(column: &str) -> String {
     match column {
         "t_over_T" => "t/T",
@@ -27,7 +27,7 @@ pub(crate) fn time(column: &str) -> String {
     .to_owned()
 }
 
-/// The letter and the unit of a key; of one without a letter its last word.
+/// The symbol and the unit of a key; the last word of a key without a symbol.
 fn letter(key: &str) -> (&str, &'static str) {
     match key {
         "interaction.alpha" => ("α", ""),
@@ -42,7 +42,7 @@ fn letter(key: &str) -> (&str, &'static str) {
     }
 }
 
-/// A key on an axis, with its unit: `n (cm⁻³)`. `2:KEY` is that of the second set.
+/// The label of a key on an axis, with its unit: `n (cm⁻³)`. `2:KEY` is the key of the second set.
 pub(crate) fn key(label: &str) -> String {
     let (set, key) = label.split_once(':').map_or((None, label), |(set, key)| (Some(set), key));
     let (letter, unit) = letter(key);
@@ -51,7 +51,7 @@ pub(crate) fn key(label: &str) -> String {
     format!("{letter}{of}{unit}")
 }
 
-/// A point of a sweep, `KEY=VALUE KEY=VALUE`, as `α = 0.5, n = 20 cm⁻³`. A word without `=` goes on with the value before.
+/// A point of a sweep, `KEY=VALUE KEY=VALUE`, as `α = 0.5, n = 20 cm⁻³`. A word without `=` continues the value before.
 pub(crate) fn point(described: &str) -> String {
     let mut values: Vec<(String, &str)> = Vec::new();
     for word in described.split(' ') {

@@ -1,4 +1,4 @@
-//! The same picture on a page of a PDF: paths alone, so letters are outlines and need no font.
+//! The figure on a page of a PDF, made only of paths: letters are outlines and need no font.
 
 #[cfg(test)]
 mod tests;
@@ -12,7 +12,7 @@ use plotters_backend::BackendColor;
 use std::collections::BTreeSet;
 use tiny_skia::{Path, PathSegment, Point};
 
-/// A page of the picture's size: a pixel of the SVG is 1/96 inch, 0.75 points.
+/// The figure as a PDF page of its size: a pixel of the SVG is 1/96 inch, 0.75 points.
 pub fn pdf(figure: &Figure) -> Result<Drawing, String> {
     let (page, missing) = sheet::draw(figure, |width, height| Some(Page::new(width, height)))?;
     Ok(Drawing { bytes: page.file(&figure.title), missing })
@@ -23,7 +23,7 @@ const POINTS: f32 = 0.75 / FINE as f32;
 struct Page {
     size: [f32; 2],
     content: Content,
-    /// Opacities, in 255ths.
+    /// Opacities in use, in 255ths.
     opacities: BTreeSet<u8>,
 }
 
@@ -31,14 +31,14 @@ impl Page {
     fn new(width: u32, height: u32) -> Self {
         let size = [width as f32 * POINTS, height as f32 * POINTS];
         let mut content = Content::new();
-        // y is downwards in pictures, upwards on pages.
+        // y points down in pictures, up on pages.
         content.transform([POINTS, 0.0, 0.0, -POINTS, 0.0, size[1]]);
         content.set_line_join(LineJoinStyle::RoundJoin);
         Self { size, content, opacities: BTreeSet::new() }
     }
 
     fn draw(&mut self, path: &Path) {
-        // Curves of a PDF are cubic: a quadratic one has its middle points two thirds of the way to the one it has.
+        // Curves in a PDF are cubic: both their middle points are two thirds of the way to a quadratic curve's middle point.
         let towards = |a: Point, b: Point| (a.x + (b.x - a.x) * 2.0 / 3.0, a.y + (b.y - a.y) * 2.0 / 3.0);
         let content = &mut self.content;
         let mut last = Point::zero();
@@ -101,7 +101,7 @@ impl Page {
     }
 }
 
-/// What an opacity is called on the page.
+/// The name of an opacity on the page.
 fn name(opacity: u8) -> String {
     format!("a{opacity}")
 }

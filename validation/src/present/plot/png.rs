@@ -1,4 +1,4 @@
-//! The same picture in pixels, by tiny-skia.
+//! The figure in pixels, drawn by tiny-skia.
 
 #[cfg(test)]
 mod tests;
@@ -9,7 +9,7 @@ use super::{Drawing, Figure};
 use plotters_backend::BackendColor;
 use tiny_skia::{Color, FillRule, LineJoin, Paint, Path, Pixmap, Stroke, StrokeDash, Transform};
 
-/// The figure as [`super::svg`] draws it, as a PNG file: four pixels for one of the SVG in each direction, at 384 an inch.
+/// The figure as [`super::svg`] draws it, as a PNG file with four pixels per SVG pixel in each direction, 384 an inch.
 pub fn png(figure: &Figure) -> Result<Drawing, String> {
     let (pixels, missing) = sheet::draw(figure, Pixmap::new)?;
     let cannot = |error| format!("cannot draw the figure '{}': {error}", figure.title);
@@ -28,7 +28,7 @@ fn encoded(pixels: &Pixmap) -> Result<Vec<u8>, png::EncodingError> {
         unit: png::Unit::Meter,
     }));
     let mut writer = encoder.write_header()?;
-    // White is drawn first: no pixel is transparent.
+    // White is drawn first, so no pixel is transparent.
     let rgb: Vec<u8> =
         (pixels.pixels().iter()).flat_map(|pixel| [pixel.red(), pixel.green(), pixel.blue()]).collect();
     writer.write_image_data(&rgb)?;

@@ -1,4 +1,4 @@
-//! What plotters draws as SVG, as paths on another canvas: letters are outlines of DejaVu Sans.
+//! Draws what plotters would write as SVG as paths on another canvas; letters are outlines of DejaVu Sans.
 
 use super::letters::Line;
 use super::style::{self, CURVE_WIDTH};
@@ -14,15 +14,15 @@ use std::collections::BTreeSet;
 use std::convert::Infallible;
 use tiny_skia::{Path, PathBuilder, Rect, Transform};
 
-/// What fills and strokes paths in the units of the view box, with y downwards.
+/// A canvas that fills and strokes paths in the units of the view box, with y downwards.
 pub(super) trait Canvas {
     fn fill(&mut self, path: &Path, color: BackendColor);
-    /// With round joins; lengths of dashes and gaps where there are any.
+    /// Strokes with round joins; `dashes` are the lengths of dashes and gaps, if any.
     fn stroke(&mut self, path: &Path, color: BackendColor, width: f32, dashes: &[f32]);
 }
 
-/// Draws a figure on the canvas that `make` makes of a width and a height. Characters that the fonts do not have are returned:
-/// each is drawn as an empty box.
+/// Draws a figure on the canvas that `make` returns for a width and a height. Returns the characters that the fonts lack, which are
+/// drawn as empty boxes.
 pub(super) fn draw<C: Canvas>(
     figure: &Figure,
     make: impl FnOnce(u32, u32) -> Option<C>,
@@ -72,7 +72,7 @@ fn path(points: impl IntoIterator<Item = BackendCoord>) -> PathBuilder {
 
 impl<C: Canvas> Sheet<C> {
     fn fill(&mut self, path: Option<Path>, color: BackendColor, place: Transform) -> Done {
-        // A path without an extent has nothing to fill.
+        // A path without area has nothing to fill.
         if let Some(path) = path.and_then(|path| path.transform(place)) {
             self.canvas.fill(&path, self.theme.of(color));
         }

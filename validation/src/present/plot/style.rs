@@ -3,11 +3,11 @@
 use super::Figure;
 use plotters::prelude::*;
 
-/// Plotters' SVG has whole pixels only: figures are drawn this much larger, and scaled by the view box.
+/// Scale of drawing: plotters' SVG has only whole pixels, so figures are drawn this much larger, and scaled by the view box.
 pub(super) const FINE: i32 = 4;
 pub(super) const WIDTH: i32 = 560 * FINE;
 pub(super) const AXES_HEIGHT: i32 = 340 * FINE;
-/// What is above and below the axes in that height.
+/// The part of that height above and below the axes.
 pub(super) const AXES_FRAME: i32 = 76 * FINE;
 pub(super) const ROW: i32 = 23 * FINE;
 pub(super) const MARGIN: i32 = 12 * FINE;
@@ -17,11 +17,11 @@ pub(super) const TITLE: f64 = 17.0;
 pub(super) const MARKER: i32 = 5 * FINE;
 /// The size of the markers on a curve.
 pub(super) const SMALL_MARKER: i32 = 4 * FINE;
-/// Not a curve's width, so that error bars are not dashed.
+/// Differs from a curve's width, so that error bars are not dashed.
 pub(super) const BAR_WIDTH: u32 = 6;
 pub(super) const CURVE_WIDTH: u32 = 8;
 
-/// Okabe & Ito (2008), without the yellow that is lost on white.
+/// Okabe & Ito (2008), without the yellow, which is hard to see on white.
 const PALETTE: [RGBColor; 11] = [
     RGBColor(0, 114, 178),
     RGBColor(213, 94, 0),
@@ -36,13 +36,13 @@ const PALETTE: [RGBColor; 11] = [
     RGBColor(150, 90, 50),
 ];
 
-/// Dashes and gaps.
+/// Lengths of dashes and gaps.
 const DASHES: [&str; 6] = ["", "32 14", "8 12", "44 12 8 12", "18 10", "60 16"];
 
-/// What has none of the palette's colours is grey, and told apart by its dashes, its marker and the label at its end.
+/// Grey of series beyond the palette, which differ by dashes, marker and the label at their end.
 const GREY: u8 = 140;
 
-/// The integrators that are drawn in many pictures, each with the same colour, dashes and marker in all of them.
+/// The integrators drawn in many pictures, always with the same colour, dashes and marker.
 const NAMED: [&str; 11] = [
     "exact propagator",
     "explicit Euler in angles",
@@ -57,11 +57,11 @@ const NAMED: [&str; 11] = [
     "projected RK4 in p",
 ];
 
-/// A theory's line has its method's colour, and a number beyond all others.
+/// A theory's line has its method's colour; its look is this much above the method's, and so above all others.
 const THEORY: usize = 42;
 
-/// The look of every curve and then of all points: that of the integrator that the label names, or the first that nobody
-/// in the figure has.
+/// The look of every curve and then of all points: that of the integrator named in the label, or the first that is not used in the
+/// figure.
 pub(super) fn looks(figure: &Figure) -> Vec<usize> {
     let labels = figure.curves.iter().map(|c| &c.label).chain(figure.points.iter().map(|p| &p.label));
     let named = |label: &String| {
@@ -76,7 +76,7 @@ pub(super) fn looks(figure: &Figure) -> Vec<usize> {
     (known.iter()).map(|look| look.or_else(|| free.next()).unwrap_or(0)).collect()
 }
 
-/// The colour of a look. Each has a colour of its own, if only by its last bits, so that `curve_stroke` names one curve.
+/// The colour of a look. All differ, if only in the last bits, so that `curve_stroke` identifies one curve.
 pub(super) fn colour(index: usize) -> RGBColor {
     let (method, theory) = (index % THEORY, (index / THEORY) as u8);
     match PALETTE.get(method) {
@@ -88,12 +88,12 @@ pub(super) fn colour(index: usize) -> RGBColor {
     }
 }
 
-/// True if a look has a colour of its own, and is not grey.
+/// True if a look has a colour of the palette, and is not grey.
 pub(super) fn is_coloured(index: usize) -> bool {
     index % THEORY < PALETTE.len()
 }
 
-/// The colours of a map's classes, from right to not run: told apart also in grey, on a dark page that turns lightness round, and
+/// The colours of a map's classes, from right to not run. They also differ in grey, on a dark page that inverts lightness, and
 /// by their glyphs.
 pub(super) const CLASSES: [RGBColor; 6] = [
     RGBColor(70, 145, 200),
@@ -104,7 +104,7 @@ pub(super) const CLASSES: [RGBColor; 6] = [
     RGBColor(235, 235, 235),
 ];
 
-/// The ink of a class's glyph.
+/// The colour of a class's glyph.
 pub(super) fn class_ink(class: usize) -> RGBColor {
     match class {
         3 => RGBColor(255, 255, 255),
@@ -112,7 +112,7 @@ pub(super) fn class_ink(class: usize) -> RGBColor {
     }
 }
 
-/// The strokes of a class's glyph about its cell's middle: nothing for right, then a stroke, a cross, two bars, a
+/// The strokes of a class's glyph around the centre of its cell: nothing for right, then a stroke, a cross, two bars, a
 /// square, a dot.
 pub(super) fn glyph(class: usize) -> Vec<Vec<(i32, i32)>> {
     let r = 3 * FINE;
@@ -130,18 +130,18 @@ pub(super) fn curve(index: usize) -> ShapeStyle {
     colour(index).stroke_width(CURVE_WIDTH)
 }
 
-/// How plotters writes the stroke of a curve.
+/// The stroke of a curve as plotters writes it.
 pub(super) fn curve_stroke(index: usize) -> String {
     let RGBColor(red, green, blue) = colour(index);
     format!("stroke=\"#{red:02X}{green:02X}{blue:02X}\" stroke-width=\"{CURVE_WIDTH}\"")
 }
 
-/// The lengths of a curve's dashes and gaps; empty where it has none.
+/// The lengths of a curve's dashes and gaps; empty for a solid curve.
 pub(super) fn dash_lengths(index: usize) -> &'static str {
     DASHES[index % DASHES.len()]
 }
 
-/// The attribute that makes the dashes of a curve.
+/// The SVG attribute for the dashes of a curve.
 pub(super) fn dashes(index: usize) -> String {
     match dash_lengths(index) {
         "" => String::new(),
@@ -149,8 +149,8 @@ pub(super) fn dashes(index: usize) -> String {
     }
 }
 
-/// The mark of a point about the origin: a disc, a diamond, a triangle, a square, a triangle on its tip, as a polygon
-/// given by its number of corners and the angle of the first.
+/// The marker of a point around the origin: a disc, a diamond, a triangle, a square, a triangle on its tip, as a polygon
+/// defined by its number of corners and the angle of the first.
 pub(super) fn marker(index: usize, size: i32) -> Polygon<(i32, i32)> {
     let (corners, first) = [(16, 0.0), (4, 0.0), (3, 0.75), (4, 0.125), (3, 0.25)][index % 5];
     let radius = f64::from(size) * if corners == 16 { 0.85 } else { 1.1 };
@@ -164,36 +164,36 @@ pub(super) fn marker(index: usize, size: i32) -> Polygon<(i32, i32)> {
     Polygon::new(outline, colour(index).filled())
 }
 
-/// Dark text of a size in the units of the view.
+/// The style of dark text of this size, in the units of the view.
 pub(super) fn text(size: f64) -> TextStyle<'static> {
     styled(size, FontStyle::Normal)
 }
 
-/// The same, bold.
+/// The style of bold dark text of this size.
 pub(super) fn bold(size: f64) -> TextStyle<'static> {
     styled(size, FontStyle::Bold)
 }
 
 fn styled(size: f64, style: FontStyle) -> TextStyle<'static> {
-    // Plotters divides by 1.24 on the way to the SVG.
+    // Plotters divides by 1.24 when it writes SVG.
     let font = ("sans-serif", size * 1.24 * f64::from(FINE)).into_font();
     font.style(style).color(&RGBColor(34, 34, 34))
 }
 
-/// Lines of a title.
+/// Largest number of lines of a title.
 const MOST_LINES: usize = 4;
 
-/// The room a text needs in the widest font that a browser or a printer falls back to: DejaVu Sans, bold for what may be
+/// The width of a text in the widest font that a browser or a printer falls back to: DejaVu Sans, bold for sizes that may be
 /// bold.
 pub(super) fn text_width(text: &str, size: f64) -> i32 {
     let bold = size >= TITLE || size == SMALL_BOLD;
     (super::letters::ems(text, bold) * size * f64::from(FINE)).ceil() as i32
 }
 
-/// The letters of a map's title.
+/// Size of the letters of a map's title.
 pub(super) const SMALL_BOLD: f64 = 12.0;
 
-/// As much of a text as there is room for; `…` stands for the rest.
+/// The part of a text that fits into `room`; `…` stands for the rest.
 pub(super) fn cut(text: &str, room: i32, size: f64) -> String {
     if text_width(text, size) <= room {
         return text.to_owned();
@@ -210,7 +210,7 @@ pub(super) fn cut(text: &str, room: i32, size: f64) -> String {
     kept
 }
 
-/// The lines of a text that has so much room, four at most; a word without room is cut.
+/// The lines of a text within the width `room`, four at most; a word that is too wide is cut.
 pub(super) fn wrap(text: &str, room: i32, size: f64) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     for word in text.split_whitespace() {
@@ -237,7 +237,7 @@ mod tests {
 
     #[test]
     fn no_two_curves_look_the_same() {
-        // To the eye: colours, or grey with dashes and marker.
+        // Looks as the eye sees them: a colour, or grey with dashes and marker.
         let looks: std::collections::BTreeSet<_> = (0..37)
             .map(|index| {
                 let marker = (index >= PALETTE.len()).then(|| (dashes(index), index % 5));
@@ -256,7 +256,7 @@ mod tests {
             let apart = r.abs_diff(s).max(g.abs_diff(h)).max(b1.abs_diff(b2));
             assert!(is_coloured(a) && apart > 50, "{} and {}", NAMED[a], NAMED[b]);
         }
-        // Control: what has no colour of its own is grey, and near to other greys.
+        // Control: a series beyond the palette is grey, and close to other greys.
         assert!(!is_coloured(NAMED.len()));
         let (RGBColor(red, ..), RGBColor(next, ..)) = (colour(NAMED.len()), colour(NAMED.len() + 1));
         assert!(red.abs_diff(next) < 8);

@@ -1,4 +1,4 @@
-//! What pictures must be, on made-up data.
+//! Tests of pictures on made-up data.
 
 mod figures;
 
@@ -129,7 +129,7 @@ fn no_text_leaves_its_picture_or_overlaps_another() {
         let faults = boxes::faults(&svg);
         assert!(faults.is_empty(), "{}: {faults:#?}", figure.title);
     }
-    // The label at the end of an axis is a wide one.
+    // The label at the end of an axis is wide.
     for x in [[5e-3, 0.5], [2e5, 5e6]] {
         let curve = Curve { x: x.into(), y: vec![1.0, 2.0], ..Default::default() };
         for x_log in [true, false] {
@@ -138,7 +138,7 @@ fn no_text_leaves_its_picture_or_overlaps_another() {
             assert!(faults.is_empty(), "{x:?}: {faults:#?}");
         }
     }
-    // What a user may write: words without end, and more runs than there is room for.
+    // Extreme input: endless words, and more runs than fit.
     let long = |name: &str| format!("{name}{}", "unendliches".repeat(20));
     for count in [3, 30] {
         let mut figure = Figure {
@@ -153,7 +153,7 @@ fn no_text_leaves_its_picture_or_overlaps_another() {
         let faults = boxes::faults(&svg);
         assert!(faults.is_empty(), "{count}: {faults:#?}");
     }
-    // Controls: a text that is moved out, and one that is moved onto another.
+    // Controls: a text moved outside, and one moved onto another.
     let svg = svg(&many()).unwrap();
     let place = svg.split("<text x=\"").nth(1).unwrap().split('"').next().unwrap();
     let moved = |to: &str| svg.replacen(&format!("<text x=\"{place}\""), &format!("<text x=\"{to}\""), 1);
@@ -166,7 +166,7 @@ fn no_text_leaves_its_picture_or_overlaps_another() {
 fn few_points_are_shown_and_theory_has_none() {
     let markers = |figure: &Figure| svg(figure).unwrap().matches("<polygon").count();
     let mut figure = many();
-    // Three points and a sample in the legend, of each.
+    // Each has three points and a sample in the legend.
     assert_eq!(markers(&figure), 7 * 4);
     figure.curves[0].label += ", theory";
     assert_eq!(markers(&figure), 6 * 4);
@@ -175,7 +175,7 @@ fn few_points_are_shown_and_theory_has_none() {
     assert_eq!(markers(&figure), 0);
 }
 
-/// Every picture of the paper's figures, with the titles and names that the report has.
+/// All pictures of the paper's figures, with the titles and names of the report.
 #[test]
 fn no_text_of_the_papers_figures_leaves_its_picture_or_overlaps_another() {
     let few = crate::studies::figures::Replicas { interacting: 2, free: 2 };
@@ -204,7 +204,7 @@ fn an_integrator_looks_the_same_in_every_picture() {
         (red, green)
     };
     assert_eq!(hue(looks[0]), hue(looks[1]));
-    // Others take what nobody has.
+    // Other curves get looks that are not used.
     let mixed = Figure { curves: vec![many().curves[0].clone(), wave("mine", 0.0)], ..Default::default() };
     assert_eq!(style::looks(&mixed), [0, 1]);
 }

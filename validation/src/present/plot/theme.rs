@@ -1,9 +1,9 @@
-//! Light and dark: the same figure in other colours.
+//! Light and dark: the same figure in different colours.
 
 use plotters_backend::BackendColor;
 use serde::{Deserialize, Serialize};
 
-/// The ground that a figure is for.
+/// The background for which a figure is drawn.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Theme {
@@ -14,10 +14,10 @@ pub enum Theme {
     Dark,
 }
 
-/// How much of its distance from white a colour keeps on a dark ground.
+/// Share of its distance from white that a colour keeps on a dark background.
 const KEPT: f64 = 0.7;
 
-/// White paper's counterpart.
+/// Grey level of the dark background, in place of white.
 const GROUND: f64 = 24.0;
 
 impl Theme {
@@ -25,7 +25,7 @@ impl Theme {
         BackendColor { rgb: self.rgb(color.rgb), ..color }
     }
 
-    /// On a dark ground greys are turned about, and colours are lightened: what differed differs.
+    /// On a dark background greys are inverted and colours lightened: colours that differ still differ.
     fn rgb(self, (red, green, blue): (u8, u8, u8)) -> (u8, u8, u8) {
         let all = [red, green, blue];
         let spread = red.max(green).max(blue) - red.min(green).min(blue);
@@ -41,7 +41,7 @@ impl Theme {
         }
     }
 
-    /// The same in an SVG document. Colours are whole attributes there, and no text has a quotation mark that is not escaped.
+    /// The SVG document in the colours of this theme. Colours are whole attributes there, and quotation marks in texts are escaped.
     pub(super) fn svg(self, drawing: String) -> String {
         if self == Self::Light {
             return drawing;
@@ -89,7 +89,7 @@ mod tests {
         for look in 0..11 {
             let color = super::super::style::colour(look);
             let color = (color.0, color.1, color.2);
-            // WCAG asks 3 of graphics; control: some colour as it is on white would not have it.
+            // WCAG requires 3 for graphics; control: a colour as it is on white may not reach it.
             assert!(contrast(Theme::Dark.rgb(color), ground) > 3.0, "{look}: {color:?}");
         }
         assert!(contrast((51, 34, 136), ground) < 3.0);
@@ -104,7 +104,7 @@ mod tests {
             parts.map(|(k, part)| if k == 0 { part } else { &part[6..] }.to_owned()).collect::<String>()
         };
         assert_eq!(bare(&light), bare(&dark));
-        // The ground; black, as of a band in the legend, is white on it.
+        // The background; black, as of a band in the legend, becomes white on it.
         assert!(!light.contains("#181818") && dark.contains("fill=\"#181818\""));
         // A text that looks like an attribute stays.
         let titled = Figure { title: "a=\"#FFFFFF\"".into(), theme: Theme::Dark, ..synthetic() };

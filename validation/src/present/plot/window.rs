@@ -1,8 +1,8 @@
-//! What of a curve or an area is inside the axes.
+//! Clips curves and areas to the axes.
 
 type Point = (f64, f64);
 
-/// From and to of both axes, in placed values.
+/// The ranges of both axes, in placed values.
 pub(super) struct Window {
     pub(super) x: (f64, f64),
     pub(super) y: (f64, f64),
@@ -14,7 +14,7 @@ impl Window {
         (self.x.0..=self.x.1).contains(&x) && (self.y.0..=self.y.1).contains(&y)
     }
 
-    /// How far a point is inside of each side of the frame.
+    /// The distance of a point from each side of the frame, positive inside.
     fn depths(&self, (x, y): Point) -> [f64; 4] {
         [x - self.x.0, self.x.1 - x, y - self.y.0, self.y.1 - y]
     }
@@ -70,7 +70,7 @@ impl Window {
     }
 }
 
-/// The ends themselves at 0 and 1, to the bit.
+/// The point at `share` between `a` and `b`; exactly the ends at 0 and 1.
 fn between(a: Point, b: Point, share: f64) -> Point {
     match share {
         0.0 => a,
@@ -93,10 +93,10 @@ mod tests {
         let expected =
             vec![vec![(0.0, 0.5), (0.5, 0.5), (0.5, 1.0)], vec![(0.75, 1.0), (0.75, 0.5), (0.9, 0.5)]];
         assert_eq!(lines(&zigzag), expected);
-        // Across a corner from outside to outside, and past it.
+        // Across a corner from outside to outside, and past the corner.
         assert_eq!(lines(&[(-0.5, 1.0), (0.5, 0.0)]), vec![vec![(0.0, 0.5), (0.5, 0.0)]]);
         assert!(lines(&[(-0.5, 0.25), (0.25, -0.5)]).is_empty());
-        // What is inside is not touched.
+        // A line inside is unchanged.
         let inside = vec![(0.1, 0.3), (0.7, 0.9), (1.0, 0.0)];
         assert_eq!(lines(&inside), vec![inside]);
     }

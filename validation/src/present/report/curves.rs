@@ -5,8 +5,8 @@ use crate::files::text::cell;
 use crate::present::plot::{Figure, Grid};
 use crate::present::table::{ReportTable, words};
 
-/// A figure as CSV: a row for each point of each curve, with the half widths of its 95 % intervals where it has them.
-/// Every number is the shortest text that reads back as the same bits.
+/// A figure as CSV: a row for each point of each curve, with the half widths of its 95 % intervals if it has them. Every
+/// number is the shortest text that reads back as the same bits.
 pub(super) fn csv(figure: &ReportFigure) -> Result<String, String> {
     let picture = &figure.figure;
     if let Some(grid) = &picture.grid {
@@ -31,7 +31,7 @@ pub(super) fn csv(figure: &ReportFigure) -> Result<String, String> {
     String::from_utf8(bytes).map_err(|error| error.to_string())
 }
 
-/// Maps as CSV: a row for each cell, with its sign and the class in words.
+/// Maps as CSV: a row for each cell, with the class as a number and in words.
 fn cells(picture: &Figure, grid: &Grid) -> Result<String, String> {
     type Cell<'a> = (&'a str, usize, &'a str, usize);
     let maps = grid.maps.iter();

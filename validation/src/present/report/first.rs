@@ -1,4 +1,4 @@
-//! What the first screen shows: the verdict in parts, three pictures, and where to look first.
+//! The first screen of the report: the verdict in parts, three pictures, and the cases to look at first.
 
 use super::formats::share;
 use super::{Part, Report};
@@ -7,7 +7,7 @@ use crate::judge::case::Judges;
 use crate::present::plot::{self, Figure};
 use serde::Serialize;
 
-/// What a part of the verdict says.
+/// A part of the verdict.
 #[derive(Serialize)]
 pub(super) struct Card {
     tag: &'static str,
@@ -16,21 +16,21 @@ pub(super) struct Card {
     class: Verdict,
 }
 
-/// A small picture that leads to its place.
+/// A small picture that links to its place.
 #[derive(Serialize)]
 pub(super) struct Thumbnail<'a> {
     name: &'a str,
     svg: String,
 }
 
-/// A case that passes, and how much of its tolerance it uses.
+/// A passing case, and the share of its tolerance that it uses.
 #[derive(Serialize)]
 pub(super) struct Closest<'a> {
     name: &'a str,
     used: String,
 }
 
-/// What the cases of a kind judge, as a heading.
+/// The heading of the cases of a kind.
 pub(super) fn title(judges: Judges) -> &'static str {
     match judges {
         Judges::Core => "Verification of the core",
@@ -43,7 +43,7 @@ pub(super) fn title(judges: Judges) -> &'static str {
     }
 }
 
-/// What it means that they pass.
+/// What it means that the cases of a kind pass.
 pub(super) fn means(judges: Judges) -> &'static str {
     match judges {
         Judges::Core => "The equations are solved right: closed forms, orders, invariants.",
@@ -56,7 +56,7 @@ pub(super) fn means(judges: Judges) -> &'static str {
     }
 }
 
-/// A card for each part.
+/// The cards, one for each part.
 pub(super) fn cards(report: &Report) -> Vec<Card> {
     let parts = report.summary.parts.iter();
     parts
@@ -89,10 +89,10 @@ fn count(part: &Part) -> String {
     }
 }
 
-/// The pictures of the first screen, as far as they are there: the paper's Fig. 4, error against run time, and one map of
+/// The pictures of the first screen, if they exist: the paper's Fig. 4, error against run time, and one map of
 /// stability.
 pub(super) fn thumbnails(report: &Report) -> Result<Vec<Thumbnail<'_>>, String> {
-    // Three stand side by side, and letters are to be read: what has room for larger ones has them.
+    // Three pictures are side by side and must be legible: those with space for larger letters have them.
     let wanted = [
         ("fig4", Some((420, 320))),
         ("work-precision-re11.6", Some((420, 440))),
@@ -105,7 +105,7 @@ pub(super) fn thumbnails(report: &Report) -> Result<Vec<Thumbnail<'_>>, String> 
     (wanted.into_iter().filter_map(found))
         .map(|(figure, mut small)| {
             if let Some(grid) = &mut small.grid {
-                // One with a line of theory, and with more than one way to be wrong.
+                // The map with a line of theory, and with more than one kind of error.
                 let shown = grid.maps.iter().position(|map| map.title == "implicit midpoint in p");
                 grid.maps = grid.maps.drain(..).skip(shown.unwrap_or(0)).take(1).collect();
             }
@@ -114,7 +114,7 @@ pub(super) fn thumbnails(report: &Report) -> Result<Vec<Thumbnail<'_>>, String> 
         .collect()
 }
 
-/// The passing cases that use most of their tolerance.
+/// The passing cases that use the largest shares of their tolerance.
 pub(super) fn closest(report: &Report) -> Vec<Closest<'_>> {
     const SHOWN: usize = 6;
     let passing = report.cases.iter().filter(|row| row.verdict == Verdict::Pass);

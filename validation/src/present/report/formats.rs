@@ -1,15 +1,15 @@
-//! Numbers, times and names as the report writes them.
+//! Formats of numbers, times and names in the report.
 
 use super::Line;
 use crate::judge::accept::{Rule, Verdict};
 use crate::present::markup::powers;
 
-/// A number to three significant digits.
+/// A number with three significant digits.
 pub(super) fn number(value: f64) -> String {
     digits(value, 3)
 }
 
-/// A number to `digits` significant digits.
+/// A number with `digits` significant digits.
 pub(crate) fn digits(value: f64, digits: i32) -> String {
     let sign = if value < 0.0 { "−" } else { "" };
     let size = value.abs();
@@ -64,7 +64,7 @@ pub(super) fn share(used: f64) -> String {
     }
 }
 
-/// The numbers behind a rule, where there are more than its error and tolerance.
+/// The numbers behind a rule, if there are more than its error and tolerance.
 pub(super) fn detail(rule: &Rule) -> String {
     match rule {
         Rule::Mean { mean, se, samples, reference, allowance, effect, .. } => {
@@ -93,7 +93,7 @@ pub(super) fn detail(rule: &Rule) -> String {
     }
 }
 
-/// A time that somebody waited.
+/// A waiting time.
 pub(super) fn seconds(seconds: f64) -> String {
     match seconds {
         s if s < 0.01 => "< 0.01 s".into(),
@@ -103,7 +103,7 @@ pub(super) fn seconds(seconds: f64) -> String {
     }
 }
 
-/// A verdict as a symbol and words: never told by colour alone.
+/// A verdict as a symbol and a word, so that it never depends on colour.
 pub(super) fn verdict(verdict: Verdict) -> (&'static str, &'static str) {
     match verdict {
         Verdict::Pass => ("✓", "pass"),

@@ -41,7 +41,7 @@ pub(super) fn write(report: &Report) -> Result<String, String> {
         time: seconds(report.summary.seconds),
         origin: &report.origin,
     };
-    // The name's ending turns the escaping on.
+    // The name's extension turns escaping on.
     environment
         .template_from_named_str("report.html", include_str!("report.html.j2"))
         .and_then(|template| template.render(Serde(&page)))
@@ -97,7 +97,7 @@ fn case<'a>(report: &'a Report, row: &'a CaseRow) -> CaseView<'a> {
     }
 }
 
-/// A share of the tolerance as the length of a bar in percent, on a logarithmic scale from 10⁻⁴ to 10.
+/// The used share of the tolerance as the length of a bar in percent, on a logarithmic scale from 10⁻⁴ to 10.
 fn bar(used: f64) -> f64 {
     match used.is_nan() {
         true => 100.0,
@@ -140,7 +140,7 @@ fn studies(report: &Report) -> Result<Vec<StudyView<'_>>, String> {
 }
 
 fn view<'a>(report: &'a Report, exhibit: &'a Exhibit) -> Result<ExhibitView<'a>, String> {
-    /// The most letters across a table beside a picture.
+    /// Largest width in letters of a table beside a picture.
     const BESIDE: usize = 68;
     let figure = exhibit.figure.as_ref().map(|f| self::figure(report, f));
     let narrow = exhibit.table.as_ref().is_some_and(|table| table.letters_across() <= BESIDE);
@@ -198,7 +198,7 @@ fn table(table: &ReportTable) -> TableView<'_> {
     }
 }
 
-/// Links to the cases of these names that are in the report.
+/// Links to those of the cases called `names` that are in the report.
 fn case_links<'a>(report: &'a Report, names: &[String]) -> Vec<Link<'a>> {
     let cases = report.cases.iter().filter(|row| names.contains(&row.name));
     cases.map(case_link).collect()

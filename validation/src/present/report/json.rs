@@ -1,9 +1,9 @@
-//! report.json.
+//! Writes report.json.
 
 use super::{CaseRow, Origin, Report, ReportEquation, ReportFigure, ReportTable, ScenePlan, Summary};
 use serde::Serialize;
 
-/// The number of this form; `schemas/report.schema.json` describes it.
+/// Number of the format, which `schemas/report.schema.json` describes.
 pub(crate) const FORMAT: u32 = 2;
 
 #[derive(Serialize)]

@@ -1,4 +1,4 @@
-//! junit.xml: a test case for each case. A case without data is skipped.
+//! Writes junit.xml, with a test case for each case. A case without data is skipped.
 
 use super::{CaseRow, Report};
 use crate::files::text::escaped;
@@ -27,7 +27,7 @@ pub(super) fn write(report: &Report) -> String {
     xml + "</testsuite>\n</testsuites>\n"
 }
 
-/// What is wrong with a case, or why it was not judged.
+/// The element that says why a case failed or was not judged; empty if it passed.
 fn ended(row: &CaseRow) -> String {
     let words = escaped(&row.reasons());
     match row.verdict {

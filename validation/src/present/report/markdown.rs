@@ -54,7 +54,7 @@ fn row(case: &CaseRow) -> String {
     )
 }
 
-/// A study: its question, its answer, and each picture's data and table.
+/// A study: question, answer, and data and table of each picture.
 fn study(study: &ReportStudy) -> String {
     let mut text = format!(
         "## {}\n\n*{}* {}\n\nRepeat: {}\n\n",
@@ -105,7 +105,7 @@ pub(crate) fn equation_table(equations: &[ReportEquation]) -> ReportTable {
     )
 }
 
-/// A text as code, whatever backticks are in it: CommonMark ends a span at as many as it begins with.
+/// A text as code, with any backticks in it: in CommonMark a span ends at as many backticks as it begins with.
 fn code(text: &str) -> String {
     let text = text.replace('\n', " ");
     let runs = text.split(|c| c != '`').map(str::len);

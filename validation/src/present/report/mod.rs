@@ -1,4 +1,4 @@
-//! The report: what every case said, as plain data, and its writers.
+//! The report: the outcomes of all cases as plain data, and its writers.
 
 mod curves;
 mod first;
@@ -29,39 +29,39 @@ pub use row::{CaseRow, Line};
 pub use sections::{ReportEquation, ReportStudy, Sections};
 use serde::Serialize;
 
-/// How many cases ended how.
+/// Numbers of cases by verdict.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Summary {
-    /// Rules hold, with enough data, and every control was caught.
+    /// Cases whose rules hold, with enough data, and whose controls were all caught.
     pub pass: usize,
-    /// A rule does not hold, or a control was not caught.
+    /// Cases in which a rule does not hold, or a control was not caught.
     pub fail: usize,
-    /// Too little data to say.
+    /// Cases with too few data to decide.
     pub underpowered: usize,
-    /// Measured points are not at hand.
+    /// Cases whose measured points are not available.
     pub nodata: usize,
-    /// How many cases of each kind pass, and of how many.
+    /// The same numbers for each kind of case.
     pub parts: Vec<Part>,
-    /// The probability, at most, that correct code turns one of these cases red for any reason.
+    /// The largest probability that correct code fails one of these cases for any reason.
     pub false_alarm: f64,
     /// The seed of all cases.
     pub seed: u64,
-    /// More replicas and samples than in the quick gate.
+    /// True for more replicas and samples than in the quick gate.
     pub full: bool,
-    /// Wall time over all cases.
+    /// Wall time over all cases in s.
     pub seconds: f64,
 }
 
-/// The cases that judge one thing.
+/// Numbers of the cases of one kind.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Part {
-    /// What they judge.
+    /// The kind of subject that they judge.
     pub judges: Judges,
-    /// How many pass.
+    /// Number of cases that pass.
     pub pass: usize,
-    /// How many need data that are not at hand.
+    /// Number of cases whose data are not available.
     pub nodata: usize,
-    /// How many there are.
+    /// Number of all cases.
     pub cases: usize,
 }
 
@@ -88,20 +88,20 @@ impl std::fmt::Display for Part {
     }
 }
 
-/// Everything a run of the suite found.
+/// All results of a run of the suite.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Report {
-    /// How many cases ended how.
+    /// Numbers of cases by verdict.
     pub summary: Summary,
     /// The cases, in the order of the registry.
     pub cases: Vec<CaseRow>,
-    /// What is shown beside them.
+    /// Studies, equations and scenes shown beside the cases.
     pub sections: Sections,
-    /// Where, when and from what.
+    /// Where, when and from which sources the report was made.
     pub origin: Origin,
 }
 
-/// Gathers a report from what cases, run with `effort` by the command line `command`, said.
+/// Makes a report from the outcomes of cases that the command line `command` ran with `effort`.
 pub fn build(outcomes: Vec<Outcome>, sections: Sections, effort: &Effort, command: String) -> Report {
     let count = |verdict| outcomes.iter().filter(|o| o.verdict == verdict).count();
     Report {
@@ -123,12 +123,12 @@ pub fn build(outcomes: Vec<Outcome>, sections: Sections, effort: &Effort, comman
 }
 
 impl Report {
-    /// One file that needs no network and no script.
+    /// The report as one HTML file that loads nothing from elsewhere.
     pub fn html(&self) -> Result<String, String> {
         html::write(self)
     }
 
-    /// The table, for where HTML cannot go.
+    /// The report as Markdown, where HTML is not possible.
     pub fn markdown(&self) -> String {
         markdown::write(self)
     }
@@ -142,23 +142,23 @@ impl Report {
         curves.chain(tables).collect()
     }
 
-    /// Everything as data; numbers that are not finite are null. `schemas/report.schema.json` describes it.
+    /// The report as JSON; values that are not finite are null. `schemas/report.schema.json` describes it.
     pub fn json(&self) -> String {
         json::write(self)
     }
 
-    /// A test case for each case, for programs that show tests.
+    /// The report as JUnit XML, a test case for each case.
     pub fn junit(&self) -> String {
         junit::write(self)
     }
 
-    /// 1 when a case failed or had too little data to say, or where chance alone could do so too often, else 0.
+    /// 1 if a case failed or was underpowered, or if the false-alarm probability is above the budget; else 0.
     pub fn exit_code(&self) -> u8 {
         let red = self.summary.fail + self.summary.underpowered > 0;
         u8::from(red || self.summary.false_alarm > FALSE_ALARM_BUDGET)
     }
 
-    /// The lines that a report opens with: what passes, by what it judges, and how often chance alone turns it red.
+    /// The opening lines of a report: what passes, by kind, and the false-alarm probability.
     pub fn headline(&self) -> String {
         let summary = &self.summary;
         let parts: Vec<_> = summary.parts.iter().map(Part::to_string).collect();

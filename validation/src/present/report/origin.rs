@@ -1,4 +1,4 @@
-//! Where, when and from what a report was made.
+//! Where, when and from which sources a report was made.
 
 use super::ScenePlan;
 use super::formats::utc;
@@ -10,33 +10,33 @@ use std::path::Path;
 use std::process::Command;
 use std::time::{SystemTime, UNIX_EPOCH};
 
-/// What somebody who repeats the run has to know. What cannot be found out is "unknown".
+/// What is needed to repeat the run. Values that cannot be found out are "unknown".
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Origin {
     /// The command line.
     pub command: String,
-    /// The version of the package.
+    /// Version of the package.
     pub version: String,
-    /// The commit of the sources it was built from, with `-dirty` where they had been changed since.
+    /// Commit of the sources, with `-dirty` if they had been changed.
     pub commit: String,
-    /// The compiler.
+    /// Version of the compiler.
     pub rustc: String,
-    /// How it was built: `release`, or `development` with debug assertions.
+    /// Kind of build: `release`, or `development` with debug assertions.
     pub build: String,
-    /// The model of the processor.
+    /// Model of the processor.
     pub processor: String,
-    /// Hardware threads.
+    /// Number of hardware threads.
     pub threads: usize,
-    /// The operating system and the architecture.
+    /// Operating system and architecture.
     pub system: String,
-    /// When the report was made, RFC 3339.
+    /// Date and time of the report, RFC 3339.
     pub date: String,
-    /// Where random numbers come from.
+    /// Source of the random numbers, in words.
     pub seeds: String,
 }
 
 impl Origin {
-    /// This run's, with figures drawn from the scenes of `plans`.
+    /// The origin of this run, with figures drawn from the scenes of `plans`.
     pub fn here(command: String, plans: &[ScenePlan]) -> Self {
         let since_1970 = SystemTime::now().duration_since(UNIX_EPOCH);
         Self {
@@ -54,7 +54,7 @@ impl Origin {
     }
 }
 
-/// Where the random numbers of cases come from, and the scenes of each seed.
+/// The source of the cases' random numbers, and the scenes of each seed.
 fn seeds(plans: &[ScenePlan]) -> String {
     let mut scenes = BTreeMap::<u64, Vec<&str>>::new();
     for plan in plans {
@@ -69,7 +69,7 @@ fn unknown() -> String {
     "unknown".into()
 }
 
-/// The longest description of processors: some kB for each.
+/// Size limit in bytes of the system's description of processors: some kB for each.
 const MOST_BYTES: u64 = 64 << 20;
 
 fn processor() -> Option<String> {
@@ -81,7 +81,7 @@ fn processor() -> Option<String> {
     mac.or_else(|| std::env::var("PROCESSOR_IDENTIFIER").ok())
 }
 
-/// What a command prints, if it is there and succeeds.
+/// The output of a command; `None` if it is missing or fails.
 fn output(command: &mut Command) -> Option<String> {
     let output = command.output().ok().filter(|output| output.status.success())?;
     let text = String::from_utf8(output.stdout).ok()?.trim().to_string();

@@ -1,4 +1,4 @@
-//! What the template of the HTML report shows: plain data, made by [`super::html`].
+//! Data for the template of the HTML report, made by [`super::html`].
 
 use super::first::{Card, Closest, Thumbnail};
 use super::{Origin, ScenePlan};
@@ -6,7 +6,7 @@ use crate::judge::accept::Verdict;
 use crate::judge::case::Control;
 use serde::Serialize;
 
-/// All that the template shows.
+/// All data for the template.
 #[derive(Serialize)]
 pub(super) struct Page<'a> {
     pub(super) style: &'static str,
@@ -15,7 +15,7 @@ pub(super) struct Page<'a> {
     pub(super) good: bool,
     pub(super) cards: Vec<Card>,
     pub(super) thumbnails: Vec<Thumbnail<'a>>,
-    /// The cases to look at first: what is red, then what is nearest to its bound.
+    /// The cases to look at first: failed ones, then those nearest to their bounds.
     pub(super) attention: Vec<Link<'a>>,
     pub(super) closest: Vec<Closest<'a>>,
     pub(super) studies: Vec<StudyView<'a>>,
@@ -28,7 +28,7 @@ pub(super) struct Page<'a> {
     pub(super) origin: &'a Origin,
 }
 
-/// The cases that judge one thing.
+/// The cases of one kind.
 #[derive(Serialize)]
 pub(super) struct Group<'a> {
     pub(super) tag: &'static str,
@@ -55,11 +55,11 @@ pub(super) struct StudyView<'a> {
 pub(super) struct ExhibitView<'a> {
     pub(super) figure: Option<FigureView<'a>>,
     pub(super) table: Option<TableView<'a>>,
-    /// The table is narrow enough to stand beside the picture.
+    /// True if the table is narrow enough to be beside the picture.
     pub(super) beside: bool,
 }
 
-/// A row as text.
+/// A case as text.
 #[derive(Serialize)]
 pub(super) struct CaseView<'a> {
     pub(super) name: &'a str,
@@ -70,7 +70,7 @@ pub(super) struct CaseView<'a> {
     pub(super) symbol: &'static str,
     pub(super) word: &'static str,
     pub(super) used: String,
-    /// How long the bar of the used tolerance is, in percent.
+    /// Length of the bar of the used tolerance, in percent.
     pub(super) bar: Option<f64>,
     pub(super) because: &'a str,
     pub(super) evidence: Vec<LineView<'a>>,
@@ -81,7 +81,7 @@ pub(super) struct CaseView<'a> {
     pub(super) figures: Vec<Link<'a>>,
 }
 
-/// A line of the evidence as text.
+/// A line of evidence as text.
 #[derive(Serialize)]
 pub(super) struct LineView<'a> {
     pub(super) what: &'a str,
@@ -105,7 +105,7 @@ pub(super) struct FigureView<'a> {
     pub(super) cases: Vec<Link<'a>>,
 }
 
-/// A table, and which of its columns hold numbers.
+/// A table; marks the columns of numbers.
 #[derive(Serialize)]
 pub(super) struct TableView<'a> {
     pub(super) name: &'a str,

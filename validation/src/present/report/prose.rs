@@ -1,4 +1,4 @@
-//! Plain text as HTML: escaped, typeset, and with links to what the report has.
+//! Plain text as HTML: escaped, typeset, and with links to parts of the report.
 
 use super::Report;
 use crate::files::text::escaped;
@@ -8,7 +8,7 @@ use std::collections::BTreeSet;
 /// The anchors of a report.
 pub(super) struct Anchors {
     known: BTreeSet<String>,
-    /// In the report's order: the first figure of a number is linked.
+    /// Names of figures in the report's order: a number links to its first figure.
     figures: Vec<String>,
 }
 
@@ -29,7 +29,7 @@ impl Anchors {
             _ => None,
         };
         let html = pieces.iter().enumerate().map(|(k, piece)| match piece {
-            // The word is part of the link: a digit alone is hard to hit.
+            // The word belongs to the link, as a single digit is hard to hit.
             Piece::Text(text) => match (text.strip_suffix("Fig. "), linked(k + 1)) {
                 (Some(before), Some(_)) => typeset(before),
                 _ => typeset(text),
@@ -53,7 +53,7 @@ impl Anchors {
         html.collect()
     }
 
-    /// The first figure of this number: `fig4-n20` or `fig5`.
+    /// The first figure with this number: `fig4-n20` or `fig5`.
     fn figure(&self, number: &str) -> Option<&String> {
         let is = |name: &&String| {
             let rest = name.strip_prefix("fig").and_then(|name| name.strip_prefix(number));
@@ -62,7 +62,7 @@ impl Anchors {
         self.figures.iter().find(is)
     }
 
-    /// A link to what has this anchor, or where nothing has it the bare text.
+    /// A link to this anchor, or the bare text if there is none.
     fn link(&self, target: &str, html: String) -> String {
         match self.known.contains(target) {
             true => anchor(target, &html),
@@ -76,7 +76,7 @@ fn anchor(target: &str, html: &str) -> String {
 }
 
 pub(crate) fn typeset(text: &str) -> String {
-    // An error stays with its sign where a line is broken.
+    // An error stays with its sign at a line break.
     let text = powers(text).replace("± ", "±\u{a0}");
     let parts = subscripts(&text).into_iter().map(|(below, part)| match below {
         true => format!("<sub>{}</sub>", escaped(part)),

@@ -6,20 +6,20 @@ use crate::judge::accept::{Rule, Verdict};
 use crate::judge::case::{Control, Effort, GATE_SEED, Judged, Judges, Outcome};
 use serde::Serialize;
 
-/// What one rule said.
+/// The result of one rule.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Line {
-    /// What was measured.
+    /// The measured quantity.
     pub what: String,
-    /// How it ended.
+    /// The verdict of the rule.
     pub verdict: Verdict,
     /// The error; for a goodness-of-fit test, its p-value.
     pub error: f64,
     /// The largest error allowed; for a p-value, the smallest allowed.
     pub tolerance: f64,
-    /// The share of the tolerance that is used up: above 1 fails.
+    /// The used share of the tolerance; above 1 the rule fails.
     pub used: f64,
-    /// Why that tolerance; for missing data, how to supply them.
+    /// The reason for the tolerance; for missing data, how to supply them.
     pub because: String,
     /// The rule with the numbers behind it.
     pub judged_by: Rule,
@@ -32,7 +32,7 @@ impl Line {
         let used = match rule {
             _ if error == 0.0 && tolerance == 0.0 => 0.0,
             Rule::PValue { .. } => tolerance / error,
-            // The mean must exceed the bound: what is not above 0 has used up all of it.
+            // The mean must exceed the bound: a mean that is not above 0 has used up the whole tolerance.
             Rule::Above { .. } if error <= 0.0 => f64::INFINITY,
             Rule::Above { .. } => tolerance.max(0.0) / error,
             _ => error / tolerance,
@@ -48,7 +48,7 @@ impl Line {
         }
     }
 
-    /// The error against its bound, with what is behind them, in words.
+    /// The error against its bound, with the numbers behind them, in words.
     pub fn numbers(&self) -> String {
         let (error, tolerance) = bounds(self);
         match detail(&self.judged_by) {
@@ -57,7 +57,7 @@ impl Line {
         }
     }
 
-    /// Worse verdicts first, then what is nearest to its bound; what cannot be compared is worst.
+    /// Sorts worse verdicts first, then cases nearer to their bounds; NaN is worst.
     fn badness(&self) -> (u8, f64) {
         let used = if self.used.is_nan() { f64::INFINITY } else { self.used };
         (severity(self.verdict), used)
@@ -76,37 +76,37 @@ fn severity(verdict: Verdict) -> u8 {
 /// One case.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct CaseRow {
-    /// Its name.
+    /// Name of the case.
     pub name: String,
-    /// What it judges.
+    /// The kind of subject that it judges.
     pub judges: Judges,
     /// The claim, in one sentence.
     pub claim: String,
     /// Equations, figures or sections of the paper.
     pub source: String,
-    /// How it ended.
+    /// The verdict of the case.
     pub verdict: Verdict,
-    /// Which line of the evidence is the worst; none where there is no evidence.
+    /// Index of the worst line of evidence; `None` without evidence.
     pub worst: Option<usize>,
-    /// Everything measured.
+    /// All evidence.
     pub evidence: Vec<Line>,
-    /// The deliberate mistakes, and whether the check failed on each.
+    /// The deliberate mistakes, and the result of the check on each.
     pub controls: Vec<Control>,
-    /// How many were caught.
+    /// Number of mistakes that were caught.
     pub caught: usize,
-    /// Wall time of check and controls.
+    /// Wall time of check and controls in s.
     pub seconds: f64,
-    /// The probability, at most, that correct code turns it red.
+    /// The largest probability that correct code fails the case.
     pub false_alarm: f64,
-    /// The command that repeats it.
+    /// The command that repeats the case.
     pub command: String,
 }
 
 impl CaseRow {
-    /// The outcome of a case that was run with this effort.
+    /// The row for the outcome of a case that was run with `effort`.
     pub(super) fn new(outcome: Outcome, effort: &Effort) -> Self {
         let evidence: Vec<_> = (outcome.evidence.iter()).map(Line::new).collect();
-        // The first of equals.
+        // Of several equally bad lines, the first.
         let worst = (0..evidence.len()).rev().max_by(|a, b| {
             let (a, b) = (evidence[*a].badness(), evidence[*b].badness());
             a.0.cmp(&b.0).then(a.1.total_cmp(&b.1))
@@ -132,8 +132,8 @@ impl CaseRow {
         self.worst.and_then(|index| self.evidence.get(index))
     }
 
-    /// Why it is red: each rule that did not hold with its numbers, each control that was not caught, and the command.
-    /// Nothing where it is not.
+    /// Why the case is not passed: rules that do not hold with their numbers, controls that were not caught, and the command;
+    /// empty for a passing case.
     pub fn reasons(&self) -> String {
         let bad = |verdict| matches!(verdict, Verdict::Fail | Verdict::Underpowered);
         let mut text = String::new();

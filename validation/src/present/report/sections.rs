@@ -1,47 +1,47 @@
-//! What a report shows beside its cases, as plain data.
+//! The sections of a report beside its cases, as plain data.
 
 use crate::present::study::{Exhibit, Findings, ReportFigure, ScenePlan, Study};
 use crate::present::table::ReportTable;
 use serde::Serialize;
 
-/// An equation of the paper, the code that is made from it and the cases that test it.
+/// An equation of the paper, the code that implements it and the cases that test it.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct ReportEquation {
-    /// Its number in the paper, as `15` or `A.7`; its anchor is `equation-NUMBER`.
+    /// Number in the paper, such as `15` or `A.7`; the anchor is `equation-NUMBER`.
     pub number: String,
-    /// What it says, in a few words.
+    /// Content of the equation, in a few words.
     pub says: String,
-    /// The items of the code.
+    /// Items of the code.
     pub code: Vec<String>,
-    /// The names of the cases.
+    /// Names of the cases.
     pub cases: Vec<String>,
 }
 
-/// A study with what it found.
+/// A study with its findings.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ReportStudy {
-    /// Its name, in words joined by `-`; its anchor is `study-NAME`.
+    /// Name, in words joined by `-`; the anchor is `study-NAME`.
     pub name: String,
-    /// What it is about.
+    /// Title of the study.
     pub title: String,
-    /// What it asks.
+    /// The question that it answers.
     pub question: String,
     /// The answer, in a sentence.
     pub answer: String,
-    /// The command that repeats it.
+    /// The command that repeats the study.
     pub command: String,
-    /// The cases that judge it.
+    /// The cases that judge the study.
     pub cases: Vec<String>,
     /// Pictures beside their tables.
     pub exhibits: Vec<Exhibit>,
-    /// The scenes behind it.
+    /// The scenes that were run.
     pub(crate) plans: Vec<ScenePlan>,
-    /// Wall time.
+    /// Wall time in s.
     pub seconds: f64,
 }
 
 impl ReportStudy {
-    /// What a study found, and how long it took.
+    /// A study with its findings and its wall time.
     pub fn new(study: &Study, found: Findings, seconds: f64) -> Self {
         Self {
             name: study.name.into(),
@@ -57,19 +57,19 @@ impl ReportStudy {
     }
 }
 
-/// What a report shows beside its cases.
+/// The sections of a report beside its cases.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Sections {
     /// The studies.
     pub studies: Vec<ReportStudy>,
-    /// Every equation of the paper.
+    /// All equations of the paper.
     pub equations: Vec<ReportEquation>,
-    /// Every scene behind a study.
+    /// All scenes behind studies.
     pub plans: Vec<ScenePlan>,
 }
 
 impl Sections {
-    /// Adds a study, and its scenes to those of all.
+    /// Adds a study, and moves its scenes to the list of all.
     pub fn add(&mut self, mut study: ReportStudy) {
         self.plans.append(&mut study.plans);
         self.studies.push(study);
@@ -80,7 +80,7 @@ impl Sections {
         self.exhibits().filter_map(|exhibit| exhibit.figure.as_ref())
     }
 
-    /// All pictures, to be completed.
+    /// All pictures, for changes.
     pub fn figures_mut(&mut self) -> impl Iterator<Item = &mut ReportFigure> {
         let exhibits = self.studies.iter_mut().flat_map(|study| &mut study.exhibits);
         exhibits.filter_map(|exhibit| exhibit.figure.as_mut())

@@ -1,4 +1,4 @@
-//! The writers on made-up outcomes of every verdict. Nothing here was measured.
+//! Tests the writers on made-up outcomes of every verdict. Nothing here was measured.
 
 mod page;
 mod synthetic;
@@ -90,7 +90,7 @@ fn counts_and_exit_code() {
 #[test]
 fn the_worst_evidence_is_shown() {
     let worst: Vec<_> = synthetic().cases.iter().map(|row| row.worst).collect();
-    // Of the passing ones what is nearest to its bound, of the failing ones what cannot be compared.
+    // The worst line: of passing ones the one nearest to its bound, of failing ones the one with NaN.
     assert_eq!(worst, [Some(2), Some(0), Some(1), Some(0), None, Some(0), Some(0)]);
 }
 

@@ -1,4 +1,4 @@
-//! What a reader of the file finds: its page and its paths, unpacked here by another crate than the one that packs them.
+//! Tests the page and its paths as a reader finds them, unpacked by another crate than the one that packs them.
 
 use super::super::style::{CURVE_WIDTH, colour, looks};
 use super::super::svg;
@@ -16,7 +16,7 @@ fn read(bytes: &[u8]) -> (String, String) {
     (text, String::from_utf8(operators).unwrap())
 }
 
-/// How many strokes of a colour and a curve's width there are.
+/// The number of strokes with the colour of a look and a curve's width.
 fn strokes(operators: &str, look: usize) -> usize {
     let RGBColor(red, green, blue) = colour(look);
     let mut wanted = Content::new();
@@ -50,7 +50,7 @@ fn a_pdf_shows_what_the_svg_does() {
             // Control: a page without colours.
             assert_eq!(strokes(&stripped, *look), 0);
         }
-        // Every path is painted, and saved states are none: nothing is left open.
+        // Every path is painted, and no state is saved: nothing is left open.
         let count = |operator: &str| operators.lines().filter(|line| line.trim() == operator).count();
         let starts = operators.lines().filter(|line| line.ends_with(" m")).count();
         assert!(count("f") + count("S") > 50 && starts >= count("f") + count("S"));
@@ -66,7 +66,7 @@ fn a_pdf_names_letters_that_it_lacks_and_has_its_title() {
     assert_ne!(titled("x1").bytes, titled("x2").bytes);
 }
 
-/// The letters' curves are of second degree; a page has those of third degree alone.
+/// The letters' curves are quadratic; a page has only cubic curves.
 #[test]
 fn a_quadratic_curve_keeps_its_middle() {
     let mut path = tiny_skia::PathBuilder::new();
@@ -80,6 +80,6 @@ fn a_quadratic_curve_keeps_its_middle() {
     // At t = 1/2: a quarter of the ends and half of the middle point; an eighth of the ends and 3/8 of the two.
     let middle = (3.0 * c[0] + 3.0 * c[2] + c[4]) / 8.0;
     assert_eq!((middle, (3.0 * c[1] + 3.0 * c[3] + c[5]) / 8.0), (3.0, 3.0));
-    // Control: taking the one middle point for both is another curve.
+    // Control: using the single middle point for both gives another curve.
     assert_ne!((3.0 * 6.0 + 3.0 * 6.0) / 8.0, 3.0);
 }

@@ -6,7 +6,7 @@ use super::*;
 use crate::present::plot::style::looks;
 use plotters::style::RGBColor;
 
-/// Width, height and pixels as a reader of the file has them.
+/// Width, height and pixels of the file, as decoded.
 fn read(bytes: &[u8]) -> (usize, usize, Vec<[u8; 3]>) {
     let mut reader = png::Decoder::new(std::io::Cursor::new(bytes)).read_info().unwrap();
     let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
@@ -16,7 +16,7 @@ fn read(bytes: &[u8]) -> (usize, usize, Vec<[u8; 3]>) {
     (frame.width as usize, frame.height as usize, pixels)
 }
 
-/// The part of a text's box that has ink of letters.
+/// The share of a text's box that is covered by dark ink.
 fn inked(text: &Box, width: usize, pixels: &[[u8; 3]]) -> f64 {
     let (columns, rows) = (text.left as usize..text.right as usize, text.top as usize..text.bottom as usize);
     let dark = rows.clone().flat_map(|row| columns.clone().map(move |column| row * width + column));
@@ -35,11 +35,11 @@ fn a_png_shows_what_the_svg_does() {
         for look in &looks(&figure)[..figure.curves.len()] {
             let RGBColor(red, green, blue) = style::colour(*look);
             let count = pixels.iter().filter(|rgb| **rgb == [red, green, blue]).count();
-            // Half the sample beside its label, where no other curve lies over it.
+            // At least half of the sample beside its label is visible, where no other curve covers it.
             let least = 18 * FINE * CURVE_WIDTH as i32 / 2;
             assert!(count as i32 > least, "{}: {count} pixels of look {look}", figure.title);
         }
-        // Where the SVG has a text there is ink, and that of a text, not of a bar; a minus alone has little.
+        // Where the SVG has a text there is ink, as much as of a text and not of a bar; a single minus has little.
         let mut texts = boxes(&drawing);
         texts.retain(|text| !text.text.is_empty());
         assert!(texts.len() > 10);
@@ -59,7 +59,7 @@ fn letters_are_drawn_or_named() {
     let drawn = |title: &str| png(&titled(title)).unwrap();
     assert!(drawn("X̄₁ ≤ 3·10⁻⁶ cm⁻³").missing.is_empty());
     assert_eq!(drawn("стержни, 棒").missing.len(), 8);
-    // Different letters give different pictures, whatever a font does with what it lacks.
+    // Different letters give different pictures, whatever a font does about missing ones.
     assert_ne!(drawn("x1").bytes, drawn("x2").bytes);
     assert_ne!(drawn("X̄").bytes, drawn("X").bytes);
 }

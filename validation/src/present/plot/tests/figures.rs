@@ -1,8 +1,8 @@
-//! Figures with much in them.
+//! Figures with many series, for tests.
 
 use super::*;
 
-/// As many curves as there are integrators, that all end near each other.
+/// As many curves as there are integrators, all ending near each other.
 pub fn many() -> Figure {
     let names = [
         "exact propagator",

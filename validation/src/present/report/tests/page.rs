@@ -1,4 +1,4 @@
-//! The HTML report of made-up outcomes.
+//! Tests the HTML report of made-up outcomes.
 
 use super::*;
 
@@ -7,7 +7,7 @@ fn html_stands_alone() {
     let report = synthetic();
     let html = report.html().unwrap();
     assert!(is_well_formed(&html), "{html}");
-    // One script, in the page itself.
+    // One script, embedded in the page.
     assert_eq!(html.matches("<script").count(), 1);
     for load in ["<script ", "<link", "<img", "<iframe", "src=", "@import", "url(", "href=\"http"] {
         assert!(!html.contains(load), "{load}");
@@ -81,10 +81,10 @@ fn hostile_texts_are_harmless_in_every_writing() {
     assert!(!control(&markdown), "{markdown}");
     let made = markdown.lines().last().unwrap();
     assert!(made.contains("by ````` \\u{1b}]0;x") && made.contains("*c* ````` (shearbed"), "{made}");
-    // Outside of code nothing is markup.
+    // There is no markup outside code.
     let outside: String = markdown.lines().filter(|line| !line.starts_with("Made ")).collect();
     for part in outside.split('`').step_by(2) {
-        // An escaped bracket begins no link.
+        // An escaped bracket does not begin a link.
         let links = part.replace("\\[", "").contains('[');
         assert!(!part.contains("<script") && !links, "{part}");
     }
@@ -113,10 +113,10 @@ fn the_first_screen_says_where_to_look() {
     for name in ["synthetic-fail", "synthetic-blind", "synthetic-empty", "synthetic-underpowered"] {
         assert!(first.contains(&format!("href=\"#case-{name}\"")), "{name}");
     }
-    // Of those that pass, the one that uses most of its tolerance comes first: 0.25, and the p-value 2·10⁻⁶/0.31.
+    // Of the passing cases, the one that uses most of its tolerance comes first: 0.25, and the p-value 2·10⁻⁶/0.31.
     let (pass, p_value) = (first.find("#case-synthetic-pass"), first.find("#case-synthetic-p-value"));
     assert!(pass.unwrap() < p_value.unwrap());
-    // What passes is folded, what is red is open.
+    // Passing cases are folded, failed ones are open.
     assert!(html.contains("id=\"case-synthetic-pass\" data-tags=\"core eq-A.4 pass\">"), "{html}");
     assert!(html.contains("id=\"case-synthetic-fail\" data-tags=\"core fail\" open=\"\">"), "{html}");
 }

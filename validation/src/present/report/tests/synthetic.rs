@@ -1,4 +1,4 @@
-//! A report with one of everything.
+//! A made-up report with one element of each kind.
 
 use super::*;
 
