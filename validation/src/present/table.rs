@@ -155,7 +155,7 @@ pub fn estimate<'a, R, T: Into<Option<(f64, f64)>>>(
     with_errors(name, two_digits, of)
 }
 
-/// Like [`estimate`], for differences, which are shown with their signs.
+/// Like `estimate`, for differences, which are shown with their signs.
 pub fn difference<'a, R, T: Into<Option<(f64, f64)>>>(
     name: impl Into<String>,
     of: impl Fn(&R) -> T + 'a,
@@ -199,8 +199,8 @@ pub fn two_digits(number: f64, se: f64) -> String {
     format!("{number:.places$} ± {se:.places$}")
 }
 
-/// Records as CSV: the heads are the names of their fields, also where there is no record. Every number is the shortest text that reads back as the same bits;
-/// what is not there is empty, and a text that a spreadsheet would take for a formula has an apostrophe before it.
+/// Records as CSV; the heads are the fields' names, even without records. Every number is the shortest text that reads back as the
+/// same bits; missing values are empty, and a text that a spreadsheet would treat as a formula has an apostrophe before it.
 pub fn rows_csv<R: Serialize + Default>(records: impl IntoIterator<Item = R>) -> Result<String, String> {
     let mut plain = csv::Writer::from_writer(Vec::new());
     // The heads are written with the first record, which is dropped again.

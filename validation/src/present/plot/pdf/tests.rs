@@ -6,7 +6,7 @@ use super::super::tests::{many, maps, synthetic};
 use super::*;
 use plotters::style::RGBColor;
 
-/// The head of the file as text, and the operators of its page.
+/// The file's header as text, and the operators of its page.
 fn read(bytes: &[u8]) -> (String, String) {
     assert!(bytes.starts_with(b"%PDF-1.") && bytes.trim_ascii_end().ends_with(b"%%EOF"));
     let text = String::from_utf8_lossy(bytes).into_owned();
