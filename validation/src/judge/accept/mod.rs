@@ -153,7 +153,7 @@ impl Rule {
         }
     }
 
-    /// By how many standard deviations of the test's statistic a failing rule fails: at another seed it would pass with the
+    /// By how many standard deviations of the test's statistic a failing rule fails: at another seed it would not fail with the
     /// probability [`upper_tail`] of this, by the noncentral t distribution, or for Kolmogorov's test by Massart's bound. `None` if
     /// nothing is random, or no distance is given.
     pub fn margin(&self) -> Option<f64> {

@@ -123,7 +123,7 @@ pub fn build(outcomes: Vec<Outcome>, sections: Sections, effort: &Effort, comman
 }
 
 impl Report {
-    /// The report as one HTML file that loads nothing from elsewhere.
+    /// The report as one HTML file that needs no network and no script.
     pub fn html(&self) -> Result<String, String> {
         html::write(self)
     }
