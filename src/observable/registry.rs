@@ -6,7 +6,7 @@ use std::ops::Deref;
 
 macro_rules! observables {
     ($($(#[$doc:meta])* $variant:ident: $module:ident,)*) => {
-        /// What can be observed: what each is, is said by its [`Observe`]. Each has a file of results of its own, named as its key.
+        /// An observable, described by its [`Observe`]. Each has its own file of results, named like its key.
         ///
         /// ```
         /// use shearbed::Observable;
@@ -50,9 +50,9 @@ observables! {
     OrientationTensor: orientation_tensor,
     /// ⟨pppp⟩: its 15 components that differ.
     OrientationTensor4: orientation_tensor_4,
-    /// What dilute slender rods add to the stress in plane Couette flow.
+    /// The stress of dilute slender rods in plane Couette flow.
     ParticleStress: particle_stress,
-    /// What dilute rods of their own shape add to the stress in plane Couette flow, in Pa.
+    /// The stress of dilute rods of their own shape in plane Couette flow, in Pa.
     Stress: stress,
 }
 
