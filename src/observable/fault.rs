@@ -7,7 +7,7 @@ use crate::observable::{Block, Observe, Sum, lane_sum};
 /// and counts twice; the sum over 128 rods in 8 lanes is rounded 24 times.
 const DIRECTION: f64 = 32.0 * f64::EPSILON;
 
-/// The largest deviation from 1 of the trace of ⟨pp⟩: 10⁸ rods are summed in lanes of 16, blocks of 512 and 1526 chunks, each sum
+/// The largest deviation from 1 of the trace of ⟨pp⟩: 10⁸ rods are summed as 16 per lane, 512 blocks per chunk and 1526 chunks, each sum
 /// with a relative rounding of at most ε/2.
 const TRACE: f64 = 4096.0 * f64::EPSILON;
 
