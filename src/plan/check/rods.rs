@@ -72,7 +72,8 @@ pub(super) fn check_own_rods(scene: &Scene) -> Result<(), Invalid> {
 /// Checks that the mean r_e is allowed in the scene, and that its spread stays on one side of 1.
 pub(super) fn check_particles(scene: &Scene) -> Result<(), Invalid> {
     let (r, sd) = (scene.particles.aspect_ratio, scene.particles.aspect_ratio_sd_percent);
-    if scene.interaction.is_some() && r <= 1.0 {
+    // α = 0 gives rods a concentration, and no collision.
+    if scene.interaction.as_ref().is_some_and(|interaction| interaction.alpha > 0.0) && r <= 1.0 {
         let allowed = "interacting rods need a number > 1";
         return Err(Invalid::new("particles.aspect_ratio", r, allowed));
     }

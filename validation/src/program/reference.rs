@@ -204,9 +204,14 @@ fn refused(args: &Args, why: NoValue) -> Failure {
             "--steady: nothing settles with --c-i {} in this flow; a C_I above 0 and a flow that strains are allowed",
             args.c_i.unwrap_or_default()
         ),
+        NoValue::Diffusion(why) if args.steady => format!(
+            "--steady with --c-i {}: {why} for this method; a larger C_I is allowed (in plane Couette flow from 1e-5 on, in any flow from \
+             about 1e-4 on)",
+            args.c_i.unwrap_or_default()
+        ),
         NoValue::Diffusion(why) => format!(
             "--c-i {}: {why}; a larger C_I or shorter --times are allowed (from C_I = 1e-4 on, a strain of 100; at 1e-5, of 10), and \
-             --steady at any C_I from 1e-5 on",
+             --steady",
             args.c_i.unwrap_or_default()
         ),
         NoValue::Unit => "--unit: this flow has no such unit of time; s is allowed, strain where it stretches, and period in plane \

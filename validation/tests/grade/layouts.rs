@@ -121,6 +121,52 @@ fn layouts_of_other_programs_answer_closed_equations_too() {
     }
 }
 
+/// Programs of a_ij write series with more times than are asked for, and OpenFOAM the file of a probe.
+#[test]
+fn whole_series_and_files_of_probes_are_read() {
+    let name = "closed-ft-hybrid-0.01";
+    let (_, rows) = problem(name);
+    let answered = |problem: &str, file: &str, text: String| {
+        let dir = tempfile::tempdir().unwrap();
+        write(dir.path(), problem, file, text);
+        files(REFERENCE.path(), dir.path(), &["--problem", problem])
+    };
+    let probes = |rows: &[Vec<String>]| {
+        let row = |row: &Vec<String>| {
+            let [time, a11, a22, a33, a12, a13, a23] = [0, 1, 2, 3, 4, 5, 6].map(|k| row[k].as_str());
+            let halfway = 0.5 + time.parse::<f64>().unwrap();
+            format!("{time:>12}   ({a11} {a12} {a13} {a22} {a23} {a33})\n{halfway}   (0.2 0 0 0.3 0 0.5)\n")
+        };
+        let head = "# Probe 0 (0 0 0)\n#       Probe             0\n#        Time\n";
+        head.to_owned() + &rows.iter().map(row).collect::<String>()
+    };
+    let whole = answered(name, "answer.csv", probes(&rows[1..]));
+    assert_eq!(whole.verdict(name), "PASS", "{}", whole.words);
+    // What is asked for must be there, and one probe only.
+    let short = answered(name, "answer.csv", probes(&rows[1..rows.len() - 1]));
+    let words = short.words.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(short.code == Some(2) && words.contains("the file ends before time_s ="), "{words}");
+    assert!(words.contains("time_s = 2.5 is not asked for; the nearest that is asked for is 2"), "{words}");
+    let two = probes(&rows[1..]).replace(")\n", ") (0.2 0 0 0.3 0 0.5)\n");
+    let two = answered(name, "answer.csv", two);
+    assert!(
+        two.code == Some(2) && two.words.contains("13 fields where 7 columns are named"),
+        "{}",
+        two.words
+    );
+    // Of a steady state the last row counts, whatever its time.
+    let name = "folgar-tucker-steady-shear-0.01";
+    let (_, rows) = problem(name);
+    let at = |time: &str, row: &[String]| format!("{time},{}\n", row[1..].join(","));
+    let wrong: Vec<String> = rows[1].iter().map(|_| "0.1".to_owned()).collect();
+    for (late, verdict) in [(&rows[1], "PASS"), (&wrong, "FAIL")] {
+        let other = if verdict == "PASS" { &wrong } else { &rows[1] };
+        let text = rows[0].join(",") + "\n" + &at("0", other) + &at("1", other) + &at("2000", late);
+        let found = answered(name, "answer.csv", text);
+        assert_eq!(found.verdict(name), verdict, "{}", found.words);
+    }
+}
+
 /// Quaternions that turn axis x of the body onto p: w = 1 + p₁, (i, j, k) = x × p. Their conjugates mirror p.
 #[test]
 fn a_dump_without_times_and_shapes_is_told_what_it_does_not_say() {

@@ -74,7 +74,8 @@ impl Diffusing {
 
     /// The means over `steps` steps.
     pub fn means(&mut self, steps: usize) -> Means {
-        let mut watched = Watched::new(self.diffusion.shape_factor, self.diffusion.strain);
+        let Diffusion { shape_factor, strain, .. } = self.diffusion;
+        let mut watched = Watched::new(free(shape_factor, strain), strain);
         for _ in 0..steps {
             let before = self.rods.clone();
             self.step();

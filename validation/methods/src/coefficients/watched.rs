@@ -1,6 +1,6 @@
 //! Means over steps that are watched one by one.
 
-use super::{Means, free};
+use super::Means;
 use crate::tensors::closures::PAIRS;
 use nalgebra::{Matrix3, Vector3, Vector6};
 
@@ -18,9 +18,9 @@ pub struct Watched {
 }
 
 impl Watched {
-    /// No steps yet, of rods with the shape factor Λ; each will have this strain.
-    pub fn new(shape_factor: f64, strain: f64) -> Self {
-        Self { free: free(shape_factor, strain), strain, steps: 0, samples: 0, sums: Means::default() }
+    /// No steps yet; each will have this strain, over which Jeffery's motion is `free` ([`super::free`]).
+    pub fn new(free: Matrix3<f64>, strain: f64) -> Self {
+        Self { free, strain, steps: 0, samples: 0, sums: Means::default() }
     }
 
     /// Adds a step of all rods from their directions `before` it to those `after`.

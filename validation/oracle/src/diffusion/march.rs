@@ -26,6 +26,7 @@ pub struct Density<'a> {
     unknowns: Vec<f64>,
     norm: f64,
     work: f64,
+    work_of_a_step: f64,
 }
 
 impl<'a> Density<'a> {
@@ -33,7 +34,7 @@ impl<'a> Density<'a> {
     pub fn new(frame: &'a Frame, accuracy: Accuracy, basis: Basis, unknowns: Vec<f64>) -> Self {
         let operator = Operator::new(&frame.motion, basis);
         let norm = frame.motion.norm(basis.degree);
-        Self { frame, accuracy, operator, unknowns, norm, work: 0.0 }
+        Self { frame, accuracy, operator, unknowns, norm, work: 0.0, work_of_a_step: 0.0 }
     }
 
     /// Advances the density by `time_s` seconds.
@@ -57,6 +58,10 @@ impl<'a> Density<'a> {
             }
             self.unknowns = after;
             left = if steps == 1.0 { 0.0 } else { left - left / steps };
+            // The rest would take about as much a step: what is far too much is refused at once.
+            if self.work + self.work_of_a_step * (steps - 1.0) > 2.0 * MOST_WORK {
+                return Err(NoAnswer::TooMuchWork);
+            }
             // Reduces the harmonics if many are empty.
             if 2 * basis.degree > 3 * degree + 32 || 2 * basis.order > 3 * order + 16 {
                 self.keep(degree + degree / 4 + 8, order + order / 4 + 4);
@@ -72,17 +77,19 @@ impl<'a> Density<'a> {
         let mut next = vec![0.0; sum.len()];
         let least = 1e-17 * norm(&term);
         let mut before = f64::INFINITY;
+        self.work_of_a_step = 0.0;
         for k in 1..1000 {
             self.operator.apply(time_s / f64::from(k), &term, &mut next);
             std::mem::swap(&mut term, &mut next);
             sum.iter_mut().zip(&term).for_each(|(sum, term)| *sum += term);
             let size = norm(&term);
-            self.work += self.operator.len() as f64;
+            self.work_of_a_step += self.operator.len() as f64;
             if before + size <= least {
                 break;
             }
             before = size;
         }
+        self.work += self.work_of_a_step;
         if self.work > MOST_WORK { Err(NoAnswer::TooMuchWork) } else { Ok(sum) }
     }
 

@@ -1,5 +1,6 @@
 //! A program's answer to a problem, in the order of the problem's own rows.
 
+use super::closures;
 use crate::judge::statistics::worst;
 use crate::serve::problems::{Kind, LoadedProblem, ReadError};
 use std::path::{Path, PathBuf};
@@ -47,6 +48,10 @@ pub(super) struct Collector<'a> {
     /// The index of the last row.
     last: usize,
     rows: Vec<Vec<f64>>,
+    /// True if any time is late enough.
+    steady: bool,
+    /// The first line of a series whose time is not asked for, and why not.
+    skipped: Option<(u64, String)>,
 }
 
 impl<'a> Collector<'a> {
@@ -57,12 +62,25 @@ impl<'a> Collector<'a> {
             _ => rods,
         };
         let rows = problem.certified.rows.len();
-        Self { problem, rods, ahead, lines: vec![None; ahead + rows], last: 0, rows: vec![Vec::new(); rows] }
+        let lines = vec![None; ahead + rows];
+        let steady = closures::is_steady(&problem.problem);
+        Self { problem, rods, ahead, lines, last: 0, rows: vec![Vec::new(); rows], steady, skipped: None }
     }
 
     /// Adds the row with these keys. `Err` has the index of the wrong key, and the reason.
     pub(super) fn add(&mut self, line: u64, keys: &[f64], values: Vec<f64>) -> Result<(), (usize, String)> {
-        let at = self.place(keys)?;
+        let at = match self.place(keys) {
+            // Programs of a_ij write whole time series.
+            Err((0, why)) if self.problem.problem.kind == Kind::Tensor => {
+                self.skipped.get_or_insert((line, why));
+                return Ok(());
+            }
+            at => at?,
+        };
+        if self.steady && at == self.ahead {
+            // The last row of a series counts.
+            self.lines[at] = None;
+        }
         let names = self.problem.problem.kind.keys().join(" and ");
         if let Some(before) = self.lines[at] {
             return Err((keys.len() - 1, format!("the same {names} as in line {before}")));
@@ -114,6 +132,7 @@ impl<'a> Collector<'a> {
             (times[at] - below).abs().min(above)
         };
         match nearest {
+            _ if self.steady && found > 0.0 => Ok(Some(0)),
             Some(at) if (times[at] - found).abs() <= LABEL * gap(at) => Ok(Some(at)),
             _ if found == 0.0 => Ok(None),
             Some(at) => Err((
@@ -131,8 +150,9 @@ impl<'a> Collector<'a> {
             let names = self.problem.problem.kind.keys();
             let keys = &self.problem.certified.rows[first];
             let key: Vec<_> = (names.iter().zip(keys)).map(|(name, key)| format!("{name} = {key}")).collect();
+            let other = self.skipped.map_or(String::new(), |(line, why)| format!("; line {line}: {why}"));
             let message = format!(
-                "the file ends before {} ({missing} of {} rows are missing)",
+                "the file ends before {} ({missing} of {} rows are missing){other}",
                 key.join(", "),
                 lines.len()
             );

@@ -5,12 +5,19 @@ use super::diagnosis::{Diagnosis, NEARER, setting};
 use crate::methods::tensors::closures::PAIRS;
 use crate::methods::tensors::{Closure, Equation, Model, at, isotropic, steady};
 use crate::oracle::diffusion::{self, Motion, Start};
-use crate::serve::problems::{Closed, LoadedProblem, Problem};
+use crate::serve::problems::{Closed, Kind, LoadedProblem, Problem};
 use nalgebra::Matrix3;
 use rayon::prelude::*;
 
 /// From this strain on, a problem asks for the steady state.
 const LATE: f64 = 1e6;
+
+/// True if a problem asks for a steady state: its time is a name for any that is late enough.
+pub(super) fn is_steady(problem: &Problem) -> bool {
+    let gradient = problem.gradient_per_s.as_flattened();
+    let norm = gradient.iter().map(|g| g * g).sum::<f64>().sqrt();
+    problem.kind == Kind::Tensor && matches!(problem.times_s[..], [time] if time * norm > LATE)
+}
 
 /// An equation that may have produced the answer.
 struct Candidate {

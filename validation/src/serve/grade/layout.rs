@@ -35,7 +35,7 @@ pub enum Foreign {
     Fiberoripy,
     /// Without a header: t, then A in the order 11, 22, 33, 12, 23, 13 of fiberpy's Mat2
     Fiberpy,
-    /// time, A2_0 to A2_5: OpenFOAM's symmTensor xx, xy, xz, yy, yz, zz
+    /// time, A2_0 to A2_5: OpenFOAM's symmTensor xx, xy, xz, yy, yz, zz; a file of its probes is read without this flag
     Openfoam,
 }
 

@@ -2,7 +2,7 @@
 
 use super::answer::{Answer, Collector};
 use super::lammps;
-use super::layout::{Field, FileOptions, Layout};
+use super::layout::{Field, FileOptions, Foreign, Layout};
 use super::lines::{Lines, number};
 use crate::serve::problems::{LoadedProblem, ReadError};
 use std::path::Path;
@@ -23,8 +23,17 @@ pub fn read(
     if first.starts_with("ITEM:") {
         return lammps::read(lines, first, problem, options.axes, dump);
     }
-    let layout =
-        Layout::find(&first, &problem.problem, options).map_err(|(at, message)| lines.error(at, message))?;
+    // OpenFOAM's probes have comments, then rows as `t (xx xy xz yy yz zz)`.
+    let probes = first.strip_prefix('#').is_some_and(|rest| rest.trim_start().starts_with("Probe"));
+    let plain = |line: String| if probes { line.replace(['(', ')'], " ") } else { line };
+    let mut first = Some(first);
+    while probes && first.as_ref().is_some_and(|line| line.starts_with('#')) {
+        first = lines.next_line()?;
+    }
+    let first = plain(first.ok_or_else(|| lines.error(1, "there is no row below the comments"))?);
+    let foreign = if probes { Some(Foreign::Openfoam) } else { options.foreign };
+    let layout = Layout::find(&first, &problem.problem, &FileOptions { foreign, ..options.clone() })
+        .map_err(|(at, message)| lines.error(at, message))?;
     let mut collector = Collector::new(problem);
     let mut row = layout.first_is_row.then_some(first);
     let mut last = lines.number();
@@ -32,7 +41,7 @@ pub fn read(
         let line = match row.take() {
             Some(line) => line,
             None => match lines.next_line()? {
-                Some(line) => line,
+                Some(line) => plain(line),
                 None => return collector.finish(path, last),
             },
         };

@@ -111,7 +111,7 @@ pub fn diffused(
     (effort, stream): (&Effort, u64),
 ) -> Vec<Shares> {
     let aspect_ratio = scene.particles.aspect_ratio;
-    let diffusion = Diffusion { shape_factor: shape_factor(aspect_ratio), c_i, strain: watch.strain };
+    let diffusion = Diffusion::isotropic(shape_factor(aspect_ratio), c_i, watch.strain);
     let one = |replica| {
         let mut rods = Diffusing::isotropic(scene.particles.count, diffusion, effort.seed(stream + replica));
         observed(aspect_ratio, watch, || {

@@ -3,13 +3,12 @@
 use crate::judge::case::Effort;
 use crate::judge::lab;
 use crate::judge::statistics::Estimate;
-use crate::methods::coefficients::Means;
+use crate::methods::coefficients::{Means, Watched, free};
 use crate::studies::readings::damping_rate;
 use nalgebra::Matrix3;
+use rayon::prelude::*;
 use serde::Serialize;
-use shearbed::Observable;
 use shearbed::model::jeffery::{shape_factor, strain_per_period};
-use shearbed::observable::Channel;
 use shearbed::scene::{Scene, Update};
 
 /// A suspension.
@@ -110,6 +109,10 @@ pub struct Coefficients {
     pub own: [Estimate; 4],
     /// The relative residual of a fit with a single C_I.
     pub misfit: Estimate,
+    /// β₁ and β₂ of Koch's anisotropic diffusivity.
+    pub koch: [Estimate; 2],
+    /// The relative residual of a fit by these two.
+    pub koch_misfit: Estimate,
     /// The decay rate of X̄₁'s oscillation from an isotropic start, per period; none if the oscillation is lost in noise.
     pub damping_per_period: Option<Estimate>,
     /// Steady σ₁₂, N₁ and N₂ of the rods over μ_fiber G.
@@ -117,9 +120,6 @@ pub struct Coefficients {
     /// Steady σ₁₂/(μG n a³) for rods that are spheroids.
     pub spheroids: Estimate,
 }
-
-/// Outputs per period.
-const OUTPUTS: usize = 100;
 
 /// Rods of a replica.
 const RODS: usize = 100;
@@ -146,40 +146,59 @@ pub fn scene(setting: Setting, effort: &Effort) -> Scene {
     interaction.alpha = setting.alpha;
     interaction.update = setting.update;
     scene.time.duration = 2.0 * periods(setting) as f64;
-    scene.time.outputs_per_unit = Some(OUTPUTS as u64);
+    scene.time.outputs_per_unit = Some(1);
     scene.time.steps_per_unit = Some(setting.finer * scene.resolving_steps());
-    scene.output.observables =
-        vec![Observable::Projections, Observable::OrientationTensor, Observable::OrientationTensor4];
     scene
 }
 
-/// The means of each replica in its window, and X̄₁ at each quarter of the first two periods.
+/// The means of each replica over the second half of its scene, and X̄₁ at each quarter of the first two periods.
 pub(crate) fn windows(scene: &Scene, replicas: u64) -> Vec<(Means, [f64; 9])> {
-    let half = scene.time.duration as usize / 2 * OUTPUTS;
-    let strain = strain_per_period(scene.particles.aspect_ratio) / OUTPUTS as f64;
-    let channels = Channels::new();
-    lab::per_replica(scene, replicas, |mean| {
-        let means = channels.window(mean, half..2 * half, strain);
-        (means, std::array::from_fn(|k| mean(Channel::X[0], k * OUTPUTS / 4)))
-    })
+    let lost = (Means { gain: Matrix3::from_element(f64::NAN), ..Means::default() }, [f64::NAN; 9]);
+    (0..replicas).into_par_iter().map(|replica| watched(scene, replica).unwrap_or(lost)).collect()
+}
+
+/// One replica of [`windows`]; `None` where a step fails.
+fn watched(scene: &Scene, replica: u64) -> Option<(Means, [f64; 9])> {
+    let (r_e, steps) = (scene.particles.aspect_ratio, scene.time.steps_per_unit? as usize);
+    let all = scene.time.duration as usize * steps;
+    let strain = strain_per_period(r_e) / steps as f64;
+    let mut watched = Watched::new(free(shape_factor(r_e), strain), strain);
+    let mut rods = lab::suspension(scene, replica);
+    let mut now = rods.directions();
+    let mut quarters = [0.0; 9];
+    for step in 0..=all {
+        // The nearest step to each quarter of a period.
+        if let Some(k) = (0..9).find(|k| (k * steps + 2) / 4 == step) {
+            quarters[k] = now.iter().map(|p| p.x.abs()).sum::<f64>() / now.len() as f64;
+        }
+        if step < all {
+            rods.step().ok()?;
+            let before = std::mem::replace(&mut now, rods.directions());
+            if step >= all / 2 {
+                watched.step(&before, &now);
+            }
+        }
+    }
+    Some((watched.means(), quarters))
 }
 
 fn row(setting: Setting, replicas: u64, effort: &Effort) -> Coefficients {
     let (means, quarters): (Vec<_>, Vec<_>) = windows(&scene(setting, effort), replicas).into_iter().unzip();
-    let factor = shape_factor(setting.aspect_ratio);
     let of = |value: &dyn Fn(&Means) -> f64| {
         let without: Vec<_> = (0..means.len()).map(|k| value(&Means::of(&means, Some(k)))).collect();
         Estimate::jackknife(value(&Means::of(&means, None)), &without)
     };
-    let own = |i: usize, j: usize| of(&|means| means.gain(factor)[(i, j)] / means.diffusion()[(i, j)]);
+    let own = |i: usize, j: usize| of(&|means| means.gain[(i, j)] / means.diffusion()[(i, j)]);
     Coefficients {
         setting,
         phi_rp: std::f64::consts::FRAC_PI_4 * setting.n_a3 / setting.aspect_ratio,
         replicas,
         periods: periods(setting),
-        c_i: of(&|means| means.coefficient(factor)),
+        c_i: of(&|means| means.coefficient()),
         own: [own(0, 0), own(1, 1), own(2, 2), own(0, 1)],
-        misfit: of(&|means| means.misfit(factor)),
+        misfit: of(&|means| means.misfit()),
+        koch: std::array::from_fn(|k| of(&|means| means.koch().0[k])),
+        koch_misfit: of(&|means| means.koch().1),
         damping_per_period: damping(&quarters),
         stress: std::array::from_fn(|k| of(&|means| means.stress()[k])),
         spheroids: of(&|means| means.spheroids(setting.aspect_ratio)),
@@ -197,57 +216,4 @@ fn damping(quarters: &[[f64; 9]]) -> Option<Estimate> {
     let without: Vec<_> = (0..quarters.len()).map(|k| rate(Some(k))).collect();
     let found = Estimate::jackknife(rate(None), &without);
     (found.value.is_finite() && found.se.is_finite() && found.readable()).then_some(found)
-}
-
-/// The channels of ⟨pp⟩ and of ⟨pp p₁p₂⟩, looked up once.
-struct Channels {
-    second: Vec<([usize; 2], Channel)>,
-    sheared: Vec<([usize; 2], Channel)>,
-}
-
-impl Channels {
-    fn new() -> Self {
-        let pairs = [[0, 0], [1, 1], [2, 2], [0, 1], [0, 2], [1, 2]];
-        let named = |pair: [usize; 2], more: &[usize]| {
-            let mut indices = [&pair[..], more].concat();
-            indices.sort_unstable();
-            let digits: String = indices.iter().map(|k| (k + 1).to_string()).collect();
-            Channel::named(&format!("a{digits}")).map(|channel| (pair, channel))
-        };
-        Self {
-            second: pairs.iter().filter_map(|pair| named(*pair, &[])).collect(),
-            sheared: pairs.iter().filter_map(|pair| named(*pair, &[0, 1])).collect(),
-        }
-    }
-
-    fn tensor(channels: &[([usize; 2], Channel)], value: impl Fn(Channel) -> f64) -> Matrix3<f64> {
-        let mut tensor = Matrix3::zeros();
-        for ([i, j], channel) in channels {
-            tensor[(*i, *j)] = value(*channel);
-            tensor[(*j, *i)] = tensor[(*i, *j)];
-        }
-        tensor
-    }
-
-    /// Means over a window of outputs `strain` apart, by the trapezoidal rule.
-    fn window(
-        &self,
-        mean: &dyn Fn(Channel, usize) -> f64,
-        outputs: std::ops::Range<usize>,
-        strain: f64,
-    ) -> Means {
-        let length = (outputs.end - outputs.start) as f64;
-        let over = |channel: Channel| {
-            let ends = mean(channel, outputs.start) + mean(channel, outputs.end);
-            let between = (outputs.start + 1..outputs.end).map(|output| mean(channel, output));
-            (0.5 * ends + between.sum::<f64>()) / length
-        };
-        let change =
-            |channel| (mean(channel, outputs.end) - mean(channel, outputs.start)) / (length * strain);
-        Means {
-            second: Self::tensor(&self.second, over),
-            sheared: Self::tensor(&self.sheared, over),
-            change: Self::tensor(&self.second, change),
-        }
-    }
 }

@@ -134,6 +134,9 @@ fn coefficients(rows: &[Coefficients]) -> ReportTable {
         columns.push(measured(name, move |row| row.own[k]));
     }
     columns.push(measured("left over", |row| row.misfit));
+    columns.push(measured("β_1", |row| row.koch[0]));
+    columns.push(measured("β_2", |row| row.koch[1]));
+    columns.push(measured("left by β_1, β_2", |row| row.koch_misfit));
     columns
         .push(estimate("X̄₁'s decay per T", |row: &Coefficients| row.damping_per_period.map(Into::into)));
     ReportTable::new(
@@ -141,7 +144,8 @@ fn coefficients(rows: &[Coefficients]) -> ReportTable {
         format!(
             "Steady state of 100 rods, m = 3, {replicas} replicas (± a standard error, jackknife). C_I by least squares over \
              all components of J, then by each component alone: where these differ, no single C_I describes the collisions, \
-             and the relative residual is in the next column. steps ×: time steps over those that resolve the motion. \
+             and the relative residual is in the next column. β_1 and β_2 are those of Koch's (1995) anisotropic diffusivity, C = β_1 (D:⟨pppp⟩:D) δ/G² + β_2 \
+             D:⟨pppppp⟩:D/G², with what these two leave. steps ×: time steps over those that resolve the motion. \
              periods: before the window and in it. φ r_p: for cylinders, π n a³/(4 r_e). The decay of X̄₁'s oscillation is \
              over the first two periods from isotropic directions."
         ),
