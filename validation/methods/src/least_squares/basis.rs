@@ -7,7 +7,7 @@ pub const MOST_PARAMETERS: usize = 3;
 
 /// Chebyshev–Lobatto nodes along each axis, and the total degree of the polynomials, by the number of parameters. There are fewer
 /// coefficients than nodes, so that the polynomials smooth the noise of the runs instead of following it.
-const DESIGNS: [(usize, usize); MOST_PARAMETERS] = [(7, 4), (7, 6), (5, 4)];
+const DESIGNS: [(usize, usize); MOST_PARAMETERS] = [(7, 4), (7, 6), (7, 6)];
 
 /// Chebyshev polynomials over the box [−1, 1]^p and the nodes to which they are fitted (least squares).
 #[derive(Clone, Debug)]

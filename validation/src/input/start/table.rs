@@ -11,11 +11,11 @@ const LENGTH: [&str; 1] = ["length_mm"];
 /// The column of the rods' numbers, ascending without repetition.
 const ROD: &str = "rod";
 
-/// The columns of replica and time: each has the same value in all rows.
-const ONE_VALUE: [&str; 2] = ["replica", "time_s"];
+/// The columns of replica, time and strain: each has the same value in all rows.
+const ONE_VALUE: [&str; 3] = ["replica", "time_s", "strain"];
 
-/// Other columns that the file may have, as `rods.csv` does; they are ignored.
-const OTHERS: [&str; 2] = ["strain", "collided"];
+/// Another column that the file may have, as `rods.csv` does; it is ignored.
+const OTHERS: [&str; 1] = ["collided"];
 
 /// The largest deviation of |p| from 1, as for directions of five or more decimals; p is then normalised.
 const OFF_UNIT: f64 = 1e-5;
@@ -161,10 +161,10 @@ fn push(axes: &mut Option<[Vec<f64>; 3]>, values: [f64; 3]) {
 /// Rods are read row by row: rows in another order, or of two times or replicas, would be another suspension.
 struct Order {
     rod: Option<usize>,
-    one_value: [Option<usize>; 2],
+    one_value: [Option<usize>; ONE_VALUE.len()],
     /// The last rod; and the line and the values of the first row.
     last: Option<f64>,
-    first: Option<(u64, [Option<f64>; 2])>,
+    first: Option<(u64, [Option<f64>; ONE_VALUE.len()])>,
 }
 
 impl Order {
@@ -180,7 +180,10 @@ impl Order {
         number: impl Fn(usize) -> Result<f64, String>,
     ) -> Result<(), String> {
         let read = |place: Option<usize>| place.map(&number).transpose();
-        let values = [read(self.one_value[0])?, read(self.one_value[1])?];
+        let mut values = [None; ONE_VALUE.len()];
+        for (value, place) in values.iter_mut().zip(self.one_value) {
+            *value = read(place)?;
+        }
         let (first_line, first) = *self.first.get_or_insert((line, values));
         for ((column, value), first) in self.one_value.iter().zip(values).zip(first) {
             if let (Some(column), Some(value), Some(first)) = (column, value, first)
@@ -292,6 +295,7 @@ mod tests {
                 "3: time_s = 73.7 is not allowed: line 2 has 0, and a start has the rods of one replica at one time",
             ),
             ("time_s,p1,p2,p3\nnow,1,0,0\n", "2: time_s = now is not allowed"),
+            ("strain,p1,p2,p3\n0,1,0,0\n1,0,1,0\n", "3: strain = 1 is not allowed: line 2 has 0"),
             // A file of other content is shown by its first letters at most.
             (
                 "-----BEGIN PRIVATE KEY OF SOMEBODY-----\nMIIE\n",
