@@ -5,6 +5,7 @@ use crate::files::bounded;
 use crate::files::output::{RECORD, Record, Sum};
 use crate::files::text::Shown;
 use crate::files::text::snippet;
+use crate::judge::accept::Verdict;
 use crate::present::report::FORMAT;
 use crate::present::table::{ReportTable, number, words};
 use crate::studies::work_precision::study::time;
@@ -56,7 +57,7 @@ struct StudyTime {
 #[derive(Deserialize)]
 struct Case {
     name: String,
-    verdict: String,
+    verdict: Verdict,
     seconds: f64,
     evidence: Vec<Line>,
 }

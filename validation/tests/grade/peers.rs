@@ -153,8 +153,9 @@ fn javascript_has_order_2() {
     let script = peers().join("midpoint.js");
     let command = format!("node '{}'", script.display());
     let of = ["--problem", "mid-flip-2", "--problem", "mid-flip-11.6", "--problem", "spiral"];
-    let found =
-        graded(&[&["--command", &command, "--brief", "--order", "2", "--timeout", "100000"][..], &of].concat());
+    let found = graded(
+        &[&["--command", &command, "--brief", "--order", "2", "--timeout", "100000"][..], &of].concat(),
+    );
     for name in ["mid-flip-2", "mid-flip-11.6", "spiral"] {
         assert!((found.order(name) - 2.0).abs() < 0.2, "{name}: {}", found.words);
         assert!(found.of(name)["length_drift"].as_f64().unwrap() < 1e-14);

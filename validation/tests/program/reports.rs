@@ -42,6 +42,11 @@ fn two_reports_are_compared() {
     let other = shearbed(dir.path(), "compare a/report.json b.json").stdout;
     assert!(other.contains("jeffery-period: pass → fail"), "{other}");
     assert!(other.contains("Errors that moved"), "{other}");
+    let mut strange = spoilt.clone();
+    strange["cases"][0]["verdict"] = "PASSED?".into();
+    fs::write(dir.path().join("c.json"), strange.to_string()).unwrap();
+    let unknown = shearbed(dir.path(), "compare a/report.json c.json");
+    assert!(unknown.code == Some(2) && unknown.stderr.contains("PASSED?"), "{}", unknown.stderr);
     let bad = shearbed(dir.path(), "compare a/report.json small.toml");
     assert_eq!(bad.code, Some(2));
     assert!(bad.stderr.contains("small.toml: is no report.json"), "{}", bad.stderr);

@@ -35,6 +35,12 @@ pub enum Verdict {
     NoData,
 }
 
+impl std::fmt::Display for Verdict {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(&format!("{self:?}").to_lowercase())
+    }
+}
+
 /// A text of the source code, or received from another rank.
 pub type Text = Cow<'static, str>;
 
