@@ -21,7 +21,9 @@ pub(super) fn fourth(a: &Matrix3<f64>) -> Fourth {
     let mut now = moments(&mut z);
     for _ in 0..60 {
         let residual = values - now.0;
-        let step = slope(&now.1).lu().solve(&residual).unwrap_or_default();
+        // Where a is none of rods, or nearly, a whole step would lead to exponents of millions.
+        let step =
+            slope(&now.1).lu().solve(&residual).unwrap_or_default().map(|step| step.clamp(-MOST, MOST));
         let mut part = 1.0;
         let mut next = (z + step, now);
         while part > 1e-3 {
@@ -40,6 +42,9 @@ pub(super) fn fourth(a: &Matrix3<f64>) -> Fourth {
     }
     Fourth::orthotropic(&axes, &(values * trace), &(now.1 * trace))
 }
+
+/// The largest step of an exponent.
+const MOST: f64 = 20.0;
 
 /// a_i, and a_2233, a_3311, a_1122, by the trapezoid rule in ln s with an error of e^(−2π²/h). Shifts `z` to sum to 0.
 fn moments(z: &mut Vector3<f64>) -> (Vector3<f64>, Vector3<f64>) {

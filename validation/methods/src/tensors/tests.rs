@@ -282,7 +282,6 @@ fn steady_states_are_found_where_they_settle_slowly_or_their_trace_would_drift()
         };
         let found = steady(&equation, &start());
         let found = found.unwrap_or_else(|| panic!("{} {name} {c_i}", closure.name()));
-        println!("{} {name} {c_i}: {} {}", closure.name(), found[(1, 1)], found.trace() - 1.0);
         assert!(
             (found[(1, 1)] - a22).abs() < 1e-4,
             "{} {name} {c_i}: {} {a22}",

@@ -50,7 +50,8 @@ fn run(request: &Request) -> Result<Option<Findings>, String> {
     .judged("Folgar & Tucker 1984", STUDY.cases);
     let table = ReportTable::new(
         [STUDY.name, "Steady tensors by closures"],
-        "Λ = 1. A closure that does not settle is left out.",
+        "Λ = 1. A closure is left out where no steady state of it was found: the linear one leaves the possible tensors where a flow \
+         stretches.",
         rows.iter().copied(),
         vec![
             words("flow", |row: &Off| row.flow),
