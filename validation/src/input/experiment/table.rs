@@ -63,7 +63,7 @@ fn records(file: &str, text: &str) -> Result<Vec<Record>, DataError> {
                 ReaderBuilder::new().has_headers(false).trim(Trim::All).from_reader(text.as_bytes());
             let line = index + 1;
             if line > MOST_LINES {
-                let message = format!("more than the {MOST_LINES} lines that are allowed");
+                let message = format!("more than {MOST_LINES} lines; at most {MOST_LINES} are allowed");
                 return Err(DataError::at(file, line, message));
             }
             reader.read_record(&mut cells).map_err(|error| DataError::at(file, line, error.to_string()))?;
