@@ -71,6 +71,22 @@ mod tests {
         all.means(steps)
     }
 
+    /// p = (0.6, 0.8, 0) after (0, 1, 0), without a motion of its own.
+    #[test]
+    fn the_step_of_one_rod_by_hand() {
+        let mut watched = Watched::new(Matrix3::identity(), 0.5);
+        watched.step(&[Vector3::y()], &[Vector3::new(0.6, 0.8, 0.0)]);
+        let found = watched.means();
+        let close = |found: f64, due: f64| assert!((found - due).abs() < 1e-14, "{found} {due}");
+        close(found.second[(0, 1)], 0.48);
+        close(found.fourth.at(0, 0, 1, 1), 0.48 * 0.48);
+        close(found.sheared()[(1, 1)], 0.64 * 0.48);
+        close(found.sixth[(0, 0)], 0.36 * 0.48 * 0.48);
+        // 0.36 more, and 0.36 less, in a strain of a half.
+        close(found.gain[(0, 0)], 0.72);
+        close(found.gain[(1, 1)], -0.72);
+    }
+
     #[test]
     fn free_rods_gain_nothing() {
         let gain = found(500, 100, Matrix3::zeros()).gain;

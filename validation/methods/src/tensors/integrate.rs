@@ -55,8 +55,8 @@ pub fn at(
 /// The longest strain after which a steady state is looked for, about.
 const MOST_STRAIN: f64 = 10_000.0;
 
-/// Steps of Newton's method below this end it where they do not fall any more: polynomials of high degree, as IBOF's near alignment,
-/// are known no better.
+/// The tolerance of the way to a steady state where polynomials of high degree, as IBOF's near alignment, are known no better; and how
+/// far the result may be off a state of rods.
 const ROUGH: f64 = 1e-6;
 
 /// A steady a_ij: that to which Newton's method leads from where a is after some strain, close by. `None` where a comes near none.
@@ -89,7 +89,7 @@ fn newton(equation: &Equation, settled: &Matrix3<f64>) -> Option<Matrix3<f64>> {
         let found = equation.rate(a) / norm;
         Vector6::from_fn(|n, _| found[PAIRS[n]])
     };
-    let (mut a, mut least) = (*settled, f64::INFINITY);
+    let mut a = *settled;
     for _ in 0..50 {
         let here = rate(&a);
         // The trace is constant: its equation is added to that of a_33.
@@ -105,13 +105,11 @@ fn newton(equation: &Equation, settled: &Matrix3<f64>) -> Option<Matrix3<f64>> {
         });
         let step = slope.lu().solve(&here)?;
         a -= matrix(&step);
-        let size = step.amax();
-        if size < 1e-11 || size < ROUGH && size >= least {
+        if step.amax() < 1e-11 {
             // Another root is no state that is settled into.
             let near = (a - settled).amax() < 0.05 && (a.trace() - 1.0).abs() < ROUGH;
             return (near && a.symmetric_eigenvalues().min() >= -ROUGH).then_some(a);
         }
-        least = least.min(size);
     }
     None
 }
