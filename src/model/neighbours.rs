@@ -57,7 +57,7 @@ impl Neighbours {
         })
     }
 
-    /// Calls `found` with every rod that has another rod closer than its `reach`, and with the nearest one. `positions` are
+    /// Calls `found` with every rod that has another rod closer than its `reach`, rounded up, and with the nearest one. `positions` are
     /// three arrays of coordinates in the volume; `work` counts the cells and distances.
     pub fn each_nearest(
         &mut self,

@@ -21,7 +21,7 @@ pub struct Counters {
     pub steps: u64,
     /// Random numbers R drawn for collisions (eq. 8).
     pub draws: u64,
-    /// Pairs rejected by the single-precision test.
+    /// Pairs to which the quick test of short numbers was applied.
     pub pairs_screened: u64,
     /// Cells of the grid searched.
     pub cells: u64,

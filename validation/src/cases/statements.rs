@@ -177,7 +177,7 @@ fn stays_put(from: &Periods, effort: &Effort) -> Vec<Evidence> {
     let designs = [(0.02, 0.006), (0.03, 0.0095), (0.04, 0.0135)].map(|(effect, sd)| Design { effect, sd });
     let replicas = designs.map(|design| effort.samples(design)).into_iter().max();
     let drifts = per_replica(&scene, replicas.unwrap_or(0), |mean| {
-        // Half a period, where free rods are back.
+        // A whole period, after which free rods are back.
         let over_ten =
             |channel, first| (first..first + 10).map(|output| mean(channel, output)).sum::<f64>() / 10.0;
         Channel::X.map(|axis| over_ten(axis, start + 10) - over_ten(axis, start))

@@ -1,8 +1,8 @@
 //! The only way in which files are read: regular files alone, without waiting, and up to a size limit.
 //!
 //! A file may be a link to an endless device or a pipe without a writer, may grow while it is read, and may have been written by
-//! a stranger or edited since this program wrote it. Nothing else in this crate opens a file for reading: clippy forbids it
-//! (`clippy.toml`).
+//! a stranger or edited since this program wrote it. Nothing else in this crate opens a file for reading (a folder is
+//! opened once, to be synchronised): clippy forbids it (`clippy.toml`).
 
 use std::fs::{File, FileType, OpenOptions};
 use std::io::{self, Read};

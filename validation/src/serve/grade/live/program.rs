@@ -236,7 +236,7 @@ impl State {
             .map_err(|reason| wrong(format!("line {line} of standard output: {reason}")))
     }
 
-    /// Stops the program, notes the breach, and says whether there is another try.
+    /// Stops the program, notes the breach, and returns its description; after too many the program is given up.
     fn breached(&mut self, breach: Breach) -> String {
         self.pipe = None;
         self.breaches += 1;
