@@ -70,3 +70,20 @@ fn what_a_key_does_not_hold_is_refused_with_what_it_holds() {
         }
     }
 }
+
+/// A number of hundreds of digits is a power of ten in a message.
+#[test]
+fn numbers_are_short() {
+    for (number, text) in [
+        (0.0, "0"),
+        (11.6, "11.6"),
+        (-1e-5, "-0.00001"),
+        (9e-6, "9e-6"),
+        (9e15, "9000000000000000"),
+        (-1e16, "-1e16"),
+        (1e300, "1e300"),
+        (f64::INFINITY, "inf"),
+    ] {
+        assert_eq!(crate::scene::document::decimal(number), text);
+    }
+}
