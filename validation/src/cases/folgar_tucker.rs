@@ -5,10 +5,10 @@ use crate::judge::accept::Design;
 use crate::judge::case::{Case, Effort, Evidence};
 use crate::judge::lab::{self, Change, Shared};
 use crate::judge::statistics::{Sample, correlation};
-use crate::methods::coefficients::{Diffusing, Diffusion, Means, Watched, free};
+use crate::methods::coefficients::{Diffusing, Diffusion, Means, free, watched};
 use crate::studies::coefficients::jumps::{Quantity, Shares, Watch, above, diffused, kicked};
 use crate::studies::coefficients::{self, Setting};
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::Matrix3;
 use rayon::prelude::*;
 use shearbed::model::jeffery::{shape_factor, strain_per_period};
 use shearbed::scene::Update;
@@ -132,26 +132,13 @@ const RODS: usize = 100;
 fn effective(estimator: &Estimator, effort: &Effort) -> Vec<Evidence> {
     // A pilot of 40 replicas scattered by 0.0011.
     let design = Design::new(0.0015, 0.0014);
-    let watched = |steps: usize, strain: f64, mut next: Box<dyn FnMut() -> Vec<Vector3<f64>>>| {
-        let mut watched = Watched::new((estimator.alone)(strain), strain);
-        let mut last = next();
-        for _ in 0..steps {
-            let now = next();
-            watched.step(&last, &now);
-            last = now;
-        }
-        watched.means()
-    };
     let found: Vec<f64> = (0..effort.samples(design))
         .into_par_iter()
         .map(|replica| {
             let diffusion = Diffusion::isotropic(LAMBDA, PLANTED, STEP);
             let mut rods = Diffusing::isotropic(RODS, diffusion, effort.seed(1 + replica));
-            let next = move || {
-                rods.step();
-                rods.rods.clone()
-            };
-            (estimator.of)(&watched(STEPS, STEP, Box::new(next)))
+            rods.step();
+            (estimator.of)(&rods.means(&(estimator.alone)(STEP), STEPS))
         })
         .collect();
     let mut scene = lab::interacting_scene(effort);
@@ -159,11 +146,10 @@ fn effective(estimator: &Estimator, effort: &Effort) -> Vec<Evidence> {
     lab::interaction(&mut scene).alpha = 0.0;
     let strain = strain_per_period(3.0) / scene.steps_per_unit() as f64;
     let mut rods = lab::stepped(&scene, 0);
-    let next = move || {
-        let failed = rods.step().is_err();
-        if failed { vec![Vector3::repeat(f64::NAN)] } else { rods.directions() }
-    };
-    let gain = watched(200, strain, Box::new(next)).gain;
+    let start = rods.directions();
+    let next = || rods.step().is_ok().then(|| rods.directions());
+    let largest = watched(&(estimator.alone)(strain), strain, start, 200, next)
+        .map_or(f64::NAN, |means| means.gain.amax());
     vec![
         Evidence::new(
             "C_I of synthetic rods, 0.01 put in",
@@ -177,7 +163,7 @@ fn effective(estimator: &Estimator, effort: &Effort) -> Vec<Evidence> {
         ),
         Evidence::within(
             "the largest component of J of the core's free rods",
-            gain.amax(),
+            largest,
             32.0 * f64::EPSILON / strain,
             "two directions within 8 ε each, and their products, over the strain of a step",
         ),

@@ -35,7 +35,7 @@ pub(super) struct Args {
     /// More replicas and samples: the same cases, judged more sharply
     #[arg(long)]
     full: bool,
-    /// The seed from which every case takes its random numbers [default: that of the gate]
+    /// The seed from which every case takes its random numbers
     #[arg(long, value_name = "S", value_parser = whole(0, MAX_SEED), default_value_t = GATE_SEED, allow_negative_numbers = true)]
     seed: u64,
     /// Keep finished cases and studies in this file, and skip those that it has

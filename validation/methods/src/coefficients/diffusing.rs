@@ -1,7 +1,7 @@
 //! Synthetic rods that turn by Jeffery's equation and by rotary diffusion: Folgar & Tucker's model itself, rod by rod, sharing no
 //! code with the core.
 
-use super::{Means, Watched};
+use super::{Means, watched};
 use nalgebra::{Matrix3, Vector3};
 use rand::SeedableRng;
 use rand_distr::{Distribution, StandardNormal};
@@ -72,16 +72,14 @@ impl Diffusing {
         }
     }
 
-    /// The means over `steps` steps.
-    pub fn means(&mut self, steps: usize) -> Means {
-        let Diffusion { shape_factor, strain, .. } = self.diffusion;
-        let mut watched = Watched::new(free(shape_factor, strain), strain);
-        for _ in 0..steps {
-            let before = self.rods.clone();
+    /// The means over `steps` steps, with J as what is beyond a motion `alone` ([`free`] of the rods' own Λ and strain of a step).
+    pub fn means(&mut self, alone: &Matrix3<f64>, steps: usize) -> Means {
+        let (strain, start) = (self.diffusion.strain, self.rods.clone());
+        let next = || {
             self.step();
-            watched.step(&before, &self.rods);
-        }
-        watched.means()
+            Some(self.rods.clone())
+        };
+        watched(alone, strain, start, steps, next).unwrap_or_default()
     }
 }
 

@@ -11,7 +11,7 @@ mod diffusing;
 mod watched;
 
 pub use diffusing::{Diffusing, Diffusion, free};
-pub use watched::Watched;
+pub use watched::watched;
 
 use crate::tensors::closures::Fourth;
 use crate::tensors::models::diffusion;

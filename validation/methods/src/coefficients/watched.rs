@@ -1,4 +1,4 @@
-//! Means over steps that are watched one by one.
+//! J and the moments from every step of the rods of one replica.
 
 use super::Means;
 use crate::tensors::closures::PAIRS;
@@ -7,58 +7,47 @@ use nalgebra::{Matrix3, Vector3, Vector6};
 /// Moments change little in a step: every tenth step's are taken.
 const EVERY: usize = 10;
 
-/// The steps of the rods of one replica, from which [`Means`] come.
-#[derive(Clone, Debug)]
-pub struct Watched {
-    free: Matrix3<f64>,
+/// The means over `steps` steps of the rods of one replica, each of the given strain, over which Jeffery's motion is `free`
+/// ([`super::free`]): from the directions at the `start` through those that `next` returns after each step. `None` if `next` stops.
+pub fn watched(
+    free: &Matrix3<f64>,
     strain: f64,
+    start: Vec<Vector3<f64>>,
     steps: usize,
-    samples: usize,
-    sums: Means,
-}
-
-impl Watched {
-    /// No steps yet; each will have this strain, over which Jeffery's motion is `free` ([`super::free`]).
-    pub fn new(free: Matrix3<f64>, strain: f64) -> Self {
-        Self { free, strain, steps: 0, samples: 0, sums: Means::default() }
-    }
-
-    /// Adds a step of all rods from their directions `before` it to those `after`.
-    pub fn step(&mut self, before: &[Vector3<f64>], after: &[Vector3<f64>]) {
+    mut next: impl FnMut() -> Option<Vec<Vector3<f64>>>,
+) -> Option<Means> {
+    let mut sums = Means::default();
+    let mut before = start;
+    for step in 0..steps {
+        let after = next()?;
         let share = 1.0 / after.len() as f64;
-        for (p, moved) in before.iter().zip(after) {
-            let alone = (self.free * p).normalize();
-            self.sums.gain += (moved * moved.transpose() - alone * alone.transpose()) * share;
+        for (p, moved) in before.iter().zip(&after) {
+            let alone = (free * p).normalize();
+            sums.gain += (moved * moved.transpose() - alone * alone.transpose()) * share;
         }
-        if self.steps.is_multiple_of(EVERY) {
-            self.samples += 1;
-            for p in after {
+        if step.is_multiple_of(EVERY) {
+            for p in &after {
                 let pairs = Vector6::from_fn(|n, _| p[PAIRS[n].0] * p[PAIRS[n].1]);
                 let square = p * p.transpose() * share;
-                self.sums.second += square;
-                self.sums.fourth.0 += pairs * pairs.transpose() * share;
-                self.sums.sixth += square * (p.x * p.y).powi(2);
+                sums.second += square;
+                sums.fourth.0 += pairs * pairs.transpose() * share;
+                sums.sixth += square * (p.x * p.y).powi(2);
             }
         }
-        self.steps += 1;
+        before = after;
     }
-
-    /// The means over the steps.
-    pub fn means(&self) -> Means {
-        let share = 1.0 / self.samples as f64;
-        let mut means = self.sums;
-        means.second *= share;
-        means.fourth.0 *= share;
-        means.sixth *= share;
-        means.gain /= self.steps as f64 * self.strain;
-        means
-    }
+    let share = 1.0 / steps.div_ceil(EVERY) as f64;
+    sums.second *= share;
+    sums.fourth.0 *= share;
+    sums.sixth *= share;
+    sums.gain /= steps as f64 * strain;
+    Some(sums)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::coefficients::{Diffusing, Diffusion};
+    use crate::coefficients::{Diffusing, Diffusion, free};
 
     const LAMBDA: f64 = 0.8;
     const STRAIN: f64 = 0.01;
@@ -68,15 +57,14 @@ mod tests {
         let diffusion = Diffusion { shape_factor: LAMBDA, diffusivity, strain: STRAIN };
         let mut all = Diffusing::isotropic(rods, diffusion, 5);
         (0..steps).for_each(|_| all.step());
-        all.means(steps)
+        all.means(&free(LAMBDA, STRAIN), steps)
     }
 
     /// p = (0.6, 0.8, 0) after (0, 1, 0), without a motion of its own.
     #[test]
     fn the_step_of_one_rod_by_hand() {
-        let mut watched = Watched::new(Matrix3::identity(), 0.5);
-        watched.step(&[Vector3::y()], &[Vector3::new(0.6, 0.8, 0.0)]);
-        let found = watched.means();
+        let turned = || Some(vec![Vector3::new(0.6, 0.8, 0.0)]);
+        let found = watched(&Matrix3::identity(), 0.5, vec![Vector3::y()], 1, turned).unwrap();
         let close = |found: f64, due: f64| assert!((found - due).abs() < 1e-14, "{found} {due}");
         close(found.second[(0, 1)], 0.48);
         close(found.fourth.at(0, 0, 1, 1), 0.48 * 0.48);

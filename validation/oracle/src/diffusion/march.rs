@@ -26,7 +26,6 @@ pub struct Density<'a> {
     unknowns: Vec<f64>,
     norm: f64,
     work: f64,
-    work_of_a_step: f64,
 }
 
 impl<'a> Density<'a> {
@@ -34,7 +33,7 @@ impl<'a> Density<'a> {
     pub fn new(frame: &'a Frame, accuracy: Accuracy, basis: Basis, unknowns: Vec<f64>) -> Self {
         let operator = Operator::new(&frame.motion, basis);
         let norm = frame.motion.norm(basis.degree);
-        Self { frame, accuracy, operator, unknowns, norm, work: 0.0, work_of_a_step: 0.0 }
+        Self { frame, accuracy, operator, unknowns, norm, work: 0.0 }
     }
 
     /// Advances the density by `time_s` seconds.
@@ -46,7 +45,7 @@ impl<'a> Density<'a> {
         let mut left = time_s;
         while left > 0.0 {
             let steps = (left * self.norm / self.accuracy.step).ceil().max(1.0);
-            let after = self.after(left / steps)?;
+            let (after, work) = self.after(left / steps)?;
             let basis = self.operator.basis;
             let (degree, order) = needed(&basis, &after, self.accuracy.tail);
             // A step is accepted if its result leaves the margin empty; else it is repeated with more harmonics.
@@ -59,7 +58,7 @@ impl<'a> Density<'a> {
             self.unknowns = after;
             left = if steps == 1.0 { 0.0 } else { left - left / steps };
             // The rest would take about as much a step: what is far too much is refused at once.
-            if self.work + self.work_of_a_step * (steps - 1.0) > 2.0 * MOST_WORK {
+            if self.work + work * (steps - 1.0) > 2.0 * MOST_WORK {
                 return Err(NoAnswer::TooMuchWork);
             }
             // Reduces the harmonics if many are empty.
@@ -70,27 +69,27 @@ impl<'a> Density<'a> {
         Ok(())
     }
 
-    /// Σ (hA)^k/k! applied to the unknowns, up to terms below the rounding of doubles.
-    fn after(&mut self, time_s: f64) -> Result<Vec<f64>, NoAnswer> {
+    /// Σ (hA)^k/k! applied to the unknowns, up to terms below the rounding of doubles, and its multiplications.
+    fn after(&mut self, time_s: f64) -> Result<(Vec<f64>, f64), NoAnswer> {
         let mut sum = self.unknowns.clone();
         let mut term = sum.clone();
         let mut next = vec![0.0; sum.len()];
         let least = 1e-17 * norm(&term);
         let mut before = f64::INFINITY;
-        self.work_of_a_step = 0.0;
+        let mut work = 0.0;
         for k in 1..1000 {
             self.operator.apply(time_s / f64::from(k), &term, &mut next);
             std::mem::swap(&mut term, &mut next);
             sum.iter_mut().zip(&term).for_each(|(sum, term)| *sum += term);
             let size = norm(&term);
-            self.work_of_a_step += self.operator.len() as f64;
+            work += self.operator.len() as f64;
             if before + size <= least {
                 break;
             }
             before = size;
         }
-        self.work += self.work_of_a_step;
-        if self.work > MOST_WORK { Err(NoAnswer::TooMuchWork) } else { Ok(sum) }
+        self.work += work;
+        if self.work > MOST_WORK { Err(NoAnswer::TooMuchWork) } else { Ok((sum, work)) }
     }
 
     /// Changes to this many harmonics.

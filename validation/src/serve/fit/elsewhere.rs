@@ -7,6 +7,7 @@ use crate::methods::least_squares::Datum;
 use crate::methods::least_squares::emulator::{Known, Prediction};
 use crate::methods::least_squares::profile::rise_of;
 use nalgebra::{DMatrix, DVector};
+use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 /// Parts of each range at first; a part is halved where the curves change too much over it.
 const PARTS: usize = 16;
@@ -26,6 +27,9 @@ const SHARE: f64 = 0.25;
 
 /// A difference of χ² that the noise of the replicas can cause.
 const NOISE: f64 = 16.0;
+
+/// Points whose p is below this are described by no value.
+const IMPOSSIBLE: f64 = 1e-9;
 
 /// Steps of the golden section towards a minimum: each leaves 0.62 of the way.
 const STEPS: usize = 12;
@@ -95,15 +99,30 @@ pub fn look_elsewhere(problem: &FitProblem<'_>, fit: &Fit, watch: &Watch<'_>) ->
             };
             let found = line.run(found.at, known.len())?;
             if found.chi_square < allowed {
-                return Err(format!(
-                    "--over {}: the points are described as well by {:.4} (χ² = {:.1}) as by {:.4} (χ² = {:.1}): χ² has \
-                     several minima in this range; give a narrower one without impossible values",
-                    range.label(),
+                let both = format!(
+                    "{:.4} (χ² = {:.1}) and {:.4} (χ² = {:.1})",
                     range.value(found.at),
                     found.chi_square,
                     values[axis],
                     own.chi_square
-                ));
+                );
+                let freedom = problem.measured.data.len().saturating_sub(fit.ranges.len());
+                let least = found.chi_square.min(own.chi_square);
+                return Err(
+                    match ChiSquared::new(freedom as f64).is_ok_and(|law| law.sf(least) < IMPOSSIBLE) {
+                        true => format!(
+                            "--over {}: no value describes the {} points; the nearest are {both}; check their columns, units and \
+                         uncertainties, and the scene's other keys",
+                            range.label(),
+                            problem.measured.data.len(),
+                        ),
+                        false => format!(
+                            "--over {}: {both} describe the points equally well, for χ² has several minima in this range; give a narrower \
+                         one without impossible values",
+                            range.label(),
+                        ),
+                    },
+                );
             }
         }
     }

@@ -109,19 +109,27 @@ fn the_levels_of_a_profile_are_those_of_its_intervals() {
 #[test]
 fn another_minimum_of_the_range_is_seen() {
     let (data, model) = (points(0.3, 1.0, 0.01, 1), model(1, 1e-9));
-    let look = |fit: &Fit| {
+    let look_at = |data: &[Datum], fit: &Fit| {
         let problem = FitProblem {
-            measured: Measured { data: &data, ranges: &fit.ranges, rods_over_measured: &[0.0] },
+            measured: Measured { data, ranges: &fit.ranges, rods_over_measured: &[0.0] },
             model: &model,
             most_replicas: 20,
         };
         look_elsewhere(&problem, fit, &Watch::SILENT)
     };
+    let look = |fit: &Fit| look_at(&data, fit);
     let found = fit(&data, &TWO, 1, 1e-9, 20);
     assert_eq!(look(&found), Ok(Vec::new()));
     let over = |over: [&str; 2]| Fit { ranges: ranges(&over), ..found.clone() };
     let said = look(&over(["a.rate=0.05:5", "a.frequency=0.95:9.4"])).unwrap_err();
-    assert!(said.contains("a.frequency") && said.contains("as well by 8.99"), "{said}");
+    assert!(said.contains("a.frequency") && said.contains("8.99") && said.contains("equally well"), "{said}");
+    // Where no value describes the points, two minima are not the news.
+    let mut wrong = data.clone();
+    wrong.iter_mut().for_each(|datum| datum.value += 0.3);
+    let mut best = over(["a.rate=0.05:5", "a.frequency=0.95:9.4"]);
+    best.best.chi_square = 1e6;
+    let said = look_at(&wrong, &best).unwrap_err();
+    assert!(said.contains("no value describes the"), "{said}");
     let unsearched = look(&over(["a.rate=0.05:5", "a.frequency=-900:1.25"]));
     assert!(unsearched.is_err() || unsearched.is_ok_and(|warnings| warnings[0].contains("too fast")));
     let mut off = found;

@@ -1,6 +1,5 @@
 //! A program's answer to a problem, in the order of the problem's own rows.
 
-use super::closures;
 use crate::judge::statistics::worst;
 use crate::serve::problems::{Kind, LoadedProblem, ReadError};
 use std::path::{Path, PathBuf};
@@ -63,7 +62,7 @@ impl<'a> Collector<'a> {
         };
         let rows = problem.certified.rows.len();
         let lines = vec![None; ahead + rows];
-        let steady = closures::is_steady(&problem.problem);
+        let steady = problem.problem.is_steady();
         Self { problem, rods, ahead, lines, last: 0, rows: vec![Vec::new(); rows], steady, skipped: None }
     }
 

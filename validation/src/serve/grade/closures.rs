@@ -1,23 +1,13 @@
 //! Diagnosis of answers about rods with diffusion: the closure from which an answer comes.
 
 use super::answer::Answer;
-use super::diagnosis::{Diagnosis, NEARER, setting};
+use super::diagnosis::{Diagnosis, NEARER};
 use crate::methods::tensors::closures::PAIRS;
 use crate::methods::tensors::{Closure, Equation, Model, at, isotropic, steady};
 use crate::oracle::diffusion::{self, Motion, Start};
-use crate::serve::problems::{Closed, Kind, LoadedProblem, Problem};
+use crate::serve::problems::{Closed, LoadedProblem, Problem};
 use nalgebra::Matrix3;
 use rayon::prelude::*;
-
-/// From this strain on, a problem asks for the steady state.
-const LATE: f64 = 1e6;
-
-/// True if a problem asks for a steady state: its time is a name for any that is late enough.
-pub(super) fn is_steady(problem: &Problem) -> bool {
-    let gradient = problem.gradient_per_s.as_flattened();
-    let norm = gradient.iter().map(|g| g * g).sum::<f64>().sqrt();
-    problem.kind == Kind::Tensor && matches!(problem.times_s[..], [time] if time * norm > LATE)
-}
 
 /// An equation that may have produced the answer.
 struct Candidate {
@@ -91,7 +81,7 @@ fn distance(problem: &Problem, answer: &Answer, candidate: &Candidate, most: f64
         (worst <= most).then_some(worst)
     };
     let times = &problem.times_s[..];
-    if times[0] * norm > LATE {
+    if problem.is_steady() {
         let row = &answer.rows[0];
         if row.len() == PAIRS.len() {
             // Saves time: most candidates are far, and then a is not at rest.
@@ -155,8 +145,7 @@ fn worst(loaded: &LoadedProblem, answer: &Answer) -> String {
     });
     let largest = errors.max_by(|a, b| a.0.abs().total_cmp(&b.0.abs()));
     largest.map_or(String::new(), |(error, column, time)| {
-        let norm = setting(loaded).gradient_per_s.norm();
-        let when = if time * norm > LATE { "once steady".to_owned() } else { format!("at {time} s") };
+        let when = if problem.is_steady() { "once steady".to_owned() } else { format!("at {time} s") };
         format!("{error:+.2e} in {column} {when}")
     })
 }

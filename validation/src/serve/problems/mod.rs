@@ -135,6 +135,17 @@ pub struct Problem {
     pub ensemble: Option<Ensemble>,
 }
 
+/// From this strain on, a tensor problem asks for the steady state.
+const LATE: f64 = 1e6;
+
+impl Problem {
+    /// True if a steady state is asked for: the one time is a name for any that is late enough.
+    pub fn is_steady(&self) -> bool {
+        let norm = self.gradient_per_s.as_flattened().iter().map(|g| g * g).sum::<f64>().sqrt();
+        self.kind == Kind::Tensor && matches!(self.times_s[..], [time] if time * norm > LATE)
+    }
+}
+
 /// A closed equation of a_ij, and its start.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]

@@ -3,7 +3,7 @@
 use crate::judge::case::Effort;
 use crate::judge::lab;
 use crate::judge::statistics::Estimate;
-use crate::methods::coefficients::{Means, Watched, free};
+use crate::methods::coefficients::{Means, free, watched};
 use crate::studies::readings::damping_rate;
 use nalgebra::Matrix3;
 use rayon::prelude::*;
@@ -154,32 +154,27 @@ pub fn scene(setting: Setting, effort: &Effort) -> Scene {
 /// The means of each replica over the second half of its scene, and X̄₁ at each quarter of the first two periods.
 pub(crate) fn windows(scene: &Scene, replicas: u64) -> Vec<(Means, [f64; 9])> {
     let lost = (Means { gain: Matrix3::from_element(f64::NAN), ..Means::default() }, [f64::NAN; 9]);
-    (0..replicas).into_par_iter().map(|replica| watched(scene, replica).unwrap_or(lost)).collect()
+    (0..replicas).into_par_iter().map(|replica| window(scene, replica).unwrap_or(lost)).collect()
 }
 
 /// One replica of [`windows`]; `None` where a step fails.
-fn watched(scene: &Scene, replica: u64) -> Option<(Means, [f64; 9])> {
+fn window(scene: &Scene, replica: u64) -> Option<(Means, [f64; 9])> {
     let (r_e, steps) = (scene.particles.aspect_ratio, scene.time.steps_per_unit? as usize);
-    let all = scene.time.duration as usize * steps;
+    let half = scene.time.duration as usize * steps / 2;
     let strain = strain_per_period(r_e) / steps as f64;
-    let mut watched = Watched::new(free(shape_factor(r_e), strain), strain);
     let mut rods = lab::suspension(scene, replica);
-    let mut now = rods.directions();
-    let mut quarters = [0.0; 9];
-    for step in 0..=all {
-        // The nearest step to each quarter of a period.
+    let mut quarters = [f64::NAN; 9];
+    for step in 0..half {
+        // The nearest step to each quarter of a period; the first half of a scene has more than two periods.
         if let Some(k) = (0..9).find(|k| (k * steps + 2) / 4 == step) {
+            let now = rods.directions();
             quarters[k] = now.iter().map(|p| p.x.abs()).sum::<f64>() / now.len() as f64;
         }
-        if step < all {
-            rods.step().ok()?;
-            let before = std::mem::replace(&mut now, rods.directions());
-            if step >= all / 2 {
-                watched.step(&before, &now);
-            }
-        }
+        rods.step().ok()?;
     }
-    Some((watched.means(), quarters))
+    let start = rods.directions();
+    let next = || rods.step().is_ok().then(|| rods.directions());
+    Some((watched(&free(shape_factor(r_e), strain), strain, start, half, next)?, quarters))
 }
 
 fn row(setting: Setting, replicas: u64, effort: &Effort) -> Coefficients {
