@@ -7,11 +7,10 @@ use crate::judge::lab::{self, Change, Shared};
 use crate::judge::statistics::{Sample, correlation};
 use crate::methods::coefficients::{Diffusing, Diffusion, Means, free, watched};
 use crate::studies::coefficients::jumps::{Quantity, Shares, Watch, above, diffused, kicked};
-use crate::studies::coefficients::{self, Setting};
+use crate::studies::coefficients::{self, Places};
 use nalgebra::Matrix3;
 use rayon::prelude::*;
 use shearbed::model::jeffery::{shape_factor, strain_per_period};
-use shearbed::scene::Update;
 
 pub fn cases() -> Vec<Case> {
     vec![
@@ -74,10 +73,10 @@ fn seven(read: &fn(f64) -> f64, effort: &Effort) -> Vec<Evidence> {
     let samples = effort.samples(rise).max(effort.samples(gap));
     let model = OF_MODEL.get(effort, (), || {
         [0.02, 1.0].map(|n_a3| {
-            let setting = Setting { n_a3, aspect_ratio: 11.6, alpha: 0.5, update: Update::Kick, finer: 4 };
+            let setting = coefficients::kick(n_a3, 11.6, 0.5, 4);
             let mut scene = coefficients::scene(setting, effort);
             scene.time.duration = 8.0;
-            let windows = coefficients::windows(&scene, samples);
+            let windows = coefficients::windows(&scene, Places::Kept, samples);
             windows.iter().map(|(means, _)| means.coefficient()).collect()
         })
     });
@@ -189,13 +188,13 @@ fn no_diffusion(turned: &Turned, effort: &Effort) -> Vec<Evidence> {
         (Design::new(0.0072, 0.0019), Design::new(0.63, 0.01), Design::new(0.22, 0.062));
     let samples = [far, near, orbits].map(|design| effort.samples(design));
     let samples = samples.into_iter().fold(0, u64::max);
-    let setting = Setting { n_a3: 0.5, aspect_ratio: 11.6, alpha: 0.5, update: Update::Kick, finer: 2 };
+    let setting = coefficients::kick(0.5, 11.6, 0.5, 2);
     let scene = coefficients::scene(setting, effort);
     // After four periods orbits are steady to a tenth of the effect; kicks are so from the first.
     let watch = Watch::new(&scene, 4.0, 1.0);
     let diffusion = |c_i, stream| diffused(&scene, c_i, watch, samples, (effort, stream));
     let of_diffusion = OF_DIFFUSION.get(effort, (), || {
-        let (means, _): (Vec<_>, Vec<_>) = coefficients::windows(&scene, 8).into_iter().unzip();
+        let (means, _): (Vec<_>, Vec<_>) = coefficients::windows(&scene, Places::Kept, 8).into_iter().unzip();
         let c_i = Means::of(&means, None).coefficient();
         (c_i, diffusion(c_i, 1 << 20))
     });

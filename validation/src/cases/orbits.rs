@@ -6,10 +6,9 @@ use crate::judge::lab::{self, Change, Shared};
 use crate::judge::statistics::Sample;
 use crate::oracle::closed_form::orbit_constant_cdf;
 use crate::oracle::diffusion::orbits::cdf;
+use crate::studies::coefficients;
 use crate::studies::coefficients::jumps::{Quantity, Shares, Watch, above, diffused, kicked};
-use crate::studies::coefficients::{self, Setting};
 use shearbed::model::jeffery::strain_per_period;
-use shearbed::scene::Update;
 
 const ASPECT_RATIO: f64 = 11.6;
 
@@ -52,8 +51,7 @@ static OF_DIFFUSION: Shared<(), Vec<Shares>> = Shared::new();
 
 fn orbits(subject: &Orbits, effort: &Effort) -> Vec<Evidence> {
     let (weak, high) = (Design::new(0.031, 0.06), Design::new(0.15, 0.06));
-    let setting =
-        Setting { n_a3: 0.5, aspect_ratio: ASPECT_RATIO, alpha: 0.5, update: Update::Kick, finer: 1 };
+    let setting = coefficients::kick(0.5, ASPECT_RATIO, 0.5, 1);
     let scene = coefficients::scene(setting, effort);
     // C_I times the strain before is 0.07, and A(C)'s r_e²/2 makes that long enough. Diffusing rods turn exactly between coarse steps.
     let watch = Watch::new(&scene, 5.0, 1.0);

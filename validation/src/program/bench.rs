@@ -1,6 +1,6 @@
 //! `shearbed bench`: runs the studies that have named parts, alone and with longer measurements.
 
-use super::{Failure, Writing, on_threads, print, result_folder};
+use super::{Failure, Writing, on_threads, print, progress, result_folder};
 use crate::files::text::Shown;
 use crate::judge::case::Effort;
 use crate::present::plot;
@@ -32,10 +32,12 @@ pub(super) fn bench(args: &Args) -> Result<(), Failure> {
     let folder = result_folder(&args.out, origin, 0, &[""; 0])?;
     let effort = Effort { full: true, ..Effort::gate() };
     let (mut files, mut tables) = (Vec::new(), String::new());
+    let bar = progress(1, "", args.writing.quiet);
     for study in studies::ALL {
         if !study.parts.iter().any(|name| wanted(name)) {
             continue;
         }
+        bar.set_message(study.title);
         let found = on_threads(None, || {
             study.found(&Request { effort: &effort, wanted: &wanted, finished: &|| () })
         })?;
@@ -51,6 +53,7 @@ pub(super) fn bench(args: &Args) -> Result<(), Failure> {
             tables.extend(exhibit.table.map(|table| table.text()));
         }
     }
+    bar.finish_and_clear();
     let names: Vec<_> = files.iter().map(|(name, _)| name.clone()).collect();
     folder.write(files)?;
     if args.writing.quiet {

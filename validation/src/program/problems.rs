@@ -22,13 +22,21 @@ enum What {
         #[arg(required_unless_present = "archive")]
         dir: Option<PathBuf>,
         /// Write all problems into this tar file, with checksums, licence and citation, as a data repository takes it
-        #[arg(long, value_name = "FILE.tar")]
+        #[arg(long, value_name = "FILE.tar", value_parser = tar)]
         archive: Option<PathBuf>,
         #[command(flatten)]
         writing: Writing,
     },
     /// Print the JSON Schema of problem.json
     Schema,
+}
+
+fn tar(text: &str) -> Result<PathBuf, String> {
+    let path = PathBuf::from(text);
+    match path.extension().is_some_and(|extension| extension == "tar") {
+        true => Ok(path),
+        false => Err("a name that ends in .tar is allowed; no other format is written".to_owned()),
+    }
 }
 
 /// Lists the problems, exports them, or prints their schema.

@@ -179,39 +179,73 @@ pub fn rise_to(best: &Best, fixed: &[Option<f64>]) -> f64 {
     best.shown(&axes) * Rise::to(best, fixed, &[&best.place]).beside_noise()
 }
 
-/// The boundary of the joint region of two parameters, `axes`, as a closed curve around the best place, cut at the edges of the box. The
-/// directions are uniform in the scale where the covariance is a circle, so that they resolve a long thin region. Other parameters are
-/// at their best.
-pub fn contour(best: &Best, axes: [usize; 2], level: f64) -> Vec<[f64; 2]> {
-    const DIRECTIONS: usize = 144;
-    let [a, b] = axes;
-    let rise = |point: [f64; 2]| {
-        let mut fixed = vec![None; best.place.len()];
-        (fixed[a], fixed[b]) = (Some(point[0]), Some(point[1]));
-        rise_to(best, &fixed)
-    };
+/// Columns of a joint region.
+const COLUMNS: usize = 72;
+
+/// The outlines of the joint region of the parameters `a` and `b`: a closed curve for each of its islands, cut at the edges of the box.
+/// Other parameters are at their best. `profile` is that of `a`. The region is cut into columns of equal `a`, which lie close at its
+/// two ends; a column reaches on both sides of its deepest place to where χ² has risen to `level`, so a bent valley is followed.
+pub fn region(best: &Best, profile: &Profile, [a, b]: [usize; 2], level: f64) -> Vec<Vec<[f64; 2]>> {
+    let shown = best.shown(&[a, b]);
+    let ends = interval(best, a, profile, level * profile.shown / shown);
+    let (middle, half) = (0.5 * (ends.low + ends.high), 0.5 * (ends.high - ends.low));
     let spread = best.covariance();
-    let (along_a, shared) = (spread[(a, a)].sqrt(), spread[(a, b)] / spread[(a, a)].sqrt());
-    let along_b = (spread[(b, b)] - shared * shared).max(0.0).sqrt();
-    let centre = [best.place[a], best.place[b]];
-    let end = |k: usize| {
-        let (sin, cos) = (std::f64::consts::TAU * k as f64 / DIRECTIONS as f64).sin_cos();
-        let way = [along_a * cos, shared * cos + along_b * sin];
-        let to_edge = |k: usize| match way[k].abs() < 1e-12 {
-            true => f64::INFINITY,
-            false => (way[k].signum() - centre[k]) / way[k],
+    let first_step = 0.25 * (spread[(b, b)] - spread[(a, b)].powi(2) / spread[(a, a)]).max(1e-12).sqrt();
+    let mut islands: Vec<Vec<[f64; 3]>> = Vec::new();
+    // The deepest place of the column before, and that column.
+    let mut last: Option<(Vec<f64>, [f64; 3])> = None;
+    for k in 0..=COLUMNS {
+        let place = middle - half * (std::f64::consts::PI * k as f64 / COLUMNS as f64).cos();
+        let near = profile.place.partition_point(|other| *other < place).min(profile.at.len() - 1);
+        let found = Rise::along(best, a, place, &[&profile.at[near], &profile.at[near.saturating_sub(1)]]);
+        let rise = |other: f64| {
+            let mut fixed = vec![None; best.place.len()];
+            (fixed[a], fixed[b]) = (Some(place), Some(other));
+            shown * Rise::to(best, &fixed, &[&found.at]).beside_noise()
         };
-        let most = to_edge(0).min(to_edge(1)).max(0.0);
-        let point = |reach: f64| [0, 1].map(|k| (centre[k] + reach * way[k]).clamp(-1.0, 1.0));
-        if rise(point(most)) <= level {
-            return point(most);
+        // The ends of the region are known to the halvings of `interval`.
+        let is_end = k == 0 || k == COLUMNS;
+        if !is_end && shown * found.beside_noise() > level {
+            last = None;
+            continue;
         }
-        let (mut inner, mut outer) = (0.0, most);
-        for _ in 0..HALVINGS {
-            let middle = 0.5 * (inner + outer);
-            *(if rise(point(middle)) <= level { &mut inner } else { &mut outer }) = middle;
+        let centre = found.at[b];
+        let [low, high] = [-1.0, 1.0].map(|side: f64| {
+            let (mut inner, mut step) = (centre, first_step);
+            let mut outer = loop {
+                let next = (inner + side * step).clamp(-1.0, 1.0);
+                if rise(next) > level {
+                    break next;
+                }
+                if next == side {
+                    return side;
+                }
+                (inner, step) = (next, 2.0 * step);
+            };
+            for _ in 0..HALVINGS {
+                let middle = 0.5 * (inner + outer);
+                *(if rise(middle) <= level { &mut inner } else { &mut outer }) = middle;
+            }
+            inner
+        });
+        let column = [place, low, high];
+        let joined = last.as_ref().is_some_and(|(other, [before, below, above])| {
+            // The columns of a steep thin valley do not overlap; half way from one valley to another the deepest place is in one of them.
+            low <= *above && *below <= high || {
+                let between = Rise::along(best, a, 0.5 * (before + place), &[&found.at, other]).at[b];
+                (between - 0.5 * (found.at[b] + other[b])).abs() < 0.25 * (found.at[b] - other[b]).abs()
+            }
+        });
+        match islands.last_mut() {
+            Some(island) if joined => island.push(column),
+            _ => islands.push(vec![column]),
         }
-        point(inner)
+        last = Some((found.at, column));
+    }
+    let outline = |island: Vec<[f64; 3]>| {
+        let there = island.iter().map(|[place, low, _]| [*place, *low]);
+        let back = island.iter().rev().map(|[place, _, high]| [*place, *high]);
+        there.chain(back).chain([[island[0][0], island[0][1]]]).collect()
     };
-    (0..=DIRECTIONS).map(end).collect()
+    islands.into_iter().map(outline).collect()
 }

@@ -43,7 +43,7 @@ pub(crate) fn commas(file: &str, text: &str) -> Result<(), DataError> {
             first.contains(separator) && (!first.contains(',') || first.split(separator).all(is_number));
         if apart {
             let message = format!(
-                "cells are apart by {name}; commas between cells and points in numbers are allowed: \
+                "cells are separated by {name}; commas between cells and points in numbers are allowed: \
                  sed 's/,/./g; s/{shell}/,/g' makes them of it"
             );
             return Err(DataError::at(file, index + 1, message));

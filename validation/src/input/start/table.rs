@@ -59,7 +59,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<(OwnRods, Vec<u64>), String> {
         if !known().chain(&ONE_VALUE).chain(&OTHERS).any(|known| *known == name) {
             let name = snippet(name);
             return Err(format!(
-                "1: unknown column {name:?}; allowed are those of rods.csv, apart by commas: {}",
+                "1: unknown column {name:?}; allowed are those of rods.csv, separated by commas: {}",
                 known().chain(&ONE_VALUE).chain(&OTHERS).copied().collect::<Vec<_>>().join(", ")
             ));
         }

@@ -40,7 +40,8 @@ impl Axis {
     /// An axis with exactly these ends, in placed values.
     pub(super) fn exactly((low, high): (f64, f64), log: bool) -> Self {
         let axis = if log { logarithmic(low, high) } else { linear(low, high, 0.0) };
-        let inside = |place: f64| (low..=high).contains(&place);
+        let slack = 1e-9 * (high - low);
+        let inside = |place: f64| (low - slack..=high + slack).contains(&place);
         Self {
             low,
             high,
@@ -131,7 +132,8 @@ fn linear_label(tick: f64, step: f64, largest: f64) -> String {
 
 /// A logarithmic axis that ends at 1, 2 or 5 times a power of ten; ticks there, or only at powers if there are many.
 fn logarithmic(low: f64, high: f64) -> Axis {
-    let (mut low, mut high) = (one_two_five_below(low), -one_two_five_below(-high));
+    // Rounding must not leave the outermost values outside.
+    let (mut low, mut high) = (one_two_five_below(low).min(low), (-one_two_five_below(-high)).max(high));
     if low == high {
         low = one_two_five_below(low - 0.1);
         high = -one_two_five_below(-(high + 0.1));
@@ -224,6 +226,18 @@ mod tests {
         let axis = Axis::over([1e-4, 1.0].into_iter().map(|v| place(v, true)), true, 0.0);
         assert_eq!(axis.between.len(), 4 * 8);
         assert!((axis.between[0] - 2e-4_f64.log10()).abs() < 1e-12);
+        for value in (-6..7).flat_map(|k| [1.0, 2.0, 5.0].map(|factor| factor * 10f64.powi(k))) {
+            let ends = [value, 30.0 * value].map(|v| place(v, true));
+            let axis = Axis::over(ends.into_iter(), true, 0.0);
+            assert!(axis.low <= ends[0] && ends[1] <= axis.high, "{value}");
+        }
+    }
+
+    #[test]
+    fn ends_that_are_given_have_their_ticks() {
+        let axis = Axis::exactly((0.4, 0.6), false);
+        let labels: Vec<_> = axis.ticks.iter().map(|(_, label)| label.as_str()).collect();
+        assert_eq!((labels.first(), labels.last()), (Some(&"0.40"), Some(&"0.60")), "{labels:?}");
     }
 
     #[test]

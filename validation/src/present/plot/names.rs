@@ -6,13 +6,30 @@ pub(crate) fn channel(column: &str) -> String {
     match column {
         "phi" => "φ̄ (rad)".into(),
         "c_b" => "C_b".into(),
+        "cos_2phi" => "⟨cos 2φ⟩".into(),
         "x1" => "X̄₁".into(),
         "x2" => "X̄₂".into(),
         "x3" => "X̄₃".into(),
-        _ => match column.strip_prefix('a') {
-            Some(axes) if digits(axes) => format!("a_{axes}"),
+        _ => match (column.strip_prefix('a'), column.split_once('_').and_then(stress)) {
+            (Some(axes), _) if digits(axes) => format!("a_{axes}"),
+            (_, Some(label)) => label,
             _ => column.to_owned(),
         },
+    }
+}
+
+/// The label of a stress: `s12_pa`, `n1_per_mu_fiber_g`.
+fn stress((which, unit): (&str, &str)) -> Option<String> {
+    let which = match which {
+        "s12" => "σ_12",
+        "n1" => "N_1",
+        "n2" => "N_2",
+        _ => return None,
+    };
+    match unit {
+        "pa" => Some(format!("{which} (Pa)")),
+        "per_mu_fiber_g" => Some(format!("{which}/(μ_fiber G)")),
+        _ => None,
     }
 }
 
@@ -77,6 +94,10 @@ mod tests {
         assert_eq!(
             ["x1", "phi", "a12", "a1122", "x1x2"].map(channel),
             ["X̄₁", "φ̄ (rad)", "a_12", "a_1122", "x1x2"]
+        );
+        assert_eq!(
+            ["cos_2phi", "s12_pa", "n1_per_mu_fiber_g", "n1_mm", "n9_pa"].map(channel),
+            ["⟨cos 2φ⟩", "σ_12 (Pa)", "N_1/(μ_fiber G)", "n1_mm", "n9_pa"]
         );
         assert_eq!(["t_over_T", "t_s", "strain"].map(time), ["t/T", "t (s)", "strain Gt"]);
         let keys = ["interaction.concentration_per_cm3", "2:interaction.alpha", "time.periods"];

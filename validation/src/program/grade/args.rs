@@ -23,7 +23,7 @@ pub(crate) struct Args {
     /// Start this program once and ask it line by line, in place of answers in files
     #[arg(long, value_name = "PROGRAM ARGS")]
     pub(super) command: Option<String>,
-    /// The form of a program's lines: json, or text (numbers apart by blanks, for C and Fortran)
+    /// The form of a program's lines: json, or text (numbers separated by blanks, for C and Fortran)
     #[arg(long, value_name = "json|text", default_value = "json", conflicts_with = "mine")]
     pub(super) protocol: Protocol,
     /// The folder for grade.html, grade.json, grade.md, junit.xml and pictures

@@ -26,7 +26,8 @@ pub(super) fn runs_in(dir: &Path) -> Result<Vec<Run>, Failure> {
     let refused = |path: &Path, what: &str| Failure::Input(format!("{}: {what}", path.shown()));
     let is_there = |name: &str| dir.join(name).symlink_metadata().is_ok();
     if !["run.json", "sweep.json", RECORD].into_iter().any(is_there) {
-        let what = "neither run.json nor sweep.json is in it; a folder that `shearbed run` or `shearbed sweep` wrote is allowed";
+        let what =
+            "is no folder of results; one that `shearbed run`, `sweep`, `fit` or `validate` wrote is allowed";
         return Err(refused(dir, what));
     }
     let path = dir.join(RECORD);
@@ -46,7 +47,10 @@ pub(super) fn runs_in(dir: &Path) -> Result<Vec<Run>, Failure> {
             Err(refused(dir, "is one point of a sweep; the sweep's folder is allowed, two folders above"))
         }
         "sweep" => points(dir, &record),
-        other => Err(refused(&path, &format!("is of `shearbed {other}`; `run` and `sweep` are allowed"))),
+        other => Err(refused(
+            &path,
+            &format!("is of `shearbed {other}`; folders of `run`, `sweep`, `fit` and `validate` are allowed"),
+        )),
     }
 }
 

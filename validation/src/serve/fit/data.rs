@@ -76,18 +76,32 @@ pub fn read(path: &Path, set: usize) -> Result<Points, DataError> {
     let refused = |message: String| DataError::at(&file, first + 1, message);
     let times = TimeColumn::ALL.map(TimeColumn::name).join(", ");
     let here: Vec<_> = TimeColumn::ALL.into_iter().filter(|time| header.contains(&time.name())).collect();
+    if header[0].starts_with('#') {
+        return Err(refused(
+            "comments are not read here: the first line has the names of the columns".into(),
+        ));
+    }
     let [time] = here[..] else {
-        let like = |name: &&&str| ["time", "t", "time_s", "seconds"].contains(&name.to_lowercase().as_str());
+        if header.contains(&"time_s") && here.is_empty() {
+            return Err(refused(
+                "measured times in seconds are named `t_s`: rename the column `time_s`".into(),
+            ));
+        }
+        let like = |name: &&&str| ["time", "t", "seconds"].contains(&name.to_lowercase().as_str());
         if let Some(name) = header.iter().find(like).filter(|_| here.is_empty()) {
             return Err(refused(format!(
                 "column `{name}` does not say its unit: `t_s` for seconds, `t_over_T` for periods and `strain` for Gt are allowed; \
                  rename it in this line"
             )));
         }
-        let found = here.iter().map(|time| time.name()).collect::<Vec<_>>().join(", ");
-        return Err(refused(format!(
-            "the first line has the time columns [{found}]; one of {times} is allowed"
-        )));
+        let found = match here.is_empty() {
+            true => format!("no column of times among {}", header.join(", ")),
+            false => {
+                here.iter().map(|time| time.name()).collect::<Vec<_>>().join(" and ")
+                    + " are two columns of times"
+            }
+        };
+        return Err(refused(format!("{found}; one of {times} is allowed")));
     };
     let known = measurable();
     let mut columns: Vec<String> = Vec::new();
@@ -98,6 +112,12 @@ pub fn read(path: &Path, set: usize) -> Result<Points, DataError> {
         };
         if value == time.name() {
             continue;
+        }
+        if name.strip_suffix("_se").is_some_and(|value| known.iter().any(|known| known == value)) {
+            return Err(refused(format!(
+                "column `{name}`: a measured value's standard uncertainty is named `{}_u`; rename the column if that is what it has",
+                name.trim_end_matches("_se")
+            )));
         }
         if !known.iter().any(|known| known == value) {
             return Err(refused(format!(
@@ -272,7 +292,7 @@ mod tests {
             ("t_s,x4,x4_u\n", 1, "column `x4`"),
             ("time,x1,x1_u\n1,0.5,0.1\n", 1, "`t_s` for seconds"),
             ("t_s;x1;x1_u\n1,5;0,5;0,1\n", 1, "sed 's/,/./g; s/;/,/g'"),
-            ("t_s\tx1\tx1_u\n1\t0.5\t0.1\n", 1, "apart by tabs"),
+            ("t_s\tx1\tx1_u\n1\t0.5\t0.1\n", 1, "separated by tabs"),
             ("t_s\n1\n", 1, "no column of measured values"),
             ("t_s,x1\n1,0.5\n", 1, "x1_u is missing"),
             ("t_s,x1,x1_u\n", 1, "no points"),

@@ -6,7 +6,7 @@ use super::search::{Fit, Watch};
 use crate::methods::least_squares::Datum;
 use crate::methods::least_squares::emulator::Model;
 use crate::methods::least_squares::likelihood::REPLICAS;
-use crate::methods::least_squares::profile::{contour, rise_of_several};
+use crate::methods::least_squares::profile::{region, rise_of_several};
 use crate::present::plot::{Curve, Figure, Points, names as letters};
 
 /// Number of times of a drawn curve.
@@ -172,9 +172,9 @@ fn profile_of(fit: &Fit, axis: usize) -> (String, Figure) {
         level("95 %", outer),
     ];
     let figure = Figure {
-        title: format!("How far {} can go", letters::key(&range.label())),
+        title: format!("Profile of χ² along {}", letters::key(&range.label())),
         x_name: letters::key(&range.label()),
-        y_name: "χ² above its least".into(),
+        y_name: "χ² − χ²_min".into(),
         curves,
         ..Figure::default()
     };
@@ -184,7 +184,9 @@ fn profile_of(fit: &Fit, axis: usize) -> (String, Figure) {
 fn region_of(fit: &Fit, axes: [usize; 2]) -> (String, Figure) {
     let [a, b] = axes;
     let curves = [0.68, 0.95].map(|confidence| {
-        let ring = contour(&fit.best, axes, rise_of_several(confidence, 2));
+        let islands = region(&fit.best, &fit.profiles[a], axes, rise_of_several(confidence, 2));
+        // The curve is interrupted between two islands.
+        let ring = islands.join(&[[f64::NAN; 2]][..]);
         let edge = if is_open(&ring) { ", open: cut at the end of a range" } else { "" };
         Curve {
             label: format!("{:.0} %{edge}", 100.0 * confidence),

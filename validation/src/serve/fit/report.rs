@@ -139,8 +139,18 @@ fn warnings(
     p_value: f64,
 ) -> Vec<String> {
     let mut all = Vec::new();
-    for range in &fit.ranges {
+    for (axis, range) in fit.ranges.iter().enumerate() {
         let found = &parameters[&range.label()];
+        if let Some(k) = another_minimum(&fit.profiles[axis].rise) {
+            all.push(format!(
+                "{}: {:.4} describes the points as well as {:.4} (its χ² is {:.2} higher, with a ridge between them): give the whole \
+                 interval, not the best value",
+                range.label(),
+                fit.value(axis, fit.profiles[axis].place[k]),
+                found.estimate,
+                fit.profiles[axis].rise[k]
+            ));
+        }
         let ends = [(found.ends_at_edge[0], "lower", range.from), (found.ends_at_edge[1], "upper", range.to)];
         if found.ends_at_edge == [true, true] {
             all.push(format!(
@@ -194,7 +204,15 @@ fn warnings(
     all
 }
 
-/// `residuals.csv`: each point with the best model.
+/// The deepest other minimum of a profile that is within its 68 % interval, with a ridge of one more between it and the best place.
+fn another_minimum(rise: &[f64]) -> Option<usize> {
+    let best = rise.iter().position(|rise| *rise == 0.0)?;
+    let ridge = |k: usize| rise[k.min(best)..=k.max(best)].iter().copied().fold(0.0, f64::max);
+    let apart = (0..rise.len()).filter(|k| rise[*k] <= rise_of(0.68) && ridge(*k) > rise[*k] + 1.0);
+    apart.min_by(|a, b| rise[*a].total_cmp(&rise[*b]))
+}
+
+/// `residuals.csv`: each point with the best model; sets count from 1, as in `--over`.
 pub fn residuals_csv(report: &Report, times: &[&str]) -> Result<String, String> {
     let mut rows = vec![
         ["set", "time_unit", "time", "column", "measured", "simulated", "residual", "u"]
@@ -203,7 +221,7 @@ pub fn residuals_csv(report: &Report, times: &[&str]) -> Result<String, String> 
     ];
     rows.extend(report.residuals.iter().map(|r| {
         let numbers = [r.measured, r.simulated, r.residual, r.u].map(|number| number.to_string());
-        let place = [r.set.to_string(), times[r.set].to_owned(), r.time.to_string(), r.column.clone()];
+        let place = [(r.set + 1).to_string(), times[r.set].to_owned(), r.time.to_string(), r.column.clone()];
         place.into_iter().chain(numbers).collect()
     }));
     csv_of(&rows)
@@ -221,14 +239,14 @@ pub fn profiles_csv(fit: &Fit) -> Result<String, String> {
 }
 
 /// `design.csv`: each point that could be measured, its standard deviation given the measured points, and the uncertainties of
-/// the parameters that it would leave.
+/// the parameters that it would leave; sets count from 1.
 pub fn design_csv(fit: &Fit, candidates: &[Candidate], times: &[&str]) -> Result<String, String> {
     let head = ["set", "time_unit", "time", "column", "concentration_per_cm3", "u", "spread"];
     let own = (fit.ranges.iter()).map(|range| format!("u_{}_with_it", range.name()));
     let mut rows: Vec<Vec<String>> = vec![head.into_iter().map(String::from).chain(own).collect()];
     rows.extend(candidates.iter().map(|one| {
         let place = [
-            one.set.to_string(),
+            (one.set + 1).to_string(),
             times[one.set].to_owned(),
             one.time.to_string(),
             one.column.clone(),

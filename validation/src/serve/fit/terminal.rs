@@ -89,7 +89,12 @@ fn rounded_up(p: f64) -> String {
 /// The table of uncertainties that further points would leave, for the terminal. `times` are the units of the sets' times.
 pub fn design(fit: &Fit, steps: &[Step], times: &[&str]) -> String {
     let head = "what further points would leave".to_owned();
-    let all: Vec<String> = (steps.iter()).map(|step| added(&step.added, times)).collect();
+    let mut points = 0;
+    let mut what = |step: &Step| {
+        points += usize::from(matches!(step.added, Added::Point { .. }));
+        added(&step.added, points, times)
+    };
+    let all: Vec<String> = steps.iter().map(&mut what).collect();
     let wide = all.iter().map(|text| text.chars().count()).fold(head.len(), usize::max);
     let names = fit.ranges.iter().map(|range| format!("  {:>12}", format!("u({})", range.name())));
     let mut text = format!("{head:<wide$}{}", names.collect::<String>());
@@ -104,7 +109,8 @@ pub fn design(fit: &Fit, steps: &[Step], times: &[&str]) -> String {
     text + "\n"
 }
 
-fn added(added: &Added, times: &[&str]) -> String {
+/// `count` is how many best points there are up to this one: each row keeps those above it.
+fn added(added: &Added, count: usize, times: &[&str]) -> String {
     let of_set = |set: &usize| match times.len() {
         1 => String::new(),
         _ => format!(" of set {}", set + 1),
@@ -116,7 +122,11 @@ fn added(added: &Added, times: &[&str]) -> String {
             format!("{points} more{}, evenly over the scene{}", of_set(set), at(n))
         }
         Added::Point { set, concentration_per_cm3: n, column, time } => {
-            format!("the best next point: {column}{} at {} = {time:.2}{}", of_set(set), times[*set], at(n))
+            let before = match count {
+                1 => "best next point: ".to_owned(),
+                _ => format!("and, as number {count}: "),
+            };
+            format!("{before}{column}{} at {} = {time:.2}{}", of_set(set), times[*set], at(n))
         }
     }
 }

@@ -9,7 +9,7 @@ use super::search::{Fit, FitProblem, Measured, Watch, search};
 use crate::judge::accept::{Design, Rule, Verdict, judge};
 use crate::methods::least_squares::Datum;
 use crate::methods::least_squares::emulator::{Prediction, Replica};
-use crate::methods::least_squares::profile::{contour, rise_of_several};
+use crate::methods::least_squares::profile::{region, rise_of_several};
 use nalgebra::{DMatrix, DVector};
 use rand::SeedableRng;
 use rand_distr::{Distribution, StandardNormal};
@@ -136,6 +136,67 @@ fn another_minimum_of_the_range_is_seen() {
     off.best.place[1] += 3.0;
     let said = look(&off).unwrap_err();
     assert!(said.contains("do not follow"), "{said}");
+}
+
+/// The fit of (x, y) to points without errors of a model `of(x, y, time)` at `truth`.
+fn surface_of(of: fn(f64, f64, f64) -> f64, [x, y]: [f64; 2]) -> Fit {
+    let datum = |time: f64| Datum { value: of(x, y, time), u: 0.1, ..Datum::place(0, "x1", time) };
+    let data: Vec<Datum> = times().map(datum).collect();
+    let model = |values: &[f64]| {
+        let (x, y) = (values[0], values[1]);
+        Ok(Replica::whole(move |replica| {
+            let offset = 1e-9 * normal(&mut Pcg64Dxsm::seed_from_u64(replica));
+            Ok(times().map(|time| [of(x, y, time) + offset; 3]).collect::<Vec<Prediction>>())
+        }))
+    };
+    let ranges = ranges(&["a.x=-6:6", "a.y=-60:60"]);
+    let problem = FitProblem {
+        measured: Measured { data: &data, ranges: &ranges, rods_over_measured: &[0.0] },
+        model: &model,
+        most_replicas: 100,
+    };
+    search(&problem, &Watch::SILENT).unwrap()
+}
+
+/// The shoelace formula.
+fn area(ring: &[[f64; 2]]) -> f64 {
+    0.5 * ring.windows(2).map(|ends| ends[0][0] * ends[1][1] - ends[1][0] * ends[0][1]).sum::<f64>().abs()
+}
+
+/// y + x² is known to 0.02 and x to 1: rays from the best place leave such a region and come back, and an ellipse misses it.
+#[test]
+fn a_bent_region_is_followed() {
+    let fit = surface_of(|x, y, time| y + x * x + 0.034 * x * (time - 1.05), [0.3, -0.2]);
+    let level = rise_of_several(0.95, 2);
+    let islands = region(&fit.best, &fit.profiles[0], [0, 1], level);
+    assert_eq!(islands.len(), 1);
+    let ring: Vec<[f64; 2]> = islands[0].iter().map(|[x, y]| [fit.value(0, *x), fit.value(1, *y)]).collect();
+    // χ² = Σ (Δ(y + x²) + 0.034 Δx (t − 1.05))²/u² by hand, where Δ(y + x²) and Δx do not mix.
+    let times: Vec<f64> = times().collect();
+    let turn = times.iter().map(|time| (0.34 * (time - 1.05)).powi(2)).sum::<f64>();
+    for [x, y] in &ring {
+        let off = y + x * x - (-0.2 + 0.3 * 0.3);
+        let rise = 100.0 * TIMES as f64 * off * off + turn * (x - 0.3) * (x - 0.3);
+        assert!((rise - level).abs() < 0.01, "{x} {y}: {rise}");
+    }
+    // The area of the ellipse of (x, y + x²), which the bend keeps, less what 144 chords cut off.
+    let whole = std::f64::consts::PI * level / (100.0 * TIMES as f64 * turn).sqrt();
+    assert!((area(&ring) / whole - 1.0).abs() < 0.01, "{} {whole}", area(&ring));
+}
+
+/// x² is known, its sign is not.
+#[test]
+fn a_region_of_two_islands_has_two_outlines() {
+    let fit = surface_of(|x, y, time| y + 0.04 * (x * x - 1.0) * time, [1.0, 0.5]);
+    let islands = region(&fit.best, &fit.profiles[0], [0, 1], 1.0);
+    let holds = |x: f64| {
+        let inside = |island: &Vec<[f64; 2]>| {
+            let all = || island.iter().map(|point| fit.value(0, point[0]));
+            all().fold(f64::INFINITY, f64::min) < x && x < all().fold(f64::NEG_INFINITY, f64::max)
+        };
+        islands.iter().filter(|island| inside(island)).count()
+    };
+    assert_eq!((islands.len(), holds(-1.0), holds(0.0), holds(1.0)), (2, 1, 0, 1));
 }
 
 /// The outcome of a fit with fresh data and a fresh seed.
@@ -275,10 +336,11 @@ fn a_straight_line_has_the_estimate_and_the_intervals_of_the_textbook() {
     // The region of both parameters is a closed ellipse.
     let level = rise_of_several(0.68, 2);
     let inverse = covariance.try_inverse().unwrap();
-    let ring = contour(&fit.best, [0, 1], level);
+    let islands = region(&fit.best, &fit.profiles[0], [0, 1], level);
+    let [ring] = &islands[..] else { panic!("{} islands", islands.len()) };
     let [first, last] = [ring[0], ring[ring.len() - 1]];
     assert!((first[0] - last[0]).abs().max((first[1] - last[1]).abs()) < 1e-12, "{first:?} {last:?}");
-    for point in &ring {
+    for point in ring {
         let values = fit.values(point);
         let away = DVector::from_fn(2, |k, _| values[k] - expected[k]);
         let rise = (away.transpose() * &inverse * &away)[0];
@@ -286,7 +348,7 @@ fn a_straight_line_has_the_estimate_and_the_intervals_of_the_textbook() {
         assert!((rise / level - 1.0).abs() < 2.0 * 0.02 / 1.5, "{point:?}: {rise} {level}");
     }
     // A level beyond the box ends at its edges.
-    for [x, y] in contour(&fit.best, [0, 1], 1e6) {
+    for [x, y] in region(&fit.best, &fit.profiles[0], [0, 1], 1e6).concat() {
         assert!(x.abs().max(y.abs()) > 1.0 - 1e-12, "{x} {y}");
     }
 }

@@ -172,7 +172,8 @@ pub fn remark(graded: &[Graded], claimed: Option<f64>) -> Option<String> {
         of.map(|graded| graded.name.as_str()).collect()
     };
     let (seen, unclear) = (found(Order::Seen), found(Order::Unclear));
-    let mut said = format!("order {claimed} is seen on {} of {} problems", seen.len(), graded.len());
+    let answered = graded.iter().filter(|graded| graded.verdict != Verdict::Missing).count();
+    let mut said = format!("order {claimed} is seen on {} of {answered} problems", seen.len());
     if !unclear.is_empty() {
         let names = unclear.join(", ");
         said += &format!("; too few errors above round-off, or orders that still wander, on {names}");

@@ -5,9 +5,12 @@ use crate::judge::lab;
 use crate::judge::statistics::Estimate;
 use crate::methods::coefficients::{Means, free, watched};
 use crate::studies::readings::damping_rate;
-use nalgebra::Matrix3;
+use nalgebra::{Matrix3, UnitVector3};
+use rand::{RngExt, SeedableRng};
+use rand_pcg::Pcg64Dxsm;
 use rayon::prelude::*;
 use serde::Serialize;
+use shearbed::Suspension;
 use shearbed::model::jeffery::{shape_factor, strain_per_period};
 use shearbed::scene::{Scene, Update};
 
@@ -24,10 +27,23 @@ pub struct Setting {
     pub update: Update,
     /// Factor on the number of time steps that resolves the motion.
     pub finer: u64,
+    /// The rods' places.
+    pub places: Places,
 }
 
-const fn kick(n_a3: f64, aspect_ratio: f64, alpha: f64, finer: u64) -> Setting {
-    Setting { n_a3, aspect_ratio, alpha, update: Update::Kick, finer }
+/// Whether a pair that has collided meets again in the next step.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Places {
+    /// As the liquid carries the rods.
+    Kept,
+    /// Drawn anew before every step, so that no pair has a past: a broken model, which shows what the past does.
+    Anew,
+}
+
+/// A suspension with `kick`.
+pub const fn kick(n_a3: f64, aspect_ratio: f64, alpha: f64, finer: u64) -> Setting {
+    Setting { n_a3, aspect_ratio, alpha, update: Update::Kick, finer, places: Places::Kept }
 }
 
 /// The suspension in which updates and time steps are compared.
@@ -35,8 +51,13 @@ const fn stepped(update: Update, finer: u64) -> Setting {
     Setting { update, ..kick(0.2, 11.6, 0.5, finer) }
 }
 
+/// The suspension in which time steps are compared without a past.
+const fn anew(finer: u64) -> Setting {
+    Setting { places: Places::Anew, ..kick(0.2, 11.6, 0.5, finer) }
+}
+
 /// The suspensions of `shearbed bench`: updates and time steps first, then the rest at the step that [`Amount`] names.
-const FULL: [Setting; 22] = [
+const FULL: [Setting; 25] = [
     kick(0.2, 11.6, 0.5, 1),
     kick(0.2, 11.6, 0.5, 2),
     kick(0.2, 11.6, 0.5, 4),
@@ -49,6 +70,9 @@ const FULL: [Setting; 22] = [
     stepped(Update::Angles, 1),
     stepped(Update::Angles, 4),
     stepped(Update::Angles, 32),
+    anew(1),
+    anew(8),
+    anew(32),
     kick(0.05, 11.6, 0.5, 4),
     kick(0.1, 11.6, 0.5, 4),
     kick(0.5, 11.6, 0.5, 4),
@@ -107,6 +131,8 @@ pub struct Coefficients {
     pub c_i: Estimate,
     /// C_I from each of the components 11, 22, 33 and 12 of J alone.
     pub own: [Estimate; 4],
+    /// J's component 12, which grows with the number of steps.
+    pub j_12: Estimate,
     /// The relative residual of a fit with a single C_I.
     pub misfit: Estimate,
     /// β₁ and β₂ of Koch's anisotropic diffusivity.
@@ -152,17 +178,28 @@ pub fn scene(setting: Setting, effort: &Effort) -> Scene {
 }
 
 /// The means of each replica over the second half of its scene, and X̄₁ at each quarter of the first two periods.
-pub(crate) fn windows(scene: &Scene, replicas: u64) -> Vec<(Means, [f64; 9])> {
+pub(crate) fn windows(scene: &Scene, places: Places, replicas: u64) -> Vec<(Means, [f64; 9])> {
     let lost = (Means { gain: Matrix3::from_element(f64::NAN), ..Means::default() }, [f64::NAN; 9]);
-    (0..replicas).into_par_iter().map(|replica| window(scene, replica).unwrap_or(lost)).collect()
+    (0..replicas).into_par_iter().map(|replica| window(scene, places, replica).unwrap_or(lost)).collect()
 }
 
 /// One replica of [`windows`]; `None` where a step fails.
-fn window(scene: &Scene, replica: u64) -> Option<(Means, [f64; 9])> {
+fn window(scene: &Scene, places: Places, replica: u64) -> Option<(Means, [f64; 9])> {
     let (r_e, steps) = (scene.particles.aspect_ratio, scene.time.steps_per_unit? as usize);
     let half = scene.time.duration as usize * steps / 2;
     let strain = strain_per_period(r_e) / steps as f64;
     let mut rods = lab::suspension(scene, replica);
+    let mut rng = Pcg64Dxsm::seed_from_u64(scene.ensemble.seed ^ replica.rotate_left(32));
+    let mut moved = |rods: &mut Suspension| {
+        if places == Places::Anew {
+            let sides = rods.sides_in_lengths();
+            let axis = |side: f64| (0..RODS).map(|_| side * rng.random::<f64>()).collect();
+            let directions: Vec<_> = rods.directions().into_iter().map(UnitVector3::new_unchecked).collect();
+            rods.place(sides.map(axis), &directions)?;
+        }
+        rods.step().ok()?;
+        Some(())
+    };
     let mut quarters = [f64::NAN; 9];
     for step in 0..half {
         // The nearest step to each quarter of a period; the first half of a scene has more than two periods.
@@ -170,15 +207,16 @@ fn window(scene: &Scene, replica: u64) -> Option<(Means, [f64; 9])> {
             let now = rods.directions();
             quarters[k] = now.iter().map(|p| p.x.abs()).sum::<f64>() / now.len() as f64;
         }
-        rods.step().ok()?;
+        moved(&mut rods)?;
     }
     let start = rods.directions();
-    let next = || rods.step().is_ok().then(|| rods.directions());
+    let next = || moved(&mut rods).map(|()| rods.directions());
     Some((watched(&free(shape_factor(r_e), strain), strain, start, half, next)?, quarters))
 }
 
 fn row(setting: Setting, replicas: u64, effort: &Effort) -> Coefficients {
-    let (means, quarters): (Vec<_>, Vec<_>) = windows(&scene(setting, effort), replicas).into_iter().unzip();
+    let (means, quarters): (Vec<_>, Vec<_>) =
+        windows(&scene(setting, effort), setting.places, replicas).into_iter().unzip();
     let of = |value: &dyn Fn(&Means) -> f64| {
         let without: Vec<_> = (0..means.len()).map(|k| value(&Means::of(&means, Some(k)))).collect();
         Estimate::jackknife(value(&Means::of(&means, None)), &without)
@@ -191,6 +229,7 @@ fn row(setting: Setting, replicas: u64, effort: &Effort) -> Coefficients {
         periods: periods(setting),
         c_i: of(&|means| means.coefficient()),
         own: [own(0, 0), own(1, 1), own(2, 2), own(0, 1)],
+        j_12: of(&|means| means.gain[(0, 1)]),
         misfit: of(&|means| means.misfit()),
         koch: std::array::from_fn(|k| of(&|means| means.koch().0[k])),
         koch_misfit: of(&|means| means.koch().1),

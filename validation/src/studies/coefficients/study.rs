@@ -1,7 +1,7 @@
 //! The study of the effective coefficients: C_I against concentration, shape and α, and how rods move at equal C_I.
 
 use super::jumps::{self, Compared, Quantity, above};
-use super::{Amount, Coefficients, rows};
+use super::{Amount, Coefficients, Places, rows};
 use crate::files::build;
 use crate::input::published::folgar_tucker;
 use crate::judge::statistics::{Estimate, Sample, slope, student};
@@ -95,10 +95,10 @@ fn kind(row: &Coefficients) -> (f64, f64) {
     (row.setting.aspect_ratio, row.setting.alpha)
 }
 
-/// True if colliding rods take Jeffery's step and then the kick. With the other updates they take a straight step, whose error is as
+/// True if colliding rods take Jeffery's step and then the kick, where the liquid carries them. With the other updates they take a straight step, whose error is as
 /// large as C_I at the default time step.
 fn kicked(row: &Coefficients) -> bool {
-    row.setting.update == Update::Kick
+    row.setting.update == Update::Kick && row.setting.places == Places::Kept
 }
 
 /// The suspensions of r_e = 11.6 and α = 0.5 with `finer` times the default number of steps.
@@ -115,6 +115,7 @@ fn settings<'a>() -> Vec<Column<'a, Coefficients>> {
         words("update", |row: &Coefficients| match row.setting.update {
             Update::Rotation => "rotation",
             Update::Angles => "angles",
+            Update::Kick if row.setting.places == Places::Anew => "kick, places anew",
             Update::Kick => "kick",
         }),
         field("steps ×", |row: &Coefficients| row.setting.finer),
@@ -145,7 +146,7 @@ fn coefficients(rows: &[Coefficients]) -> ReportTable {
              all components of J, then by each component alone: where these differ, no single C_I describes the collisions, \
              and the relative residual is in the next column. steps ×: time steps over those that resolve the motion. \
              periods: before the window and in it. φ r_p: for cylinders, π n a³/(4 r_e). The decay of X̄₁'s oscillation is \
-             over the first two periods from isotropic directions."
+             over the first two periods from isotropic directions. places anew: drawn at random before every step, so that no pair has a past."
         ),
         rows,
         columns,
@@ -159,10 +160,11 @@ fn koch(rows: &[Coefficients]) -> ReportTable {
     columns.push(measured("β_2", |row| row.koch[1]));
     columns.push(measured("left by these", |row| row.koch_misfit));
     columns.push(measured("left by one C_I", |row| row.misfit));
+    columns.push(measured("J_12", |row| row.j_12));
     ReportTable::new(
         ["koch", "Koch's anisotropic diffusivity in place of C_I"],
         "In the same runs: C = β_1 (D:⟨pppp⟩:D) δ/G² + β_2 D:⟨pppppp⟩:D/G² (Koch 1995) by least squares over all components of J, \
-         and the relative residual of that fit beside that of one C_I.",
+         and the relative residual of that fit beside that of one C_I. J_12 is what both leave.",
         rows,
         columns,
     )

@@ -12,7 +12,7 @@ fn a_design_lists_what_each_further_point_would_leave() {
     let fit = "fit small.toml --data points.csv --over interaction.alpha=0.05:5 --replicas 60 --out own";
     let done = shearbed(dir.path(), &format!("{fit} --design"));
     assert_eq!(done.code, Some(0), "{}", done.stderr);
-    assert!(done.stdout.contains("the best next point: x1 at t_over_T = "), "{}", done.stdout);
+    assert!(done.stdout.contains("best next point: x1 at t_over_T = "), "{}", done.stdout);
     let record = json(&dir.path().join("own/fit.json"));
     let steps = record["design"].as_array().unwrap();
     let u = |step: &Value| step["u"][0].as_f64().unwrap();

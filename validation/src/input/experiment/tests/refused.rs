@@ -54,7 +54,7 @@ fn bad_exports_are_refused_with_their_line() {
     for (points, expected) in [
         ("0.5,0.4\n0.6\n", "a.csv:2: column  Y: `` is not allowed"),
         ("0.5,0.4,0.1\n", "a.csv:1: 3 cells; two for each dataset are allowed: 2"),
-        ("0.5;0.4\n", "a.csv:1: cells are apart by semicolons; commas between cells and points"),
+        ("0.5;0.4\n", "a.csv:1: cells are separated by semicolons; commas between cells and points"),
         (
             "a,,b,\nX,Y,X,Y\n0.5,0.4,0.6,0.3\n",
             "a.csv:1: 2 datasets (`a`, `b`); the provenance file has 1 [[curve]]",
