@@ -288,7 +288,11 @@ mod tests {
         for (text, line, named) in [
             ("", 1, "empty"),
             ("x1,x1_u\n0.5,0.1\n", 1, "one of t_over_T, t_s, strain is allowed"),
-            ("t_s,strain,x1,x1_u\n", 1, "[t_s, strain]"),
+            ("t_s,strain,x1,x1_u\n", 1, "t_s and strain are two columns of times"),
+            ("t_min,x1,x1_u\n", 1, "no column of times among t_min, x1, x1_u"),
+            ("time_s,x1,x1_u\n", 1, "rename the column `time_s`"),
+            ("t_s,x1,x1_se\n", 1, "is named `x1_u`"),
+            ("# mine\nt_s,x1,x1_u\n", 1, "comments are not read"),
             ("t_s,x4,x4_u\n", 1, "column `x4`"),
             ("time,x1,x1_u\n1,0.5,0.1\n", 1, "`t_s` for seconds"),
             ("t_s;x1;x1_u\n1,5;0,5;0,1\n", 1, "sed 's/,/./g; s/;/,/g'"),
