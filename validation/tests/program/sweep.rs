@@ -150,6 +150,26 @@ fn another_sweep_in_the_folder_is_refused_and_left_as_it_is() {
     // By force all is new, and nothing of before is left.
     succeeds(dir.path(), &format!("{first} --force"));
     assert_eq!(files(&here), kept_before);
+
+    // A file that is gone is written again; what is of another sweep goes by force, what somebody put beside it does not.
+    fs::remove_file(here.join("sweep.json")).unwrap();
+    succeeds(dir.path(), &first);
+    assert_eq!(files(&here), kept_before);
+    let other = first.replace("small.toml", "other.toml");
+    fs::write(dir.path().join("other.toml"), SMALL.replace("count = 20", "count = 21")).unwrap();
+    for mine in ["points/1/notes.txt", "points/2/mine"] {
+        match mine.ends_with(".txt") {
+            true => fs::write(here.join(mine), "notes").unwrap(),
+            false => fs::create_dir(here.join(mine)).unwrap(),
+        }
+        let kept = files(&here);
+        let message = refused(dir.path(), &format!("{other} --force"));
+        assert!(message.contains(&format!("{mine}: was not written by `shearbed sweep`")), "{message}");
+        assert_eq!(files(&here), kept);
+        let _ = fs::remove_file(here.join(mine)).or_else(|_| fs::remove_dir(here.join(mine)));
+    }
+    succeeds(dir.path(), &format!("{other} --force"));
+    assert_ne!(files(&here), kept_before);
 }
 
 #[test]

@@ -104,6 +104,11 @@ impl Orders {
         {
             return Order::Lower;
         }
+        // A last answer that is right by chance, or copied, does not take back what those before it show.
+        let shown = |pairs: &[(f64, f64)]| Self::proves_lower(pairs, claimed);
+        if self.certain().windows(3).any(shown) {
+            return Order::Lower;
+        }
         if let [.., before, newest] = self.usable[..]
             && agree(before, newest)
             && before.0.min(newest.0) >= claimed + WHOLE
@@ -112,7 +117,8 @@ impl Orders {
         }
         // Where orders wander, the mean over the last few pairs averages out the oscillations.
         let last: Vec<f64> = self.usable.iter().rev().take(4).map(|(order, _)| *order).collect();
-        let means = (1..=last.len()).map(|few| last[..few].iter().sum::<f64>() / few as f64);
+        let falling = last.iter().take_while(|order| **order > 0.0).count();
+        let means = (1..=falling).map(|few| last[..few].iter().sum::<f64>() / few as f64);
         let seen = means.chain(last.get(1).copied()).any(|order| (order - claimed).abs() < ORDER_TOLERANCE);
         if seen { Order::Seen } else { Order::Unclear }
     }
@@ -125,13 +131,17 @@ impl Orders {
 
     /// True if three pairs in a row prove the order too low, whatever finer steps would show.
     pub fn refuted_early(&self, claimed: f64) -> bool {
-        let Some(last) = self.certain().last_chunk::<3>() else {
-            return false;
-        };
-        let orders = last.map(|(order, _)| order);
+        self.certain().last_chunk::<3>().is_some_and(|last| Self::proves_lower(last, claimed))
+    }
+
+    /// True if these pairs agree, lie whole orders below the claim, and end where the method follows the motion closely.
+    fn proves_lower(pairs: &[(f64, f64)], claimed: f64) -> bool {
+        let orders = || pairs.iter().map(|(order, _)| *order);
         let (least, most) =
-            orders.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (x.min(a), x.max(b)));
-        most <= claimed - WHOLE && most - least < ORDER_TOLERANCE && last[2].1 < CLOSE
+            (orders().fold(f64::INFINITY, f64::min), orders().fold(f64::NEG_INFINITY, f64::max));
+        most <= claimed - WHOLE
+            && most - least < ORDER_TOLERANCE
+            && pairs.last().is_some_and(|last| last.1 < CLOSE)
     }
 }
 

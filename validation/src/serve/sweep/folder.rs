@@ -14,7 +14,7 @@ use shearbed::Scene;
 use std::collections::BTreeMap;
 use std::fs;
 use std::io;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 /// The inputs of a sweep, everything on which its results depend: this build, the scene without the swept keys, the grid, the
@@ -68,34 +68,76 @@ impl Folder {
     /// as they are, unless `folder` has force, which empties the folder of sweeps. Another process at work in the folder.
     pub fn open(folder: ResultFolder, inputs: &Value, points: Points) -> Result<Self, Refused> {
         let claim = Claim::new(folder.dir(), Duration::ZERO)?;
+        // Where `sweep.json` is gone, the sweep begins again, and keeps its points.
         let own = folder.is_own();
         // Without a record, points are of unknown origin, too.
         let names = ["sweep.json", "sweep.csv", "points"];
         folder.check(if own { &names[..2] } else { &names })?;
         let folder = Self { folder, inputs: format!("{inputs:#}\n"), points, claim };
-        if !own {
-            folder.begin()?;
+        if !own || folder.folder.dir().join("sweep.json").symlink_metadata().is_err() {
+            folder.begin(own)?;
         }
         (folder.finished().into_iter()).try_for_each(|k| folder.tables(k).map(drop))?;
         Ok(folder)
     }
 
-    /// Removes the points of another sweep and writes `sweep.json`.
-    fn begin(&self) -> Result<(), OutputError> {
-        let points = self.folder.dir().join("points");
-        let failed = |reason| OutputError { path: points.clone(), reason };
-        for entry in fs::read_dir(&points).into_iter().flatten() {
-            let path = entry.map_err(failed)?.path();
-            let record = Record::read(&path).ok().flatten();
-            if record.is_some_and(|record| record.origin.inputs.get(POINT).is_some()) {
-                fs::remove_dir_all(&path).map_err(failed)?;
+    /// Removes the points of another sweep, unless the sweep is `own`, and writes `sweep.json`.
+    fn begin(&self, own: bool) -> Result<(), Refused> {
+        if !own {
+            for point in self.others()? {
+                fs::remove_dir_all(&point).map_err(|reason| OutputError { path: point, reason })?;
             }
         }
         let files = vec![("sweep.json".to_owned(), self.inputs.clone())];
-        let mut left_over = self.folder.left_over(&["sweep.json".to_owned()]);
+        let mut left_over = match own {
+            true => Vec::new(),
+            false => self.folder.left_over(&["sweep.json".to_owned()]),
+        };
         left_over.push("sweep.csv".to_owned());
         let record = Record::new(self.folder.origin(), &files).file();
-        self.claim.write_all(&[files, vec![record]].concat(), &left_over)
+        Ok(self.claim.write_all(&[files, vec![record]].concat(), &left_over)?)
+    }
+
+    /// The folders of the points of another sweep.
+    ///
+    /// # Errors
+    ///
+    /// A file in one of them that the sweep did not write, or a folder in the way of a point: force does not remove these.
+    fn others(&self) -> Result<Vec<PathBuf>, Refused> {
+        let points = self.folder.dir().join("points");
+        let list = |dir: &Path| -> Result<Vec<PathBuf>, Refused> {
+            let failed = |reason| OutputError { path: dir.to_owned(), reason };
+            match fs::read_dir(dir) {
+                Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(Vec::new()),
+                entries => (entries.map_err(failed)?)
+                    .map(|entry| Ok(entry.map_err(failed)?.path()))
+                    .collect::<Result<Vec<_>, Refused>>(),
+            }
+        };
+        let foreign = |path: &Path| {
+            let what = "was not written by `shearbed sweep`: move it away";
+            Refused(format!("{}: {what}; nothing was changed", path.shown()))
+        };
+        let ours: Vec<PathBuf> = (0..self.points.described.len()).map(|k| self.point(k)).collect();
+        let mut found = Vec::new();
+        for path in list(&points)? {
+            let record = Record::read(&path).ok().flatten();
+            let record = record.filter(|record| record.origin.inputs.get(POINT).is_some());
+            let Some(record) = record else {
+                if ours.contains(&path) {
+                    return Err(foreign(&path));
+                }
+                continue;
+            };
+            let name =
+                |file: &Path| file.file_name().and_then(|name| name.to_str()).unwrap_or_default().to_owned();
+            let is_own = |file: &&PathBuf| name(file) == RECORD || record.files.contains_key(&name(file));
+            if let Some(file) = list(&path)?.iter().find(|file| !is_own(file)) {
+                return Err(foreign(file));
+            }
+            found.push(path);
+        }
+        Ok(found)
     }
 
     /// The folder of point `k`, counted from 0; its name counts from 1.

@@ -42,6 +42,8 @@ pub(super) fn climb(
     ask: impl Fn(Setting) -> Result<Rung, Asked>,
 ) -> (Vec<Rung>, End) {
     let tolerance = problem.problem.tolerance;
+    // A program that chooses its steps shows no order.
+    let claimed = claimed.filter(|_| mode == Mode::Steps);
     let mut rungs: Vec<Rung> = Vec::new();
     let mut says = None;
     let begun = Instant::now();

@@ -32,6 +32,12 @@ const SHARP: f64 = 1e-6;
 /// Judges every rung of a ladder whose last ones are within the tolerance.
 pub(super) fn judged(rungs: &[Rung], tolerance: f64, ask: impl Fn(Setting) -> Result<Rung, Asked>) -> End {
     let order = falling_order(rungs, tolerance);
+    match beside(rungs, tolerance, order, &ask) {
+        Ok(None) | Err(Asked::Says(_)) => {}
+        Ok(Some(words)) => return End::Jumps(words),
+        Err(Asked::Late(words)) => return End::OutOfTime(words),
+        Err(Asked::Breach(words)) => return End::Broke(words),
+    }
     for k in (0..rungs.len().saturating_sub(1)).rev() {
         // All coarser rungs are unstable: nothing else can be said of them.
         if !rungs[..=k].iter().any(|rung| rung.error().is_finite()) {
@@ -112,6 +118,35 @@ pub(super) fn falling_order(rungs: &[Rung], tolerance: f64) -> f64 {
     orders.get(orders.len() / 2).copied().unwrap_or(HIGHEST)
 }
 
+/// Asks for one step more than the coarsest setting from which on all follow the motion: a ladder that doubles asks for even numbers
+/// alone, and a program may lose the last of an odd number of steps.
+fn beside(
+    rungs: &[Rung],
+    tolerance: f64,
+    order: f64,
+    ask: impl Fn(Setting) -> Result<Rung, Asked>,
+) -> Result<Option<String>, Asked> {
+    let follow = rungs.iter().rev().take_while(|rung| rung.error() < FOLLOWS).count();
+    let finer = &rungs[rungs.len() - follow..];
+    let Some(steps) = finer.first().and_then(|rung| rung.setting.steps().ok()) else {
+        return Ok(None);
+    };
+    let foretold = match finer.get(1).and_then(|rung| rung.setting.steps().ok()) {
+        Some(next) => Foretold::from(&finer[1..], next, tolerance, order).at(steps),
+        None => tolerance,
+    };
+    let due = capped(&finer[0]).max(foretold);
+    let error = capped(&ask(Setting::Steps(steps + 1))?);
+    Ok((error > FAR * due).then(|| jumping([steps, steps + 1], [capped(&finer[0]), error])))
+}
+
+fn jumping([one, other]: [u64; 2], [error, other_error]: [f64; 2]) -> String {
+    format!(
+        "with {one} steps it is off by {error:.1e}, with {other} by {other_error:.1e}: a method's error does not jump so between two \
+         numbers of steps"
+    )
+}
+
 /// Bisects from a number of steps whose answer is far off to one whose answer is not, and says where the answers jump. What was
 /// answered counts: the ends are not asked again, where a program might do better.
 fn jump(
@@ -130,12 +165,7 @@ fn jump(
         }
     }
     let jumps = good_error < FOLLOWS && bad_error > FAR * good_error.max(foretold.at(good));
-    Ok(jumps.then(|| {
-        format!(
-            "with {bad} steps it is off by {bad_error:.1e}, with {good} by {good_error:.1e}: a method's error does not jump \
-             so between two numbers of steps"
-        )
-    }))
+    Ok(jumps.then(|| jumping([bad, good], [bad_error, good_error])))
 }
 
 /// Of a program that chooses its steps: an error far above those of both neighbouring tolerances, or of the next smaller one where

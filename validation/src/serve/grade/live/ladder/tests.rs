@@ -141,13 +141,21 @@ fn what_may_yet_come_within_the_tolerance_is_asked_on() {
 
 /// Climbs on one problem with a timeout of a minute: returns the problem, the errors that were asked for, and the end.
 fn climbed_to(claimed: Option<f64>, rungs: impl Fn(i32) -> (f64, f64)) -> (LoadedProblem, Vec<f64>, End) {
+    climbed_in(Mode::Steps, claimed, rungs)
+}
+
+fn climbed_in(
+    mode: Mode,
+    claimed: Option<f64>,
+    rungs: impl Fn(i32) -> (f64, f64),
+) -> (LoadedProblem, Vec<f64>, End) {
     let problem = crate::serve::problems::named("mid-flip-2").unwrap().loaded("mid-flip-2".into());
     let asked = Cell::new(0);
     let ask = |setting: Setting| -> Result<Rung, Asked> {
         let (error, seconds) = rungs(asked.replace(asked.get() + 1));
         Ok(rung(setting, error, seconds))
     };
-    let (rungs, end) = climb(&problem, Mode::Steps, Duration::from_secs(60), claimed, ask);
+    let (rungs, end) = climb(&problem, mode, Duration::from_secs(60), claimed, ask);
     (problem, rungs.iter().map(Rung::error).collect(), end)
 }
 
@@ -160,6 +168,10 @@ fn an_order_is_no_answer_and_one_that_is_unclear_is_asked_on_to_round_off() {
         let tolerance = problem.problem.tolerance;
         assert!(errors[errors.len() - 1] <= tolerance && errors[errors.len() - 2] > tolerance, "{errors:?}");
     }
+    // A program that chooses its steps shows none: it is asked no further than the answer.
+    let tenth = |k: i32| (0.05 * 10f64.powi(-k), 0.0);
+    let [with, without] = [Some(4.0), None].map(|claimed| climbed_in(Mode::Tolerance, claimed, tenth));
+    assert_eq!((with.1, with.2), (without.1, without.2));
     // Neither the claimed order nor lower by a whole order.
     let (problem, errors, end) = climbed_to(Some(4.6), fourth);
     assert_eq!(end, End::Reached);
@@ -228,6 +240,8 @@ fn answers_that_are_wrong_at_some_numbers_of_steps_are_no_methods() {
         }
         let once = judged(|steps, _| if steps == 512 { 1.2 } else { right(steps) });
         assert!(order > 4.0 || jumps(once), "{order}");
+        // The last of an odd number of steps is lost.
+        assert!(jumps(judged(|steps, _| if steps % 2 == 1 { 0.4 } else { right(steps) })), "{order}");
         // Right when the same is asked again: what came first counts.
         let spoilt = Cell::new(false);
         let first = judged(|steps, _| if steps == 512 && !spoilt.replace(true) { 1.2 } else { right(steps) });
