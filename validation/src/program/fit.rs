@@ -162,7 +162,7 @@ fn work(args: &Args, input: &Input, watch: &Watch<'_>) -> Result<Done, Failure> 
     report.warnings.extend(known);
     let mut candidates = Vec::new();
     if args.design {
-        let found = design(&fit, scenes, data, watch).map_err(stopped)?;
+        let found = design(&fit, scenes, data, &rods, watch).map_err(stopped)?;
         report.warnings.extend(found.warnings);
         report.design = Some(found.steps);
         candidates = found.candidates;

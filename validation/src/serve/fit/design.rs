@@ -46,7 +46,8 @@ pub struct Candidate {
     pub column: String,
     /// Time of the point, in the unit of the set's times.
     pub time: f64,
-    /// Standard uncertainty of the new point: the median of the set's measured points in this column, including that of their times.
+    /// Standard uncertainty of the new point: the median of the set's measured points in this column, including that of their times,
+    /// and the scatter of the rods of a point at its own time.
     pub u: f64,
     /// Standard deviation of the point's value, given the measured points.
     pub spread: f64,
@@ -104,8 +105,14 @@ pub struct Design {
     pub warnings: Vec<String>,
 }
 
-/// The design of further points for a fit of `data`.
-pub fn design(fit: &Fit, scenes: &Scenes, data: &[Datum], watch: &Watch<'_>) -> Result<Design, String> {
+/// The design of further points for a fit of `data`, each a mean over as many rods as the measured ones.
+pub fn design(
+    fit: &Fit,
+    scenes: &Scenes,
+    data: &[Datum],
+    rods_over_measured: &[f64],
+    watch: &Watch<'_>,
+) -> Result<Design, String> {
     let best = fit.values(&fit.best.place);
     let basis = Basis::new(fit.sides.len());
     let replicas = (fit.emulator.replicas() as u64).min(MOST_REPLICAS);
@@ -136,12 +143,13 @@ pub fn design(fit: &Fit, scenes: &Scenes, data: &[Datum], watch: &Watch<'_>) -> 
             Err(error) => return Err(error),
         };
         let of_time = emulator.time_variance(&fit.best.place);
+        let of_replica = emulator.covariance(&fit.best.place);
         let rows: Vec<_> = places_of_box.iter().map(|place| emulator.at(place)).collect();
         for (k, place) in of.into_iter().enumerate() {
             columns.push(DVector::from_iterator(rows.len(), rows.iter().map(|row| row[k])));
             found.candidates.push(Candidate {
                 concentration_per_cm3: concentrations[place.set],
-                u: (place.u.powi(2) + of_time[k]).sqrt(),
+                u: (place.u.powi(2) + of_time[k] + rods_over_measured[place.set] * of_replica[(k, k)]).sqrt(),
                 set: place.set,
                 column: place.column,
                 time: place.time,

@@ -47,6 +47,15 @@ fn a_design_lists_what_each_further_point_would_leave() {
     assert_eq!(concentrations, ["25", "50", "100"]);
     assert_eq!(steps.len(), 1 + 3 + 6);
     assert_eq!((u(&steps[4]), steps[4]["added"]["time"].as_f64().unwrap()), best);
+    // Points that are means over as many rods as the scene has scatter as its replicas do, more at some times than at others.
+    assert_eq!(
+        shearbed(dir.path(), &format!("{} --design --rods 20", fit.replace("out own", "out rods"))).code,
+        Some(0)
+    );
+    let mut csv = csv::Reader::from_path(dir.path().join("rods/design.csv")).unwrap();
+    let of_rods: Vec<f64> = csv.records().map(|row| row.unwrap()[5].parse().unwrap()).collect();
+    let ends = of_rods.iter().fold((f64::INFINITY, 0.0), |(a, b): (f64, f64), u| (a.min(*u), b.max(*u)));
+    assert!(ends.1 > 1.5 * ends.0 && ends.0 > 0.01, "{ends:?}");
     // The same fit without a list of points takes it away.
     assert_eq!(shearbed(dir.path(), fit).code, Some(0));
     assert!(!dir.path().join("own/design.csv").exists());
