@@ -60,6 +60,14 @@ struct Case {
     verdict: Verdict,
     seconds: f64,
     evidence: Vec<Line>,
+    #[serde(default)]
+    controls: Vec<Control>,
+}
+
+#[derive(Deserialize)]
+struct Control {
+    mistake: String,
+    caught: bool,
 }
 
 #[derive(Deserialize)]
@@ -108,6 +116,7 @@ pub(super) fn compare(args: &Args) -> Result<(), Failure> {
     }
     text.push('\n');
     text += &verdicts(&a, &b);
+    text += &judged_otherwise(&a, &b);
     let moved = moved(&a, &b);
     if moved.is_empty() {
         text += "No error moved beyond its noise.\n\n";
@@ -181,6 +190,47 @@ fn verdicts(a: &Report, b: &Report) -> String {
     match lines.is_empty() {
         true => format!("Verdicts: none of {} changed.\n", a.cases.len()),
         false => format!("Verdicts that changed:\n  {}\n", lines.join("\n  ")),
+    }
+}
+
+/// Lists what the cases of both reports judge in one of them alone, or otherwise: evidence, tolerances, controls.
+fn judged_otherwise(a: &Report, b: &Report) -> String {
+    let mut lines = Vec::new();
+    for before in &a.cases {
+        let Some(after) = b.cases.iter().find(|case| case.name == before.name) else {
+            continue;
+        };
+        for (one, other, report) in [(before, after, "A"), (after, before, "B")] {
+            let alone = |what: &str, there: bool| {
+                (!there).then(|| format!("{}: {what}: in {report} alone", one.name))
+            };
+            lines.extend(one.evidence.iter().filter_map(|line| {
+                alone(&line.what, other.evidence.iter().any(|same| same.what == line.what))
+            }));
+            lines.extend(one.controls.iter().filter_map(|control| {
+                alone(&control.mistake, other.controls.iter().any(|same| same.mistake == control.mistake))
+            }));
+        }
+        for line in before.evidence.iter().filter(|line| line.judged_by.rule != "mean") {
+            let same = after.evidence.iter().find(|other| other.what == line.what);
+            if let Some((was, is)) =
+                same.and_then(|same| line.tolerance.zip(same.tolerance)).filter(|(a, b)| a != b)
+            {
+                lines.push(format!("{}: {}: tolerance {was:.3e} → {is:.3e}", before.name, line.what));
+            }
+        }
+        for control in &before.controls {
+            let same = after.controls.iter().find(|other| other.mistake == control.mistake);
+            if let Some(same) = same.filter(|same| same.caught != control.caught) {
+                let words = |caught| if caught { "caught" } else { "not caught" };
+                let change = format!("{} → {}", words(control.caught), words(same.caught));
+                lines.push(format!("{}: {}: {change}", before.name, control.mistake));
+            }
+        }
+    }
+    match lines.is_empty() {
+        true => String::new(),
+        false => format!("Judged otherwise:\n  {}\n", lines.join("\n  ")),
     }
 }
 
@@ -303,6 +353,27 @@ mod tests {
         assert!(other.starts_with("format = 99 is not allowed: 2"), "{other}");
         let twice = report(2, ["a", "a"]).unwrap_err();
         assert_eq!(twice, "the case \"a\" is there twice; once is allowed");
+    }
+
+    #[test]
+    fn other_evidence_tolerances_and_controls_are_listed() {
+        let report = |what: &str, tolerance: f64, caught: bool| {
+            let line = |what: &str| serde_json::json!({ "what": what, "error": 0.0, "tolerance": tolerance, "judged_by": { "rule": "within" } });
+            let report = serde_json::json!({
+                "format": FORMAT, "summary": { "full": false, "seed": 1 },
+                "cases": [{ "name": "case", "verdict": "pass", "seconds": 0.1, "evidence": [line("both"), line(what)],
+                    "controls": [{ "mistake": "sign", "caught": caught }] }],
+                "origin": { "commit": "a", "processor": "b" },
+            });
+            parse(&report.to_string()).unwrap()
+        };
+        let before = report("one", 1e-3, true);
+        assert_eq!(judged_otherwise(&before, &report("one", 1e-3, true)), "");
+        assert_eq!(
+            judged_otherwise(&before, &report("two", 1.0, false)),
+            "Judged otherwise:\n  case: one: in A alone\n  case: two: in B alone\n  case: both: tolerance 1.000e-3 → 1.000e0\n  \
+             case: sign: caught → not caught\n"
+        );
     }
 
     fn line(json: serde_json::Value) -> Line {

@@ -110,6 +110,7 @@ fn rests(loaded: &LoadedProblem, answer: &Answer, nearer_than: f64) -> bool {
 
 /// The nearest curve, and those that are indistinguishable from it here.
 fn said(mut near: Vec<(f64, String)>, tolerance: f64) -> Diagnosis {
+    near.retain(|(distance, _)| distance.is_finite());
     near.sort_by(|a, b| a.0.total_cmp(&b.0));
     let Some((nearest, _)) = near.first() else {
         return Diagnosis::default();
@@ -219,6 +220,7 @@ mod tests {
         let found = diagnose(&whole, &answer(&whole, "W halved twice"), 0.35);
         assert_eq!(found.suspects, ["W halved twice"]);
         assert!(found.said.is_some());
+        assert!(said(vec![(f64::INFINITY, "far".into())], 1.0).suspects.is_empty());
         // A live program is asked only for the last time.
         let mut loaded = whole;
         loaded.problem.times_s.drain(..2);
