@@ -146,8 +146,8 @@ fn effective(estimator: &Estimator, effort: &Effort) -> Vec<Evidence> {
     let strain = strain_per_period(3.0) / scene.steps_per_unit() as f64;
     let mut rods = lab::stepped(&scene, 0);
     let start = rods.directions();
-    let next = || rods.step().is_ok().then(|| rods.directions());
-    let largest = watched(&(estimator.alone)(strain), strain, start, 200, next)
+    let mut next = || rods.step().is_ok().then(|| rods.directions());
+    let largest = watched(&(estimator.alone)(strain), strain, start, 200, &mut next)
         .map_or(f64::NAN, |means| means.gain.amax());
     vec![
         Evidence::new(

@@ -75,11 +75,11 @@ impl Diffusing {
     /// The means over `steps` steps, with J as what is beyond a motion `alone` ([`free`] of the rods' own Λ and strain of a step).
     pub fn means(&mut self, alone: &Matrix3<f64>, steps: usize) -> Means {
         let (strain, start) = (self.diffusion.strain, self.rods.clone());
-        let next = || {
+        let mut next = || {
             self.step();
             Some(self.rods.clone())
         };
-        watched(alone, strain, start, steps, next).unwrap_or_default()
+        watched(alone, strain, start, steps, &mut next).unwrap_or_default()
     }
 }
 

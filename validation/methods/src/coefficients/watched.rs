@@ -8,13 +8,13 @@ use nalgebra::{Matrix3, Vector3, Vector6};
 const EVERY: usize = 10;
 
 /// The means over `steps` steps of the rods of one replica, each of the given strain, over which Jeffery's motion is `free`
-/// ([`super::free`]): from the directions at the `start` through those that `next` returns after each step. `None` if `next` stops.
+/// ([`super::free`]): from the directions at the `start` through those that `next` returns after each step. `None` if `next` stops. Not generic: it is to be compiled here, optimised.
 pub fn watched(
     free: &Matrix3<f64>,
     strain: f64,
     start: Vec<Vector3<f64>>,
     steps: usize,
-    mut next: impl FnMut() -> Option<Vec<Vector3<f64>>>,
+    next: &mut dyn FnMut() -> Option<Vec<Vector3<f64>>>,
 ) -> Option<Means> {
     let mut sums = Means::default();
     let mut before = start;
@@ -63,8 +63,8 @@ mod tests {
     /// p = (0.6, 0.8, 0) after (0, 1, 0), without a motion of its own.
     #[test]
     fn the_step_of_one_rod_by_hand() {
-        let turned = || Some(vec![Vector3::new(0.6, 0.8, 0.0)]);
-        let found = watched(&Matrix3::identity(), 0.5, vec![Vector3::y()], 1, turned).unwrap();
+        let mut turned = || Some(vec![Vector3::new(0.6, 0.8, 0.0)]);
+        let found = watched(&Matrix3::identity(), 0.5, vec![Vector3::y()], 1, &mut turned).unwrap();
         let close = |found: f64, due: f64| assert!((found - due).abs() < 1e-14, "{found} {due}");
         close(found.second[(0, 1)], 0.48);
         close(found.fourth.at(0, 0, 1, 1), 0.48 * 0.48);

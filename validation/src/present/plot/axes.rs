@@ -253,7 +253,9 @@ where
                 chart.draw_series([EmptyElement::at((p.x, y)) + cap])?;
             }
         }
-        chart.draw_series([EmptyElement::at((p.x, p.y)) + marker(index, MARKER)])?;
+        // A smaller one hides less of its bars.
+        let size = if p.high.is_finite() || p.right.is_finite() { SMALL_MARKER } else { MARKER };
+        chart.draw_series([EmptyElement::at((p.x, p.y)) + marker(index, size)])?;
     }
     Ok(())
 }

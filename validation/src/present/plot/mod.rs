@@ -32,6 +32,7 @@ use serde::{Deserialize, Deserializer, Serialize};
 use std::collections::BTreeSet;
 use std::error::Error;
 use style::{AXES_HEIGHT, FINE, MARGIN, ROW, TITLE, WIDTH};
+pub(crate) use style::{FITTED, MEASURED};
 pub use theme::Theme;
 
 /// A curve, optionally with its 95 % band.

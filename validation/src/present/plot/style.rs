@@ -60,8 +60,12 @@ const NAMED: [&str; 11] = [
 /// A theory's line has its method's colour; its look is this much above the method's, and so above all others.
 const THEORY: usize = 42;
 
+/// The ends of the labels of measured points and of the curve that was fitted to them.
+pub(crate) const MEASURED: &str = ", measured ± u";
+pub(crate) const FITTED: &str = ", best fit";
+
 /// The look of every curve and then of all points: that of the integrator named in the label, or the first that is not used in the
-/// figure.
+/// figure. Where several curves were fitted, points look as theirs.
 pub(super) fn looks(figure: &Figure) -> Vec<usize> {
     let labels = figure.curves.iter().map(|c| &c.label).chain(figure.points.iter().map(|p| &p.label));
     let named = |label: &String| {
@@ -73,7 +77,17 @@ pub(super) fn looks(figure: &Figure) -> Vec<usize> {
     };
     let known: Vec<_> = labels.map(named).collect();
     let mut free = (0..).filter(|look| !known.contains(&Some(*look)));
-    (known.iter()).map(|look| look.or_else(|| free.next()).unwrap_or(0)).collect()
+    let mut looks: Vec<usize> =
+        (known.iter()).map(|look| look.or_else(|| free.next()).unwrap_or(0)).collect();
+    let fitted: Vec<_> = figure.curves.iter().map(|curve| curve.label.strip_suffix(FITTED)).collect();
+    if fitted.len() > 1 {
+        for (k, points) in figure.points.iter().enumerate() {
+            let what = points.label.strip_suffix(MEASURED);
+            let own = fitted.iter().position(|curve| curve.is_some() && *curve == what);
+            own.into_iter().for_each(|curve| looks[figure.curves.len() + k] = looks[curve]);
+        }
+    }
+    looks
 }
 
 /// The colour of a look. All differ, if only in the last bits, so that `curve_stroke` identifies one curve.
@@ -233,6 +247,7 @@ pub(super) fn wrap(text: &str, room: i32, size: f64) -> Vec<String> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::{Curve, Points};
     use super::*;
 
     #[test]
@@ -247,6 +262,25 @@ mod tests {
         assert_eq!(looks.len(), 37);
         let strokes: std::collections::BTreeSet<_> = (0..2 * THEORY).map(curve_stroke).collect();
         assert_eq!(strokes.len(), 2 * THEORY);
+    }
+
+    #[test]
+    fn points_look_as_the_curve_that_was_fitted_to_them_where_there_are_several() {
+        let figure = |names: &[&str]| Figure {
+            curves: (names.iter().map(|name| Curve { label: format!("{name}{FITTED}"), ..Curve::default() }))
+                .collect(),
+            points: (names
+                .iter()
+                .map(|name| Points { label: format!("{name}{MEASURED}"), ..Points::default() }))
+            .collect(),
+            ..Figure::default()
+        };
+        assert_eq!(looks(&figure(&["x1"])), [0, 1]);
+        assert_eq!(looks(&figure(&["x1", "phi"])), [0, 1, 0, 1]);
+        let mut other = figure(&["x1", "phi"]);
+        other.points.reverse();
+        other.points[1].label = "theirs".into();
+        assert_eq!(looks(&other), [0, 1, 1, 3]);
     }
 
     #[test]

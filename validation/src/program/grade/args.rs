@@ -57,7 +57,7 @@ pub(crate) struct Args {
     /// can be given more than once
     #[arg(long = "tolerance", value_name = "X|NAME=X", allow_hyphen_values = true)]
     pub(super) tolerances: Vec<Tolerance>,
-    /// The order of accuracy that the program claims; an observed order that is lower by whole orders fails
+    /// The order of accuracy that the program claims; an observed order that is lower by whole orders fails, or higher on all problems
     #[arg(long, value_name = "P", value_parser = positive, allow_negative_numbers = true)]
     pub(super) order: Option<f64>,
     /// LAMMPS dumps: the length of a time step in s, where the dump has no ITEM: TIME

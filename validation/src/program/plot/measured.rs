@@ -2,7 +2,7 @@
 
 use super::folders::Run;
 use crate::files::text::Shown;
-use crate::present::plot::{Points, names};
+use crate::present::plot::{MEASURED, Points, names};
 use crate::program::Failure;
 use crate::serve::fit::data;
 use shearbed::Plan;
@@ -29,7 +29,7 @@ pub(super) fn points(path: &Path, run: &Run, channel: &str) -> Result<Points, Fa
         own.iter().map(|point| value(point)).collect::<Vec<f64>>()
     };
     Ok(Points {
-        label: format!("{}, measured ± u", names::channel(channel)),
+        label: names::channel(channel) + MEASURED,
         x: each(&|point| point.time / unit),
         y: each(&|point| point.value),
         x_error: own.iter().any(|point| point.u_time > 0.0).then(|| each(&|point| point.u_time / unit)),

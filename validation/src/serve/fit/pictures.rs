@@ -7,7 +7,7 @@ use crate::methods::least_squares::Datum;
 use crate::methods::least_squares::emulator::Model;
 use crate::methods::least_squares::likelihood::REPLICAS;
 use crate::methods::least_squares::profile::{region, rise_of_several};
-use crate::present::plot::{Curve, Figure, Points, names as letters};
+use crate::present::plot::{Curve, FITTED, Figure, MEASURED, Points, names as letters};
 
 /// Number of times of a drawn curve.
 const TIMES: usize = 200;
@@ -91,7 +91,7 @@ pub fn figures(
         let curve = |column: &String| {
             let own: Vec<_> = places.iter().zip(curves).filter(|(place, _)| here(place, column)).collect();
             Curve {
-                label: format!("{}, best fit", letters::channel(column)),
+                label: letters::channel(column) + FITTED,
                 x: own.iter().map(|(place, _)| place.time).collect(),
                 y: own.iter().map(|(_, curve)| curve.0).collect(),
                 half_band: Some(own.iter().map(|(_, curve)| curve.1).collect()),
@@ -108,7 +108,7 @@ pub fn figures(
             let own: Vec<usize> = (0..data.len()).filter(|k| here(&data[*k], column)).collect();
             let each = |value: &dyn Fn(usize) -> f64| own.iter().map(|k| value(*k)).collect::<Vec<f64>>();
             Points {
-                label: format!("{}, measured ± u", letters::channel(column)),
+                label: letters::channel(column) + MEASURED,
                 x: each(&|k| data[k].time),
                 y: each(value),
                 x_error: (own.iter().any(|k| data[*k].u_time > 0.0)).then(|| each(&|k| data[k].u_time)),

@@ -210,8 +210,8 @@ fn window(scene: &Scene, places: Places, replica: u64) -> Option<(Means, [f64; 9
         moved(&mut rods)?;
     }
     let start = rods.directions();
-    let next = || moved(&mut rods).map(|()| rods.directions());
-    Some((watched(&free(shape_factor(r_e), strain), strain, start, half, next)?, quarters))
+    let mut next = || moved(&mut rods).map(|()| rods.directions());
+    Some((watched(&free(shape_factor(r_e), strain), strain, start, half, &mut next)?, quarters))
 }
 
 fn row(setting: Setting, replicas: u64, effort: &Effort) -> Coefficients {
