@@ -129,8 +129,8 @@ pub struct Coefficients {
     pub periods: u64,
     /// C_I.
     pub c_i: Estimate,
-    /// C_I from each of the components 11, 22, 33 and 12 of J alone.
-    pub own: [Estimate; 4],
+    /// C_I from each of the components 11, 22 and 33 of J alone.
+    pub own: [Estimate; 3],
     /// J's component 12, which grows with the number of steps.
     pub j_12: Estimate,
     /// The relative residual of a fit with a single C_I.
@@ -221,14 +221,14 @@ fn row(setting: Setting, replicas: u64, effort: &Effort) -> Coefficients {
         let without: Vec<_> = (0..means.len()).map(|k| value(&Means::of(&means, Some(k)))).collect();
         Estimate::jackknife(value(&Means::of(&means, None)), &without)
     };
-    let own = |i: usize, j: usize| of(&|means| means.gain[(i, j)] / means.diffusion()[(i, j)]);
+    let own = |i: usize| of(&|means| means.gain[(i, i)] / means.diffusion()[(i, i)]);
     Coefficients {
         setting,
         phi_rp: std::f64::consts::FRAC_PI_4 * setting.n_a3 / setting.aspect_ratio,
         replicas,
         periods: periods(setting),
         c_i: of(&|means| means.coefficient()),
-        own: [own(0, 0), own(1, 1), own(2, 2), own(0, 1)],
+        own: [0, 1, 2].map(own),
         j_12: of(&|means| means.gain[(0, 1)]),
         misfit: of(&|means| means.misfit()),
         koch: std::array::from_fn(|k| of(&|means| means.koch().0[k])),

@@ -133,7 +133,7 @@ fn coefficients(rows: &[Coefficients]) -> ReportTable {
     let mut columns = settings();
     columns.push(number("φ r_p", decimals(4), |row: &Coefficients| row.phi_rp));
     columns.push(measured("C_I", |row| row.c_i));
-    for (k, name) in ["of 11", "of 22", "of 33", "of 12"].into_iter().enumerate() {
+    for (k, name) in ["of 11", "of 22", "of 33"].into_iter().enumerate() {
         columns.push(measured(name, move |row| row.own[k]));
     }
     columns.push(measured("left over", |row| row.misfit));
@@ -143,7 +143,7 @@ fn coefficients(rows: &[Coefficients]) -> ReportTable {
         ["folgar-tucker", "The effective Folgar–Tucker coefficient"],
         format!(
             "Steady state of 100 rods, m = 3, {replicas} replicas (± a standard error, jackknife). C_I by least squares over \
-             all components of J, then by each component alone: where these differ, no single C_I describes the collisions, \
+             all components of J, then by its diagonal components alone: where these differ, no single C_I describes the collisions, \
              and the relative residual is in the next column. steps ×: time steps over those that resolve the motion. \
              periods: before the window and in it. φ r_p: for cylinders, π n a³/(4 r_e). The decay of X̄₁'s oscillation is \
              over the first two periods from isotropic directions. places anew: drawn at random before every step, so that no pair has a past."
