@@ -50,10 +50,8 @@ fn one_picture_is_drawn_from_several_runs_and_from_a_sweep() {
             ("plot a --y x9", "--y x9: a has no such channel; there are x1, x2, x3, x1x2,"),
             ("plot s/points/1", "s/points/1: is one point of a sweep; the sweep's folder is allowed"),
             ("plot nowhere", "nowhere: is no folder of results"),
-            (
-                "plot a --x-range 50:70",
-                "--x-range, --y-range: nothing lies there; the picture goes from 0 to",
-            ),
+            ("plot a --x-range 50:70", "--x-range 50:70: nothing lies there; the picture goes from 0 to"),
+            ("plot a --y-range 2:3", "--y-range 2:3: nothing lies there; the picture goes from 0."),
             ("plot a --out picture.gif", "a name that ends in .svg, .png or .pdf is allowed"),
         ],
     );

@@ -56,30 +56,17 @@ fn size(text: &str) -> Result<(u32, u32), String> {
     })
 }
 
-/// Refuses ranges in which nothing lies.
-fn shows_something(figure: &Figure) -> Result<(), Failure> {
-    let curves = figure.curves.iter().map(|curve| (&curve.x, &curve.y));
-    let series = curves.chain(figure.points.iter().map(|points| (&points.x, &points.y)));
-    let all: Vec<(f64, f64)> = series.flat_map(|(x, y)| x.iter().copied().zip(y.iter().copied())).collect();
-    let within = |range: Option<(f64, f64)>, v: f64| {
-        range.map_or(v.is_finite(), |(from, to)| (from..=to).contains(&v))
-    };
-    if all.iter().any(|(x, y)| within(figure.x_range, *x) && within(figure.y_range, *y)) {
-        return Ok(());
+/// Refuses a range that no curve and no point reaches.
+fn reached(flag: &str, range: Option<(f64, f64)>, all: impl Iterator<Item = f64>) -> Result<(), Failure> {
+    let finite = all.filter(|value| value.is_finite());
+    let (least, most) =
+        finite.fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), v| (v.min(least), v.max(most)));
+    match range {
+        Some((from, to)) if least <= most && (to < least || most < from) => Err(Failure::Input(format!(
+            "{flag} {from}:{to}: nothing lies there; the picture goes from {least} to {most}"
+        ))),
+        _ => Ok(()),
     }
-    let ends = |values: &dyn Fn(&(f64, f64)) -> f64| {
-        let values = || all.iter().map(values).filter(|value| value.is_finite());
-        format!(
-            "{} to {}",
-            values().fold(f64::INFINITY, f64::min),
-            values().fold(f64::NEG_INFINITY, f64::max)
-        )
-    };
-    Err(Failure::Input(format!(
-        "--x-range, --y-range: nothing lies there; the picture goes from {} along and from {} up",
-        ends(&|point| point.0),
-        ends(&|point| point.1)
-    )))
 }
 
 impl Look {
@@ -125,9 +112,10 @@ impl Look {
         }
         figure.x_range = self.x_range.or(figure.x_range);
         figure.y_range = self.y_range.or(figure.y_range);
-        if self.x_range.or(self.y_range).is_some() {
-            shows_something(figure)?;
-        }
+        let curves = || figure.curves.iter().map(|curve| (&curve.x, &curve.y));
+        let series = || curves().chain(figure.points.iter().map(|points| (&points.x, &points.y)));
+        reached("--x-range", self.x_range, series().flat_map(|(x, _)| x.iter().copied()))?;
+        reached("--y-range", self.y_range, series().flat_map(|(_, y)| y.iter().copied()))?;
         figure.size = self.size.or(figure.size);
         if self.theme == "dark" {
             figure.theme = Theme::Dark;
