@@ -5,7 +5,7 @@ use crate::methods::least_squares::Datum;
 use crate::methods::least_squares::emulator::Model;
 use crate::methods::least_squares::likelihood::CAUSES;
 use nalgebra::{DMatrix, DVector};
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 
 /// One line of the budget.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -92,10 +92,16 @@ pub fn residuals(fit: &Fit, data: &[Datum]) -> Vec<Residual> {
     data.iter().enumerate().map(one).collect()
 }
 
+/// Writes the index of a data set as `--over` and the messages count, from 1.
+pub(super) fn from_one<S: Serializer>(set: &usize, serializer: S) -> Result<S::Ok, S::Error> {
+    (set + 1).serialize(serializer)
+}
+
 /// A measured point D and the best model S at its time.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Residual {
-    /// The data set.
+    /// The data set, counted from 0; files count from 1.
+    #[serde(serialize_with = "from_one")]
     pub set: usize,
     /// The column's name, such as `x1`.
     pub column: String,

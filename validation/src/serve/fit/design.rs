@@ -10,6 +10,7 @@ mod known;
 #[cfg(test)]
 mod tests;
 
+use super::budget::from_one;
 use super::scenes::{AS_WRITTEN, Scenes};
 use super::search::{Fit, Watch, values};
 use crate::methods::least_squares::Datum;
@@ -36,7 +37,7 @@ const PLACES: [usize; 3] = [401, 101, 25];
 const SMALL: f64 = 1e-7;
 
 /// A point that could be measured.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Candidate {
     /// The data set of the point's scene, counted from 0.
     pub set: usize,
@@ -74,7 +75,8 @@ pub enum Added {
     Nothing,
     /// As many points as were measured in this set, evenly over the candidates of its scene.
     AsMany {
-        /// The data set, counted from 0.
+        /// The data set, counted from 0; files count from 1.
+        #[serde(serialize_with = "from_one")]
         set: usize,
         /// The number of points.
         points: usize,
@@ -83,7 +85,8 @@ pub enum Added {
     },
     /// One more point, in addition to those of the earlier steps.
     Point {
-        /// The data set, counted from 0.
+        /// The data set, counted from 0; files count from 1.
+        #[serde(serialize_with = "from_one")]
         set: usize,
         /// The concentration of its scene.
         concentration_per_cm3: Option<f64>,

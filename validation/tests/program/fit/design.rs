@@ -46,6 +46,9 @@ fn a_design_lists_what_each_further_point_would_leave() {
     concentrations.dedup();
     assert_eq!(concentrations, ["25", "50", "100"]);
     assert_eq!(steps.len(), 1 + 3 + 6);
+    // Sets count from 1 in every file, as in `--over 1:KEY`.
+    assert_eq!((&steps[1]["added"]["set"], &steps[4]["added"]["set"]), (&1.into(), &1.into()));
+    assert_eq!(record["residuals"][0]["set"], 1);
     assert_eq!((u(&steps[4]), steps[4]["added"]["time"].as_f64().unwrap()), best);
     // Points that are means over as many rods as the scene has scatter as its replicas do, more at some times than at others.
     assert_eq!(
