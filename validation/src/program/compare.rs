@@ -193,38 +193,45 @@ fn verdicts(a: &Report, b: &Report) -> String {
     }
 }
 
+/// The cases that both reports have.
+fn of_both<'a>(a: &'a Report, b: &'a Report) -> impl Iterator<Item = (&'a Case, &'a Case)> {
+    (a.cases.iter()).filter_map(|case| Some((case, b.cases.iter().find(|other| other.name == case.name)?)))
+}
+
+impl Case {
+    fn line(&self, what: &str) -> Option<&Line> {
+        self.evidence.iter().find(|line| line.what == what)
+    }
+
+    fn control(&self, mistake: &str) -> Option<&Control> {
+        self.controls.iter().find(|control| control.mistake == mistake)
+    }
+}
+
 /// Lists what the cases of both reports judge in one of them alone, or otherwise: evidence, tolerances, controls.
 fn judged_otherwise(a: &Report, b: &Report) -> String {
     let mut lines = Vec::new();
-    for before in &a.cases {
-        let Some(after) = b.cases.iter().find(|case| case.name == before.name) else {
-            continue;
-        };
+    for (before, after) in of_both(a, b) {
+        let name = &before.name;
         for (one, other, report) in [(before, after, "A"), (after, before, "B")] {
-            let alone = |what: &str, there: bool| {
-                (!there).then(|| format!("{}: {what}: in {report} alone", one.name))
-            };
-            lines.extend(one.evidence.iter().filter_map(|line| {
-                alone(&line.what, other.evidence.iter().any(|same| same.what == line.what))
-            }));
-            lines.extend(one.controls.iter().filter_map(|control| {
-                alone(&control.mistake, other.controls.iter().any(|same| same.mistake == control.mistake))
-            }));
+            let evidence =
+                one.evidence.iter().map(|line| &line.what).filter(|what| other.line(what).is_none());
+            let controls = one.controls.iter().map(|control| &control.mistake);
+            let alone = evidence.chain(controls.filter(|mistake| other.control(mistake).is_none()));
+            lines.extend(alone.map(|what| format!("{name}: {what}: in {report} alone")));
         }
+        // That of a mean follows its standard error.
         for line in before.evidence.iter().filter(|line| line.judged_by.rule != "mean") {
-            let same = after.evidence.iter().find(|other| other.what == line.what);
-            if let Some((was, is)) =
-                same.and_then(|same| line.tolerance.zip(same.tolerance)).filter(|(a, b)| a != b)
-            {
-                lines.push(format!("{}: {}: tolerance {was:.3e} → {is:.3e}", before.name, line.what));
+            let both = after.line(&line.what).and_then(|same| line.tolerance.zip(same.tolerance));
+            if let Some((was, is)) = both.filter(|(was, is)| was != is) {
+                lines.push(format!("{name}: {}: tolerance {was:.3e} → {is:.3e}", line.what));
             }
         }
         for control in &before.controls {
-            let same = after.controls.iter().find(|other| other.mistake == control.mistake);
-            if let Some(same) = same.filter(|same| same.caught != control.caught) {
-                let words = |caught| if caught { "caught" } else { "not caught" };
+            let words = |caught| if caught { "caught" } else { "not caught" };
+            if let Some(same) = after.control(&control.mistake).filter(|same| same.caught != control.caught) {
                 let change = format!("{} → {}", words(control.caught), words(same.caught));
-                lines.push(format!("{}: {}: {change}", before.name, control.mistake));
+                lines.push(format!("{name}: {}: {change}", control.mistake));
             }
         }
     }
@@ -235,24 +242,19 @@ fn judged_otherwise(a: &Report, b: &Report) -> String {
 }
 
 fn moved<'a>(a: &'a Report, b: &'a Report) -> Vec<Moved<'a>> {
-    let mut moved = Vec::new();
-    for before in &a.cases {
-        let Some(after) = b.cases.iter().find(|case| case.name == before.name) else {
-            continue;
-        };
-        for line in &before.evidence {
-            let same = after.evidence.iter().find(|other| other.what == line.what);
-            let by = same.and_then(|other| Some((other, by(line, other)?)));
-            moved.extend(by.map(|(other, by)| Moved {
+    let of_case = |(before, after): (&'a Case, &'a Case)| {
+        before.evidence.iter().filter_map(move |line| {
+            let other = after.line(&line.what)?;
+            Some(Moved {
                 case: &before.name,
                 what: &line.what,
                 before: line.judged_by.mean.or(line.error),
                 after: other.judged_by.mean.or(other.error),
-                by,
-            }));
-        }
-    }
-    moved
+                by: by(line, other)?,
+            })
+        })
+    };
+    of_both(a, b).flat_map(of_case).collect()
 }
 
 /// The change of a line of evidence in words; none if it is within the noise.
@@ -333,71 +335,4 @@ fn speeds(a: &Report, b: &Report) -> ReportTable {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn another_format_and_doubled_cases_are_refused() {
-        let report = |format: u32, names: [&str; 2]| {
-            let cases = names.map(
-                |name| serde_json::json!({ "name": name, "verdict": "pass", "seconds": 0.1, "evidence": [] }),
-            );
-            let report = serde_json::json!({
-                "format": format, "summary": { "full": false, "seed": 1 }, "cases": cases,
-                "origin": { "commit": "a", "processor": "b" },
-            });
-            parse(&report.to_string()).map(|report| report.cases.len())
-        };
-        assert_eq!(report(2, ["a", "b"]), Ok(2));
-        let other = report(99, ["a", "b"]).unwrap_err();
-        assert!(other.starts_with("format = 99 is not allowed: 2"), "{other}");
-        let twice = report(2, ["a", "a"]).unwrap_err();
-        assert_eq!(twice, "the case \"a\" is there twice; once is allowed");
-    }
-
-    #[test]
-    fn other_evidence_tolerances_and_controls_are_listed() {
-        let report = |what: &str, tolerance: f64, caught: bool| {
-            let line = |what: &str| serde_json::json!({ "what": what, "error": 0.0, "tolerance": tolerance, "judged_by": { "rule": "within" } });
-            let report = serde_json::json!({
-                "format": FORMAT, "summary": { "full": false, "seed": 1 },
-                "cases": [{ "name": "case", "verdict": "pass", "seconds": 0.1, "evidence": [line("both"), line(what)],
-                    "controls": [{ "mistake": "sign", "caught": caught }] }],
-                "origin": { "commit": "a", "processor": "b" },
-            });
-            parse(&report.to_string()).unwrap()
-        };
-        let before = report("one", 1e-3, true);
-        assert_eq!(judged_otherwise(&before, &report("one", 1e-3, true)), "");
-        assert_eq!(
-            judged_otherwise(&before, &report("two", 1.0, false)),
-            "Judged otherwise:\n  case: one: in A alone\n  case: two: in B alone\n  case: both: tolerance 1.000e-3 → 1.000e0\n  \
-             case: sign: caught → not caught\n"
-        );
-    }
-
-    fn line(json: serde_json::Value) -> Line {
-        serde_json::from_value(json).unwrap()
-    }
-
-    #[test]
-    fn only_what_is_beyond_noise_has_moved() {
-        let mean = |mean: f64| {
-            line(serde_json::json!({
-                "what": "synthetic", "error": 0.1, "tolerance": 1.0,
-                "judged_by": { "rule": "mean", "mean": mean, "se": 0.1 },
-            }))
-        };
-        // A standard error of the difference is √2 · 0.1.
-        assert_eq!(by(&mean(1.0), &mean(1.5)), None);
-        assert_eq!(by(&mean(1.0), &mean(1.6)).as_deref(), Some("+4.2 standard errors"));
-        let within = |error: Option<f64>| {
-            line(serde_json::json!({
-                "what": "synthetic", "error": error, "tolerance": 1e-12, "judged_by": { "rule": "within" },
-            }))
-        };
-        assert_eq!(by(&within(Some(1e-14)), &within(Some(1.5e-14))), None);
-        assert_eq!(by(&within(Some(1e-14)), &within(Some(4e-14))).as_deref(), Some("× 4.000"));
-        assert!(by(&within(Some(0.0)), &within(None)).is_some());
-    }
-}
+mod tests;

@@ -284,6 +284,15 @@ fn agree(command: &str, input: Value) -> Result<(), Failure> {
     cluster::agree(command, input).map_err(Failure::Input)
 }
 
+/// A path whose name has one of these endings, which are `said` in the error.
+fn ending_in(endings: &[&str], said: &str, text: &str) -> Result<PathBuf, String> {
+    let path = PathBuf::from(text);
+    match path.extension().is_some_and(|own| endings.iter().any(|ending| own == *ending)) {
+        true => Ok(path),
+        false => Err(format!("a name that ends in {said} is allowed; no other format is written")),
+    }
+}
+
 /// A parser of whole numbers from `least` to `most`, whose error states that range.
 fn whole(least: u64, most: u64) -> impl Fn(&str) -> Result<u64, String> + Clone + Send + Sync + 'static {
     move |text| match text.parse() {

@@ -5,7 +5,7 @@ mod look;
 mod measured;
 mod table;
 
-use super::{Failure, print, scene};
+use super::{Failure, ending_in, print, scene};
 use crate::files::output;
 use crate::files::text::Shown;
 use crate::present::plot::{self, Figure, names};
@@ -40,11 +40,7 @@ pub(super) struct Args {
 }
 
 fn picture(text: &str) -> Result<PathBuf, String> {
-    let path = PathBuf::from(text);
-    match path.extension().and_then(|extension| extension.to_str()) {
-        Some("svg" | "png" | "pdf") => Ok(path),
-        _ => Err("a name that ends in .svg, .png or .pdf is allowed; no other format is written".to_owned()),
-    }
+    ending_in(&["svg", "png", "pdf"], ".svg, .png or .pdf", text)
 }
 
 /// Draws a channel of every folder, or a picture stored in a folder.

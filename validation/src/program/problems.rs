@@ -1,6 +1,6 @@
 //! `shearbed problems`.
 
-use super::{Failure, Writing, print};
+use super::{Failure, Writing, ending_in, print};
 use crate::files::output;
 use crate::files::text::{Shown, left_aligned};
 use crate::serve::problems;
@@ -32,11 +32,7 @@ enum What {
 }
 
 fn tar(text: &str) -> Result<PathBuf, String> {
-    let path = PathBuf::from(text);
-    match path.extension().is_some_and(|extension| extension == "tar") {
-        true => Ok(path),
-        false => Err("a name that ends in .tar is allowed; no other format is written".to_owned()),
-    }
+    ending_in(&["tar"], ".tar", text)
 }
 
 /// Lists the problems, exports them, or prints their schema.

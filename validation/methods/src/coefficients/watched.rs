@@ -8,7 +8,8 @@ use nalgebra::{Matrix3, Vector3, Vector6};
 const EVERY: usize = 10;
 
 /// The means over `steps` steps of the rods of one replica, each of the given strain, over which Jeffery's motion is `free`
-/// ([`super::free`]): from the directions at the `start` through those that `next` returns after each step. `None` if `next` stops. Not generic: it is to be compiled here, optimised.
+/// ([`super::free`]): from the directions at the `start` through those that `next` returns after each step. `None` if `next` stops.
+// Not generic, so that it is compiled in this crate, which is optimised, and not in the suite, which is not.
 pub fn watched(
     free: &Matrix3<f64>,
     strain: f64,

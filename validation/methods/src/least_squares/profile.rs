@@ -192,55 +192,38 @@ pub fn region(best: &Best, profile: &Profile, [a, b]: [usize; 2], level: f64) ->
     let spread = best.covariance();
     let first_step = 0.25 * (spread[(b, b)] - spread[(a, b)].powi(2) / spread[(a, a)]).max(1e-12).sqrt();
     let mut islands: Vec<Vec<[f64; 3]>> = Vec::new();
-    // The deepest place of the column before, and that column.
-    let mut last: Option<(Vec<f64>, [f64; 3])> = None;
+    // The column before, and its deepest place.
+    let mut last: Option<([f64; 3], Vec<f64>)> = None;
     for k in 0..=COLUMNS {
         let place = middle - half * (std::f64::consts::PI * k as f64 / COLUMNS as f64).cos();
         let near = profile.place.partition_point(|other| *other < place).min(profile.at.len() - 1);
         let found = Rise::along(best, a, place, &[&profile.at[near], &profile.at[near.saturating_sub(1)]]);
-        let rise = |other: f64| {
-            let mut fixed = vec![None; best.place.len()];
-            (fixed[a], fixed[b]) = (Some(place), Some(other));
-            shown * Rise::to(best, &fixed, &[&found.at]).beside_noise()
-        };
         // The ends of the region are known to the halvings of `interval`.
         let is_end = k == 0 || k == COLUMNS;
         if !is_end && shown * found.beside_noise() > level {
             last = None;
             continue;
         }
-        let centre = found.at[b];
-        let [low, high] = [-1.0, 1.0].map(|side: f64| {
-            let (mut inner, mut step) = (centre, first_step);
-            let mut outer = loop {
-                let next = (inner + side * step).clamp(-1.0, 1.0);
-                if rise(next) > level {
-                    break next;
-                }
-                if next == side {
-                    return side;
-                }
-                (inner, step) = (next, 2.0 * step);
-            };
-            for _ in 0..HALVINGS {
-                let middle = 0.5 * (inner + outer);
-                *(if rise(middle) <= level { &mut inner } else { &mut outer }) = middle;
+        let is_inside = |other: f64| {
+            let mut fixed = vec![None; best.place.len()];
+            (fixed[a], fixed[b]) = (Some(place), Some(other));
+            shown * Rise::to(best, &fixed, &[&found.at]).beside_noise() <= level
+        };
+        let [low, high] = [-1.0, 1.0].map(|side| end(found.at[b], side, first_step, is_inside));
+        let is_joined = last.as_ref().is_some_and(|([before, below, above], deepest)| {
+            // The columns of a steep thin valley do not overlap.
+            low <= *above && *below <= high || {
+                // Half way from one valley to another the deepest place is in one of them.
+                let between = Rise::along(best, a, 0.5 * (before + place), &[&found.at, deepest]).at[b];
+                (between - 0.5 * (found.at[b] + deepest[b])).abs() < 0.25 * (found.at[b] - deepest[b]).abs()
             }
-            inner
         });
         let column = [place, low, high];
-        let joined = last.as_ref().is_some_and(|(other, [before, below, above])| {
-            // The columns of a steep thin valley do not overlap; half way from one valley to another the deepest place is in one of them.
-            low <= *above && *below <= high || {
-                let between = Rise::along(best, a, 0.5 * (before + place), &[&found.at, other]).at[b];
-                (between - 0.5 * (found.at[b] + other[b])).abs() < 0.25 * (found.at[b] - other[b]).abs()
-            }
-        });
         match islands.last_mut() {
-            Some(island) if joined => island.push(column),
+            Some(island) if is_joined => island.push(column),
             _ => islands.push(vec![column]),
         }
-        last = Some((found.at, column));
+        last = Some((column, found.at));
     }
     let outline = |island: Vec<[f64; 3]>| {
         let there = island.iter().map(|[place, low, _]| [*place, *low]);
@@ -248,4 +231,24 @@ pub fn region(best: &Best, profile: &Profile, [a, b]: [usize; 2], level: f64) ->
         there.chain(back).chain([[island[0][0], island[0][1]]]).collect()
     };
     islands.into_iter().map(outline).collect()
+}
+
+/// Where the inside ends on one side of `centre`, −1 or 1: at the edge of the box at the latest. It is looked for in growing steps.
+fn end(centre: f64, side: f64, first_step: f64, is_inside: impl Fn(f64) -> bool) -> f64 {
+    let (mut inner, mut step) = (centre, first_step);
+    let mut outer = loop {
+        let next = (inner + side * step).clamp(-1.0, 1.0);
+        if !is_inside(next) {
+            break next;
+        }
+        if next == side {
+            return side;
+        }
+        (inner, step) = (next, 2.0 * step);
+    };
+    for _ in 0..HALVINGS {
+        let middle = 0.5 * (inner + outer);
+        *(if is_inside(middle) { &mut inner } else { &mut outer }) = middle;
+    }
+    inner
 }

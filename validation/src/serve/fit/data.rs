@@ -113,10 +113,11 @@ pub fn read(path: &Path, set: usize) -> Result<Points, DataError> {
         if value == time.name() {
             continue;
         }
-        if name.strip_suffix("_se").is_some_and(|value| known.iter().any(|known| known == value)) {
+        if let Some(value) = name.strip_suffix("_se").filter(|value| known.iter().any(|known| known == value))
+        {
             return Err(refused(format!(
-                "column `{name}`: a measured value's standard uncertainty is named `{}_u`; rename the column if that is what it has",
-                name.trim_end_matches("_se")
+                "column `{name}`: a measured value's standard uncertainty is named `{value}_u`; rename the column if that is what \
+                 it has"
             )));
         }
         if !known.iter().any(|known| known == value) {

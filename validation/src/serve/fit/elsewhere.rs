@@ -106,23 +106,20 @@ pub fn look_elsewhere(problem: &FitProblem<'_>, fit: &Fit, watch: &Watch<'_>) ->
                     values[axis],
                     own.chi_square
                 );
-                let freedom = problem.measured.data.len().saturating_sub(fit.ranges.len());
+                let points = problem.measured.data.len();
                 let least = found.chi_square.min(own.chi_square);
-                return Err(
-                    match ChiSquared::new(freedom as f64).is_ok_and(|law| law.sf(least) < IMPOSSIBLE) {
-                        true => format!(
-                            "--over {}: no value describes the {} points; the nearest are {both}; check their columns, units and \
-                         uncertainties, and the scene's other keys",
-                            range.label(),
-                            problem.measured.data.len(),
-                        ),
-                        false => format!(
-                            "--over {}: {both} describe the points equally well, for χ² has several minima in this range; give a narrower \
-                         one without impossible values",
-                            range.label(),
-                        ),
-                    },
-                );
+                let law = ChiSquared::new(points.saturating_sub(fit.ranges.len()) as f64);
+                let why = match law.is_ok_and(|law| law.sf(least) < IMPOSSIBLE) {
+                    true => format!(
+                        "no value describes the {points} points; the nearest are {both}; check their columns, units and \
+                         uncertainties, and the scene's other keys"
+                    ),
+                    false => format!(
+                        "{both} describe the points equally well, for χ² has several minima in this range; give a narrower one \
+                         without impossible values"
+                    ),
+                };
+                return Err(format!("--over {}: {why}", range.label()));
             }
         }
     }

@@ -90,11 +90,11 @@ fn rounded_up(p: f64) -> String {
 pub fn design(fit: &Fit, steps: &[Step], times: &[&str]) -> String {
     let head = "what further points would leave".to_owned();
     let mut points = 0;
-    let mut what = |step: &Step| {
+    let what = |step: &Step| {
         points += usize::from(matches!(step.added, Added::Point { .. }));
         added(&step.added, points, times)
     };
-    let all: Vec<String> = steps.iter().map(&mut what).collect();
+    let all: Vec<String> = steps.iter().map(what).collect();
     let wide = all.iter().map(|text| text.chars().count()).fold(head.len(), usize::max);
     let names = fit.ranges.iter().map(|range| format!("  {:>12}", format!("u({})", range.name())));
     let mut text = format!("{head:<wide$}{}", names.collect::<String>());
@@ -109,7 +109,7 @@ pub fn design(fit: &Fit, steps: &[Step], times: &[&str]) -> String {
     text + "\n"
 }
 
-/// `count` is how many best points there are up to this one: each row keeps those above it.
+/// The row of the points `added`; of best points this is number `count`, and the row keeps those above it.
 fn added(added: &Added, count: usize, times: &[&str]) -> String {
     let of_set = |set: &usize| match times.len() {
         1 => String::new(),
@@ -124,7 +124,7 @@ fn added(added: &Added, count: usize, times: &[&str]) -> String {
         Added::Point { set, concentration_per_cm3: n, column, time } => {
             let before = match count {
                 1 => "best next point: ".to_owned(),
-                _ => format!("and, as number {count}: "),
+                _ => format!("and point {count}: "),
             };
             format!("{before}{column}{} at {} = {time:.2}{}", of_set(set), times[*set], at(n))
         }

@@ -139,7 +139,7 @@ pub struct Problem {
 const LATE: f64 = 1e6;
 
 impl Problem {
-    /// True if a steady state is asked for: the one time is a name for any that is late enough.
+    /// True if the steady state is asked for: by a single time, so late that any later one has the same answer.
     pub fn is_steady(&self) -> bool {
         let norm = self.gradient_per_s.as_flattened().iter().map(|g| g * g).sum::<f64>().sqrt();
         self.kind == Kind::Tensor && matches!(self.times_s[..], [time] if time * norm > LATE)

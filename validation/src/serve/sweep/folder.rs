@@ -68,12 +68,12 @@ impl Folder {
     /// as they are, unless `folder` has force, which empties the folder of sweeps. Another process at work in the folder.
     pub fn open(folder: ResultFolder, inputs: &Value, points: Points) -> Result<Self, Refused> {
         let claim = Claim::new(folder.dir(), Duration::ZERO)?;
-        // Where `sweep.json` is gone, the sweep begins again, and keeps its points.
         let own = folder.is_own();
         // Without a record, points are of unknown origin, too.
         let names = ["sweep.json", "sweep.csv", "points"];
         folder.check(if own { &names[..2] } else { &names })?;
         let folder = Self { folder, inputs: format!("{inputs:#}\n"), points, claim };
+        // Where its `sweep.json` is gone, a sweep begins again and keeps its points.
         if !own || folder.folder.dir().join("sweep.json").symlink_metadata().is_err() {
             folder.begin(own)?;
         }
@@ -83,17 +83,14 @@ impl Folder {
 
     /// Removes the points of another sweep, unless the sweep is `own`, and writes `sweep.json`.
     fn begin(&self, own: bool) -> Result<(), Refused> {
+        let mut left_over = vec!["sweep.csv".to_owned()];
         if !own {
             for point in self.others()? {
                 fs::remove_dir_all(&point).map_err(|reason| OutputError { path: point, reason })?;
             }
+            left_over.extend(self.folder.left_over(&["sweep.json".to_owned()]));
         }
         let files = vec![("sweep.json".to_owned(), self.inputs.clone())];
-        let mut left_over = match own {
-            true => Vec::new(),
-            false => self.folder.left_over(&["sweep.json".to_owned()]),
-        };
-        left_over.push("sweep.csv".to_owned());
         let record = Record::new(self.folder.origin(), &files).file();
         Ok(self.claim.write_all(&[files, vec![record]].concat(), &left_over)?)
     }

@@ -95,8 +95,8 @@ fn kind(row: &Coefficients) -> (f64, f64) {
     (row.setting.aspect_ratio, row.setting.alpha)
 }
 
-/// True if colliding rods take Jeffery's step and then the kick, where the liquid carries them. With the other updates they take a straight step, whose error is as
-/// large as C_I at the default time step.
+/// True if colliding rods take Jeffery's step and then the kick, and keep their places. With the other updates they take a straight
+/// step, whose error is as large as C_I at the default time step.
 fn kicked(row: &Coefficients) -> bool {
     row.setting.update == Update::Kick && row.setting.places == Places::Kept
 }
@@ -146,7 +146,8 @@ fn coefficients(rows: &[Coefficients]) -> ReportTable {
              all components of J, then by its diagonal components alone: where these differ, no single C_I describes the collisions, \
              and the relative residual is in the next column. steps ×: time steps over those that resolve the motion. \
              periods: before the window and in it. φ r_p: for cylinders, π n a³/(4 r_e). The decay of X̄₁'s oscillation is \
-             over the first two periods from isotropic directions. places anew: drawn at random before every step, so that no pair has a past."
+             over the first two periods from isotropic directions. places anew: drawn at random before every step, so that no \
+             pair has a past."
         ),
         rows,
         columns,
@@ -164,7 +165,7 @@ fn koch(rows: &[Coefficients]) -> ReportTable {
     ReportTable::new(
         ["koch", "Koch's anisotropic diffusivity in place of C_I"],
         "In the same runs: C = β_1 (D:⟨pppp⟩:D) δ/G² + β_2 D:⟨pppppp⟩:D/G² (Koch 1995) by least squares over all components of J, \
-         and the relative residual of that fit beside that of one C_I. J_12 is what both leave.",
+         and the relative residual of that fit beside that of one C_I. Most of what both leave is J_12.",
         rows,
         columns,
     )

@@ -32,11 +32,14 @@ const SHARP: f64 = 1e-6;
 /// Judges every rung of a ladder whose last ones are within the tolerance.
 pub(super) fn judged(rungs: &[Rung], tolerance: f64, ask: impl Fn(Setting) -> Result<Rung, Asked>) -> End {
     let order = falling_order(rungs, tolerance);
-    match beside(rungs, tolerance, order, &ask) {
-        Ok(None) | Err(Asked::Says(_)) => {}
-        Ok(Some(words)) => return End::Jumps(words),
-        Err(Asked::Late(words)) => return End::OutOfTime(words),
-        Err(Asked::Breach(words)) => return End::Broke(words),
+    let end = |found: Result<Option<String>, Asked>| match found {
+        Ok(None) | Err(Asked::Says(_)) => None,
+        Ok(Some(words)) => Some(End::Jumps(words)),
+        Err(Asked::Late(words)) => Some(End::OutOfTime(words)),
+        Err(Asked::Breach(words)) => Some(End::Broke(words)),
+    };
+    if let Some(end) = end(beside(rungs, tolerance, order, &ask)) {
+        return end;
     }
     for k in (0..rungs.len().saturating_sub(1)).rev() {
         // All coarser rungs are unstable: nothing else can be said of them.
@@ -53,12 +56,8 @@ pub(super) fn judged(rungs: &[Rung], tolerance: f64, ask: impl Fn(Setting) -> Re
             }
             _ => Ok(outlier(rungs, k, tolerance)),
         };
-        match found {
-            Ok(None) => {}
-            Ok(Some(words)) => return End::Jumps(words),
-            Err(Asked::Late(words)) => return End::OutOfTime(words),
-            Err(Asked::Breach(words)) => return End::Broke(words),
-            Err(Asked::Says(_)) => {}
+        if let Some(end) = end(found) {
+            return end;
         }
     }
     End::Reached
