@@ -8,6 +8,7 @@ pub mod coefficients;
 pub mod integrators;
 pub mod least_squares;
 pub mod projections;
+pub mod starts;
 pub mod tensors;
 pub mod textbook;
 

@@ -19,7 +19,7 @@ mod tests;
 pub use contact::{Contact, collide};
 pub use inflow::{OtherFlow, carry};
 pub use motion::{jeffery, mean_projections};
-pub use neighbour::{collision_probability, nearest};
+pub use neighbour::{collision_probability, expected_candidates, nearest};
 pub use problem::{Mistake, NaiveProblem, Start, Update};
 pub use random::stream;
 pub use reading::{Images, Length, Lines, Reading, Replacement, Who};

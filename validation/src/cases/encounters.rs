@@ -4,7 +4,7 @@ use crate::judge::accept::Design;
 use crate::judge::case::{Case, Effort, Evidence};
 use crate::judge::lab::{self, Change};
 use crate::judge::statistics::{Sample, larger};
-use crate::oracle::naive::collision_probability;
+use crate::oracle::naive::{collision_probability, expected_candidates};
 use rayon::prelude::*;
 use shearbed::model::collision::reach;
 
@@ -117,16 +117,4 @@ fn frequency(change: &Change, effort: &Effort) -> Vec<Evidence> {
         )
     });
     evidence.into()
-}
-
-/// Σ P_c over all rods' nearest neighbours, found by checking every pair.
-fn expected_candidates(positions: &[Vec<f64>; 3], alpha: f64, m: f64) -> f64 {
-    let count = positions[0].len();
-    (0..count)
-        .map(|i| {
-            let square = |j: usize| (0..3).map(|k| (positions[k][i] - positions[k][j]).powi(2)).sum::<f64>();
-            let nearest = (0..count).filter(|&j| j != i).map(square).fold(f64::INFINITY, f64::min);
-            (alpha / (nearest.sqrt() + alpha)).powf(m)
-        })
-        .sum()
 }

@@ -7,8 +7,8 @@ use super::subjects::Integrators;
 use super::subjects::spoiled::{in_angles, in_p};
 use crate::judge::case::{Case, Effort, Evidence};
 use crate::judge::statistics::larger;
+use crate::methods::integrators::limits::{Limit, ONE_STEP, Property, TEN_PERIODS, bisect, holds};
 use crate::methods::integrators::*;
-use crate::studies::stability::limits::{Limit, ONE_STEP, Property, TEN_PERIODS, bisect, holds};
 use crate::studies::stability::theory;
 use std::f64::consts::{FRAC_PI_2, PI};
 

@@ -135,7 +135,7 @@ fn c_compiled_with_cc_passes_with_order_4() {
 
 /// Of the subject `RK4 in p`, by the same ladder.
 fn own_turning_limit() -> f64 {
-    use validation::studies::stability::limits::{Ladder, Limit, Property, bisect, holds};
+    use validation::methods::integrators::limits::{Ladder, Limit, Property, bisect, holds};
     let subjects = validation::studies::integrators::all();
     let rk4 = subjects.iter().find(|subject| subject.name == "RK4 in p").unwrap();
     let ladder = Ladder { least: 0.01, most: 100.0, factor: 1.25 };

@@ -8,6 +8,7 @@
 //! best factor by least squares over all nine components. Koch (1995) has an anisotropic diffusivity.
 
 mod diffusing;
+pub mod jumps;
 mod watched;
 
 pub use diffusing::{Diffusing, Diffusion, free};

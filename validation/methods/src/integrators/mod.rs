@@ -6,6 +6,7 @@ mod errors;
 mod exact;
 mod fixed;
 mod integrator;
+pub mod limits;
 mod problem;
 mod sphere;
 

@@ -20,6 +20,18 @@ pub fn nearest(positions_mm: &[[f64; 3]], i: usize, images: Images, edges_mm: [f
     best
 }
 
+/// Σ P_c over all rods' nearest neighbours, found by checking every pair. Places and distances are in rod lengths a.
+pub fn expected_candidates(places: &[Vec<f64>; 3], alpha: f64, m: f64) -> f64 {
+    let [x, y, z] = places;
+    let all: Vec<_> = (0..x.len()).map(|i| [x[i], y[i], z[i]]).collect();
+    let chance = |(i, &one): (usize, &[f64; 3])| {
+        let others = all.iter().enumerate().filter(|(j, _)| *j != i);
+        let nearest = others.map(|(_, &other)| square_mm2(one, other)).fold(f64::INFINITY, f64::min);
+        collision_probability(nearest.sqrt(), 1.0, alpha, m)
+    };
+    all.iter().enumerate().map(chance).sum()
+}
+
 fn square_mm2(x: [f64; 3], y: [f64; 3]) -> f64 {
     let [a, b, c] = [y[0] - x[0], y[1] - x[1], y[2] - x[2]];
     a * a + b * b + c * c

@@ -238,6 +238,14 @@ fn who_collides_by_chance() {
 }
 
 #[test]
+fn chances_are_those_of_nearest_neighbours() {
+    // Rods at 0, 1 and 3 along the flow: nearest at 1, 1 and 2 rod lengths.
+    let places = [vec![0.0; 3], vec![0.0, 1.0, 3.0], vec![0.0; 3]];
+    let found = expected_candidates(&places, 0.5, 3.0);
+    assert!((found - (2.0 / 27.0 + 1.0 / 125.0)).abs() < 1e-15, "{found}");
+}
+
+#[test]
 fn who_collides_by_order() {
     let line = [[0.0; 3], [1.0, 0.0, 0.0], [-1.0, 0.0, 0.0]];
     assert_eq!(nearest(&line, 0, Images::None, [10.0; 3]), Some(1));

@@ -73,7 +73,7 @@ pub(super) fn frozen(subjects: &Integrators, _: &Effort) -> Vec<Evidence> {
     let mut worst = 0.0f64;
     for subject in subjects() {
         for r in [1.5, 2.0, 3.0, 11.6, 100.0] {
-            let ladder = crate::studies::stability::limits::Ladder { least: 1.0, ..TEN_PERIODS };
+            let ladder = crate::methods::integrators::limits::Ladder { least: 1.0, ..TEN_PERIODS };
             let frozen = 2.785 * theory::euler_order(r);
             worst = larger(
                 worst,

@@ -1,8 +1,8 @@
 //! The longest steps and their theory, as tables and pictures.
 
-use super::limits::{Ladder, Limit, ONE_STEP, Property, TEN_PERIODS, bisect, holds};
 use super::maps::ratio;
 use super::theory::THEORIES;
+use crate::methods::integrators::limits::{Ladder, Limit, ONE_STEP, Property, TEN_PERIODS, bisect, holds};
 use crate::methods::integrators::{Integrator, Theory};
 use crate::present::plot::{Curve, Points};
 use crate::present::study::{Exhibit, ReportFigure};

@@ -1,9 +1,9 @@
 //! The maps of outcomes as pictures.
 
-use super::limits::Property;
 use super::map::{self, ASPECT_RATIOS, Cell, Fate, PERIODS, TOLERANCES};
 use super::orbit::Place;
 use super::theory::THEORIES;
+use crate::methods::integrators::limits::Property;
 use crate::methods::integrators::{Integrator, Setting, Theory};
 use crate::present::plot::{Grid, Map, decade, power_of_ten};
 use crate::present::study::ReportFigure;

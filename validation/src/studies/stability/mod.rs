@@ -3,7 +3,6 @@
 
 pub mod corners;
 pub mod limit_study;
-pub mod limits;
 pub mod map;
 pub mod maps;
 pub mod orbit;

@@ -1,16 +1,13 @@
 //! Free suspensions: the error of X̄₁ against the rods and the run time, for every way to choose initial directions. No time
 //! step is needed: the remaining error is that of the sample.
 
-use super::starts::{Rod, Start};
+use crate::methods::starts::{self, Rod, Start};
 use crate::oracle::isotropic;
 use crate::studies::work_precision::{Budget, Seconds, measure};
 use rand::SeedableRng;
 use rand_pcg::Pcg64Dxsm;
 use rayon::prelude::*;
 use serde::Serialize;
-use shearbed::model::phase::Phase;
-use shearbed::motion::couette;
-use statrs::distribution::{ContinuousCDF, Normal};
 
 /// The errors of X̄₁ for which the cheapest start is sought.
 pub const TARGETS: [f64; 4] = [1e-2, 1e-3, 1e-4, 1e-6];
@@ -105,21 +102,7 @@ impl Free {
 
     /// X̄₁ of these rods, each moved directly to the time.
     pub fn mean(&self, rods: &[Rod]) -> f64 {
-        let r = self.aspect_ratio;
-        let sum: f64 = match Normal::new(r, 0.01 * self.sd_percent * r) {
-            Ok(gaussian) if self.unequal() => (rods.iter())
-                .map(|rod| {
-                    let own = gaussian.inverse_cdf(rod.quantile);
-                    let phase = Phase::of_turns(self.turns * (r + 1.0 / r) / (own + 1.0 / own));
-                    couette(rod.p, own, phase)[0].abs()
-                })
-                .sum(),
-            _ => {
-                let phase = Phase::of_turns(self.turns);
-                rods.iter().map(|rod| couette(rod.p, r, phase)[0].abs()).sum()
-            }
-        };
-        sum / rods.len() as f64
+        starts::mean_x1(rods, self.aspect_ratio, self.sd_percent, self.turns)
     }
 
     /// The number of rods that `start` chooses for `count`, and the errors of X̄₁ in `trials` trials.

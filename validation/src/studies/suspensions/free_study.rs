@@ -1,8 +1,8 @@
 //! The study of free suspensions: how to choose their initial directions.
 
 use super::free::{Amount, Bench, Point, SCENES, StartCurve, TARGETS};
-use super::starts;
 use crate::files::build;
+use crate::methods::starts;
 use crate::present::plot::Curve;
 use crate::present::study::{Exhibit, Findings, ReportFigure, Request, Study};
 use crate::present::table::{Column, ReportTable, difference, number, rows_csv, words};

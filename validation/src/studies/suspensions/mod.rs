@@ -12,6 +12,5 @@ pub mod job;
 pub mod law;
 pub mod law_tables;
 pub mod split;
-pub mod starts;
 
 use crate::judge::statistics::{Estimate, correlation, covariance, slope};

@@ -2,9 +2,9 @@
 
 use super::bench::{self, Bench};
 use super::program::Program;
+use crate::methods::integrators::limits::{Ladder, Limit, Property, bisect, holds};
 use crate::methods::integrators::{Setting, Theory};
 use crate::present::table::{ReportTable, of_words};
-use crate::studies::stability::limits::{Ladder, Limit, Property, bisect, holds};
 use crate::studies::stability::map;
 use serde::Serialize;
 

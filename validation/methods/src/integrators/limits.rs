@@ -1,6 +1,6 @@
 //! The longest step with which a fixed-step integrator keeps a property, by bisection.
 
-use crate::methods::integrators::{Errors, Failure, Integrator, RodProblem, Setting, Theory};
+use super::{Errors, Failure, Integrator, RodProblem, Setting, Theory};
 use nalgebra::{UnitVector3, Vector3};
 use serde::Serialize;
 use std::f64::consts::PI;

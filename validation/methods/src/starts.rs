@@ -6,6 +6,9 @@ use rand::RngExt;
 use rand_distr::{Distribution, StandardNormal};
 use rand_pcg::Pcg64Dxsm;
 use shearbed::model::orientation::isotropic;
+use shearbed::model::phase::Phase;
+use shearbed::motion::couette;
+use statrs::distribution::{ContinuousCDF, Normal};
 
 /// A rod: its direction, and the quantile of its aspect ratio in (0, 1).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -44,6 +47,25 @@ pub const ALL: [Start; 3] = [
         lay: fibonacci,
     },
 ];
+
+/// X̄₁ of free rods of Gaussian aspect ratio, from these directions and quantiles, each moved directly to t/T = `turns`.
+pub fn mean_x1(rods: &[Rod], aspect_ratio: f64, sd_percent: f64, turns: f64) -> f64 {
+    let r = aspect_ratio;
+    let sum: f64 = match Normal::new(r, 0.01 * sd_percent * r) {
+        Ok(gaussian) if sd_percent > 0.0 => (rods.iter())
+            .map(|rod| {
+                let own = gaussian.inverse_cdf(rod.quantile);
+                let phase = Phase::of_turns(turns * (r + 1.0 / r) / (own + 1.0 / own));
+                couette(rod.p, own, phase)[0].abs()
+            })
+            .sum(),
+        _ => {
+            let phase = Phase::of_turns(turns);
+            rods.iter().map(|rod| couette(rod.p, r, phase)[0].abs()).sum()
+        }
+    };
+    sum / rods.len() as f64
+}
 
 /// Directions drawn as a scene draws them (eq. 12), aspect ratios by eq. 11.
 fn random(count: usize, unequal: bool, rng: &mut Pcg64Dxsm) -> Vec<Rod> {
