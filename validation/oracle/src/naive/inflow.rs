@@ -69,8 +69,9 @@ pub fn carry(
     made: Option<Mistake>,
 ) {
     let gradient = matrix(gradient_per_s);
+    let step = (gradient * dt_s).exp();
     for x in places_mm {
-        *x = carried(gradient, *x, dt_s);
+        *x = (step * vector(*x)).into();
         if !inside(*x, edges_mm) {
             *x = come_in(gradient, edges_mm, dt_s, stream, *replaced, made);
             *replaced += 1;
