@@ -1,6 +1,7 @@
 //! `shearbed bench`: runs the studies that have named parts, alone and with longer measurements.
 
-use super::{Failure, Writing, on_threads, print, progress, result_folder};
+use super::finished::Finished;
+use super::{Failure, Writing, checkpoint, on_threads, print, progress, result_folder};
 use crate::files::text::Shown;
 use crate::judge::case::Effort;
 use crate::present::plot;
@@ -8,6 +9,7 @@ use crate::present::study::Request;
 use crate::studies;
 use serde_json::json;
 use std::path::PathBuf;
+use std::time::Instant;
 
 /// Arguments of `bench`.
 #[derive(clap::Args)]
@@ -16,6 +18,9 @@ pub(super) struct Args {
     /// Run this bench only, as re11.6, fig7-n50 or speed; can be given more than once
     #[arg(long = "case", value_name = "NAME")]
     cases: Vec<String>,
+    /// Keep finished studies in this file, and skip those that it has
+    #[arg(long, value_name = "FILE")]
+    checkpoint: Option<PathBuf>,
     /// The folder for the tables, their data and the pictures
     #[arg(long, value_name = "DIR", default_value = "out/bench")]
     out: PathBuf,
@@ -29,7 +34,11 @@ pub(super) fn bench(args: &Args) -> Result<(), Failure> {
     check(&args.cases)?;
     let wanted = |name: &str| args.cases.is_empty() || args.cases.iter().any(|case| case == name);
     let origin = ("bench", json!({ "cases": args.cases }), args.writing.force);
+    let path = args.checkpoint.as_deref();
+    let path = path.map(|path| checkpoint::check(path, &args.out)).transpose()?;
     let folder = result_folder(&args.out, origin, 0, &[""; 0])?;
+    let open = |path: &PathBuf| Finished::open(path, "bench", json!({ "cases": args.cases }), args.writing.quiet);
+    let finished = path.as_ref().map(open).transpose()?;
     let effort = Effort { full: true, ..Effort::gate() };
     let (mut files, mut tables) = (Vec::new(), String::new());
     let bar = progress(1, "", args.writing.quiet);
@@ -38,11 +47,20 @@ pub(super) fn bench(args: &Args) -> Result<(), Failure> {
             continue;
         }
         bar.set_message(study.title);
-        let found = on_threads(None, || {
-            study.found(&Request { effort: &effort, wanted: &wanted, finished: &|| () })
-        })?;
-        let Some(found) = found.map_err(Failure::Failed)? else {
-            continue;
+        let kept = finished.as_ref().and_then(|finished| finished.study(study.name));
+        let found = match kept {
+            Some((found, _)) => found,
+            None => {
+                let start = Instant::now();
+                let request = Request { effort: &effort, wanted: &wanted, finished: &|| () };
+                let found = on_threads(None, || study.found(&request))?;
+                let Some(found) = found.map_err(Failure::Failed)? else {
+                    continue;
+                };
+                let measured = (found, start.elapsed().as_secs_f64());
+                finished.as_ref().map_or(Ok(()), |finished| finished.add_study(study.name, &measured))?;
+                measured.0
+            }
         };
         files.extend(found.files);
         for exhibit in found.exhibits {

@@ -1,4 +1,4 @@
-//! The checkpoint of `validate`: its finished cases and studies.
+//! The checkpoint of `validate` and `bench`: their finished cases and studies.
 
 use super::{Failure, print};
 use crate::files::checkpoint::{Checkpoint, on_stop};
@@ -32,14 +32,17 @@ pub(super) struct Finished {
 
 impl Finished {
     /// Opens or creates the checkpoint. A checkpoint of other input or of another build is an error.
-    pub(super) fn open(path: &Path, input: Value, quiet: bool) -> Result<Self, Failure> {
-        let file = Checkpoint::open(path, "validate", input)?;
+    pub(super) fn open(path: &Path, command: &'static str, input: Value, quiet: bool) -> Result<Self, Failure> {
+        let file = Checkpoint::open(path, command, input)?;
         let state: State = file.read()?.unwrap_or_default();
         file.write(&state)?;
         let path = path.display().to_string();
-        let (cases, studies) = (state.cases.len(), state.studies.len());
-        if cases + studies > 0 && !quiet {
-            print(&format!("goes on from {path}: {cases} cases and {studies} studies are finished\n"))?;
+        let counted = [(state.cases.len(), "cases"), (state.studies.len(), "studies")];
+        let counted: Vec<_> = (counted.iter().filter(|(count, _)| *count > 0))
+            .map(|(count, of)| format!("finished {of}: {count}"))
+            .collect();
+        if !counted.is_empty() && !quiet {
+            print(&format!("goes on from {path}: {}\n", counted.join(", ")))?;
         }
         on_stop(move || {
             Some(format!(
@@ -125,7 +128,7 @@ mod tests {
     fn what_is_finished_is_there_again_and_nothing_else() {
         let dir = tempfile::tempdir().unwrap();
         let path = dir.path().join("kept");
-        let open = || Finished::open(&path, json!({ "seed": 1 }), true).unwrap();
+        let open = || Finished::open(&path, "validate", json!({ "seed": 1 }), true).unwrap();
         let ended: CaseResult = (Verdict::Pass, Vec::new(), Vec::new(), 0.3);
         let first = open();
         first.add_study("figures", &(found(), 0.1)).unwrap();

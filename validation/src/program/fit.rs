@@ -3,7 +3,9 @@
 mod input;
 mod shifts;
 
-use super::{Failure, Threads, Writing, on_threads, print, progress, restart, result_folder, scene, whole};
+use super::{
+    Failure, Threads, Writing, on_threads, print, progress, restart, result_folder, scene, spares_inputs, whole,
+};
 use crate::files::build::BUILD;
 use crate::files::output::Output;
 use crate::files::text::Shown;
@@ -92,6 +94,8 @@ pub(super) fn fit(args: &Args) -> Result<(), Failure> {
     let out = (args.out.clone()).unwrap_or_else(|| Path::new("out").join(format!("fit-{}", input.stem)));
     let asked = asked(args, &input)?;
     let names = [FIT, "residuals.csv", "profiles.csv", "design.csv", super::plot::FIGURES];
+    let rods = input.scenes.sets.iter().flat_map(|set| set.starts.files());
+    spares_inputs(&out, &names, input.files.iter().cloned().chain(rods))?;
     let folder = result_folder(&out, ("fit", asked.clone(), args.writing.force), 0, &names)?;
     let bar = progress(0, "runs", args.writing.quiet);
     let watch = Watch {

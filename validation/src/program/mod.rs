@@ -269,6 +269,24 @@ fn result_folder<N: AsRef<str>>(
     Ok(folder)
 }
 
+/// Refuses a folder in which a result would replace a file that the command reads, also with --force.
+fn spares_inputs(
+    dir: &Path,
+    names: &[impl AsRef<Path>],
+    inputs: impl IntoIterator<Item = PathBuf>,
+) -> Result<(), Failure> {
+    let there = |path: &Path| path.canonicalize().ok();
+    let results: Vec<_> = names.iter().filter_map(|name| there(&dir.join(name))).collect();
+    match inputs.into_iter().find(|input| there(input).is_some_and(|input| results.contains(&input))) {
+        Some(input) => Err(Failure::Input(format!(
+            "--out {}: a result would replace {}, which this command reads: choose another --out",
+            dir.shown(),
+            input.shown()
+        ))),
+        None => Ok(()),
+    }
+}
+
 /// Checks on the root that `bytes` bytes and a little more can be written to a folder.
 fn probe(dir: &Path, bytes: u64) -> Result<(), Failure> {
     /// Additional bytes for pictures and records.

@@ -1,14 +1,16 @@
 //! `shearbed plot`: one picture of a channel from several runs or the points of a sweep, or a picture of a fit or a report.
 
+mod against;
 mod folders;
 mod look;
 mod measured;
 mod table;
 
-use super::{Failure, ending_in, print, scene};
+use super::{Failure, ending_in, print, scene, spares_inputs};
 use crate::files::output;
 use crate::files::text::Shown;
 use crate::present::plot::{self, Figure, names};
+use against::against;
 pub(super) use folders::FIGURES;
 use folders::{Run, kept, runs_in};
 use look::Look;
@@ -26,6 +28,12 @@ pub(super) struct Args {
     /// The column to draw, as x1, phi or a12 [default: the first of the first table]; of a fit or a report, the picture's name
     #[arg(long = "y", value_name = "CHANNEL")]
     channel: Option<String>,
+    /// A swept key to draw the channel against, at the last output, as interaction.alpha; one sweep is allowed
+    #[arg(long = "x", value_name = "KEY", conflicts_with = "data")]
+    key: Option<String>,
+    /// With --x: the output to draw, in place of the last, by its time
+    #[arg(long, value_name = "TIME", requires = "key", allow_negative_numbers = true)]
+    at: Option<f64>,
     /// Measured points to draw over the curves, in the columns that `shearbed fit` takes
     #[arg(long, value_name = "FILE.csv")]
     data: Option<PathBuf>,
@@ -45,6 +53,7 @@ fn picture(text: &str) -> Result<PathBuf, String> {
 
 /// Draws a channel of every folder, or a picture stored in a folder.
 pub(super) fn plot(args: &Args) -> Result<(), Failure> {
+    spares_inputs(Path::new(""), &[&args.out], args.data.clone())?;
     let (mut figure, said) = match &args.dirs[..] {
         [dir] => match kept(dir)? {
             Some(kept) => named(args, dir, kept)?,
@@ -59,6 +68,14 @@ pub(super) fn plot(args: &Args) -> Result<(), Failure> {
 
 fn of_runs(args: &Args) -> Result<(Figure, String), Failure> {
     let drawn = figure(&args.dirs, args.channel.as_deref())?;
+    if let Some(key) = &args.key {
+        if args.dirs.len() > 1 {
+            let message = format!("--x {key}: {} folders are given; one sweep is allowed", args.dirs.len());
+            return Err(Failure::Input(message));
+        }
+        let said = format!("{} of {} points", drawn.channel, drawn.runs.len());
+        return Ok((against(drawn, key, args.at)?, said));
+    }
     let mut figure = drawn.figure;
     if let Some(path) = &args.data {
         figure.points.push(measured::points(path, &drawn.runs[0], &drawn.channel)?);
@@ -68,6 +85,12 @@ fn of_runs(args: &Args) -> Result<(Figure, String), Failure> {
 
 /// The requested picture of a fit or a report, by default the first.
 fn named(args: &Args, dir: &Path, kept: Vec<(String, Figure)>) -> Result<(Figure, String), Failure> {
+    if let Some(key) = &args.key {
+        return Err(Failure::Input(format!(
+            "--x {key}: {} is no sweep; a folder of `shearbed sweep` is allowed",
+            dir.shown()
+        )));
+    }
     if args.data.is_some() {
         return Err(Failure::Input(format!(
             "--data: {} is no run; a folder of `shearbed run` is allowed",

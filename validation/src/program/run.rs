@@ -7,7 +7,7 @@ use super::scene::{Chosen, Ensemble, Named};
 use super::until::{self, LEAST, Until};
 use super::{
     Failure, Threads, Writing, agree, checkpoint, facts, memory, on_threads, pictures, print, probe,
-    progress, record, rods, scene, tables, threads,
+    progress, record, rods, scene, spares_inputs, tables, threads,
 };
 use crate::files::build::BUILD;
 use crate::files::checkpoint::{Progress, Replicas, without_replicas};
@@ -15,7 +15,6 @@ use crate::files::output::{Origin, Output, Record, ResultFolder};
 use crate::files::text::Shown;
 use crate::files::text::line;
 use crate::files::{bounded, cluster};
-use crate::input::start::Starts;
 use crate::present::plot;
 use serde_json::{Value, json};
 use shearbed::Error;
@@ -56,20 +55,6 @@ pub(super) struct Args {
     every: Option<Duration>,
     #[command(flatten)]
     writing: Writing,
-}
-
-/// Refuses a folder in which a result would replace a file from which the scene reads rods, also with --force.
-fn reads_no_result(starts: &Starts, out: &Path, names: &[impl AsRef<Path>]) -> Result<(), Failure> {
-    let there = |path: PathBuf| path.canonicalize().ok();
-    let results: Vec<_> = names.iter().filter_map(|name| there(out.join(name))).collect();
-    match starts.files().find(|file| there(file.clone()).is_some_and(|file| results.contains(&file))) {
-        Some(file) => Err(Failure::Input(format!(
-            "--out {}: a result would replace {}, which particles.rods reads: choose another folder",
-            out.shown(),
-            file.shown()
-        ))),
-        None => Ok(()),
-    }
 }
 
 /// Parses the time between checkpoints, in s.
@@ -168,7 +153,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let bytes = tables::most_bytes(&plan).saturating_add(rods::most_bytes(&plan, args.vtk));
     let names = names(&plan, args.vtk);
     if cluster::is_root() {
-        reads_no_result(&named.starts, &out, &names)?;
+        spares_inputs(&out, &names, named.starts.files())?;
     }
     probe(&out, bytes)?;
     let checkpoint = open_checkpoint(args, &plan, path.as_deref())?;

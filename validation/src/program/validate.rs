@@ -86,7 +86,7 @@ pub(super) fn validate(args: Args) -> Result<(), Failure> {
     let path = path.map(|path| checkpoint::check(path, &args.out)).transpose()?;
     let folder = result_folder(&args.out, ("validate", agreed, args.writing.force), 0, &PAGES)?;
     let finished = match &path {
-        Some(path) => Some(Finished::open(path, input, args.writing.quiet)?),
+        Some(path) => Some(Finished::open(path, "validate", input, args.writing.quiet)?),
         None => None,
     };
     let effort = Effort { full: args.full, seed: args.seed, data: args.data };

@@ -95,6 +95,19 @@ fn orders_are_read_from_steps_and_judged_against_a_claim() {
     assert!((order + 4.0).abs() < 1e-3, "{order}");
 }
 
+#[test]
+fn one_wild_answer_between_right_ones_fails() {
+    let dir = tempfile::tempdir().unwrap();
+    for (steps, part) in [(100, 4096.0), (200, 256.0), (400, 1e6), (800, 0.9)] {
+        let file = format!("steps-{steps}.csv");
+        write(dir.path(), "mid-flip-100", &file, text(&off_by("mid-flip-100", part)));
+    }
+    let ended = files(REFERENCE.path(), dir.path(), &[]);
+    let (found, note) = (ended.of("mid-flip-100"), ended.of("mid-flip-100")["note"].as_str().unwrap_or_default());
+    assert_eq!((ended.code, &found["verdict"]), (Some(1), &"FAIL".into()));
+    assert!(note.starts_with("off by ") && note.contains(" with 400 steps, by "), "{note}");
+}
+
 /// Errors that fall by an order from a thousand tolerances to below one, in steps-N.csv.
 fn falling(mine: &std::path::Path, name: &str, order: f64) {
     let mut part = 1000.0;

@@ -40,6 +40,29 @@ fn a_file_that_cannot_be_replaced_leaves_all_as_it_was() {
 }
 
 #[test]
+fn no_command_replaces_a_file_that_it_reads() {
+    let dir = unequal();
+    fs::create_dir(dir.path().join("f")).unwrap();
+    let points = "t_over_T,x1,x1_u\n0.5,0.3,0.01\n1,0.2,0.01\n1.5,0.2,0.01\n";
+    let file = dir.path().join("f/residuals.csv");
+    fs::write(&file, points).unwrap();
+    fs::copy(&file, dir.path().join("points.svg")).unwrap();
+    assert_eq!(shearbed(dir.path(), "run small.toml --quiet --out a").code, Some(0));
+    for (arguments, read_file) in [
+        (
+            "fit fig4-n50 --data f/residuals.csv --over interaction.alpha=0.1:1 --out f --force",
+            "f/residuals.csv",
+        ),
+        ("plot a --data points.svg --out points.svg --force", "points.svg"),
+    ] {
+        let ended = shearbed(dir.path(), arguments);
+        let said = format!("a result would replace {read_file}, which this command reads: choose another --out");
+        assert!(ended.code == Some(2) && ended.stderr.contains(&said), "{arguments}: {}", ended.stderr);
+        assert_eq!(read(&dir.path().join(read_file)), points);
+    }
+}
+
+#[test]
 fn another_run_is_overwritten_only_by_force() {
     let dir = unequal();
     let run = |arguments: &str| shearbed(dir.path(), &format!("run small.toml --quiet --out a {arguments}"));

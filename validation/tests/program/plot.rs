@@ -44,6 +44,7 @@ fn one_picture_is_drawn_from_several_runs_and_from_a_sweep() {
     assert_eq!(shearbed(dir.path(), sweep).code, Some(0));
     assert_eq!(shearbed(dir.path(), "plot s --out s.svg").code, Some(0));
     assert!(read(&dir.path().join("s.svg")).contains("α = 0.2"));
+    against_a_swept_key(dir.path());
     refused(
         dir.path(),
         &[
@@ -52,10 +53,37 @@ fn one_picture_is_drawn_from_several_runs_and_from_a_sweep() {
             ("plot nowhere", "nowhere: is no folder of results"),
             ("plot a --x-range 50:70", "--x-range 50:70: nothing lies there; the picture goes from 0 to"),
             ("plot a --y-range 2:3", "--y-range 2:3: nothing lies there; the picture goes from 0."),
+            ("plot a --x interaction.alpha", "--x interaction.alpha: a is no sweep"),
+            ("plot a s --x interaction.alpha", "2 folders are given; one sweep is allowed"),
+            ("plot a --at 1", "--x <KEY>"),
             ("plot a --out picture.gif", "a name that ends in .svg, .png or .pdf is allowed"),
         ],
     );
     assert!(!dir.path().join("out/plot.svg").exists());
+}
+
+/// The columns of `sweep.csv` as curves, in the order of the values, of which there are more than nine.
+fn against_a_swept_key(dir: &Path) {
+    let sweep = "sweep small.toml --over interaction.alpha=0.1:0.5:5 --over particles.count=20,30 --quiet --out k";
+    assert_eq!(shearbed(dir, sweep).code, Some(0));
+    let plot = |arguments: &str| shearbed(dir, &format!("plot k --y x2 --x interaction.alpha {arguments}"));
+    let ended = plot("--out x.svg");
+    assert_eq!((ended.code, ended.stdout.as_str()), (Some(0), "x2 of 10 points in x.svg\n"));
+    let picture = read(&dir.join("x.svg"));
+    let place = |text: &str| picture.find(text).unwrap_or_else(|| panic!("{text}"));
+    // α across, a curve for each count, in the order of the sweep, at the last output.
+    assert!(place("N = 20") < place("N = 30"));
+    place(">\nα\n<");
+    place("small, t/T = ");
+    assert_eq!(plot("--at 0 --out first.svg").code, Some(0));
+    assert_ne!(picture, read(&dir.join("first.svg")));
+    refused(
+        dir,
+        &[
+            ("plot k --x interaction.m", "--x interaction.m: the sweep goes over interaction.alpha, particles.count, of"),
+            ("plot k --x particles.count --at 77", "--at 77: k/points/1/ has no output at this time; it has"),
+        ],
+    );
 }
 
 /// Synthetic points over a curve, and every flag of the look.

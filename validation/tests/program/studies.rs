@@ -1,6 +1,6 @@
 //! `bench` and `converge` as a user meets them: exit codes, messages and files.
 
-use crate::common::{Ended, FREE, shearbed};
+use crate::common::{Ended, FREE, names, read, shearbed};
 
 #[test]
 fn an_unknown_bench_is_refused_with_those_there_are() {
@@ -11,6 +11,27 @@ fn an_unknown_bench_is_refused_with_those_there_are() {
         assert!(error.contains(text), "{error}");
     }
     assert!(!dir.path().join("out").exists());
+}
+
+#[test]
+fn a_bench_goes_on_from_its_checkpoint() {
+    let dir = tempfile::tempdir().unwrap();
+    let bench = |out: &str| {
+        let ended = shearbed(dir.path(), &format!("bench --case closures --checkpoint kept --out {out}"));
+        assert_eq!(ended.code, Some(0), "{}", ended.stderr);
+        ended.stdout
+    };
+    assert!(!bench("first").contains("goes on"));
+    assert!(bench("again").starts_with("goes on from kept: finished studies: 1\n"));
+    // Run times too: nothing was measured again.
+    let files = |out: &str| -> Vec<_> {
+        let dir = dir.path().join(out);
+        let written = names(&dir).into_iter().filter(|name| name != "shearbed.json");
+        written.map(|name| (read(&dir.join(&name)), name)).collect()
+    };
+    assert!(files("first") == files("again") && !files("first").is_empty());
+    let other = shearbed(dir.path(), "bench --case speed --checkpoint kept");
+    assert!(other.code == Some(2) && other.stderr.contains("is of other work"), "{}", other.stderr);
 }
 
 #[test]

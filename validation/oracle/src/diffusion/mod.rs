@@ -41,7 +41,7 @@ pub enum NoAnswer {
 impl fmt::Display for NoAnswer {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
-            Self::TooMuchWork => "the distribution has too fine a detail",
+            Self::TooMuchWork => "this takes too much work",
             Self::Unsettled => "there is no steady distribution without diffusion",
             Self::RoughStart => "the start is not smooth enough, or has no positive mean",
         })

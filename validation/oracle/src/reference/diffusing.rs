@@ -53,7 +53,7 @@ impl Diffusing {
             rows.push(head);
         }
         if self.steady {
-            let means = diffusion::steady(&rods).map_err(NoValue::Diffusion)?;
+            let means = diffusion::steady(&rods).map_err(NoValue::Steady)?;
             let period = self.motion.couette().map(|_| f64::INFINITY);
             let mut row = vec![Some(f64::INFINITY), period, Some(f64::INFINITY)];
             row.extend(self.values(&means));

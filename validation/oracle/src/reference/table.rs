@@ -56,8 +56,10 @@ pub enum NoValue {
     Unequal,
     /// A time before the start, with diffusion.
     Past,
-    /// The distribution of rods with diffusion was not found.
+    /// The distribution of rods with diffusion at these times was not found.
     Diffusion(NoAnswer),
+    /// Their steady distribution was not found.
+    Steady(NoAnswer),
 }
 
 /// The columns that give the time in several units.

@@ -14,6 +14,8 @@ use std::path::{Path, PathBuf};
 pub(super) struct Run {
     pub(super) dir: PathBuf,
     pub(super) label: String,
+    /// Of a sweep's point: its keys and values.
+    pub(super) point: Option<String>,
     pub(super) scene: Scene,
     pub(super) record: Record,
 }
@@ -39,6 +41,7 @@ pub(super) fn runs_in(dir: &Path) -> Result<Vec<Run>, Failure> {
     match record.origin.command.as_str() {
         "run" => Ok(vec![Run {
             label: name(dir),
+            point: None,
             scene: scene(dir, "run.json", &record)?,
             dir: dir.to_owned(),
             record,
@@ -104,12 +107,16 @@ fn points(dir: &Path, record: &Record) -> Result<Vec<Run>, Failure> {
     }
     let scene = scene(dir, "sweep.json", record)?;
     let of_points = (record.files.keys()).filter_map(|name| Some((name, name.strip_suffix(RECORD)?)));
+    let mut of_points: Vec<_> = of_points.collect();
+    // `points/2/` before `points/10/`.
+    of_points.sort_by_key(|(_, folder)| (folder.len(), *folder));
     let point = |(name, folder): (&String, &str)| {
         let record: Record = json(dir, name, record)?;
-        let label = record.origin.inputs[POINT].as_str().map_or_else(|| folder.to_owned(), names::point);
-        Ok(Run { label, scene: scene.clone(), dir: dir.join(folder), record })
+        let point = record.origin.inputs[POINT].as_str().map(str::to_owned);
+        let label = point.as_deref().map_or_else(|| folder.to_owned(), names::point);
+        Ok(Run { label, point, scene: scene.clone(), dir: dir.join(folder), record })
     };
-    of_points.map(point).collect()
+    of_points.into_iter().map(point).collect()
 }
 
 fn scene(dir: &Path, name: &str, record: &Record) -> Result<Scene, Failure> {

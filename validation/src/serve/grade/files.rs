@@ -126,7 +126,10 @@ fn one(loaded: &LoadedProblem, dir: &Path, options: &Options) -> Result<Graded, 
 fn judge(graded: &mut Graded, loaded: &LoadedProblem, answer: &Answer, claim: Claim) {
     let compared = compare(loaded, answer);
     let within = compared.error <= loaded.problem.tolerance && !compared.too_little_data;
-    let off = graded.order_off(claim.order);
+    // Standard errors scatter.
+    let exact = loaded.problem.metric != Metric::StandardErrors;
+    let wild = exact.then(|| order::wild(&graded.errors, loaded.own_tolerance)).flatten();
+    let off = graded.order_off(claim.order).or(wild);
     graded.verdict = if within && off.is_none() { Verdict::Pass } else { Verdict::Fail };
     graded.error = compared.error.is_finite().then_some(compared.error);
     graded.length_drift = compared.length_drift.filter(|drift| drift.is_finite());

@@ -145,6 +145,31 @@ impl Orders {
     }
 }
 
+/// An error that is larger by this factor than those of fewer and of more steps is no method's.
+const WILD: f64 = 32.0;
+
+/// The highest order in use: what an error may fall by between two settings.
+const HIGHEST: f64 = 8.0;
+
+/// A message about an answer that is off by far between others that follow the motion closely; none if there is no such answer. An error
+/// may be small by chance, so that two coarser ones, or a finer one by the highest order, must be far smaller.
+pub fn wild(errors: &[(u64, f64)], tolerance: f64) -> Option<String> {
+    let size = |k: usize| if errors[k].1.is_finite() { errors[k].1 } else { f64::INFINITY };
+    let is_wild = |k: &usize| {
+        let (coarse, fine) = (size(k - 1), size(k + 1));
+        let other = match k.checked_sub(2) {
+            Some(coarser) => size(coarser),
+            None => fine * (errors[k + 1].0 as f64 / errors[*k].0 as f64).powf(HIGHEST),
+        };
+        coarse < CLOSE && size(*k) > WILD * coarse.max(fine).max(other).max(tolerance)
+    };
+    let k = (1..errors.len().saturating_sub(1)).find(is_wild)?;
+    let [(before, coarse), (steps, error), (after, fine)] = [errors[k - 1], errors[k], errors[k + 1]];
+    Some(format!(
+        "off by {error:.1e} with {steps} steps, by {coarse:.1e} with {before} and {fine:.1e} with {after}: no method has such errors"
+    ))
+}
+
 /// A message about an order that is lower than claimed.
 pub fn lower(observed: Option<f64>, claimed: f64) -> String {
     let observed = observed.map_or("–".into(), |order| format!("{order:+.2}"));
@@ -295,6 +320,31 @@ mod tests {
             settled(&[(space, Order::Higher, Verdict::NotReached), (space, Order::Unclear, Verdict::Pass)]),
             [(Verdict::NotReached, none()), (Verdict::Pass, none())]
         );
+    }
+
+    #[test]
+    fn one_wild_answer_is_found_and_a_small_error_by_chance_is_none() {
+        let wild = |errors: &[f64]| {
+            let errors: Vec<_> = (0..).map(|k| 100u64 << k).zip(errors.iter().copied()).collect();
+            wild(&errors, 1e-8)
+        };
+        let said = "off by 7.0e-1 with 400 steps, by 6.0e-4 with 200 and 2.5e-6 with 800: no method has such errors";
+        assert_eq!(wild(&[1e-2, 6e-4, 0.7, 2.5e-6]).as_deref(), Some(said));
+        assert!(wild(&[5e-3, 0.3, 2e-5, 1e-6]).is_some() && wild(&[1e-4, f64::NAN, 1e-6]).is_some());
+        for right in [
+            &[1e-2, 6e-4, 4e-5, 2.5e-6][..],
+            // An error term that changes sign, at order 4 and at order 8.
+            &[1e-2, 1e-7, 4e-5, 2.5e-6],
+            &[1e-7, 4e-5, 2.5e-6],
+            &[1e-9, 1e-3, 4e-6],
+            // It does not follow the motion yet, or it has met round-off.
+            &[0.05, 1.5, 2e-3, 1e-4],
+            &[1e-2, 6e-4, 1e-12, 1e-10, 1e-12],
+            &[1e-3, 1.0],
+            &[],
+        ] {
+            assert_eq!(wild(right), None, "{right:?}");
+        }
     }
 
     #[test]

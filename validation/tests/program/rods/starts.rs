@@ -242,7 +242,7 @@ fn rods_at_a_face_and_results_beside_their_input() {
     let done = shearbed(dir.path(), "run s.toml --out . --force --quiet");
     assert!(
         done.code == Some(2)
-            && done.stderr.contains("rods.csv, which particles.rods reads: choose another folder"),
+            && done.stderr.contains("rods.csv, which this command reads: choose another --out"),
         "{}",
         done.stderr
     );
