@@ -130,7 +130,7 @@ fn pool(effort: &Effort) -> Result<Pool, String> {
         let scenes = scenes(sd_percent)?;
         let model = |values: &[f64]| scenes.model(&places, AS_WRITTEN, values);
         let value = |node: &[f64]| vec![1.0 + 0.6 * node[0]];
-        coefficients(&basis, &model, value, 0..POOL, &|| ())
+        coefficients(&basis, &model, &value, 0..POOL, &|| ())
     };
     let replicas = at_nodes(3.6)?;
     Ok(Pool {

@@ -128,7 +128,7 @@ pub fn model(effort: &Effort, replicas: u64) -> Result<Vec<Coefficients>, String
     let places = data(|_| f64::NAN, f64::NAN);
     let model = |values: &[f64]| scenes.model(&places, AS_WRITTEN, values);
     let value = |node: &[f64]| vec![0.8 + 0.4 * node[0]];
-    coefficients(&Basis::new(1), &model, value, 0..replicas, &|| ())
+    coefficients(&Basis::new(1), &model, &value, 0..replicas, &|| ())
 }
 
 /// The fit of a common α of both suspensions to points that are means of `replicas` replicas.

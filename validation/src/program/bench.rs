@@ -37,7 +37,8 @@ pub(super) fn bench(args: &Args) -> Result<(), Failure> {
     let path = args.checkpoint.as_deref();
     let path = path.map(|path| checkpoint::check(path, &args.out)).transpose()?;
     let folder = result_folder(&args.out, origin, 0, &[""; 0])?;
-    let open = |path: &PathBuf| Finished::open(path, "bench", json!({ "cases": args.cases }), args.writing.quiet);
+    let open =
+        |path: &PathBuf| Finished::open(path, "bench", json!({ "cases": args.cases }), args.writing.quiet);
     let finished = path.as_ref().map(open).transpose()?;
     let effort = Effort { full: true, ..Effort::gate() };
     let (mut files, mut tables) = (Vec::new(), String::new());
@@ -52,8 +53,9 @@ pub(super) fn bench(args: &Args) -> Result<(), Failure> {
             Some((found, _)) => found,
             None => {
                 let start = Instant::now();
-                let request = Request { effort: &effort, wanted: &wanted, finished: &|| () };
-                let found = on_threads(None, || study.found(&request))?;
+                let found = on_threads(None, || {
+                    study.found(&Request { effort: &effort, wanted: &wanted, finished: &|| () })
+                })?;
                 let Some(found) = found.map_err(Failure::Failed)? else {
                     continue;
                 };

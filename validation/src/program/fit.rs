@@ -4,7 +4,8 @@ mod input;
 mod shifts;
 
 use super::{
-    Failure, Threads, Writing, on_threads, print, progress, restart, result_folder, scene, spares_inputs, whole,
+    Failure, Threads, Writing, on_threads, print, progress, restart, result_folder, scene, spares_inputs,
+    whole,
 };
 use crate::files::build::BUILD;
 use crate::files::output::Output;

@@ -36,6 +36,7 @@ mod words;
 pub use manual::commands;
 
 use crate::files::output::{self, ResultFolder};
+use crate::files::text::Shown;
 use crate::files::text::complain;
 use crate::files::{cluster, text};
 use crate::present::plot::Figure;

@@ -103,7 +103,8 @@ fn one_wild_answer_between_right_ones_fails() {
         write(dir.path(), "mid-flip-100", &file, text(&off_by("mid-flip-100", part)));
     }
     let ended = files(REFERENCE.path(), dir.path(), &[]);
-    let (found, note) = (ended.of("mid-flip-100"), ended.of("mid-flip-100")["note"].as_str().unwrap_or_default());
+    let (found, note) =
+        (ended.of("mid-flip-100"), ended.of("mid-flip-100")["note"].as_str().unwrap_or_default());
     assert_eq!((ended.code, &found["verdict"]), (Some(1), &"FAIL".into()));
     assert!(note.starts_with("off by ") && note.contains(" with 400 steps, by "), "{note}");
 }

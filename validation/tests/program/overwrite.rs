@@ -56,7 +56,8 @@ fn no_command_replaces_a_file_that_it_reads() {
         ("plot a --data points.svg --out points.svg --force", "points.svg"),
     ] {
         let ended = shearbed(dir.path(), arguments);
-        let said = format!("a result would replace {read_file}, which this command reads: choose another --out");
+        let said =
+            format!("a result would replace {read_file}, which this command reads: choose another --out");
         assert!(ended.code == Some(2) && ended.stderr.contains(&said), "{arguments}: {}", ended.stderr);
         assert_eq!(read(&dir.path().join(read_file)), points);
     }

@@ -64,7 +64,8 @@ fn one_picture_is_drawn_from_several_runs_and_from_a_sweep() {
 
 /// The columns of `sweep.csv` as curves, in the order of the values, of which there are more than nine.
 fn against_a_swept_key(dir: &Path) {
-    let sweep = "sweep small.toml --over interaction.alpha=0.1:0.5:5 --over particles.count=20,30 --quiet --out k";
+    let sweep =
+        "sweep small.toml --over interaction.alpha=0.1:0.5:5 --over particles.count=20,30 --quiet --out k";
     assert_eq!(shearbed(dir, sweep).code, Some(0));
     let plot = |arguments: &str| shearbed(dir, &format!("plot k --y x2 --x interaction.alpha {arguments}"));
     let ended = plot("--out x.svg");
@@ -80,7 +81,10 @@ fn against_a_swept_key(dir: &Path) {
     refused(
         dir,
         &[
-            ("plot k --x interaction.m", "--x interaction.m: the sweep goes over interaction.alpha, particles.count, of"),
+            (
+                "plot k --x interaction.m",
+                "--x interaction.m: the sweep goes over interaction.alpha, particles.count, of",
+            ),
             ("plot k --x particles.count --at 77", "--at 77: k/points/1/ has no output at this time; it has"),
         ],
     );

@@ -187,7 +187,10 @@ fn bad_input_is_refused_with_key_value_and_what_is_allowed() {
             "--aspect-ratio 5 --c-i 0.01 --times 0:1e6:2 --steady",
             ["--times with --c-i 0.01: this takes too much work", "shorter --times", "allowed"],
         ),
-        ("--aspect-ratio 5 --c-i 1e-9 --steady", ["--steady with --c-i 1e-9: this takes too much", "1e-5", "allowed"]),
+        (
+            "--aspect-ratio 5 --c-i 1e-9 --steady",
+            ["--steady with --c-i 1e-9: this takes too much", "1e-5", "allowed"],
+        ),
         ("--aspect-ratio 3 --steady --c-i 0", ["--steady", "--c-i 0", "allowed"]),
         (
             "--aspect-ratio 3 --steady --c-i 0.1 --gradient-per-s 0,1,0,-1,0,0,0,0,0",

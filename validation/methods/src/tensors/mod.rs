@@ -9,6 +9,7 @@ mod integrate;
 pub mod models;
 mod natural;
 pub mod orthotropic;
+pub mod second;
 
 #[cfg(test)]
 mod tests;

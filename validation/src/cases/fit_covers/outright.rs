@@ -50,7 +50,7 @@ fn simulated(effort: &Effort) -> Result<Simulated, String> {
     let basis = Basis::new(1);
     let model = |values: &[f64]| scenes.model(&places, AS_WRITTEN, values);
     let value = |node: &[f64]| vec![11.35 + 0.25 * node[0]];
-    let at_nodes = coefficients(&basis, &model, value, 0..REPLICAS, &|| ())?;
+    let at_nodes = coefficients(&basis, &model, &value, 0..REPLICAS, &|| ())?;
     let own = model(&[OWN])?;
     let at_own = |replica| Ok(DVector::from_iterator(POINTS, own.run(replica)?.iter().map(|point| point[0])));
     let at_own = (0..REPLICAS).map(at_own).collect::<Result<_, String>>()?;

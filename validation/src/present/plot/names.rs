@@ -75,7 +75,7 @@ pub(crate) fn point(described: &str) -> String {
         match (word.split_once('='), values.last_mut()) {
             (Some((key, value)), _) => {
                 let (letter, unit) = letter(key);
-                values.push((format!("{letter} = {value}"), unit));
+                values.push((format!("{letter} = {}", short(value)), unit));
             }
             (None, Some((last, _))) => *last += &format!(" {word}"),
             (None, None) => values.push((word.to_owned(), "")),
@@ -83,6 +83,17 @@ pub(crate) fn point(described: &str) -> String {
     }
     let with_unit = |(text, unit): &(String, &str)| format!("{text} {unit}").trim_end().to_owned();
     values.iter().map(with_unit).collect::<Vec<_>>().join(", ")
+}
+
+/// A number with more than seven characters in four significant digits; anything else as it is.
+fn short(value: &str) -> String {
+    match value.parse::<f64>() {
+        Ok(number) if value.len() > 7 => {
+            let rounded = format!("{number:.3e}").parse::<f64>();
+            rounded.map_or_else(|_| value.to_owned(), |rounded| rounded.to_string())
+        }
+        _ => value.to_owned(),
+    }
 }
 
 #[cfg(test)]
@@ -105,5 +116,6 @@ mod tests {
         let two =
             "interaction.alpha=0.25 interaction.concentration_per_cm3=20 particles.orientation=in plane";
         assert_eq!(point(two), "α = 0.25, n = 20 cm⁻³, orientation = in plane");
+        assert_eq!(point("interaction.alpha=0.2727272727272727"), "α = 0.2727");
     }
 }

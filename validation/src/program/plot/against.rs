@@ -75,7 +75,8 @@ fn value(point: &str, key: &str) -> Result<(f64, String), String> {
         format!("the sweep goes over {}, of which one is allowed", keys.join(", "))
     })?;
     let (before, after) = (&words[..own], &words[own + 1..]);
-    let number = words[own][key.len() + 1..].parse().ok().filter(|_| after.first().is_none_or(|next| is_key(&next)));
+    let number =
+        words[own][key.len() + 1..].parse().ok().filter(|_| after.first().is_none_or(|next| is_key(&next)));
     let number = number.ok_or("its values are no numbers; a key with numbers is allowed")?;
     Ok((number, [before, after].concat().join(" ")))
 }

@@ -136,7 +136,7 @@ pub fn design(
         let model = |values: &[f64]| at.model(&of, AS_WRITTEN, values);
         (watch.stage)(&format!("design at {factor} times the concentration"));
         (watch.planned)(replicas * basis.nodes.len() as u64);
-        let emulator = match coefficients(&basis, &model, value, 0..replicas, watch.done) {
+        let emulator = match coefficients(&basis, &model, &value, 0..replicas, watch.done) {
             Ok(rows) => Emulator::new(&basis, &rows),
             Err(error) if factor != 1.0 => {
                 let warning = format!("--design: no points of {factor} times the concentration: {error}");

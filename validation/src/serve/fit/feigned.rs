@@ -59,7 +59,7 @@ fn points(seed: u64) -> Vec<Datum> {
 
 fn fit(data: &[Datum], slope: f64, seed: u64) -> Fit {
     let (ranges, basis) = (ranges(), Basis::new(1));
-    let found = coefficients(&basis, &model(slope, seed), |node| node.to_vec(), 0..REPLICAS, &|| ());
+    let found = coefficients(&basis, &model(slope, seed), &|node| node.to_vec(), 0..REPLICAS, &|| ());
     let measured = Measured { data, ranges: &ranges, rods_over_measured: &[0.0] };
     fitted(&measured, &basis, &vec![(-1.0, 1.0)], &found.unwrap()).unwrap()
 }

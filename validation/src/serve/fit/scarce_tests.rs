@@ -55,7 +55,7 @@ fn fit(seed: u64) -> Fit {
         }))
     };
     let (ranges, basis) = (vec![Range::parse("a.a=-1:1").unwrap()], Basis::new(1));
-    let found = coefficients(&basis, &model, |node| node.to_vec(), 0..REPLICAS, &|| ()).unwrap();
+    let found = coefficients(&basis, &model, &|node| node.to_vec(), 0..REPLICAS, &|| ()).unwrap();
     let measured = Measured { data: &data, ranges: &ranges, rods_over_measured: &[1.0] };
     fitted(&measured, &basis, &vec![(-1.0, 1.0)], &found).unwrap()
 }

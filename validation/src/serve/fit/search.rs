@@ -131,7 +131,7 @@ pub fn search(problem: &FitProblem<'_>, watch: &Watch<'_>) -> Result<Fit, String
         (watch.planned)(planned);
         runs += planned;
         let value = |node: &[f64]| values(ranges, &sides, node);
-        found.extend(coefficients(&basis, problem.model, value, new, watch.done)?);
+        found.extend(coefficients(&basis, problem.model, &value, new, watch.done)?);
         let fit = fitted(&problem.measured, &basis, &sides, &found)?;
         let more = wanted < problem.most_replicas;
         // The points, not the replicas' noise, must decide where to look closer.

@@ -24,7 +24,7 @@ fn two_signs(values: &[f64]) -> Result<Replica, String> {
 
 fn of_two_signs() -> Fit {
     let (ranges, basis) = (ranges(["a.a=-1:1", "a.b=-1:1"]), Basis::new(2));
-    let found = coefficients(&basis, &two_signs, |node| node.to_vec(), 0..2, &|| ()).unwrap();
+    let found = coefficients(&basis, &two_signs, &|node| node.to_vec(), 0..2, &|| ()).unwrap();
     let data = points(&[(0.49, 0.01), (-0.35, 0.05), (-0.5, 0.6)]);
     let measured = Measured { data: &data, ranges: &ranges, rods_over_measured: &[0.0] };
     fitted(&measured, &basis, &vec![(-1.0, 1.0); 2], &found).unwrap()

@@ -328,7 +328,8 @@ mod tests {
             let errors: Vec<_> = (0..).map(|k| 100u64 << k).zip(errors.iter().copied()).collect();
             wild(&errors, 1e-8)
         };
-        let said = "off by 7.0e-1 with 400 steps, by 6.0e-4 with 200 and 2.5e-6 with 800: no method has such errors";
+        let said =
+            "off by 7.0e-1 with 400 steps, by 6.0e-4 with 200 and 2.5e-6 with 800: no method has such errors";
         assert_eq!(wild(&[1e-2, 6e-4, 0.7, 2.5e-6]).as_deref(), Some(said));
         assert!(wild(&[5e-3, 0.3, 2e-5, 1e-6]).is_some() && wild(&[1e-4, f64::NAN, 1e-6]).is_some());
         for right in [

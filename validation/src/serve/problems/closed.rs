@@ -1,12 +1,10 @@
 //! Problems whose answer is the solution of a closed equation: they test whether a tensor code solves its own equation.
 
-mod second;
-
 use super::asked::{AXES, COUETTE, SHEAR_RATE_PER_S};
 use super::table::twelve_decimals;
 use super::{Built, Closed, FORMAT, Kind, Metric, Problem, ProblemDef};
 use crate::methods::tensors::closures::PAIRS;
-use crate::methods::tensors::{APART, Closure, Equation, Model, at};
+use crate::methods::tensors::{self, APART, Closure, Equation, Model, at};
 use nalgebra::Matrix3;
 
 /// An aspect ratio at which Λ = 1 in doubles.
@@ -95,7 +93,7 @@ pub fn certify() -> Result<String, String> {
         let (equation, times_s, name) = (setting.equation(), setting.times_s(), setting.name);
         let start = setting.closed.start();
         let first = at(&equation, &start, &times_s, 1e-14).ok_or_else(|| format!("{name}: no solution"))?;
-        let second = second::at(&equation, &start, &times_s);
+        let second = tensors::second::at(&equation, &start, &times_s);
         for ((time, first), second) in times_s.iter().zip(first).zip(second) {
             let off = (first - second).amax();
             if off.is_nan() || off > AGREED {

@@ -54,7 +54,7 @@ fn fit(curve: Curve, rates: [f64; 2], seed: u64) -> Fit {
     };
     let basis = Basis::new(2);
     let value = |node: &[f64]| values(&ranges, &sides, node);
-    let found = coefficients(&basis, &model, value, 0..REPLICAS, &|| ()).unwrap();
+    let found = coefficients(&basis, &model, &value, 0..REPLICAS, &|| ()).unwrap();
     let measured = Measured { data: &data, ranges: &ranges, rods_over_measured: &[0.0; 2] };
     fitted(&measured, &basis, &sides, &found).unwrap()
 }

@@ -1,11 +1,11 @@
 //! A second formulation of the closed equations, in the axes of a, with another integrator.
 //!
 //! The coefficients of fits and the integrals of the natural closure, which exact distributions check, are shared with
-//! `methods::tensors`; eigenvectors (Jacobi's), invariants, contractions, models and steps are not.
+//! the first one; eigenvectors (Jacobi's), invariants, contractions, models and steps are not.
 
-use crate::methods::tensors::ibof::{COEFFICIENTS, POWERS};
-use crate::methods::tensors::orthotropic::{ORE, ORW};
-use crate::methods::tensors::{Closure, Equation, Model};
+use super::ibof::{COEFFICIENTS, POWERS};
+use super::orthotropic::{ORE, ORW};
+use super::{Closure, Equation, Model};
 use nalgebra::{Matrix3, Vector3};
 
 type M = Matrix3<f64>;
@@ -15,7 +15,7 @@ const STEP: f64 = 0.25;
 const RULES: usize = 8;
 
 /// a at these times by Gragg's midpoint rule, extrapolated (Bulirsch & Stoer).
-pub(super) fn at(equation: &Equation, start: &M, times_s: &[f64]) -> Vec<M> {
+pub fn at(equation: &Equation, start: &M, times_s: &[f64]) -> Vec<M> {
     let (mut now, mut a) = (0.0, *start);
     let mut all = Vec::new();
     for time in times_s {
