@@ -28,10 +28,10 @@ pub(super) struct Args {
     /// The column to draw, as x1, phi or a12 [default: the first of the first table]; of a fit or a report, the picture's name
     #[arg(long = "y", value_name = "CHANNEL")]
     channel: Option<String>,
-    /// A swept key to draw the channel against, at the last output, as interaction.alpha; one sweep is allowed
+    /// A key of a sweep to draw its channel against, at the last output
     #[arg(long = "x", value_name = "KEY", conflicts_with = "data")]
     key: Option<String>,
-    /// With --x: the output to draw, in place of the last, by its time
+    /// With --x: the time of another output
     #[arg(long, value_name = "TIME", requires = "key", allow_negative_numbers = true)]
     at: Option<f64>,
     /// Measured points to draw over the curves, in the columns that `shearbed fit` takes

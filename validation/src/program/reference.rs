@@ -201,16 +201,16 @@ fn refused(args: &Args, why: NoValue) -> Failure {
     Failure::Input(match why {
         NoValue::Past => "--times: rods with diffusion have no past; times from 0 are allowed with --c-i".into(),
         NoValue::Steady(NoAnswer::Unsettled) => format!(
-            "--steady: nothing settles with --c-i {} in this flow; a C_I above 0 and a flow that strains are allowed",
+            "--steady: nothing settles with --c-i {:?} in this flow; a C_I above 0 and a flow that strains are allowed",
             args.c_i.unwrap_or_default()
         ),
         NoValue::Steady(why) => format!(
-            "--steady with --c-i {}: {why}; a larger C_I is allowed (in plane Couette flow from 1e-5 on, in any flow from \
+            "--steady with --c-i {:?}: {why}; a larger C_I is allowed (in plane Couette flow from 1e-5 on, in any flow from \
              about 1e-4 on)",
             args.c_i.unwrap_or_default()
         ),
         NoValue::Diffusion(why) => format!(
-            "--times with --c-i {}: {why}; a larger C_I or shorter --times are allowed (from C_I = 1e-4 on, a strain of 100; at 1e-5, of 10), and \
+            "--times with --c-i {:?}: {why}; a larger C_I or shorter --times are allowed (from C_I = 1e-4 on, a strain of 100; at 1e-5, of 10), and \
              --steady",
             args.c_i.unwrap_or_default()
         ),

@@ -75,7 +75,7 @@ fn against_a_swept_key(dir: &Path) {
     // α across, a curve for each count, in the order of the sweep, at the last output.
     assert!(place("N = 20") < place("N = 30"));
     place(">\nα\n<");
-    place("small, t/T = ");
+    place("A small scene, t/T = ");
     assert_eq!(plot("--at 0 --out first.svg").code, Some(0));
     assert_ne!(picture, read(&dir.join("first.svg")));
     refused(
@@ -85,7 +85,7 @@ fn against_a_swept_key(dir: &Path) {
                 "plot k --x interaction.m",
                 "--x interaction.m: the sweep goes over interaction.alpha, particles.count, of",
             ),
-            ("plot k --x particles.count --at 77", "--at 77: k/points/1/ has no output at this time; it has"),
+            ("plot k --x particles.count --at 77", "--at 77: k/points/01/ has no output at this time; it has"),
         ],
     );
 }

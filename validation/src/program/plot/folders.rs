@@ -107,16 +107,13 @@ fn points(dir: &Path, record: &Record) -> Result<Vec<Run>, Failure> {
     }
     let scene = scene(dir, "sweep.json", record)?;
     let of_points = (record.files.keys()).filter_map(|name| Some((name, name.strip_suffix(RECORD)?)));
-    let mut of_points: Vec<_> = of_points.collect();
-    // `points/2/` before `points/10/`.
-    of_points.sort_by_key(|(_, folder)| (folder.len(), *folder));
     let point = |(name, folder): (&String, &str)| {
         let record: Record = json(dir, name, record)?;
         let point = record.origin.inputs[POINT].as_str().map(str::to_owned);
         let label = point.as_deref().map_or_else(|| folder.to_owned(), names::point);
         Ok(Run { label, point, scene: scene.clone(), dir: dir.join(folder), record })
     };
-    of_points.into_iter().map(point).collect()
+    of_points.map(point).collect()
 }
 
 fn scene(dir: &Path, name: &str, record: &Record) -> Result<Scene, Failure> {
