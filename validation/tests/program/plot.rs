@@ -85,7 +85,10 @@ fn against_a_swept_key(dir: &Path) {
                 "plot k --x interaction.m",
                 "--x interaction.m: the sweep goes over interaction.alpha, particles.count, of",
             ),
-            ("plot k --x particles.count --at 77", "--at 77: k/points/01/ has no output at this time; it has"),
+            (
+                "plot k --x particles.count --at 77",
+                "--at 77: k/points/01/ has no output at this time; it has",
+            ),
         ],
     );
 }
