@@ -76,7 +76,7 @@ fn value(point: &str, key: &str) -> Result<(f64, String), String> {
     })?;
     let (before, after) = (&words[..own], &words[own + 1..]);
     let number =
-        words[own][key.len() + 1..].parse().ok().filter(|_| after.first().is_none_or(|next| is_key(&next)));
+        words[own][key.len() + 1..].parse().ok().filter(|_| after.first().is_none_or(is_key));
     let number = number.ok_or("its values are no numbers; a key with numbers is allowed")?;
     Ok((number, [before, after].concat().join(" ")))
 }
