@@ -3,7 +3,7 @@
 use super::scene::{Chosen, Ensemble};
 use super::{
     Failure, Threads, Writing, agree, duration, memory, on_threads, print, progress, result_folder, scene,
-    whole,
+    spares_inputs, whole,
 };
 use crate::files::output::Output;
 use crate::files::text::{Shown, complain};
@@ -62,6 +62,7 @@ pub(super) fn converge(args: &Args) -> Result<(), Failure> {
     let input = json!({ "scene": named.scene.resolved(), "replicas": args.replicas });
     agree("converge", input.clone())?;
     let names = ["converge.csv", "converge.json", "replicas.csv"];
+    spares_inputs(&out, &names, named.files())?;
     let folder = result_folder(&out, ("converge", input, args.writing.force), 0, &names)?;
     let replicas = args.replicas.map_or(Replicas::CONVERGE, Replicas::Each);
     let done = match plan.keeps(Stage::Contacts) {

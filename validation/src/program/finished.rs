@@ -9,7 +9,8 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::path::Path;
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 /// Verdict, evidence, controls and seconds of a case.
 pub(super) type CaseResult = (Verdict, Vec<Judged>, Vec<Control>, f64);
@@ -27,6 +28,7 @@ struct State {
 /// Finished cases and studies with their checkpoint file.
 pub(super) struct Finished {
     file: Checkpoint,
+    count: Arc<AtomicUsize>,
     state: Mutex<State>,
 }
 
@@ -49,12 +51,17 @@ impl Finished {
         if !counted.is_empty() && !quiet {
             print(&format!("goes on from {path}: {}\n", counted.join(", ")))?;
         }
+        let count = Arc::new(AtomicUsize::new(state.cases.len() + state.studies.len()));
+        let kept = count.clone();
         on_stop(move || {
-            Some(format!(
-                "finished cases and studies are kept in {path}, and the same command goes on from there"
-            ))
+            Some(match kept.load(Ordering::Relaxed) {
+                0 => format!("no case or study is finished, and {path} has none"),
+                count => format!(
+                    "finished cases and studies are kept in {path} ({count}), and the same command goes on from there"
+                ),
+            })
         });
-        Ok(Self { file, state: Mutex::new(state) })
+        Ok(Self { file, count, state: Mutex::new(state) })
     }
 
     /// The result of a finished case.
@@ -68,7 +75,7 @@ impl Finished {
         if state.cases.insert(name.to_owned(), result.clone()).as_ref() == Some(result) {
             return Ok(());
         }
-        Ok(self.file.write(&*state)?)
+        self.write(&state)
     }
 
     /// The results of a finished study.
@@ -80,7 +87,13 @@ impl Finished {
     pub(super) fn add_study(&self, name: &str, measured: &Measured) -> Result<(), Failure> {
         let mut state = self.state();
         state.studies.insert(name.to_owned(), measured.clone());
-        Ok(self.file.write(&*state)?)
+        self.write(&state)
+    }
+
+    fn write(&self, state: &State) -> Result<(), Failure> {
+        self.file.write(state)?;
+        self.count.store(state.cases.len() + state.studies.len(), Ordering::Relaxed);
+        Ok(())
     }
 
     fn state(&self) -> MutexGuard<'_, State> {

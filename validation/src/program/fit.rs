@@ -95,8 +95,9 @@ pub(super) fn fit(args: &Args) -> Result<(), Failure> {
     let out = (args.out.clone()).unwrap_or_else(|| Path::new("out").join(format!("fit-{}", input.stem)));
     let asked = asked(args, &input)?;
     let names = [FIT, "residuals.csv", "profiles.csv", "design.csv", super::plot::FIGURES];
-    let rods = input.scenes.sets.iter().flat_map(|set| set.starts.files());
-    spares_inputs(&out, &names, input.files.iter().cloned().chain(rods))?;
+    let scenes = input.scenes.sets.iter();
+    let scenes = scenes.flat_map(|set| set.starts.files().chain([PathBuf::from(&set.source)]));
+    spares_inputs(&out, &names, input.files.iter().cloned().chain(scenes))?;
     let folder = result_folder(&out, ("fit", asked.clone(), args.writing.force), 0, &names)?;
     let bar = progress(0, "runs", args.writing.quiet);
     let watch = Watch {

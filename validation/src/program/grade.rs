@@ -6,8 +6,8 @@ mod tolerances;
 
 pub(super) use args::Args;
 
-use super::{Failure, print, result_folder};
-use crate::files::output::{self, ResultFolder};
+use super::{Failure, print, result_folder, spares_inputs};
+use crate::files::output::{self, RECORD, ResultFolder};
 use crate::files::text::Shown;
 use crate::present::plot;
 use crate::serve::grade::live::{self, Mode, Program, Protocol};
@@ -29,6 +29,7 @@ pub(super) fn grade(args: &Args) -> Result<(), Failure> {
     if args.echo {
         return live::echo(args.protocol, io::stdin().lock(), io::stdout().lock()).map_err(Failure::Input);
     }
+    spares_inputs(&args.out, &PAGES, args.reference.as_ref().map(|dir| dir.join(RECORD)))?;
     let (report, wanted, inputs) = match (&args.command, &args.reference, &args.mine) {
         (Some(command), reference, _) => program(args, command, reference.as_deref())?,
         (None, Some(reference), Some(mine)) => files(args, reference, mine)?,

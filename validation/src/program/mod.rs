@@ -35,7 +35,7 @@ mod words;
 
 pub use manual::commands;
 
-use crate::files::output::{self, ResultFolder};
+use crate::files::output::{self, RECORD, Record, ResultFolder};
 use crate::files::text::Shown;
 use crate::files::text::complain;
 use crate::files::{cluster, text};
@@ -270,18 +270,31 @@ fn result_folder<N: AsRef<str>>(
     Ok(folder)
 }
 
-/// Refuses a folder in which a result would replace a file that the command reads, also with --force.
+/// Refuses a folder in which the results would replace or remove a file that the command reads, also with --force: one of these names,
+/// the record, or a file of earlier results that it lists.
 fn spares_inputs(
     dir: &Path,
     names: &[impl AsRef<Path>],
     inputs: impl IntoIterator<Item = PathBuf>,
 ) -> Result<(), Failure> {
+    let earlier = Record::read(dir).ok().flatten().map(|record| record.files);
+    let earlier = earlier.iter().flat_map(|files| files.keys()).map(|name| dir.join(name));
+    let new = names.iter().map(|name| dir.join(name));
+    spares(dir, new.chain([dir.join(RECORD)]).chain(earlier), inputs)
+}
+
+/// Refuses to replace or remove files at `targets` that the command reads; `out` is the argument of `--out`.
+fn spares(
+    out: &Path,
+    targets: impl IntoIterator<Item = PathBuf>,
+    inputs: impl IntoIterator<Item = PathBuf>,
+) -> Result<(), Failure> {
     let there = |path: &Path| path.canonicalize().ok();
-    let results: Vec<_> = names.iter().filter_map(|name| there(&dir.join(name))).collect();
+    let results: Vec<_> = targets.into_iter().filter_map(|target| there(&target)).collect();
     match inputs.into_iter().find(|input| there(input).is_some_and(|input| results.contains(&input))) {
         Some(input) => Err(Failure::Input(format!(
             "--out {}: a result would replace {}, which this command reads: choose another --out",
-            dir.shown(),
+            out.shown(),
             input.shown()
         ))),
         None => Ok(()),

@@ -6,7 +6,7 @@ mod look;
 mod measured;
 mod table;
 
-use super::{Failure, ending_in, print, scene, spares_inputs};
+use super::{Failure, ending_in, print, scene, spares};
 use crate::files::output;
 use crate::files::text::Shown;
 use crate::present::plot::{self, Figure, names};
@@ -53,7 +53,7 @@ fn picture(text: &str) -> Result<PathBuf, String> {
 
 /// Draws a channel of every folder, or a picture stored in a folder.
 pub(super) fn plot(args: &Args) -> Result<(), Failure> {
-    spares_inputs(Path::new(""), &[&args.out], args.data.clone())?;
+    spares(&args.out, [args.out.clone()], args.data.clone())?;
     let (mut figure, said) = match &args.dirs[..] {
         [dir] => match kept(dir)? {
             Some(kept) => named(args, dir, kept)?,
@@ -62,6 +62,7 @@ pub(super) fn plot(args: &Args) -> Result<(), Failure> {
         _ => of_runs(args)?,
     };
     args.look.apply(&mut figure)?;
+    scene::warn(&args.out.shown(), &args.look.warnings(&figure));
     write(&args.out, &figure, args.force)?;
     print(&format!("{said} in {}\n", args.out.shown()))
 }

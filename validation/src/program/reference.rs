@@ -199,7 +199,9 @@ fn isotropic_only(flag: &str) -> Failure {
 
 fn refused(args: &Args, why: NoValue) -> Failure {
     Failure::Input(match why {
-        NoValue::Past => "--times: rods with diffusion have no past; times from 0 are allowed with --c-i".into(),
+        NoValue::Past => {
+            "--times: rods with diffusion have no past; times from 0 are allowed with --c-i".into()
+        }
         NoValue::Steady(NoAnswer::Unsettled) => format!(
             "--steady: nothing settles with --c-i {:?} in this flow; a C_I above 0 and a flow that strains are allowed",
             args.c_i.unwrap_or_default()
@@ -214,13 +216,17 @@ fn refused(args: &Args, why: NoValue) -> Failure {
              --steady",
             args.c_i.unwrap_or_default()
         ),
-        NoValue::Unit => "--unit: this flow has no such unit of time; s is allowed, strain where it stretches, and period in plane \
-                          Couette flow (--shear-rate-per-s G) of rods with a finite r_e"
-            .into(),
+        NoValue::Unit => format!(
+            "--unit{}: this flow has no such unit of time; s is allowed, strain where it stretches, and period in plane Couette flow \
+             (--shear-rate-per-s G) of rods with a finite r_e",
+            if args.unit.is_none() { " is missing, and periods are its default" } else { "" }
+        ),
         NoValue::Strain => format!(
             "--times: |L|t is above {LARGEST_STRAIN}, the most that is allowed in a flow other than plane Couette flow"
         ),
-        NoValue::Time => "--times: a time in s, strain or periods is no finite double; smaller times are allowed".into(),
+        NoValue::Time => {
+            "--times: a time in s, strain or periods is no finite double; smaller times are allowed".into()
+        }
         NoValue::Unequal => format!(
             "--aspect-ratio-sd-percent {}: is allowed in plane Couette flow, up to {LONGEST_TURNS} periods, without --fourth, for \
              r_e from 1e-4 to 1e4 of which eight standard deviations do not reach 1 or 0",

@@ -135,6 +135,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let start = Instant::now();
     let named = args.chosen.load(&args.ensemble, &[])?;
     let plan = planned(args, &named)?;
+    let read: Vec<_> = named.files().collect();
     let scene = named.scene;
     if args.vtk && plan.rods_outputs().is_empty() {
         return Err(Failure::Input(format!(
@@ -153,7 +154,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let bytes = tables::most_bytes(&plan).saturating_add(rods::most_bytes(&plan, args.vtk));
     let names = names(&plan, args.vtk);
     if cluster::is_root() {
-        spares_inputs(&out, &names, named.starts.files())?;
+        spares_inputs(&out, &names, read)?;
     }
     probe(&out, bytes)?;
     let checkpoint = open_checkpoint(args, &plan, path.as_deref())?;

@@ -12,7 +12,7 @@ use shearbed::scene::{MAX_REPLICAS, MAX_SEED};
 use shearbed::scene::{SceneProblem, of_document};
 use shearbed::{Error, Plan, Scene};
 use std::ffi::{OsStr, OsString};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use toml::Value;
 
 /// Which scene, and with which keys set.
@@ -78,6 +78,11 @@ pub(super) struct Named {
 }
 
 impl Named {
+    /// The files that were read; none of them has the name of a built-in scene.
+    pub(super) fn files(&self) -> impl Iterator<Item = PathBuf> {
+        self.starts.files().chain([PathBuf::from(&self.source)])
+    }
+
     /// The scene's plan; an error names the line of the key, or the keys that were set.
     pub(super) fn plan(&self) -> Result<Plan, Failure> {
         Plan::new(&self.scene)

@@ -3,7 +3,7 @@
 use super::scene::{Chosen, Ensemble};
 use super::{
     Failure, Threads, Writing, agree, facts, log, memory, on_threads, print, progress, result_folder, scene,
-    tables,
+    spares_inputs, tables,
 };
 use crate::files::cluster;
 use crate::files::output::Output;
@@ -74,6 +74,7 @@ pub(super) fn sweep(args: &Args) -> Result<(), Failure> {
     let open = || {
         let bytes = (points.iter()).map(|point| tables::most_bytes(&point.plan)).sum();
         let origin = ("sweep", inputs.clone(), args.writing.force);
+        spares_inputs(&out, &["sweep.csv", "sweep.json"], named.files())?;
         let in_folder = result_folder(&out, origin, bytes, &[""; 0])?;
         let points = Points {
             described: (points.iter()).map(|point| sweep::described(&args.over, &point.values)).collect(),

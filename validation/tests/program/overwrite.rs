@@ -2,6 +2,7 @@
 
 use crate::common::{UNEQUAL, files, folder, limited, names, read, shearbed, unequal};
 use std::fs;
+use std::path::Path;
 
 #[test]
 fn a_name_with_a_dot_keeps_it_in_the_folder() {
@@ -48,6 +49,8 @@ fn no_command_replaces_a_file_that_it_reads() {
     fs::write(&file, points).unwrap();
     fs::copy(&file, dir.path().join("points.svg")).unwrap();
     assert_eq!(shearbed(dir.path(), "run small.toml --quiet --out a").code, Some(0));
+    grade_keeps_its_references(dir.path());
+    a_scene_and_rods_of_earlier_results_stay(dir.path());
     for (arguments, read_file) in [
         (
             "fit fig4-n50 --data f/residuals.csv --over interaction.alpha=0.1:1 --out f --force",
@@ -60,6 +63,40 @@ fn no_command_replaces_a_file_that_it_reads() {
             format!("a result would replace {read_file}, which this command reads: choose another --out");
         assert!(ended.code == Some(2) && ended.stderr.contains(&said), "{arguments}: {}", ended.stderr);
         assert_eq!(read(&dir.path().join(read_file)), points);
+    }
+}
+
+fn grade_keeps_its_references(dir: &Path) {
+    assert_eq!(shearbed(dir, "problems export ref --quiet").code, Some(0));
+    fs::create_dir_all(dir.join("mine/sphere")).unwrap();
+    let certified = dir.join("ref/sphere/certified.csv");
+    fs::copy(&certified, dir.join("mine/sphere/answer.csv")).unwrap();
+    let ended = shearbed(dir, "grade ref mine --problem sphere --out ref --force");
+    let said = "would replace ref/shearbed.json, which this command reads";
+    assert!(ended.code == Some(2) && ended.stderr.contains(said), "{}", ended.stderr);
+    // Results of another command stay.
+    assert_eq!(shearbed(dir, "run small.toml --quiet --out ref --force").code, Some(0));
+    assert!(certified.exists());
+}
+
+fn a_scene_and_rods_of_earlier_results_stay(dir: &Path) {
+    let small = read(&dir.join("small.toml"));
+    // Rods that the earlier run wrote, and that this one would remove.
+    let first = "run small.toml --set output.rods_at=[1] --replicas 1 --quiet --out r";
+    assert_eq!(shearbed(dir, first).code, Some(0));
+    let from_rods = small.replace("orientation = \"isotropic\"", "rods = { file = \"r/rods.csv\" }");
+    fs::write(dir.join("from.toml"), from_rods).unwrap();
+    fs::create_dir(dir.join("s")).unwrap();
+    fs::write(dir.join("s/run.json"), &small).unwrap();
+    for (arguments, file) in [
+        ("run from.toml --replicas 1 --out r --force", "r/rods.csv"),
+        ("run s/run.json --out s --force", "s/run.json"),
+    ] {
+        let before = read(&dir.join(file));
+        let ended = shearbed(dir, arguments);
+        let said = format!("would replace {file}, which this command reads");
+        assert!(ended.code == Some(2) && ended.stderr.contains(&said), "{arguments}: {}", ended.stderr);
+        assert_eq!(read(&dir.join(file)), before);
     }
 }
 

@@ -76,6 +76,9 @@ fn against_a_swept_key(dir: &Path) {
     assert!(place("N = 20") < place("N = 30"));
     place(">\nα\n<");
     place("A small scene, t/T = ");
+    // The start is at t = 0, and not to be had on a logarithmic axis.
+    let ended = shearbed(dir, "plot k --y x2 --log-x --out log.svg");
+    assert!(ended.stderr.contains("--log-x: values at or below 0 are not drawn: 10"), "{}", ended.stderr);
     assert_eq!(plot("--at 0 --out first.svg").code, Some(0));
     assert_ne!(picture, read(&dir.join("first.svg")));
     refused(
@@ -87,7 +90,7 @@ fn against_a_swept_key(dir: &Path) {
             ),
             (
                 "plot k --x particles.count --at 77",
-                "--at 77: k/points/01/ has no output at this time; it has",
+                "--at 77: k/points/01/ has no output at this time; the nearest is at t/T = ",
             ),
         ],
     );

@@ -38,15 +38,15 @@ fn keys_are_set_on_the_command_line_as_a_file_would() {
         ),
         (
             "--set ensemble.seed=1 --seed 2",
-            "--seed ensemble.seed and --set ensemble.seed: both set it; one of the two is allowed",
+            "--seed and --set ensemble.seed: both set ensemble.seed; one of the two is allowed",
         ),
         (
             "--set ensemble.replicas=1 --replicas 2",
-            "--replicas ensemble.replicas and --set ensemble.replicas: both set it",
+            "--replicas and --set ensemble.replicas: both set ensemble.replicas",
         ),
         (
             "--replicas 2 --set ensemble={replicas=5}",
-            "--replicas ensemble.replicas and --set ensemble: both set ensemble.replicas; one of the two is allowed",
+            "--replicas and --set ensemble: both set ensemble.replicas; one of the two is allowed",
         ),
         (
             "--set particles.count=1 --set particles={count=7,length_mm=1,aspect_ratio=5,orientation=\"isotropic\"}",

@@ -221,10 +221,10 @@ fn bad_input_is_refused_before_anything_runs() {
         ("interaction.alpha", "KEY=FROM:TO:COUNT or KEY=A,B,C is allowed"),
         ("output.observables=[\"projections\"],[\"mean_angle\"]", "all points have the same columns"),
         ("interaction.alpha=1,2 --over interaction.alpha=3", "both set it; one of the two is allowed"),
-        ("ensemble.seed=1,2 --seed 3", "--seed ensemble.seed and --over ensemble.seed: both set it"),
+        ("ensemble.seed=1,2 --seed 3", "--seed and --over ensemble.seed: both set ensemble.seed"),
         (
             "ensemble.replicas=1,2 --replicas 3",
-            "--replicas ensemble.replicas and --over ensemble.replicas: both set it",
+            "--replicas and --over ensemble.replicas: both set ensemble.replicas",
         ),
         ("interaction.alpha=0:1:1000 --over interaction.m=1:2:1000", "more than 100000 points"),
     ] {

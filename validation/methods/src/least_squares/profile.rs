@@ -192,16 +192,36 @@ pub fn region(best: &Best, profile: &Profile, [a, b]: [usize; 2], level: f64) ->
     let spread = best.covariance();
     let first_step = 0.25 * (spread[(b, b)] - spread[(a, b)].powi(2) / spread[(a, a)]).max(1e-12).sqrt();
     let mut islands: Vec<Vec<[f64; 3]>> = Vec::new();
-    // The column before, and its deepest place.
+    let deepest_at = |place: f64| {
+        let near = profile.place.partition_point(|other| *other < place).min(profile.at.len() - 1);
+        Rise::along(best, a, place, &[&profile.at[near], &profile.at[near.saturating_sub(1)]])
+    };
+    let is_beyond = |found: &Rise| shown * found.beside_noise() > level;
+    // Where an island ends between two columns, the last of which has it.
+    let tip = |mut beyond: f64, mut within: f64, mut b_there: f64| {
+        for _ in 0..HALVINGS {
+            let between = 0.5 * (beyond + within);
+            let found = deepest_at(between);
+            match is_beyond(&found) {
+                true => beyond = between,
+                false => (within, b_there) = (between, found.at[b]),
+            }
+        }
+        [within, b_there, b_there]
+    };
+    // The column before, and its deepest place; the place before, if no island has it.
     let mut last: Option<([f64; 3], Vec<f64>)> = None;
+    let mut outside = None;
     for k in 0..=COLUMNS {
         let place = middle - half * (std::f64::consts::PI * k as f64 / COLUMNS as f64).cos();
-        let near = profile.place.partition_point(|other| *other < place).min(profile.at.len() - 1);
-        let found = Rise::along(best, a, place, &[&profile.at[near], &profile.at[near.saturating_sub(1)]]);
+        let found = deepest_at(place);
         // The ends of the region are known to the halvings of `interval`.
         let is_end = k == 0 || k == COLUMNS;
-        if !is_end && shown * found.beside_noise() > level {
-            last = None;
+        if !is_end && is_beyond(&found) {
+            if let (Some((column, deepest)), Some(island)) = (last.take(), islands.last_mut()) {
+                island.push(tip(place, column[0], deepest[b]));
+            }
+            outside = Some(place);
             continue;
         }
         let is_inside = |other: f64| {
@@ -219,8 +239,9 @@ pub fn region(best: &Best, profile: &Profile, [a, b]: [usize; 2], level: f64) ->
             }
         });
         let column = [place, low, high];
-        match islands.last_mut() {
-            Some(island) if is_joined => island.push(column),
+        match (islands.last_mut(), outside.take()) {
+            (Some(island), _) if is_joined => island.push(column),
+            (_, Some(beyond)) => islands.push(vec![tip(beyond, place, found.at[b]), column]),
             _ => islands.push(vec![column]),
         }
         last = Some((column, found.at));

@@ -132,10 +132,11 @@ impl ResultFolder {
         Ok(claim.write_all(&files, &self.left_over(&names))?)
     }
 
-    /// The unchanged files that the folder's record lists besides `names`: left beside new results, they would be mistaken for
-    /// them.
+    /// The unchanged files that the folder's record lists besides `names`, if this command wrote them: left beside new results, they
+    /// would be mistaken for them. Those of another command stay, also with `--force`.
     pub(crate) fn left_over(&self, names: &[String]) -> Vec<String> {
-        let Ok(Some(record)) = Record::read(&self.dir) else {
+        let record = Record::read(&self.dir).ok().flatten();
+        let Some(record) = record.filter(|record| record.origin.command == self.origin.command) else {
             return Vec::new();
         };
         record.unchanged(&self.dir).filter(|name| !names.contains(name)).cloned().collect()
@@ -204,8 +205,11 @@ mod tests {
         // Changed files stay too, even if they are no longer written.
         own.write(files(&["d.csv"])).unwrap();
         assert_eq!(names(dir), ["a.csv", "b", "d.csv", "shearbed.json", "user.csv"]);
-        ResultFolder::new(dir, "fit", json!({}), true).write(files(&["e.csv"])).unwrap();
+        // By force what this command wrote from other input goes, and what another one wrote stays.
+        ResultFolder::new(dir, "run", json!({ "seed": 2 }), true).write(files(&["e.csv"])).unwrap();
         assert_eq!(names(dir), ["a.csv", "b", "e.csv", "shearbed.json", "user.csv"]);
+        ResultFolder::new(dir, "fit", json!({}), true).write(files(&["f.csv"])).unwrap();
+        assert_eq!(names(dir), ["a.csv", "b", "e.csv", "f.csv", "shearbed.json", "user.csv"]);
     }
 
     #[test]

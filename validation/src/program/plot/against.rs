@@ -22,14 +22,13 @@ pub(super) fn against(drawn: Drawn, key: &str, at: Option<f64>) -> Result<Figure
             Some(at) => curve.x.iter().position(|time| (time - at).abs() <= 1e-9 * at.abs().max(1.0)),
         };
         let place = place.ok_or_else(|| {
-            let ends = [curve.x.first(), curve.x.last()].map(|end| end.copied().unwrap_or(f64::NAN));
+            let at = at.unwrap_or(f64::NAN);
+            let near = curve.x.iter().min_by(|a, b| (*a - at).abs().total_cmp(&(*b - at).abs()));
             Failure::Input(format!(
-                "--at {}: {} has no output at this time; it has {} from {} to {}",
-                at.unwrap_or(f64::NAN),
+                "--at {at}: {} has no output at this time; the nearest is at {} = {}",
                 run.dir.shown(),
-                curve.x.len(),
-                ends[0],
-                ends[1]
+                drawn.figure.x_name,
+                near.unwrap_or(&f64::NAN)
             ))
         })?;
         times.push(curve.x[place]);
@@ -75,8 +74,7 @@ fn value(point: &str, key: &str) -> Result<(f64, String), String> {
         format!("the sweep goes over {}, of which one is allowed", keys.join(", "))
     })?;
     let (before, after) = (&words[..own], &words[own + 1..]);
-    let number =
-        words[own][key.len() + 1..].parse().ok().filter(|_| after.first().is_none_or(is_key));
+    let number = words[own][key.len() + 1..].parse().ok().filter(|_| after.first().is_none_or(is_key));
     let number = number.ok_or("its values are no numbers; a key with numbers is allowed")?;
     Ok((number, [before, after].concat().join(" ")))
 }

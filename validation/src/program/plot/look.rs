@@ -25,7 +25,7 @@ pub(super) struct Look {
     /// What the vertical axis covers
     #[arg(long, value_name = "FROM:TO", value_parser = range, allow_hyphen_values = true)]
     y_range: Option<(f64, f64)>,
-    /// Pixels across and down, as 800x500, of 1/96 inch
+    /// Width and height in 1/96 inch, as 800x500
     #[arg(long, value_name = "WIDTHxHEIGHT", value_parser = size)]
     size: Option<(u32, u32)>,
     /// A logarithmic horizontal axis
@@ -69,7 +69,23 @@ fn reached(flag: &str, range: Option<(f64, f64)>, all: impl Iterator<Item = f64>
     }
 }
 
+/// What a logarithmic axis leaves out.
+fn left_out(flag: &str, log: bool, all: impl Iterator<Item = f64>) -> Option<String> {
+    let count = all.filter(|value| *value <= 0.0).count();
+    (log && count > 0).then(|| format!("{flag}: values at or below 0 are not drawn: {count}"))
+}
+
 impl Look {
+    /// Warnings about what the flags leave out of a figure.
+    pub(super) fn warnings(&self, figure: &Figure) -> Vec<String> {
+        let curves = figure.curves.iter().map(|curve| (&curve.x, &curve.y));
+        let series: Vec<_> =
+            curves.chain(figure.points.iter().map(|points| (&points.x, &points.y))).collect();
+        let x = left_out("--log-x", self.log_x, series.iter().flat_map(|(x, _)| x.iter().copied()));
+        let y = left_out("--log-y", self.log_y, series.iter().flat_map(|(_, y)| y.iter().copied()));
+        x.into_iter().chain(y).collect()
+    }
+
     /// Applies the flags to a figure.
     pub(super) fn apply(&self, figure: &mut Figure) -> Result<(), Failure> {
         let set =

@@ -197,6 +197,18 @@ fn a_region_of_two_islands_has_two_outlines() {
         islands.iter().filter(|island| inside(island)).count()
     };
     assert_eq!((islands.len(), holds(-1.0), holds(0.0), holds(1.0)), (2, 1, 0, 1));
+    // Between the columns an island ends in a point: the one it turns at lies on the level.
+    for island in &islands {
+        let turn = island.len() / 2;
+        let inner = if island[0][0].abs() < island[turn][0].abs() {
+            [island[0], island[island.len() - 2]]
+        } else {
+            [island[turn - 1], island[turn]]
+        };
+        assert_eq!(inner[0], inner[1], "{island:?}");
+        let rise = fit.best.surface.at(&inner[0]) - fit.best.chi_square;
+        assert!((rise - 1.0).abs() < 1e-3, "{rise}");
+    }
 }
 
 /// The outcome of a fit with fresh data and a fresh seed.

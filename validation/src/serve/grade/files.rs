@@ -138,7 +138,10 @@ fn judge(graded: &mut Graded, loaded: &LoadedProblem, answer: &Answer, claim: Cl
     graded.set_diagnosis(diagnose(loaded, answer, compared.error));
     graded.note = match within {
         true => off,
-        false => compared.remark.or_else(|| Some(place(loaded, answer, compared.row))),
+        false => {
+            let place = compared.remark.unwrap_or_else(|| place(loaded, answer, compared.row));
+            Some(off.into_iter().chain([place]).collect::<Vec<_>>().join("; "))
+        }
     };
 }
 

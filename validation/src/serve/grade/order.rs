@@ -151,23 +151,34 @@ const WILD: f64 = 32.0;
 /// The highest order in use: what an error may fall by between two settings.
 const HIGHEST: f64 = 8.0;
 
-/// A message about an answer that is off by far between others that follow the motion closely; none if there is no such answer. An error
-/// may be small by chance, so that two coarser ones, or a finer one by the highest order, must be far smaller.
+/// A message about an answer that is off by far where one with fewer steps follows the motion closely; none if there is no such answer.
+/// What its error should be is foretold by a power law through two others, of which only one may be small by chance: then either this
+/// one is not larger than that before it, or it is as large as foretold.
 pub fn wild(errors: &[(u64, f64)], tolerance: f64) -> Option<String> {
+    let steps = |k: usize| errors[k].0 as f64;
     let size = |k: usize| if errors[k].1.is_finite() { errors[k].1 } else { f64::INFINITY };
-    let is_wild = |k: &usize| {
-        let (coarse, fine) = (size(k - 1), size(k + 1));
-        let other = match k.checked_sub(2) {
-            Some(coarser) => size(coarser),
-            None => fine * (errors[k + 1].0 as f64 / errors[*k].0 as f64).powf(HIGHEST),
-        };
-        coarse < CLOSE && size(*k) > WILD * coarse.max(fine).max(other).max(tolerance)
+    let law = |[a, b]: [usize; 2], at: usize| {
+        let order = ((size(a) / size(b)).ln() / (steps(b) / steps(a)).ln()).clamp(0.0, HIGHEST);
+        size(a) * (steps(a) / steps(at)).powf(if order.is_nan() { 0.0 } else { order })
     };
-    let k = (1..errors.len().saturating_sub(1)).find(is_wild)?;
-    let [(before, coarse), (steps, error), (after, fine)] = [errors[k - 1], errors[k], errors[k + 1]];
-    Some(format!(
-        "off by {error:.1e} with {steps} steps, by {coarse:.1e} with {before} and {fine:.1e} with {after}: no method has such errors"
-    ))
+    let foretold = |k: usize| match (k.checked_sub(2), k + 1 < errors.len()) {
+        (Some(coarser), true) if size(coarser).is_finite() => law([coarser, k + 1], k),
+        (Some(coarser), false) if size(coarser).is_finite() => match coarser.checked_sub(1) {
+            Some(first) if size(first).is_finite() => law([first, coarser], k),
+            _ => size(coarser),
+        },
+        (Some(_), _) => size(k - 1),
+        (None, true) => size(k + 1) * (steps(k + 1) / steps(k)).powf(HIGHEST),
+        (None, false) => f64::INFINITY,
+    };
+    let is_wild = |k: &usize| {
+        let (own, before) = (size(*k), size(k - 1));
+        before < CLOSE && own > 2.0 * before && own > WILD * foretold(*k).max(tolerance)
+    };
+    let k = (1..errors.len()).find(is_wild)?;
+    let said = |k: usize| format!("{:.1e} with {}", errors[k].1, errors[k].0);
+    let after = if k + 1 < errors.len() { format!(" and {}", said(k + 1)) } else { String::new() };
+    Some(format!("off by {} steps, by {}{after}: no method has such errors", said(k), said(k - 1)))
 }
 
 /// A message about an order that is lower than claimed.
@@ -202,11 +213,13 @@ pub fn settle(problems: &[LoadedProblem], graded: &mut [Graded], claimed: Option
 /// A sentence that lists where a claimed order was seen and where it is unclear; none without a claim.
 pub fn remark(graded: &[Graded], claimed: Option<f64>) -> Option<String> {
     let claimed = claimed?;
-    let found = |order: Order| -> Vec<&str> {
-        let of = graded.iter().filter(|graded| graded.order_found == Some(order));
-        of.map(|graded| graded.name.as_str()).collect()
+    let found = |order: Order| -> Vec<&Graded> {
+        graded.iter().filter(|graded| graded.order_found == Some(order)).collect()
     };
-    let (seen, unclear) = (found(Order::Seen), found(Order::Unclear));
+    let seen = found(Order::Seen);
+    // Of a wrong answer the verdict says why.
+    let unclear = found(Order::Unclear).into_iter().filter(|graded| graded.verdict == Verdict::Pass);
+    let unclear: Vec<&str> = unclear.map(|graded| graded.name.as_str()).collect();
     let answered = graded.iter().filter(|graded| graded.verdict != Verdict::Missing).count();
     let mut said = format!("order {claimed} is seen on {} of {answered} problems", seen.len());
     if !unclear.is_empty() {
@@ -331,7 +344,21 @@ mod tests {
         let said =
             "off by 7.0e-1 with 400 steps, by 6.0e-4 with 200 and 2.5e-6 with 800: no method has such errors";
         assert_eq!(wild(&[1e-2, 6e-4, 0.7, 2.5e-6]).as_deref(), Some(said));
-        assert!(wild(&[5e-3, 0.3, 2e-5, 1e-6]).is_some() && wild(&[1e-4, f64::NAN, 1e-6]).is_some());
+        for wrong in [
+            &[5e-3, 0.3, 2e-5, 1e-6][..],
+            &[1e-4, f64::NAN, 1e-6],
+            // Less than the coarsest error; the finest answer, after three and after two; between answers that do not exist.
+            &[9e-3, 6e-4, 4e-5, 1e-3, 1.5e-7],
+            &[9e-3, 6e-4, 4e-5, 1e-2],
+            &[1e-4, 6e-6, 0.05],
+            &[9e-3, f64::NAN, 4e-5, f64::NAN, 1.5e-7],
+        ] {
+            assert!(wild(wrong).is_some(), "{wrong:?}");
+        }
+        assert_eq!(
+            wild(&[1e-3, 6e-5, 4e-6, 0.09]).as_deref(),
+            Some("off by 9.0e-2 with 800 steps, by 4.0e-6 with 400: no method has such errors")
+        );
         for right in [
             &[1e-2, 6e-4, 4e-5, 2.5e-6][..],
             // An error term that changes sign, at order 4 and at order 8.
@@ -342,6 +369,9 @@ mod tests {
             &[0.05, 1.5, 2e-3, 1e-4],
             &[1e-2, 6e-4, 1e-12, 1e-10, 1e-12],
             &[1e-3, 1.0],
+            // The finest but one, or the two before it, small by chance.
+            &[1e-2, 6e-4, 1e-9, 2.5e-6],
+            &[1e-2, 1e-9, 4e-5, 2.5e-6],
             &[],
         ] {
             assert_eq!(wild(right), None, "{right:?}");

@@ -60,11 +60,21 @@ pub fn one_owner(flags: &[(&str, &str)]) -> Result<(), String> {
         };
         let clash = |(_, other): &&(&str, &str)| within(other, key) || within(key, other);
         if let Some((first, other)) = flags[..k].iter().find(clash) {
-            let both = match other == key {
-                true => "both set it".to_owned(),
-                false => format!("both set {}", if key.len() > other.len() { key } else { other }),
+            // Other flags than these take no key.
+            let takes_key = |flag: &str| ["--over", "--set"].contains(&flag);
+            let given = |flag: &str, key: &str| {
+                if takes_key(flag) { format!("{flag} {key}") } else { flag.to_owned() }
             };
-            return Err(format!("{flag} {key} and {first} {other}: {both}; one of the two is allowed"));
+            let both = match other == key && takes_key(flag) && takes_key(first) {
+                true => "it",
+                false if key.len() > other.len() => key,
+                false => other,
+            };
+            return Err(format!(
+                "{} and {}: both set {both}; one of the two is allowed",
+                given(flag, key),
+                given(first, other)
+            ));
         }
     }
     Ok(())
@@ -160,7 +170,7 @@ mod tests {
         let error = one_owner(&[("--replicas", "ensemble.replicas"), ("--over", "ensemble")]).unwrap_err();
         assert_eq!(
             error,
-            "--over ensemble and --replicas ensemble.replicas: both set ensemble.replicas; one of the two is allowed"
+            "--over ensemble and --replicas: both set ensemble.replicas; one of the two is allowed"
         );
     }
 
