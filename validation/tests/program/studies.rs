@@ -17,7 +17,7 @@ fn an_unknown_bench_is_refused_with_those_there_are() {
 fn a_bench_goes_on_from_its_checkpoint() {
     let dir = tempfile::tempdir().unwrap();
     let bench = |out: &str| {
-        let ended = shearbed(dir.path(), &format!("bench --case closures --checkpoint kept --out {out}"));
+        let ended = shearbed(dir.path(), &format!("bench --case re2 --checkpoint kept --out {out}"));
         assert_eq!(ended.code, Some(0), "{}", ended.stderr);
         ended.stdout
     };
