@@ -120,7 +120,7 @@ pub(crate) fn subscripts(text: &str) -> Vec<(bool, &str)> {
         if at < start {
             continue;
         }
-        let base = text[start..at].trim_end_matches(|c| ('\u{300}'..'\u{370}').contains(&c));
+        let base = text[start..at].trim_end_matches(|c| ('\u{300}'..'\u{370}').contains(&c) || c == '²');
         let mut before = base.chars().rev();
         let letter = before.next().is_some_and(char::is_alphabetic);
         let alone = before.next().is_none_or(|c| !c.is_alphabetic() && c != '_');
@@ -184,15 +184,17 @@ pub(crate) fn powers(text: &str) -> String {
 
 /// The text with subscripts as Unicode characters, if there are characters for all of a subscript.
 pub(crate) fn unicode(text: &str) -> String {
+    lowered(text, |part| format!("_{part}"))
+}
+
+/// The same; subscripts without characters of their own are written by `other`.
+pub(crate) fn lowered(text: &str, other: impl Fn(&str) -> String) -> String {
     let mut typeset = String::new();
     for (below, part) in subscripts(text) {
         let lowered: Option<String> = part.chars().map(subscript).collect();
         match lowered.filter(|_| below) {
             Some(lowered) => typeset += &lowered,
-            None if below => {
-                typeset.push('_');
-                typeset += part;
-            }
+            None if below => typeset += &other(part),
             None => typeset += part,
         }
     }

@@ -26,6 +26,9 @@ pub(super) fn boxes(svg: &str) -> Vec<Box> {
     let of = |part: &str| {
         let (tag, rest) = part.split_once('>')?;
         let text = rest.split("</text>").next()?.trim();
+        // Without the tags of subscripts, which are a little narrower.
+        let text: String =
+            text.split('<').map(|part| part.split_once('>').map_or(part, |(_, text)| text)).collect();
         let text = text.replace("&lt;", "<").replace("&gt;", ">").replace("&amp;", "&");
         let (x, y, size) = (number(tag, "x"), number(tag, "y"), number(tag, "font-size"));
         let width = f64::from(text_width(&text, (size / f64::from(FINE)).round()));

@@ -9,6 +9,13 @@ type Font = LazyLock<Option<Face<'static>>>;
 static PLAIN: Font = Font::new(|| Face::parse(include_bytes!("../../../fonts/DejaVuSans.ttf"), 0).ok());
 static BOLD: Font = Font::new(|| Face::parse(include_bytes!("../../../fonts/DejaVuSans-Bold.ttf"), 0).ok());
 
+/// Before each letter of a subscript; a character of the private use area, which no font has.
+pub(super) const LOW: char = '\u{E000}';
+
+/// The size of a subscript's letters, and how far below the line they stand, in units of the letters' size.
+pub(super) const LOW_SIZE: f32 = 0.7;
+pub(super) const LOW_DROP: f32 = 0.16;
+
 /// Width of a letter that the fonts lack: as wide as high, as the widest letters are.
 const UNKNOWN: f64 = 1.0;
 
@@ -50,9 +57,17 @@ fn is_mark(letter: char) -> bool {
 
 /// The width of a text in units of the letters' size.
 pub(super) fn ems(text: &str, bold: bool) -> f64 {
-    let letters = text.chars().filter(|letter| !is_mark(*letter));
     let width = |letter| Glyph::of(letter, bold).map_or(UNKNOWN, |glyph| f64::from(glyph.advance()));
-    letters.map(width).sum()
+    let (mut sum, mut size) = (0.0, 1.0);
+    for letter in text.chars().filter(|letter| !is_mark(*letter)) {
+        if letter == LOW {
+            size = f64::from(LOW_SIZE);
+            continue;
+        }
+        sum += size * width(letter);
+        size = 1.0;
+    }
+    sum
 }
 
 /// A text's outline in units of the letters' size, starting at (0, 0), with y upwards.
@@ -67,14 +82,24 @@ impl Line {
     pub(super) fn of(text: &str, bold: bool) -> Self {
         let mut line = Self { outline: PathBuilder::new(), width: 0.0, missing: Vec::new() };
         let mut last: Option<(Glyph, f32)> = None;
+        let mut low = false;
         for letter in text.chars() {
+            if letter == LOW {
+                low = true;
+                continue;
+            }
             match (Glyph::of(letter, bold), last) {
                 (Some(mark), Some((base, at))) if is_mark(letter) => {
                     let (x, y) = above(base, mark);
-                    line.draw(mark, at + x, y);
+                    line.draw(mark, 1.0, at + x, y);
+                }
+                (Some(glyph), _) if std::mem::take(&mut low) => {
+                    line.draw(glyph, LOW_SIZE, line.width, -LOW_DROP);
+                    last = None;
+                    line.width += LOW_SIZE * glyph.advance();
                 }
                 (Some(glyph), _) => {
-                    line.draw(glyph, line.width, 0.0);
+                    line.draw(glyph, 1.0, line.width, 0.0);
                     last = Some((glyph, line.width));
                     line.width += glyph.advance();
                 }
@@ -88,8 +113,8 @@ impl Line {
         line
     }
 
-    fn draw(&mut self, glyph: Glyph, x: f32, y: f32) {
-        let scale = glyph.ems(1.0);
+    fn draw(&mut self, glyph: Glyph, size: f32, x: f32, y: f32) {
+        let scale = size * glyph.ems(1.0);
         let path = &mut self.outline;
         (glyph.face).outline_glyph(glyph.id, &mut Pen { path, scale, x, y });
     }
@@ -177,6 +202,20 @@ mod tests {
         assert_eq!(ems("X\u{304}", false), ems("X", false));
         assert_eq!(ems("棒", false), UNKNOWN);
         assert!((f64::from(Line::of("mi⁶ X̄", true).width) - ems("mi⁶ X̄", true)).abs() < 1e-5);
+    }
+
+    #[test]
+    fn a_subscript_is_small_and_low() {
+        let low = |text: &str| text.replace('_', &LOW.to_string());
+        assert!((ems(&low("C_b"), false) - ems("C", false) - 0.7 * ems("b", false)).abs() < 1e-6);
+        assert!((f64::from(Line::of(&low("C_bX"), false).width) - ems(&low("C_bX"), false)).abs() < 1e-5);
+        let bounds = |text: &str| Line::of(text, false).outline.finish().unwrap().bounds();
+        let (alone, below) = (bounds("b"), bounds(&low("_b")));
+        assert!(
+            below.top() < alone.top() - 0.1 && below.height() < 0.75 * alone.height(),
+            "{alone:?} {below:?}"
+        );
+        assert!(Line::of(&low("C_b"), false).missing.is_empty());
     }
 
     #[test]

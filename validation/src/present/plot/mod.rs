@@ -21,10 +21,11 @@ mod theme;
 mod window;
 
 use crate::files::text::{escaped, readable};
-use crate::present::markup::{powers, unicode};
+use crate::present::markup::{lowered, powers};
 pub(crate) use axis::power_of_ten;
 pub(crate) use grid::decade;
 use legend::Legend;
+use letters::{LOW, LOW_DROP, LOW_SIZE};
 pub use pdf::pdf;
 use plotters::prelude::*;
 pub use png::png;
@@ -293,9 +294,30 @@ fn typeset(figure: &Figure) -> Figure {
     });
     for text in texts.into_iter().chain(curves).chain(points).chain(maps) {
         // XML does not allow some characters, not even escaped.
-        *text = readable(&unicode(&powers(text))).into_owned();
+        let text_alone = powers(text).replace(LOW, "");
+        let below = |part: &str| part.chars().flat_map(|letter| [LOW, letter]).collect();
+        *text = readable(&lowered(&text_alone, below)).into_owned();
     }
     figure
+}
+
+/// Puts subscripts below the line. A shift moves all that follows, and counts in the size of the letters that it stands at.
+fn below_the_line(drawing: &str) -> String {
+    let mut parts = drawing.split(LOW);
+    let mut all = parts.next().unwrap_or_default().to_owned();
+    let mut is_low = false;
+    for part in parts {
+        let (letter, rest) = part.split_at(part.chars().next().map_or(0, char::len_utf8));
+        let down = if is_low { String::new() } else { format!(" dy=\"{:.3}em\"", LOW_DROP / LOW_SIZE) };
+        all += &format!("<tspan{down} font-size=\"{}%\">{letter}</tspan>", 100.0 * LOW_SIZE);
+        is_low = rest.is_empty();
+        let (same, after) = rest.split_at(rest.find(['\n', '<']).unwrap_or(rest.len()));
+        if !same.is_empty() {
+            all += &format!("<tspan dy=\"-{LOW_DROP}em\">{same}</tspan>");
+        }
+        all += after;
+    }
+    all
 }
 
 /// Sets the document's size, adds names for screen readers, and adds dashes, which plotters lacks.
@@ -304,13 +326,14 @@ fn finish(figure: &Figure, drawing: &str, (width, height): (i32, i32)) -> String
         .chain(figure.points.iter().map(|p| p.label.as_str()))
         .chain(figure.grid.iter().flat_map(|grid| &grid.maps).map(|map| map.title.as_str()))
         .collect();
+    let spoken = |text: &str| escaped(&text.replace(LOW, ""));
     let open = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" role=\"img\" width=\"{}\" height=\"{}\" \
          viewBox=\"0 0 {width} {height}\">\n<title>{}</title>\n<desc>{}</desc>",
         width / FINE,
         height / FINE,
-        escaped(&figure.title),
-        escaped(&format!("{} against {}: {}", figure.y_name, figure.x_name, labels.join(", "))),
+        spoken(&figure.title),
+        spoken(&format!("{} against {}: {}", figure.y_name, figure.x_name, labels.join(", "))),
     );
     let body = drawing.split_once('>').map_or("", |(_, body)| body);
     let looks = style::looks(figure);
@@ -319,5 +342,5 @@ fn finish(figure: &Figure, drawing: &str, (width, height): (i32, i32)) -> String
         let dashes = style::dashes(*look);
         body.replace(&stroke, &format!("{stroke} stroke-linejoin=\"round\"{dashes}"))
     });
-    open + &dashed
+    open + &below_the_line(&dashed)
 }

@@ -214,3 +214,19 @@ fn an_axis_covers_what_it_is_asked_to() {
     let figure = Figure { y_span: Some((0.0, 1.0)), ..synthetic() };
     assert!(svg(&figure).unwrap().contains(">\n1.0\n<"));
 }
+
+#[test]
+fn a_subscript_without_a_character_of_its_own_stands_below_the_line() {
+    let curves = vec![wave("C_b < 1 of μ_fiber", 0.0)];
+    let svg =
+        svg(&Figure { title: "χ²_min\u{E000}".into(), y_name: "a_12".into(), curves, ..Figure::default() })
+            .unwrap();
+    let low = |letter: &str, dy: &str| format!("<tspan{dy} font-size=\"70%\">{letter}</tspan>");
+    let down = " dy=\"0.229em\"";
+    let fiber: String = "iber".chars().map(|letter| low(&letter.to_string(), "")).collect();
+    let text =
+        format!("C{}<tspan dy=\"-0.16em\"> &lt; 1 of μ</tspan>{}{fiber}\n", low("b", down), low("f", down));
+    assert!(svg.contains(&text), "{svg}");
+    assert!(svg.contains("a₁₂") && svg.contains("Cb &lt; 1 of μfiber") && is_well_formed(&svg));
+    assert!(!svg.contains('\u{E000}') && boxes::faults(&svg).is_empty(), "{:?}", boxes::faults(&svg));
+}
