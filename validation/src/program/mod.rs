@@ -36,8 +36,7 @@ mod words;
 pub use manual::commands;
 
 use crate::files::output::{self, RECORD, Record, ResultFolder};
-use crate::files::text::Shown;
-use crate::files::text::complain;
+use crate::files::text::{Shown, complain};
 use crate::files::{cluster, text};
 use crate::present::plot::Figure;
 use clap::error::{ContextKind, ContextValue};

@@ -78,7 +78,7 @@ pub(super) struct Named {
 }
 
 impl Named {
-    /// The files that were read; none of them has the name of a built-in scene.
+    /// The files of rods that were read and the scene's; in place of a built-in scene's, a path with its name.
     pub(super) fn files(&self) -> impl Iterator<Item = PathBuf> {
         self.starts.files().chain([PathBuf::from(&self.source)])
     }

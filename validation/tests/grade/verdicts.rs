@@ -62,14 +62,18 @@ fn what_is_not_finite_is_an_answer_that_fails() {
     }
 }
 
+/// Answers of these numbers of steps that are off by these parts of the tolerance.
+fn ladder(mine: &std::path::Path, name: &str, answers: &[(u32, f64)]) {
+    for (steps, part) in answers {
+        write(mine, name, &format!("steps-{steps}.csv"), text(&off_by(name, *part)));
+    }
+}
+
 #[test]
 fn orders_are_read_from_steps_and_judged_against_a_claim() {
     let dir = tempfile::tempdir().unwrap();
     // Errors of 4096, 256, 16 tolerances, and one below it.
-    for (steps, part) in [(100, 4096.0), (200, 256.0), (400, 16.0), (800, 0.9)] {
-        let file = format!("steps-{steps}.csv");
-        write(dir.path(), "mid-flip-100", &file, text(&off_by("mid-flip-100", part)));
-    }
+    ladder(dir.path(), "mid-flip-100", &[(100, 4096.0), (200, 256.0), (400, 16.0), (800, 0.9)]);
     let ended = files(REFERENCE.path(), dir.path(), &["--order", "4"]);
     let found = ended.of("mid-flip-100");
     assert_eq!((&found["verdict"], &found["steps"]), (&"PASS".into(), &800.into()), "{found:#}");
@@ -86,10 +90,7 @@ fn orders_are_read_from_steps_and_judged_against_a_claim() {
     assert_eq!(ended.of("mid-flip-100")["note"], "observed order +4.00 where 3 is claimed");
     assert_eq!(ended.code, Some(1));
     // It diverges.
-    for (steps, part) in [(100, 16.0), (200, 256.0), (400, 4096.0)] {
-        let file = format!("steps-{steps}.csv");
-        write(dir.path(), "mid-flip-2", &file, text(&off_by("mid-flip-2", part)));
-    }
+    ladder(dir.path(), "mid-flip-2", &[(100, 16.0), (200, 256.0), (400, 4096.0)]);
     let ended = files(REFERENCE.path(), dir.path(), &[]);
     let order = ended.of("mid-flip-2")["observed_order"].as_f64().unwrap();
     assert!((order + 4.0).abs() < 1e-3, "{order}");
@@ -98,10 +99,7 @@ fn orders_are_read_from_steps_and_judged_against_a_claim() {
 #[test]
 fn one_wild_answer_between_right_ones_fails() {
     let dir = tempfile::tempdir().unwrap();
-    for (steps, part) in [(100, 4096.0), (200, 256.0), (400, 1e6), (800, 0.9)] {
-        let file = format!("steps-{steps}.csv");
-        write(dir.path(), "mid-flip-100", &file, text(&off_by("mid-flip-100", part)));
-    }
+    ladder(dir.path(), "mid-flip-100", &[(100, 4096.0), (200, 256.0), (400, 1e6), (800, 0.9)]);
     let ended = files(REFERENCE.path(), dir.path(), &[]);
     let (found, note) =
         (ended.of("mid-flip-100"), ended.of("mid-flip-100")["note"].as_str().unwrap_or_default());

@@ -68,21 +68,29 @@ pub(crate) fn key(label: &str) -> String {
     format!("{letter}{of}{unit}")
 }
 
-/// A point of a sweep, `KEY=VALUE KEY=VALUE`, as `α = 0.5, n = 20 cm⁻³`. A word without `=` continues the value before.
-pub(crate) fn point(described: &str) -> String {
-    let mut values: Vec<(String, &str)> = Vec::new();
+/// The keys and values of a point of a sweep, `KEY=VALUE KEY=VALUE`. A word without a key continues the value before.
+pub(crate) fn pairs(described: &str) -> Vec<(&str, String)> {
+    let is_key = |name: &str| {
+        !name.is_empty() && name.bytes().all(|byte| byte.is_ascii_alphanumeric() || b"_.".contains(&byte))
+    };
+    let mut pairs: Vec<(&str, String)> = Vec::new();
     for word in described.split(' ') {
-        match (word.split_once('='), values.last_mut()) {
-            (Some((key, value)), _) => {
-                let (letter, unit) = letter(key);
-                values.push((format!("{letter} = {}", short(value)), unit));
-            }
-            (None, Some((last, _))) => *last += &format!(" {word}"),
-            (None, None) => values.push((word.to_owned(), "")),
+        match (word.split_once('=').filter(|(name, _)| is_key(name)), pairs.last_mut()) {
+            (Some((key, value)), _) => pairs.push((key, value.to_owned())),
+            (None, Some((_, last))) => *last += &format!(" {word}"),
+            (None, None) => {}
         }
     }
-    let with_unit = |(text, unit): &(String, &str)| format!("{text} {unit}").trim_end().to_owned();
-    values.iter().map(with_unit).collect::<Vec<_>>().join(", ")
+    pairs
+}
+
+/// A point of a sweep as `α = 0.5, n = 20 cm⁻³`.
+pub(crate) fn point(pairs: &[(&str, String)]) -> String {
+    let label = |(key, value): &(&str, String)| {
+        let (letter, unit) = letter(key);
+        format!("{letter} = {} {unit}", short(value)).trim_end().to_owned()
+    };
+    pairs.iter().map(label).collect::<Vec<_>>().join(", ")
 }
 
 /// A number with more than seven characters in four significant digits; anything else as it is.
@@ -115,7 +123,10 @@ mod tests {
         assert_eq!(keys.map(key), ["n (cm⁻³)", "α of set 2", "periods"]);
         let two =
             "interaction.alpha=0.25 interaction.concentration_per_cm3=20 particles.orientation=in plane";
+        let point = |described| point(&pairs(described));
         assert_eq!(point(two), "α = 0.25, n = 20 cm⁻³, orientation = in plane");
         assert_eq!(point("interaction.alpha=0.2727272727272727"), "α = 0.2727");
+        let table = "particles.orientation={ phi_deg = 0.0, theta_deg = 90.0 } particles.count=20";
+        assert_eq!(point(table), "orientation = { phi_deg = 0.0, theta_deg = 90.0 }, N = 20");
     }
 }

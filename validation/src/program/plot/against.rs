@@ -9,9 +9,10 @@ use crate::program::Failure;
 /// one curve for each combination of the other keys.
 pub(super) fn against(drawn: Drawn, key: &str, at: Option<f64>) -> Result<Figure, Failure> {
     let refused = |what: String| Failure::Input(format!("--x {key}: {what}"));
-    let mut curves: Vec<(String, Vec<[f64; 3]>)> = Vec::new();
+    let Drawn { figure, runs, .. } = drawn;
+    let mut curves: Vec<(Others<'_>, Vec<[f64; 3]>)> = Vec::new();
     let mut times = Vec::new();
-    for (curve, run) in drawn.figure.curves.iter().zip(&drawn.runs) {
+    for (curve, run) in figure.curves.iter().zip(&runs) {
         let point = run.point.as_deref();
         let point = point.ok_or_else(|| {
             refused(format!("{} is no sweep; a folder of `shearbed sweep` is allowed", run.dir.shown()))
@@ -27,7 +28,7 @@ pub(super) fn against(drawn: Drawn, key: &str, at: Option<f64>) -> Result<Figure
             Failure::Input(format!(
                 "--at {at}: {} has no output at this time; the nearest is at {} = {}",
                 run.dir.shown(),
-                drawn.figure.x_name,
+                figure.x_name,
                 near.unwrap_or(&f64::NAN)
             ))
         })?;
@@ -41,42 +42,41 @@ pub(super) fn against(drawn: Drawn, key: &str, at: Option<f64>) -> Result<Figure
     }
     times.dedup();
     let when = match times[..] {
-        [time] => format!("{} = {time}", drawn.figure.x_name),
+        [time] => format!("{} = {time}", figure.x_name),
         _ => "the last output".into(),
     };
-    let curve = |(others, mut points): (String, Vec<[f64; 3]>)| {
+    let curve = |(others, mut points): (Others<'_>, Vec<[f64; 3]>)| {
         points.sort_by(|a, b| a[0].total_cmp(&b[0]));
         let column = |k: usize| points.iter().map(|point| point[k]).collect::<Vec<_>>();
         let half = column(2);
         Curve {
-            label: if others.is_empty() { drawn.figure.y_name.clone() } else { names::point(&others) },
+            label: if others.is_empty() { figure.y_name.clone() } else { names::point(&others) },
             x: column(0),
             y: column(1),
             half_band: (!half.iter().any(|half| half.is_nan())).then_some(half),
         }
     };
     Ok(Figure {
-        title: format!("{}, {when}", drawn.runs[0].scene.title),
+        title: format!("{}, {when}", runs[0].scene.title),
         x_name: names::key(key),
         curves: curves.into_iter().map(curve).collect(),
-        ..drawn.figure
+        ..figure
     })
 }
 
-/// The value of `key` in a point of a sweep, `KEY=VALUE KEY=VALUE`, and the point without it.
-fn value(point: &str, key: &str) -> Result<(f64, String), String> {
-    let is_key = |word: &&str| word.split_once('=').is_some_and(|(name, _)| name.contains('.'));
-    let words: Vec<_> = point.split(' ').collect();
-    let own = words.iter().position(|word| word.split_once('=').is_some_and(|(name, _)| name == key));
-    let own = own.ok_or_else(|| {
-        let keys = words.iter().copied().filter(is_key).filter_map(|word| word.split_once('='));
-        let keys: Vec<_> = keys.map(|(name, _)| name).collect();
+/// The other keys of a point and their values.
+type Others<'a> = Vec<(&'a str, String)>;
+
+/// The value of `key` in a point of a sweep, and the other keys.
+fn value<'a>(point: &'a str, key: &str) -> Result<(f64, Others<'a>), String> {
+    let mut pairs = names::pairs(point);
+    let own = pairs.iter().position(|(name, _)| *name == key).ok_or_else(|| {
+        let keys: Vec<_> = pairs.iter().map(|(name, _)| *name).collect();
         format!("the sweep goes over {}, of which one is allowed", keys.join(", "))
     })?;
-    let (before, after) = (&words[..own], &words[own + 1..]);
-    let number = words[own][key.len() + 1..].parse().ok().filter(|_| after.first().is_none_or(is_key));
-    let number = number.ok_or("its values are no numbers; a key with numbers is allowed")?;
-    Ok((number, [before, after].concat().join(" ")))
+    let (_, number) = pairs.remove(own);
+    let number = number.parse().map_err(|_| "its values are no numbers; a key with numbers is allowed")?;
+    Ok((number, pairs))
 }
 
 #[cfg(test)]
@@ -87,15 +87,14 @@ mod tests {
     fn a_point_has_the_value_of_a_key_and_what_is_left() {
         let point = "interaction.alpha=0.5 particles.orientation=in plane particles.count=20";
         let of = |key| value(point, key);
-        assert_eq!(
-            of("interaction.alpha"),
-            Ok((0.5, "particles.orientation=in plane particles.count=20".into()))
-        );
-        assert_eq!(
-            of("particles.count"),
-            Ok((20.0, "interaction.alpha=0.5 particles.orientation=in plane".into()))
-        );
-        assert_eq!(value("flow.shear_rate_per_s=2", "flow.shear_rate_per_s"), Ok((2.0, String::new())));
+        let [alpha, orientation, count] = [
+            ("interaction.alpha", "0.5".to_owned()),
+            ("particles.orientation", "in plane".to_owned()),
+            ("particles.count", "20".to_owned()),
+        ];
+        assert_eq!(of("interaction.alpha"), Ok((0.5, vec![orientation.clone(), count])));
+        assert_eq!(of("particles.count"), Ok((20.0, vec![alpha, orientation])));
+        assert_eq!(value("flow.shear_rate_per_s=2", "flow.shear_rate_per_s"), Ok((2.0, Vec::new())));
         assert!(of("particles.orientation").unwrap_err().starts_with("its values are no numbers"));
         let keys = "the sweep goes over interaction.alpha, particles.orientation, particles.count, of which one is allowed";
         assert_eq!(of("alpha").unwrap_err(), keys);

@@ -110,7 +110,8 @@ fn points(dir: &Path, record: &Record) -> Result<Vec<Run>, Failure> {
     let point = |(name, folder): (&String, &str)| {
         let record: Record = json(dir, name, record)?;
         let point = record.origin.inputs[POINT].as_str().map(str::to_owned);
-        let label = point.as_deref().map_or_else(|| folder.to_owned(), names::point);
+        let label =
+            point.as_deref().map_or_else(|| folder.to_owned(), |point| names::point(&names::pairs(point)));
         Ok(Run { label, point, scene: scene.clone(), dir: dir.join(folder), record })
     };
     of_points.map(point).collect()

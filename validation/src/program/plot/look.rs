@@ -56,9 +56,17 @@ fn size(text: &str) -> Result<(u32, u32), String> {
     })
 }
 
+/// The coordinates of all curves and points, along and up.
+fn values(figure: &Figure) -> [Vec<f64>; 2] {
+    let curves = figure.curves.iter().map(|curve| (&curve.x, &curve.y));
+    let series = curves.chain(figure.points.iter().map(|points| (&points.x, &points.y)));
+    let (x, y): (Vec<_>, Vec<_>) = series.unzip();
+    [x, y].map(|all| all.into_iter().flatten().copied().collect())
+}
+
 /// Refuses a range that no curve and no point reaches.
-fn reached(flag: &str, range: Option<(f64, f64)>, all: impl Iterator<Item = f64>) -> Result<(), Failure> {
-    let finite = all.filter(|value| value.is_finite());
+fn reached(flag: &str, range: Option<(f64, f64)>, all: &[f64]) -> Result<(), Failure> {
+    let finite = all.iter().copied().filter(|value| value.is_finite());
     let (least, most) =
         finite.fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), v| (v.min(least), v.max(most)));
     match range {
@@ -70,20 +78,17 @@ fn reached(flag: &str, range: Option<(f64, f64)>, all: impl Iterator<Item = f64>
 }
 
 /// What a logarithmic axis leaves out.
-fn left_out(flag: &str, log: bool, all: impl Iterator<Item = f64>) -> Option<String> {
-    let count = all.filter(|value| *value <= 0.0).count();
+fn left_out(flag: &str, log: bool, all: &[f64]) -> Option<String> {
+    let count = all.iter().filter(|value| **value <= 0.0).count();
     (log && count > 0).then(|| format!("{flag}: values at or below 0 are not drawn: {count}"))
 }
 
 impl Look {
     /// Warnings about what the flags leave out of a figure.
     pub(super) fn warnings(&self, figure: &Figure) -> Vec<String> {
-        let curves = figure.curves.iter().map(|curve| (&curve.x, &curve.y));
-        let series: Vec<_> =
-            curves.chain(figure.points.iter().map(|points| (&points.x, &points.y))).collect();
-        let x = left_out("--log-x", self.log_x, series.iter().flat_map(|(x, _)| x.iter().copied()));
-        let y = left_out("--log-y", self.log_y, series.iter().flat_map(|(_, y)| y.iter().copied()));
-        x.into_iter().chain(y).collect()
+        let [x, y] = values(figure);
+        let x = left_out("--log-x", self.log_x, &x);
+        x.into_iter().chain(left_out("--log-y", self.log_y, &y)).collect()
     }
 
     /// Applies the flags to a figure.
@@ -128,10 +133,9 @@ impl Look {
         }
         figure.x_range = self.x_range.or(figure.x_range);
         figure.y_range = self.y_range.or(figure.y_range);
-        let curves = || figure.curves.iter().map(|curve| (&curve.x, &curve.y));
-        let series = || curves().chain(figure.points.iter().map(|points| (&points.x, &points.y)));
-        reached("--x-range", self.x_range, series().flat_map(|(x, _)| x.iter().copied()))?;
-        reached("--y-range", self.y_range, series().flat_map(|(_, y)| y.iter().copied()))?;
+        let [x, y] = values(figure);
+        reached("--x-range", self.x_range, &x)?;
+        reached("--y-range", self.y_range, &y)?;
         figure.size = self.size.or(figure.size);
         if self.theme == "dark" {
             figure.theme = Theme::Dark;

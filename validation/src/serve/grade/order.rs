@@ -145,11 +145,12 @@ impl Orders {
     }
 }
 
-/// An error that is larger by this factor than those of fewer and of more steps is no method's.
-const WILD: f64 = 32.0;
+/// An error is far off if it exceeds the prediction of other settings by this factor: between two settings that is five orders
+/// more than the method's, and between neighbours, whose steps differ by an eighth at most, an order of thirty.
+pub(super) const FAR: f64 = 32.0;
 
-/// The highest order in use: what an error may fall by between two settings.
-const HIGHEST: f64 = 8.0;
+/// The order assumed where errors do not show one: that of the highest methods in use.
+pub(super) const HIGHEST: f64 = 8.0;
 
 /// A message about an answer that is off by far where one with fewer steps follows the motion closely; none if there is no such answer.
 /// What its error should be is foretold by a power law through two others, of which only one may be small by chance: then either this
@@ -173,7 +174,7 @@ pub fn wild(errors: &[(u64, f64)], tolerance: f64) -> Option<String> {
     };
     let is_wild = |k: &usize| {
         let (own, before) = (size(*k), size(k - 1));
-        before < CLOSE && own > 2.0 * before && own > WILD * foretold(*k).max(tolerance)
+        before < CLOSE && own > 2.0 * before && own > FAR * foretold(*k).max(tolerance)
     };
     let k = (1..errors.len()).find(is_wild)?;
     let said = |k: usize| format!("{:.1e} with {}", errors[k].1, errors[k].0);

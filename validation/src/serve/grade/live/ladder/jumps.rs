@@ -9,14 +9,8 @@ use super::Rung;
 use super::climb::End;
 use crate::methods::integrators::Setting;
 use crate::serve::grade::live::program::Asked;
+use crate::serve::grade::order::{FAR, HIGHEST};
 use std::f64::consts::FRAC_PI_2;
-
-/// An error is far off if it exceeds the prediction of finer settings by this factor: between two settings that is five orders
-/// more than the method's, and between neighbours, whose steps differ by an eighth at most, an order of thirty.
-const FAR: f64 = 32.0;
-
-/// The order assumed where errors above the tolerance do not show one: that of the highest methods in use.
-const HIGHEST: f64 = 8.0;
 
 /// An error in rad of a method that follows the motion closely: at larger errors a correct method may lose the motion from one
 /// number of steps to the next, as AB3 in angles does beside a pole.
