@@ -6,6 +6,7 @@
 
 pub mod coefficients;
 pub mod integrators;
+pub mod interpolate;
 pub mod least_squares;
 pub mod projections;
 pub mod starts;

@@ -2,6 +2,9 @@
 
 use super::free;
 use nalgebra::Vector3;
+use rand::SeedableRng;
+use rand::seq::SliceRandom;
+use rand_pcg::Pcg64Dxsm;
 use shearbed::model::jeffery::{shape_factor, strain_per_period};
 use shearbed::model::orientation::bounded_orbit_constant;
 use shearbed::scene::Scene;
@@ -43,6 +46,41 @@ pub fn above(all: &[Shares], quantity: Quantity, edge: f64) -> Vec<f64> {
     let place = quantity.edges().iter().position(|own| *own == edge);
     let share = |shares: &Shares| place.map_or(f64::NAN, |place| shares[quantity as usize][place]);
     all.iter().map(share).collect()
+}
+
+/// The distance between two samples of replicas.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Apart {
+    /// The largest difference between the mean shares above an edge: Kolmogorov's distance, at the edges.
+    pub distance: f64,
+    /// The probability of at least this distance if the replicas are assigned to the two samples at random.
+    pub p: f64,
+}
+
+/// Number of random assignments behind a p-value.
+const DEALS: u64 = 999;
+
+/// The distance of two samples, by a permutation test: it may treat the rods of a replica as dependent.
+pub fn apart(one: &[Shares], other: &[Shares], quantity: Quantity, seed: u64) -> Apart {
+    let edges = quantity.edges().len();
+    let mut all: Vec<&Vec<f64>> = one.iter().chain(other).map(|r| &r[quantity as usize]).collect();
+    let distance = |all: &[&Vec<f64>]| {
+        let (a, b) = all.split_at(one.len());
+        let mean = |sample: &[&Vec<f64>], edge: usize| {
+            sample.iter().map(|shares| shares[edge]).sum::<f64>() / sample.len() as f64
+        };
+        (0..edges)
+            .map(|edge| (mean(a, edge) - mean(b, edge)).abs())
+            .fold(0.0, |most, next| if next > most || next.is_nan() { next } else { most })
+    };
+    let found = distance(&all);
+    let mut rng = Pcg64Dxsm::seed_from_u64(seed);
+    let as_far = (0..DEALS).filter(|_| {
+        all.shuffle(&mut rng);
+        // Sums in a different order differ by rounding.
+        distance(&all) > found - 1e-12
+    });
+    Apart { distance: found, p: (1 + as_far.count()) as f64 / (1 + DEALS) as f64 }
 }
 
 /// The duration of the observation.
@@ -163,5 +201,27 @@ mod tests {
     fn shares_are_of_values_above_the_edges() {
         let mut values = [0.5, 0.1, f64::NAN, 0.2];
         assert_eq!(shares(&mut values, &[0.0, 0.1, 0.2, 9.0]), [1.0, 0.75, 0.5, 0.25]);
+    }
+
+    /// Independent replicas with a common mean.
+    fn made(mean: f64, seed: u64) -> Vec<Shares> {
+        let mut rng = Pcg64Dxsm::seed_from_u64(seed);
+        let one = || {
+            let mut off: Vec<f64> = (0..100).map(|k| 0.01 * f64::from(k)).collect();
+            off.shuffle(&mut rng);
+            Quantity::ALL.map(|quantity| vec![mean + off[quantity as usize]; quantity.edges().len()])
+        };
+        std::iter::repeat_with(one).take(12).collect()
+    }
+
+    #[test]
+    fn only_samples_that_differ_are_told_apart() {
+        let p =
+            |mean: f64, seed: u64| apart(&made(0.0, seed), &made(mean, 1000 + seed), Quantity::Orbit, seed).p;
+        let trials = 200;
+        let low = (0..trials).filter(|seed| p(0.0, *seed) <= 0.1).count() as f64;
+        // A p-value is at most 0.1 in a tenth of the trials, to five standard errors of a share of 200: 0.106.
+        assert!((low / trials as f64 - 0.1).abs() < 0.106, "{low}");
+        assert!((0..10).all(|seed| p(0.8, seed) <= 0.002));
     }
 }

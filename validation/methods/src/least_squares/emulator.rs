@@ -71,6 +71,9 @@ pub type Sides = Vec<(f64, f64)>;
 /// Standard errors of the replicas' noise; a residual of a polynomial beyond them counts as its error.
 const CERTAIN: f64 = 2.0;
 
+/// Number of replicas in one product of matrices.
+const TOGETHER: usize = 32;
+
 /// The runs of a model at every node of a box. Polynomials are linear in the values at the nodes, so each replica has its own
 /// polynomials: their mean is the model, their scatter its error, and noise that replicas share between parameter values
 /// cancels as it should.
@@ -177,9 +180,18 @@ impl Emulator {
     pub fn noise(&self, inverse: &DMatrix<f64>) -> DMatrix<f64> {
         let n = self.replicas() as f64;
         let terms = self.mean().nrows();
-        let one = |deviation: &DMatrix<f64>| deviation * inverse * deviation.transpose();
-        let all: Vec<DMatrix<f64>> = self.deviations.par_iter().map(one).collect();
-        let sum = all.iter().fold(DMatrix::zeros(terms, terms), |sum, one| sum + one);
+        let zero = DMatrix::zeros(terms, terms);
+        // One product with V⁻¹ for many replicas: a replica alone has too few rows for the fast kernels.
+        let some = |deviations: &[DMatrix<f64>]| {
+            let columns: Vec<_> =
+                deviations.iter().flat_map(|one| one.row_iter().map(|row| row.transpose())).collect();
+            let stacked = DMatrix::from_columns(&columns);
+            let weighted = inverse * &stacked;
+            let of = |k: usize| stacked.columns(k * terms, terms).tr_mul(&weighted.columns(k * terms, terms));
+            (0..deviations.len()).fold(zero.clone(), |sum, k| sum + of(k))
+        };
+        let all: Vec<DMatrix<f64>> = self.deviations.par_chunks(TOGETHER).map(some).collect();
+        let sum = all.iter().fold(zero.clone(), |sum, one| sum + one);
         sum / (n * (n - 1.0))
     }
 

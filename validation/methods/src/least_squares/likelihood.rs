@@ -58,6 +58,8 @@ pub struct ChiSquare {
     square: DMatrix<f64>,
     /// The average contribution of the replicas' noise to `square`.
     noise: DMatrix<f64>,
+    /// `square` less `noise`.
+    reduced: DMatrix<f64>,
 }
 
 impl ChiSquare {
@@ -69,10 +71,12 @@ impl ChiSquare {
         let solver = covariance.clone().cholesky()?;
         let weighted = solver.solve(&error);
         let (origin, noise) = (emulator.basis.terms(near), emulator.noise(&solver.inverse()));
+        let square = terms * solver.solve(&terms.transpose());
         Some(Self {
             constant: error.dot(&weighted),
             linear: terms * weighted + &noise * &origin,
-            square: terms * solver.solve(&terms.transpose()),
+            reduced: &square - &noise,
+            square,
             noise,
             origin,
             basis: emulator.basis.clone(),
@@ -82,14 +86,13 @@ impl ChiSquare {
     /// χ² at a place.
     pub fn at(&self, place: &[f64]) -> f64 {
         let away = self.basis.terms(place) - &self.origin;
-        let square = away.dot(&(&self.square * &away)) - away.dot(&(&self.noise * &away));
-        self.constant - 2.0 * self.linear.dot(&away) + square
+        self.constant - 2.0 * self.linear.dot(&away) + away.dot(&(&self.reduced * &away))
     }
 
     /// Half the gradient, and half the second derivatives without those of the model (Gauss–Newton) but with the noise.
     pub fn slopes(&self, place: &[f64]) -> (DVector<f64>, DMatrix<f64>) {
         let (away, slopes) = (self.basis.terms(place) - &self.origin, self.basis.slopes(place));
-        let gradient = slopes.tr_mul(&(&self.square * &away - &self.noise * &away - &self.linear));
+        let gradient = slopes.tr_mul(&(&self.reduced * &away - &self.linear));
         (gradient, slopes.tr_mul(&(&self.square * &slopes)))
     }
 
@@ -98,6 +101,7 @@ impl ChiSquare {
         Self {
             linear: &self.linear - &self.noise * &self.origin,
             noise: DMatrix::zeros(self.noise.nrows(), self.noise.ncols()),
+            reduced: self.square.clone(),
             ..self.clone()
         }
     }

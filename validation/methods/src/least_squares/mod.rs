@@ -4,6 +4,7 @@
 pub mod basis;
 pub mod best;
 mod datum;
+pub mod direct;
 pub mod emulator;
 pub mod likelihood;
 pub mod minimise;

@@ -12,6 +12,12 @@ use std::f64::consts::PI;
 /// Largest number of multiplications of an elimination: about ten seconds.
 const MOST_WORK: f64 = 3e10;
 
+/// Refinements in a row after which a change below [`SMALL`] that has not become smaller is due to rounding.
+const STALLED: usize = 3;
+
+/// A larger change may stand still because the density is not resolved at all yet.
+const SMALL: f64 = 1e-7;
+
 /// Means over the steady density, and their change when harmonics were last added.
 pub(super) fn refined(frame: &Frame) -> Result<([f64; MEANS], f64), NoAnswer> {
     if frame.motion.diffusivity == f64::INFINITY {
@@ -30,13 +36,20 @@ pub(super) fn refined(frame: &Frame) -> Result<([f64; MEANS], f64), NoAnswer> {
     let more = |size: usize| size + size / 3 + 2;
     let (mut degree, mut order) = (20, 14);
     let mut means = of(degree, order)?;
+    let (mut least, mut stalled) = (f64::INFINITY, 0);
     loop {
         let higher = of(more(degree), order)?;
         let degrees = apart(&means, &higher);
         let wider = of(more(degree), more(order))?;
         let orders = apart(&higher, &wider);
-        if degrees.max(orders) <= WANTED {
-            return Ok((wider, degrees.max(orders)));
+        let change = degrees.max(orders);
+        if change <= WANTED {
+            return Ok((wider, change));
+        }
+        stalled = if change < least || least > SMALL { 0 } else { stalled + 1 };
+        least = least.min(change);
+        if stalled == STALLED {
+            return Err(NoAnswer::TooMuchWork);
         }
         // Degree or order is not raised if its change is less than a tenth of the other's.
         if degrees > 0.1 * orders {

@@ -23,7 +23,6 @@ pub use comparison::{AlphaFit, Comparison, Point};
 pub use error::DataError;
 use error::unreadable;
 pub(crate) use error::{MOST_BYTES, read_text};
-pub(crate) use model::interpolate;
 pub use provenance::{Axis, Key, Layout, OBSERVABLES, Projection, Provenance, Time};
 
 use crate::files::bounded;

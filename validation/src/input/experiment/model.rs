@@ -1,5 +1,6 @@
 //! The model's values at the times of measured points, with their uncertainties.
 
+use crate::methods::interpolate::interpolate;
 use nalgebra::DMatrix;
 use rayon::prelude::*;
 use shearbed::observable::Channel;
@@ -56,8 +57,8 @@ pub(super) fn run(scene: &Scene, places: &[MeasuredAt], replicas: u64, finer: u6
             let found = run_replica(&plan, replica).map_err(|error| error.to_string())?;
             let evaluate = |place: &MeasuredAt| -> [f64; EACH] {
                 let at = |output: usize| found.mean(Channel::X[place.channel], output).unwrap_or(f64::NAN);
-                let cubic = |turns: f64| interpolate(plan.outputs(), turns * per_period as f64, 4, at);
-                let linear = interpolate(plan.outputs(), place.turns * per_period as f64, 2, at);
+                let cubic = |turns: f64| interpolate(plan.outputs(), turns * per_period as f64, 4, &at);
+                let linear = interpolate(plan.outputs(), place.turns * per_period as f64, 2, &at);
                 let [before, after] = nodes(place);
                 [cubic(place.turns), linear, cubic(before), cubic(after)]
             };
@@ -83,36 +84,10 @@ pub(super) fn run(scene: &Scene, places: &[MeasuredAt], replicas: u64, finer: u6
     })
 }
 
-/// The value at `at`, counted in outputs, of Lagrange's polynomial through the `order` outputs around it. Before the first output
-/// the curve is constant.
-pub(crate) fn interpolate(outputs: usize, at: f64, order: usize, value: impl Fn(usize) -> f64) -> f64 {
-    let at = at.clamp(0.0, (outputs - 1) as f64);
-    let order = order.min(outputs);
-    let first = (at.floor() as usize + 1).saturating_sub(order / 2).min(outputs - order);
-    let weight = |k: usize| -> f64 {
-        let others = (first..first + order).filter(|other| *other != k);
-        others.map(|other| (at - other as f64) / (k as f64 - other as f64)).product()
-    };
-    (first..first + order).map(|k| weight(k) * value(k)).sum()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use approx::assert_relative_eq;
-
-    #[test]
-    fn a_cubic_and_a_line_are_met_everywhere() {
-        let cubic = |t: f64| 1.0 + t - 0.3 * t * t + 0.02 * t.powi(3);
-        let line = |t: f64| 2.0 - 0.1 * t;
-        for at in [0.0, 0.3, 1.0, 4.5, 9.99, 10.0] {
-            let found = interpolate(11, at, 4, |k| cubic(k as f64));
-            assert_relative_eq!(found, cubic(at), max_relative = 1e-12);
-            let found = interpolate(11, at, 2, |k| line(k as f64));
-            assert_relative_eq!(found, line(at), max_relative = 1e-12);
-        }
-        assert_eq!(interpolate(11, -0.2, 4, |k| k as f64 + 5.0), 5.0);
-    }
 
     #[test]
     fn finer_steps_are_other_steps_at_the_same_times() {

@@ -3,10 +3,10 @@
 
 use super::range::Range;
 use super::search::{FIRST_REPLICAS, Fit, FitProblem, Watch};
-use crate::methods::least_squares::Datum;
+use crate::methods::least_squares::direct::Direct;
 use crate::methods::least_squares::emulator::{Known, Prediction};
 use crate::methods::least_squares::profile::rise_of;
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DVector;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 /// Parts of each range at first; a part is halved where the curves change too much over it.
@@ -171,31 +171,10 @@ impl Line<'_> {
 
     /// χ² at the place `at` from the predictions `rows` of its replicas.
     fn tried(&self, at: f64, rows: &[Vec<Prediction>]) -> Result<Tried, String> {
-        let (mean, se, covariance) = self.covariance(rows);
-        let data = self.problem.measured.data;
-        let error = DVector::from_fn(data.len(), |i, _| data[i].value) - &mean;
-        let solver = covariance.cholesky().ok_or("the covariance of the points is not positive")?;
-        Ok(Tried { at, chi_square: error.dot(&solver.solve(&error)), mean, se })
-    }
-
-    /// Means over replicas, their standard errors, and the covariance of measured less predicted values: as in a fit, without polynomials.
-    fn covariance(&self, rows: &[Vec<Prediction>]) -> (DVector<f64>, DVector<f64>, DMatrix<f64>) {
         let measured = &self.problem.measured;
-        let (points, n) = (measured.data.len(), rows.len() as f64);
-        let mean = |which: usize| {
-            DVector::from_fn(points, |point, _| rows.iter().map(|row| row[point][which]).sum::<f64>() / n)
-        };
-        let [at, before, after] = [0, 1, 2].map(mean);
-        let away = DMatrix::from_fn(rows.len(), points, |row, point| rows[row][point][0] - at[point]);
-        let of_replica = away.tr_mul(&away) / (n - 1.0);
-        let set = |point: usize| measured.data[point].set;
-        let covariance = DMatrix::from_fn(points, points, |i, j| {
-            let rods = if set(i) == set(j) { measured.rods_over_measured[set(i)] } else { 0.0 };
-            let own: &Datum = &measured.data[i];
-            let reading = own.u.powi(2) + ((before[i] - at[i]).powi(2) + (after[i] - at[i]).powi(2)) / 6.0;
-            of_replica[(i, j)] * (rods + 1.0 / n) + if i == j { reading } else { 0.0 }
-        });
-        (at, (of_replica.diagonal() / n).map(f64::sqrt), covariance)
+        let found = Direct::of(measured.data, rows, measured.rods_over_measured);
+        let Direct { mean, se, chi_square } = found.ok_or("the covariance of the points is not positive")?;
+        Ok(Tried { at, chi_square, mean, se })
     }
 
     /// Places along the range, and true if they are close enough that no curve changes unseen between two of them.

@@ -2,8 +2,8 @@
 
 use super::data::TimeColumn;
 use super::range::Range;
-use crate::input::experiment::interpolate;
 use crate::input::start::Starts;
+use crate::methods::interpolate::interpolate;
 use crate::methods::least_squares::Datum;
 use crate::methods::least_squares::emulator::{Part, Prediction, Replica};
 use crate::serve::sweep::{self, Setting};
@@ -261,7 +261,7 @@ fn predict(plan: &Plan, looks: &[Look], replica: u64) -> Result<Vec<(usize, Pred
     let found = run_replica(plan, replica).map_err(|error| error.to_string())?;
     let one = |look: &Look| {
         let mean = |output: usize| found.mean(look.channel, output).unwrap_or(f64::NAN);
-        let at = |outputs: f64| interpolate(plan.outputs(), outputs, 4, mean);
+        let at = |outputs: f64| interpolate(plan.outputs(), outputs, 4, &mean);
         (look.point, [0.0, -OUTER, OUTER].map(|side| at(look.outputs + side * look.u_outputs)))
     };
     Ok(looks.iter().map(one).collect())

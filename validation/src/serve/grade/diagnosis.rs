@@ -243,8 +243,8 @@ mod tests {
             let of_row = |row: usize| {
                 let (start, time) = (loaded.start[row % loaded.start.len()], row / loaded.start.len());
                 let p = Vector3::from(start);
-                let p = mistakes::at_a_rate(&setting(&loaded), &p, loaded.problem.times_s[time], 0.833);
-                p.unwrap().as_slice().to_vec()
+                let map = mistakes::right_map(&setting(&loaded), 0.833 * loaded.problem.times_s[time]);
+                (map.unwrap() * p).normalize().as_slice().to_vec()
             };
             let certified = Answer::certified(&loaded);
             let rows = (0..certified.rows.len()).map(of_row).collect();

@@ -58,11 +58,26 @@ impl Mistake {
     }
 }
 
-/// The correct map, with determinant 1, in an incompressible flow; `None` if it is not finite.
+/// The correct motion.
+pub struct Motion(Propagator);
+
+impl Motion {
+    /// The motion in this flow of a rod of this aspect ratio; `None` if the gradient is none.
+    pub fn of(setting: &Setting) -> Option<Self> {
+        let flow = VelocityGradient::new(setting.gradient_per_s)?;
+        Some(Self(Propagator::new(&flow, setting.aspect_ratio)))
+    }
+
+    /// The map over a time, with determinant 1 in an incompressible flow; `None` if it is not finite.
+    pub fn map(&self, time_s: f64) -> Option<Matrix3<f64>> {
+        let (map, _) = self.0.map(Span::Seconds(time_s))?;
+        unimodular(map)
+    }
+}
+
+/// The correct map after a time.
 pub fn right_map(setting: &Setting, time_s: f64) -> Option<Matrix3<f64>> {
-    let flow = VelocityGradient::new(setting.gradient_per_s)?;
-    let (map, _) = Propagator::new(&flow, setting.aspect_ratio).map(Span::Seconds(time_s))?;
-    unimodular(map)
+    Motion::of(setting)?.map(time_s)
 }
 
 /// The map scaled to determinant 1, within double precision: the size of a very strongly stretched map is arbitrary.
@@ -208,12 +223,6 @@ fn by_angles(p: &Vector3<f64>, convert: fn(f64) -> f64) -> Vector3<f64> {
     let phi = convert(p.y.atan2(p.x));
     let theta = convert(p.x.hypot(p.y).atan2(p.z));
     Vector3::new(theta.sin() * phi.cos(), theta.sin() * phi.sin(), theta.cos())
-}
-
-/// The correct direction of a rod whose time runs at `factor` times the true rate; `None` if it is not finite.
-pub fn at_a_rate(setting: &Setting, p: &Vector3<f64>, time_s: f64, factor: f64) -> Option<Vector3<f64>> {
-    let q = (right_map(setting, factor * time_s)? * p).normalize();
-    q.iter().all(|component| component.is_finite()).then_some(q)
 }
 
 /// ωt of the correct motion, 2π per period, in plane Couette flow.

@@ -3,9 +3,9 @@
 
 use super::answer::Answer;
 use super::diagnosis::{apart, setting};
-use super::mistakes::{Setting, at_a_rate, phase};
+use super::mistakes::{Motion, Setting, phase};
 use crate::serve::problems::{Kind, LoadedProblem};
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 use std::f64::consts::PI;
 
 /// The highest rate that is tried.
@@ -30,12 +30,14 @@ pub(super) fn rates(
     if loaded.problem.kind != Kind::Rods {
         return Vec::new();
     }
-    let first = loaded.problem.times_s.first().copied().unwrap_or(f64::NAN);
-    let candidates = match phase(setting, first) {
-        Some(due) => by_phase(loaded, answer, setting, due).unwrap_or_default(),
-        None => nearest(loaded, answer, setting),
+    let (Some(motion), Some(first)) = (Motion::of(setting), loaded.problem.times_s.first()) else {
+        return Vec::new();
     };
-    let fit = |rate: f64| fits(loaded, answer, setting, rate, nearer_than);
+    let candidates = match phase(setting, *first) {
+        Some(due) => by_phase(loaded, answer, setting, due).unwrap_or_default(),
+        None => nearest(loaded, answer, &motion),
+    };
+    let fit = |rate: f64| fits(loaded, answer, &motion, rate, nearer_than);
     let rests = |rate: f64| fit(0.95 * rate) && fit(1.05 * rate);
     candidates
         .into_iter()
@@ -55,15 +57,26 @@ fn by_phase(loaded: &LoadedProblem, answer: &Answer, setting: &Setting, due: f64
         .then(|| (0..=most as u32).map(|half_turns| (turned + PI * f64::from(half_turns)) / due).collect())
 }
 
-/// The rates at which the rods come nearest at the first time, by a search around each minimum of many tried rates.
-fn nearest(loaded: &LoadedProblem, answer: &Answer, setting: &Setting) -> Vec<f64> {
-    let off = |rate: f64| {
-        let of_rod = |(start, values): (&[f64; 3], &Vec<f64>)| {
-            let p = at_a_rate(setting, &Vector3::from(*start), loaded.problem.times_s[0], rate);
-            p.map_or(f64::INFINITY, |p| apart(&Vector3::from_row_slice(values), &p, false))
-        };
-        loaded.start.iter().zip(&answer.rows).map(of_rod).fold(0.0, f64::max)
+/// The largest distance of the rows at one time from correct rods after `time_s`.
+fn off(loaded: &LoadedProblem, rows: &[Vec<f64>], motion: &Motion, time_s: f64) -> f64 {
+    let Some(map) = motion.map(time_s) else {
+        return f64::INFINITY;
     };
+    let of_rod = |(start, values): (&[f64; 3], &Vec<f64>)| {
+        moved(&map, start).map_or(f64::INFINITY, |p| apart(&Vector3::from_row_slice(values), &p, false))
+    };
+    loaded.start.iter().zip(rows).map(of_rod).fold(0.0, f64::max)
+}
+
+/// The direction of a rod that starts along `start`; `None` if it is not finite.
+fn moved(map: &Matrix3<f64>, start: &[f64; 3]) -> Option<Vector3<f64>> {
+    let p = (map * Vector3::from(*start)).normalize();
+    p.iter().all(|component| component.is_finite()).then_some(p)
+}
+
+/// The rates at which the rods come nearest at the first time, by a search around each minimum of many tried rates.
+fn nearest(loaded: &LoadedProblem, answer: &Answer, motion: &Motion) -> Vec<f64> {
+    let off = |rate: f64| off(loaded, &answer.rows, motion, rate * loaded.problem.times_s[0]);
     let step = MOST / f64::from(TRIED);
     let tried: Vec<f64> = (0..=TRIED).map(|k| off(step * f64::from(k))).collect();
     let least = tried.windows(3).enumerate().filter(|(_, of)| of[1] <= of[0] && of[1] <= of[2]);
@@ -73,12 +86,19 @@ fn nearest(loaded: &LoadedProblem, answer: &Answer, setting: &Setting) -> Vec<f6
 /// The place of the minimum of `f` between two ends, by golden section.
 fn golden(f: impl Fn(f64) -> f64, [mut low, mut high]: [f64; 2]) -> f64 {
     let section = 0.5 * (5f64.sqrt() - 1.0);
-    for _ in 0..80 {
-        let [a, b] = [high - section * (high - low), low + section * (high - low)];
-        if f(a) < f(b) {
-            high = b;
+    let inner = |low: f64, high: f64| [high - section * (high - low), low + section * (high - low)];
+    let [mut a, mut b] = inner(low, high);
+    let [mut f_a, mut f_b] = [f(a), f(b)];
+    for _ in 0..60 {
+        // One of the two places inside is one of the next two.
+        if f_a < f_b {
+            (high, b, f_b) = (b, a, f_a);
+            a = inner(low, high)[0];
+            f_a = f(a);
         } else {
-            low = a;
+            (low, a, f_a) = (a, b, f_b);
+            b = inner(low, high)[1];
+            f_b = f(b);
         }
     }
     0.5 * (low + high)
@@ -88,14 +108,11 @@ fn golden(f: impl Fn(f64) -> f64, [mut low, mut high]: [f64; 2]) -> f64 {
 pub(super) fn shows(loaded: &LoadedProblem, rate: f64) -> bool {
     let certified = Answer::certified(loaded);
     let nearer_than = 2.0 * loaded.problem.tolerance;
-    loaded.problem.kind == Kind::Rods && !fits(loaded, &certified, &setting(loaded), rate, nearer_than)
+    let fits = |motion: Motion| fits(loaded, &certified, &motion, rate, nearer_than);
+    loaded.problem.kind == Kind::Rods && !Motion::of(&setting(loaded)).is_some_and(fits)
 }
 
-fn fits(loaded: &LoadedProblem, answer: &Answer, setting: &Setting, rate: f64, nearer_than: f64) -> bool {
-    let count = loaded.start.len();
-    answer.rows.iter().enumerate().all(|(row, values)| {
-        let (start, time) = (Vector3::from(loaded.start[row % count]), loaded.problem.times_s[row / count]);
-        let expected = at_a_rate(setting, &start, time, rate);
-        expected.is_some_and(|p| apart(&Vector3::from_row_slice(values), &p, false) <= nearer_than)
-    })
+fn fits(loaded: &LoadedProblem, answer: &Answer, motion: &Motion, rate: f64, nearer_than: f64) -> bool {
+    let times = answer.rows.chunks(loaded.start.len()).zip(&loaded.problem.times_s);
+    times.map(|(rows, time_s)| off(loaded, rows, motion, rate * time_s)).all(|off| off <= nearer_than)
 }

@@ -2,20 +2,15 @@
 //! their final orbits and phases.
 
 mod show;
-#[cfg(test)]
-mod tests;
 
 pub(super) use show::{figures, tables};
 
 use super::{Coefficients, Setting, scene};
 use crate::judge::case::Effort;
 use crate::judge::lab;
-use crate::judge::statistics::{Estimate, worst};
-use crate::methods::coefficients::jumps::{Quantity, Shares, Watch, observed};
+use crate::judge::statistics::Estimate;
+use crate::methods::coefficients::jumps::{Shares, Watch, observed};
 use crate::methods::coefficients::{Diffusing, Diffusion};
-use rand::SeedableRng;
-use rand::seq::SliceRandom;
-use rand_pcg::Pcg64Dxsm;
 use rayon::prelude::*;
 use shearbed::model::jeffery::shape_factor;
 use shearbed::scene::Scene;
@@ -51,38 +46,6 @@ pub fn diffused(
         })
     };
     (0..replicas).into_par_iter().map(one).collect()
-}
-
-/// The distance between two samples of replicas.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Apart {
-    /// The largest difference between the mean shares above an edge: Kolmogorov's distance, at the edges.
-    pub distance: f64,
-    /// The probability of at least this distance if the replicas are assigned to the two samples at random.
-    pub p: f64,
-}
-
-/// Number of random assignments behind a p-value.
-const DEALS: u64 = 999;
-
-/// The distance of two samples, by a permutation test: it may treat the rods of a replica as dependent.
-pub fn apart(one: &[Shares], other: &[Shares], quantity: Quantity, seed: u64) -> Apart {
-    let mut all: Vec<&Vec<f64>> = one.iter().chain(other).map(|r| &r[quantity as usize]).collect();
-    let distance = |all: &[&Vec<f64>]| {
-        let (a, b) = all.split_at(one.len());
-        let mean = |sample: &[&Vec<f64>], edge: usize| {
-            sample.iter().map(|shares| shares[edge]).sum::<f64>() / sample.len() as f64
-        };
-        worst((0..quantity.edges().len()).map(|edge| (mean(a, edge) - mean(b, edge)).abs()))
-    };
-    let found = distance(&all);
-    let mut rng = Pcg64Dxsm::seed_from_u64(seed);
-    let as_far = (0..DEALS).filter(|_| {
-        all.shuffle(&mut rng);
-        // Sums in a different order differ by rounding.
-        distance(&all) > found - 1e-12
-    });
-    Apart { distance: found, p: (1 + as_far.count()) as f64 / (1 + DEALS) as f64 }
 }
 
 /// A suspension, and diffusion with its measured C_I.

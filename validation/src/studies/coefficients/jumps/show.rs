@@ -1,9 +1,9 @@
 //! Kicks compared with diffusion, as tables and pictures.
 
-use super::{Apart, Compared, apart};
+use super::Compared;
 use crate::judge::case::Effort;
 use crate::judge::statistics::Sample;
-use crate::methods::coefficients::jumps::{Quantity, Shares, above};
+use crate::methods::coefficients::jumps::{Apart, Quantity, Shares, above, apart};
 use crate::oracle::closed_form::orbit_constant_cdf;
 use crate::oracle::diffusion::orbits::cdf;
 use crate::present::plot::Curve;
