@@ -298,6 +298,7 @@ pub(crate) fn as_toml(value: &Value) -> String {
     match value {
         Value::String(text) => format!("{text:?}"),
         Value::Integer(number) => number.to_string(),
+        Value::Float(number) if number.fract() == 0.0 && number.abs() < 1e16 => format!("{number:.1}"),
         Value::Float(number) => decimal(*number),
         Value::Boolean(is) => is.to_string(),
         Value::Datetime(date) => date.to_string(),

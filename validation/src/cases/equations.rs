@@ -14,7 +14,7 @@ pub struct Equation {
 /// Every numbered equation, in the paper's order.
 pub const ALL: [Equation; 35] = [
     eq("1", "aspect ratio r_e = a/b", &["scene.rs: aspect_ratio"]),
-    eq("2", "velocity gradient G_ij = ∂u_i/∂x_j (printed ∂x_i)", &["flow.rs: VelocityGradient"]),
+    eq("2", "velocity gradient G_ij = ∂u_i/∂x_j (text: ∂x_i)", &["flow.rs: VelocityGradient"]),
     eq("3", "liquid velocity u_i = Σ G_ij x_j", &["volume.rs: carry", "suspension.rs: velocity"]),
     eq("4", "mean axial projections", &["observable.rs: Projections"]),
     eq("5", "velocities normal to the contact line stay", &["collision.rs: share_velocity"]),
@@ -37,7 +37,7 @@ pub const ALL: [Equation; 35] = [
     eq("18", "mean angle over rods", &["observable.rs: MeanAngle", "orientation.rs: folded_phi"]),
     eq("19", "time mean of the angle", &["motion.rs: couette", "orientation.rs: folded_phi"]),
     eq("20", "angle of a single rod", &["motion.rs: couette"]),
-    eq("21", "planar projections (printed with θ for φ)", &["observable.rs: PlanarProjections"]),
+    eq("21", "planar projections (text: θ for φ)", &["observable.rs: PlanarProjections"]),
     eq("A.1", "Jeffery's angular velocity", &["jeffery.rs: couette_rate", "motion.rs: Propagator"]),
     eq("A.2", "φ̇ in plane Couette flow", &["jeffery.rs: couette_rate"]),
     eq("A.3", "θ̇ in plane Couette flow", &["jeffery.rs: couette_rate"]),

@@ -29,6 +29,11 @@ fn keys_are_set_on_the_command_line_as_a_file_would() {
         ("--set alpha=1", "small.toml --set alpha=1: alpha = 1: unknown key `alpha`, expected one of"),
         ("--set alpha=1", "; did you mean interaction.alpha?"),
         ("--set particles.count=0", "particles.count = 0 is not allowed: a whole number from 1 to"),
+        ("--set particles.count=20.0", "particles.count = 20.0 is not allowed: a whole number from 1 to"),
+        (
+            "--set ensemble.seed=9223372036854775808",
+            "ensemble.seed = 9.223372036854776e18 is not allowed: a whole number from 0 to 9223372036854775807",
+        ),
         ("--set particles.count=1,2", "\"1,2\" is no value"),
         ("--set particles.count=1:3:3", "\"1:3:3\" is no value"),
         ("--set particles.count", "KEY=VALUE is allowed"),

@@ -105,6 +105,8 @@ fn value(text: &str) -> Result<Value, String> {
     let word = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
     match (table.remove("value"), table.is_empty()) {
         (Some(value), true) => Ok(value),
+        // An integer with too many digits for TOML: the key says what it allows.
+        _ if text.parse::<i128>().is_ok() => Ok(Value::Float(text.parse().unwrap_or(f64::NAN))),
         _ if text.starts_with(char::is_alphabetic) && text.chars().all(word) => {
             Ok(Value::String(text.to_owned()))
         }
