@@ -1,7 +1,6 @@
 #!/usr/bin/env bash
-# Makes docs/numbers.tsv afresh: the numbers that pages of the book and the READMEs mark as `0.326<!--=fig4.x1-->`. Each row has the
-# command that prints its number, run in an empty folder with the program on the PATH and the repository in $ROOT. A page
-# that then says something else turns the test `docs` red.
+# Makes docs/numbers.tsv afresh, and the numbers of the book and the READMEs that are marked as `0.326<!--=fig4.x1-->`. Each row has the
+# command that prints its number, run in an empty folder with the program on the PATH and the repository in $ROOT.
 # Usage: bash docs/numbers.sh [release]      with `release` also what takes minutes to hours
 set -euo pipefail
 export ROOT=$(cd "$(dirname "$0")/.." && pwd)
@@ -15,7 +14,11 @@ tail -n +2 "$table" | while IFS=$'\t' read -r id value when command; do
   if [ "$when" = test ] || [ "${1:-}" = "$when" ]; then
     mkdir "$work/$id"
     found=$(cd "$work/$id" && bash -euo pipefail -c "$command" </dev/null)
-    [ "$found" = "$value" ] || echo "$id: $value is now $found" >&2
+    if [ "$found" != "$value" ]; then
+      echo "$id: $value is now $found" >&2
+      grep -rlF -- "<!--=$id-->" "$ROOT"/docs/src "$ROOT"/*.md "$ROOT"/*/README.md |
+        xargs -r perl -pi -e 'BEGIN { ($was, $is, $id) = splice @ARGV, 0, 3 } s/\Q$was<!--=$id-->/$is<!--=$id-->/g' "$value" "$found" "$id"
+    fi
     value=$found
   fi
   printf '%s\t%s\t%s\t%s\n' "$id" "$value" "$when" "$command" >>"$work/table"

@@ -35,6 +35,11 @@ impl Channel {
         self.observable.columns()[self.index].to_owned()
     }
 
+    /// Its symbol, with a unit in parentheses: `φ̄ (rad)`.
+    pub fn symbol(self) -> String {
+        self.observable.symbol(self.index)
+    }
+
     /// The least and the largest mean that it can have.
     pub fn range(self) -> [f64; 2] {
         self.observable.range(self.index)

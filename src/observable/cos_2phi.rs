@@ -18,6 +18,10 @@ impl Observe for Cos2Phi {
         &["cos_2phi"]
     }
 
+    fn symbol(&self, _column: usize) -> String {
+        "⟨cos 2φ⟩".into()
+    }
+
     fn range(&self, _column: usize) -> [f64; 2] {
         [-1.0, 1.0]
     }

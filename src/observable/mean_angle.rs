@@ -18,6 +18,10 @@ impl Observe for MeanAngle {
         &["phi"]
     }
 
+    fn symbol(&self, _column: usize) -> String {
+        "φ̄ (rad)".into()
+    }
+
     fn range(&self, _column: usize) -> [f64; 2] {
         [0.0, std::f64::consts::FRAC_PI_2]
     }

@@ -134,6 +134,12 @@ pub trait Observe: Sync {
     /// The names of the columns; at least one.
     fn columns(&self) -> &[&'static str];
 
+    /// The symbol of a column by its place in [`Observe::columns`], with a unit in parentheses, as it stands on an axis: `φ̄ (rad)`.
+    /// The column's name unless the observable says otherwise.
+    fn symbol(&self, column: usize) -> String {
+        self.columns()[column].to_owned()
+    }
+
     /// Adds the rods of `block` to `sums`, one per column.
     fn add(&self, block: &Block, sums: &mut [Sum]);
 
@@ -178,6 +184,11 @@ fn range_of_product(column: &str) -> [f64; 2] {
     let square: f64 = exponents.iter().map(|e| (f64::from(*e) / all).powi(*e)).product();
     let most = square.sqrt();
     [if exponents.iter().all(|e| e % 2 == 0) { 0.0 } else { -most }, most]
+}
+
+/// The symbol of such a mean: `a_1123`.
+fn symbol_of_product(column: &str) -> String {
+    format!("a_{}", &column[1..])
 }
 
 /// Sums per output.

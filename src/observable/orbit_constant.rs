@@ -47,6 +47,10 @@ impl Observe for OrbitConstant {
         &COLUMNS
     }
 
+    fn symbol(&self, column: usize) -> String {
+        if column == 0 { "C_b".into() } else { COLUMNS[column].to_owned() }
+    }
+
     fn range(&self, column: usize) -> [f64; 2] {
         [0.0, if column == 0 { 1.0 } else { BINS as f64 }]
     }

@@ -1,6 +1,6 @@
 //! The orientation tensor ⟨pp⟩.
 
-use super::{Block, Observe, Sum, range_of_product};
+use super::{Block, Observe, Sum, range_of_product, symbol_of_product};
 
 pub(super) struct OrientationTensor;
 
@@ -15,6 +15,10 @@ impl Observe for OrientationTensor {
 
     fn columns(&self) -> &[&'static str] {
         &["a11", "a22", "a33", "a12", "a13", "a23"]
+    }
+
+    fn symbol(&self, column: usize) -> String {
+        symbol_of_product(self.columns()[column])
     }
 
     fn range(&self, column: usize) -> [f64; 2] {

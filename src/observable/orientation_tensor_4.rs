@@ -1,6 +1,6 @@
 //! The orientation tensor ⟨pppp⟩: its 15 distinct components.
 
-use super::{Block, Observe, Sum, range_of_product};
+use super::{Block, Observe, Sum, range_of_product, symbol_of_product};
 
 /// The distinct components, each as two indices into the pairs 11, 22, 33, 12, 13, 23.
 const QUADS: [[usize; 2]; 15] = [
@@ -40,6 +40,10 @@ impl Observe for OrientationTensor4 {
             "a1111", "a1112", "a1113", "a1122", "a1123", "a1133", "a1222", "a1223", "a1233", "a1333",
             "a2222", "a2223", "a2233", "a2333", "a3333",
         ]
+    }
+
+    fn symbol(&self, column: usize) -> String {
+        symbol_of_product(self.columns()[column])
     }
 
     fn range(&self, column: usize) -> [f64; 2] {

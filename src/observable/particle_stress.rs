@@ -19,6 +19,10 @@ impl Observe for ParticleStress {
         &["s12_per_mu_fiber_g", "n1_per_mu_fiber_g", "n2_per_mu_fiber_g"]
     }
 
+    fn symbol(&self, column: usize) -> String {
+        ["σ_12/(μ_fiber G)", "N_1/(μ_fiber G)", "N_2/(μ_fiber G)"][column].into()
+    }
+
     fn range(&self, column: usize) -> [f64; 2] {
         // sin²2φ/4, sin 4φ/4, and p₁³p₂, largest at p₁² = ¾.
         let n2 = 3.0 * 3f64.sqrt() / 16.0;

@@ -17,6 +17,10 @@ impl Observe for Projections {
         &["x1", "x2", "x3"]
     }
 
+    fn symbol(&self, column: usize) -> String {
+        ["X̄₁", "X̄₂", "X̄₃"][column].into()
+    }
+
     fn range(&self, _column: usize) -> [f64; 2] {
         [0.0, 1.0]
     }

@@ -18,6 +18,10 @@ impl Observe for Stress {
         &["s12_pa", "n1_pa", "n2_pa"]
     }
 
+    fn symbol(&self, column: usize) -> String {
+        ["σ_12 (Pa)", "N_1 (Pa)", "N_2 (Pa)"][column].into()
+    }
+
     fn add(&self, block: &Block, sums: &mut [Sum]) {
         let ([p1, p2, p3], r_e) = (&block.p, &block.aspect_ratio);
         let mut k = [[0.0; 3]; BLOCK];

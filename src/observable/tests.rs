@@ -98,7 +98,7 @@ fn every_column_has_the_range_of_its_formula() {
 }
 
 #[test]
-fn the_columns_are_as_many_as_the_sums() {
+fn every_channel_is_found_by_its_name() {
     for observable in Observable::ALL {
         for channel in observable.channels() {
             assert_eq!(Channel::named(&channel.name()), Some(channel));

@@ -8,6 +8,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use pyo3::{create_exception, wrap_pyfunction};
 use rayon::prelude::*;
+use shearbed::observable::Channel;
 use shearbed::run::ensemble;
 use shearbed::run::{Replica, run_replica};
 use shearbed::scene::document::Document;
@@ -154,7 +155,7 @@ fn watched(
             (None, Ok(Ok(results))) => look().map(|()| Ok(results)),
             (None, Ok(Err(Stopped::Failed(error)))) => Ok(Err(error)),
             (None, Ok(Err(Stopped::Asked)) | Err(_)) => {
-                Err(PyRuntimeError::new_err("the run ended by a mistake of its own"))
+                Err(PyRuntimeError::new_err("the run failed by a bug in shearbed"))
             }
         }
     })
@@ -176,13 +177,14 @@ fn dictionary<'py>(py: Python<'py>, plan: &Plan, results: Results) -> PyResult<B
     let array = |values: Vec<f64>| PyArray1::from_vec(py, values);
     let channels = PyDict::new(py);
     let observables = PyDict::new(py);
-    let labels = PyDict::new(py);
+    let (labels, symbols) = (PyDict::new(py), PyDict::new(py));
     let time_s = results.elapsed.iter().map(|elapsed| elapsed.seconds).collect();
     let strain = results.elapsed.iter().map(|elapsed| elapsed.strain).collect();
     let rods = rods::columns(py, plan, &results)?;
     for series in results.series {
         let mut names = Vec::new();
         for channel in series.columns {
+            symbols.set_item(&channel.name, Channel::named(&channel.name).map(Channel::symbol))?;
             channels.set_item(&channel.name, (array(channel.mean), array(channel.se)))?;
             names.push(channel.name);
         }
@@ -197,6 +199,7 @@ fn dictionary<'py>(py: Python<'py>, plan: &Plan, results: Results) -> PyResult<B
     all.set_item("channels", channels)?;
     all.set_item("observables", observables)?;
     all.set_item("labels", labels)?;
+    all.set_item("symbols", symbols)?;
     all.set_item("seed", plan.scene().ensemble.seed)?;
     all.set_item("replicas", plan.scene().ensemble.replicas)?;
     all.set_item("rods", rods)?;
@@ -213,7 +216,7 @@ fn call(py: Python<'_>, arguments: Vec<OsString>) -> (u8, String) {
     match ended {
         Ok(Ok(())) => (0, String::new()),
         Ok(Err((message, code))) => (code, message),
-        Err(_) => (101, "the command ended by a mistake of its own".to_owned()),
+        Err(_) => (101, "the command failed by a bug in shearbed".to_owned()),
     }
 }
 

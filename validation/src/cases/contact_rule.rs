@@ -173,11 +173,11 @@ pub fn cases() -> Vec<Case> {
             .mistake("only A moved", |pair| Some([core_rule(pair)?[0], pair.rate[1]]))
             .check(invariants),
         Case::core("corrected-a13")
-            .claim("The corrected A.13 is the rate of the angles of a turning rod; the printed one is not.")
+            .claim("The corrected A.13 is the rate of the angles of a turning rod; the text's is not.")
             .source("A.13, A.14")
             .equations(&["A.13", "A.14"])
             .subject(angle_rates as AngleRates)
-            .mistake("A.13 as printed", printed_a13)
+            .mistake("A.13 as in the text", printed_a13)
             .mistake("only φ̇′ corrected", |p, rate| (angle_rates(p, rate).0, printed_a13(p, rate).1))
             .mistake("only θ̇′ corrected", |p, rate| (printed_a13(p, rate).0, angle_rates(p, rate).1))
             .check(against_turning),

@@ -1,4 +1,4 @@
-//! Misprints of the paper: the printed form fails, and the corrected form passes.
+//! Misprints in the text at hand: its form fails, and the corrected form passes.
 //!
 //! A.13 is in `contact_rule`, eq. 14's text in `encounters`, the period's number (eq. 15) in `motion`.
 
@@ -18,20 +18,20 @@ pub fn cases() -> Vec<Case> {
         Case::oracle("gradient-of-eq-2")
             .claim(
                 "With G_ij = ∂u_i/∂x_j a thread turns as the line between two points of the liquid does; \
-                 with the printed ∂u_i/∂x_i it does not.",
+                 with the text's ∂u_i/∂x_i it does not.",
             )
             .source("eqs 2, 3")
             .equations(&["2", "3"])
             .subject((|u, i, j| slope(u, i, j)) as Gradient)
-            .mistake("∂u_i/∂x_i as printed", |u, i, _| slope(u, i, i))
+            .mistake("∂u_i/∂x_i as in the text", |u, i, _| slope(u, i, i))
             .mistake("∂u_j/∂x_i", |u, i, j| slope(u, j, i))
             .check(gives_back_velocity),
         Case::oracle("planar-projections")
-            .claim("The planar projections are lengths of shadows; with the printed θ for φ they are not.")
+            .claim("The planar projections are lengths of shadows; with the text's θ for φ they are not.")
             .source("eq. 21, Fig. 12")
             .equations(&["21"])
             .subject(observed_shadows as Shadows)
-            .mistake("eq. 21 as printed", |_, theta: f64| {
+            .mistake("eq. 21 as in the text", |_, theta: f64| {
                 let (s2, c2) = (theta.sin().powi(2), theta.cos().powi(2));
                 [theta.sin(), (c2 + s2 * s2).sqrt(), (c2 + s2 * c2).sqrt()]
             })
@@ -48,7 +48,7 @@ pub fn cases() -> Vec<Case> {
             .source("text after eqs 12 and 13")
             .equations(&["13", "A.2", "A.7"])
             .subject((|collided| collided) as Reading)
-            .mistake("A.7–A.14 for free rods, as printed", |collided| !collided)
+            .mistake("A.7–A.14 for free rods, as in the text", |collided| !collided)
             .mistake("every rod free", |_| false)
             .check(free_rods_keep_c),
     ]

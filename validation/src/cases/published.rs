@@ -16,7 +16,7 @@ pub fn cases() -> Vec<Case> {
                  turn in T/2 of an r_e that published formulas give for their shape; their later damping is outside the \
                  model.",
             )
-            .source("eq. 15; Meyer et al. 2020; docs/src/theory/fits.md")
+            .source("eq. 15; Meyer et al. 2020; docs/src/validation/published.md")
             .equations(&["15"])
             .subject(of_formulas as HalfTurn)
             .mistake("a whole period for half a turn", |r| {

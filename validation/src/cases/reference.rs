@@ -35,7 +35,7 @@ fn name(mistake: Mistake) -> &'static str {
         Mistake::ArmUnsigned => "arms without their sign",
         Mistake::SpinIgnored => "ω × r left out",
         Mistake::TranslationKept => "the translation not subtracted",
-        Mistake::PrintedA13 => "A.13 as printed",
+        Mistake::PrintedA13 => "A.13 as in the text",
         Mistake::LambdaOne => "Λ = 1 in free motion",
         Mistake::PeriodHalved => "half the period",
         Mistake::ConcentrationUnits => "cm⁻³ taken as cm⁻²",

@@ -1,5 +1,33 @@
 //! Tables: columns over records, declared once, and all their writers; and rows as CSV by their serialized fields.
 
+/// The largest number of characters of a line on a terminal.
+const WIDTH: usize = 80;
+
+/// Breaks lines that are too long between words and indents their continuation; rows of tables, whose cells are separated by
+/// two blanks, stay as they are.
+pub(crate) fn wrapped(text: &str) -> String {
+    let mut all = String::new();
+    for line in text.lines() {
+        let mut width = 0;
+        let words = if line.trim_end().contains("  ") { vec![line] } else { line.split(' ').collect() };
+        for (k, word) in words.into_iter().enumerate() {
+            let length = word.chars().count();
+            if k > 0 && width + 1 + length > WIDTH {
+                all += "\n  ";
+                width = 2 + length;
+            } else {
+                if k > 0 {
+                    all.push(' ');
+                }
+                width += usize::from(k > 0) + length;
+            }
+            all += word;
+        }
+        all.push('\n');
+    }
+    all
+}
+
 #[cfg(test)]
 mod tests;
 
@@ -304,19 +332,38 @@ impl ReportTable {
         text_of(writer)
     }
 
-    /// The table for the terminal: title, columns of even width, and caption.
+    /// The table as plain text: title, columns of even width, and caption.
     pub fn text(&self) -> String {
+        self.text_within(usize::MAX)
+    }
+
+    /// The same in lines of at most 80 letters: columns without room are named instead.
+    pub fn for_terminal(&self) -> String {
+        wrapped(&self.text_within(WIDTH))
+    }
+
+    fn text_within(&self, room: usize) -> String {
         let lines = || std::iter::once(&self.columns).chain(&self.rows);
         let width = |column: usize| {
             let cells = lines().filter_map(|cells| cells.get(column));
             cells.map(|cell| cell.chars().count()).max().unwrap_or(0)
         };
         let widths: Vec<_> = (0..self.columns.len()).map(width).collect();
+        let mut across = 0;
+        let fits = |width: &&usize| {
+            across += *width;
+            across += 2;
+            across - 2 <= room
+        };
+        let shown = widths.iter().take_while(fits).count().max(1);
         let mut text = format!("{}\n\n", self.title);
         for cells in lines() {
-            let padded = cells.iter().zip(&widths).map(|(cell, width)| format!("{cell:<width$}  "));
+            let padded = cells[..shown].iter().zip(&widths).map(|(cell, width)| format!("{cell:<width$}  "));
             text.push_str(padded.collect::<String>().trim_end());
             text.push('\n');
+        }
+        if shown < self.columns.len() {
+            text += &format!("\nLeft out for want of room: {}.\n", self.columns[shown..].join(", "));
         }
         format!("{text}\n{}\n\n", self.caption)
     }

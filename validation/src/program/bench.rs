@@ -70,7 +70,7 @@ pub(super) fn bench(args: &Args) -> Result<(), Failure> {
                 let svg = plot::svg(&figure.figure).map_err(Failure::Failed)?;
                 files.push((format!("{}.svg", figure.name), svg));
             }
-            tables.extend(exhibit.table.map(|table| table.text()));
+            tables.extend(exhibit.table.map(|table| table.for_terminal()));
         }
     }
     bar.finish_and_clear();

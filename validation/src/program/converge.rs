@@ -85,7 +85,7 @@ pub(super) fn converge(args: &Args) -> Result<(), Failure> {
     let names: Vec<_> = done.files.iter().map(|(name, _)| name.clone()).collect();
     folder.write(done.files)?;
     if !args.writing.quiet {
-        let text: String = done.tables.iter().map(ReportTable::text).collect();
+        let text: String = done.tables.iter().map(ReportTable::for_terminal).collect();
         print(&format!("{text}in {}: {}\n", out.shown(), names.join(", ")))?;
     }
     match done.wrong {

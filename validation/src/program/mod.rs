@@ -1,4 +1,10 @@
 //! The commands of the program `shearbed`.
+//!
+//! A command is a file: its arguments, with the texts of `--help`, and a function that calls the wings above, writes through
+//! `files::output` and prints. Shared arguments are in `choice`, `scene` and `threads`; errors are `Failure`s.
+//!
+//! It may use every wing. To add a command, write its file, declare it, and add its variant and its call below. Help, manual pages,
+//! completions and the page of commands follow (`UPDATE_DOCS=1 cargo test -p shearbed --test docs`).
 
 mod bench;
 mod checkpoint;

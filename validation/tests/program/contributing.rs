@@ -3,6 +3,8 @@
 
 use super::example_case::cases;
 use super::example_study::STUDY;
+use std::fs;
+use std::path::{Path, PathBuf};
 use validation::judge::accept::Verdict;
 use validation::judge::case::Effort;
 use validation::present::plot;
@@ -42,4 +44,44 @@ fn the_example_of_an_observable_is_one() {
     assert!(include_str!("../../../CONTRIBUTING.md").contains("(src/observable/cos_2phi.rs)"));
     assert!(include_str!("../../../src/observable/mod.rs").contains("\nmod cos_2phi;\n"));
     assert!(include_str!("../../../src/observable/registry.rs").contains("    Cos2Phi: cos_2phi,\n"));
+}
+
+/// A pattern whose file or function is gone explains nothing.
+#[test]
+fn explained_mutants_are_of_functions_that_exist() {
+    let root = concat!(env!("CARGO_MANIFEST_DIR"), "/..");
+    let sources: Vec<_> = ["src", "validation/src", "validation/methods/src", "validation/oracle/src"]
+        .iter()
+        .flat_map(|dir| sources(&Path::new(root).join(dir)))
+        .collect();
+    let is_there = |file: &str, function: Option<&str>| {
+        let of_file = sources.iter().filter(|(path, _)| path.ends_with(file));
+        of_file.clone().count() > 0
+            && function
+                .is_none_or(|name| of_file.clone().any(|(_, text)| text.contains(&format!("fn {name}"))))
+    };
+    let patterns = include_str!("../../../.cargo/mutants.toml")
+        .lines()
+        .filter_map(|line| line.trim().strip_prefix('\''));
+    let gone: Vec<_> = patterns
+        .clone()
+        .filter(|pattern| {
+            let (file, rest) = pattern.split_once(r"\.rs:").unwrap();
+            let function = rest.split_once(" in ").map(|(_, name)| name.split('$').next().unwrap());
+            let function = function.map(|name| name.rsplit("::").next().unwrap());
+            !is_there(&format!("{file}.rs"), function)
+        })
+        .collect();
+    assert!(patterns.count() > 80 && gone.is_empty(), "{gone:#?}");
+    assert!(!is_there("grid.rs", Some("no_such_function")) && !is_there("no_such_file.rs", None));
+}
+
+/// The Rust files of a folder, and their texts.
+fn sources(dir: &Path) -> Vec<(PathBuf, String)> {
+    let entries = fs::read_dir(dir).unwrap().map(|entry| entry.unwrap().path());
+    let of = |path: PathBuf| match path.is_dir() {
+        true => sources(&path),
+        false => vec![(path.clone(), fs::read_to_string(&path).unwrap_or_default())],
+    };
+    entries.flat_map(of).collect()
 }

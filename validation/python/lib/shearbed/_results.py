@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -33,6 +34,8 @@ class Results:
         """The channels of each observable."""
         self.labels: dict[str, str] = found["labels"]
         """What each observable is called on an axis, with its unit."""
+        self.symbols: dict[str, str] = found["symbols"]
+        """The symbol of each channel, with its unit in parentheses."""
         self.seed: int = found["seed"]
         self.replicas: int = found["replicas"]
         self.scene: str = found["scene"]
@@ -110,7 +113,8 @@ class Results:
         label_of = {name: self.labels[observable] for observable, names in self.observables.items() for name in names}
         variables: dict[str, Any] = {}
         for name, (mean, se) in self._channels.items():
-            unit = {"units": "Pa" if name.endswith("_pa") else "rad" if name == "phi" else "1"}
+            # A symbol ends with its unit, as in "φ̄ (rad)".
+            unit = {"units": found[1] if (found := re.search(r" \((\w+)\)$", self.symbols[name])) else "1"}
             variables[name] = (self.time_name, mean, {"long_name": f"{name}: {label_of[name]}", **unit})
             variables[f"{name}_se"] = (self.time_name, se, {"long_name": f"standard error of {name}", **unit})
         coordinates = {

@@ -19,7 +19,7 @@ _BUILT_IN = dict(_core.built_in_scenes())
 
 
 def scenes() -> list[str]:
-    """The names of the built-in scenes, as ``shearbed scenes`` lists them: the figures of the paper."""
+    """The names of the built-in scenes, as ``shearbed scenes`` lists them: the parameters of the paper's figures."""
     return list(_BUILT_IN)
 
 

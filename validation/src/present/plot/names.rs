@@ -1,36 +1,10 @@
 //! Symbols and units of the program's columns and keys, for axes and legends.
 
-/// The symbol of a column of `shearbed run`, such as `X̄₁` for `x1`; the column's name if it has no symbol.
-pub(crate) fn channel(column: &str) -> String {
-    let digits = |text: &str| !text.is_empty() && text.bytes().all(|byte| (b'1'..=b'3').contains(&byte));
-    match column {
-        "phi" => "φ̄ (rad)".into(),
-        "c_b" => "C_b".into(),
-        "cos_2phi" => "⟨cos 2φ⟩".into(),
-        "x1" => "X̄₁".into(),
-        "x2" => "X̄₂".into(),
-        "x3" => "X̄₃".into(),
-        _ => match (column.strip_prefix('a'), column.split_once('_').and_then(stress)) {
-            (Some(axes), _) if digits(axes) => format!("a_{axes}"),
-            (_, Some(label)) => label,
-            _ => column.to_owned(),
-        },
-    }
-}
+use shearbed::observable::Channel;
 
-/// The label of a stress: `s12_pa`, `n1_per_mu_fiber_g`.
-fn stress((which, unit): (&str, &str)) -> Option<String> {
-    let which = match which {
-        "s12" => "σ_12",
-        "n1" => "N_1",
-        "n2" => "N_2",
-        _ => return None,
-    };
-    match unit {
-        "pa" => Some(format!("{which} (Pa)")),
-        "per_mu_fiber_g" => Some(format!("{which}/(μ_fiber G)")),
-        _ => None,
-    }
+/// The symbol of a column of `shearbed run`, such as `X̄₁` for `x1`; the name of any other column.
+pub(crate) fn channel(column: &str) -> String {
+    Channel::named(column).map_or_else(|| column.to_owned(), Channel::symbol)
 }
 
 /// The label of a column of times.

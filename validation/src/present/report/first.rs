@@ -36,7 +36,7 @@ pub(super) fn title(judges: Judges) -> &'static str {
         Judges::Core => "Verification of the core",
         Judges::Program => "Verification of the program",
         Judges::Integrator => "Integrators",
-        Judges::Oracle => "Oracles and misprints",
+        Judges::Oracle => "Oracles and the paper’s formulas",
         Judges::Interpretation => "Open choices of the model",
         Judges::Statement => "The paper’s statements",
         Judges::Measurement => "Measured points",
@@ -49,7 +49,9 @@ pub(super) fn means(judges: Judges) -> &'static str {
         Judges::Core => "The equations are solved right: closed forms, orders, invariants.",
         Judges::Program => "Whole runs are right: files, errors, statistics, refusals.",
         Judges::Integrator => "Integrators of one rod behave as theory says.",
-        Judges::Oracle => "The oracles and statistics are right, and forms that the paper misprints fail.",
+        Judges::Oracle => {
+            "The oracles and statistics are right, and formulas that are wrong in the text at hand fail."
+        }
         Judges::Interpretation => "Where the paper is open: what the alternatives change.",
         Judges::Statement => "What the paper says in words of its model’s results.",
         Judges::Measurement => "Validation: the model against experiments.",

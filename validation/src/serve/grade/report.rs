@@ -3,7 +3,7 @@
 use super::live::Studies;
 use super::{Graded, Verdict};
 use crate::files::text::escaped;
-use crate::present::table::{ReportTable, of_words};
+use crate::present::table::{ReportTable, of_words, wrapped};
 use crate::serve::problems::Origin;
 use serde::Serialize;
 
@@ -224,34 +224,6 @@ pub fn terminal(report: &Report) -> String {
     parts.extend(tables(report).iter().skip(1).map(ReportTable::text));
     let parts: Vec<&str> = parts.iter().map(|part| part.trim_end()).filter(|part| !part.is_empty()).collect();
     wrapped(&parts.join("\n\n"))
-}
-
-/// The largest number of characters of a line on a terminal.
-const WIDTH: usize = 80;
-
-/// Breaks lines that are too long between words and indents their continuation; rows of tables, whose cells are separated by
-/// two blanks, stay as they are.
-fn wrapped(text: &str) -> String {
-    let mut all = String::new();
-    for line in text.lines() {
-        let mut width = 0;
-        let words = if line.trim_end().contains("  ") { vec![line] } else { line.split(' ').collect() };
-        for (k, word) in words.into_iter().enumerate() {
-            let length = word.chars().count();
-            if k > 0 && width + 1 + length > WIDTH {
-                all += "\n  ";
-                width = 2 + length;
-            } else {
-                if k > 0 {
-                    all.push(' ');
-                }
-                width += usize::from(k > 0) + length;
-            }
-            all += word;
-        }
-        all.push('\n');
-    }
-    all
 }
 
 /// The content of grade.md.
