@@ -115,6 +115,13 @@ pub(super) fn compare(args: &Args) -> Result<(), Failure> {
         text += "The two differ in --full or --seed: other samples, so that means move by chance.\n";
     }
     text.push('\n');
+    if !a.cases.iter().any(|case| b.cases.iter().any(|other| other.name == case.name)) {
+        return Err(Failure::Input(format!(
+            "{} and {} have no case in common: nothing can be compared",
+            args.before.shown(),
+            args.after.shown()
+        )));
+    }
     text += &verdicts(&a, &b);
     text += &judged_otherwise(&a, &b);
     let moved = moved(&a, &b);

@@ -33,7 +33,7 @@ pub(super) struct Args {
     /// The folder for the tables and converge.json [default: out/converge-<scene>]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Replicas at every step and number of rods of an interacting scene [default: as many as some three minutes
+    /// Replicas, 2 or more, at every step and number of rods [default: as many as some three minutes
     /// of one core allow, fewer at fine steps]
     #[arg(long, value_name = "N", value_parser = whole(2, MAX_REPLICAS), allow_negative_numbers = true)]
     replicas: Option<u64>,
@@ -139,10 +139,8 @@ fn coarse(scene: &Scene) -> String {
     let coarse = steps.iter().filter(|(_, coarse)| *coarse).count();
     let (first, last) = (law::STEPS_PER_PERIOD[0], law::STEPS_PER_PERIOD[coarse.max(1) - 1]);
     format!(
-        "{coarse} of the {} numbers of steps that are tried, {first} to {last} a period (strain per step {:.3} to {:.3}), \
-         do not resolve the motion (strain per step at most {resolved:.3}): they are run on purpose, to show what a \
-         coarse step changes",
-        steps.len(),
+        "{first} to {last} steps a period (strain per step {:.3} to {:.3}) are above the step that shearbed takes by default \
+         (strain per step at most {resolved:.3}): they are run on purpose, to show what a coarse step changes",
         strain(first),
         strain(last),
     )

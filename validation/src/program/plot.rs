@@ -79,7 +79,7 @@ fn of_runs(args: &Args) -> Result<(Figure, String), Failure> {
     }
     let mut figure = drawn.figure;
     if let Some(path) = &args.data {
-        figure.points.push(measured::points(path, &drawn.runs[0], &drawn.channel)?);
+        figure.points.push(measured::points(path, &drawn.runs, &drawn.channel)?);
     }
     Ok((figure, format!("{} of {} runs", drawn.channel, drawn.runs.len())))
 }

@@ -3,7 +3,8 @@
 use super::scene::{Chosen, Ensemble};
 use super::{
     Failure, Threads, Writing, agree, facts, log, memory, on_threads, print, progress, result_folder, scene,
-    spares_inputs, tables,
+    spares_inputs,
+    tables::{self, is_bounded},
 };
 use crate::files::cluster;
 use crate::files::output::Output;
@@ -205,7 +206,8 @@ fn table(rows: &[Vec<String>], swept: usize) -> String {
     }
     let columns = rows[0].len().min(swept + MOST.1);
     let short = |column: usize, text: &String| match text.parse::<f64>() {
-        Ok(number) if column >= swept => text::four_decimals(number),
+        Ok(number) if column >= swept && is_bounded(&rows[0][column]) => text::four_decimals(number),
+        Ok(number) if column >= swept => format!("{number:.3e}"),
         _ => text.clone(),
     };
     let cells: Vec<Vec<_>> =

@@ -1,5 +1,6 @@
 //! Results as tables: CSV for files, and a short one for the terminal.
 
+use shearbed::observable::Channel;
 use shearbed::run::ensemble::{Column, Series};
 use shearbed::{Plan, Results};
 
@@ -56,6 +57,12 @@ pub(super) fn most_memory(plan: &Plan) -> u64 {
     results + most_bytes(plan) + table.max(8 * picture)
 }
 
+/// False for means that may be of any size, such as stresses in Pa, and their standard errors.
+pub(super) fn is_bounded(column: &str) -> bool {
+    let channel = Channel::named(column.strip_suffix("_se").unwrap_or(column));
+    channel.is_none_or(|channel| channel.range().iter().all(|end| end.is_finite()))
+}
+
 /// For each channel the first and the last mean, the least and the largest with their times, and a sparkline.
 pub(super) fn summary(results: &Results) -> String {
     let name = match results.time_name {
@@ -76,10 +83,17 @@ pub(super) fn summary(results: &Results) -> String {
             "least"
         );
         for channel in shown(series) {
-            let value = |k: usize| format!("{:.4} ± {:.4}", channel.mean[k], channel.se[k]);
+            // Values without bounds have a size of their own.
+            let number = |x: f64| match is_bounded(&channel.name) {
+                true => format!("{x:.4}"),
+                false => format!("{x:.2e}"),
+            };
+            let value = |k: usize| format!("{} ± {}", number(channel.mean[k]), number(channel.se[k]));
             let order = |a: &usize, b: &usize| channel.mean[*a].total_cmp(&channel.mean[*b]);
             let extreme = |k: Option<usize>| {
-                k.map_or_else(String::new, |k| format!("{:.4} at {}", channel.mean[k], shortest(time(k))))
+                k.map_or_else(String::new, |k| {
+                    format!("{} at {}", number(channel.mean[k]), shortest(time(k)))
+                })
             };
             let outputs = 0..channel.mean.len();
             text += &format!(

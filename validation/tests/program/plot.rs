@@ -108,6 +108,11 @@ fn points_are_drawn_over_curves_and_flags_change_the_look() {
         assert_eq!(ended.code, Some(0), "{arguments}: {}", ended.stderr);
         read(&dir.path().join("p.svg"))
     };
+    write("seconds.csv", "t_s,x1,x1_u\n5,0.4,0.05\n");
+    assert_eq!(
+        shearbed(dir.path(), "run small.toml --quiet --out b --set particles.aspect_ratio=9").code,
+        Some(0)
+    );
     let bare = plot("");
     let over = plot("--data points.csv");
     assert!(over.contains("X̄₁, measured ± u") && !bare.contains("measured"));
@@ -130,6 +135,7 @@ fn points_are_drawn_over_curves_and_flags_change_the_look() {
         dir.path(),
         &[
             ("plot a --data points.csv --y x2", "has no points of x2; it has x1"),
+            ("plot a b --y x1 --data seconds.csv", "a point at one t_s stands at different places"),
             ("plot a --legend one --legend two", "given 2 times; the picture has 1"),
             ("plot a --x-range 1:0", "FROM:TO is allowed"),
             ("plot a --log-y --y-range 0:1", "a logarithmic axis begins above 0"),

@@ -45,7 +45,7 @@ fn a_free_scene_shows_every_order_as_theory() {
     let csv = std::fs::read_to_string(out.join("converge.csv")).unwrap();
     assert_eq!(csv.lines().count(), 1 + 7 * 13, "{csv}");
     assert!(out.join("converge.json").exists());
-    assert!(text.contains("as the scene draws its starts at random"), "{text}");
+    assert!(text.replace("\n  ", " ").contains("as the scene draws its starts at random"), "{text}");
 }
 
 #[test]
@@ -60,6 +60,8 @@ fn a_free_scene_starts_where_it_says() {
     std::fs::write(dir.path().join("one.toml"), scene("periods = 2")).unwrap();
     let Ended { code, stdout: text, stderr: error } = shearbed(dir.path(), "converge one.toml");
     assert_eq!(code, Some(0), "{error}");
+    assert!(text.lines().all(|line| line.chars().count() <= 80), "{text}");
+    let text = text.replace("\n  ", " ");
     for words in ["r_e = 3 from φ = 0.1745 and θ = 1.0472 rad (the scene's own start) over 2.", "as theory"]
     {
         assert!(text.contains(words), "{text}");

@@ -50,6 +50,12 @@ pub(super) fn runs_in(dir: &Path) -> Result<Vec<Run>, Failure> {
             Err(refused(dir, "is one point of a sweep; the sweep's folder is allowed, two folders above"))
         }
         "sweep" => points(dir, &record),
+        other @ ("fit" | "validate") => Err(refused(
+            &path,
+            &format!(
+                "is of `shearbed {other}`, whose pictures are drawn from its folder alone; give no other folder"
+            ),
+        )),
         other => Err(refused(
             &path,
             &format!("is of `shearbed {other}`; folders of `run`, `sweep`, `fit` and `validate` are allowed"),

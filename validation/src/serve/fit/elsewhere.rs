@@ -115,8 +115,8 @@ pub fn look_elsewhere(problem: &FitProblem<'_>, fit: &Fit, watch: &Watch<'_>) ->
                          uncertainties, and the scene's other keys"
                     ),
                     false => format!(
-                        "{both} describe the points equally well, for χ² has several minima in this range; give a narrower one \
-                         without impossible values"
+                        "{both} both describe the points, for χ² has several minima in this range; more --replicas tell noise from \
+                         minima, and a narrower range leaves out impossible values"
                     ),
                 };
                 return Err(format!("--over {}: {why}", range.label()));

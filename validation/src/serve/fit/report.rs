@@ -143,8 +143,8 @@ fn warnings(
         let found = &parameters[&range.label()];
         if let Some(k) = another_minimum(&fit.profiles[axis].rise) {
             all.push(format!(
-                "{}: {:.4} describes the points as well as {:.4} (its χ² is {:.2} higher, with a ridge between them): give the whole \
-                 interval, not the best value",
+                "{}: {:.4} describes the points nearly as well as {:.4} (its χ² is {:.2} higher, with a ridge between them): give the \
+                 whole interval, not the best value",
                 range.label(),
                 fit.value(axis, fit.profiles[axis].place[k]),
                 found.estimate,
@@ -204,11 +204,11 @@ fn warnings(
     all
 }
 
-/// The deepest other minimum of a profile that is within its 68 % interval, with a ridge of one more between it and the best place.
+/// The deepest other minimum of a profile that is within its 95 % interval, with a ridge of one more between it and the best place.
 fn another_minimum(rise: &[f64]) -> Option<usize> {
     let best = rise.iter().position(|rise| *rise == 0.0)?;
     let ridge = |k: usize| rise[k.min(best)..=k.max(best)].iter().copied().fold(0.0, f64::max);
-    let apart = (0..rise.len()).filter(|k| rise[*k] <= rise_of(0.68) && ridge(*k) > rise[*k] + 1.0);
+    let apart = (0..rise.len()).filter(|k| rise[*k] <= rise_of(0.95) && ridge(*k) > rise[*k] + 1.0);
     apart.min_by(|a, b| rise[*a].total_cmp(&rise[*b]))
 }
 

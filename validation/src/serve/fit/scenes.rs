@@ -9,6 +9,7 @@ use crate::methods::least_squares::emulator::{Part, Prediction, Replica};
 use crate::serve::sweep::{self, Setting};
 use shearbed::observable::Channel;
 use shearbed::run::run_replica;
+use shearbed::scene::{Holds, keys};
 use shearbed::{Observable, Plan, Scene};
 use toml::Value;
 
@@ -79,6 +80,15 @@ const KINKED: u64 = 5000;
 impl Scenes {
     /// Checks every scene at all corners of the ranges. An error says which scene, which values, and why.
     pub fn new(sets: Vec<Set>, ranges: Vec<Range>) -> Result<Self, String> {
+        let is_whole = |range: &&Range| {
+            keys().any(|key| key.path == range.key && matches!(key.holds, Holds::Whole { .. }))
+        };
+        if let Some(range) = ranges.iter().find(is_whole) {
+            return Err(format!(
+                "--over {}: a whole number cannot be fitted; `shearbed sweep` runs several values of it",
+                range.label()
+            ));
+        }
         let mut scenes = Self { steps: vec![0; sets.len()], sets, ranges };
         for set in 0..scenes.sets.len() {
             for corner in scenes.corners() {

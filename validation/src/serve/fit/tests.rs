@@ -122,7 +122,10 @@ fn another_minimum_of_the_range_is_seen() {
     assert_eq!(look(&found), Ok(Vec::new()));
     let over = |over: [&str; 2]| Fit { ranges: ranges(&over), ..found.clone() };
     let said = look(&over(["a.rate=0.05:5", "a.frequency=0.95:9.4"])).unwrap_err();
-    assert!(said.contains("a.frequency") && said.contains("8.99") && said.contains("equally well"), "{said}");
+    assert!(
+        said.contains("a.frequency") && said.contains("8.99") && said.contains("both describe the points"),
+        "{said}"
+    );
     // Where no value describes the points, two minima are not the news.
     let mut wrong = data.clone();
     wrong.iter_mut().for_each(|datum| datum.value += 0.3);

@@ -93,6 +93,8 @@ pub fn grade(program: &Program, problem: &LoadedProblem, mode: Mode, claim: Clai
     let mut graded = Graded::without_answer(&problem);
     graded.set_orders(errors(&rungs), &problem, claim.order);
     graded.verdict = match &end {
+        // Whether a mistake is named must not depend on how fast the machine is.
+        End::OutOfTime(_) if stays_on_a_mistake(&problem, &rungs) => Verdict::Fail,
         End::OutOfTime(_) => Verdict::NotReached,
         End::Reached => Verdict::Pass,
         _ => Verdict::Fail,
@@ -118,6 +120,19 @@ pub fn grade(program: &Program, problem: &LoadedProblem, mode: Mode, claim: Clai
         End::Wrong(words) | End::OutOfTime(words) => Some(why(&graded, rungs.last(), words)),
     };
     graded
+}
+
+/// True if the last two settings give the curve of the same mistake: other settings will not give another.
+fn stays_on_a_mistake(problem: &LoadedProblem, rungs: &[Rung]) -> bool {
+    let [.., before, last] = rungs else {
+        return false;
+    };
+    let named = |rung: &Rung| {
+        let found = diagnose(problem, &rung.answer, rung.error());
+        found.said.map_or_else(Vec::new, |_| found.suspects)
+    };
+    let before = named(before);
+    named(last).iter().any(|name| before.contains(name))
 }
 
 /// A message that lists the coarse settings of a passing ladder whose answers are not finite.

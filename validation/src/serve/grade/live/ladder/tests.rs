@@ -268,3 +268,32 @@ fn a_tolerance_far_worse_than_both_its_neighbours_is_no_methods() {
         assert!(matches!(judged_where(&|k| k <= last, 1.2), End::Jumps(_)), "{last}");
     }
 }
+
+#[test]
+fn two_answers_on_the_curve_of_one_mistake_are_wrong_before_time_is_up() {
+    use crate::serve::grade::mistakes;
+    use crate::serve::problems;
+    let problem = last_time(&problems::named("mid-flip-2").unwrap().loaded("here".into()));
+    let setting = mistakes::Setting {
+        gradient_per_s: nalgebra::Matrix3::from_fn(|i, j| problem.problem.gradient_per_s[i][j]),
+        aspect_ratio: problem.problem.aspect_ratio,
+    };
+    let (start, time_s) = (nalgebra::Vector3::from(problem.start[0]), problem.problem.times_s[0]);
+    let rung = |steps: u64, p: nalgebra::Vector3<f64>| {
+        Rung::of(&problem, Setting::Steps(steps), vec![p.into()], Duration::ZERO)
+    };
+    let of = |name: &str, late: f64| {
+        let all = mistakes::all();
+        let mistake = all.iter().find(|mistake| mistake.name == name).unwrap();
+        mistake.direction(&setting, &start, late * time_s).unwrap()
+    };
+    let transposed = "a transposed gradient";
+    let both = [rung(64, of(transposed, 1.0)), rung(128, of(transposed, 1.0))];
+    assert!(stays_on_a_mistake(&problem, &both));
+    assert!(!stays_on_a_mistake(&problem, &both[1..]));
+    let two = [rung(64, of(transposed, 1.0)), rung(128, of("half the shear rate", 1.0))];
+    assert!(!stays_on_a_mistake(&problem, &two));
+    // A right code that lags, by less with more steps.
+    let right = |late: f64| (mistakes::right_map(&setting, late * time_s).unwrap() * start).normalize();
+    assert!(!stays_on_a_mistake(&problem, &[rung(64, right(0.97)), rung(128, right(0.985))]));
+}
