@@ -107,6 +107,23 @@ fn every_channel_is_found_by_its_name() {
 }
 
 #[test]
+fn columns_have_symbols_with_units_or_their_names() {
+    let symbol = |name: &str| Channel::named(name).unwrap().symbol();
+    assert_eq!(["x1", "x2", "x3"].map(symbol), ["X̄₁", "X̄₂", "X̄₃"]);
+    assert_eq!(["phi", "cos_2phi", "c_b"].map(symbol), ["φ̄ (rad)", "⟨cos 2φ⟩", "C_b"]);
+    assert_eq!(["a11", "a23", "a1122"].map(symbol), ["a_11", "a_23", "a_1122"]);
+    assert_eq!(["s12_pa", "n1_pa", "n2_pa"].map(symbol), ["σ_12 (Pa)", "N_1 (Pa)", "N_2 (Pa)"]);
+    let over = ["s12_per_mu_fiber_g", "n1_per_mu_fiber_g", "n2_per_mu_fiber_g"];
+    assert_eq!(over.map(symbol), ["σ_12/(μ_fiber G)", "N_1/(μ_fiber G)", "N_2/(μ_fiber G)"]);
+    // By default the name, as of projections on planes and of the bins of a density.
+    for observable in [Observable::PlanarProjections, Observable::OrbitConstant] {
+        for channel in observable.channels().filter(|channel| channel.name() != "c_b") {
+            assert_eq!(channel.symbol(), channel.name());
+        }
+    }
+}
+
+#[test]
 fn more_rods_than_a_block_has_are_refused() {
     for spread in [false, true] {
         let added = |len| std::panic::catch_unwind(|| Sum::none(spread).add_each(len, |_| 1.0));

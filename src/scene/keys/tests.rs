@@ -87,3 +87,14 @@ fn numbers_are_short() {
         assert_eq!(crate::scene::document::decimal(number), text);
     }
 }
+
+/// In TOML a number with a fraction of 0 is no integer.
+#[test]
+fn values_are_written_as_toml() {
+    let numbers = [20.0, -3.0, 0.25, 1e15, 1e16, 1e-9].map(toml::Value::Float);
+    assert_eq!(
+        numbers.each_ref().map(crate::scene::document::as_toml),
+        ["20.0", "-3.0", "0.25", "1000000000000000.0", "1e16", "1e-9"]
+    );
+    assert_eq!(crate::scene::document::as_toml(&toml::Value::Integer(20)), "20");
+}
