@@ -1,4 +1,4 @@
-//! The contact rule's invariants as properties, and the corrected A.13 against the printed one.
+//! The contact rule's invariants as properties, and the corrected A.13 against the text's.
 
 mod properties;
 
@@ -117,7 +117,7 @@ fn invariants(rule: &ContactRule, effort: &Effort) -> Vec<Evidence> {
 /// A function that returns (φ̇′, θ̇′) from a direction and ṗ′.
 type AngleRates = fn(&UnitVector3<f64>, &Vector3<f64>) -> (f64, f64);
 
-/// A.13 as printed: φ̇′ without 1/sin θ, θ̇′ with sin θ and cos θ exchanged.
+/// A.13 as in the text at hand: φ̇′ without 1/sin θ, θ̇′ with sin θ and cos θ exchanged.
 fn printed_a13(p: &UnitVector3<f64>, rate: &Vector3<f64>) -> (f64, f64) {
     let (phi, theta) = orientation::angles(p);
     (

@@ -1,33 +1,5 @@
 //! Tables: columns over records, declared once, and all their writers; and rows as CSV by their serialized fields.
 
-/// The largest number of characters of a line on a terminal.
-const WIDTH: usize = 80;
-
-/// Breaks lines that are too long between words and indents their continuation; rows of tables, whose cells are separated by
-/// two blanks, stay as they are.
-pub(crate) fn wrapped(text: &str) -> String {
-    let mut all = String::new();
-    for line in text.lines() {
-        let mut width = 0;
-        let words = if line.trim_end().contains("  ") { vec![line] } else { line.split(' ').collect() };
-        for (k, word) in words.into_iter().enumerate() {
-            let length = word.chars().count();
-            if k > 0 && width + 1 + length > WIDTH {
-                all += "\n  ";
-                width = 2 + length;
-            } else {
-                if k > 0 {
-                    all.push(' ');
-                }
-                width += usize::from(k > 0) + length;
-            }
-            all += word;
-        }
-        all.push('\n');
-    }
-    all
-}
-
 #[cfg(test)]
 mod tests;
 
@@ -349,13 +321,9 @@ impl ReportTable {
             cells.map(|cell| cell.chars().count()).max().unwrap_or(0)
         };
         let widths: Vec<_> = (0..self.columns.len()).map(width).collect();
-        let mut across = 0;
-        let fits = |width: &&usize| {
-            across += *width;
-            across += 2;
-            across - 2 <= room
-        };
-        let shown = widths.iter().take_while(fits).count().max(1);
+        // Two blanks stand between columns.
+        let across = |last: usize| widths[..=last].iter().sum::<usize>() + 2 * last;
+        let shown = (0..widths.len()).take_while(|last| across(*last) <= room).count().max(1);
         let mut text = format!("{}\n\n", self.title);
         for cells in lines() {
             let padded = cells[..shown].iter().zip(&widths).map(|(cell, width)| format!("{cell:<width$}  "));
@@ -382,4 +350,32 @@ impl ReportTable {
         let rows: String = self.rows.iter().map(|row| line(row)).collect();
         format!("{}|{}\n{rows}", line(&self.columns), " --- |".repeat(self.columns.len()))
     }
+}
+
+/// The largest number of characters of a line on a terminal.
+const WIDTH: usize = 80;
+
+/// Breaks lines that are too long between words and indents their continuation; rows of tables, whose cells are separated by
+/// two blanks, stay as they are.
+pub(crate) fn wrapped(text: &str) -> String {
+    let mut all = String::new();
+    for line in text.lines() {
+        let mut width = 0;
+        let words = if line.trim_end().contains("  ") { vec![line] } else { line.split(' ').collect() };
+        for (k, word) in words.into_iter().enumerate() {
+            let length = word.chars().count();
+            if k > 0 && width + 1 + length > WIDTH {
+                all += "\n  ";
+                width = 2 + length;
+            } else {
+                if k > 0 {
+                    all.push(' ');
+                }
+                width += usize::from(k > 0) + length;
+            }
+            all += word;
+        }
+        all.push('\n');
+    }
+    all
 }

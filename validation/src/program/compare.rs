@@ -104,6 +104,13 @@ const PART: f64 = 0.01;
 /// Prints the changes.
 pub(super) fn compare(args: &Args) -> Result<(), Failure> {
     let (a, b) = (read(&args.before)?, read(&args.after)?);
+    if !a.cases.iter().any(|case| b.cases.iter().any(|other| other.name == case.name)) {
+        return Err(Failure::Input(format!(
+            "{} and {} have no case in common: nothing can be compared",
+            args.before.shown(),
+            args.after.shown()
+        )));
+    }
     let mut text = format!(
         "A: {}, commit {}\nB: {}, commit {}\n",
         args.before.shown(),
@@ -115,13 +122,6 @@ pub(super) fn compare(args: &Args) -> Result<(), Failure> {
         text += "The two differ in --full or --seed: other samples, so that means move by chance.\n";
     }
     text.push('\n');
-    if !a.cases.iter().any(|case| b.cases.iter().any(|other| other.name == case.name)) {
-        return Err(Failure::Input(format!(
-            "{} and {} have no case in common: nothing can be compared",
-            args.before.shown(),
-            args.after.shown()
-        )));
-    }
     text += &verdicts(&a, &b);
     text += &judged_otherwise(&a, &b);
     let moved = moved(&a, &b);

@@ -131,7 +131,7 @@ fn free(scene: &Scene) -> Result<Done, Failure> {
     })
 }
 
-/// A sentence on the tried steps that do not resolve the motion.
+/// A sentence on the tried steps that are coarser than the default.
 fn coarse(scene: &Scene) -> String {
     let strain = |steps: u64| strain_per_period(scene.particles.aspect_ratio) / steps as f64;
     let resolved = resolved_strain(scene.particles.aspect_ratio);
@@ -139,8 +139,8 @@ fn coarse(scene: &Scene) -> String {
     let coarse = steps.iter().filter(|(_, coarse)| *coarse).count();
     let (first, last) = (law::STEPS_PER_PERIOD[0], law::STEPS_PER_PERIOD[coarse.max(1) - 1]);
     format!(
-        "{first} to {last} steps a period (strain per step {:.3} to {:.3}) are above the step that shearbed takes by default \
-         (strain per step at most {resolved:.3}): they are run on purpose, to show what a coarse step changes",
+        "{first} to {last} steps a period (strain per step {:.3} to {:.3}) are coarser than the default step (strain per step at \
+         most {resolved:.3}): they are run on purpose, to show what a coarse step changes",
         strain(first),
         strain(last),
     )

@@ -13,7 +13,6 @@ use crate::files::text::Shown;
 use crate::files::text::command;
 use crate::input::experiment::MOST_BYTES;
 use crate::present::plot;
-use crate::serve::fit::data::TimeColumn;
 use crate::serve::fit::design::{Candidate, design};
 use crate::serve::fit::elsewhere::look_elsewhere;
 use crate::serve::fit::report::{self, Report};
@@ -164,17 +163,7 @@ fn work(args: &Args, input: &Input, watch: &Watch<'_>) -> Result<Done, Failure> 
     let shifts = shifts(input, &fit, &model, watch).map_err(stopped)?;
     let mut report = report::report(&fit, data, shifts);
     report.warnings.extend(unsearched);
-    let turns = (scenes.sets.iter().enumerate()).filter(|(_, set)| set.time == TimeColumn::Periods);
-    for (set, _) in turns {
-        let shapes =
-            args.over.iter().filter(|range| range.is_of(set) && range.key == "particles.aspect_ratio");
-        report.warnings.extend(shapes.map(|range| {
-            format!(
-                "{}: t_over_T counts periods of the fitted r_e, so the points move with it; times as t_s or strain do not",
-                range.label()
-            )
-        }));
-    }
+    report.warnings.extend(scenes.moving_points());
     report.tests = args.test.iter().map(|held| held.test(&fit)).collect::<Result<_, _>>().map_err(stopped)?;
     let known = taken_as_known(&report);
     report.warnings.extend(known);

@@ -84,7 +84,8 @@ pub(super) fn summary(results: &Results) -> String {
         );
         for channel in shown(series) {
             // Values without bounds have a size of their own.
-            let number = |x: f64| match is_bounded(&channel.name) {
+            let bounded = is_bounded(&channel.name);
+            let number = |x: f64| match bounded {
                 true => format!("{x:.4}"),
                 false => format!("{x:.2e}"),
             };

@@ -59,7 +59,7 @@ const PLANTED: &[(&str, &str, &str, &str)] = &[
         "/ math.sin(theta)\n    theta_rate = (rate[0] * math.cos(phi) + rate[1] * math.sin(phi)) * math.cos(theta) - rate[2] * math.sin(theta)",
         "\n    theta_rate = (rate[0] * math.cos(phi) + rate[1] * math.sin(phi)) * math.sin(theta) - rate[2] * math.cos(theta)",
         "contact-angles",
-        "A.13 as printed",
+        "A.13 as in the text",
     ),
 ];
 

@@ -3,8 +3,9 @@
 
 use super::example_case::cases;
 use super::example_study::STUDY;
+use super::order::sources;
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use validation::judge::accept::Verdict;
 use validation::judge::case::Effort;
 use validation::present::plot;
@@ -50,15 +51,12 @@ fn the_example_of_an_observable_is_one() {
 #[test]
 fn explained_mutants_are_of_functions_that_exist() {
     let root = concat!(env!("CARGO_MANIFEST_DIR"), "/..");
-    let sources: Vec<_> = ["src", "validation/src", "validation/methods/src", "validation/oracle/src"]
-        .iter()
-        .flat_map(|dir| sources(&Path::new(root).join(dir)))
-        .collect();
+    let folders = ["src", "validation/src", "validation/methods/src", "validation/oracle/src"];
+    let paths = folders.iter().flat_map(|folder| sources(&Path::new(root).join(folder)));
+    let texts: Vec<_> = paths.map(|path| (fs::read_to_string(&path).unwrap(), path)).collect();
     let is_there = |file: &str, function: Option<&str>| {
-        let of_file = sources.iter().filter(|(path, _)| path.ends_with(file));
-        of_file.clone().count() > 0
-            && function
-                .is_none_or(|name| of_file.clone().any(|(_, text)| text.contains(&format!("fn {name}"))))
+        let mut of_file = texts.iter().filter(|(_, path)| path.ends_with(file));
+        of_file.any(|(text, _)| function.is_none_or(|name| text.contains(&format!("fn {name}"))))
     };
     let patterns = include_str!("../../../.cargo/mutants.toml")
         .lines()
@@ -74,14 +72,4 @@ fn explained_mutants_are_of_functions_that_exist() {
         .collect();
     assert!(patterns.count() > 80 && gone.is_empty(), "{gone:#?}");
     assert!(!is_there("grid.rs", Some("no_such_function")) && !is_there("no_such_file.rs", None));
-}
-
-/// The Rust files of a folder, and their texts.
-fn sources(dir: &Path) -> Vec<(PathBuf, String)> {
-    let entries = fs::read_dir(dir).unwrap().map(|entry| entry.unwrap().path());
-    let of = |path: PathBuf| match path.is_dir() {
-        true => sources(&path),
-        false => vec![(path.clone(), fs::read_to_string(&path).unwrap_or_default())],
-    };
-    entries.flat_map(of).collect()
 }

@@ -9,7 +9,7 @@ fn declared(lib: &str) -> Vec<&str> {
 }
 
 /// Rust files below a folder that are not of tests alone.
-fn sources(folder: &Path) -> Vec<PathBuf> {
+pub fn sources(folder: &Path) -> Vec<PathBuf> {
     let mut found = Vec::new();
     for entry in fs::read_dir(folder).unwrap() {
         let path = entry.unwrap().path();

@@ -183,9 +183,9 @@ impl Emulator {
         let zero = DMatrix::zeros(terms, terms);
         // One product with V⁻¹ for many replicas: a replica alone has too few rows for the fast kernels.
         let some = |deviations: &[DMatrix<f64>]| {
-            let columns: Vec<_> =
-                deviations.iter().flat_map(|one| one.row_iter().map(|row| row.transpose())).collect();
-            let stacked = DMatrix::from_columns(&columns);
+            let stacked = DMatrix::from_fn(self.points(), terms * deviations.len(), |point, column| {
+                deviations[column / terms][(column % terms, point)]
+            });
             let weighted = inverse * &stacked;
             let of = |k: usize| stacked.columns(k * terms, terms).tr_mul(&weighted.columns(k * terms, terms));
             (0..deviations.len()).fold(zero.clone(), |sum, k| sum + of(k))

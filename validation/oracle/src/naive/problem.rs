@@ -45,7 +45,7 @@ pub enum Mistake {
     SpinIgnored,
     /// V_tr is not subtracted again (A.12).
     TranslationKept,
-    /// A.13 as printed; shows only with `Update::Angles`.
+    /// A.13 as in the text at hand; shows only with `Update::Angles`.
     PrintedA13,
     /// Lambda = 1 in free motion.
     LambdaOne,

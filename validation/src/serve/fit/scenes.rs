@@ -116,6 +116,21 @@ impl Scenes {
         }
     }
 
+    /// Warnings about points in periods whose length is fitted.
+    pub fn moving_points(&self) -> impl Iterator<Item = String> {
+        let in_periods = |range: &&Range| {
+            let mut sets = self.sets.iter().enumerate();
+            sets.any(|(set, own)| range.is_of(set) && own.time == TimeColumn::Periods)
+        };
+        let of_shape = |range: &&Range| range.key == "particles.aspect_ratio";
+        self.ranges.iter().filter(of_shape).filter(in_periods).map(|range| {
+            format!(
+                "{}: t_over_T counts periods of the fitted r_e, so the points move with it; times as t_s or strain do not",
+                range.label()
+            )
+        })
+    }
+
     /// The end of the set's scene with these values, in the unit of its points' times.
     pub fn end(&self, set: usize, values: &[f64]) -> Result<f64, String> {
         let refused = |error: String| format!("{}: {error}", self.sets[set].source);

@@ -9,7 +9,7 @@ const MISTAKES: [(&str, Variant); 4] = [
     ("a kick with the wrong sign", kicked(-1.0)),
     ("no kick", kicked(0.0)),
     ("a kick to the other rod's velocity, not to the mean", kicked(2.0)),
-    ("A.13 as printed", Variant { kick: 1.0, printed: true }),
+    ("A.13 as in the text", Variant { kick: 1.0, printed: true }),
 ];
 
 const fn kicked(kick: f64) -> Variant {

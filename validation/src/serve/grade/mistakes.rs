@@ -62,7 +62,7 @@ impl Mistake {
 pub struct Motion(Propagator);
 
 impl Motion {
-    /// The motion in this flow of a rod of this aspect ratio; `None` if the gradient is none.
+    /// The motion of a rod of this aspect ratio in this flow; `None` if the gradient is not finite.
     pub fn of(setting: &Setting) -> Option<Self> {
         let flow = VelocityGradient::new(setting.gradient_per_s)?;
         Some(Self(Propagator::new(&flow, setting.aspect_ratio)))

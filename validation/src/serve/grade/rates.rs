@@ -4,6 +4,7 @@
 use super::answer::Answer;
 use super::diagnosis::{apart, setting};
 use super::mistakes::{Motion, Setting, phase};
+use crate::judge::statistics::worst;
 use crate::serve::problems::{Kind, LoadedProblem};
 use nalgebra::{Matrix3, Vector3};
 use std::f64::consts::PI;
@@ -57,7 +58,7 @@ fn by_phase(loaded: &LoadedProblem, answer: &Answer, setting: &Setting, due: f64
         .then(|| (0..=most as u32).map(|half_turns| (turned + PI * f64::from(half_turns)) / due).collect())
 }
 
-/// The largest distance of the rows at one time from correct rods after `time_s`.
+/// The largest distance of the rows at one time from correct rods after `time_s`; NaN if one of them is.
 fn off(loaded: &LoadedProblem, rows: &[Vec<f64>], motion: &Motion, time_s: f64) -> f64 {
     let Some(map) = motion.map(time_s) else {
         return f64::INFINITY;
@@ -65,7 +66,7 @@ fn off(loaded: &LoadedProblem, rows: &[Vec<f64>], motion: &Motion, time_s: f64) 
     let of_rod = |(start, values): (&[f64; 3], &Vec<f64>)| {
         moved(&map, start).map_or(f64::INFINITY, |p| apart(&Vector3::from_row_slice(values), &p, false))
     };
-    loaded.start.iter().zip(rows).map(of_rod).fold(0.0, f64::max)
+    worst(loaded.start.iter().zip(rows).map(of_rod))
 }
 
 /// The direction of a rod that starts along `start`; `None` if it is not finite.

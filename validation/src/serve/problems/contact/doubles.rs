@@ -10,7 +10,7 @@ use nalgebra::{Matrix3, Vector3};
 pub(crate) struct Variant {
     /// The factor on the change of ṗ.
     pub(crate) kick: f64,
-    /// True for A.13 as printed.
+    /// True for A.13 as in the text at hand.
     pub(crate) printed: bool,
 }
 
@@ -68,7 +68,7 @@ fn rates(gradient: &Matrix3<f64>, pair: &[f64], kick: f64) -> [(Vector3<f64>, Ve
     [(a.1, a.2 + line * (kick * (mean - v_a) / arm_a)), (b.1, b.2 + line * (kick * (mean - v_b) / arm_b))]
 }
 
-/// φ̇′, θ̇′ in 1/s by A.13, corrected or as printed, and φ and θ in rad after a step by A.14.
+/// φ̇′, θ̇′ in 1/s by A.13, corrected or as in the text, and φ and θ in rad after a step by A.14.
 fn angles(p: &Vector3<f64>, rate: &Vector3<f64>, step_s: f64, printed: bool) -> Vec<f64> {
     let (phi, theta) = (p.y.atan2(p.x), p.x.hypot(p.y).atan2(p.z));
     let around = -rate.x * phi.sin() + rate.y * phi.cos();
