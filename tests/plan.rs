@@ -124,9 +124,9 @@ fn keeping_a_stage_that_is_left_out_changes_no_bit() {
                     .replace("\"isotropic\"", orientation);
                 let plan = plan(&text);
                 let without = run(&plan);
-                for stage in stages().filter(|stage| !plan.keeps(*stage)) {
-                    let with = plan.keeping(stage).expect("the scene has a control volume");
-                    assert!(with.keeps(stage));
+                for stage in stages().filter(|stage| !plan.runs(*stage)) {
+                    let with = plan.with_stage(stage).expect("the scene has a control volume");
+                    assert!(with.runs(stage));
                     assert_same_bits(&without, &run(&with), &format!("{stage} in {text}"));
                 }
             }
@@ -137,7 +137,7 @@ fn keeping_a_stage_that_is_left_out_changes_no_bit() {
 #[test]
 fn a_stage_kept_by_request_does_run() {
     let plan = plan(&format!("{FREE}{ALPHA_0}"));
-    let counters = |stage| run(&plan.keeping(stage).unwrap()).counters;
+    let counters = |stage| run(&plan.with_stage(stage).unwrap()).counters;
     assert_eq!(run(&plan).counters.steps, 0);
     assert_eq!(counters(Stage::Translation).steps, 400);
     assert!(counters(Stage::Translation).replacements > 0);
@@ -147,9 +147,9 @@ fn a_stage_kept_by_request_does_run() {
 
 #[test]
 fn a_stage_without_what_it_works_on_cannot_be_kept() {
-    assert!(plan(FREE).keeping(Stage::Neighbours).is_none());
-    assert!(plan(EXTENSION).keeping(Stage::Positions).is_none());
-    assert!(plan(FREE).keeping(Stage::Observe(Observable::MeanAngle)).is_some());
+    assert!(plan(FREE).with_stage(Stage::Neighbours).is_none());
+    assert!(plan(EXTENSION).with_stage(Stage::Positions).is_none());
+    assert!(plan(FREE).with_stage(Stage::Observe(Observable::MeanAngle)).is_some());
 }
 
 #[test]
@@ -286,14 +286,14 @@ fn a_stage_that_is_kept_brings_what_it_needs() {
     let all =
         [Stage::Positions, Stage::Translation, Stage::Neighbours, Stage::CollisionDraws, Stage::Contacts];
     let plan = plan(&format!("{FREE}{ALPHA_0}"));
-    assert!(!all.iter().any(|stage| plan.keeps(*stage)));
+    assert!(!all.iter().any(|stage| plan.runs(*stage)));
     for (stage, brought) in all.into_iter().zip([1, 2, 3, 3, 5]) {
-        let with = plan.keeping(stage).unwrap();
-        assert!(with.keeps(stage), "{stage}");
-        let kept = all.iter().filter(|other| with.keeps(**other)).count();
+        let with = plan.with_stage(stage).unwrap();
+        assert!(with.runs(stage), "{stage}");
+        let kept = all.iter().filter(|other| with.runs(**other)).count();
         assert_eq!(kept, brought, "{stage}");
         // Who moves with the liquid has a place.
-        assert!(with.keeps(Stage::Positions), "{stage}");
+        assert!(with.runs(Stage::Positions), "{stage}");
     }
 }
 

@@ -111,7 +111,7 @@ fn the_plan_leaves_the_lengths_of_free_rods_out() {
     let mut free = scene("length_mm = 0.72\nlength_sd_percent = 30", DENSE);
     free.interaction = None;
     free.time.steps_per_unit = None;
-    let kept = |scene: &Scene| Plan::new(scene).unwrap().keeps(Stage::Lengths);
+    let kept = |scene: &Scene| Plan::new(scene).unwrap().runs(Stage::Lengths);
     assert!(kept(&free), "for the stress");
     free.output.observables.pop();
     assert!(!kept(&free));
@@ -212,7 +212,7 @@ fn rods_of_a_file_are_those_that_it_has() {
     let mut given = drawn.clone();
     given.particles.rods = Some(RodsFile::with("rods.csv", equal));
     let plan = Plan::new(&given).unwrap();
-    assert!(!plan.keeps(Stage::Lengths) && !plan.keeps(Stage::AspectRatios));
+    assert!(!plan.runs(Stage::Lengths) && !plan.runs(Stage::AspectRatios));
     assert_eq!(run(&given).series, run(&drawn).series);
 }
 

@@ -303,10 +303,10 @@ pub(super) fn rounded(map: &Square) -> (Matrix3<f64>, f64) {
     let error = Matrix3::from_fn(|i, j| shifted(map[i][j].error, power));
     let middle = middle.map(|component| shifted(component, power));
     let relative = error.norm() / middle.norm();
-    (middle, known(relative))
+    (middle, infinite_if_nan(relative))
 }
 
 /// The error, or infinity if it is NaN.
-pub(super) fn known(error: f64) -> f64 {
+pub(super) fn infinite_if_nan(error: f64) -> f64 {
     if error.is_nan() { f64::INFINITY } else { error }
 }

@@ -16,7 +16,7 @@ use crate::model::flow::VelocityGradient;
 use crate::model::jeffery;
 use crate::model::phase::Phase;
 use ball::Ball;
-use general::{General, Square, known, rounded, times};
+use general::{General, Square, infinite_if_nan, rounded, times};
 use nalgebra::{Matrix3, UnitVector3, Vector3};
 use std::f64::consts::TAU;
 use steps::Steps;
@@ -279,7 +279,7 @@ fn normalized(q: &[Ball; 3]) -> ([f64; 3], f64) {
     let off = length(1) * scale;
     // Up to 0.1, an arcsine is less than 1.01 times its argument. The direction itself is rounded to double.
     let error = if off < 0.1 { 1.01 * off + 4.0 * f64::EPSILON } else { f64::INFINITY };
-    (q.map(|q| q[0] * scale), known(error))
+    (q.map(|q| q[0] * scale), infinite_if_nan(error))
 }
 
 fn moved(map: &[[Ball; 3]; 3], q: &[Ball; 3], start: [f64; 3]) -> Moved {
@@ -290,6 +290,6 @@ fn moved(map: &[[Ball; 3]; 3], q: &[Ball; 3], start: [f64; 3]) -> Moved {
     Moved {
         p: UnitVector3::new_unchecked(end.into()),
         error,
-        condition: known(Vector3::from(sums).norm() / Vector3::from(length).norm()),
+        condition: infinite_if_nan(Vector3::from(sums).norm() / Vector3::from(length).norm()),
     }
 }

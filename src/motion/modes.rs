@@ -47,7 +47,7 @@ impl Pair {
     }
 
     /// True if the pair is certainly complex.
-    fn turns(&self) -> bool {
+    fn rotates(&self) -> bool {
         -self.square.hi > 2.0 * self.square.error
     }
 
@@ -58,7 +58,7 @@ impl Pair {
         if z.most() <= 1.0 {
             let (cosh, sinh) = cosh_sinh_over(z);
             (Ball::ZERO, cosh, tau * sinh)
-        } else if self.turns() {
+        } else if self.rotates() {
             let omega = (-self.square).sqrt();
             let turns = time.turns.unwrap_or_else(|| (omega * tau).over(Ball::TAU));
             let (sin, cos) = sin_cos(turns);
@@ -96,7 +96,7 @@ impl Cubic {
 
     /// The period 2π/ω if the pair is certainly complex, and |λ − m|·2π/ω; else `None`.
     pub fn period(&self) -> Option<(Ball, f64)> {
-        if !self.pair.turns() {
+        if !self.pair.rotates() {
             return None;
         }
         let period = Ball::TAU.over((-self.pair.square).sqrt());

@@ -14,6 +14,7 @@ macro_rules! observables {
         /// assert_eq!(names, ["x1", "x2", "x3"]);
         /// ```
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        #[non_exhaustive]
         pub enum Observable {
             $($(#[$doc])* $variant,)*
         }

@@ -8,7 +8,7 @@ mod time;
 use crate::model::flow::VelocityGradient;
 use crate::model::volume::MAX_STEP;
 use crate::motion::Propagator;
-use crate::plan::free::MAX_ERROR_RAD;
+use crate::plan::free_motion::MAX_ERROR_RAD;
 use crate::plan::no_interaction;
 use crate::scene::{
     FlowStep, Interaction, Invalid, MAX_PER_UNIT, Scene, TimeUnit, refused, resolved_strain, step_maps,

@@ -5,7 +5,7 @@
 
 mod check;
 mod elapsed;
-pub mod free;
+pub mod free_motion;
 mod stages;
 mod warnings;
 
@@ -14,7 +14,7 @@ pub use stages::{Entry, Stage};
 
 use crate::model::flow::VelocityGradient;
 use crate::observable::Observable;
-use crate::plan::free::FreeMotion;
+use crate::plan::free_motion::FreeMotion;
 use crate::scene::document::Document;
 use crate::scene::{Error, MAX_REPLICAS, Scene, TimeUnit, of_document};
 use elapsed::Timing;
@@ -88,10 +88,10 @@ impl Plan {
         Self::new(&of_document(&document)?).map_err(|error| document.located(error))
     }
 
-    /// The same plan with `stage`, and the stages that it needs, kept although the scene does not need them: to test that dropping
+    /// The same plan with `stage`, and the stages that it needs, run although the scene does not need them: to test that dropping
     /// it changes nothing, and to measure its cost. `None` if the scene has nothing for the stage to work on: no `[interaction]` table,
     /// or free rods in any but plane Couette flow by periods.
-    pub fn keeping(&self, stage: Stage) -> Option<Self> {
+    pub fn with_stage(&self, stage: Stage) -> Option<Self> {
         let needs: &[Stage] = match stage {
             Stage::Translation => &[Stage::Positions],
             Stage::Neighbours => &[Stage::Translation, Stage::Positions],
@@ -114,7 +114,7 @@ impl Plan {
             }
         }
         // An observable that the scene does not ask for has no entry.
-        if !plan.keeps(stage) {
+        if !plan.runs(stage) {
             plan.entries.push(Entry { stage, kept: true, reason: reason() });
         }
         Some(plan)
@@ -164,7 +164,7 @@ impl Plan {
     }
 
     /// True if `stage` runs.
-    pub fn keeps(&self, stage: Stage) -> bool {
+    pub fn runs(&self, stage: Stage) -> bool {
         self.entries.iter().any(|entry| entry.stage == stage && entry.kept)
     }
 
@@ -185,7 +185,7 @@ impl Plan {
 
     /// The number of time steps; 0 if the exact motion goes straight to each output.
     pub fn steps(&self) -> u64 {
-        if self.keeps(Stage::Translation) { (self.outputs() as u64 - 1) * self.ticks_per_output() } else { 0 }
+        if self.runs(Stage::Translation) { (self.outputs() as u64 - 1) * self.ticks_per_output() } else { 0 }
     }
 
     /// The name of the time column: `t_over_T`, or `strain` if the scene's time is a strain.
@@ -235,7 +235,7 @@ impl Plan {
 
     /// Steps between outputs; 1 if no steps are taken.
     pub(crate) fn ticks_per_output(&self) -> u64 {
-        if self.keeps(Stage::Translation) {
+        if self.runs(Stage::Translation) {
             self.scene.steps_per_unit() / self.scene.outputs_per_unit()
         } else {
             1

@@ -10,7 +10,7 @@ use std::fmt;
 /// ```
 /// use shearbed::{Plan, Scene, plan::Stage};
 /// // Free rods need no neighbours.
-/// assert!(!Plan::new(&Scene::default())?.keeps(Stage::Neighbours));
+/// assert!(!Plan::new(&Scene::default())?.runs(Stage::Neighbours));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]

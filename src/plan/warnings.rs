@@ -58,7 +58,7 @@ impl Plan {
     fn turned_straight(&self) -> Option<String> {
         let update = self.scene.interaction.as_ref()?.update;
         let turns = self.flow.shear_rate_per_s().is_none() && self.flow.turn_per_s() > 0.0;
-        (self.keeps(Stage::Contacts) && turns && update != Update::Kick).then(|| {
+        (self.runs(Stage::Contacts) && turns && update != Update::Kick).then(|| {
             "interaction.update turns colliding rods straight through a step, where free rods follow the liquid: an error ∝ Δt that \
              adds up with time in flows that turn; \"kick\" has none"
                 .to_owned()
@@ -133,7 +133,7 @@ impl Plan {
     /// Warns if colliding rods are too thick for the collision rule.
     fn thick(&self) -> Option<String> {
         let mean = self.scene.particles.mean_aspect_ratio();
-        (self.keeps(Stage::Contacts) && mean < RULE_OF_LINES).then(|| {
+        (self.runs(Stage::Contacts) && mean < RULE_OF_LINES).then(|| {
             format!(
                 "{}: the collision rule is for slender rods, r_e ≫ 1. Below {RULE_OF_LINES} it leaves out a diameter of more than a \
                  tenth of a rod's length. Lee & Springer leave out Okagawa & Mason's points of r_e = 3.96, and name a lack of \
@@ -155,7 +155,7 @@ impl Plan {
     /// Warns if the stress of slender rods is computed for rods that are not slender.
     fn not_slender(&self) -> Option<String> {
         let r = self.scene.particles.mean_aspect_ratio();
-        (self.keeps(Stage::Observe(Observable::ParticleStress)) && r < SLENDER).then(|| {
+        (self.runs(Stage::Observe(Observable::ParticleStress)) && r < SLENDER).then(|| {
             format!(
                 "{}: particle_stress is the limit of slender rods, r_e ≫ 1. Below {SLENDER} the terms that it leaves out are not \
                  small; the observable \"stress\" has them (docs/src/theory/coefficients.md)",

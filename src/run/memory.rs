@@ -3,7 +3,7 @@
 use crate::model::collision::reach;
 use crate::motion::Propagator;
 use crate::observable::Sum;
-use crate::plan::free::Way;
+use crate::plan::free_motion::Way;
 use crate::plan::{Plan, Stage};
 use crate::run::ensemble::{batch, width};
 use crate::suspension::BYTES_OF_A_CANDIDATE;
@@ -18,12 +18,12 @@ use std::f64::consts::PI;
 pub fn bytes(plan: &Plan, at_once: u64) -> u64 {
     let scene = plan.scene();
     let replicas = scene.ensemble.replicas.min(at_once.max(1));
-    let kept = |stage, bytes| if plan.keeps(stage) { bytes } else { 0 };
+    let kept = |stage, bytes| if plan.runs(stage) { bytes } else { 0 };
     // A propagator per rod, and the data per output that all replicas share.
     let maps = match plan.free().map(|free| &free.way) {
         None => [0, 0],
         Some(Way::Each { spans, .. }) => {
-            let each = if plan.keeps(Stage::AspectRatios) { size_of::<Propagator>() } else { 0 };
+            let each = if plan.runs(Stage::AspectRatios) { size_of::<Propagator>() } else { 0 };
             [each, size_of_val(&spans[..])]
         }
         Some(Way::Maps(maps)) => [0, size_of_val(&maps[..])],
@@ -54,7 +54,7 @@ pub fn bytes(plan: &Plan, at_once: u64) -> u64 {
 fn candidates(plan: &Plan) -> f64 {
     const POINTS: usize = 64;
     let scene = plan.scene();
-    let Some(interaction) = (scene.interaction.as_ref()).filter(|_| plan.keeps(Stage::Contacts)) else {
+    let Some(interaction) = (scene.interaction.as_ref()).filter(|_| plan.runs(Stage::Contacts)) else {
         return 0.0;
     };
     let n = scene.concentration().unwrap_or(0.0) * scene.particles.mean_cube();

@@ -54,7 +54,7 @@ impl Replica {
         let own = self.observables == plan.observables()
             && self.rods == plan.scene().particles.count
             && self.sums.len() == plan.outputs() * width(&self.observables);
-        let spread = plan.keeps(Stage::RodErrors);
+        let spread = plan.runs(Stage::RodErrors);
         if !own || !self.sums.iter().all(|sum| sum.is_over(self.rods, spread)) {
             return Err("its sums are not those of this scene");
         }
@@ -201,7 +201,7 @@ impl<'a> Recorder<'a> {
                 (observable, start)
             })
             .collect();
-        let empty = Sum::none(plan.keeps(Stage::RodErrors));
+        let empty = Sum::none(plan.runs(Stage::RodErrors));
         Self {
             plan,
             replica,

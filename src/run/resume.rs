@@ -51,7 +51,7 @@ impl Halfway {
     pub fn bytes(plan: &Plan) -> u64 {
         let sums = plan.outputs() * width(&plan.observables()) * size_of::<Sum>();
         // For free rods it holds neither directions nor snapshots.
-        let of_rod = match plan.keeps(Stage::Translation) {
+        let of_rod = match plan.runs(Stage::Translation) {
             true => 48 + 4 + plan.rods_outputs().len() * Snapshot::bytes_per_rod(plan),
             false => 0,
         };
@@ -75,19 +75,19 @@ impl Halfway {
     /// A sentence that says what does not fit.
     pub fn check(&self, plan: &Plan) -> Result<(), &'static str> {
         let width = width(&plan.observables());
-        let (rods, spread) = (plan.scene().particles.count, plan.keeps(Stage::RodErrors));
+        let (rods, spread) = (plan.scene().particles.count, plan.runs(Stage::RodErrors));
         let whole = self.sums.len().is_multiple_of(width.max(1)) && self.outputs(plan) <= plan.outputs();
         if !whole || !self.sums.iter().all(|sum| sum.is_over(rods, spread)) {
             return Err("its sums are not those of this scene");
         }
-        let reached = |output: &&usize| plan.keeps(Stage::Translation) && **output < self.outputs(plan);
+        let reached = |output: &&usize| plan.runs(Stage::Translation) && **output < self.outputs(plan);
         let asked = plan.rods_outputs().iter().filter(reached).count() as u64;
         if !Snapshot::all_fit(&self.snapshots, asked, plan) {
             return Err("its rods are not at the times of this scene");
         }
         match &self.rods {
-            Some(placed) if plan.keeps(Stage::Translation) => placed.check(plan, self.outputs(plan)),
-            None if !plan.keeps(Stage::Translation) => Ok(()),
+            Some(placed) if plan.runs(Stage::Translation) => placed.check(plan, self.outputs(plan)),
+            None if !plan.runs(Stage::Translation) => Ok(()),
             _ => Err("it has saved rods and the scene asks for none, or the other way round"),
         }
     }
@@ -120,11 +120,11 @@ impl Placed {
             return Err("its outputs are not those of its steps");
         }
         let most = tick.saturating_mul(count as u64);
-        let drawn = if plan.keeps(Stage::CollisionDraws) { most } else { 0 };
+        let drawn = if plan.runs(Stage::CollisionDraws) { most } else { 0 };
         if self.counters.draws != drawn || self.counters.replacements > most {
             return Err("its random numbers are not those of its steps");
         }
-        let dated = if plan.keeps(Stage::Contacts) { count } else { 0 };
+        let dated = if plan.runs(Stage::Contacts) { count } else { 0 };
         let axes = || self.directions.iter().chain(&self.positions);
         if self.since.len() != dated || axes().any(|axis| axis.len() != count) {
             return Err("its number of rods is not the scene's");

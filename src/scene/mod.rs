@@ -132,6 +132,7 @@ table! {
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
+#[non_exhaustive]
 pub enum Update {
     /// Turn about p × ṗ′ by |ṗ′|Δt.
     Rotation,

@@ -91,7 +91,7 @@ type Candidate = (f64, u32, u32);
 const MANY: usize = 1024;
 
 /// The effect of a collision on its two rods.
-struct Turns {
+struct Effect {
     ends: [UnitVector3<f64>; 2],
     angles_rad: [f64; 2],
     kicks_rad: [f64; 2],
@@ -102,7 +102,7 @@ struct Turns {
 /// rods, and half a collision; every list may have twice the capacity.
 pub(crate) const BYTES_OF_A_CANDIDATE: usize = 2 * size_of::<Nearest>()
     + 2 * size_of::<Candidate>()
-    + size_of::<Option<Turns>>()
+    + size_of::<Option<Effect>>()
     + size_of::<Collision>();
 
 #[derive(Clone, Copy, Debug)]
@@ -117,7 +117,7 @@ impl Suspension {
     /// The state of one replica at t = 0. `None` for a plan that takes no steps.
     pub fn new(plan: &Plan, replica: u64) -> Option<Self> {
         let scene = plan.scene();
-        let interaction = scene.interaction.as_ref().filter(|_| plan.keeps(Stage::Translation))?;
+        let interaction = scene.interaction.as_ref().filter(|_| plan.runs(Stage::Translation))?;
         let (rods, counters) = Rods::draw(plan, replica);
         let count = rods.count();
         let volume = scene.volume()?;
@@ -133,10 +133,10 @@ impl Suspension {
             },
             sides: volume.sides(),
             liquid,
-            neighbours: plan.keeps(Stage::Neighbours).then(|| Neighbours::new(volume.sides(), count)),
-            draws: plan.keeps(Stage::CollisionDraws).then(|| rng(Purpose::Collisions)),
+            neighbours: plan.runs(Stage::Neighbours).then(|| Neighbours::new(volume.sides(), count)),
+            draws: plan.runs(Stage::CollisionDraws).then(|| rng(Purpose::Collisions)),
             replacements: rng(Purpose::Replacements),
-            contacts: plan.keeps(Stage::Contacts),
+            contacts: plan.runs(Stage::Contacts),
             reach: Reach::new(interaction.alpha, interaction.m),
             rule: Rule { update: interaction.update, min_arm: interaction.min_contact_arm, step },
             tick: 0,
@@ -219,18 +219,18 @@ impl Suspension {
             candidates.sort_unstable_by(closest_first);
             for &(_, a, b) in &candidates {
                 if self.both_free(a, b)
-                    && let Some(turns) = self.turns(a, b)
+                    && let Some(effect) = self.effect(a, b)
                 {
-                    self.take(a, b, turns)?;
+                    self.apply(a, b, effect)?;
                 }
             }
         } else {
             candidates.par_sort_unstable_by(closest_first);
             // Computed from the state at the start of the step, so the order does not matter.
-            let turns: Vec<_> = candidates.par_iter().map(|&(_, a, b)| self.turns(a, b)).collect();
-            for (&(_, a, b), turns) in candidates.iter().zip(turns) {
-                if let (true, Some(turns)) = (self.both_free(a, b), turns) {
-                    self.take(a, b, turns)?;
+            let effects: Vec<_> = candidates.par_iter().map(|&(_, a, b)| self.effect(a, b)).collect();
+            for (&(_, a, b), effect) in candidates.iter().zip(effects) {
+                if let (true, Some(effect)) = (self.both_free(a, b), effect) {
+                    self.apply(a, b, effect)?;
                 }
             }
         }
@@ -245,7 +245,7 @@ impl Suspension {
     }
 
     /// The effect of a collision on both rods, and the contact's arms; `None` if there is no contact.
-    fn turns(&self, a: u32, b: u32) -> Option<Turns> {
+    fn effect(&self, a: u32, b: u32) -> Option<Effect> {
         let pair = [a as usize, b as usize];
         let p = pair.map(|rod| self.rods.direction(rod, self.tick));
         let separation = self.position(pair[1]) - self.position(pair[0]);
@@ -271,7 +271,7 @@ impl Suspension {
                 }
             }
         });
-        Some(Turns {
+        Some(Effect {
             ends: turned.map(|(end, _)| end),
             angles_rad: turned.map(|(_, angle)| angle),
             kicks_rad: [0, 1].map(|k| norm(&(rates[k] - free[k])) * self.rule.step),
@@ -279,15 +279,15 @@ impl Suspension {
         })
     }
 
-    fn take(&mut self, a: u32, b: u32, turns: Turns) -> Result<(), Error> {
+    fn apply(&mut self, a: u32, b: u32, effect: Effect) -> Result<(), Error> {
         let rods = [a as usize, b as usize];
-        for (k, end) in turns.ends.iter().enumerate() {
+        for (k, end) in effect.ends.iter().enumerate() {
             if !end.iter().all(|component| component.is_finite()) {
-                return Err(self.non_finite(rods[k], turns.arms[k], turns.angles_rad[k]));
+                return Err(self.non_finite(rods[k], effect.arms[k], effect.angles_rad[k]));
             }
             self.rods.set(rods[k], end, self.tick + 1);
         }
-        self.collisions.push(Collision { rods, angles_rad: turns.angles_rad, kicks_rad: turns.kicks_rad });
+        self.collisions.push(Collision { rods, angles_rad: effect.angles_rad, kicks_rad: effect.kicks_rad });
         Ok(())
     }
 

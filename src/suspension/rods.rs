@@ -11,7 +11,7 @@ use crate::model::work::Counters;
 use crate::motion::{Propagator, couette};
 use crate::observable::fault::Fault;
 use crate::observable::{BLOCK, Block};
-use crate::plan::free::{FreeMotion, MAX_ERROR_RAD, Way, directed, propagator, refused_direction};
+use crate::plan::free_motion::{FreeMotion, MAX_ERROR_RAD, Way, directed, propagator, refused_direction};
 use crate::plan::{Clock, Plan, Stage};
 use crate::scene::step_maps;
 use draw::{draw_directions, draw_lengths, draw_shapes};
@@ -60,7 +60,7 @@ impl Rods {
         let (lengths, lengths_redrawn) = draw_lengths(plan, replica);
         let motion = choose_motion(plan, &shapes);
         let since =
-            if plan.keeps(Stage::Contacts) { vec![0; plan.scene().particles.count] } else { Vec::new() };
+            if plan.runs(Stage::Contacts) { vec![0; plan.scene().particles.count] } else { Vec::new() };
         let rods = Self {
             p: draw_directions(plan, replica),
             since,

@@ -56,8 +56,8 @@ impl Snapshot {
     /// Bytes per rod of a snapshot of the plan: direction, aspect ratio and whether it collided; its position if rods interact; its
     /// length if lengths differ.
     pub(crate) fn bytes_per_rod(plan: &Plan) -> usize {
-        let placed = if plan.keeps(Stage::Translation) { 3 } else { 0 };
-        let numbers = 4 + placed + usize::from(plan.keeps(Stage::Lengths));
+        let placed = if plan.runs(Stage::Translation) { 3 } else { 0 };
+        let numbers = 4 + placed + usize::from(plan.runs(Stage::Lengths));
         numbers * size_of::<f64>() + 1
     }
 
@@ -71,8 +71,8 @@ impl Snapshot {
         let places = self.place_in_lengths.iter().flatten();
         let mut axes = (self.p.iter().chain(places).chain(&self.length)).chain([&self.aspect_ratio]);
         let whole = |axis: &Vec<f64>| axis.len() == count && axis.iter().all(|x| x.is_finite());
-        self.place_in_lengths.is_some() == plan.keeps(Stage::Translation)
-            && self.length.is_some() == plan.keeps(Stage::Lengths)
+        self.place_in_lengths.is_some() == plan.runs(Stage::Translation)
+            && self.length.is_some() == plan.runs(Stage::Lengths)
             && axes.all(whole)
             && self.collided.len() == count
             && plan.rods_outputs().contains(&self.output)

@@ -49,7 +49,7 @@ fn a_stress_in_pa_needs_a_viscosity_and_a_concentration() {
     assert!(crate::Plan::new(&scene).is_ok());
     // Each rod counts by its own length.
     scene.particles.length_sd_percent = 10.0;
-    assert!(crate::Plan::new(&scene).unwrap().keeps(crate::plan::Stage::Lengths));
+    assert!(crate::Plan::new(&scene).unwrap().runs(crate::plan::Stage::Lengths));
     // The viscosity survives serialisation; an empty table is not written.
     let written = serde_json::to_value(&scene).unwrap();
     assert_eq!(serde_json::from_value::<Scene>(written).unwrap(), scene);

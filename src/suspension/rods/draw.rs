@@ -13,7 +13,7 @@ use rand_pcg::Pcg64Dxsm;
 pub(super) fn draw_shapes(plan: &Plan, replica: u64) -> (Shapes, u64) {
     let particles = &plan.scene().particles;
     let mean = particles.aspect_ratio;
-    if !plan.keeps(Stage::AspectRatios) {
+    if !plan.runs(Stage::AspectRatios) {
         return (Shapes::Shared(mean), 0);
     }
     if let Some(own) = particles.own_aspect_ratios() {
@@ -32,7 +32,7 @@ pub(super) fn draw_shapes(plan: &Plan, replica: u64) -> (Shapes, u64) {
 /// Lengths over the mean, with the number of repeated draws; lengths of a file are divided by the scene's length.
 pub(super) fn draw_lengths(plan: &Plan, replica: u64) -> (Vec<f64>, u64) {
     let particles = &plan.scene().particles;
-    if !plan.keeps(Stage::Lengths) {
+    if !plan.runs(Stage::Lengths) {
         return (Vec::new(), 0);
     }
     if let Some(own) = particles.own_lengths_mm() {
@@ -72,7 +72,7 @@ pub(super) fn draw_directions(plan: &Plan, replica: u64) -> [Vec<f64>; 3] {
     let count = particles.count;
     let mut p = [(); 3].map(|()| vec![0.0; count]);
     let rng = plan
-        .keeps(Stage::Orientations)
+        .runs(Stage::Orientations)
         .then(|| stream(plan.scene().ensemble.seed, replica, Purpose::Orientations));
     over_chunks(&mut p, |chunk, [p1, p2, p3]| {
         let mut rng = rng.as_ref().map(|rng| ahead(rng, 2 * (chunk * CHUNK) as u64));

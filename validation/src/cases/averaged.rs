@@ -22,8 +22,7 @@ pub fn cases() -> Vec<Case> {
                 "With a shortest arm, the model tends to the averaged (P_c-weighted) motion as Δt → 0, \
                  path by path; with arms of every size it does not.",
             )
-            .source("eqs 7–10, A.7–A.14; docs/src/theory/time-step.md")
-            .equations(&["7", "8", "A.13", "A.14"])
+            .source("eqs 7, 8, A.13, A.14; docs/src/theory/time-step.md")
             .subject(Limit { min_arm: 0.5, change: |_| {} })
             .mistake("arms of every size", Limit { min_arm: 0.0, change: |_| {} })
             .mistake(
@@ -36,8 +35,7 @@ pub fn cases() -> Vec<Case> {
                 "A collision pushes a short arm away from 0 where the gap opens, and towards 0 where it \
                  closes: dr/dt = h² ℓ·D·ℓ/(2 r sin²χ).",
             )
-            .source("A.7–A.14; docs/src/theory/time-step.md")
-            .equations(&["A.13", "A.14"])
+            .source("A.13, A.14; docs/src/theory/time-step.md")
             .subject((|rates| rates[0]) as Kick)
             .mistake("a kick of the wrong sign", |[kick, _]| -kick)
             .mistake(
@@ -52,7 +50,6 @@ pub fn cases() -> Vec<Case> {
                  step; at a given rate both are Jeffery's step up to (GΔt)².",
             )
             .source("A.14; docs/src/theory/time-step.md")
-            .equations(&["A.14"])
             .subject([turn as Update, step_angles])
             .mistake("twice the same update", [turn as Update, turn])
             .mistake("a turn by half the angle", [|p, rate, time| turn(p, rate, 0.5 * time), step_angles])

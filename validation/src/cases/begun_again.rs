@@ -18,8 +18,7 @@ pub fn cases() -> Vec<Case> {
                 "Unequal rods that begin again at t = T with the length, r_e, direction and place that they had go on, in law, as \
                  the suspension that they were.",
             )
-            .source("the method of solution: what a suspension is")
-            .equations(&["11", "12"])
+            .source("eqs 11, 12; the method of solution: what a suspension is")
             .subject((|_| ()) as Way)
             .mistake("r_e drawn anew", (|own| own.aspect_ratio = None) as Way)
             .mistake(

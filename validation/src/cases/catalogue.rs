@@ -42,7 +42,7 @@ pub fn equations() -> Vec<ReportEquation> {
         says: equation.says.into(),
         code: equation.code.iter().map(|item| (*item).into()).collect(),
         cases: (about.iter())
-            .filter(|about| about.equations.contains(&equation.number))
+            .filter(|about| about.equations.iter().any(|number| number == equation.number))
             .map(|about| about.name.into())
             .collect(),
     };

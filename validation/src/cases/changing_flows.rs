@@ -28,7 +28,6 @@ pub fn cases() -> Vec<Case> {
                     it back to its start, after an extension that aligns rods to 10⁻⁸ rad too, and \
                     three flows take it where the oracle has it. The seconds are those of each flow's rate.")
             .source("eqs 2, 3, A.1")
-            .equations(&["2", "3", "A.1"])
             .subject(run as Run)
             .mistake("the flows in the opposite order", |scene| run(&with(scene, |steps| steps.reverse())))
             .mistake("the last flow left out: the one before goes on", |scene| {

@@ -19,8 +19,7 @@ pub fn cases() -> Vec<Case> {
                 "Steps and replicas by the rule for an error of 0.02 give the bias and the scatter that it \
                  says.",
             )
-            .source("eqs 4, 8, 12")
-            .equations(&["4"])
+            .source("eq. 4")
             .subject((|_| {}) as Respell)
             .mistake("a quarter of the replicas, or less", |split| split.replicas /= 4)
             .mistake("two steps a period", |split| split.steps_per_period = 2)

@@ -40,7 +40,6 @@ pub fn cases() -> Vec<Case> {
                  an arcsine.",
             )
             .source("eqs 13, 17")
-            .equations(&["13", "17"])
             .subject(exact as Motion)
             .mistake("r_e 1 % longer", |r, p, turns| exact(1.01 * r, p, turns))
             .mistake("φ growing evenly", |_, p, turns| {
@@ -54,7 +53,6 @@ pub fn cases() -> Vec<Case> {
                  alone.",
             )
             .source("eqs 12, 13")
-            .equations(&["12", "13"])
             .subject(orbit(|_| {}))
             .mistake("r_e 10 % longer", orbit(|scene| scene.particles.aspect_ratio *= 1.1))
             .mistake(
@@ -75,7 +73,6 @@ pub fn cases() -> Vec<Case> {
                  orbits.",
             )
             .source("eqs 16, 17")
-            .equations(&["16", "17"])
             .subject((|_| {}) as Change)
             .mistake("no spread: the phases stay together", |scene| {
                 scene.particles.aspect_ratio_sd_percent = 0.0
@@ -87,8 +84,7 @@ pub fn cases() -> Vec<Case> {
                 "A Gaussian spread damps the first harmonic of X̄_1 by 1/e at t/T = 1/(2√2 π s), s = \
                  σ(r_e² − 1)/(r_e² + 1), to first order in σ.",
             )
-            .source("eqs 4, 11, 15; Fig. 9")
-            .equations(&["11", "15"])
+            .source("eqs 11, 15; Fig. 9")
             .subject(1.0 as Factor)
             .mistake("σ 25 % too wide", 1.25)
             .check(spread_damping),
@@ -97,8 +93,7 @@ pub fn cases() -> Vec<Case> {
                 "Free rods started together in the shear plane follow |cos φ|, |sin φ| of A.4 and never \
                  leave the plane.",
             )
-            .source("A.4, eqs 4, 20")
-            .equations(&["4", "20", "A.4"])
+            .source("eqs 4, 20, A.4")
             .subject((|_| {}) as Change)
             .mistake("r_e 1 % longer", |scene| scene.particles.aspect_ratio *= 1.01)
             .mistake("1° out of the plane", |scene| {

@@ -70,8 +70,7 @@ pub fn cases() -> Vec<Case> {
                 "\"The amplitude of oscillations is approximately half the particle length and is \
                  constant\" for free uniform rods.",
             )
-            .source("Results, before Fig. 6; Fig. 6 (top)")
-            .equations(&["4"])
+            .source("eq. 4; Results, before Fig. 6; Fig. 6 (top)")
             .subject((|_| {}) as Change)
             .mistake("nearly round: r_e = 3", |scene| {
                 scene.particles.aspect_ratio = 3.0
@@ -87,8 +86,7 @@ pub fn cases() -> Vec<Case> {
             .claim(
                 "\"The oscillations decay faster … as the differences in the aspect ratios become larger\".",
             )
-            .source("Results, before Fig. 7; Fig. 9")
-            .equations(&["4"])
+            .source("eq. 4; Results, before Fig. 7; Fig. 9")
             .subject(spread)
             .mistake(
                 "σ shifts all rods alike",
@@ -107,8 +105,7 @@ pub fn cases() -> Vec<Case> {
                 "\"The oscillations decay faster as the concentration (and consequently the number of \
                  collisions) increases\".",
             )
-            .source("Results, before Fig. 7; Fig. 7")
-            .equations(&["4"])
+            .source("eq. 4; Results, before Fig. 7; Fig. 7")
             .subject(concentration)
             .mistake(
                 "a volume with the side (N n)^⅓ in place of (N/n)^⅓, right at 50 per cm³",
@@ -124,8 +121,7 @@ pub fn cases() -> Vec<Case> {
             .check(faster),
         Case::statement("faster-with-length")
             .claim("\"The oscillations decay faster … as the particles become longer\" at fixed r_e.")
-            .source("Results, before Fig. 7; Fig. 8")
-            .equations(&["4"])
+            .source("eq. 4; Results, before Fig. 7; Fig. 8")
             .subject(length)
             .mistake(
                 "rods per a³ taken as n/a³ in place of n a³, right at 0.72 mm",
@@ -146,8 +142,7 @@ pub fn cases() -> Vec<Case> {
                 "\"The amplitude decays much faster when collisions occur than in the absence of \
                  particle-particle interactions\".",
             )
-            .source("Results, after Fig. 10; Figs 6 and 10")
-            .equations(&["4"])
+            .source("eq. 4; Results, after Fig. 10; Figs 6 and 10")
             .subject(
                 (|scene| {
                     lab::paper_interaction(scene);
@@ -162,8 +157,7 @@ pub fn cases() -> Vec<Case> {
                  than with σ = 3.6 % alone; with collisions alone they are smaller after one, two and four \
                  rotations each time.",
             )
-            .source("Results, after Fig. 6")
-            .equations(&["4", "16"])
+            .source("eqs 4, 16; Results, after Fig. 6")
             .subject((|_| {}) as Change)
             .mistake("collisions without effect", |scene| {
                 if let Some(interaction) = &mut scene.interaction {
@@ -179,8 +173,7 @@ pub fn cases() -> Vec<Case> {
                 "\"The amplitudes of X̄_2 and X̄_3 decay in similar manner\" as that of X̄_1: at rates \
                  that differ by less than a factor of two.",
             )
-            .source("Results, after Fig. 10")
-            .equations(&["4", "16"])
+            .source("eqs 4, 16; Results, after Fig. 10")
             .subject([damped as Change; 2] as Axes)
             .mistake("X̄_2 and X̄_3 not damped", [damped, undamped])
             .mistake("X̄_1 not damped", [undamped, damped])

@@ -16,7 +16,6 @@ pub fn cases() -> Vec<Case> {
                  is R, for any α, m > 0.",
             )
             .source("eqs 7, 10")
-            .equations(&["7", "10"])
             .subject(reach as Formula)
             .mistake("α missing in the denominator of P_c", |r, alpha, m| alpha * r.powf(-1.0 / m))
             .mistake("m = 3 whatever m is", |r, alpha, _| reach(r, alpha, 3.0))
@@ -25,8 +24,7 @@ pub fn cases() -> Vec<Case> {
             .check(limits),
         Case::core("collision-frequency")
             .claim("In a run, nearest pairs become candidates as often as the sum of their P_c says.")
-            .source("eqs 7, 8, 9")
-            .equations(&["7", "8", "9"])
+            .source("eqs 7–9")
             .subject((|_| {}) as Change)
             .mistake("α 10 % larger", |scene| lab::interaction(scene).alpha *= 1.1)
             .mistake("m = 2", |scene| lab::interaction(scene).m = 2.0)

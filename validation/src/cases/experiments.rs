@@ -21,8 +21,7 @@ pub fn cases() -> Vec<Case> {
                 "With α = 0.5 the mean projections are those that Okagawa & Mason measured, at n = 20, 50 \
                  and 100 per cm³.",
             )
-            .source("Fig. 4")
-            .equations(&["4"])
+            .source("eq. 4; Fig. 4")
             .subject((|_| {}) as Change)
             .mistakes(controls())
             .check(|change, effort| agreement(&OKAGAWA_MASON, *change, effort)),
@@ -31,15 +30,13 @@ pub fn cases() -> Vec<Case> {
                 "With α = 0.5 the mean projections up to t/T = 3 are those that Anczurowski, Cox & Mason \
                  measured.",
             )
-            .source("Fig. 5")
-            .equations(&["4"])
+            .source("eq. 4; Fig. 5")
             .subject((|_| {}) as Change)
             .mistakes(controls())
             .check(|change, effort| agreement(&ANCZUROWSKI, *change, effort)),
         Case::measurement("alpha-same-for-both")
             .claim("The α that fits the experiments best is the same at r_e = 11.6 and at 14.2.")
-            .source("Figs 4, 5")
-            .equations(&["7"])
+            .source("eq. 7; Figs 4, 5")
             .subject((|_| {}) as Change)
             .mistake("α doubled unseen, at r_e = 14.2 only", double_alpha as Change)
             .check(same_alpha),
@@ -48,8 +45,7 @@ pub fn cases() -> Vec<Case> {
                 "Curves of equal rods that start parallel in the shear plane, as the experiment at r_e = 3.96 had them, do not depend on α, \
                  and a fit of α to points of them is refused: \"not suitable for comparison with the model\".",
             )
-            .source("Results, the r_e = 3.96 experiment")
-            .equations(&["4", "7"])
+            .source("eqs 4, 7; Results, the r_e = 3.96 experiment")
             .subject(90.0)
             .mistake("10° out of the plane, of unequal r_e", 80.0)
             .check(not_fitted),

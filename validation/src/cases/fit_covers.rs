@@ -62,7 +62,6 @@ pub fn cases() -> Vec<Case> {
         Case::program("fit-covers")
             .claim("The 68 and 95 % intervals of `shearbed fit` hold the planted α in 68 and 95 % of synthetic sets.")
             .source("eq. 7; profile likelihood; docs/src/theory/fits.md")
-            .equations(&["7"])
             .subject(Way::AsItIs)
             .mistake("intervals half as long", Way::HalfAsLong)
             .mistake("the simulated curve taken for exact", Way::SimulationExact)
@@ -74,7 +73,6 @@ pub fn cases() -> Vec<Case> {
                  pass it.",
             )
             .source("eqs 7, 11; docs/src/theory/fits.md")
-            .equations(&["7", "11"])
             .subject(Way::AsItIs)
             .mistake("σ = 0 % for points of σ = 3.6 %", Way::NoSpread)
             .check(refuses),

@@ -50,7 +50,6 @@ pub(super) fn cases() -> Vec<Case> {
                  rods' ends.",
             )
             .source("eq. 5; docs/src/theory/fits.md")
-            .equations(&["5"])
             .subject((|_| ()) as Change)
             .mistake("contact lines cut at the rods' ends", |problem| {
                 problem.reading.lines = Lines::CutAtEnds;

@@ -52,7 +52,7 @@ pub fn cases() -> Vec<Case> {
                 "At equal C_I, kicks leave far more rods alone than rotary diffusion does over a strain of 1, turn far more of \
                  them by more than 0.1 rad, and keep more of them in orbits of C_b > 1/2.",
             )
-            .source("eqs 5 to 10; Folgar & Tucker 1984; docs/src/theory/coefficients.md")
+            .source("Folgar & Tucker 1984; eqs 5 to 10; docs/src/theory/coefficients.md")
             .subject(Turned::ByKicks(|_| {}))
             .mistake("diffusion in place of kicks", Turned::ByDiffusion)
             .mistake("no contact by arms shorter than five rods", Turned::ByKicks(|scene| {

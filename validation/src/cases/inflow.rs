@@ -16,7 +16,6 @@ pub fn cases() -> Vec<Case> {
                  filled.",
             )
             .source("eqs 2, 3, 12; a replacement rule for flows other than eq. 14's")
-            .equations(&["2", "3", "12"])
             .subject(Subject::Core)
             .mistake("rods come in anywhere on a face alike", mistake(Mistake::InflowUniform))
             .mistake("faces chosen by their area alone", mistake(Mistake::FacesByArea))

@@ -29,7 +29,6 @@ pub fn cases() -> Vec<Case> {
                  long rod lies along the flow, and as more than ½ in its flip.",
             )
             .source("A.4")
-            .equations(&["A.4"])
             .subject(1.0)
             .mistake("rods a thousandth as long", 1e-3)
             .check(where_errors_show),
@@ -38,8 +37,7 @@ pub fn cases() -> Vec<Case> {
                 "The right-hand sides of the integrators keep every digit of 1 − Λ, and with it the period, \
                  up to r_e = 10⁸.",
             )
-            .source("A.1, eq. 15")
-            .equations(&["15", "A.1"])
+            .source("eqs 15, A.1")
             .subject((|problem: &RodProblem, p: &Vector3<f64>| problem.rate(p)) as Rate)
             .mistake("from Λ itself", through_shape)
             .mistake("1/r_e² for 1/(r_e² + 1)", |problem, p| {
@@ -53,7 +51,6 @@ pub fn cases() -> Vec<Case> {
                  where |Λ| < ⅓: at most 2/√3 G, so the flip is short, but the equation is not stiff.",
             )
             .source("A.1")
-            .equations(&["A.1"])
             .subject((|problem: &RodProblem, p: &Vector3<f64>| problem.rate_slope(p)) as Slope)
             .mistake("the pull along p left out of the slope", |problem, p| {
                 let shape = shearbed::model::jeffery::shape_factor(problem.aspect_ratio);
@@ -69,8 +66,7 @@ pub fn cases() -> Vec<Case> {
             .check(eigenvalues),
         Case::integrator("who-loses-length")
             .claim("The integrators that do not claim to keep |p| lose it: each by more than round-off.")
-            .source("p·ṗ = 0 (A.1)")
-            .equations(&["A.1"])
+            .source("A.1; p·ṗ = 0")
             .subject(crate::methods::integrators::own as Integrators)
             .mistake("projected RK4 not said to keep it", || {
                 in_p(4, false, |problem, p, h| rk4(|y| problem.rate(&y), p, h).normalize())
@@ -82,7 +78,6 @@ pub fn cases() -> Vec<Case> {
                  one of length 1.",
             )
             .source("A.1")
-            .equations(&["A.1"])
             .subject(10.0)
             .mistake("GΔt = 0.1", 0.1)
             .check(coarse),
@@ -92,7 +87,6 @@ pub fn cases() -> Vec<Case> {
                  grids.",
             )
             .source("A.4, A.5")
-            .equations(&["A.4", "A.5"])
             .subject(crate::methods::integrators::own as Integrators)
             .mistake("explicit Euler said to be of order 3", || {
                 in_p(3, false, |problem, p, h| p + h * problem.tangent_rate(&p))

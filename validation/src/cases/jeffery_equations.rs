@@ -27,8 +27,7 @@ pub fn cases() -> Vec<Case> {
                 "The ṗ that a run's collisions start from is ω × p with ω by A.1 in the body frame, r_e = \
                  a/b.",
             )
-            .source("eq. 1, A.1")
-            .equations(&["1", "A.1"])
+            .source("eqs 1, A.1")
             .subject(rate_in_a_run as Rate)
             .mistake("b/a for a/b", |p, r, sign| rate_in_a_run(p, 1.0 / r, sign))
             .mistake("the transposed gradient", |p, r, sign| {
@@ -42,7 +41,6 @@ pub fn cases() -> Vec<Case> {
         Case::core("angle-rates")
             .claim("The angles of a rod that moves at a run's ṗ have the rates of A.2 and A.3.")
             .source("A.2, A.3")
-            .equations(&["A.2", "A.3"])
             .subject(rate_in_a_run as Rate)
             .mistake("a quarter turn of φ", |p, r, sign| {
                 let turned = |v: &Vector3<f64>, k: f64| Vector3::new(-k * v.y, k * v.x, v.z);
@@ -55,8 +53,7 @@ pub fn cases() -> Vec<Case> {
             .check(rates_of_angles),
         Case::core("angles-in-closed-form")
             .claim("What a run makes of one rod is A.4 and A.5: its direction, φ and C_b at every output.")
-            .source("A.4, A.5, eqs 13, 18, 20")
-            .equations(&["13", "18", "20", "A.4", "A.5"])
+            .source("eqs 13, 18, 20, A.4, A.5")
             .subject((|_| {}) as Change)
             .mistake("r_e a millionth too long", |scene| {
                 scene.particles.aspect_ratio *= 1.0 + 1e-6;

@@ -21,15 +21,13 @@ pub fn cases() -> Vec<Case> {
                  with the text's ∂u_i/∂x_i it does not.",
             )
             .source("eqs 2, 3")
-            .equations(&["2", "3"])
             .subject((|u, i, j| slope(u, i, j)) as Gradient)
             .mistake("∂u_i/∂x_i as in the text", |u, i, _| slope(u, i, i))
             .mistake("∂u_j/∂x_i", |u, i, j| slope(u, j, i))
             .check(gives_back_velocity),
         Case::oracle("planar-projections")
             .claim("The planar projections are lengths of shadows; with the text's θ for φ they are not.")
-            .source("eq. 21, Fig. 12")
-            .equations(&["21"])
+            .source("eq. 21; Fig. 12")
             .subject(observed_shadows as Shadows)
             .mistake("eq. 21 as in the text", |_, theta: f64| {
                 let (s2, c2) = (theta.sin().powi(2), theta.cos().powi(2));
@@ -45,8 +43,7 @@ pub fn cases() -> Vec<Case> {
                 "In a run, rods that move freely keep C (A.2–A.6) and colliding rods get a new one \
                  (A.7–A.14), not the other way round.",
             )
-            .source("text after eqs 12 and 13")
-            .equations(&["13", "A.2", "A.7"])
+            .source("eqs 13, A.2, A.7; text after eqs 12 and 13")
             .subject((|collided| collided) as Reading)
             .mistake("A.7–A.14 for free rods, as in the text", |collided| !collided)
             .mistake("every rod free", |_| false)

@@ -43,8 +43,7 @@ pub fn cases() -> Vec<Case> {
     vec![
         Case::core("jeffery-period")
             .claim("A free rod comes back after T = 2π(r_e + 1/r_e)/G, for r_e from 1.01 to 10⁶.")
-            .source("eq. 15, A.6")
-            .equations(&["15", "A.6"])
+            .source("eqs 15, A.6")
             .subject(exact as Motion)
             .mistake("Λ = 1: a thread", |flow, _, p, t| exact(flow, 1e9, p, t))
             .mistake("r_e − 1/r_e in the period", |flow, r, p, t| {
@@ -54,8 +53,7 @@ pub fn cases() -> Vec<Case> {
             .check(period),
         Case::core("orbit-constant")
             .claim("The orbit constant of a free rod keeps its value over 10⁴ periods.")
-            .source("eq. 13, A.5")
-            .equations(&["13", "A.5"])
+            .source("eqs 13, A.5")
             .subject(exact as Motion)
             .mistake("r_e 0.1 % too long", |flow, r, p, t| exact(flow, 1.001 * r, p, t))
             .mistake("p_3 not rescaled", |flow, r, p, t| {
@@ -68,8 +66,7 @@ pub fn cases() -> Vec<Case> {
             .check(orbit_constant),
         Case::core("propagator-closed-form")
             .claim("The propagator of plane Couette flow is Jeffery's closed form in angles.")
-            .source("A.4, A.5, eq. 20")
-            .equations(&["20", "A.4", "A.5"])
+            .source("eqs 20, A.4, A.5")
             .subject(exact as Motion)
             .mistake("the phase turns backwards", |flow, r, p, t| {
                 exact(&VelocityGradient::new(-flow.per_s()).unwrap_or(*flow), r, p, t)
@@ -85,8 +82,7 @@ pub fn cases() -> Vec<Case> {
                 "The propagator solves ṗ = W·p + Λ(D·p − p p·D·p) in any flow, by Dormand–Prince 8(5,3) of \
                  ode_solvers.",
             )
-            .source("A.1, eq. 3")
-            .equations(&["3", "A.1"])
+            .source("eqs 3, A.1")
             .subject(exact as Motion)
             .mistake("Λ = 1", |flow, _, p, t| exact(flow, 1e9, p, t))
             .mistake("Λ for a disc", |flow, r, p, t| exact(flow, 1.0 / r, p, t))
@@ -102,8 +98,7 @@ pub fn cases() -> Vec<Case> {
                 "⟨φ⟩ of a single rod, integrated over the φ(t) that a run has, is the dilogarithm, and \
                  tends to π/2 as (2/π)(1 + ln r_e)/r_e for a thread.",
             )
-            .source("eqs 18, 19, 20, A.4")
-            .equations(&["18", "19", "20"])
+            .source("eqs 18–20")
             .subject(angle_in_a_run as Angle)
             .mistake("r_e² for r_e", |r, turns| angle_in_a_run(r * r, turns))
             .mistake("φ grows evenly", |_, turns| 2.0 * PI * turns)

@@ -32,8 +32,7 @@ pub fn cases() -> Vec<Case> {
                 "Weak rotary diffusion leaves the closed form's 46.1 % of rods of r_e = 11.6 above C_b = ½; collisions leave far \
                  more there than isotropic directions have, 50.7 %.",
             )
-            .source("Leal & Hinch 1971; eq. 13; docs/src/theory/diffusion.md")
-            .equations(&["13"])
+            .source("eq. 13; Leal & Hinch 1971; docs/src/theory/diffusion.md")
             .subject(right)
             .mistake("the orbits of isotropic directions for those of weak diffusion", Orbits {
                 weak: orbit_constant_cdf,

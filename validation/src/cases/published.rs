@@ -17,7 +17,6 @@ pub fn cases() -> Vec<Case> {
                  model.",
             )
             .source("eq. 15; Meyer et al. 2020; docs/src/validation/published.md")
-            .equations(&["15"])
             .subject(of_formulas as HalfTurn)
             .mistake("a whole period for half a turn", |r| {
                 let (least, most) = of_formulas(r);

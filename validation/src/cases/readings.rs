@@ -77,21 +77,18 @@ pub fn cases() -> Vec<Case> {
                 "With one draw per mutual pair in place of two, rods are damped less: this interpretation matters.",
             )
             .source("eqs 8, 9; whose R decides is left open")
-            .equations(&["8", "9"])
             .subject(who_draws)
             .mistake("index order instead", instead(who_draws, index_order))
             .check(matters),
         Case::interpretation("reading-order")
             .claim("Taking candidates in index order in place of closest first changes next to nothing.")
             .source("eqs 8, 9; the order is left open")
-            .equations(&["8", "9"])
             .subject(index_order)
             .mistake("one draw per mutual pair instead", pair_draws)
             .check(does_not_matter),
         Case::interpretation("reading-update")
             .claim("A.14 to the letter damps a little more than Jeffery's step and the kick: this interpretation matters.")
             .source("A.13, A.14; the pole of the angles")
-            .equations(&["A.13", "A.14"])
             .subject(angles)
             .mistake(
                 "no contact at arms below a thousandth of the length instead",
@@ -103,14 +100,12 @@ pub fn cases() -> Vec<Case> {
                 "Without contacts at arms below the rod's radius, rods are damped less: this interpretation matters.",
             )
             .source("A.13; a kick ∝ 1/r has no bound")
-            .equations(&["A.13"])
             .subject(shortest_arm)
             .mistake("arms below a thousandth of the length instead", instead(shortest_arm, hardly_any_arm))
             .check(matters),
         Case::interpretation("reading-contact-lines")
             .claim("With contact lines cut at the rods' ends, rods are damped less: this interpretation matters.")
-            .source("Fig. 2, assumption ii")
-            .equations(&["A.7"])
+            .source("A.7; Fig. 2, assumption ii")
             .subject(cut_lines)
             .mistake("index order instead", instead(cut_lines, index_order))
             .check(matters),

@@ -37,8 +37,7 @@ pub fn cases() -> Vec<Case> {
                 "α → 0, n → 0, m → ∞ and one rod give free rods to the bit; σ → 0 gives uniform rods and \
                  r_e → 1 gives spheres to round-off.",
             )
-            .source("eqs 7, 11; A.1")
-            .equations(&["7", "11"])
+            .source("eqs 7, 11")
             .subject(TAKEN)
             .mistake("α = ½", Limits { alpha: 0.5, ..TAKEN })
             .mistake("n = 50 per cm³", Limits { concentration_per_cm3: 50.0, ..TAKEN })
@@ -52,7 +51,6 @@ pub fn cases() -> Vec<Case> {
                 "Standard errors are those of independent replicas, or of rods where there is one replica.",
             )
             .source("the results' own columns")
-            .equations(&[])
             .subject((|values| Sample::of(values).se) as StandardError)
             .mistake("without the root of their number", |values| {
                 Sample::of(values).se * (values.len() as f64).sqrt()

@@ -18,7 +18,6 @@ pub fn cases() -> Vec<Case> {
                  stays evenly filled.",
             )
             .source("eqs 12, 14")
-            .equations(&["12", "14"])
             .subject(Volume::Core { step: 1 })
             .mistake(
                 "x_1 = HR for new rods",

@@ -73,8 +73,7 @@ pub fn cases() -> Vec<Case> {
                 "The default steps resolve the motion: even twice their length changes X̄₁ at \
                  t/T = ½ by less than a drawn line, for r_e = 11.6 and 100.",
             )
-            .source("eq. 15, Fig. 7")
-            .equations(&["15"])
+            .source("eq. 15; Fig. 7")
             .subject(Integrator { sizes: &SIZES, coarse: false })
             .mistake("4 steps a period at r_e = 11.6", control(0))
             .mistake("200 steps a period at r_e = 100", control(1))

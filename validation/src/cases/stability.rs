@@ -16,8 +16,7 @@ pub fn cases() -> Vec<Case> {
                  exact propagator at round-off, A.4 and A.5 in angles within 4·10⁻⁵ rad, who keeps |p| \
                  with |p| = 1, and orders 2 and 4 within 4 (GΔt)² rad over one period where GΔt ≤ ½.",
             )
-            .source("A.2 to A.5, eq. 13")
-            .equations(&["13", "A.2", "A.3", "A.4", "A.5"])
+            .source("eqs 13, A.2–A.5")
             .subject(crate::methods::integrators::own as Integrators)
             .mistake("whole turns are left in the phase", || vec![whole_turns()])
             .mistake("RK4 in p said to keep |p|", || {

@@ -17,8 +17,7 @@ pub fn cases() -> Vec<Case> {
                 "\"The period of oscillation is practically unaffected by collisions or by differences in \
                  particle size\".",
             )
-            .source("Results, before Fig. 7; Fig. 6")
-            .equations(&["4"])
+            .source("eq. 4; Results, before Fig. 7; Fig. 6")
             .subject((|_| {}) as Change)
             .mistake("periods 6 % longer at the same clock", |scene| {
                 // r_e + 1/r_e 6 % larger; steps and outputs as far apart as before, in seconds.
@@ -30,8 +29,7 @@ pub fn cases() -> Vec<Case> {
             .check(period),
         Case::statement("hundred-rods-suffice")
             .claim("\"The results did not change significantly when 100 or more particles were used\".")
-            .source("Results, second paragraph")
-            .equations(&["4"])
+            .source("eq. 4; Results, second paragraph")
             .subject(100 as Count)
             .mistake("2 rods", 2)
             .check(enough_rods),
@@ -40,8 +38,7 @@ pub fn cases() -> Vec<Case> {
                 "\"According to the model, the mean axial projections should remain constant after their \
                  steady state values are reached\".",
             )
-            .source("Results, before Fig. 5; Fig. 5")
-            .equations(&["4"])
+            .source("eq. 4; Results, before Fig. 5; Fig. 5")
             .subject(6.0 as Periods)
             .mistake("from the start", 0.0)
             .check(stays_put),
@@ -50,8 +47,7 @@ pub fn cases() -> Vec<Case> {
                 "Rods in the shear plane stay there and do not disturb each other, by `rotation` as Δt → 0: \"there \
                  should have been no collisions\".",
             )
-            .source("Results, the r_e = 3.96 experiment")
-            .equations(&["4"])
+            .source("eq. 4; Results, the r_e = 3.96 experiment")
             .subject(90.0 as ThetaDeg)
             .mistake("10° out of the plane", 80.0)
             .check(in_plane),

@@ -82,8 +82,7 @@ pub fn cases() -> Vec<Case> {
         Case::integrator("euler-step-limit")
             .claim("Explicit Euler's step on A.2 lets one rod overtake another where GΔt > 1/Λ, and never \
                     below.")
-            .source("A.2, A.3; A.14 is such a step")
-            .equations(&["A.2"])
+            .source("A.2; A.14 is such a step")
             .subject(order(euler))
             .mistake("half of the rate", order(half_euler))
             .mistake("RK4", order(rk4_in_angles))
@@ -92,8 +91,7 @@ pub fn cases() -> Vec<Case> {
         Case::integrator("step-limit-turning")
             .claim("Explicit Euler and the Lie-group midpoint rule turn every rod in the plane of shear by \
                     less than half a turn a step up to GΔt = π(1 + 1/r_e²), and not beyond.")
-            .source("A.2, A.3; A.14 is such a step")
-            .equations(&["A.2"])
+            .source("A.2; A.14 is such a step")
             .subject(turning(|| {
                 [euler(), own("Lie-group midpoint")]
                     .into_iter()
@@ -107,16 +105,14 @@ pub fn cases() -> Vec<Case> {
         Case::integrator("rods-come-to-rest")
             .claim("Just above GΔt = π(1 + 1/r_e²) explicit Euler brings every rod in the plane of shear to \
                     rest where there is no rest; just below it none stops.")
-            .source("A.2, A.3; A.14 is such a step")
-            .equations(&["A.2"])
+            .source("A.2; A.14 is such a step")
             .subject(euler as Integrators)
             .mistake("half of the rate", half_euler as Integrators)
             .mistake("RK4", rk4_in_angles as Integrators)
             .check(rest),
         Case::integrator("step-limit-side")
             .claim("Explicit Euler lets no rod cross the plane of shear up to GΔt = 2/Λ, and not beyond.")
-            .source("A.2, A.3; A.14 is such a step")
-            .equations(&["A.3"])
+            .source("A.3; A.14 is such a step")
             .subject(Claimed {
                 found_late: OF_EULER,
                 ..side(euler, theory::euler_side)
@@ -127,8 +123,7 @@ pub fn cases() -> Vec<Case> {
         Case::integrator("implicit-midpoint-order")
             .claim("The implicit midpoint rule keeps the order of rods in the plane of shear at every step \
                     for r_e < 1 + √2, and for longer rods up to GΔt = 2/(Λ(1 − u²)^{3/2}), 2u³ − 3u + 1/Λ = 0.")
-            .source("A.2, A.3; A.14 is such a step")
-            .equations(&["A.2"])
+            .source("A.2; A.14 is such a step")
             .subject(folded(implicit_midpoint, theory::implicit_midpoint_order))
             .mistake("no limit, as an A-stable method on a linear equation", folded(implicit_midpoint, |_| f64::INFINITY))
             .mistake("the explicit midpoint rule", folded(|| own("Lie-group midpoint"), theory::implicit_midpoint_order))
@@ -137,8 +132,7 @@ pub fn cases() -> Vec<Case> {
         Case::integrator("implicit-midpoint-side")
             .claim("The implicit midpoint rule lets no rod cross the plane of shear up to GΔt = 4/Λ or up to \
                     where its order is lost, whichever is less, and not beyond.")
-            .source("A.2, A.3; A.14 is such a step")
-            .equations(&["A.3"])
+            .source("A.3; A.14 is such a step")
             .subject(side(implicit_midpoint, theory::implicit_midpoint_one_solution))
             .mistake("4/Λ at every r_e", side(implicit_midpoint, theory::implicit_midpoint_side))
             .mistake("where its order is lost, at every r_e", side(implicit_midpoint, theory::implicit_midpoint_order))
@@ -147,8 +141,7 @@ pub fn cases() -> Vec<Case> {
         Case::integrator("step-limit-at-least")
             .claim("Explicit methods of order p in angles keep the order of rods at least up to GΔtΛ = x, x + \
                     … + xᵖ/p! = 1; in the plane of shear the Lie-group RKMK4 is RK4 in angles.")
-            .source("A.2, A.3; A.14 is such a step")
-            .equations(&["A.2"])
+            .source("A.2; A.14 is such a step")
             .subject((|| {
                 [
                     "explicit Euler in angles",
@@ -173,8 +166,7 @@ pub fn cases() -> Vec<Case> {
         Case::integrator("rk4-near-a-sphere")
             .claim("As r_e → 1, RK4 in p turns every rod up to GΔt = 2√6 and its length is bounded up to 4√2, \
                     its limit on the imaginary axis.")
-            .source("A.2, A.3; A.14 is such a step")
-            .equations(&["A.1"])
+            .source("A.1; A.14 is such a step")
             .subject((|| own("RK4 in p")) as Integrators)
             .mistake("RK4 in angles", rk4_in_angles as Integrators)
             .mistake("explicit Euler in p", || {
@@ -187,8 +179,7 @@ pub fn cases() -> Vec<Case> {
         Case::integrator("frozen-limit")
             .claim("RK4 in p loses its length before the limit that frozen coefficients give on the real \
                     axis, GΔt = 2.785/Λ, for r_e from 1.5 to 100.")
-            .source("A.2, A.3; A.14 is such a step")
-            .equations(&["A.1"])
+            .source("A.1; A.14 is such a step")
             .subject((|| own("RK4 in p")) as Integrators)
             .mistake("projected", || own("projected RK4 in p"))
             .mistake("in angles", rk4_in_angles as Integrators)

@@ -16,8 +16,7 @@ pub fn cases() -> Vec<Case> {
     vec![
         Case::integrator("subject-orders")
             .claim("The error of every fixed-step integrator falls with the order of its theory.")
-            .source("A.2 to A.5; Jeffery's equation in p")
-            .equations(&["A.2", "A.3", "A.4", "A.5"])
+            .source("A.2–A.5; Jeffery's equation in p")
             .subject(crate::methods::integrators::own as Integrators)
             .mistake("a stage of RK4 at the wrong place", || {
                 in_angles(4, |problem, y, h| {
@@ -44,8 +43,7 @@ pub fn cases() -> Vec<Case> {
             .check(orders),
         Case::integrator("subject-lengths")
             .claim("Integrators that are said to keep |p| = 1 keep it to round-off at any step.")
-            .source("p·ṗ = 0 (A.1)")
-            .equations(&["A.1"])
+            .source("A.1; p·ṗ = 0")
             .subject(crate::methods::integrators::own as Integrators)
             .mistake("RK4 in p, not projected", || {
                 in_p(4, true, |problem, p, h| rk4(|y| problem.rate(&y), p, h))
@@ -62,8 +60,7 @@ pub fn cases() -> Vec<Case> {
                 "The exact propagator's error is round-off for r_e from 1.01 to 10⁶ and up to 10⁶ periods, \
                  during a flip.",
             )
-            .source("A.4, A.5, eq. 20")
-            .equations(&["20", "A.4", "A.5"])
+            .source("eqs 20, A.4, A.5")
             .subject((|| vec![exact_propagator()]) as Integrators)
             .mistake("whole turns are left in the phase", || vec![whole_turns()])
             .mistake("A.4 and A.5 in angles", || vec![closed_form()])
@@ -73,8 +70,7 @@ pub fn cases() -> Vec<Case> {
                 "At a tolerance of 10⁻¹¹ both adaptive integrators come as near as their steps, each off by \
                  the tolerance, allow.",
             )
-            .source("A.2 to A.5; Jeffery's equation in p")
-            .equations(&["A.4", "A.5"])
+            .source("A.4, A.5; Jeffery's equation in p")
             .subject((|| vec![dormand_prince(), radau()]) as Integrators)
             .mistake("r_e 0.1 % too long", || {
                 vec![spoiled(|problem| (RodProblem::new(1.001 * problem.aspect_ratio, problem.turns), 1.0))]

@@ -46,8 +46,7 @@ pub fn cases() -> Vec<Case> {
                 "Whole runs keep the symmetries: rods in another order and units of length and time to the \
                  bit, p → −p to round-off, the mirrored flow exactly for free rods.",
             )
-            .source("eqs 3, 4, 7, 15")
-            .equations(&["4"])
+            .source("eq. 4")
             .subject(SYMMETRIC)
             .mistake(
                 "places in another order, directions not",
@@ -67,7 +66,6 @@ pub fn cases() -> Vec<Case> {
         Case::core("mirrored-flow")
             .claim("Interacting rods in the mirrored flow have the same mean projections in law.")
             .source("eqs 3, 14")
-            .equations(&["3", "14"])
             .subject(Mirror { shear_rate_per_s: -0.5, concentration_per_cm3: 50.0 })
             .mistake(
                 "a quarter of the concentration in the mirrored flow",

@@ -23,8 +23,7 @@ pub fn cases() -> Vec<Case> {
                 "The seconds and the strain beside each t/T of a run are those of T = 2π(r_e + 1/r_e)/|G| in plane Couette \
                  flow, of 2π/ω in other flows in a plane that turn rods at ω, and of (2D:D)^½ where times are given in strain.",
             )
-            .source("eq. 15, A.6, A.1")
-            .equations(&["15", "A.6"])
+            .source("eqs 15, A.6")
             .subject(unit as UnitOf)
             .mistake("r_e for r_e + 1/r_e", |scene| {
                 let r = scene.particles.aspect_ratio;

@@ -27,8 +27,7 @@ pub fn cases() -> Vec<Case> {
                 "The error of a free suspension's X̄₁ falls as N^(−½) for random starts, N^(−1) for \
                  stratified ones and N^(−5/4) for a Fibonacci lattice.",
             )
-            .source("eqs 4, 12, A.4")
-            .equations(&["4", "12"])
+            .source("eqs 4, 12")
             .subject(starts::ALL.to_vec() as Starts)
             .mistake(
                 "the generator starts anew every 100 rods",
@@ -50,8 +49,7 @@ pub fn cases() -> Vec<Case> {
             .check(rates),
         Case::program("replicas-are-independent")
             .claim("The scatter of a mean over M replicas of interacting rods falls as M^(−½).")
-            .source("section 'Method of solution': runs with other random numbers")
-            .equations(&["12"])
+            .source("eq. 12; section 'Method of solution': runs with other random numbers")
             .subject((|replica| replica) as Number)
             .mistake("every two replicas are the same", |replica| replica / 2)
             .check(replicas),
@@ -60,8 +58,7 @@ pub fn cases() -> Vec<Case> {
                 "What the control volume's faces take from the collisions of a rod falls as N^(−1/3), the \
                  share of the volume near a face, and not as 1/N.",
             )
-            .source("eqs 8, 12; 'the number of particles'")
-            .equations(&["8"])
+            .source("eq. 8; 'the number of particles'")
             .subject(law::FACES as Exponent)
             .mistake("1/N", -1.0)
             .check(faces),

@@ -29,7 +29,6 @@ pub fn cases() -> Vec<Case> {
                  kicks have no bound.",
             )
             .source("A.13, A.14; eq. 8 without Δt")
-            .equations(&["A.13", "A.14"])
             .subject((|_| {}) as Change)
             .mistake("arms below a rod length are no contact, so that kicks are bounded", |scene| {
                 lab::interaction(scene).min_contact_arm = 1.0
@@ -41,8 +40,7 @@ pub fn cases() -> Vec<Case> {
                  mean is known; for a difference between two α, shared random numbers save a factor of \
                  four at T/4.",
             )
-            .source("eqs 4, 7, 12")
-            .equations(&["4", "7"])
+            .source("eqs 4, 7")
             .subject(same)
             .mistake("free rods of another seed", Beside { free: |scene| scene.ensemble.seed += 1, ..same })
             .mistake(

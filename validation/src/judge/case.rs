@@ -61,7 +61,7 @@ impl<E: fmt::Display> Findings for Result<Vec<Evidence>, E> {
 type Check = Box<dyn Fn(&Effort) -> Vec<Evidence> + Send + Sync>;
 
 /// Description of a case.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct About {
     /// Name of the case, in words joined by `-`.
     pub name: &'static str,
@@ -69,10 +69,10 @@ pub struct About {
     pub judges: Judges,
     /// The claim, in one sentence.
     pub claim: &'static str,
-    /// Equations, figures or sections of the paper, in words.
+    /// The equations that it tests, then figures, sections or pages in words: `eqs 4, A.7–A.9; Fig. 6`.
     pub source: &'static str,
-    /// Numbers of the equations that it tests, from which the traceability table is made.
-    pub equations: &'static [&'static str],
+    /// Numbers of these equations, from which the traceability table is made.
+    pub equations: Vec<String>,
 }
 
 impl About {
@@ -81,6 +81,23 @@ impl About {
         let equations = self.equations.iter().map(|number| format!("eq-{number}"));
         std::iter::once(self.judges.tag().to_owned()).chain(equations).collect()
     }
+}
+
+/// Numbers of the equations before the first `;` of a source line, with ranges written out; none if words stand there.
+fn equations(source: &str) -> Vec<String> {
+    let list = source.split(';').next().unwrap_or_default();
+    let list = list.trim_start_matches("eqs ").trim_start_matches("eq. ");
+    let number = |text: &str| {
+        let (appendix, digits) = text.strip_prefix("A.").map_or(("", text), |digits| ("A.", digits));
+        digits.parse::<u32>().ok().map(|number| (appendix, number))
+    };
+    let range = |item: &str| {
+        let (first, last) = item.split_once('–').unwrap_or((item, item));
+        let ((appendix, first), (_, last)) = (number(first)?, number(last)?);
+        Some((first..=last).map(move |number| format!("{appendix}{number}")).collect())
+    };
+    let found: Option<Vec<Vec<String>>> = list.split(", ").map(range).collect();
+    found.unwrap_or_default().concat()
 }
 
 /// One claim with its check and its controls.
@@ -142,7 +159,7 @@ impl Case {
             .map(|(mistake, check)| Control::new(mistake, &check(effort)))
             .collect();
         Outcome {
-            about: self.about,
+            about: self.about.clone(),
             verdict: overall(&evidence, &controls, self.uncaught),
             evidence,
             controls,
@@ -156,7 +173,7 @@ pub struct Draft(About);
 
 impl Draft {
     fn new(name: &'static str, judges: Judges) -> Self {
-        Self(About { name, judges, claim: "", source: "", equations: &[] })
+        Self(About { name, judges, claim: "", source: "", equations: Vec::new() })
     }
 
     /// The claim, in one sentence.
@@ -165,15 +182,10 @@ impl Draft {
         self
     }
 
-    /// Equations, figures or sections of the paper, in words.
+    /// The equations that the case tests, then figures, sections or pages in words: `eqs 4, A.7–A.9; Fig. 6`.
     pub fn source(mut self, source: &'static str) -> Self {
         self.0.source = source;
-        self
-    }
-
-    /// Numbers of the equations that the case tests.
-    pub fn equations(mut self, equations: &'static [&'static str]) -> Self {
-        self.0.equations = equations;
+        self.0.equations = equations(source);
         self
     }
 
@@ -206,14 +218,15 @@ impl<S: Send + Sync + 'static> Subjected<S> {
     /// Completes the case with the check of the subject and of every mistake.
     pub fn check<F: Findings + 'static>(self, check: fn(&S, &Effort) -> F) -> Case {
         let bind = |subject: S| -> Check { Box::new(move |effort| check(&subject, effort).evidence()) };
+        let uncaught = match self.about.judges {
+            Judges::Measurement => Verdict::Underpowered,
+            _ => Verdict::Fail,
+        };
         Case {
             about: self.about,
             check: bind(self.subject),
             controls: (self.mistakes.into_iter()).map(|(name, broken)| (name, bind(broken))).collect(),
-            uncaught: match self.about.judges {
-                Judges::Measurement => Verdict::Underpowered,
-                _ => Verdict::Fail,
-            },
+            uncaught,
         }
     }
 }
@@ -247,6 +260,15 @@ mod tests {
             "a check that breaks has caught nothing"
         );
         assert_eq!(verdict(3.0, vec![("an error", 7.0)]), Verdict::Fail, "nor has an error");
+    }
+
+    #[test]
+    fn a_source_line_names_its_equations() {
+        let of = |source| equations(source).join(" ");
+        assert_eq!(of("eq. 15"), "15");
+        assert_eq!(of("eqs 4, 7–9, A.13; Fig. 6, eq. 14"), "4 7 8 9 A.13");
+        assert_eq!(of("A.2–A.5; Jeffery's equation in p"), "A.2 A.3 A.4 A.5");
+        assert_eq!(of("Folgar & Tucker 1984; eq. 13"), "");
     }
 
     #[test]

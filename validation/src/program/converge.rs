@@ -48,7 +48,7 @@ pub(super) fn converge(args: &Args) -> Result<(), Failure> {
     let named = args.chosen.load(&Ensemble::default(), &[])?;
     let at = |message: String| format!("{}: {message}", named.source);
     let plan = named.plan()?;
-    if plan.keeps(Stage::Contacts) && !law::judges(&plan) {
+    if plan.runs(Stage::Contacts) && !law::judges(&plan) {
         let (key, steps) = (named.scene.time.unit.steps_key(), named.scene.steps_per_unit());
         return Err(Failure::Input(at(format!(
             "converge of interacting rods needs plane Couette flow, only ∂u_2/∂x_1 other than 0, and time.periods; \
@@ -65,7 +65,7 @@ pub(super) fn converge(args: &Args) -> Result<(), Failure> {
     spares_inputs(&out, &names, named.files())?;
     let folder = result_folder(&out, ("converge", input, args.writing.force), 0, &names)?;
     let replicas = args.replicas.map_or(Replicas::CONVERGE, Replicas::Each);
-    let done = match plan.keeps(Stage::Contacts) {
+    let done = match plan.runs(Stage::Contacts) {
         true => {
             let warnings = [plan.warnings(), vec![coarse(&named.scene)]].concat();
             scene::warn(&named.source, &warnings);

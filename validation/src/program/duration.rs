@@ -27,7 +27,7 @@ pub(super) fn of_jobs(jobs: &[Job]) -> String {
 
 /// The cost of a run and of a study of an interacting scene, as text; empty for free rods, whose time is negligible.
 pub(super) fn of_scene(plan: &Plan) -> String {
-    if !plan.keeps(Stage::Contacts) {
+    if !plan.runs(Stage::Contacts) {
         return String::new();
     }
     let scene = plan.scene();

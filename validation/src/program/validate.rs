@@ -180,7 +180,7 @@ fn outcomes(
     let found = cluster::share(chosen.len(), run, arrived)?;
     bar.finish_and_clear();
     let outcome = |(case, (verdict, evidence, controls, seconds)): (&Case, CaseResult)| Outcome {
-        about: case.about,
+        about: case.about.clone(),
         verdict,
         evidence,
         controls,

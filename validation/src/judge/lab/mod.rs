@@ -66,6 +66,6 @@ pub fn suspension(scene: &Scene, replica: u64) -> Suspension {
 
 /// The suspension of a scene whose rods cannot collide, which is moved in time steps all the same.
 pub fn stepped(scene: &Scene, replica: u64) -> Suspension {
-    let plan = plan(scene).keeping(Stage::Contacts).expect("a case's scene has an interaction");
+    let plan = plan(scene).with_stage(Stage::Contacts).expect("a case's scene has an interaction");
     Suspension::new(&plan, replica).expect("the plan keeps its steps")
 }

@@ -35,6 +35,7 @@ pub fn problem(scene: &Scene, replica: u64, mistake: Option<Mistake>) -> NaivePr
             Update::Rotation => naive::Update::Rotation,
             Update::Angles => naive::Update::Angles,
             Update::Kick => naive::Update::ExactStepAndKick,
+            other => unimplemented!("the naive reference has no {other:?}"),
         },
         reading: Reading::default(),
         steps_per_period: scene.steps_per_unit() as usize,

@@ -33,7 +33,7 @@ fn outcome(
             },
             claim: "Synthetic claim: <b>|p₁|</b> & more.",
             source: "eqs A.4, A.5",
-            equations: &[],
+            equations: Vec::new(),
         },
         verdict,
         evidence: rules.into_iter().enumerate().map(judged).collect(),

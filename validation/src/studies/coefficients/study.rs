@@ -113,11 +113,9 @@ fn settings<'a>() -> Vec<Column<'a, Coefficients>> {
         field("n a³", |row: &Coefficients| row.setting.n_a3),
         field("r_e", |row: &Coefficients| row.setting.aspect_ratio),
         field("α", |row: &Coefficients| row.setting.alpha),
-        words("update", |row: &Coefficients| match row.setting.update {
-            Update::Rotation => "rotation",
-            Update::Angles => "angles",
-            Update::Kick if row.setting.places == Places::Anew => "kick, places anew",
-            Update::Kick => "kick",
+        words("update", |row: &Coefficients| {
+            let anew = if row.setting.places == Places::Anew { ", places anew" } else { "" };
+            format!("{:?}{anew}", row.setting.update).to_lowercase()
         }),
         field("steps ×", |row: &Coefficients| row.setting.finer),
         field("periods", |row: &Coefficients| row.periods),
