@@ -82,7 +82,7 @@ table! {
     ///
     /// ```
     /// use shearbed::scene::{Interaction, Liquid, Output, Scene};
-    /// let liquid = Liquid { viscosity_pa_s: Some(10.0) };
+    /// let liquid = Liquid { viscosity_pa_s: Some(10.0), ..Liquid::default() };
     /// let output = Output { observables: vec![shearbed::Observable::Stress], ..Output::default() };
     /// let scene = Scene { liquid, output, interaction: Some(Interaction::default()), ..Scene::default() };
     /// assert!(shearbed::Plan::new(&scene).is_ok());

@@ -1,0 +1,36 @@
+#!/usr/bin/env bash
+# Follows CONTRIBUTING's recipes that need another program: adds a key, a command and a reference problem to a copy of the sources, as
+# recipes/*.diff show them, and asks the program that is built from it for each of them.
+# Usage: bash validation/recipes.sh
+set -euo pipefail
+root=$(cd "$(dirname "$0")/.." && pwd)
+copy=$(mktemp -d)
+# The program of these sources takes its place again.
+trap 'rm -rf "$copy"; cd "$root" && cargo build --locked --quiet' EXIT
+cd "$root"
+git ls-files -z | xargs -0 cp --parents -t "$copy"
+export CARGO_TARGET_DIR=${CARGO_TARGET_DIR:-$root/target}
+cd "$copy"
+git init --quiet
+git apply --verbose validation/recipes/*.diff
+cargo build --locked --quiet
+shearbed=$CARGO_TARGET_DIR/debug/shearbed
+
+says() { # WORDS COMMAND…: what the command prints has these words, whatever its exit code.
+  local words=$1 printed
+  shift
+  printed=$("$@" 2>&1) || true
+  grep -qF -- "$words" <<<"$printed" || { echo "$*: no '$words' in: $printed" >&2; exit 1; }
+}
+says "liquid.density_kg_per_m3 [kg/m³]" "$shearbed" scenes --keys
+says "the rods' Reynolds number is" "$shearbed" plan fig4-n50 --set liquid.density_kg_per_m3=1e9 --set liquid.viscosity_pa_s=1
+says "liquid.density_kg_per_m3 = -1 is not allowed: a finite number > 0" "$shearbed" plan fig4-n50 --set liquid.density_kg_per_m3=-1
+says 73.4266 "$shearbed" period 11.6
+says "shearbed period 11.6" "$shearbed" period --help
+says "mid-flip-50" "$shearbed" problems
+# The generated pages and the schema take up all three.
+UPDATE_DOCS=1 cargo test --locked --quiet -p shearbed --test docs generated
+for made in "docs/src/reference/keys.md density_kg_per_m3" "docs/src/reference/commands.md shearbed period" "validation/schemas/scene.json density_kg_per_m3"; do
+  says "${made#* }" cat "${made%% *}"
+done
+echo "recipes: a key, a command and a problem were added and found"
