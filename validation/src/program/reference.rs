@@ -1,6 +1,6 @@
 //! `shearbed reference`.
 
-use super::{Failure, print};
+use super::{Failure, print, progress};
 use crate::files::output;
 use crate::files::text::Shown;
 use crate::oracle::diffusion::NoAnswer;
@@ -133,7 +133,13 @@ fn values(args: &Args, motion: &Motion, asked: &Asked) -> Result<Table, NoValue>
     let unit = args.unit.unwrap_or(if args.aspect_ratio.is_finite() { Unit::Period } else { Unit::Strain });
     let times = args.times.as_ref().map_or(&[][..], |times| &times.0);
     match asked {
-        Asked::Free(start) => table::table(motion, *start, times, unit),
+        Asked::Free(start) => {
+            // Times of less than a second need no bar.
+            let bar = progress(times.len() as u64, "times", times.len() < 1000);
+            let table = table::table(motion, *start, times, unit, || bar.inc(1));
+            bar.finish_and_clear();
+            table
+        }
         Asked::Diffusing(rods) => rods.table(times, unit),
     }
 }

@@ -6,6 +6,7 @@
 use dashu_float::{DBig, FBig, ops::EstimatedLog2, round::mode::HalfEven};
 use std::cmp::Ordering;
 use std::str::FromStr;
+use std::sync::LazyLock;
 
 /// A binary number of any precision and size.
 pub type Big = FBig<HalfEven, 2>;
@@ -26,7 +27,8 @@ impl Bits {
 
     /// π to this precision.
     pub fn pi(self) -> Big {
-        Big::pi(self.0)
+        static PI: LazyLock<Big> = LazyLock::new(|| Big::pi(1024));
+        if self.0 < 1000 { self.round(PI.clone()) } else { Big::pi(self.0) }
     }
 
     /// `x` rounded to this precision.

@@ -11,6 +11,8 @@
 
 use super::big::{Big, Bits, double, each_power};
 use super::motion::{Matrix, Motion, Unit, matrix, product};
+use super::twofold;
+use std::sync::LazyLock;
 
 /// The six distinct entries of a symmetric matrix, in the order of the columns `a11,a22,a33,a12,a13,a23`.
 pub const PAIRS: [(usize, usize); 6] = [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)];
@@ -23,19 +25,19 @@ pub const QUADRUPLES: [[usize; 4]; 15] = [
 ];
 
 /// Precision of the integrals in bits; their quadrature is good to 80.
-const KEPT: Bits = Bits(160);
+pub(super) const KEPT: Bits = Bits(160);
 
 /// The covariance Σ and its inverse B.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Covariance {
-    sigma: Matrix,
-    inverse: Matrix,
+    pub(super) sigma: Matrix,
+    pub(super) inverse: Matrix,
 }
 
 impl Covariance {
     /// Σ at `time` of rods that were isotropic at t = 0; `None` if the unit is undefined in this flow.
     pub fn at(motion: &Motion, time: &Big, unit: Unit) -> Option<Self> {
-        let bits = motion.bits(double(time), unit, KEPT.0 + 96);
+        let bits = motion.bits(double(time), unit, KEPT.0 + 48);
         let map = motion.map(time, unit, bits)?;
         let transposed = |m: &Matrix| matrix(|i, j| m[j][i].clone());
         // F⁻¹ by cofactors: det F = 1.
@@ -96,11 +98,7 @@ impl Covariance {
     ) -> [Big; N] {
         let trace = |m: &Matrix| &m[0][0] + &m[1][1] + &m[2][2];
         let (trace_sigma, trace_inverse) = (trace(&self.sigma), trace(&self.inverse));
-        let step = (KEPT.of(5.0) / KEPT.of(4.0)).ln();
-        // ln 2 · 84 bits · 2 on the left and · 2/3 on the right, in steps.
-        let steps = |range: f64| (range / 1.25f64.ln()).ceil() as usize;
-        let left = steps(double(&trace_sigma.ln()) + 117.0);
-        let right = steps(double(&trace_inverse.ln()) + 39.0);
+        let (left, right) = Self::steps(double(&trace_sigma), double(&trace_inverse));
         let one = KEPT.of(1.0);
         // tr B − B_ii, computed without a difference.
         let others = [0, 1, 2].map(|i| {
@@ -122,7 +120,32 @@ impl Covariance {
             }
         };
         each_power(&one, &KEPT.of(1.25), left, right, add);
-        sums.map(|sum| sum * &step)
+        sums.map(|sum| sum * Self::step())
+    }
+
+    /// ln x from node to node.
+    pub(super) fn step() -> Big {
+        static STEP: LazyLock<Big> = LazyLock::new(|| (KEPT.of(5.0) / KEPT.of(4.0)).ln());
+        STEP.clone()
+    }
+
+    /// The nodes on the left and on the right of x = 1, from tr Σ and tr B: ln 2 · 84 bits · 2 and · 2/3, in steps, beyond the roots.
+    pub(super) fn steps(trace_sigma: f64, trace_inverse: f64) -> (usize, usize) {
+        let steps = |range: f64| (range / 1.25f64.ln()).ceil() as usize;
+        (steps(trace_sigma.ln() + 117.0), steps(trace_inverse.ln() + 39.0))
+    }
+
+    /// The doubles nearest to the means: ⟨|p_i|⟩ and a_ij in the order of `PAIRS`.
+    pub fn nearest(&self) -> Vec<f64> {
+        let doubles = |exact: &[Big]| exact.iter().map(|x| double(x) + 0.0).collect::<Vec<_>>();
+        let projections = twofold::projections(self).map_or_else(|| doubles(&self.projections()), Vec::from);
+        let second = twofold::second(self).map_or_else(|| doubles(&self.second()), Vec::from);
+        [projections, second].concat()
+    }
+
+    /// The doubles nearest to a_ijkl, in the order of `QUADRUPLES`.
+    pub fn nearest_fourth(&self) -> [f64; 15] {
+        twofold::fourth(self).unwrap_or_else(|| self.fourth().map(|x| double(&x) + 0.0))
     }
 }
 
@@ -207,6 +230,40 @@ mod tests {
                 assert!((double(found) - expected).abs() < 1e-12, "{aspect_ratio} {indices:?}");
             }
         }
+    }
+
+    #[test]
+    fn pairs_of_doubles_settle_the_nearest_double_nearly_everywhere() {
+        let doubles = |exact: &[Big]| exact.iter().map(|x| double(x) + 0.0).collect::<Vec<_>>();
+        let (mut settled, mut all) = (0, 0);
+        for (u, v) in spread(40) {
+            for (gradient, time, unit) in [(COUETTE, 3.0 * v, Unit::Period), (SPIRAL, 9.0 * v, Unit::Second)]
+            {
+                let covariance = at(gradient, 1e3f64.powf(2.0 * u - 1.0), time, unit);
+                let found = [
+                    twofold::projections(&covariance).map(Vec::from),
+                    twofold::second(&covariance).map(Vec::from),
+                    twofold::fourth(&covariance).map(Vec::from),
+                ];
+                let expected = [
+                    doubles(&covariance.projections()),
+                    doubles(&covariance.second()),
+                    doubles(&covariance.fourth()),
+                ];
+                for (found, expected) in found.iter().zip(&expected) {
+                    assert!(
+                        found.as_ref().is_none_or(|found| found == expected),
+                        "{u} {v}: {found:?} {expected:?}"
+                    );
+                    settled += usize::from(found.is_some());
+                    all += 1;
+                }
+            }
+        }
+        assert!(all == 240 && settled > 220, "{settled} of {all}");
+        // Out of their range, and so near the tie of two doubles that more bits decide.
+        assert_eq!(twofold::second(&at(COUETTE, 1e100, 0.2, Unit::Period)), None);
+        assert_eq!(at(COUETTE, 1e100, 0.2, Unit::Period).nearest().len(), 9);
     }
 
     #[test]

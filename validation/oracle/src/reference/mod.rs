@@ -9,4 +9,5 @@ pub mod isotropic;
 pub mod motion;
 pub mod rod;
 pub mod table;
+mod twofold;
 pub mod unequal;

@@ -46,6 +46,9 @@ impl Motion {
 
     /// (2D:D)^½, 1/s.
     pub fn strain_rate_per_s(&self, bits: Bits) -> Big {
+        if let Some(rate) = self.couette() {
+            return bits.of(rate.abs());
+        }
         let l = |i: usize, j: usize| bits.of(self.gradient_per_s[i][j]);
         let pairs = (0..9).map(|k| (k / 3, k % 3));
         let sum = pairs.fold(bits.of(0.0), |sum, (i, j)| sum + (l(i, j) + l(j, i)).sqr());

@@ -30,36 +30,61 @@ pub struct Rod {
     pub c_b: Option<Big>,
 }
 
-/// Bits of the answers: 128 more than may be lost.
-const KEPT: usize = 256;
+/// Bits of the answers: 80 more than may be lost.
+const KEPT: usize = 208;
 
-/// The rod at `time`; `None` if the unit is undefined in this flow.
-///
-/// p by A.4 and A.5 in the form p = F p₀/|F p₀| (`motion.rs`), φ and θ by p = (sin θ cos φ, sin θ sin φ, cos θ),
-/// C = (r_e² p₁² + p₂²)^½/(r_e|p₃|) (eq. 13). Every number holds to 100 bits and more.
+/// Bits of angles, to which 100 and more are good.
+const OF_ANGLES: Bits = Bits(128);
+
+/// The rod at `time`; `None` if the unit is undefined in this flow. See [`At::time`].
 pub fn at(motion: &Motion, start: Direction, time: &Big, unit: Unit) -> Option<Rod> {
-    let bits = motion.bits(super::big::double(time), unit, KEPT);
-    let map = motion.map(time, unit, bits)?;
-    let start = Start::new(start, bits);
-    let q = image(&map, &start.p);
-    let long = length(&q);
-    let p = q.map(|x| x / &long);
-    let theta = (p[0].sqr() + p[1].sqr()).sqrt().atan2(&p[2]);
-    let phi = match (start.along, motion.couette()) {
-        (Some(along), Some(_)) => {
-            let q = image(&map, &along);
-            Some(q[1].atan2(&q[0]))
-        }
-        _ if p[0] == Big::ZERO && p[1] == Big::ZERO => None,
-        _ => Some(p[1].atan2(&p[0])),
-    };
-    let round = |x: Big| Bits(128).round(x);
-    Some(Rod {
-        c_b: motion.couette().map(|_| round(c_b(&start.p, motion.aspect_ratio, bits))),
-        p: p.map(round),
-        phi: phi.map(round),
-        theta: round(theta),
-    })
+    At::new(motion, start, [super::big::double(time)], unit).time(time)
+}
+
+/// A rod whose directions at several times are asked for.
+pub struct At<'a> {
+    motion: &'a Motion,
+    start: Start,
+    c_b: Option<Big>,
+    unit: Unit,
+}
+
+impl<'a> At<'a> {
+    /// A rod from its start, in the bits that the hardest of `times` needs.
+    pub fn new(
+        motion: &'a Motion,
+        start: Direction,
+        times: impl IntoIterator<Item = f64>,
+        unit: Unit,
+    ) -> Self {
+        let needed = times.into_iter().map(|time| motion.bits(time, unit, KEPT).0);
+        let bits = Bits(needed.max().unwrap_or(KEPT));
+        let start = Start::new(start, bits);
+        let c_b = motion.couette().map(|_| OF_ANGLES.round(c_b(&start.p, motion.aspect_ratio, bits)));
+        Self { motion, start, c_b, unit }
+    }
+
+    /// The rod at a time.
+    ///
+    /// p by A.4 and A.5 in the form p = F p₀/|F p₀| (`motion.rs`), φ and θ by p = (sin θ cos φ, sin θ sin φ, cos θ),
+    /// C = (r_e² p₁² + p₂²)^½/(r_e|p₃|) (eq. 13). Every number holds to 100 bits and more.
+    pub fn time(&self, time: &Big) -> Option<Rod> {
+        let bits = self.motion.bits(super::big::double(time), self.unit, KEPT);
+        let map = self.motion.map(time, self.unit, bits)?;
+        let q = image(&map, &self.start.p);
+        let long = length(&q);
+        let p = q.map(|x| OF_ANGLES.round(x / &long));
+        let theta = (p[0].sqr() + p[1].sqr()).sqrt().atan2(&p[2]);
+        let phi = match (&self.start.along, self.motion.couette()) {
+            (Some(along), Some(_)) => {
+                let q = image(&map, along).map(|x| OF_ANGLES.round(x));
+                Some(q[1].atan2(&q[0]))
+            }
+            _ if p[0] == Big::ZERO && p[1] == Big::ZERO => None,
+            _ => Some(p[1].atan2(&p[0])),
+        };
+        Some(Rod { c_b: self.c_b.clone(), p, phi, theta })
+    }
 }
 
 /// p at t = 0, and C_b, which is constant in plane Couette flow and meaningless in others.

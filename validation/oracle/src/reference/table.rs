@@ -3,7 +3,7 @@
 use super::big::{Big, Bits, double};
 use super::isotropic::{Covariance, PAIRS, QUADRUPLES};
 use super::motion::{LARGEST_STRAIN, Motion, Unit};
-use super::rod::{self, Direction};
+use super::rod::{At, Direction};
 use super::unequal;
 use crate::diffusion::NoAnswer;
 use rayon::prelude::*;
@@ -102,21 +102,43 @@ pub fn columns(start: Start) -> Vec<Column> {
     columns
 }
 
-/// Values at `times`, doubles in `unit`; each is correctly rounded except for means over unequal rods (`unequal.rs`).
-pub fn table(motion: &Motion, start: Start, times: &[f64], unit: Unit) -> Result<Table, NoValue> {
-    let rows = times.par_iter().map(|time| row(motion, start, *time, unit));
+/// Values at `times`, doubles in `unit`; each is correctly rounded except for means over unequal rods (`unequal.rs`). `done` is called
+/// after each row.
+pub fn table(
+    motion: &Motion,
+    start: Start,
+    times: &[f64],
+    unit: Unit,
+    done: impl Fn() + Sync,
+) -> Result<Table, NoValue> {
+    if motion.couette().is_none() && times.iter().any(|time| motion.strain(*time, unit) > LARGEST_STRAIN) {
+        // A unit that the flow does not have has no strain either.
+        return Err(self::times(motion, &Bits(64).of(times[0]), unit).err().unwrap_or(NoValue::Strain));
+    }
+    let rod = match start {
+        Start::Rod(direction) => Some(At::new(motion, direction, times.iter().copied(), unit)),
+        Start::Isotropic { .. } => None,
+    };
+    let rows = times.par_iter().map(|time| {
+        let row = row(motion, start, rod.as_ref(), *time, unit);
+        done();
+        row
+    });
     Ok(Table { columns: columns(start), rows: rows.collect::<Result<_, _>>()? })
 }
 
-fn row(motion: &Motion, start: Start, time: f64, unit: Unit) -> Result<Vec<Option<f64>>, NoValue> {
+fn row(
+    motion: &Motion,
+    start: Start,
+    rod: Option<&At<'_>>,
+    time: f64,
+    unit: Unit,
+) -> Result<Vec<Option<f64>>, NoValue> {
     let exact = Bits(64).of(time);
     let mut row = times(motion, &exact, unit)?;
-    if motion.couette().is_none() && motion.strain(time, unit) > LARGEST_STRAIN {
-        return Err(NoValue::Strain);
-    }
     match start {
-        Start::Rod(direction) => {
-            let rod = rod::at(motion, direction, &exact, unit).ok_or(NoValue::Unit)?;
+        Start::Rod(_) => {
+            let rod = rod.and_then(|rod| rod.time(&exact)).ok_or(NoValue::Unit)?;
             row.extend(rod.p.iter().map(|x| Some(number(x))));
             row.extend([rod.phi, Some(rod.theta), rod.c_b].map(|x| x.as_ref().map(number)));
         }
@@ -128,11 +150,9 @@ fn row(motion: &Motion, start: Start, time: f64, unit: Unit) -> Result<Vec<Optio
         }
         Start::Isotropic { fourth, .. } => {
             let covariance = Covariance::at(motion, &exact, unit).ok_or(NoValue::Unit)?;
-            if fourth {
-                row.extend(covariance.fourth().iter().map(|x| Some(number(x))));
-            } else {
-                row.extend(covariance.projections().iter().map(|x| Some(number(x))));
-                row.extend(covariance.second().iter().map(|x| Some(number(x))));
+            match fourth {
+                true => row.extend(covariance.nearest_fourth().map(Some)),
+                false => row.extend(covariance.nearest().into_iter().map(Some)),
             }
         }
     }
