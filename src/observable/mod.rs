@@ -203,8 +203,20 @@ const LANES: usize = 8;
 pub(crate) fn lane_sum(len: usize, f: impl Fn(usize) -> f64) -> f64 {
     widest(
         #[inline(always)]
-        move || lanes(len, f),
+        move || {
+            whole_or(
+                len,
+                #[inline(always)]
+                |len| lanes(len, &f),
+            )
+        },
     )
+}
+
+/// `of(len)`, compiled for whole blocks and for others.
+#[inline(always)]
+pub(crate) fn whole_or<T>(len: usize, of: impl Fn(usize) -> T) -> T {
+    if len == BLOCK { of(BLOCK) } else { of(len) }
 }
 
 /// [`lane_sum`] for use inside [`widest`].

@@ -1,6 +1,6 @@
 //! Sums over rods, and the spread of the rods' values.
 
-use super::{BLOCK, lane_sum, lanes};
+use super::{BLOCK, lane_sum, lanes, whole_or};
 use crate::model::widest::widest;
 use serde::{Deserialize, Serialize};
 
@@ -100,11 +100,17 @@ impl Spread {
         let [sum, differences, squares] = widest(
             #[inline(always)]
             move || {
-                let mut values = [0.0; BLOCK];
-                values[..len].iter_mut().enumerate().for_each(|(i, value)| *value = f(i));
-                let difference = |i: usize| values[i] - first;
-                let square = |i: usize| difference(i) * difference(i);
-                [lanes(len, |i| values[i]), lanes(len, difference), lanes(len, square)]
+                whole_or(
+                    len,
+                    #[inline(always)]
+                    |len| {
+                        let mut values = [0.0; BLOCK];
+                        values[..len].iter_mut().enumerate().for_each(|(i, value)| *value = f(i));
+                        let difference = |i: usize| values[i] - first;
+                        let square = |i: usize| difference(i) * difference(i);
+                        [lanes(len, |i| values[i]), lanes(len, difference), lanes(len, square)]
+                    },
+                )
             },
         );
         self.differences += differences;

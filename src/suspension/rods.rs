@@ -194,13 +194,19 @@ impl Rods {
                     move |_, p, _| couette(p, r, phase),
                 );
             }
+            Motion::Couette(clock) if self.since.is_empty() => {
+                let (clock, (whole, rest)) = (*clock, clock.parts(tick as f64));
+                block.turn(
+                    from,
+                    #[inline(always)]
+                    move |_, p, r| couette(p, r, clock.phase_of(whole, rest, clock.periods(true, r))),
+                );
+            }
             Motion::Couette(clock) => {
-                let (clock, each, mut elapsed) = (*clock, self.of_several_shapes(), [tick as f64; BLOCK]);
-                if !self.since.is_empty() {
-                    for (elapsed, since) in elapsed.iter_mut().zip(&self.since[rods]) {
-                        // There are at most 10⁹ steps, and no rod is ahead of `tick`.
-                        *elapsed = f64::from((tick as u32).wrapping_sub(*since) as i32);
-                    }
+                let (clock, each, mut elapsed) = (*clock, self.of_several_shapes(), [0.0; BLOCK]);
+                for (elapsed, since) in elapsed.iter_mut().zip(&self.since[rods]) {
+                    // There are at most 10⁹ steps, and no rod is ahead of `tick`.
+                    *elapsed = f64::from((tick as u32).wrapping_sub(*since) as i32);
                 }
                 block.turn(
                     from,
@@ -274,12 +280,23 @@ impl Ticks {
         if each { self.strain_per_period / strain_per_period(r) } else { self.sign }
     }
 
-    /// The phase after `ticks` (a whole number) of a rod that turns `periods` times per period of the mean rod. Whole mean periods and the
-    /// rest are treated separately, so that the phase loses no digits to the number of turns.
+    /// The phase after `ticks` (a whole number) of a rod that turns `periods` times per period of the mean rod.
     #[inline(always)]
     fn phase(&self, ticks: f64, periods: f64) -> Phase {
+        let (whole, rest) = self.parts(ticks);
+        self.phase_of(whole, rest, periods)
+    }
+
+    /// Whole periods of the mean rod, and the rest, in periods.
+    #[inline(always)]
+    fn parts(&self, ticks: f64) -> (f64, f64) {
         let whole = nearest_whole(ticks / self.per_period);
-        let rest = (ticks - whole * self.per_period) / self.per_period;
+        (whole, (ticks - whole * self.per_period) / self.per_period)
+    }
+
+    /// The phase after these parts, each by itself, so that it loses no digits to the number of turns.
+    #[inline(always)]
+    fn phase_of(&self, whole: f64, rest: f64, periods: f64) -> Phase {
         let turns = whole * periods;
         Phase::of_part(turns - nearest_whole(turns) + rest * periods)
     }

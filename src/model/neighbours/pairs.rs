@@ -16,6 +16,8 @@ pub(super) struct Pairs {
     /// For each rod the smallest distance (largest of the three components) to the partners ahead, and behind.
     ahead: Vec<i16>,
     behind: Vec<i16>,
+    /// The squared distances of one rod.
+    squares: Vec<f64>,
 }
 
 impl Pairs {
@@ -25,6 +27,7 @@ impl Pairs {
             units: [const { Vec::new() }; 3],
             ahead: Vec::new(),
             behind: Vec::new(),
+            squares: Vec::new(),
         }
     }
 
@@ -47,7 +50,7 @@ impl Pairs {
                 continue;
             }
             work.distances += count as u64;
-            if let Some(nearest) = nearest(positions, rod, reach) {
+            if let Some(nearest) = nearest(positions, rod, reach, &mut self.squares) {
                 found(nearest);
             }
         }
@@ -109,16 +112,43 @@ fn closer(own: [&[i16]; 3], other: [&[i16]; 3], ahead: &mut [i16], behind: &mut 
 const LANES: usize = 8;
 
 /// The nearest other rod closer than `reach`; the lowest index if several are equally near.
-fn nearest(positions: &[Vec<f64>; 3], rod: usize, reach: f64) -> Option<Nearest> {
-    let mut best = None;
-    let mut best_square = reach * reach;
-    let [x1, x2, x3] = positions;
-    for (other, ((y1, y2), y3)) in x1.iter().zip(x2).zip(x3).enumerate() {
-        let square = (y1 - x1[rod]).powi(2) + (y2 - x2[rod]).powi(2) + (y3 - x3[rod]).powi(2);
-        if square < best_square && other != rod {
-            best = Some(other);
-            best_square = square;
-        }
+fn nearest(positions: &[Vec<f64>; 3], rod: usize, reach: f64, squares: &mut Vec<f64>) -> Option<Nearest> {
+    squares.resize(positions[0].len(), 0.0);
+    let axes = positions.each_ref().map(|axis| &axis[..]);
+    let own = axes.map(|axis| axis[rod]);
+    let all = &mut squares[..];
+    widest(
+        #[inline(always)]
+        move || squared(axes, own, all),
+    );
+    squares[rod] = f64::INFINITY;
+    let (least, reach_square) = (least(squares), reach * reach);
+    if least >= reach_square {
+        return None;
     }
-    best.map(|other| Nearest { rod: rod as u32, other: other as u32, square: best_square })
+    let other = squares.iter().position(|square| *square == least)?;
+    Some(Nearest { rod: rod as u32, other: other as u32, square: least })
+}
+
+/// The squared distance of every place to `own`.
+#[inline(always)]
+fn squared([x1, x2, x3]: [&[f64]; 3], own: [f64; 3], squares: &mut [f64]) {
+    let count = squares.len();
+    let (x1, x2, x3) = (&x1[..count], &x2[..count], &x3[..count]);
+    for k in 0..count {
+        squares[k] = (x1[k] - own[0]).powi(2) + (x2[k] - own[1]).powi(2) + (x3[k] - own[2]).powi(2);
+    }
+}
+
+/// The least of the numbers.
+fn least(squares: &[f64]) -> f64 {
+    let mut lanes = [f64::INFINITY; LANES];
+    let chunks = squares.chunks_exact(LANES);
+    let rest = chunks.remainder();
+    let lower = |lane: &mut f64, square: f64| *lane = if square < *lane { square } else { *lane };
+    for chunk in chunks {
+        lanes.iter_mut().zip(chunk).for_each(|(lane, square)| lower(lane, *square));
+    }
+    lanes.iter_mut().zip(rest).for_each(|(lane, square)| lower(lane, *square));
+    lanes.into_iter().fold(f64::INFINITY, f64::min)
 }

@@ -271,3 +271,17 @@ fn nearest<const N: usize>(entries: [Big; N]) -> Option<[f64; N]> {
     }
     Some(found)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_number_beside_the_tie_of_two_doubles_is_left_to_more_bits() {
+        let beside = |bits: isize| KEPT.of(1.0) + (KEPT.of(1.0) >> 53) + (KEPT.of(1.0) >> bits);
+        assert_eq!(nearest([beside(90), KEPT.of(0.5)]), None);
+        assert_eq!(nearest([beside(70), KEPT.of(0.0)]), Some([1.0 + f64::EPSILON, 0.0]));
+        // The bound is that of the largest entry.
+        assert_eq!(nearest([beside(70), KEPT.of(1e3)]), None);
+    }
+}
