@@ -98,15 +98,17 @@ pub struct Amount {
     repeats: usize,
     /// Number of rods for the memory rate.
     free_rods: usize,
+    /// Number of rods of one run over all cores.
+    large_run: usize,
     /// Approximate duration of the steps of one measurement, s.
     seconds: f64,
 }
 
 impl Amount {
     /// The amount for `shearbed bench`.
-    pub const FULL: Self = Self { repeats: 7, free_rods: 10_000_000, seconds: 0.2 };
+    pub const FULL: Self = Self { repeats: 7, free_rods: 10_000_000, large_run: 1_000_000, seconds: 0.2 };
     /// The amount for daily reports.
-    pub const QUICK: Self = Self { repeats: 3, free_rods: 2_000_000, seconds: 0.02 };
+    pub const QUICK: Self = Self { repeats: 3, free_rods: 2_000_000, large_run: 300_000, seconds: 0.02 };
 }
 
 /// The results of the study.

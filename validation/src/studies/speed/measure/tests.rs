@@ -1,6 +1,6 @@
 use super::*;
 
-const TINY: Amount = Amount { repeats: 1, free_rods: 1000, seconds: 1e-5 };
+const TINY: Amount = Amount { repeats: 1, free_rods: 1000, large_run: 1000, seconds: 1e-5 };
 
 #[test]
 fn a_step_is_measured_of_both() {
