@@ -83,6 +83,49 @@ fn printed(command: &str) -> String {
     String::from_utf8(ended.stdout).unwrap().trim().to_owned()
 }
 
+/// The rows of the table before the line `<!--table: NAME-->`, and the names of all such lines of a page.
+fn rows_before(text: &str, name: &str) -> Option<String> {
+    let before = text.split_once(&format!("\n<!--table: {name}-->"))?.0;
+    let table = before.rsplit_once("--- |\n")?.1;
+    table.lines().all(|row| row.starts_with('|')).then(|| table.to_owned())
+}
+
+/// Scripts that take long are run for a release; their rows stand in a page too.
+#[test]
+fn scripts_print_the_rows_of_tables() {
+    let pages = under("docs/src");
+    let marks = pages.iter().flat_map(|page| page.text.lines());
+    let marks = marks.filter_map(|line| line.strip_prefix("<!--table: ")?.strip_suffix("-->"));
+    let marked: BTreeSet<_> = marks.collect();
+    let mut named = BTreeSet::new();
+    for script in fs::read_dir(root().join("docs/numbers/tables")).unwrap() {
+        let script = script.unwrap().path();
+        let [name, when, "sh"] =
+            script.file_name().unwrap().to_str().unwrap().split('.').collect::<Vec<_>>()[..]
+        else {
+            panic!("{script:?} is not NAME.test.sh or NAME.release.sh");
+        };
+        let rows = pages.iter().find_map(|page| rows_before(&page.text, name));
+        let rows = rows.unwrap_or_else(|| panic!("no table of a page is marked {name}"));
+        match when {
+            "test" => {
+                assert_eq!(printed(&fs::read_to_string(&script).unwrap()), rows, "bash docs/numbers.sh")
+            }
+            other => assert_eq!(other, "release", "{name}"),
+        }
+        named.insert(name.to_owned());
+    }
+    assert!(
+        marked.iter().all(|name| named.contains(*name)) && named.len() == marked.len(),
+        "{marked:?} {named:?}"
+    );
+    let other = "| a |\n| --- |\n| 1 |\ntext\n<!--table: a-->";
+    assert_eq!(
+        (rows_before("| a |\n| --- |\n| 1 |\n<!--table: a-->", "a"), rows_before(other, "a")),
+        (Some("| 1 |".into()), None)
+    );
+}
+
 #[test]
 fn commands_print_the_numbers_of_the_table() {
     let mut number = 0;

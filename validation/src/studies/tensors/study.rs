@@ -22,7 +22,7 @@ pub const STUDY: Study = Study {
 fn run(request: &Request) -> Result<Option<Findings>, String> {
     let c_i: &[f64] = request
         .effort
-        .pick(&[1e-3, 0.0053, 0.0311, 0.1], &[1e-4, 3e-4, 1e-3, 3e-3, 1e-2, 3e-2, 0.1, 0.3, 1.0]);
+        .pick(&[1e-3, 0.0053, 0.0311, 0.1], &[1e-4, 3e-4, 1e-3, 0.0053, 0.01, 0.0311, 0.1, 0.3, 1.0]);
     let (rows, work, fitted) = (errors(c_i)?, work()?, fitted());
     let curve = |closure: Closure| {
         let of = rows.iter().filter(move |row| row.closure == closure.name() && row.flow == FLOWS[0].0);
