@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Makes docs/numbers.tsv afresh, and the numbers of the book and the READMEs that are marked as `0.326<!--=fig4.x1-->`. Each row has the
 # command that prints its number, run in an empty folder with the program on the PATH and the repository in $ROOT. So are the scripts of
-# docs/numbers/tables, which print the rows of the table that stands before the line `<!--table: NAME-->`.
+# docs/numbers/tables, which print the rows of the table that stands before the line `<!--table:NAME-->`.
 # Usage: bash docs/numbers.sh [release]      with `release` also what takes minutes to hours
 set -euo pipefail
 export ROOT=$(cd "$(dirname "$0")/.." && pwd)
@@ -31,6 +31,6 @@ for script in "$ROOT"/docs/numbers/tables/*.sh; do
   if [ "$when" = test ] || [ "${1:-}" = "$when" ]; then
     mkdir "$work/$name"
     rows=$(cd "$work/$name" && bash -euo pipefail "$script" </dev/null)
-    ROWS=$rows NAME=$name perl -0pi -e 's/(\n\|(?: --- \|)+\n)(?:\|[^\n]*\n)*(?=<!--table: \Q$ENV{NAME}\E-->)/$1$ENV{ROWS}\n/' "$ROOT"/docs/src/*/*.md
+    ROWS=$rows NAME=$name perl -0pi -e 's/(\n\|(?: --- \|)+\n)(?:\|[^\n]*\n)*(?=<!--table:\Q$ENV{NAME}\E-->)/$1$ENV{ROWS}\n/' "$ROOT"/docs/src/*/*.md
   fi
 done

@@ -83,9 +83,9 @@ fn printed(command: &str) -> String {
     String::from_utf8(ended.stdout).unwrap().trim().to_owned()
 }
 
-/// The rows of the table before the line `<!--table: NAME-->`, and the names of all such lines of a page.
+/// The rows of the table before the line `<!--table:NAME-->`, and the names of all such lines of a page.
 fn rows_before(text: &str, name: &str) -> Option<String> {
-    let before = text.split_once(&format!("\n<!--table: {name}-->"))?.0;
+    let before = text.split_once(&format!("\n<!--table:{name}-->"))?.0;
     let table = before.rsplit_once("--- |\n")?.1;
     table.lines().all(|row| row.starts_with('|')).then(|| table.to_owned())
 }
@@ -95,7 +95,7 @@ fn rows_before(text: &str, name: &str) -> Option<String> {
 fn scripts_print_the_rows_of_tables() {
     let pages = under("docs/src");
     let marks = pages.iter().flat_map(|page| page.text.lines());
-    let marks = marks.filter_map(|line| line.strip_prefix("<!--table: ")?.strip_suffix("-->"));
+    let marks = marks.filter_map(|line| line.strip_prefix("<!--table:")?.strip_suffix("-->"));
     let marked: BTreeSet<_> = marks.collect();
     let mut named = BTreeSet::new();
     for script in fs::read_dir(root().join("docs/numbers/tables")).unwrap() {
@@ -119,9 +119,9 @@ fn scripts_print_the_rows_of_tables() {
         marked.iter().all(|name| named.contains(*name)) && named.len() == marked.len(),
         "{marked:?} {named:?}"
     );
-    let other = "| a |\n| --- |\n| 1 |\ntext\n<!--table: a-->";
+    let other = "| a |\n| --- |\n| 1 |\ntext\n<!--table:a-->";
     assert_eq!(
-        (rows_before("| a |\n| --- |\n| 1 |\n<!--table: a-->", "a"), rows_before(other, "a")),
+        (rows_before("| a |\n| --- |\n| 1 |\n<!--table:a-->", "a"), rows_before(other, "a")),
         (Some("| 1 |".into()), None)
     );
 }
