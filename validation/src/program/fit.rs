@@ -38,7 +38,7 @@ const MOST_REPLICAS: u64 = 1000;
 FILE.csv has the columns t_over_T (or t_s, strain), x1, x1_u, and as you like x2, x2_u, … (docs/src/user/fitting.md).
 Examples:
   shearbed fit fig4-n50 --data points.csv --over interaction.alpha=0.05:5
-  shearbed fit fig4-n20 --data n20.csv --data fig4-n50=n50.csv --over interaction.alpha=0.1:2 --over interaction.m=1:6")]
+  shearbed fit a.toml --data a.csv --data b.toml=b.csv --over interaction.m=1:6")]
 pub(super) struct Args {
     /// A scene file, or the name of a built-in scene
     scene: OsString,

@@ -20,7 +20,7 @@ use std::path::{Path, PathBuf};
 An interrupted sweep goes on when the same command is given again. Every point has the same seed.
 Examples:
   shearbed sweep fig4-n50 --over interaction.alpha=0.1:1:10 --replicas 100
-  shearbed sweep mine.toml --over interaction.update=rotation,angles --over time.steps_per_period=100,200,400")]
+  shearbed sweep mine.toml --over interaction.update=rotation,angles,kick")]
 pub(super) struct Args {
     #[command(flatten)]
     chosen: Chosen,
