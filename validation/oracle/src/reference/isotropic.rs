@@ -39,6 +39,11 @@ impl Covariance {
     pub fn at(motion: &Motion, time: &Big, unit: Unit) -> Option<Self> {
         let bits = motion.bits(double(time), unit, KEPT.0 + 48);
         let map = motion.map(time, unit, bits)?;
+        if motion.only_turns() {
+            // Exactly: products of the map's entries would leave their rounding in what is 0.
+            let one = || matrix(|i, j| KEPT.of(if i == j { 1.0 } else { 0.0 }));
+            return Some(Self { sigma: one(), inverse: one() });
+        }
         let transposed = |m: &Matrix| matrix(|i, j| m[j][i].clone());
         // F⁻¹ by cofactors: det F = 1.
         let cofactor = |i: usize, j: usize| {
@@ -98,7 +103,7 @@ impl Covariance {
     ) -> [Big; N] {
         let trace = |m: &Matrix| &m[0][0] + &m[1][1] + &m[2][2];
         let (trace_sigma, trace_inverse) = (trace(&self.sigma), trace(&self.inverse));
-        let (left, right) = Self::steps(double(&trace_sigma), double(&trace_inverse));
+        let (left, right) = Self::steps(&trace_sigma, &trace_inverse);
         let one = KEPT.of(1.0);
         // tr B − B_ii, computed without a difference.
         let others = [0, 1, 2].map(|i| {
@@ -130,9 +135,14 @@ impl Covariance {
     }
 
     /// The nodes on the left and on the right of x = 1, from tr Σ and tr B: ln 2 · 84 bits · 2 and · 2/3, in steps, beyond the roots.
-    pub(super) fn steps(trace_sigma: f64, trace_inverse: f64) -> (usize, usize) {
+    pub(super) fn steps(trace_sigma: &Big, trace_inverse: &Big) -> (usize, usize) {
         let steps = |range: f64| (range / 1.25f64.ln()).ceil() as usize;
-        (steps(trace_sigma.ln() + 117.0), steps(trace_inverse.ln() + 39.0))
+        // Traces may be beyond the range of a double.
+        let ln = |trace: &Big| match double(trace) {
+            trace if trace.is_finite() => trace.ln(),
+            _ => double(&trace.ln()),
+        };
+        (steps(ln(trace_sigma) + 117.0), steps(ln(trace_inverse) + 39.0))
     }
 
     /// The doubles nearest to the means: ⟨|p_i|⟩ and a_ij in the order of `PAIRS`.
@@ -264,6 +274,20 @@ mod tests {
         // Out of their range, and so near the tie of two doubles that more bits decide.
         assert_eq!(twofold::second(&at(COUETTE, 1e100, 0.2, Unit::Period)), None);
         assert_eq!(at(COUETTE, 1e100, 0.2, Unit::Period).nearest().len(), 9);
+        // tr Σ is e^2000 here.
+        let far = at([[1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0; 3]], 1e3, 1000.0, Unit::Second);
+        assert_eq!(far.nearest()[3..5], [1.0, 0.0]);
+    }
+
+    #[test]
+    fn where_rods_only_turn_they_stay_isotropic_exactly() {
+        let turning = [[0.0, 2.0, 3.0], [-2.0, 0.0, 5.0], [-3.0, -5.0, 0.0]];
+        let any = [[1.0, 2.0, 3.0], [4.0, 1.0, 5.0], [6.0, 7.0, -2.0]];
+        for (gradient, r) in [(turning, 3.0), (any, 1.0)] {
+            let means = at(gradient, r, 0.1, Unit::Second).nearest();
+            assert_eq!(means, [0.5, 0.5, 0.5, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0, 0.0, 0.0, 0.0]);
+        }
+        assert_ne!(at(any, 1.0 + f64::EPSILON, 0.1, Unit::Second).nearest()[6], 0.0);
     }
 
     #[test]

@@ -38,6 +38,14 @@ impl Motion {
         (rate != 0.0 && others == 1 && self.aspect_ratio.is_finite()).then_some(rate)
     }
 
+    /// True if ΛD has no part but its trace: then rods turn as the liquid does, and isotropic ones stay so.
+    pub fn only_turns(&self) -> bool {
+        let l = &self.gradient_per_s;
+        let alike = l[0][0] == l[1][1] && l[1][1] == l[2][2];
+        let skew = [(0, 1), (0, 2), (1, 2)].iter().all(|&(i, j)| l[i][j] == -l[j][i]);
+        self.aspect_ratio == 1.0 || (alike && skew)
+    }
+
     /// T·|G| = 2π(r_e + 1/r_e): the strain of a period in plane Couette flow (eq. 15).
     pub fn strain_per_period(&self, bits: Bits) -> Big {
         let r = bits.of(self.aspect_ratio);

@@ -133,7 +133,7 @@ impl Matrices {
         if traces.iter().any(|trace| double(trace) > LARGEST_TRACE) {
             return None;
         }
-        let (left, right) = Covariance::steps(double(&traces[0]), double(&traces[1]));
+        let (left, right) = Covariance::steps(&traces[0], &traces[1]);
         let others =
             [0, 1, 2].map(|i| &inverse[(i + 1) % 3][(i + 1) % 3] + &inverse[(i + 2) % 3][(i + 2) % 3]);
         Some(Self {

@@ -223,6 +223,7 @@ pub fn orders_table(orders: &Orders) -> ReportTable {
     let found = |study: &Convergence| match study.found {
         OrderVerdict::AsTheory => "as theory",
         OrderVerdict::Not => "NOT as theory",
+        OrderVerdict::Unsettled => "coming nearer",
         OrderVerdict::RoundOff => "at round-off",
     };
     let judged = |study: &Convergence| {
@@ -237,7 +238,7 @@ pub fn orders_table(orders: &Orders) -> ReportTable {
         ["orders", "Observed order, Richardson's value and grid convergence index"],
         format!(
             "{}. The core itself takes no step for a free rod: these are the orders of integrators that do. Orders of the \
-             angle's error on the last two pairs above round-off, negative where it grows; the rest is of |p_1|, from \
+             angle's error on the last two pairs before round-off, negative where it grows; the rest is of |p_1|, from \
              three grids: its index is to bound its error.",
             orders.problem
         ),
