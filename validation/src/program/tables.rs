@@ -78,8 +78,8 @@ pub(super) fn summary(results: &Results) -> String {
         text += &format!(
             "{:<margin$}{:<18}{:<18}{:<17}largest\n",
             "",
-            format!("at {name} = {}", time(0)),
-            format!("at {name} = {}", time(last)),
+            format!("at {name} = {}", brief(time(0))),
+            format!("at {name} = {}", brief(time(last))),
             "least"
         );
         for channel in shown(series) {
@@ -92,9 +92,7 @@ pub(super) fn summary(results: &Results) -> String {
             let value = |k: usize| format!("{} ± {}", number(channel.mean[k]), number(channel.se[k]));
             let order = |a: &usize, b: &usize| channel.mean[*a].total_cmp(&channel.mean[*b]);
             let extreme = |k: Option<usize>| {
-                k.map_or_else(String::new, |k| {
-                    format!("{} at {}", number(channel.mean[k]), shortest(time(k)))
-                })
+                k.map_or_else(String::new, |k| format!("{} at {}", number(channel.mean[k]), brief(time(k))))
             };
             let outputs = 0..channel.mean.len();
             text += &format!(
@@ -113,9 +111,10 @@ pub(super) fn summary(results: &Results) -> String {
     text
 }
 
-/// A time rounded to three decimals.
-fn shortest(time: f64) -> f64 {
-    (time * 1e3).round() / 1e3
+/// A time with three decimals at most, or in powers of ten where these would change it.
+fn brief(time: f64) -> String {
+    let rounded = (time * 1e3).round() / 1e3;
+    if (rounded - time).abs() <= 1e-3 * time.abs() { rounded.to_string() } else { format!("{time:.3e}") }
 }
 
 /// The largest number of bars in a sparkline.

@@ -6,6 +6,7 @@
 use super::Output;
 use crate::files::bounded;
 use crate::files::difference::difference;
+use crate::files::text::shortened;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -39,7 +40,13 @@ impl Origin {
 
     /// The first difference from the inputs `now`, in words: `scene.m was 3 and is 4 now`.
     pub fn difference(&self, now: &Self) -> Option<String> {
-        let words = |(key, was, is): (String, Value, Value)| format!("{key} was {was} and is {is} now");
+        let shown = |value: &Value| match value {
+            Value::Object(all) if all.len() > 3 => format!("of {} files", all.len()),
+            value => shortened(&value.to_string()).into_owned(),
+        };
+        let words = |(key, was, is): (String, Value, Value)| {
+            format!("{key} was {} and is {} now", shown(&was), shown(&is))
+        };
         match self.command == now.command {
             true => difference(&self.inputs, &now.inputs).map(words),
             false => Some(format!("command was \"{}\" and is \"{}\" now", self.command, now.command)),

@@ -112,7 +112,7 @@ pub fn look_elsewhere(problem: &FitProblem<'_>, fit: &Fit, watch: &Watch<'_>) ->
                 let why = match law.is_ok_and(|law| law.sf(least) < IMPOSSIBLE) {
                     true => format!(
                         "no value describes the {points} points; the nearest are {both}; check their columns, units and \
-                         uncertainties, and the scene's other keys"
+                         uncertainties, the scene's other keys, and whether the range of --over holds the value"
                     ),
                     false => format!(
                         "{both} both describe the points, for χ² has several minima in this range; more --replicas tell noise from \

@@ -204,11 +204,12 @@ fn warnings(
     all
 }
 
-/// The deepest other minimum of a profile that is within its 95 % interval, with a ridge of one more between it and the best place.
+/// The deepest other minimum of a profile that is within its 95 % interval, with a ridge between it and the best place: of a tenth of the
+/// rise at the ends of the 68 % interval, so that an estimate that hangs on so little is not given without a word.
 fn another_minimum(rise: &[f64]) -> Option<usize> {
     let best = rise.iter().position(|rise| *rise == 0.0)?;
     let ridge = |k: usize| rise[k.min(best)..=k.max(best)].iter().copied().fold(0.0, f64::max);
-    let apart = (0..rise.len()).filter(|k| rise[*k] <= rise_of(0.95) && ridge(*k) > rise[*k] + 1.0);
+    let apart = (0..rise.len()).filter(|k| rise[*k] <= rise_of(0.95) && ridge(*k) > rise[*k] + 0.1);
     apart.min_by(|a, b| rise[*a].total_cmp(&rise[*b]))
 }
 

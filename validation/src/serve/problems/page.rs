@@ -125,7 +125,7 @@ fn model(problem: &Problem, ensemble: &Ensemble) -> String {
 fn metric(metric: Metric) -> &'static str {
     match metric {
         Metric::Angle => {
-            "The error of a row is the angle in rad between its axis and the certified one; p and -p are the same rod."
+            "The error of a row is the angle in rad between its axis and the certified one, or | |p| - 1 | if that is larger; p and -p are the same rod."
         }
         Metric::Absolute => "The error of a row is the largest difference from its certified values.",
         Metric::Relative => {

@@ -21,7 +21,7 @@ impl Axis {
         let (key, values) = key_and_text(text, shape)?;
         let range = split(values, ':');
         let values = match range.as_slice() {
-            [_] => split(values, ',').into_iter().map(value).collect::<Result<_, _>>()?,
+            [_] => each_once(split(values, ',').into_iter().map(value).collect::<Result<_, _>>()?)?,
             [from, to, count] => evenly(from, to, count)?,
             _ => return Err(format!("{values:?} is neither FROM:TO:COUNT nor a list; {shape}")),
         };
@@ -115,6 +115,13 @@ fn value(text: &str) -> Result<Value, String> {
 }
 
 /// `count` values from `from` to `to`, both included. If both are integers, so are whole values between them.
+fn each_once(values: Vec<Value>) -> Result<Vec<Value>, String> {
+    match (1..values.len()).find(|k| values[..*k].contains(&values[*k])) {
+        Some(k) => Err(format!("{} stands there twice; each value once is allowed", values[k])),
+        None => Ok(values),
+    }
+}
+
 fn evenly(from: &str, to: &str, count: &str) -> Result<Vec<Value>, String> {
     let number = |text: &str| match text.parse::<f64>() {
         Ok(number) if number.is_finite() => Ok(number),
