@@ -67,7 +67,7 @@ pub struct Convergence {
     pub theory: u32,
     /// The runs, from coarse to fine.
     pub halvings: Vec<Halving>,
-    /// The orders of the last two pairs as theory, or else above round-off.
+    /// The orders of the last two pairs as theory, or else of the last three above round-off.
     pub judged: Vec<f64>,
     /// The result of that comparison.
     pub found: OrderVerdict,
@@ -175,7 +175,7 @@ fn round_off(problem: &RodProblem, steps: u64) -> f64 {
 }
 
 /// The orders that are compared with theory: the last two after each other that hold, if all errors beyond may be round-off; else the
-/// last two above it.
+/// last three above it.
 fn judged(halvings: &[Halving], theory: u32, round_off: impl Fn(u64) -> f64) -> Vec<f64> {
     let above = |halving: &Halving| {
         halving.errors.is_some_and(|errors| errors.orientation_rad > round_off(halving.steps))
@@ -192,7 +192,7 @@ fn judged(halvings: &[Halving], theory: u32, round_off: impl Fn(u64) -> f64) -> 
     // From the first run at round-off on, all orders are noise.
     let above = halvings.iter().take_while(|halving| above(halving));
     let orders: Vec<f64> = above.filter_map(|halving| halving.order).collect();
-    orders[orders.len().saturating_sub(2)..].to_vec()
+    orders[orders.len().saturating_sub(3)..].to_vec()
 }
 
 fn holds(order: f64, theory: u32) -> bool {
@@ -203,8 +203,10 @@ fn compare(judged: &[f64], theory: u32) -> OrderVerdict {
     let off = |order: f64| (order - f64::from(theory)).abs();
     match *judged {
         [first, last] if holds(first, theory) && holds(last, theory) => OrderVerdict::AsTheory,
-        [first, last] if off(last) < 0.6 * off(first) && off(last) < 0.5 => OrderVerdict::Unsettled,
-        [_, _] => OrderVerdict::Not,
+        [first, second, last] if off(first) > off(second) && 0.6 * off(second) > off(last) => {
+            OrderVerdict::Unsettled
+        }
+        [_, _] | [_, _, _] => OrderVerdict::Not,
         _ => OrderVerdict::RoundOff,
     }
 }
