@@ -67,7 +67,7 @@ pub(super) fn converge(args: &Args) -> Result<(), Failure> {
     let replicas = args.replicas.map_or(Replicas::CONVERGE, Replicas::Each);
     let done = match plan.runs(Stage::Contacts) {
         true => {
-            let warnings = [plan.warnings(), vec![coarse(&named.scene)]].concat();
+            let warnings = [plan.warnings(), vec![coarse(&named.scene)], other_end(&named.scene)].concat();
             scene::warn(&named.source, &warnings);
             on_threads(args.threads.given, || interacting(&named.scene, replicas, warnings, args))?
         }
@@ -131,6 +131,15 @@ fn free(scene: &Scene) -> Result<Done, Failure> {
     })
 }
 
+/// A sentence where the scene ends at another time than the study's runs.
+fn other_end(scene: &Scene) -> Vec<String> {
+    let periods = scene.time.duration;
+    let other = (periods != 1.0).then(|| {
+        format!("time.periods = {periods} is not used: every run of this study ends after one period, whose means it compares")
+    });
+    other.into_iter().collect()
+}
+
 /// A sentence on the tried steps that are coarser than the default.
 fn coarse(scene: &Scene) -> String {
     let strain = |steps: u64| strain_per_period(scene.particles.aspect_ratio) / steps as f64;
@@ -187,4 +196,18 @@ fn interacting(
     let json = build::json(&Written { warnings, law, constants, splits });
     let files = vec![("converge.csv", csv), ("replicas.csv", blocks), ("converge.json", json)];
     done(tables, files).map(Some)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_scene_that_does_not_end_after_a_period_is_told_so() {
+        let mut scene = Scene::default();
+        scene.time = shearbed::scene::Time::periods(1.0);
+        assert!(other_end(&scene).is_empty());
+        scene.time.duration = 0.5;
+        assert!(other_end(&scene)[0].starts_with("time.periods = 0.5 is not used: "));
+    }
 }
