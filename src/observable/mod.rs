@@ -213,7 +213,7 @@ pub(crate) fn lane_sum(len: usize, f: impl Fn(usize) -> f64) -> f64 {
     )
 }
 
-/// `of(len)`, compiled for whole blocks and for others.
+/// `of(len)`, compiled once more for whole blocks: where the compiler knows the length, loops have no ends to look after.
 #[inline(always)]
 pub(crate) fn whole_or<T>(len: usize, of: impl Fn(usize) -> T) -> T {
     if len == BLOCK { of(BLOCK) } else { of(len) }
