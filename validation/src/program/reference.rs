@@ -134,7 +134,7 @@ fn values(args: &Args, motion: &Motion, asked: &Asked) -> Result<Table, NoValue>
     let times = args.times.as_ref().map_or(&[][..], |times| &times.0);
     match asked {
         Asked::Free(start) => {
-            // Times of less than a second need no bar.
+            // Fewer take less than a second.
             let bar = progress(times.len() as u64, "times", times.len() < 1000);
             let table = table::table(motion, *start, times, unit, || bar.inc(1));
             bar.finish_and_clear();

@@ -2,7 +2,7 @@
 
 use crate::pages::{readmes, under};
 
-/// Words of a part of the book: what has a letter or a digit, which the lines of a table have not, and is read, which marks are not.
+/// Words of a part of the book. Lines of tables and marks of numbers do not count.
 fn words(part: &str) -> usize {
     let word = |word: &&str| word.contains(char::is_alphanumeric) && !word.starts_with("<!--");
     under(&format!("docs/src/{part}"))

@@ -50,6 +50,11 @@ pub fn double(x: &Big) -> f64 {
     x.to_f64().value()
 }
 
+/// The nearest double; never a negative zero.
+pub fn number(x: &Big) -> f64 {
+    double(x) + 0.0
+}
+
 /// A decimal number as written, exact to 400 bits; `None` if it is not a finite number within the range of a double.
 pub fn decimal(text: &str) -> Option<Big> {
     let text = text.trim();

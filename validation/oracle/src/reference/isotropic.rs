@@ -9,9 +9,9 @@
 //! These are complete and incomplete elliptic integrals in plane Couette flow. adj M = x² + x(tr B − B) + Σ and
 //! det M = x³ + x² tr B + x tr Σ + 1 have no negative coefficient on their diagonals: nothing cancels.
 
-use super::big::{Big, Bits, double, each_power};
+use super::big::{Big, Bits, double, each_power, number};
 use super::motion::{Matrix, Motion, Unit, matrix, product};
-use super::twofold;
+use super::twofold::Matrices;
 use std::sync::LazyLock;
 
 /// The six distinct entries of a symmetric matrix, in the order of the columns `a11,a22,a33,a12,a13,a23`.
@@ -101,15 +101,10 @@ impl Covariance {
         &self,
         f: impl Fn(&Big, &dyn Fn(usize, usize) -> Big, &Big) -> [Big; N],
     ) -> [Big; N] {
-        let trace = |m: &Matrix| &m[0][0] + &m[1][1] + &m[2][2];
-        let (trace_sigma, trace_inverse) = (trace(&self.sigma), trace(&self.inverse));
+        let [trace_sigma, trace_inverse] = self.traces();
         let (left, right) = Self::steps(&trace_sigma, &trace_inverse);
         let one = KEPT.of(1.0);
-        // tr B − B_ii, computed without a difference.
-        let others = [0, 1, 2].map(|i| {
-            let (j, k) = ((i + 1) % 3, (i + 2) % 3);
-            &self.inverse[j][j] + &self.inverse[k][k]
-        });
+        let others = self.others();
         let mut sums = [0; N].map(|_| KEPT.of(0.0));
         let add = |x: &Big| {
             let determinant = ((x + &trace_inverse) * x + &trace_sigma) * x + &one;
@@ -126,6 +121,17 @@ impl Covariance {
         };
         each_power(&one, &KEPT.of(1.25), left, right, add);
         sums.map(|sum| sum * Self::step())
+    }
+
+    /// tr Σ and tr B.
+    pub(super) fn traces(&self) -> [Big; 2] {
+        [&self.sigma, &self.inverse].map(|m| &m[0][0] + &m[1][1] + &m[2][2])
+    }
+
+    /// tr B − B_ii, computed without a difference.
+    pub(super) fn others(&self) -> [Big; 3] {
+        let b = &self.inverse;
+        [0, 1, 2].map(|i| &b[(i + 1) % 3][(i + 1) % 3] + &b[(i + 2) % 3][(i + 2) % 3])
     }
 
     /// ln x from node to node.
@@ -145,17 +151,20 @@ impl Covariance {
         (steps(ln(trace_sigma) + 117.0), steps(ln(trace_inverse) + 39.0))
     }
 
-    /// The doubles nearest to the means: ⟨|p_i|⟩ and a_ij in the order of `PAIRS`.
-    pub fn nearest(&self) -> Vec<f64> {
-        let doubles = |exact: &[Big]| exact.iter().map(|x| double(x) + 0.0).collect::<Vec<_>>();
-        let projections = twofold::projections(self).map_or_else(|| doubles(&self.projections()), Vec::from);
-        let second = twofold::second(self).map_or_else(|| doubles(&self.second()), Vec::from);
-        [projections, second].concat()
+    /// The doubles nearest to the means: ⟨|p_i|⟩, then a_ij in the order of `PAIRS`.
+    pub fn nearest(&self) -> [f64; 9] {
+        let matrices = Matrices::new(self);
+        let projections = matrices.as_ref().and_then(Matrices::projections);
+        let [x1, x2, x3] = projections.unwrap_or_else(|| self.projections().each_ref().map(number));
+        let second = matrices.as_ref().and_then(Matrices::second);
+        let [a, b, c, d, e, f] = second.unwrap_or_else(|| self.second().each_ref().map(number));
+        [x1, x2, x3, a, b, c, d, e, f]
     }
 
     /// The doubles nearest to a_ijkl, in the order of `QUADRUPLES`.
     pub fn nearest_fourth(&self) -> [f64; 15] {
-        twofold::fourth(self).unwrap_or_else(|| self.fourth().map(|x| double(&x) + 0.0))
+        let settled = Matrices::new(self).and_then(|matrices| matrices.fourth());
+        settled.unwrap_or_else(|| self.fourth().each_ref().map(number))
     }
 }
 
@@ -244,16 +253,17 @@ mod tests {
 
     #[test]
     fn pairs_of_doubles_settle_the_nearest_double_nearly_everywhere() {
-        let doubles = |exact: &[Big]| exact.iter().map(|x| double(x) + 0.0).collect::<Vec<_>>();
+        let doubles = |exact: &[Big]| exact.iter().map(number).collect::<Vec<_>>();
         let (mut settled, mut all) = (0, 0);
         for (u, v) in spread(40) {
             for (gradient, time, unit) in [(COUETTE, 3.0 * v, Unit::Period), (SPIRAL, 9.0 * v, Unit::Second)]
             {
                 let covariance = at(gradient, 1e3f64.powf(2.0 * u - 1.0), time, unit);
+                let matrices = Matrices::new(&covariance).unwrap();
                 let found = [
-                    twofold::projections(&covariance).map(Vec::from),
-                    twofold::second(&covariance).map(Vec::from),
-                    twofold::fourth(&covariance).map(Vec::from),
+                    matrices.projections().map(Vec::from),
+                    matrices.second().map(Vec::from),
+                    matrices.fourth().map(Vec::from),
                 ];
                 let expected = [
                     doubles(&covariance.projections()),
@@ -272,7 +282,7 @@ mod tests {
         }
         assert!(all == 240 && settled > 220, "{settled} of {all}");
         // Out of their range, and so near the tie of two doubles that more bits decide.
-        assert_eq!(twofold::second(&at(COUETTE, 1e100, 0.2, Unit::Period)), None);
+        assert!(Matrices::new(&at(COUETTE, 1e100, 0.2, Unit::Period)).is_none());
         assert_eq!(at(COUETTE, 1e100, 0.2, Unit::Period).nearest().len(), 9);
         // tr Σ is e^2000 here.
         let far = at([[1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0; 3]], 1e3, 1000.0, Unit::Second);

@@ -1,6 +1,6 @@
 //! Reference values at many times, as a table.
 
-use super::big::{Big, Bits, double};
+use super::big::{Big, Bits, number};
 use super::isotropic::{Covariance, PAIRS, QUADRUPLES};
 use super::motion::{LARGEST_STRAIN, Motion, Unit};
 use super::rod::{At, Direction};
@@ -169,9 +169,4 @@ pub(super) fn times(motion: &Motion, time: &Big, unit: Unit) -> Result<Vec<Optio
         if value.is_some_and(|value| !value.is_finite()) { Err(NoValue::Time) } else { Ok(value) }
     });
     each.into_iter().collect()
-}
-
-/// The nearest double; never a negative zero.
-fn number(x: &Big) -> f64 {
-    double(x) + 0.0
 }

@@ -114,7 +114,7 @@ impl<S: Simd> Eight<S> {
 }
 
 /// Σ, its inverse, and what det M and adj M take of them.
-struct Matrices {
+pub(super) struct Matrices {
     sigma: [[[f64; 2]; 3]; 3],
     minus_inverse: [[[f64; 2]; 3]; 3],
     trace_sigma: [f64; 2],
@@ -127,21 +127,20 @@ struct Matrices {
 }
 
 impl Matrices {
-    fn new(covariance: &Covariance) -> Option<Self> {
+    /// `None` where a trace is above [`LARGEST_TRACE`].
+    pub fn new(covariance: &Covariance) -> Option<Self> {
         let (sigma, inverse) = (&covariance.sigma, &covariance.inverse);
-        let traces = [sigma, inverse].map(|m| &m[0][0] + &m[1][1] + &m[2][2]);
+        let traces = covariance.traces();
         if traces.iter().any(|trace| double(trace) > LARGEST_TRACE) {
             return None;
         }
         let (left, right) = Covariance::steps(&traces[0], &traces[1]);
-        let others =
-            [0, 1, 2].map(|i| &inverse[(i + 1) % 3][(i + 1) % 3] + &inverse[(i + 2) % 3][(i + 2) % 3]);
         Some(Self {
             sigma: sigma.each_ref().map(|row| row.each_ref().map(pair)),
             minus_inverse: inverse.each_ref().map(|row| row.each_ref().map(|x| pair(&-x))),
             trace_sigma: pair(&traces[0]),
             trace_inverse: pair(&traces[1]),
-            others: others.each_ref().map(pair),
+            others: covariance.others().each_ref().map(pair),
             first: (BELOW - left) / 8 * 8,
             last: (BELOW + right + 8) / 8 * 8,
         })
@@ -182,8 +181,26 @@ impl Matrices {
         sums
     }
 
+    /// The doubles nearest to ⟨|p_i|⟩; `None` where pairs of doubles do not settle them.
+    pub fn projections(&self) -> Option<[f64; 3]> {
+        let sums = dispatch!(Level::new(), simd => self.sums_of_projections(simd));
+        nearest(sums.map(|sum| sum * Covariance::step() / KEPT.pi()))
+    }
+
+    /// Those nearest to a_ij, in the order of [`PAIRS`].
+    pub fn second(&self) -> Option<[f64; 6]> {
+        let sums = dispatch!(Level::new(), simd => self.sums_of_second(simd));
+        nearest(sums.map(|sum| (sum * Covariance::step()) >> 1))
+    }
+
+    /// Those nearest to a_ijkl, in the order of [`QUADRUPLES`].
+    pub fn fourth(&self) -> Option<[f64; 15]> {
+        let sums = dispatch!(Level::new(), simd => self.sums_of_fourth(simd));
+        nearest(sums.map(|sum| (sum * Covariance::step()) >> 2))
+    }
+
     #[inline(always)]
-    fn projections<S: Simd>(&self, simd: S) -> [Big; 3] {
+    fn sums_of_projections<S: Simd>(&self, simd: S) -> [Big; 3] {
         let sums = self.sums(
             simd,
             #[inline(always)]
@@ -199,7 +216,7 @@ impl Matrices {
     }
 
     #[inline(always)]
-    fn second<S: Simd>(&self, simd: S) -> [Big; 6] {
+    fn sums_of_second<S: Simd>(&self, simd: S) -> [Big; 6] {
         let sums = self.sums(
             simd,
             #[inline(always)]
@@ -216,7 +233,7 @@ impl Matrices {
     }
 
     #[inline(always)]
-    fn fourth<S: Simd>(&self, simd: S) -> [Big; 15] {
+    fn sums_of_fourth<S: Simd>(&self, simd: S) -> [Big; 15] {
         let sums = self.sums(
             simd,
             #[inline(always)]
@@ -234,27 +251,6 @@ impl Matrices {
         );
         sums.map(Eight::total)
     }
-}
-
-/// The doubles nearest to ⟨|p_i|⟩; `None` where pairs of doubles do not settle them.
-pub(super) fn projections(covariance: &Covariance) -> Option<[f64; 3]> {
-    let matrices = Matrices::new(covariance)?;
-    let sums = dispatch!(Level::new(), simd => matrices.projections(simd));
-    nearest(sums.map(|sum| sum * Covariance::step() / KEPT.pi()))
-}
-
-/// Those nearest to a_ij, in the order of [`PAIRS`].
-pub(super) fn second(covariance: &Covariance) -> Option<[f64; 6]> {
-    let matrices = Matrices::new(covariance)?;
-    let sums = dispatch!(Level::new(), simd => matrices.second(simd));
-    nearest(sums.map(|sum| (sum * Covariance::step()) >> 1))
-}
-
-/// Those nearest to a_ijkl, in the order of [`QUADRUPLES`].
-pub(super) fn fourth(covariance: &Covariance) -> Option<[f64; 15]> {
-    let matrices = Matrices::new(covariance)?;
-    let sums = dispatch!(Level::new(), simd => matrices.fourth(simd));
-    nearest(sums.map(|sum| (sum * Covariance::step()) >> 2))
 }
 
 /// The nearest doubles of entries of one kind, which are good to 78 bits of the largest of them; an entry that is 0 is exactly so.

@@ -114,7 +114,7 @@ fn value(text: &str) -> Result<Value, String> {
     }
 }
 
-/// `count` values from `from` to `to`, both included. If both are integers, so are whole values between them.
+/// The values; an error names one that stands there twice.
 fn each_once(values: Vec<Value>) -> Result<Vec<Value>, String> {
     match (1..values.len()).find(|k| values[..*k].contains(&values[*k])) {
         Some(k) => Err(format!("{} stands there twice; each value once is allowed", values[k])),
@@ -122,6 +122,7 @@ fn each_once(values: Vec<Value>) -> Result<Vec<Value>, String> {
     }
 }
 
+/// `count` values from `from` to `to`, both included. If both are integers, so are whole values between them.
 fn evenly(from: &str, to: &str, count: &str) -> Result<Vec<Value>, String> {
     let number = |text: &str| match text.parse::<f64>() {
         Ok(number) if number.is_finite() => Ok(number),

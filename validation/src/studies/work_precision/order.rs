@@ -67,9 +67,11 @@ pub struct Convergence {
     pub theory: u32,
     /// The runs, from coarse to fine.
     pub halvings: Vec<Halving>,
-    /// The orders of the last two pairs as theory, or else of the last three above round-off.
+    /// The orders of the last two pairs above round-off.
     pub judged: Vec<f64>,
-    /// The result of that comparison.
+    /// The orders that settle `found`: those judged, or earlier ones if these may be round-off.
+    pub observed: Vec<f64>,
+    /// The comparison of the observed orders with theory.
     pub found: OrderVerdict,
     /// The extrapolation, if three grids converge.
     pub richardson: Option<Richardson>,
@@ -153,62 +155,79 @@ pub fn study(
                 .map(|(now, before)| (before.orientation_rad / now.orientation_rad).log2()),
         });
     }
-    let r = problem.aspect_ratio;
-    let floor = 1000.0 * f64::EPSILON * r.max(1.0 / r) * problem.turns.max(1.0);
-    let judged = judged(&halvings, theory, |steps| round_off(problem, steps));
+    let floor = round_off(problem);
+    let judged = judged(&halvings, floor);
+    let (found, observed) = compare(&halvings, &judged, theory, |steps| most_round_off(problem, steps));
     Some(Convergence {
         subject: subject.name.clone(),
         theory,
-        found: compare(&judged, theory),
+        found,
+        observed,
         judged,
         richardson: richardson(&halvings, theory, problem.reference(start).x.abs(), floor),
         halvings,
     })
 }
 
-/// The largest error that may be round-off after this many steps: while the rod lies along the flow (a disc across it), an error of φ shifts
-/// the phase by max(r_e, 1/r_e) times as much, which the flip multiplies by that once more. The factor is of the integrators in angles and by
-/// rotations; those in p have far less.
-fn round_off(problem: &RodProblem, steps: u64) -> f64 {
+/// The largest error that is round-off of most integrators: the time has the relative error ε, φ moves by max(r_e, 1/r_e) times the phase,
+/// and thousands of steps add up.
+fn round_off(problem: &RodProblem) -> f64 {
+    let r = problem.aspect_ratio;
+    1000.0 * f64::EPSILON * r.max(1.0 / r) * problem.turns.max(1.0)
+}
+
+/// The largest error that may be round-off of any integrator after this many steps. While the rod lies along the flow (a disc across it),
+/// an error of φ shifts the phase by max(r_e, 1/r_e) times as much, and the flip multiplies that by the same factor: so in angles and by
+/// rotations.
+fn most_round_off(problem: &RodProblem, steps: u64) -> f64 {
     let r = problem.aspect_ratio;
     100.0 * f64::EPSILON * r.max(1.0 / r).powi(2) * problem.turns.max(1.0) * (steps as f64).sqrt().max(10.0)
 }
 
-/// The orders that are compared with theory: the last two after each other that hold, if all errors beyond may be round-off; else the
-/// last three above it.
-fn judged(halvings: &[Halving], theory: u32, round_off: impl Fn(u64) -> f64) -> Vec<f64> {
-    let above = |halving: &Halving| {
-        halving.errors.is_some_and(|errors| errors.orientation_rad > round_off(halving.steps))
-    };
-    let of_two = |k: usize| Some([halvings[k - 1].order?, halvings[k].order?]);
-    let theirs = (2..halvings.len()).rev().find_map(|k| {
-        of_two(k).filter(|orders| {
-            orders.iter().all(|order| holds(*order, theory)) && !halvings[k + 1..].iter().any(above)
-        })
-    });
-    if let Some(orders) = theirs {
-        return orders.to_vec();
-    }
-    // From the first run at round-off on, all orders are noise.
-    let above = halvings.iter().take_while(|halving| above(halving));
-    let orders: Vec<f64> = above.filter_map(|halving| halving.order).collect();
-    orders[orders.len().saturating_sub(3)..].to_vec()
+fn judged(halvings: &[Halving], floor: f64) -> Vec<f64> {
+    let orders = orders_above(halvings, |_| floor);
+    orders[orders.len().saturating_sub(2)..].to_vec()
 }
 
-fn holds(order: f64, theory: u32) -> bool {
-    (order - f64::from(theory)).abs() < ORDER_TOLERANCE
+/// The orders of the runs before the first at round-off: from it on, all orders are noise.
+fn orders_above(halvings: &[Halving], round_off: impl Fn(u64) -> f64) -> Vec<f64> {
+    let above = halvings.iter().take_while(|halving| is_above(halving, &round_off));
+    above.filter_map(|halving| halving.order).collect()
 }
 
-fn compare(judged: &[f64], theory: u32) -> OrderVerdict {
+fn is_above(halving: &Halving, round_off: impl Fn(u64) -> f64) -> bool {
+    halving.errors.is_some_and(|errors| errors.orientation_rad > round_off(halving.steps))
+}
+
+/// Compares the judged orders with theory. If they do not hold, the last two after each other that do, if all errors beyond them may be
+/// round-off; else the last three above it. Returns the orders that settle it, too.
+fn compare(
+    halvings: &[Halving],
+    judged: &[f64],
+    theory: u32,
+    most_round_off: impl Fn(u64) -> f64,
+) -> (OrderVerdict, Vec<f64>) {
     let off = |order: f64| (order - f64::from(theory)).abs();
-    match *judged {
-        [first, last] if holds(first, theory) && holds(last, theory) => OrderVerdict::AsTheory,
+    let hold = |orders: &[f64]| orders.len() == 2 && orders.iter().all(|order| off(*order) < ORDER_TOLERANCE);
+    let noise_after = |k: usize| !halvings[k + 1..].iter().any(|halving| is_above(halving, &most_round_off));
+    let pair = |k: usize| Some(vec![halvings[k - 1].order?, halvings[k].order?]);
+    let earlier = || {
+        let pairs = (2..halvings.len()).rev().filter(|k| noise_after(*k)).filter_map(pair);
+        pairs.into_iter().find(|orders| hold(orders))
+    };
+    if let Some(orders) = Some(judged.to_vec()).filter(|orders| hold(orders)).or_else(earlier) {
+        return (OrderVerdict::AsTheory, orders);
+    }
+    let above = orders_above(halvings, &most_round_off);
+    let last = above[above.len().saturating_sub(3)..].to_vec();
+    let found = match *last {
         [first, second, last] if off(first) > off(second) && 0.6 * off(second) > off(last) => {
             OrderVerdict::Unsettled
         }
         [_, _] | [_, _, _] => OrderVerdict::Not,
         _ => OrderVerdict::RoundOff,
-    }
+    };
+    (found, last)
 }
 
 /// The extrapolation from the finest three grids whose differences are above round-off.
@@ -252,7 +271,10 @@ mod tests {
 
     #[test]
     fn an_order_keeps_its_sign_and_round_off_is_not_judged() {
-        let found = |errors: &[f64], theory| compare(&judged(&synthetic(errors), theory, |_| 1e-12), theory);
+        let found = |errors: &[f64], theory| {
+            let halvings = synthetic(errors);
+            compare(&halvings, &judged(&halvings, 1e-12), theory, |_| 1e-12).0
+        };
         assert_eq!(found(&[0.4, 0.1, 0.025, 0.00625], 2), OrderVerdict::AsTheory);
         assert_eq!(found(&[0.00625, 0.025, 0.1, 0.4], 2), OrderVerdict::Not, "it diverges");
         assert_eq!(found(&[0.4, 0.2, 0.1, 0.025], 2), OrderVerdict::Not);

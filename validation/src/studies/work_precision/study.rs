@@ -226,9 +226,9 @@ pub fn orders_table(orders: &Orders) -> ReportTable {
         OrderVerdict::Unsettled => "coming nearer",
         OrderVerdict::RoundOff => "at round-off",
     };
-    let judged = |study: &Convergence| {
-        let judged: Vec<_> = study.judged.iter().map(|order| format!("{order:+.3}")).collect();
-        judged.join(" ")
+    let observed = |study: &Convergence| {
+        let observed: Vec<_> = study.observed.iter().map(|order| format!("{order:+.3}")).collect();
+        observed.join(" ")
     };
     type Format<'a> = &'a dyn Fn(f64) -> String;
     fn of<'a>(name: &str, format: Format<'a>, value: fn(&Richardson) -> f64) -> Column<'a, Convergence> {
@@ -246,7 +246,7 @@ pub fn orders_table(orders: &Orders) -> ReportTable {
         vec![
             words("subject", |s: &Convergence| s.subject.clone()),
             words("theory", |s: &Convergence| s.theory.to_string()),
-            words("observed", judged),
+            words("observed", observed),
             words("verdict", found),
             of("steps", &|steps| steps.to_string(), |r| r.steps as f64),
             of("order of |p_1|", &|order| format!("{order:+.3}"), |r| r.order),
