@@ -1,7 +1,7 @@
 //! Sums over rods, and the spread of the rods' values.
 
-use super::{BLOCK, lane_sum, lanes, whole_or};
-use crate::model::widest::widest;
+use super::{BLOCK, lane_sum, whole_or};
+use fearless_simd::{Level, Simd, dispatch, f64x8, prelude::*};
 use serde::{Deserialize, Serialize};
 
 /// The sum of a value over rods, and the spread of the rods' values if standard errors over rods are wanted.
@@ -83,6 +83,29 @@ impl Sum {
     }
 }
 
+/// Σ (f − first), Σ (f − first)² and Σ f, in eight lanes each; side by side, so that no sum waits for its own last add.
+#[inline(always)]
+fn moments<S: Simd>(simd: S, values: &[f64], first: f64) -> [f64; 3] {
+    let mut sums = [f64x8::splat(simd, 0.0); 3];
+    let mut eights = values.chunks_exact(8);
+    for eight in &mut eights {
+        let value = f64x8::from_slice(simd, eight);
+        let difference = value - first;
+        sums = [sums[0] + value, sums[1] + difference, sums[2] + difference * difference];
+    }
+    let [mut sum, mut differences, mut squares] = [[0.0; 8]; 3];
+    sums[0].store_slice(&mut sum);
+    sums[1].store_slice(&mut differences);
+    sums[2].store_slice(&mut squares);
+    for (lane, value) in eights.remainder().iter().enumerate() {
+        let difference = value - first;
+        sum[lane] += value;
+        differences[lane] += difference;
+        squares[lane] += difference * difference;
+    }
+    [differences.iter().sum(), squares.iter().sum(), sum.iter().sum()]
+}
+
 impl Spread {
     /// Adds the values of up to [`BLOCK`] rods.
     #[inline]
@@ -97,22 +120,15 @@ impl Spread {
             self.first = f(0);
         }
         let first = self.first;
-        let [sum, differences, squares] = widest(
+        let [differences, squares, sum] = dispatch!(Level::new(), simd => whole_or(
+            len,
             #[inline(always)]
-            move || {
-                whole_or(
-                    len,
-                    #[inline(always)]
-                    |len| {
-                        let mut values = [0.0; BLOCK];
-                        values[..len].iter_mut().enumerate().for_each(|(i, value)| *value = f(i));
-                        let difference = |i: usize| values[i] - first;
-                        let square = |i: usize| difference(i) * difference(i);
-                        [lanes(len, |i| values[i]), lanes(len, difference), lanes(len, square)]
-                    },
-                )
+            |len| {
+                let mut values = [0.0; BLOCK];
+                values[..len].iter_mut().enumerate().for_each(|(i, value)| *value = f(i));
+                moments(simd, &values[..len], first)
             },
-        );
+        ));
         self.differences += differences;
         self.squares += squares;
         self.rods += len as u64;

@@ -7,6 +7,7 @@ use crate::plan::free_motion::Way;
 use crate::plan::{Plan, Stage};
 use crate::run::ensemble::{batch, width};
 use crate::suspension::BYTES_OF_A_CANDIDATE;
+use crate::suspension::rods;
 use crate::suspension::snapshot::Snapshot;
 use std::f64::consts::PI;
 
@@ -41,7 +42,8 @@ pub fn bytes(plan: &Plan, at_once: u64) -> u64 {
     let per_output = width * size_of::<Sum>();
     let waiting = scene.ensemble.replicas.min(batch(plan, width));
     let lists = BYTES_OF_A_CANDIDATE as f64 * candidates(plan) * scene.particles.count as f64;
-    let rods = replicas * (lists as u64 + (scene.particles.count * per_rod) as u64) + maps[1] as u64;
+    let phases = plan.outputs() * rods::bytes_per_output(plan);
+    let rods = replicas * (lists as u64 + (scene.particles.count * per_rod + phases) as u64) + maps[1] as u64;
     // Sums of replicas that wait to be added in order, and three running moments of 8 bytes.
     let sums = plan.outputs() as u64 * (waiting * per_output as u64 + 3 * 8 * width as u64);
     // All rods that the scene asks for are held until the end.

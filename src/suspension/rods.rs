@@ -47,6 +47,8 @@ enum Shapes {
 enum Motion {
     /// Plane Couette flow: phases from ticks.
     Couette(Ticks),
+    /// Rods of one aspect ratio in plane Couette flow that take no steps: the phase of all of them at each output.
+    InPhase(Vec<Phase>),
     /// Any other flow with interacting rods: the map q = M p of one step, one per rod or one for all.
     Steps(Vec<Matrix3<f64>>),
     /// Free rods in any other flow: the plan's motion, with a propagator per rod, or one for all, where it moves each rod by itself.
@@ -186,8 +188,8 @@ impl Rods {
         let rods = first..first + block.len;
         let from = self.p.each_ref().map(|axis| &axis[rods.clone()]);
         match &self.motion {
-            Motion::Couette(clock) if self.since.is_empty() && !self.of_several_shapes() => {
-                let (r, phase) = (block.aspect_ratio[0], clock.phase(tick as f64, clock.sign));
+            Motion::InPhase(phases) => {
+                let (r, phase) = (block.aspect_ratio[0], phases[tick as usize]);
                 block.turn(
                     from,
                     #[inline(always)]
@@ -313,15 +315,29 @@ fn mapped(map: &Matrix3<f64>, p: [f64; 3]) -> [f64; 3] {
     (map * Vector3::from(p)).normalize().into()
 }
 
+/// True if all rods have the same phase at an output: rods of one aspect ratio that take no steps, where the clock counts periods.
+fn in_phase(plan: &Plan) -> bool {
+    matches!(plan.clock(), Clock::Periods { .. })
+        && !plan.runs(Stage::Translation)
+        && !plan.runs(Stage::AspectRatios)
+}
+
+/// The bytes that a replica's rods hold for each output.
+pub(crate) fn bytes_per_output(plan: &Plan) -> usize {
+    if in_phase(plan) { size_of::<Phase>() } else { 0 }
+}
+
 fn choose_motion(plan: &Plan, shapes: &Shapes) -> Motion {
     let flow = plan.flow();
     if let (Some(g), Clock::Periods { ticks }) = (flow.shear_rate_per_s(), plan.clock()) {
         let strain = strain_per_period(plan.scene().particles.aspect_ratio);
-        return Motion::Couette(Ticks {
-            per_period: ticks as f64,
-            strain_per_period: strain * g.signum(),
-            sign: g.signum(),
-        });
+        let clock =
+            Ticks { per_period: ticks as f64, strain_per_period: strain * g.signum(), sign: g.signum() };
+        if !in_phase(plan) {
+            return Motion::Couette(clock);
+        }
+        let phases = (0..plan.outputs()).map(|output| clock.phase(output as f64, clock.sign));
+        return Motion::InPhase(phases.collect());
     }
     let Some(motion) = plan.free().cloned() else {
         let shapes = match shapes {
