@@ -9,6 +9,18 @@ cargo build --locked --quiet --manifest-path "$ROOT/validation/Cargo.toml"
 export PATH="$ROOT/target/debug:$PATH"
 table=$ROOT/docs/numbers.tsv
 work=$(mktemp -d)
+export KEPT=$work/kept
+mkdir "$KEPT"
+# kept NAME COMMAND...: what the command prints; run once, however many rows and tables ask for it.
+kept() {
+  [ -f "$KEPT/$1" ] || { "${@:2}" >"$KEPT/$1.part" && mv "$KEPT/$1.part" "$KEPT/$1"; }
+  cat "$KEPT/$1"
+}
+# example NAME ARGUMENT...: what an example prints, kept.
+example() {
+  kept "$*" cargo run --release --quiet --manifest-path "$ROOT/validation/Cargo.toml" --example "$1" -- "${@:2}"
+}
+export -f kept example
 trap 'rm -rf "$work"' EXIT
 head -n 1 "$table" >"$work/table"
 tail -n +2 "$table" | while IFS=$'\t' read -r id value when command; do

@@ -1,5 +1,5 @@
 # Errors of X̄₁(T/2) against the step, 20 rods per cm³.
-cargo run --release --quiet --manifest-path "$ROOT/validation/Cargo.toml" --example resolution -- 2000 11.6 17 50 100 |
+example resolution 2000 11.6 17 50 100 |
   awk -F' *[|] *' '$4 == 20 {
     split($5, fine, " ")
     printf "| %s | %s |", $2, fine[1]
