@@ -233,6 +233,17 @@ fn a_coarse_step_is_warned_of_and_a_finer_one_is_not() {
 }
 
 #[test]
+fn keys_without_effect_are_warned_of() {
+    let free = turning(20.0, "steps_per_period = 100\n");
+    let free = free.split("[interaction]").next().unwrap();
+    assert_eq!(plan(free).warnings(), ["time.steps_per_period has no effect: free rods take no steps"]);
+    let mut one = plan(&turning(20.0, "")).scene().clone();
+    one.particles.count = 1;
+    let said = Plan::new(&one).unwrap().warnings();
+    assert_eq!(said, ["interaction has no effect: one rod has no neighbour"]);
+}
+
+#[test]
 fn the_stress_of_rods_that_are_not_slender_is_warned_of() {
     let stress = "[output]\nobservables = [\"particle_stress\"]\n";
     for (r, warns) in [(0.5, true), (3.0, true), (29.9, true), (30.0, false), (1e3, false)] {

@@ -21,6 +21,8 @@ impl Plan {
     pub fn warnings(&self) -> Vec<String> {
         [
             self.unresolved_steps(),
+            self.steps_for_nothing(),
+            self.alone(),
             self.turned_straight(),
             self.unrelated_sizes(),
             self.other_mean(),
@@ -52,6 +54,18 @@ impl Plan {
                 self.scene.time.unit
             )
         })
+    }
+
+    /// Warns about a number of steps in a scene without collisions; one of which these are switched off may keep its steps.
+    fn steps_for_nothing(&self) -> Option<String> {
+        let given = self.scene.time.steps_per_unit.is_some() && self.scene.interaction.is_none();
+        given.then(|| format!("{} has no effect: free rods take no steps", self.scene.time.unit.steps_key()))
+    }
+
+    /// Warns about collisions of a single rod.
+    fn alone(&self) -> Option<String> {
+        let alone = self.scene.interaction.is_some() && self.scene.particles.count == 1;
+        alone.then(|| "interaction has no effect: one rod has no neighbour".to_owned())
     }
 
     /// Warns if collisions turn rods straight in a liquid that rotates, except in the paper's flow.

@@ -97,6 +97,24 @@ fn a11(r: f64, turns: f64) -> f64 {
 }
 
 #[test]
+fn directions_of_another_length_are_named() {
+    let with = |length: f64| {
+        let mut rows = problem("mid-flip-11.6").1;
+        for row in rows.iter_mut().skip(1) {
+            for value in &mut row[2..] {
+                *value = (length * value.parse::<f64>().unwrap()).to_string();
+            }
+        }
+        graded("mid-flip-11.6", &rows)
+    };
+    let found = with(1.01);
+    assert_eq!(found.verdict("mid-flip-11.6"), "FAIL");
+    let said = "only the directions' length is wrong: |p| is 1.010000 to 1.010000, where 1 is due";
+    assert_eq!(found.diagnosis("mid-flip-11.6"), said);
+    assert_eq!(with(1.0).diagnosis("mid-flip-11.6"), "");
+}
+
+#[test]
 fn several_problems_say_together_what_is_wrong_and_none_at_rest_says_anything() {
     let names = ["mid-flip-2", "mid-flip-11.6", "disc-0.1", "poles"];
     let said = |factor: f64, more: &[(&str, Vec<Vec<String>>)]| {
@@ -112,7 +130,8 @@ fn several_problems_say_together_what_is_wrong_and_none_at_rest_says_anything() 
     let (half, found) = said(0.5, &[]);
     assert_eq!(half.len(), 1, "{}", found.words);
     assert!(
-        half[0].starts_with("one mistake explains all 4 that do not pass: half the shear rate; seen on "),
+        half[0]
+            .starts_with("one mistake explains all 4 that do not pass: half the shear rate; its curve fits "),
         "{half:?}"
     );
     let (slow, found) = said(0.8333, &[]);

@@ -33,6 +33,10 @@ const REJECTED: &[(&str, &str)] = &[
     ("validate --data no-such-folder", "'no-such-folder' for '--data <DIR>': No such file or directory"),
     ("validate --data file", "'file' for '--data <DIR>': it is no folder; an existing folder is allowed"),
     ("validate --out file", "file: cannot be written: "),
+    ("grade ref mine --timeout 3", "'[MINE]' cannot be used with '--timeout <S>'"),
+    ("grade ref mine --brief", "'[MINE]' cannot be used with '--brief'"),
+    ("grade --command x --timestep-s 1", "cannot be used with '--timestep-s <S>'"),
+    ("grade --command x --rod-axis x", "cannot be used with '--rod-axis <x|y|z>'"),
 ];
 
 /// Ranks of a job write to one pipe, and what `mpirun` says may come between two writes: each line is one write, which a datagram keeps.

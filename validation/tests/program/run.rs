@@ -128,7 +128,8 @@ fn extreme_scenes_end_well_with_finite_tables() {
         let ended = shearbed(dir.path(), &format!("run extreme.toml --threads 1 --quiet --out {k}"));
         assert_eq!(ended.code, Some(0), "{changes:?}: {}", ended.stderr);
         let known = [
-            "warning: extreme.toml: time.steps_per_period = ",
+            "warning: extreme.toml: time.steps_per_period ",
+            "warning: extreme.toml: interaction has no effect: one rod has no neighbour",
             "warning: extreme.toml: particles.aspect_ratio = 1",
             "warning: extreme.toml: interaction.concentration_per_cm3 and particles.length_mm give n a³ = ",
         ];

@@ -61,17 +61,17 @@ pub(crate) struct Args {
     #[arg(long, value_name = "P", value_parser = positive, allow_negative_numbers = true)]
     pub(super) order: Option<f64>,
     /// LAMMPS dumps: the length of a time step in s, where the dump has no ITEM: TIME
-    #[arg(long, value_name = "S", value_parser = positive, allow_negative_numbers = true)]
+    #[arg(long, value_name = "S", value_parser = positive, allow_negative_numbers = true, conflicts_with = "command")]
     pub(super) timestep_s: Option<f64>,
     /// LAMMPS dumps: the rod's axis in the body's frame, where columns shapex, shapey, shapez are missing
-    #[arg(long, value_name = "x|y|z", value_parser = body_axis)]
+    #[arg(long, value_name = "x|y|z", value_parser = body_axis, conflicts_with = "command")]
     pub(super) rod_axis: Option<usize>,
     /// With --command: the most seconds for one answer, and for the answers to one problem together
     #[arg(long, value_name = "S", value_parser = positive, allow_negative_numbers = true, default_value = "10",
-          requires = "command")]
+          conflicts_with = "mine")]
     pub(super) timeout: f64,
     /// With --command: verdicts only, without work–precision, longest steps and the stability map
-    #[arg(long, requires = "command")]
+    #[arg(long, conflicts_with = "mine")]
     pub(super) brief: bool,
     /// Answer each request with its own start, to measure the cost of the pipe
     #[arg(long, conflicts_with_all = ["reference", "command"])]

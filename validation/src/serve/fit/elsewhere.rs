@@ -1,13 +1,13 @@
 //! A search for further minima of χ²: the model itself, without polynomials, is run along each range. Where the curves
 //! oscillate with a parameter, χ² has several minima, and the fit finds only one of them.
 
+use super::goodness::undescribed;
 use super::range::Range;
 use super::search::{FIRST_REPLICAS, Fit, FitProblem, Watch};
 use crate::methods::least_squares::direct::Direct;
 use crate::methods::least_squares::emulator::{Known, Prediction};
 use crate::methods::least_squares::profile::rise_of;
 use nalgebra::DVector;
-use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 /// Parts of each range at first; a part is halved where the curves change too much over it.
 const PARTS: usize = 16;
@@ -27,9 +27,6 @@ const SHARE: f64 = 0.25;
 
 /// A difference of χ² that the noise of the replicas can cause.
 const NOISE: f64 = 16.0;
-
-/// Points whose p is below this are described by no value.
-const IMPOSSIBLE: f64 = 1e-9;
 
 /// Steps of the golden section towards a minimum: each leaves 0.62 of the way.
 const STEPS: usize = 12;
@@ -106,19 +103,14 @@ pub fn look_elsewhere(problem: &FitProblem<'_>, fit: &Fit, watch: &Watch<'_>) ->
                     values[axis],
                     own.chi_square
                 );
-                let points = problem.measured.data.len();
                 let least = found.chi_square.min(own.chi_square);
-                let law = ChiSquared::new(points.saturating_sub(fit.ranges.len()) as f64);
-                let why = match law.is_ok_and(|law| law.sf(least) < IMPOSSIBLE) {
-                    true => format!(
-                        "no value describes the {points} points; the nearest are {both}; check their columns, units and \
-                         uncertainties, the scene's other keys, and whether the range of --over holds the value"
-                    ),
-                    false => format!(
-                        "{both} both describe the points, for χ² has several minima in this range; more --replicas tell noise from \
-                         minima, and a narrower range leaves out impossible values"
-                    ),
-                };
+                let why = undescribed(least, problem.measured.data.len(), fit.ranges.len());
+                let why = why.unwrap_or_else(|| {
+                    format!(
+                        "χ² has minima at {both}; more --replicas tell noise from minima, and a narrower range leaves out \
+                         impossible values"
+                    )
+                });
                 return Err(format!("--over {}: {why}", range.label()));
             }
         }

@@ -10,6 +10,7 @@ pub mod design;
 pub mod elsewhere;
 #[cfg(test)]
 mod feigned;
+mod goodness;
 mod hypothesis;
 pub mod pictures;
 mod range;

@@ -2,16 +2,17 @@
 
 use super::budget::{self, Part, Residual, Shift};
 use super::design::{Candidate, Step};
+use super::goodness::{CHECK, p_value};
 use super::hypothesis::Tested;
 use super::range::Range;
 use super::search::{Fit, MOST_SHARE};
+use super::terminal::probability;
 use crate::input::experiment::{Bias, bias};
 use crate::methods::least_squares::Datum;
 use crate::methods::least_squares::likelihood::{EMULATOR, REPLICAS, correlation_of};
 use crate::methods::least_squares::profile::rise_of;
 use nalgebra::DMatrix;
 use serde::Serialize;
-use statrs::distribution::{ChiSquared, ContinuousCDF};
 use std::collections::BTreeMap;
 
 /// The estimate of a parameter, in the unit of its key.
@@ -85,8 +86,7 @@ const ALIKE: f64 = 0.95;
 /// The report of a fit of the points `data`.
 pub fn report(fit: &Fit, data: &[Datum], shifts: Vec<Shift>) -> Report {
     let freedom = data.len() - fit.ranges.len();
-    let p_value =
-        ChiSquared::new(freedom as f64).map_or(f64::NAN, |law| law.sf(fit.best.chi_square_of_points()));
+    let p_value = p_value(fit.best.chi_square_of_points(), data.len(), fit.ranges.len());
     let values = fit.values(&fit.best.place);
     let covariance = fit.covariance();
     let correlation = correlation_of(&fit.best.covariance());
@@ -183,8 +183,15 @@ fn warnings(
     }
     if p_value < NOT_DESCRIBED {
         all.push(format!(
-            "p = {p_value:.1e}: the model with the best values does not describe these points, or their uncertainties are \
-             too small; the intervals say nothing then"
+            "p = {}: no value describes these points, or their uncertainties are too small; the intervals say nothing then; \
+             {CHECK}",
+            probability(p_value)
+        ));
+    }
+    if p_value > 1.0 - NOT_DESCRIBED {
+        all.push(format!(
+            "p = {}: the points lie nearer to the curve than their uncertainties allow; are these too large, or in per cent?",
+            probability(p_value)
         ));
     }
     for (cause, what) in [(REPLICAS, "more --replicas make"), (EMULATOR, "a narrower --over range makes")] {

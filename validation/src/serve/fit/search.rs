@@ -1,6 +1,7 @@
 //! The search for the best fit: runs over the whole range, then over the part that the data leave, until the model's own error
 //! is small beside the data's.
 
+use super::goodness::undescribed;
 use super::range::Range;
 use crate::methods::least_squares::Datum;
 use crate::methods::least_squares::basis::Basis;
@@ -181,7 +182,9 @@ pub fn search(problem: &FitProblem<'_>, watch: &Watch<'_>) -> Result<Fit, String
                     fit.values(&fit.best.place)
                 ));
             }
-            fit.is_smooth()?;
+            let described = (problem.measured.data.len(), ranges.len());
+            fit.is_smooth()
+                .map_err(|why| undescribed(fit.best.chi_square, described.0, described.1).unwrap_or(why))?;
             return Ok(Fit { runs, rounds, ..fit });
         }
         wanted = enough(wanted, share, MOST_SHARE).min(problem.most_replicas);
@@ -368,7 +371,7 @@ impl Fit {
             if valleys.len() > 1 {
                 let ends = valleys.iter().map(|(from, to)| format!("{from:.4} to {to:.4}"));
                 return Err(format!(
-                    "--over {}: χ² has several minima in this range that describe the points as well: {}; give a narrower one without \
+                    "--over {}: χ² has several minima in this range, as low as the best or nearly: {}; give a narrower one without \
                      impossible values",
                     range.label(),
                     ends.collect::<Vec<_>>().join(", ")

@@ -72,8 +72,9 @@ pub fn tests(report: &Report) -> String {
 }
 
 /// The probability as text: three decimals below 0.1, so that 0.046 does not become 0.05, and two digits below 0.01.
-fn probability(p: f64) -> String {
+pub(super) fn probability(p: f64) -> String {
     match p {
+        0.0 => "0".to_owned(),
         p if p < 0.01 => format!("{p:.1e}"),
         p if p < 0.1 => format!("{p:.3}"),
         p => format!("{p:.2}"),

@@ -55,6 +55,11 @@ pub fn diagnose(loaded: &LoadedProblem, answer: &Answer, error: f64) -> Diagnosi
                 .filter(|(distance, _)| *distance <= nearer_than)
                 .collect();
             let found = said(near, tolerance);
+            if found.suspects.is_empty()
+                && let Some(said) = not_unit(loaded, answer, nearer_than)
+            {
+                return Diagnosis { said: Some(said), ..Diagnosis::default() };
+            }
             let rests = |name: &String| {
                 let mistake = known.iter().find(|mistake| mistake.name == *name);
                 mistake.is_some_and(|mistake| has_come_to_rest(loaded, mistake, nearer_than))
@@ -106,6 +111,23 @@ fn rests(loaded: &LoadedProblem, answer: &Answer, nearer_than: f64) -> bool {
         apart(&Vector3::from_row_slice(values), &start, false) <= nearer_than
     };
     answer.rows.iter().enumerate().all(stays)
+}
+
+/// A sentence if the whole error is that of the directions' lengths.
+fn not_unit(loaded: &LoadedProblem, answer: &Answer, nearer_than: f64) -> Option<String> {
+    if loaded.problem.kind != Kind::Rods {
+        return None;
+    }
+    let directions =
+        |answer: &Answer| -> Vec<_> { answer.rows.iter().map(|row| Vector3::from_row_slice(row)).collect() };
+    let (found, right) = (directions(answer), directions(&Answer::certified(loaded)));
+    let angles = found.iter().zip(&right).map(|(found, right)| apart_rad(found, right));
+    let lengths = || found.iter().map(|p| p.norm());
+    let (least, most) = (lengths().fold(f64::INFINITY, f64::min), lengths().fold(0.0, f64::max));
+    let right = angles.fold(0.0, f64::max) <= nearer_than;
+    right.then(|| {
+        format!("only the directions' length is wrong: |p| is {least:.6} to {most:.6}, where 1 is due")
+    })
 }
 
 /// The nearest curve, and those that are indistinguishable from it here.

@@ -151,11 +151,10 @@ pub fn all() -> Vec<Mistake> {
             aspect_ratio: s.aspect_ratio.max(1.0 / s.aspect_ratio),
             ..s
         }),
-        // For a disc this is Λ without its sign.
-        linear("Λ with the wrong sign (1/r_e for r_e)", |s, time| {
-            let aspect_ratio = 1.0 / s.aspect_ratio;
-            let spoilt = Setting { aspect_ratio, ..*s };
-            (aspect_ratio < 1.0).then(|| right_map(&spoilt, time)).flatten()
+        // For a disc this is Λ without its sign: both are named.
+        moved("Λ with the wrong sign (1/r_e for r_e)", |s| Setting {
+            aspect_ratio: 1.0 / s.aspect_ratio,
+            ..s
         }),
         rate("no 1/r_e (Λ = 1, an infinitely slender rod)", |w, d, _| w + d),
         // This is Λ of √r_e.

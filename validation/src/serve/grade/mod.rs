@@ -153,7 +153,7 @@ impl Graded {
     /// A message about the order if it is refuted.
     fn order_off(&self, claimed: Option<f64>) -> Option<String> {
         let lower = self.order_found == Some(Order::Lower);
-        claimed.filter(|_| lower).map(|claimed| order::lower(self.observed_order, claimed))
+        claimed.filter(|_| lower).map(|claimed| order::other(self, claimed))
     }
 
     /// The observed order with its sign, as text.

@@ -182,10 +182,18 @@ pub fn wild(errors: &[(u64, f64)], tolerance: f64) -> Option<String> {
     Some(format!("off by {} steps, by {}{after}: no method has such errors", said(k), said(k - 1)))
 }
 
-/// A message about an order that is lower than claimed.
-pub fn lower(observed: Option<f64>, claimed: f64) -> String {
-    let observed = observed.map_or("–".into(), |order| format!("{order:+.2}"));
-    format!("observed order {observed} where {claimed} is claimed")
+/// An observed order below this is none: the error does not depend on the step.
+const NO_ORDER: f64 = 0.2;
+
+/// A message about an order that is not the claimed one.
+pub fn other(graded: &Graded, claimed: f64) -> String {
+    let said = format!("observed order {} where {claimed} is claimed", graded.order_text());
+    match (graded.observed_order, graded.error) {
+        (Some(order), Some(error)) if order.abs() < NO_ORDER => format!(
+            "{said}: the error stays at {error:.1e} whatever the step, so the equation is wrong or digits are too few"
+        ),
+        _ => said,
+    }
 }
 
 /// Decides on orders higher than the claimed one: if no problem shows the claimed order, the claim is wrong; otherwise these
@@ -206,7 +214,7 @@ pub fn settle(problems: &[LoadedProblem], graded: &mut [Graded], claimed: Option
                 Some(format!("observed order {observed}: this problem has no error of order {claimed}"));
         } else {
             graded.verdict = Verdict::Fail;
-            graded.note = Some(lower(graded.observed_order, claimed));
+            graded.note = Some(other(graded, claimed));
         }
     }
 }

@@ -67,7 +67,9 @@ fn by_name(problems: &[LoadedProblem], graded: &[Graded], wrong: &[&Graded]) -> 
                 _ => format!("{} of {}", of.len(), wrong.len()),
             };
             let (names, of) = (names.join(", or "), of.join(", "));
-            said.push(format!("one mistake explains {rest} that do not pass: {names}{either}; seen on {of}"));
+            said.push(format!(
+                "one mistake explains {rest} that do not pass: {names}{either}; its curve fits {of}"
+            ));
         }
         let done: Vec<String> = explained(best[0]).iter().map(|name| (*name).to_owned()).collect();
         left.retain(|graded| !done.contains(&graded.name));
@@ -132,7 +134,7 @@ mod tests {
         assert_eq!(
             found,
             [
-                "one mistake explains 3 of 4 that do not pass: half the shear rate; seen on mid-flip-2, mid-flip-11.6, spiral"
+                "one mistake explains 3 of 4 that do not pass: half the shear rate; its curve fits mid-flip-2, mid-flip-11.6, spiral"
             ]
         );
         let both = said(&[

@@ -12,7 +12,7 @@ use crate::serve::grade::answer::Answer;
 use crate::serve::grade::compare::{Compared, compare};
 use crate::serve::grade::diagnosis::diagnose;
 use crate::serve::grade::files::Claim;
-use crate::serve::grade::order::lower;
+use crate::serve::grade::order::other;
 use crate::serve::grade::{Graded, Order, Verdict};
 use crate::serve::problems::LoadedProblem;
 use climb::{End, climb};
@@ -114,7 +114,7 @@ pub fn grade(program: &Program, problem: &LoadedProblem, mode: Mode, claim: Clai
         End::Broke(words) | End::Jumps(words) => Some(words),
         End::Lower => {
             graded.order_found = Some(Order::Lower);
-            claim.order.map(|claimed| lower(graded.observed_order, claimed))
+            claim.order.map(|claimed| other(&graded, claimed))
         }
         End::Reached => not_finite(&rungs),
         End::Wrong(words) | End::OutOfTime(words) => Some(why(&graded, rungs.last(), words)),
