@@ -1,4 +1,4 @@
-# C_I, residual and stress of suspensions: hours.
+# C_I, residual and stress of suspensions.
 kept ci-suspensions python3 "$ROOT/docs/numbers/effective_ci.py" shearbed ci suspensions |
   awk -F' *[|] *' '$2 == "kick" && $3 != 0.1 && $4 != 20 {
     split($11, residual, " "); split($12, s, " "); split($13, n1, " "); split($14, n2, " ")

@@ -185,6 +185,10 @@ fn interacting(
     };
     let law = law::read(scene, &jobs, &found);
     let mut tables = law_tables::law(&law, strain_per_period(scene.particles.aspect_ratio)).to_vec();
+    if law.blocks.is_empty() {
+        // The last table is that of blocks of replicas, which are too few.
+        tables.pop();
+    }
     let constants = Constants::of(&law);
     let scopes = [Scope::OwnRods(scene.particles.count), Scope::Unbounded];
     let splits: Vec<_> = (constants.iter())

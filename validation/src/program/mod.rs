@@ -80,7 +80,7 @@ enum Command {
     Bench(bench::Args),
     /// Run a scene at every point of a grid of its keys' values: one row a point
     Sweep(sweep::Args),
-    /// Show how a scene's results depend on the step, and for interacting rods on their number and the replicas
+    /// Show how results depend on steps, rods and replicas; of free rods, how integrators converge
     Converge(converge::Args),
     /// Fit keys of a scene to measured points: estimates, intervals, goodness of fit
     Fit(fit::Args),

@@ -48,7 +48,7 @@ pub(super) struct Args {
     #[arg(long)]
     fourth: bool,
     /// What does not change with time: T, ⟨φ⟩, C_b, means over phases, plateaus
-    #[arg(long, conflicts_with_all = ["times", "fourth", "c_i", "aspect_ratio_sd_percent", "explain"])]
+    #[arg(long, conflicts_with_all = ["times", "unit", "fourth", "c_i", "aspect_ratio_sd_percent", "explain"])]
     constants: bool,
     /// Say what each column is, its unit and its equation, and compute nothing
     #[arg(long)]

@@ -40,7 +40,7 @@ pub fn order_in_words(law: &Law) -> String {
                 line.slope, line.slope_se, line.intercept, line.intercept_se
             )
         }
-        None => " No bias b/S fits.".into(),
+        None => " No straight line in 1/steps fits X̄₁.".into(),
     };
     order + &line
 }
@@ -116,16 +116,16 @@ fn rods(law: &Law) -> ReportTable {
             line.slope_se,
             line.p.map_or("–".into(), |p| format!("{p:.1e}"))
         ),
-        None => format!("no line in {name}"),
+        None => format!("No straight line in {name} fits"),
     };
     ReportTable::new(
         ["rods", "X̄₁ at t/T = 1 against the rods"],
         format!(
             "Rods near a face of the volume lack neighbours, and the share of the volume near faces is ∝ N^(−1/3) \
-             (`faces-cost-collisions`). Fits: {}; {}. p is the probability that chance alone makes \
-             a right line fit no better. N^(−1/2) is not told from N^(−1/3) by this.",
+             (`faces-cost-collisions`). {}; {}. p is the probability that a right line fits no better by chance. \
+             These points cannot distinguish N^(−1/2) from N^(−1/3).",
             line(0, "N^(−1/3)"),
-            line(1, "/N")
+            line(1, "N^(−1)")
         ),
         &law.rods,
         vec![
