@@ -1,8 +1,10 @@
 //! Nearest neighbours of many rods, by a grid of cells.
 
 use super::Nearest;
-use super::branchless::{BLOCK, each_rod_in, greater, lesser};
+use super::branchless::{BLOCK, each_rod_in, greater, lesser, nearest_u32};
 use crate::model::chunks::{CHUNK, of_chunks};
+use crate::model::phase::nearest_whole;
+use crate::model::widest::widest;
 use crate::model::work::Counters;
 use rayon::prelude::*;
 use std::ops::Range;
@@ -88,9 +90,16 @@ impl Grid {
         let fill = |(chunk, cells): (usize, &mut [u32])| {
             let part = chunk * CHUNK..chunk * CHUNK + cells.len();
             let [x1, x2, x3] = positions.each_ref().map(|x| &x[part.clone()]);
-            for (cell, ((x1, x2), x3)) in cells.iter_mut().zip(x1.iter().zip(x2).zip(x3)) {
-                *cell = self.cell([*x1, *x2, *x3]);
-            }
+            let (grid, [_, rows, columns]) = (&*self, self.along.map(|cells| cells as f64));
+            widest(
+                #[inline(always)]
+                move || {
+                    for (cell, ((x1, x2), x3)) in cells.iter_mut().zip(x1.iter().zip(x2).zip(x3)) {
+                        let (i, j, k) = (grid.cell_at(0, *x1), grid.cell_at(1, *x2), grid.cell_at(2, *x3));
+                        *cell = nearest_u32((i * rows + j) * columns + k);
+                    }
+                },
+            );
         };
         if count <= CHUNK {
             fill((0, &mut cells));
@@ -179,6 +188,18 @@ impl Grid {
     /// Most rods have none and are skipped without a branch: no rod is near among the next [`WINDOW`]
     /// rods before and behind, and the reach can touch no others.
     fn find_crowded(&self, places: Range<usize>, crowded: &mut Vec<u32>) {
+        let within = places.clone();
+        let flags = widest(
+            #[inline(always)]
+            move || self.may_be_crowded(within),
+        );
+        let flagged = places.zip(flags).filter(|(_, flag)| *flag);
+        crowded.extend(flagged.map(|(place, _)| place as u32));
+    }
+
+    /// For each place, whether its rod may have another rod within its reach.
+    #[inline(always)]
+    fn may_be_crowded(&self, places: Range<usize>) -> [bool; BLOCK] {
         let mut x = [[FAR; PADDED]; 3];
         let mut cell = [[0.0f32; PADDED]; 3];
         let mut reach = [0.0f32; PADDED];
@@ -194,7 +215,7 @@ impl Grid {
         for (k, entry) in self.sorted[before..end].iter().enumerate() {
             for axis in 0..3 {
                 x[axis][shift + k] = entry.position[axis] as f32;
-                cell[axis][shift + k] = self.index(axis, entry.position[axis]) as f32;
+                cell[axis][shift + k] = self.cell_at(axis, entry.position[axis]) as f32;
             }
             reach[shift + k] = entry.reach + slack;
         }
@@ -226,8 +247,7 @@ impl Grid {
             let all_behind = (row(high) != row(k)) | (cell[2][high] * width[2] > x[2][k] + reach[k]);
             *flag = near | !(within(0) & within(1) & all_before & all_behind);
         }
-        let flagged = places.zip(flags).filter(|(_, flag)| *flag);
-        crowded.extend(flagged.map(|(place, _)| place as u32));
+        flags
     }
 
     /// The nearest other rod closer than the reach of `entry`, with the square of its distance.
@@ -274,13 +294,18 @@ impl Grid {
     }
 
     /// The cell index of coordinate `x` along `axis`; coordinates outside belong to the first or last cell.
+    #[inline(always)]
     fn index(&self, axis: usize, x: f64) -> usize {
         ((x * self.per_length[axis]) as i32).clamp(0, self.along[axis] as i32 - 1) as usize
     }
 
-    fn cell(&self, position: [f64; 3]) -> u32 {
-        let [i, j, k] = std::array::from_fn(|axis| self.index(axis, position[axis]));
-        ((i * self.along[1] + j) * self.along[2] + k) as u32
+    /// [`Self::index`] of a coordinate in the volume, as a number with a fraction of 0: this vectorises, a cast does not.
+    #[inline(always)]
+    fn cell_at(&self, axis: usize, x: f64) -> f64 {
+        let (cells, last) = (x * self.per_length[axis], (self.along[axis] - 1) as f64);
+        let nearest = nearest_whole(cells);
+        let whole = if nearest > cells { nearest - 1.0 } else { nearest };
+        if whole > last { last } else { whole }
     }
 }
 

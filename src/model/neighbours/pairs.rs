@@ -1,6 +1,7 @@
 //! Nearest neighbours of a few rods, by testing all pairs.
 
 use super::Nearest;
+use super::branchless::nearest_u32;
 use crate::model::widest::widest;
 use crate::model::work::Counters;
 
@@ -62,7 +63,7 @@ impl Pairs {
         let whole = count.next_multiple_of(LANES);
         for (units, x) in self.units.iter_mut().zip(positions) {
             units.clear();
-            units.extend(x.iter().map(|x| nearest_unit(x * self.per_length)));
+            units.extend(x.iter().map(|x| nearest_u32(x * self.per_length) as i16));
             while units.len() < whole + count {
                 units.extend_from_within(..count);
             }
@@ -78,13 +79,6 @@ impl Pairs {
             || least_apart(units, count, ahead, behind),
         );
     }
-}
-
-/// The nearest whole number, for 0 ≤ x ≤ 32 767, as every place in the volume has: adding 2⁵² leaves no digits for a fraction. It
-/// vectorises, unlike `as`.
-#[inline(always)]
-fn nearest_unit(x: f64) -> i16 {
-    (x + 4_503_599_627_370_496.0).to_bits() as i16
 }
 
 /// Lowers every rod's smallest distance to the partners ahead (`least`) and `behind`, over all pairs.
