@@ -4,7 +4,7 @@ rows() {
     awk '
       function share(text) { sub(/ %.*/, "", text); p = text / 100; e = 100 * sqrt(p * (1 - p) / fits); return e ? sprintf("%.0f ± %.0f %%", text, e) : "100 %" }
       BEGIN { split("α|m|r_e|the spread|n", label, "|"); split("alpha|m|aspect_ratio|aspect_ratio_sd_percent|concentration", start, "|") }
-      /^# answered/ { fits = $3; chi_square = $12 + 0 }
+      /^# answered/ { fits = $3; chi_square = $11 + 0 }
       /interval .* interval/ {
         key = substr($2, 1, length($2) - 1); sub(/_per_cm3.*/, "", key)
         for (k = 1; k <= 5; k++) if (key == start[k]) name[++keys] = label[k]
