@@ -11,7 +11,7 @@ use super::Observable;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Channel {
-    observable: Observable,
+    pub(crate) observable: Observable,
     index: usize,
 }
 

@@ -124,8 +124,9 @@ impl Plan {
         ];
         let unused = unused.into_iter().filter(|(_, is)| *is);
         let unused: Vec<_> = unused.map(|(key, _)| format!("particles.{key}")).collect();
+        let verb = if unused.len() > 1 { "have" } else { "has" };
         (!unused.is_empty())
-            .then(|| format!("{} has no effect: particles.rods gives it for each rod", unused.join(", ")))
+            .then(|| format!("{} {verb} no effect: particles.rods gives it for each rod", unused.join(", ")))
     }
 
     /// Warns if the places in a file leave part of the control volume empty, as after a change of its size.

@@ -5,7 +5,7 @@ mod tests;
 
 use crate::model::work::Counters;
 use crate::observable::{self, Channel, Observable, Sum};
-use crate::plan::{Elapsed, Plan};
+use crate::plan::{Elapsed, Plan, Stage};
 use crate::run::{Replica, run_replica};
 use crate::scene::Error;
 use crate::suspension::snapshot::Snapshot;
@@ -275,7 +275,17 @@ impl Tally {
     /// The standard errors of a channel's mean at each output; `None` if the plan does not observe the channel.
     pub fn standard_errors(&self, plan: &Plan, channel: Channel) -> Option<Vec<f64>> {
         let place = channel.place(&plan.observables())?;
-        Some(self.column(channel.name(), place, width(plan)).se)
+        Some(self.column_of(plan, channel, place).se)
+    }
+
+    /// The column of a channel whose sum stands at `place`. Of rods that count by their cubed lengths a mean is a quotient of two
+    /// sums, whose error one replica cannot give.
+    fn column_of(&self, plan: &Plan, channel: Channel, place: usize) -> Column {
+        let mut column = self.column(channel.name(), place, width(plan));
+        if self.replicas == 1 && plan.runs(Stage::Lengths) && channel.observable.weighs_rods() {
+            column.se.fill(f64::NAN);
+        }
+        column
     }
 
     fn se(&self, k: usize) -> f64 {
@@ -295,14 +305,12 @@ impl Tally {
 
     /// The results of the replicas added.
     pub fn results(self, plan: &Plan) -> Results {
-        let width = width(plan);
         let mut start = 0;
         let series = (plan.observables().into_iter())
             .map(|observable| {
                 let channels = observable.channels().enumerate();
                 let columns =
-                    channels.map(|(place, channel)| self.column(channel.name(), start + place, width));
-                let columns = columns.collect();
+                    channels.map(|(place, channel)| self.column_of(plan, channel, start + place)).collect();
                 start += observable.width();
                 Series { observable, columns }
             })

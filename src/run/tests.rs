@@ -83,6 +83,25 @@ fn stress_pa(change: impl Fn(&mut scene::Scene)) -> [f64; 3] {
     ["s12_pa", "n1_pa", "n2_pa"].map(|name| results.column(name).unwrap().mean[0])
 }
 
+/// A mean over rods that count by their cubed lengths is a quotient of sums: parallel rods of several lengths scatter in no
+/// replica, and one replica cannot say so.
+#[test]
+fn one_replica_gives_no_error_of_a_weighted_mean() {
+    let errors = |replicas: u64, sd_percent: f64| {
+        let mut scene = plan(100, replicas).scene().clone();
+        scene.particles.length_sd_percent = sd_percent;
+        scene.particles.orientation = scene::Orientation::Given { phi_deg: 45.0, theta_deg: 90.0 };
+        scene.output.observables = vec![Observable::ParticleStress, Observable::Projections];
+        let results = ensemble::run(&Plan::new(&scene).unwrap()).unwrap();
+        ["s12_per_mu_fiber_g", "x1"].map(|name| results.column(name).unwrap().se[0])
+    };
+    let [stress, x1] = errors(1, 30.0);
+    assert!(stress.is_nan() && x1 < 1e-15, "{stress} {x1}");
+    for (replicas, sd_percent) in [(2, 30.0), (1, 0.0)] {
+        assert!(errors(replicas, sd_percent).iter().all(|se| *se < 1e-15));
+    }
+}
+
 /// μ G n⟨a³⟩ in Pa for 50 bodies of 0.72 mm per cm³ at 0.5 1/s in 20 Pa s.
 const UNIT_PA: f64 = 20.0 * 0.5 * 50.0 * 0.072 * 0.072 * 0.072;
 

@@ -51,7 +51,7 @@ pub(super) fn converge(args: &Args) -> Result<(), Failure> {
     if plan.runs(Stage::Contacts) && !law::judges(&plan) {
         let (key, steps) = (named.scene.time.unit.steps_key(), named.scene.steps_per_unit());
         return Err(Failure::Input(at(format!(
-            "converge of interacting rods needs plane Couette flow, only ∂u_2/∂x_1 other than 0, and time.periods; \
+            "converge of interacting rods needs plane Couette flow, only ∂u_2/∂x_1 other than 0, time.periods and no particles.rods; \
              else halve the time step and compare: sweep --over {key}={steps},{},{}",
             2 * steps,
             4 * steps

@@ -46,7 +46,7 @@ pub(super) fn of_scene(plan: &Plan) -> String {
     let own = scene.particles.count as f64 * scene.ensemble.replicas as f64 * plan.steps() as f64;
     let study = match law::judges(plan) {
         true => of_jobs(&law::jobs(scene, Replicas::CONVERGE)),
-        false => "plane Couette flow by periods only".to_owned(),
+        false => "only plane Couette flow by periods, and no particles.rods".to_owned(),
     };
     format!("run: {}\nconverge: {study}\n", text(own))
 }

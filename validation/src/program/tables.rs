@@ -96,7 +96,7 @@ pub(super) fn summary(results: &Results) -> String {
             };
             let outputs = 0..channel.mean.len();
             text += &format!(
-                "{:<margin$}{:<18}{:<18}{:<17}{}\n{:<margin$}{}\n",
+                "{:<margin$}{:<17} {:<17} {:<16} {}\n{:<margin$}{}\n",
                 channel.name,
                 value(0),
                 value(last),

@@ -139,7 +139,11 @@ fn a_study_of_rods_that_meet_needs_shear_by_periods() {
         fs::write(dir.path().join(name), scene).unwrap();
         let plan = shearbed(dir.path(), &format!("plan {name}"));
         assert_eq!(plan.code, Some(0), "{}", plan.stderr);
-        assert!(plan.stdout.contains("converge: plane Couette flow by periods only\n"), "{}", plan.stdout);
+        assert!(
+            plan.stdout.contains("converge: only plane Couette flow by periods, and no particles.rods\n"),
+            "{}",
+            plan.stdout
+        );
         let before = names(dir.path());
         let ended = shearbed(dir.path(), &format!("converge {name}"));
         assert_eq!(ended.code, Some(2), "{}", ended.stderr);

@@ -90,6 +90,9 @@ fn a_sweep_and_a_study_set_keys_as_a_run_does() {
     let said = "--set interaction.alpha and --over interaction.alpha: both set it";
     assert!(ended.stderr.contains(said), "{}", ended.stderr);
 
+    succeeds(
+        "converge fig6-uniform --set particles.aspect_ratio=1 --set time.periods=2 --quiet --out sphere",
+    );
     succeeds("converge fig6-uniform --set particles.aspect_ratio=5 --quiet --out e");
     fs::write(
         dir.path().join("five.toml"),

@@ -150,6 +150,11 @@ fn another_sweep_in_the_folder_is_refused_and_left_as_it_is() {
     // By force all is new, and nothing of before is left.
     succeeds(dir.path(), &format!("{first} --force"));
     assert_eq!(files(&here), kept_before);
+    fs::write(&point, &other).unwrap();
+    let message = refused(dir.path(), &first);
+    assert!(message.contains("not as it was written") && message.contains("--force"), "{message}");
+    succeeds(dir.path(), &format!("{first} --force"));
+    assert_eq!(files(&here), kept_before);
 
     // A file that is gone is written again; what is of another sweep goes by force, what somebody put beside it does not.
     fs::remove_file(here.join("sweep.json")).unwrap();

@@ -65,6 +65,11 @@ impl ResultFolder {
         &self.origin
     }
 
+    /// True if files may be overwritten that this command did not write, or wrote from other inputs.
+    pub fn has_force(&self) -> bool {
+        self.force
+    }
+
     /// True if this command wrote the folder from the same inputs.
     pub fn is_own(&self) -> bool {
         let own = |record: Record| record.origin == self.origin;

@@ -126,7 +126,7 @@ impl Record {
         match self.files.get(name) {
             Some(listed) if listed == sum => Ok(()),
             Some(_) => Err(format!(
-                "was changed after it was written: its checksum is not that of {RECORD}; run the command that wrote it again"
+                "was changed after it was written: its checksum is not that of {RECORD}; run the command that wrote it again, with --force"
             )),
             None => Err(format!("is not listed in the folder's {RECORD}")),
         }

@@ -22,7 +22,12 @@ impl Axis {
         let range = split(values, ':');
         let values = match range.as_slice() {
             [_] => each_once(split(values, ',').into_iter().map(value).collect::<Result<_, _>>()?)?,
-            [from, to, count] => evenly(from, to, count)?,
+            [from, to, count] => match evenly(from, to, count)? {
+                values if values.first() == values.last() => {
+                    return Err(format!("{from}:{to} has equal ends; each value once is allowed"));
+                }
+                values => values,
+            },
             _ => return Err(format!("{values:?} is neither FROM:TO:COUNT nor a list; {shape}")),
         };
         let key = key.to_owned();
@@ -207,7 +212,7 @@ mod tests {
 
     #[test]
     fn ends_of_a_range_without_a_short_decimal_are_the_numbers_given() {
-        for (from, to) in [("1e-300", "1e300"), ("0.1234567890123456", "7.7"), ("99999999999999999", "1e17")]
+        for (from, to) in [("1e-300", "1e300"), ("0.1234567890123456", "7.7"), ("12345678901234567", "1e17")]
         {
             let values = shown_values(&format!("a={from}:{to}:4"));
             let read = |text: &str| text.parse::<f64>().unwrap();
@@ -246,6 +251,7 @@ mod tests {
             ("a=1:2:3:4", "neither"),
             ("a=1:x:3", "\"x\""),
             ("a=1:inf:3", "\"inf\""),
+            ("a=1:1.0:3", "equal ends"),
             ("a=1:2:1", "\"1\" is no count"),
             ("a=1:2:2.5", "from 2 to 100000"),
         ] {

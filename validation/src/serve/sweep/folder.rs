@@ -77,7 +77,11 @@ impl Folder {
         if !own || folder.folder.dir().join("sweep.json").symlink_metadata().is_err() {
             folder.begin(own)?;
         }
-        (folder.finished().into_iter()).try_for_each(|k| folder.tables(k).map(drop))?;
+        match folder.finished().into_iter().find_map(|k| folder.tables(k).err()) {
+            Some(_) if folder.folder.has_force() => folder.begin(false)?,
+            Some(why) => return Err(why),
+            None => {}
+        }
         Ok(folder)
     }
 
@@ -212,7 +216,10 @@ impl Folder {
 
     fn damaged(&self, k: usize, why: &str) -> Refused {
         let dir = self.point(k);
-        Refused(format!("{why}; remove {} to have this point run again; nothing was changed", dir.shown()))
+        Refused(format!(
+            "{why}; remove {} to have this point run again, or start afresh with --force; nothing was changed",
+            dir.shown()
+        ))
     }
 
     /// Writes `sweep.csv` from the tables of all points, which must all exist (the swept values, then the last row of each of the

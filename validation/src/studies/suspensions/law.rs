@@ -114,7 +114,10 @@ pub struct Law {
 
 /// True if the study applies to a plan's scene: plane Couette flow, with its time in periods.
 pub fn judges(plan: &Plan) -> bool {
-    plan.flow().shear_rate_per_s().is_some() && plan.scene().time.unit == shearbed::scene::TimeUnit::Period
+    let scene = plan.scene();
+    let by_periods = scene.time.unit == shearbed::scene::TimeUnit::Period;
+    // A study has other numbers of rods than a file.
+    plan.flow().shear_rate_per_s().is_some() && by_periods && scene.particles.rods.is_none()
 }
 
 /// The jobs of a scene: every number of steps, then every number of rods, each once.

@@ -178,10 +178,11 @@ fn round_off(problem: &RodProblem) -> f64 {
 
 /// The largest error that may be round-off of any integrator after this many steps. While the rod lies along the flow (a disc across it),
 /// an error of φ shifts the phase by max(r_e, 1/r_e) times as much, and the flip multiplies that by the same factor: so in angles and by
-/// rotations.
+/// rotations. Roundings of steps that differ grow as their root; a sphere turns equally in every step, with the same rounding.
 fn most_round_off(problem: &RodProblem, steps: u64) -> f64 {
-    let r = problem.aspect_ratio;
-    100.0 * f64::EPSILON * r.max(1.0 / r).powi(2) * problem.turns.max(1.0) * (steps as f64).sqrt().max(10.0)
+    let (r, steps) = (problem.aspect_ratio, steps as f64);
+    let of_steps = if r == 1.0 { 10.0 * steps } else { 100.0 * steps.sqrt() };
+    f64::EPSILON * r.max(1.0 / r).powi(2) * problem.turns.max(1.0) * of_steps.max(1000.0)
 }
 
 fn judged(halvings: &[Halving], floor: f64) -> Vec<f64> {
