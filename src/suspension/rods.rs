@@ -315,9 +315,11 @@ fn mapped(map: &Matrix3<f64>, p: [f64; 3]) -> [f64; 3] {
     (map * Vector3::from(p)).normalize().into()
 }
 
-/// True if all rods have the same phase at an output: rods of one aspect ratio that take no steps, where the clock counts periods.
+/// True if all rods have the same phase at an output: rods of one aspect ratio that take no steps, in plane Couette flow by periods.
 fn in_phase(plan: &Plan) -> bool {
-    matches!(plan.clock(), Clock::Periods { .. })
+    let periods = matches!(plan.clock(), Clock::Periods { .. });
+    plan.flow().shear_rate_per_s().is_some()
+        && periods
         && !plan.runs(Stage::Translation)
         && !plan.runs(Stage::AspectRatios)
 }
