@@ -28,6 +28,11 @@ fn run(scene: &Scene) -> Results {
     ensemble::run(&Plan::new(scene).unwrap()).unwrap()
 }
 
+/// The means of every column: of a stress of unequal lengths one replica has no standard error.
+fn means(results: &Results) -> Vec<&[f64]> {
+    results.series.iter().flat_map(|series| &series.columns).map(|column| &column.mean[..]).collect()
+}
+
 const DENSE: &str = "concentration_per_cm3 = 1000";
 
 /// Twice the size in twice the box is the same suspension, to the bit: nothing but ratios of lengths counts.
@@ -40,7 +45,7 @@ fn the_unit_of_length_does_not_count() {
     {
         let [short, long] = [scene(short, of_short), scene(long, of_long)].map(|scene| run(&scene));
         assert!(short.counters.collisions > 100, "{:?}", short.counters);
-        assert_eq!(short.series, long.series, "{of_short}");
+        assert_eq!(means(&short), means(&long), "{of_short}");
     }
 }
 
@@ -176,10 +181,12 @@ fn rods_of_a_file_are_those_that_it_has() {
     let of_a_file = |own: OwnRods| {
         let mut scene = drawn.clone();
         scene.particles.rods = Some(RodsFile::with("rods.csv", own));
-        run(&scene).series
+        run(&scene)
     };
     // Directions of a suspension have been through the motion of no time, which rounds: a collision magnifies that.
-    for (found, expected) in of_a_file(whole.clone())[0].columns.iter().zip(&expected.series[0].columns) {
+    for (found, expected) in
+        of_a_file(whole.clone()).series[0].columns.iter().zip(&expected.series[0].columns)
+    {
         assert!(
             found.mean.iter().zip(&expected.mean).all(|(a, b)| (a - b).abs() < 1e-12),
             "{found:?} {expected:?}"
@@ -195,12 +202,12 @@ fn rods_of_a_file_are_those_that_it_has() {
         OwnRods::default(),
     ];
     for part in parts {
-        assert_eq!(of_a_file(part), expected.series);
+        assert_eq!(means(&of_a_file(part)), means(&expected));
     }
     // What it has is taken.
     let longer = whole.length_mm.clone().unwrap().iter().map(|length| 1.1 * length).collect();
     let other = OwnRods { length_mm: Some(longer), ..whole };
-    assert_ne!(of_a_file(other), expected.series);
+    assert_ne!(means(&of_a_file(other)), means(&expected));
     // Equal rods given one by one are equal rods.
     drawn.particles.length_sd_percent = 0.0;
     drawn.particles.aspect_ratio_sd_percent = 0.0;
