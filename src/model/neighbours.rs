@@ -193,8 +193,14 @@ mod tests {
 
     #[test]
     fn rods_at_the_walls_are_found() {
-        let side = 10.0;
-        let last = side - 1e-9;
+        // Of a coordinate just below a side the quotient by a cell's width may round to the number of cells.
+        for side in [10.0_f64, 3.7, 7.3, 9.9, 11.1, 271.441_761_659_490_6] {
+            pairs_at_the_walls(side, side - 1e-9);
+            pairs_at_the_walls(side, side.next_down());
+        }
+    }
+
+    fn pairs_at_the_walls(side: f64, last: f64) {
         // Eight corners, and for each a partner 0.1 away along axis 1, 2 or 3.
         let corners: Vec<[f64; 3]> =
             (0..8).map(|k| [k & 1, k & 2, k & 4].map(|bit| if bit > 0 { last } else { 0.0 })).collect();
