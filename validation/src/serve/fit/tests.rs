@@ -4,7 +4,7 @@ use super::budget::residuals;
 use super::elsewhere::look_elsewhere;
 use super::pictures::best_curves;
 use super::range::Range;
-use super::report::levels;
+use super::report::{levels, report};
 use super::search::{Fit, FitProblem, Measured, Watch, search};
 use crate::judge::accept::{Design, Rule, Verdict, judge};
 use crate::methods::least_squares::Datum;
@@ -103,6 +103,19 @@ fn the_levels_of_a_profile_are_those_of_its_intervals() {
     let [(inner, low), (outer, high)] = levels();
     assert_eq!((inner, outer), (0.68, 0.95));
     assert!((low - 0.988_946).abs() < 1e-5 && (high - 3.841_459).abs() < 1e-5, "{low} {high}");
+}
+
+/// Uncertainties that are a hundredth or a hundred times of the scatter, as of per cent taken for fractions, are doubted.
+#[test]
+fn too_small_and_too_large_uncertainties_are_warned_of() {
+    let warnings = |factor: f64| {
+        let mut data = points(0.3, 1.0, 0.01, 1);
+        data.iter_mut().for_each(|datum| datum.u *= factor);
+        report(&fit(&data, &ONE, 1, 1e-9, 20), &data, Vec::new()).warnings.join("; ")
+    };
+    assert!(!warnings(1.0).contains("uncertainties"), "{}", warnings(1.0));
+    assert!(warnings(0.01).contains("their uncertainties are too small"), "{}", warnings(0.01));
+    assert!(warnings(30.0).contains("are these too large, or in per cent?"), "{}", warnings(30.0));
 }
 
 /// Points at every tenth of a period do not distinguish a frequency of 1 from 9 or 11.

@@ -345,6 +345,25 @@ mod tests {
     }
 
     #[test]
+    fn an_error_that_stays_is_not_blamed_on_the_order() {
+        let loaded = crate::serve::problems::named("spiral").unwrap().loaded("spiral".into());
+        let said = |order: f64| {
+            let graded = Graded {
+                observed_order: Some(order),
+                error: Some(3.1e-3),
+                ..Graded::without_answer(&loaded)
+            };
+            other(&graded, 4.0)
+        };
+        for order in [0.0, 0.19, -0.19] {
+            assert!(said(order).contains("the error stays at 3.1e-3 whatever the step"), "{}", said(order));
+        }
+        for order in [1.0, 0.3, -1.0] {
+            assert!(!said(order).contains("stays"), "{}", said(order));
+        }
+    }
+
+    #[test]
     fn one_wild_answer_is_found_and_a_small_error_by_chance_is_none() {
         let wild = |errors: &[f64]| {
             let errors: Vec<_> = (0..).map(|k| 100u64 << k).zip(errors.iter().copied()).collect();
