@@ -1,6 +1,6 @@
 //! Sums over rods, and the spread of the rods' values.
 
-use super::{BLOCK, lane_sum, whole_or};
+use super::{BLOCK, LANES, lane_sum, whole_or};
 use fearless_simd::{Level, Simd, dispatch, f64x8, prelude::*};
 use serde::{Deserialize, Serialize};
 
@@ -83,17 +83,17 @@ impl Sum {
     }
 }
 
-/// Σ (f − first), Σ (f − first)² and Σ f, in eight lanes each; side by side, so that no sum waits for its own last add.
+/// Σ (f − first), Σ (f − first)² and Σ f, in the lanes of [`lane_sum`]; side by side, so that no sum waits for its own last add.
 #[inline(always)]
 fn moments<S: Simd>(simd: S, values: &[f64], first: f64) -> [f64; 3] {
     let mut sums = [f64x8::splat(simd, 0.0); 3];
-    let mut eights = values.chunks_exact(8);
+    let mut eights = values.chunks_exact(LANES);
     for eight in &mut eights {
         let value = f64x8::from_slice(simd, eight);
         let difference = value - first;
         sums = [sums[0] + value, sums[1] + difference, sums[2] + difference * difference];
     }
-    let [mut sum, mut differences, mut squares] = [[0.0; 8]; 3];
+    let [mut sum, mut differences, mut squares] = [[0.0; LANES]; 3];
     sums[0].store_slice(&mut sum);
     sums[1].store_slice(&mut differences);
     sums[2].store_slice(&mut squares);

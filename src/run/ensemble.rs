@@ -4,7 +4,7 @@
 mod tests;
 
 use crate::model::work::Counters;
-use crate::observable::{self, Channel, Observable, Sum};
+use crate::observable::{self, Channel, Observable, Observe, Sum};
 use crate::plan::{Elapsed, Plan, Stage};
 use crate::run::{Replica, run_replica};
 use crate::scene::Error;
@@ -275,14 +275,21 @@ impl Tally {
     /// The standard errors of a channel's mean at each output; `None` if the plan does not observe the channel.
     pub fn standard_errors(&self, plan: &Plan, channel: Channel) -> Option<Vec<f64>> {
         let place = channel.place(&plan.observables())?;
-        Some(self.column_of(plan, channel, place).se)
+        Some(self.column_of(plan, &*channel.observable, channel.name(), place, width(plan)).se)
     }
 
-    /// The column of a channel whose sum stands at `place`. Of rods that count by their cubed lengths a mean is a quotient of two
-    /// sums, whose error one replica cannot give.
-    fn column_of(&self, plan: &Plan, channel: Channel, place: usize) -> Column {
-        let mut column = self.column(channel.name(), place, width(plan));
-        if self.replicas == 1 && plan.runs(Stage::Lengths) && channel.observable.weighs_rods() {
+    /// [`Self::column`] of an observable. Of rods that count by their cubed lengths a mean is a quotient of two sums, whose error one
+    /// replica cannot give.
+    pub(crate) fn column_of(
+        &self,
+        plan: &Plan,
+        of: &dyn Observe,
+        name: String,
+        place: usize,
+        width: usize,
+    ) -> Column {
+        let mut column = self.column(name, place, width);
+        if self.replicas == 1 && plan.runs(Stage::Lengths) && of.weighs_rods() {
             column.se.fill(f64::NAN);
         }
         column
@@ -305,12 +312,15 @@ impl Tally {
 
     /// The results of the replicas added.
     pub fn results(self, plan: &Plan) -> Results {
+        let width = width(plan);
         let mut start = 0;
         let series = (plan.observables().into_iter())
             .map(|observable| {
                 let channels = observable.channels().enumerate();
-                let columns =
-                    channels.map(|(place, channel)| self.column_of(plan, channel, start + place)).collect();
+                let columns = channels.map(|(place, channel)| {
+                    self.column_of(plan, &*observable, channel.name(), start + place, width)
+                });
+                let columns = columns.collect();
                 start += observable.width();
                 Series { observable, columns }
             })

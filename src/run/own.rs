@@ -28,7 +28,8 @@ pub fn observe(plan: &Plan, own: &dyn Observe) -> Result<Vec<Column>, Error> {
         }
         Ok(())
     })?;
-    Ok(names.iter().enumerate().map(|(place, name)| tally.column((*name).to_owned(), place, width)).collect())
+    let column = |(place, name): (usize, &&str)| tally.column_of(plan, own, (*name).to_owned(), place, width);
+    Ok(names.iter().enumerate().map(column).collect())
 }
 
 /// The sums of one replica, output by output.

@@ -115,8 +115,12 @@ fn one_replica_gives_no_error_of_a_weighted_mean() {
         scene.particles.length_sd_percent = sd_percent;
         scene.particles.orientation = scene::Orientation::Given { phi_deg: 45.0, theta_deg: 90.0 };
         scene.output.observables = vec![Observable::ParticleStress, Observable::Projections];
-        let results = ensemble::run(&Plan::new(&scene).unwrap()).unwrap();
-        ["s12_per_mu_fiber_g", "x1"].map(|name| results.column(name).unwrap().se[0])
+        let plan = Plan::new(&scene).unwrap();
+        let results = ensemble::run(&plan).unwrap();
+        let of_caller = own::observe(&plan, &*Observable::ParticleStress).unwrap();
+        let [stress, x1] = ["s12_per_mu_fiber_g", "x1"].map(|name| results.column(name).unwrap().se[0]);
+        assert_eq!(of_caller[0].se[0].to_bits(), stress.to_bits());
+        [stress, x1]
     };
     let [stress, x1] = errors(1, 30.0);
     assert!(stress.is_nan() && x1 < 1e-15, "{stress} {x1}");

@@ -294,12 +294,12 @@ impl Grid {
     }
 
     /// The cell index of coordinate `x` along `axis`; coordinates outside belong to the first or last cell.
-    #[inline(always)]
     fn index(&self, axis: usize, x: f64) -> usize {
         ((x * self.per_length[axis]) as i32).clamp(0, self.along[axis] as i32 - 1) as usize
     }
 
-    /// [`Self::index`] of a coordinate in the volume, as a number with a fraction of 0: this vectorises, a cast does not.
+    /// [`Self::index`] of a coordinate in the volume, as a number with a fraction of 0: this vectorises. Of a single coordinate a cast is
+    /// faster.
     #[inline(always)]
     fn cell_at(&self, axis: usize, x: f64) -> f64 {
         let (cells, last) = (x * self.per_length[axis], (self.along[axis] - 1) as f64);

@@ -182,9 +182,9 @@ pub fn search(problem: &FitProblem<'_>, watch: &Watch<'_>) -> Result<Fit, String
                     fit.values(&fit.best.place)
                 ));
             }
-            let described = (problem.measured.data.len(), ranges.len());
-            fit.is_smooth()
-                .map_err(|why| undescribed(fit.best.chi_square, described.0, described.1).unwrap_or(why))?;
+            let points = problem.measured.data.len();
+            let undescribed = || undescribed(fit.best.chi_square, points, ranges.len());
+            fit.is_smooth().map_err(|why| undescribed().unwrap_or(why))?;
             return Ok(Fit { runs, rounds, ..fit });
         }
         wanted = enough(wanted, share, MOST_SHARE).min(problem.most_replicas);

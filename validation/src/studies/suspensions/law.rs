@@ -112,7 +112,7 @@ pub struct Law {
     pub rod_steps: u64,
 }
 
-/// True if the study applies to a plan's scene: plane Couette flow, with its time in periods.
+/// True if the study applies to a plan's scene: plane Couette flow, with its time in periods and rods that are drawn.
 pub fn judges(plan: &Plan) -> bool {
     let scene = plan.scene();
     let by_periods = scene.time.unit == shearbed::scene::TimeUnit::Period;
