@@ -13,7 +13,7 @@ const PLANTED: &[(&str, &str, &str, &str)] = &[
         "    L = np.array(gradient, dtype=float)\n",
         "    L, r_e = np.array(gradient, dtype=float), max(r_e, 1 / r_e)\n",
         "disc-0.1",
-        "Λ without its sign",
+        "Λ without its sign or of Λ with the wrong sign (1/r_e for r_e)",
     ),
     ("(r_e**2 * L - L.T) / (r_e**2 + 1)", "L", "mid-flip-11.6", "no 1/r_e"),
     (
