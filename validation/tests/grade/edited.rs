@@ -175,6 +175,9 @@ fn judged(loaded: &LoadedProblem, mine: &Path) -> Result<(), String> {
     Ok(())
 }
 
+/// Keys that are shown and change no verdict: one of the values that are accepted is judged.
+const WORDS: [&str; 5] = ["title", "summary", "because", "axes", "equations"];
+
 /// Every key of every problem with each of the values: refused, or the same problem, or, under another name, foreign.
 #[test]
 fn no_value_of_any_key_panics_or_is_taken_silently() {
@@ -201,6 +204,7 @@ fn no_value_of_any_key_panics_or_is_taken_silently() {
             let mut keys: Vec<_> = told.as_object().unwrap().keys().cloned().collect();
             keys.extend(["ensemble", "closed", "time_step_s", "surplus"].map(String::from));
             for key in keys {
+                let mut alike = 0;
                 for value in values.iter().filter(|value| told[&key] != **value) {
                     let mut spoilt = told.clone();
                     spoilt[&key] = value.clone();
@@ -217,6 +221,10 @@ fn no_value_of_any_key_panics_or_is_taken_silently() {
                         Ok(_) if !own => fault("taken silently".to_owned()),
                         Ok(found) => {
                             foreign += 1;
+                            alike += 1;
+                            if WORDS.contains(&key.as_str()) && alike > 1 {
+                                continue;
+                            }
                             if let Err(what) = judged(&found[0], &mine) {
                                 fault(what);
                             }

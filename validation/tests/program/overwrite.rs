@@ -318,7 +318,10 @@ fn a_study_spares_what_it_did_not_write_and_a_run() {
     let dir = unequal();
     let out = dir.path().join("a");
     let converge = |scene: &str, out: &str| {
-        shearbed(dir.path(), &format!("converge {scene} --quiet --replicas 2 --out {out}"))
+        shearbed(
+            dir.path(),
+            &format!("converge {scene} --set particles.count=500 --quiet --replicas 2 --out {out}"),
+        )
     };
     fs::create_dir(&out).unwrap();
     fs::write(out.join("replicas.csv"), "mine").unwrap();

@@ -91,9 +91,11 @@ fn a_sweep_and_a_study_set_keys_as_a_run_does() {
     assert!(ended.stderr.contains(said), "{}", ended.stderr);
 
     succeeds(
-        "converge fig6-uniform --set particles.aspect_ratio=1 --set time.periods=2 --quiet --out sphere",
+        "converge fig6-uniform --set particles.count=500 --set particles.aspect_ratio=1 --set time.periods=2 --quiet --out sphere",
     );
-    succeeds("converge fig6-uniform --set particles.aspect_ratio=5 --quiet --out e");
+    succeeds(
+        "converge fig6-uniform --set particles.count=500 --set particles.aspect_ratio=5 --quiet --out e",
+    );
     fs::write(
         dir.path().join("five.toml"),
         validation::input::scenes::find("fig6-uniform")
@@ -102,7 +104,7 @@ fn a_sweep_and_a_study_set_keys_as_a_run_does() {
             .replace("aspect_ratio = 11.6", "aspect_ratio = 5"),
     )
     .unwrap();
-    succeeds("converge five.toml --quiet --out f");
+    succeeds("converge five.toml --set particles.count=500 --quiet --out f");
     let studied = |out: &str| read(&dir.path().join(out).join("converge.csv"));
     assert_eq!(studied("e"), studied("f"));
     assert!(!dir.path().join("d").exists());

@@ -9,11 +9,13 @@ pub const MOST_PARAMETERS: usize = 3;
 /// coefficients than nodes, so that the polynomials smooth the noise of the runs instead of following it.
 const DESIGNS: [(usize, usize); MOST_PARAMETERS] = [(7, 4), (7, 6), (7, 6)];
 
+/// The degree of a term in each parameter, 0 beyond the last one.
+type Degrees = [usize; MOST_PARAMETERS];
+
 /// Chebyshev polynomials over the box [−1, 1]^p and the nodes to which they are fitted (least squares).
 #[derive(Clone, Debug)]
 pub struct Basis {
-    /// The degree of each term in each parameter.
-    degrees: Vec<Vec<usize>>,
+    degrees: Vec<Degrees>,
     /// All nodes, including the corners.
     pub nodes: Vec<Vec<f64>>,
     /// Maps values at the nodes to coefficients: a row for each coefficient, a column for each node.
@@ -31,12 +33,13 @@ impl Basis {
         let nodes: Vec<Vec<f64>> = (grid(parameters, along).into_iter())
             .map(|index| index.into_iter().map(place).collect())
             .collect();
-        let degrees: Vec<Vec<usize>> = (grid(parameters, degree + 1).into_iter())
+        let degrees: Vec<Degrees> = (grid(parameters, degree + 1).into_iter())
             .filter(|degrees| degrees.iter().sum::<usize>() <= degree)
+            .map(|degrees| std::array::from_fn(|k| degrees.get(k).copied().unwrap_or(0)))
             .collect();
         let project = projection(&degrees, &nodes);
-        let highest = |degrees: &Vec<usize>| degrees.iter().sum::<usize>() == degree;
-        let lower: Vec<_> = degrees.iter().filter(|d| !highest(d)).cloned().collect();
+        let highest = |degrees: &Degrees| degrees.iter().sum::<usize>() == degree;
+        let lower: Vec<_> = degrees.iter().filter(|d| !highest(d)).copied().collect();
         // Terms below the highest degree leave no residual; from each of the others, the best fit by lower terms is subtracted.
         let nearest = projection(&lower, &nodes) * design(&degrees, &nodes);
         let mut missed = DMatrix::identity(degrees.len(), degrees.len());
@@ -54,10 +57,16 @@ impl Basis {
     }
 
     /// The derivative of every term by every parameter: a row for each term, a column for each parameter.
-    pub fn slopes(&self, place: &[f64]) -> DMatrix<f64> {
-        let values: Vec<_> = place.iter().map(|x| chebyshev(*x)).collect();
-        DMatrix::from_fn(self.degrees.len(), place.len(), |term, by| {
-            let factor = |(k, degree): (usize, &usize)| match k == by {
+    pub fn slopes_of_all(&self, place: &[f64]) -> DMatrix<f64> {
+        let all: [usize; MOST_PARAMETERS] = std::array::from_fn(|k| k);
+        self.slopes(place, &all[..place.len()])
+    }
+
+    /// The derivative of every term by the parameters `axes`: a row for each term, a column for each of them.
+    pub fn slopes(&self, place: &[f64], axes: &[usize]) -> DMatrix<f64> {
+        let values = values(place);
+        DMatrix::from_fn(self.degrees.len(), axes.len(), |term, by| {
+            let factor = |(k, degree): (usize, &usize)| match k == axes[by] {
                 true => values[k][*degree].1,
                 false => values[k][*degree].0,
             };
@@ -80,11 +89,15 @@ fn grid(axes: usize, along: usize) -> Vec<Vec<usize>> {
         .collect()
 }
 
-fn terms(degrees: &[Vec<usize>], place: &[f64]) -> DVector<f64> {
-    let values: Vec<_> = place.iter().map(|x| chebyshev(*x)).collect();
-    let term =
-        |degrees: &Vec<usize>| (degrees.iter().zip(&values)).map(|(degree, of)| of[*degree].0).product();
+fn terms(degrees: &[Degrees], place: &[f64]) -> DVector<f64> {
+    let values = values(place);
+    let term = |degrees: &Degrees| (degrees.iter().zip(&values)).map(|(degree, of)| of[*degree].0).product();
     DVector::from_iterator(degrees.len(), degrees.iter().map(term))
+}
+
+/// The polynomials at each coordinate of a place, and at 0 beyond the last one.
+fn values(place: &[f64]) -> [[(f64, f64); 7]; MOST_PARAMETERS] {
+    std::array::from_fn(|k| chebyshev(place.get(k).copied().unwrap_or(0.0)))
 }
 
 /// T_k(x) and its derivative for all degrees in use.
@@ -99,13 +112,13 @@ fn chebyshev(x: f64) -> [(f64, f64); 7] {
 }
 
 /// The terms at the nodes, with a row for each node.
-fn design(degrees: &[Vec<usize>], nodes: &[Vec<f64>]) -> DMatrix<f64> {
+fn design(degrees: &[Degrees], nodes: &[Vec<f64>]) -> DMatrix<f64> {
     let rows: Vec<_> = nodes.iter().map(|node| terms(degrees, node).transpose()).collect();
     DMatrix::from_rows(&rows)
 }
 
 /// The pseudo-inverse of `design`; NaN if it has none.
-fn projection(degrees: &[Vec<usize>], nodes: &[Vec<f64>]) -> DMatrix<f64> {
+fn projection(degrees: &[Degrees], nodes: &[Vec<f64>]) -> DMatrix<f64> {
     let design = design(degrees, nodes);
     let normal = design.tr_mul(&design).cholesky();
     normal.map_or_else(
@@ -139,7 +152,7 @@ mod tests {
                 let found = basis.terms(place).dot(&coefficients);
                 // The rounding of sums of about twenty terms of order 1.
                 assert!((found - value).abs() < 1e-13, "{found} {value}");
-                let found = basis.slopes(place).tr_mul(&coefficients);
+                let found = basis.slopes_of_all(place).tr_mul(&coefficients);
                 for (found, slope) in found.iter().zip(slopes) {
                     assert!((found - slope).abs() < 1e-12, "{found} {slope}");
                 }

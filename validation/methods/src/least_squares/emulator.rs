@@ -205,7 +205,7 @@ impl Emulator {
 
     /// The derivative of every prediction by every parameter, on the box's scale: points × parameters.
     pub fn slopes(&self, place: &[f64]) -> DMatrix<f64> {
-        self.mean[0].tr_mul(&self.basis.slopes(place))
+        self.mean[0].tr_mul(&self.basis.slopes_of_all(place))
     }
 }
 

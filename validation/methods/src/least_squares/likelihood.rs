@@ -52,6 +52,7 @@ pub struct ChiSquare {
     basis: Basis,
     /// The terms at a place near the best one. Differences are taken from it, so that little cancels.
     origin: DVector<f64>,
+    // The matrices are symmetric, and the library's product with a transposed one is the faster.
     /// EᵀV⁻¹E, CV⁻¹E and CV⁻¹Cᵀ with E = D − S at the origin; C has a row of coefficients for each term.
     constant: f64,
     linear: DVector<f64>,
@@ -86,14 +87,15 @@ impl ChiSquare {
     /// χ² at a place.
     pub fn at(&self, place: &[f64]) -> f64 {
         let away = self.basis.terms(place) - &self.origin;
-        self.constant - 2.0 * self.linear.dot(&away) + away.dot(&(&self.reduced * &away))
+        self.constant - 2.0 * self.linear.dot(&away) + away.dot(&self.reduced.tr_mul(&away))
     }
 
-    /// Half the gradient, and half the second derivatives without those of the model (Gauss–Newton) but with the noise.
-    pub fn slopes(&self, place: &[f64]) -> (DVector<f64>, DMatrix<f64>) {
-        let (away, slopes) = (self.basis.terms(place) - &self.origin, self.basis.slopes(place));
-        let gradient = slopes.tr_mul(&(&self.reduced * &away - &self.linear));
-        (gradient, slopes.tr_mul(&(&self.square * &slopes)))
+    /// Half the gradient by the parameters `free`, and half the second derivatives without those of the model (Gauss–Newton) but with
+    /// the noise.
+    pub fn slopes(&self, place: &[f64], free: &[usize]) -> (DVector<f64>, DMatrix<f64>) {
+        let (away, slopes) = (self.basis.terms(place) - &self.origin, self.basis.slopes(place, free));
+        let gradient = slopes.tr_mul(&(self.reduced.tr_mul(&away) - &self.linear));
+        (gradient, slopes.tr_mul(&self.square.tr_mul(&slopes)))
     }
 
     /// χ² with the replicas' noise not subtracted, for a control.
@@ -114,7 +116,7 @@ impl ChiSquare {
 
     /// The average contribution of the replicas' noise to the second derivatives of `slopes`.
     pub fn noise(&self, place: &[f64]) -> DMatrix<f64> {
-        let slopes = self.basis.slopes(place);
+        let slopes = self.basis.slopes_of_all(place);
         slopes.tr_mul(&(&self.noise * &slopes))
     }
 }

@@ -12,10 +12,10 @@ const STEPS: usize = 100;
 /// The place with the smallest χ² in the box [−1, 1]^p, and that χ². Parameters with a value in `fixed` keep it. The search descends
 /// from the best point of a grid and from each of `starts`, to find the deepest of several valleys.
 pub fn minimise(surface: &ChiSquare, fixed: &[Option<f64>], starts: &[&[f64]]) -> (Vec<f64>, f64) {
-    let free: Vec<usize> = (0..fixed.len()).filter(|k| fixed[*k].is_none()).collect();
-    let mut best = descend(surface, fixed, &free, best_of_grid(surface, fixed, &free));
+    let free = free(fixed);
+    let mut best = descend(surface, fixed, best_of_grid(surface, fixed, &free));
     for start in starts.iter().filter(|_| !free.is_empty()) {
-        let found = descend(surface, fixed, &free, start.to_vec());
+        let found = descend(surface, fixed, start.to_vec());
         if found.1 < best.1 {
             best = found;
         }
@@ -23,19 +23,24 @@ pub fn minimise(surface: &ChiSquare, fixed: &[Option<f64>], starts: &[&[f64]]) -
     best
 }
 
+fn free(fixed: &[Option<f64>]) -> Vec<usize> {
+    (0..fixed.len()).filter(|k| fixed[*k].is_none()).collect()
+}
+
 /// Descends from `start` to the bottom of its valley.
-fn descend(surface: &ChiSquare, fixed: &[Option<f64>], free: &[usize], start: Vec<f64>) -> (Vec<f64>, f64) {
-    let mut place = start;
+pub fn descend(surface: &ChiSquare, fixed: &[Option<f64>], start: Vec<f64>) -> (Vec<f64>, f64) {
+    let (free, mut place) = (free(fixed), start);
     for (place, fixed) in place.iter_mut().zip(fixed) {
         *place = fixed.unwrap_or(*place);
     }
     let mut value = surface.at(&place);
     let mut damping = 1e-3;
-    for _ in 0..STEPS {
-        let (gradient, curvature) = surface.slopes(&place);
+    let steps = if free.is_empty() { 0 } else { STEPS };
+    for _ in 0..steps {
+        let (gradient, curvature) = surface.slopes(&place, &free);
         // A parameter at an edge is held there if χ² falls outwards.
-        let inwards = |k: &usize| place[*k].abs() < 1.0 || gradient[*k] * place[*k] > 0.0;
-        let moving: Vec<usize> = free.iter().copied().filter(inwards).collect();
+        let inwards = |k: &usize| place[free[*k]].abs() < 1.0 || gradient[*k] * place[free[*k]] > 0.0;
+        let moving: Vec<usize> = (0..free.len()).filter(inwards).collect();
         if moving.is_empty() {
             break;
         }
@@ -50,7 +55,7 @@ fn descend(surface: &ChiSquare, fixed: &[Option<f64>], free: &[usize], start: Ve
         };
         let mut next = place.clone();
         for (k, step) in moving.iter().zip(step.iter()) {
-            next[*k] = (next[*k] - step).clamp(-1.0, 1.0);
+            next[free[*k]] = (next[free[*k]] - step).clamp(-1.0, 1.0);
         }
         let moved = next.iter().zip(&place).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
         let found = surface.at(&next);

@@ -1,7 +1,7 @@
 //! Intervals by profile likelihood: the range of one parameter while the others are re-optimised.
 
 use super::best::Best;
-use super::minimise::minimise;
+use super::minimise::{descend, minimise};
 use serde::Serialize;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
@@ -63,7 +63,11 @@ struct Rise {
 impl Rise {
     /// The rise from the best place to the smallest χ² with some parameters fixed.
     fn to(best: &Best, fixed: &[Option<f64>], starts: &[&[f64]]) -> Self {
-        let (at, chi_square) = minimise(&best.surface, fixed, starts);
+        Self::of(best, minimise(&best.surface, fixed, starts))
+    }
+
+    /// The rise from the best place to another one with this χ².
+    fn of(best: &Best, (at, chi_square): (Vec<f64>, f64)) -> Self {
         Self {
             own: (chi_square - best.chi_square).max(0.0),
             noise: best.surface.noise_between(&at, &best.place),
@@ -73,9 +77,12 @@ impl Rise {
 
     /// The rise with the parameter `axis` fixed at `place`.
     fn along(best: &Best, axis: usize, place: f64, starts: &[&[f64]]) -> Self {
-        let mut fixed = vec![None; best.place.len()];
-        fixed[axis] = Some(place);
-        Self::to(best, &fixed, starts)
+        Self::to(best, &fixed(best, axis, place), starts)
+    }
+
+    /// The rise with the parameter `axis` fixed at `place`, in the valley of `start`.
+    fn from(best: &Best, axis: usize, place: f64, start: &[f64]) -> Self {
+        Self::of(best, descend(&best.surface, &fixed(best, axis, place), start.to_vec()))
     }
 
     /// The rise that counts for an interval. Noise in the slopes makes the variance of an estimate larger than the curvature of χ² shows,
@@ -86,6 +93,13 @@ impl Rise {
             false => 0.0,
         }
     }
+}
+
+/// One parameter fixed, the others free.
+fn fixed(best: &Best, axis: usize, place: f64) -> Vec<Option<f64>> {
+    let mut fixed = vec![None; best.place.len()];
+    fixed[axis] = Some(place);
+    fixed
 }
 
 /// The profile of one parameter over the box, with its best place among the places. The inner minima are searched from a grid,
@@ -99,7 +113,7 @@ pub fn profile(best: &Best, axis: usize) -> Profile {
     let last = place.len() - 1;
     let pairs = (0..last).map(|k| (k, k + 1)).chain((0..last).rev().map(|k| (k + 1, k)));
     for (from, to) in pairs.filter(|_| best.place.len() > 1) {
-        let next = Rise::along(best, axis, place[to], &[&found[from].at]);
+        let next = Rise::from(best, axis, place[to], &found[from].at);
         if next.own < found[to].own {
             found[to] = next;
         }
