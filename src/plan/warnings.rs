@@ -25,6 +25,7 @@ impl Plan {
             self.alone(),
             self.turned_straight(),
             self.unrelated_sizes(),
+            self.one_start(),
             self.other_mean(),
             self.drawn_for_nothing(),
             self.half_empty(),
@@ -94,6 +95,24 @@ impl Plan {
              continue a suspension of unequal rods, give the file that column too, as rods.csv has it",
             name.replace('_', " ")
         ))
+    }
+
+    /// Warns if all replicas start with the same directions from a file: their scatter is not that of the rods.
+    fn one_start(&self) -> Option<String> {
+        let particles = &self.scene.particles;
+        let (file, own) = (&particles.rods.as_ref()?.file, particles.own()?);
+        let replicas = self.scene.ensemble.replicas;
+        let drawn = particles.aspect_ratio_sd_percent > 0.0 && own.aspect_ratio.is_none();
+        (own.p.is_some() && replicas > 1).then(|| match self.runs(Stage::Contacts) || drawn {
+            true => format!(
+                "{replicas} replicas start with the directions in {file}: standard errors over replicas leave out the scatter of these \
+                 rods, which those of one replica have"
+            ),
+            false => format!(
+                "the {replicas} replicas are alike: free rods start with the directions in {file}, and nothing is drawn that turns \
+                 them; one replica says as much, with standard errors over its rods"
+            ),
+        })
     }
 
     /// Warns if the mean r_e of the rods in a file is far from the scene's.

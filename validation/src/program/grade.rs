@@ -223,7 +223,8 @@ fn program(args: &Args, command: &str, reference: Option<&Path>) -> Result<Done,
     let origin = ("grade", inputs.clone(), args.writing.force);
     result_folder(&args.out, origin, 0, &[&PAGES[..], &PICTURES].concat())?;
     let timeout = Duration::from_secs_f64(args.timeout);
-    let program = Program::start(command, args.protocol, timeout).map_err(Failure::Input)?;
+    let program =
+        Program::start(command, args.protocol, timeout).map_err(Failure::Input)?.with_axes(args.axes);
     let mode = live::mode(&program);
     let claim = Claim { order: args.order };
     let mut problems: Vec<_> =

@@ -228,7 +228,8 @@ fn refused(args: &Args, why: NoValue) -> Failure {
             if args.unit.is_none() { " is missing, and periods are its default" } else { "" }
         ),
         NoValue::Strain => format!(
-            "--times: |L|t is above {LARGEST_STRAIN}, the most that is allowed in a flow other than plane Couette flow"
+            "--times: |L|t is above {LARGEST_STRAIN}, the most that is allowed where rods have no period: in flows other than plane Couette flow, or \
+             at an infinite aspect ratio"
         ),
         NoValue::Time => {
             "--times: a time in s, strain or periods is no finite double; smaller times are allowed".into()

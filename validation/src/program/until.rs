@@ -1,7 +1,7 @@
 //! `run --until-se`: adds replicas until standard errors are small enough.
 //!
-//! The number of replicas is one of 32, 40, 48, … ([`next`]): the first at which every rule holds. It depends on the scene, the
-//! seed and the rules alone, never on threads, load, or the place where an earlier run stopped.
+//! The number of replicas is one of 32, 40, 48, … ([`next`]): the first at which every rule holds, that is not fewer than a checkpoint
+//! has. It depends on the scene, the seed and the rules alone, never on threads, load, or the place where a run of them stopped.
 
 use super::Failure;
 use serde::Serialize;

@@ -185,8 +185,31 @@ fn a_dump_without_times_and_shapes_is_told_what_it_does_not_say() {
         }
     }
     let dir = tempfile::tempdir().unwrap();
-    write(dir.path(), "shear-plane", "answer.dump", dump);
     let only = ["--problem", "shear-plane"];
+    // With its times and shapes, another step or axis contradicts it.
+    let whole = dump.replace("c_q[4]\n", "c_q[4] shapex shapey shapez\n");
+    let whole: Vec<_> = (whole.lines())
+        .map(|line| if line.split(' ').count() == 5 { format!("{line} 2 1 1") } else { line.to_owned() })
+        .collect();
+    write(dir.path(), "shear-plane", "answer.dump", whole.join("\n") + "\n");
+    for (axis, reason) in
+        [("x", None), ("y", Some("--rod-axis y, but by shapex shapey shapez the rod lies along x"))]
+    {
+        let told = ["--timestep-s", "1e-5", "--rod-axis", axis];
+        let ended = files(REFERENCE.path(), dir.path(), &[&only[..], &told].concat());
+        let said = reason.is_none_or(|reason| ended.words.contains(reason));
+        assert!(ended.code == Some(reason.map_or(0, |_| 2)) && said, "{}", ended.words);
+    }
+    let timed: Vec<_> = (whole.iter())
+        .flat_map(
+            |line| if line == "ITEM: TIMESTEP" { vec!["ITEM: TIME", "1", line] } else { vec![line.as_str()] },
+        )
+        .collect();
+    write(dir.path(), "shear-plane", "answer.dump", timed.join("\n") + "\n");
+    let ended = files(REFERENCE.path(), dir.path(), &[&only[..], &["--timestep-s", "1e-5"]].concat());
+    let reason = "ITEM: TIME is 1, by --timestep-s it is ";
+    assert!(ended.code == Some(2) && ended.words.contains(reason), "{}", ended.words);
+    write(dir.path(), "shear-plane", "answer.dump", dump);
     for (more, reason) in
         [(&["--rod-axis", "x"][..], "--timestep-s"), (&["--timestep-s", "1e-5"], "--rod-axis")]
     {

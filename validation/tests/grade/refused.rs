@@ -34,6 +34,11 @@ fn bad_answers_are_refused_with_file_line_and_column() {
     };
     let cases: Vec<(Vec<u8>, &str, &str)> = vec![
         (lines[..lines.len() - 1].join("\n").into(), ":16:1", "the file ends before time_s = "),
+        (
+            [&lines[..1], &lines[2..]].concat().join("\n").into(),
+            ":2:1",
+            "rod = 0 is missing before this one (1 of 16 rows",
+        ),
         (with(5, lines[3]).into(), ":5:2", "the same time_s and rod as in line 4"),
         (field(3, 4, "1e400").into(), ":3:4", "1e400 is too large for a double"),
         (field(3, 4, "0.5x").into(), ":3:4", "\"0.5x\" is not a number"),

@@ -60,6 +60,17 @@ fn what_is_not_finite_is_an_answer_that_fails() {
         assert_eq!((ended.code, &found["verdict"], &found["error"]), (Some(1), &"FAIL".into(), &Value::Null));
         assert_eq!(found["note"], expected);
     }
+    // Nothing is said of where an infinite value may come from.
+    for name in ["isotropic-3", "closed-ft-hybrid-0.01"] {
+        let dir = tempfile::tempdir().unwrap();
+        let (_, mut rows) = problem(name);
+        *rows.last_mut().unwrap().last_mut().unwrap() = "inf".into();
+        write(dir.path(), name, "answer.csv", text(&rows));
+        let ended = files(REFERENCE.path(), dir.path(), &[]);
+        let found = ended.of(name);
+        assert_eq!((&found["verdict"], &found["diagnosis"]), (&"FAIL".into(), &Value::Null));
+        assert!(found["note"].as_str().unwrap().ends_with(": a value is not finite"), "{found:#}");
+    }
 }
 
 /// Answers of these numbers of steps that are off by these parts of the tolerance.

@@ -93,6 +93,10 @@ fn answer(name: &str, request: &Value, count: u64) -> Value {
     if name == "transposes" {
         l.transpose_mut();
     }
+    // Shear of its own first axis, and nothing else.
+    if name == "flows_along_1" {
+        l = Matrix3::from_fn(|i, j| if (i, j) == (0, 1) { l[(i, j)] } else { 0.0 });
+    }
     let square = number(&request["aspect_ratio"]).powi(2);
     let a = (square * l - l.transpose()) / (square + 1.0);
     let finer = if name == "ends_after_a_right_answer" { 1024 } else { 1 };

@@ -21,6 +21,7 @@ fn main() -> ExitCode {
         .map(|case| Trial::test(format!("program_that_{}", case.program), || judge(case)))
         .collect();
     trials.push(Trial::test("program_that_cannot_be_started", cannot_be_started));
+    trials.push(Trial::test("program_with_axes_of_its_own", axes_of_its_own));
     trials.push(Trial::test("program_ends_with_shearbed", ends_with_shearbed));
     let mut arguments = Arguments::from_args();
     // They mostly wait.
@@ -112,6 +113,26 @@ fn gone(pid: i32) -> bool {
         rustix::process::test_kill_process(id).is_err() || stat.contains(") Z ")
     };
     comes(dead)
+}
+
+/// The flow along the program's first axis, its gradient along the second: right with `--axes`, at rest without.
+fn axes_of_its_own() -> Result<(), Failed> {
+    let dir = tempfile::tempdir()?;
+    let own = std::env::current_exe()?;
+    let pids = dir.path().join("pids");
+    let command = format!("'{}' --program flows_along_1 '{}'", own.display(), pids.display());
+    for (axes, expected) in [("flow,gradient,vorticity", 0), ("gradient,flow,vorticity", 1)] {
+        let out = dir.path().join(axes);
+        let ended = Command::new(env!("CARGO_BIN_EXE_shearbed"))
+            .args(["grade", "--brief", "--timeout", "100000", "--problem", "mid-flip-2", "--axes", axes])
+            .args(["--command", &command, "--out"])
+            .arg(&out)
+            .output()?;
+        if ended.status.code() != Some(expected) {
+            return Err(format!("{axes}: {ended:?}").into());
+        }
+    }
+    Ok(())
 }
 
 fn cannot_be_started() -> Result<(), Failed> {

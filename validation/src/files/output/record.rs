@@ -169,7 +169,7 @@ pub(super) enum State {
     Foreign,
 }
 
-/// True if there is no such file. A file in place of a folder counts too: the writer reports it.
+/// True if there is no such file. A file in place of a folder and a name that cannot be count too: the writer reports them.
 fn absent(error: &io::Error) -> bool {
-    matches!(error.kind(), ErrorKind::NotFound | ErrorKind::NotADirectory)
+    matches!(error.kind(), ErrorKind::NotFound | ErrorKind::NotADirectory | ErrorKind::InvalidFilename)
 }

@@ -40,7 +40,7 @@ pub(crate) struct Args {
         long,
         value_name = "NAMES",
         value_delimiter = ',',
-        conflicts_with = "layout",
+        conflicts_with_all = ["layout", "command"],
         allow_hyphen_values = true
     )]
     pub(super) columns: Option<Vec<String>>,
@@ -48,10 +48,10 @@ pub(crate) struct Args {
     #[arg(long, value_name = "AXES", default_value = "gradient,flow,vorticity", allow_hyphen_values = true)]
     pub(super) axes: Axes,
     /// The layout of a known program's tables
-    #[arg(long, value_name = "PROGRAM")]
+    #[arg(long, value_name = "PROGRAM", conflicts_with = "command")]
     pub(super) layout: Option<Foreign>,
     /// Accept CR LF at line ends and a byte order mark; without this flag they are refused
-    #[arg(long)]
+    #[arg(long, conflicts_with = "command")]
     pub(super) windows_text: bool,
     /// The largest error that passes, where the problems' own is smaller: a production code's target. NAME=X for one problem;
     /// can be given more than once

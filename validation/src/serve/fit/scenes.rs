@@ -226,7 +226,7 @@ impl Scenes {
         };
         scene.time.duration = ((last * outputs as f64).ceil() + 1.0) / outputs as f64;
         scene.time.outputs_per_unit = Some(outputs);
-        scene.time.steps_per_unit = Some(outputs * variant.steps);
+        scene.time.steps_per_unit = scene.interaction.as_ref().map(|_| outputs * variant.steps);
         scene.set_count(scene.particles.count * variant.rods);
         if variant.one_aspect_ratio {
             scene.particles.aspect_ratio_sd_percent = 0.0;

@@ -150,12 +150,13 @@ impl<'a> Collector<'a> {
             let keys = &self.problem.certified.rows[first];
             let key: Vec<_> = (names.iter().zip(keys)).map(|(name, key)| format!("{name} = {key}")).collect();
             let other = self.skipped.map_or(String::new(), |(line, why)| format!("; line {line}: {why}"));
-            let message = format!(
-                "the file ends before {} ({missing} of {} rows are missing){other}",
-                key.join(", "),
-                lines.len()
-            );
-            return Err(ReadError::at(path, last, 1, message));
+            let key = key.join(", ");
+            let (line, what) = match lines[first..].iter().flatten().next() {
+                Some(next) => (*next, format!("the row of {key} is missing before this one")),
+                None => (last, format!("the file ends before {key}")),
+            };
+            let message = format!("{what} ({missing} of {} rows are missing){other}", lines.len());
+            return Err(ReadError::at(path, line, 1, message));
         }
         Ok(Answer {
             path: path.to_owned(),

@@ -55,6 +55,30 @@ fn allowed() -> String {
 }
 
 impl Axes {
+    /// A vector in the program's axes.
+    pub fn to_theirs(&self, p: [f64; 3]) -> [f64; 3] {
+        let mut theirs = [0.0; 3];
+        for (k, value) in p.into_iter().enumerate() {
+            theirs[self.theirs[k]] = self.sign[k] * value;
+        }
+        theirs
+    }
+
+    /// A vector in the program's axes, in ours.
+    pub fn to_ours(&self, p: [f64; 3]) -> [f64; 3] {
+        std::array::from_fn(|k| self.sign[k] * p[self.theirs[k]])
+    }
+
+    /// A gradient ∂u_i/∂x_j in the program's axes.
+    pub fn gradient_to_theirs(&self, l: [[f64; 3]; 3]) -> [[f64; 3]; 3] {
+        let columns = l.map(|row| self.to_theirs(row));
+        let mut theirs = [[0.0; 3]; 3];
+        for (k, row) in columns.into_iter().enumerate() {
+            theirs[self.theirs[k]] = row.map(|value| self.sign[k] * value);
+        }
+        theirs
+    }
+
     /// The program's name of one of the problem's columns, and the sign for its values: `p1` is `p2` if the program's second
     /// axis is the gradient. Columns without an axis keep their names.
     pub fn theirs(&self, column: &str) -> (String, f64) {
@@ -96,6 +120,17 @@ fn sign_of(sign: f64, tail: &str) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn vectors_and_gradients_go_there_and_back() {
+        let axes: Axes = "flow,-gradient,vorticity".parse().unwrap();
+        assert_eq!(axes.to_theirs([1.0, 2.0, 3.0]), [2.0, -1.0, 3.0]);
+        assert_eq!(axes.to_ours([2.0, -1.0, 3.0]), [1.0, 2.0, 3.0]);
+        // u_2 = 5 x_1 + 7 x_3: their first axis is our second, their second our first, reversed.
+        let theirs = axes.gradient_to_theirs([[0.0; 3], [5.0, 0.0, 7.0], [0.0; 3]]);
+        assert_eq!(theirs, [[0.0, -5.0, 7.0], [0.0; 3], [0.0; 3]]);
+        assert_eq!(Axes::default().gradient_to_theirs(theirs), theirs);
+    }
 
     #[test]
     fn columns_find_their_names() {

@@ -35,7 +35,9 @@ pub fn compare(loaded: &LoadedProblem, answer: &Answer) -> Compared {
     let keys = loaded.problem.kind.keys().len();
     let names = &loaded.problem.columns[keys..];
     let certified = |row: usize| &loaded.certified.rows[row][keys..];
+    let finite = |row: usize| answer.rows[row].iter().all(|value| value.is_finite());
     let error_of = |row: usize| match loaded.problem.metric {
+        _ if !finite(row) => f64::NAN,
         Metric::Angle => direction_error(&answer.rows[row], certified(row)),
         Metric::Absolute => largest(answer.rows[row].iter().zip(certified(row)).map(|(a, b)| (a - b).abs())),
         Metric::Relative => relative(names, &answer.rows[row], certified(row)),
@@ -72,9 +74,6 @@ fn largest(values: impl Iterator<Item = f64>) -> f64 {
 fn direction_error(p: &[f64], certified: &[f64]) -> f64 {
     let (p, certified) = (Vector3::from_row_slice(p), Vector3::from_row_slice(certified));
     let length = (p.norm() - 1.0).abs();
-    if !length.is_finite() {
-        return f64::NAN;
-    }
     apart_rad(&p, &certified).max(length)
 }
 
@@ -157,7 +156,8 @@ fn remark(
         let trace = values[a] + values[b] + values[c];
         // Six printed digits and an integrator's drift change the trace by less.
         if (trace - 1.0).abs() > 1e-3 {
-            return Some(format!("{}: the trace is {trace:.4}; are the columns in another order?", place()));
+            let digits = if trace.abs() < 1e4 { format!("{trace:.4}") } else { format!("{trace:.1e}") };
+            return Some(format!("{}: the trace is {digits}; are the columns in another order?", place()));
         }
     }
     None

@@ -57,14 +57,23 @@ pub(super) fn read(
     }
     let mut collector = Collector::new(problem);
     let mut item = Some(first);
-    let mut time_s = None;
+    let mut time_s: Option<f64> = None;
     let mut atoms = 0;
     while let Some(line) = item {
         match line.strip_prefix("ITEM:").map(str::trim) {
             Some("TIMESTEP") => {
                 let step = value(&mut lines)?;
                 // `ITEM: TIME`, if present, comes first.
-                time_s = time_s.or(options.timestep_s.map(|length| step * length));
+                let by_steps = options.timestep_s.map(|length| step * length);
+                if let (Some(told), Some(by_steps)) = (time_s, by_steps)
+                    && (told - by_steps).abs() > SAME * told.abs()
+                {
+                    let message = format!(
+                        "ITEM: TIME is {told}, by --timestep-s it is {by_steps}: leave --timestep-s out, or correct it"
+                    );
+                    return Err(lines.error(1, message));
+                }
+                time_s = time_s.or(by_steps);
             }
             Some("TIME") => time_s = Some(value(&mut lines)?),
             Some("NUMBER OF ATOMS") => {
@@ -134,7 +143,17 @@ fn snapshot(
         if let Some(places) = columns.shape {
             shape = Some([at(places[0])?, at(places[1])?, at(places[2])?]);
         }
-        let axis = options.rod_axis.or_else(|| shape.and_then(odd_one)).ok_or_else(|| {
+        let by_shape = shape.and_then(odd_one);
+        if let (Some(given), Some(by_shape)) = (options.rod_axis, by_shape)
+            && given != by_shape
+        {
+            let [given, by_shape] = [given, by_shape].map(|axis| ["x", "y", "z"][axis]);
+            let message = format!(
+                "--rod-axis {given}, but by shapex shapey shapez the rod lies along {by_shape}: leave --rod-axis out, or correct it"
+            );
+            return Err(lines.error(0, message));
+        }
+        let axis = options.rod_axis.or(by_shape).ok_or_else(|| {
             lines.error(
                 0,
                 "which axis of the body is the rod's? --rod-axis x, y or z, or columns shapex shapey shapez",
@@ -162,6 +181,9 @@ fn snapshot(
     }
     Ok(())
 }
+
+/// The largest relative difference of two times that are the same: LAMMPS prints six digits.
+const SAME: f64 = 1e-5;
 
 /// The axis whose diameter differs from the other two, which are equal.
 fn odd_one([x, y, z]: [f64; 3]) -> Option<usize> {

@@ -269,3 +269,26 @@ fn rods_at_a_face_and_results_beside_their_input() {
     let told = plan("--set interaction.box_mm=[100,100,0.5]");
     assert!(told.contains("0.5 mm is less than a rod's length, 0.72 mm"), "{told}");
 }
+
+/// Replicas that start with the same directions: their scatter is not that of the rods.
+#[test]
+fn replicas_of_one_start_are_warned_of() {
+    let dir = folder();
+    let at = |name: &str| dir.path().join(name);
+    fs::write(at("rods.csv"), "p1,p2,p3\n".to_owned() + &"1,0,0\n0,0,1\n".repeat(10)).unwrap();
+    let start = ("orientation = \"isotropic\"", "rods = { file = \"rods.csv\" }");
+    fs::write(at("collide.toml"), asked().replace(start.0, start.1)).unwrap();
+    fs::write(at("free.toml"), free(&asked()).replace(start.0, start.1)).unwrap();
+    let plan = |words: &str| shearbed(dir.path(), &format!("plan {words}")).stdout;
+    let (scatter, alike) = ("leave out the scatter of these rods", "the 3 replicas are alike");
+    for (words, said) in [
+        ("collide.toml", [true, false]),
+        ("free.toml --set particles.aspect_ratio_sd_percent=5", [true, false]),
+        ("free.toml", [false, true]),
+        ("collide.toml --replicas 1", [false; 2]),
+        ("free.toml --replicas 1", [false; 2]),
+    ] {
+        let told = plan(words).replace("\n  ", " ");
+        assert_eq!([scatter, alike].map(|words| told.contains(words)), said, "{words}: {told}");
+    }
+}

@@ -1,6 +1,7 @@
 //! A program behind two pipes: lines in, lines out, with each wait bounded in time and memory.
 
 use super::signals;
+use crate::files::text;
 use std::io::{BufRead, BufReader, Read, Write};
 use std::process::{Child, ChildStderr, ChildStdin, ChildStdout, Command, ExitStatus, Stdio};
 use std::sync::mpsc::{self, Receiver, RecvTimeoutError, Sender, SyncSender};
@@ -265,5 +266,5 @@ fn keep_last_words(mut stderr: ChildStderr, kept: &Mutex<Vec<u8>>) {
 pub fn excerpt(text: &str) -> String {
     let start: String = text.chars().take(60).collect();
     let more = if start.len() < text.len() { "…" } else { "" };
-    format!("`{}{more}`", start.escape_debug())
+    format!("`{}{more}`", text::line(&start))
 }

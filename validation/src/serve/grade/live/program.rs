@@ -3,6 +3,7 @@
 use super::pipe::Pipe;
 use super::protocol::{Answer, Protocol, Request};
 use crate::methods::integrators::{Failure, Integrator, RodProblem, Setting, Theory};
+use crate::serve::grade::Axes;
 use nalgebra::{UnitVector3, Vector3};
 use std::hash::{BuildHasher, RandomState};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -35,6 +36,7 @@ pub struct Program {
     theory: Theory,
     timeout: Duration,
     protocol: Protocol,
+    axes: Axes,
     state: Arc<Mutex<State>>,
 }
 
@@ -87,6 +89,7 @@ impl Program {
             theory: Theory::Order(0),
             timeout,
             protocol,
+            axes: Axes::default(),
             state: Arc::new(Mutex::new(State { pipe: Some(pipe), ..State::default() })),
         })
     }
@@ -94,6 +97,11 @@ impl Program {
     /// The same program with an assumed theory of its error.
     pub fn with_theory(self, theory: Theory) -> Self {
         Self { theory, ..self }
+    }
+
+    /// The same program, asked and understood in these axes.
+    pub fn with_axes(self, axes: Axes) -> Self {
+        Self { axes, ..self }
     }
 
     /// The longest time for one answer.
@@ -217,11 +225,13 @@ impl State {
             return Err(wrong("it does not run".to_owned()));
         };
         self.asked = next_id(self.asked);
+        let axes = program.axes;
+        let start: Vec<_> = question.start.iter().map(|p| axes.to_theirs(*p)).collect();
         let request = Request {
             id: self.asked,
-            gradient_per_s: &question.gradient_per_s,
+            gradient_per_s: &axes.gradient_to_theirs(question.gradient_per_s),
             aspect_ratio: question.aspect_ratio,
-            start: &question.start,
+            start: &start,
             end_s: question.end_s,
             steps: setting.steps().ok(),
             tolerance: setting.tolerance().ok(),
@@ -232,8 +242,12 @@ impl State {
             what: trouble.to_string(),
             hung: matches!(trouble, super::pipe::Trouble::Hung(_)),
         })?;
-        (program.protocol.read(&text, self.asked, question.start.len()))
-            .map_err(|reason| wrong(format!("line {line} of standard output: {reason}")))
+        let answer = (program.protocol.read(&text, self.asked, question.start.len()))
+            .map_err(|reason| wrong(format!("line {line} of standard output: {reason}")))?;
+        Ok(match answer {
+            Answer::Directions(p) => Answer::Directions(p.into_iter().map(|p| axes.to_ours(p)).collect()),
+            answer => answer,
+        })
     }
 
     /// Stops the program, notes the breach, and returns its description; after too many the program is given up.
