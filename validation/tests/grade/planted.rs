@@ -40,6 +40,12 @@ const PLANTED: &[(&str, &str, &str, &str)] = &[
         "mid-flip-11.6",
         "r_p for r_e (r_e taken as r_p of Cox 1971)",
     ),
+    (
+        "    L = np.array(gradient, dtype=float)",
+        "    L = -np.array(gradient, dtype=float)",
+        "mid-flip-11.6",
+        "the flow reversed (L with the wrong sign, or time backwards)",
+    ),
     ("    A, start =", "    time *= (r_e + 1 / r_e) / r_e\n    A, start =", "mid-flip-2", "T without 1/r_e"),
     (
         "return q / np",

@@ -140,7 +140,8 @@ fn judge(graded: &mut Graded, loaded: &LoadedProblem, answer: &Answer, claim: Cl
         true => off,
         false => {
             let place = compared.remark.unwrap_or_else(|| place(loaded, answer, compared.row));
-            Some(off.into_iter().chain([place]).collect::<Vec<_>>().join("; "))
+            let needed = graded.steps_needed().filter(|_| off.is_none());
+            Some(off.into_iter().chain(needed).chain([place]).collect::<Vec<_>>().join("; "))
         }
     };
 }

@@ -147,6 +147,10 @@ fn curve(
 pub fn all() -> Vec<Mistake> {
     let mut all = vec![
         moved("a transposed gradient", |s| Setting { gradient_per_s: s.gradient_per_s.transpose(), ..s }),
+        moved("the flow reversed (L with the wrong sign, or time backwards)", |s| Setting {
+            gradient_per_s: -s.gradient_per_s,
+            ..s
+        }),
         moved("Λ without its sign", |s| Setting {
             aspect_ratio: s.aspect_ratio.max(1.0 / s.aspect_ratio),
             ..s

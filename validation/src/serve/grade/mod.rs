@@ -156,6 +156,17 @@ impl Graded {
         claimed.filter(|_| lower).map(|claimed| order::other(self, claimed))
     }
 
+    /// How many steps would bring an answer that converges within the tolerance.
+    fn steps_needed(&self) -> Option<String> {
+        let (order, steps, error) = (self.observed_order?, self.steps?, self.error?);
+        let needed = steps as f64 * (error / self.tolerance).powf(1.0 / order);
+        (order >= 0.5).then(|| {
+            format!(
+                "at this order about {needed:.0e} steps would be within the tolerance; --tolerance sets a larger one"
+            )
+        })
+    }
+
     /// The observed order with its sign, as text.
     fn order_text(&self) -> String {
         self.observed_order.map_or("–".into(), |order| format!("{order:+.2}"))

@@ -57,9 +57,11 @@ fn by_name(problems: &[LoadedProblem], graded: &[Graded], wrong: &[&Graded]) -> 
         };
         let best: Vec<_> = names.into_iter().filter(|name| explained(name).len() == most).collect();
         let of = explained(best[0]);
+        // Where a curve has come to rest, many share its end: some problem must tell the mistake by itself.
+        let told = left.iter().any(|graded| of.contains(&graded.name.as_str()) && graded.diagnosis.is_some());
         // If others explain as many problems, but not the same ones, no mistake is certain.
         let alike = best.iter().all(|name| explained(name) == of);
-        if alike && best.len() <= MOST_NAMES {
+        if alike && told && best.len() <= MOST_NAMES {
             let names: Vec<_> = best.iter().map(|name| name.as_str()).collect();
             let either = if names.len() > 1 { " (their curves are equal here)" } else { "" };
             let rest = match wrong.len() - of.len() {
@@ -113,6 +115,7 @@ mod tests {
             |(loaded, (verdict, suspects, rates)): (&LoadedProblem, &(Verdict, &[&str], &[f64]))| Graded {
                 verdict: *verdict,
                 suspects: suspects.iter().map(|name| (*name).to_owned()).collect(),
+                diagnosis: suspects.first().map(|name| format!("this is the curve of {name}")),
                 rates: rates.to_vec(),
                 ..Graded::without_answer(loaded)
             };
@@ -137,6 +140,10 @@ mod tests {
                 "one mistake explains 3 of 4 that do not pass: half the shear rate; its curve fits mid-flip-2, mid-flip-11.6, spiral"
             ]
         );
+        // Curves that have come to rest name it in no problem.
+        let mut resting = graded(&problems, &[(Fail, &[half], &[]), (Fail, &[half], &[])]);
+        resting.iter_mut().for_each(|graded| graded.diagnosis = None);
+        assert_eq!(overall(&problems, &resting), [""; 0]);
         let both = said(&[
             (Fail, &[half, twice], &[]),
             (Fail, &[twice, half], &[]),

@@ -159,9 +159,8 @@ fn why(graded: &Graded, finest: Option<&Rung>, words: String) -> String {
         }
         _ => format!("with {setting} it is off by {error:.1e}"),
     };
-    if let (Some(order @ 0.5..), Some(steps)) = (graded.observed_order, graded.steps) {
-        let needed = steps as f64 * (error / graded.tolerance).powf(1.0 / order);
-        said += &format!("; at this order about {needed:.0e} steps would be within the tolerance");
+    if let Some(needed) = graded.steps_needed() {
+        said += &format!("; {needed}");
     }
     format!("{said}; {words}")
 }

@@ -154,14 +154,16 @@ pub(super) fn hopeless(rungs: &[Rung], tolerance: f64, timeout: Duration) -> Opt
 }
 
 /// True if the last five answers converge to another answer than the certified one: the changes between them shrink each time like
-/// those of a method of order 0.8 at least, and all further changes together are within a hundredth of the error.
+/// those of a method of order 0.8 at least, and all further changes together are within a hundredth of the error. Where they have
+/// shrunk to a ten-millionth of the error, they may be rounding and need not shrink any more.
 fn converge_elsewhere(rungs: &[Rung]) -> bool {
     let Some(last) = rungs.last_chunk::<5>() else {
         return false;
     };
     let changes = [0, 1, 2, 3].map(|k| last[k].answer.largest_change(&last[k + 1].answer));
-    let shrink = changes.windows(2).all(|pair| pair[0] >= 1.7 * pair[1]);
-    shrink && 2.0 * changes[3] <= 0.01 * last[4].error()
+    let (error, shrinks) = (last[4].error(), |k: usize| changes[k] >= 1.7 * changes[k + 1]);
+    let settled = |k: usize| changes[k + 1] <= 1e-7 * error;
+    shrinks(0) && [1, 2].into_iter().all(|k| shrinks(k) || settled(k)) && 2.0 * changes[3] <= 0.01 * error
 }
 
 /// The order with which the last four errors fall, if it is nearly the same for each pair.
