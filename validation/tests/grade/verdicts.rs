@@ -89,6 +89,12 @@ fn orders_are_read_from_steps_and_judged_against_a_claim() {
     let found = ended.of("mid-flip-100");
     assert_eq!((&found["verdict"], &found["steps"]), (&"PASS".into(), &800.into()), "{found:#}");
     assert!((found["observed_order"].as_f64().unwrap() - 4.0).abs() < 1e-3);
+    // Without the last: 16 tolerances with 400 steps are one with twice as many.
+    let other = tempfile::tempdir().unwrap();
+    ladder(other.path(), "mid-flip-100", &[(100, 4096.0), (200, 256.0), (400, 16.0)]);
+    let short = files(REFERENCE.path(), other.path(), &[]);
+    let note = short.of("mid-flip-100")["note"].as_str().unwrap();
+    assert!(note.starts_with("at this order about 8e2 steps would be within the tolerance"), "{note}");
     // The picture has the program's curve in bold black, and ours in grey.
     let html = ended.html.as_deref().unwrap();
     let picture = html.split_once("<svg").unwrap().1.split_once("</svg>").unwrap().0;

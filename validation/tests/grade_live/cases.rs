@@ -87,7 +87,7 @@ pub const CASES: &[Case] = &[
         verdict: "FAIL",
         words: &["is longer than 1048576 bytes"],
     },
-    Case { program: "only_has_errors", verdict: "FAIL", words: &["the program says: not today"] },
+    Case { program: "only_has_errors", verdict: "FAIL", words: &["steps the program says: not today"] },
     Case {
         program: "transposes",
         verdict: "FAIL",

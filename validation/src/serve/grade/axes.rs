@@ -126,9 +126,9 @@ mod tests {
         let axes: Axes = "flow,-gradient,vorticity".parse().unwrap();
         assert_eq!(axes.to_theirs([1.0, 2.0, 3.0]), [2.0, -1.0, 3.0]);
         assert_eq!(axes.to_ours([2.0, -1.0, 3.0]), [1.0, 2.0, 3.0]);
-        // u_2 = 5 x_1 + 7 x_3: their first axis is our second, their second our first, reversed.
-        let theirs = axes.gradient_to_theirs([[0.0; 3], [5.0, 0.0, 7.0], [0.0; 3]]);
-        assert_eq!(theirs, [[0.0, -5.0, 7.0], [0.0; 3], [0.0; 3]]);
+        // Their first axis is our second, their second our first, reversed.
+        let theirs = axes.gradient_to_theirs([[2.0, 3.0, 4.0], [5.0, 6.0, 7.0], [8.0, 9.0, 1.0]]);
+        assert_eq!(theirs, [[6.0, -5.0, 7.0], [-3.0, 2.0, -4.0], [9.0, -8.0, 1.0]]);
         assert_eq!(Axes::default().gradient_to_theirs(theirs), theirs);
     }
 

@@ -182,7 +182,7 @@ fn snapshot(
     Ok(())
 }
 
-/// The largest relative difference of two times that are the same: LAMMPS prints six digits.
+/// The largest relative difference of two times that count as the same: that of a time with six digits.
 const SAME: f64 = 1e-5;
 
 /// The axis whose diameter differs from the other two, which are equal.

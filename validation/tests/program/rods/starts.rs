@@ -279,16 +279,17 @@ fn replicas_of_one_start_are_warned_of() {
     let start = ("orientation = \"isotropic\"", "rods = { file = \"rods.csv\" }");
     fs::write(at("collide.toml"), asked().replace(start.0, start.1)).unwrap();
     fs::write(at("free.toml"), free(&asked()).replace(start.0, start.1)).unwrap();
-    let plan = |words: &str| shearbed(dir.path(), &format!("plan {words}")).stdout;
-    let (scatter, alike) = ("leave out the scatter of these rods", "the 3 replicas are alike");
+    let (scatter, alike) = ("leave out the scatter of these rods", "replicas are alike");
     for (words, said) in [
         ("collide.toml", [true, false]),
         ("free.toml --set particles.aspect_ratio_sd_percent=5", [true, false]),
         ("free.toml", [false, true]),
-        ("collide.toml --replicas 1", [false; 2]),
-        ("free.toml --replicas 1", [false; 2]),
+        ("collide.toml --set ensemble.replicas=1", [false; 2]),
+        ("free.toml --set ensemble.replicas=1", [false; 2]),
     ] {
-        let told = plan(words).replace("\n  ", " ");
+        let ended = shearbed(dir.path(), &format!("plan {words}"));
+        assert_eq!(ended.code, Some(0), "{words}: {}", ended.stderr);
+        let told = ended.stdout.replace("\n  ", " ");
         assert_eq!([scatter, alike].map(|words| told.contains(words)), said, "{words}: {told}");
     }
 }

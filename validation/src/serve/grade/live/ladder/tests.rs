@@ -135,6 +135,17 @@ fn what_may_yet_come_within_the_tolerance_is_asked_on() {
         if k < 9 { 1.5 + 1e-4 * f64::from(k) } else { second(k) }
     };
     assert_eq!(climbed(|k| (missed(k), seconds(k))), None);
+    // A rod that is stuck where coarse steps hold it, a little farther each time; changes that end to shrink for a while.
+    let stuck = |k: i32| {
+        if k < 12 { 1.5 + 1e-10 * 2f64.powi(k) } else { second(k) }
+    };
+    assert_eq!(climbed(|k| (stuck(k), seconds(k))), None);
+    let waits = |k: i32| match k {
+        ..8 => 0.306,
+        8..12 => 0.302 - 1e-3 * f64::from(k - 8),
+        _ => second(k),
+    };
+    assert_eq!(climbed(|k| (waits(k), seconds(k))), None);
     // A pause of the machine; a program that starts slowly.
     let pause = |k: i32| seconds(k) + if k == 10 { 3.0 } else { 0.0 };
     assert_eq!(climbed(|k| (0.3 * 2f64.powi(-k), pause(k))), None);
