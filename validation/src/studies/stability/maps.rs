@@ -9,11 +9,8 @@ use crate::present::plot::{Grid, Map, decade, power_of_ten};
 use crate::present::study::ReportFigure;
 use shearbed::model::jeffery::strain_per_period;
 
-/// The largest number of steps in a run of the maps over steps and over starts; ten times as many over durations. The gate's maps take
-/// as many as its case `stability-map`.
-pub const QUICK_STEPS: u64 = 2_000;
-/// The same with `--full`.
-pub const FULL_STEPS: u64 = 20_000;
+/// The largest number of steps in a run of the maps over steps and over starts; ten times as many over durations.
+pub const MOST_STEPS: u64 = 20_000;
 
 /// Exponents of the picture's steps GΔt: quarter decades.
 const STRAINS: std::ops::RangeInclusive<i32> = -6..=10;
@@ -63,23 +60,22 @@ pub fn answer(figures: &[ReportFigure]) -> String {
 }
 
 /// The maps as pictures.
-pub fn figures(subjects: &[Integrator], most_steps: u64) -> Vec<ReportFigure> {
-    let all = [steps, tolerances, starts, durations].map(|panels| panels(subjects, most_steps));
-    all.map(Panels::figure).into()
+pub fn figures(subjects: &[Integrator]) -> Vec<ReportFigure> {
+    [steps(subjects), tolerances(subjects), starts(subjects), durations(subjects)].map(Panels::figure).into()
 }
 
 pub(super) fn of(subjects: &[Integrator], which: impl Fn(Theory) -> bool) -> Vec<&Integrator> {
     subjects.iter().filter(|subject: &&Integrator| which(subject.theory)).collect()
 }
 
-fn steps(subjects: &[Integrator], most_steps: u64) -> Panels<'static> {
+fn steps(subjects: &[Integrator]) -> Panels<'static> {
     let panel = |subject: &Integrator| Panel {
         title: subject.name.clone(),
         cells: RODS
             .map(|r| {
                 let run = |quarter| {
                     let step = strain(quarter) / strain_per_period(r);
-                    map::by_step(subject.theory, r, step, most_steps).of(subject)
+                    map::by_step(subject.theory, r, step, MOST_STEPS).of(subject)
                 };
                 STRAINS.map(run).collect()
             })
@@ -91,7 +87,7 @@ fn steps(subjects: &[Integrator], most_steps: u64) -> Panels<'static> {
         words: ["stability-steps", "Stability by step and aspect ratio"],
         caption: format!(
             "Runs end during a flip, at φ = 1 rad, after one period or twenty steps, whichever is more; at short steps after \
-             {most_steps} of them. Right: within 10⁻² rad of the closed form. The black line is theory's longest step \
+             {MOST_STEPS} of them. Right: within 10⁻² rad of the closed form. The black line is theory's longest step \
              without overtaking, where there is one: a step is inaccurate long before. The exact propagator takes no steps \
              and is right everywhere."
         ),
@@ -113,17 +109,17 @@ pub(super) fn tolerances_from_fine() -> impl Iterator<Item = f64> {
     TOLERANCES.into_iter().rev()
 }
 
-pub(super) fn with_tolerance(subject: &Integrator, r: f64, tolerance: f64, most_steps: u64) -> Cell {
-    let run = map::by_duration(subject.theory, r, 1.0, Place::mid_flip(r), most_steps);
+pub(super) fn with_tolerance(subject: &Integrator, r: f64, tolerance: f64) -> Cell {
+    let run = map::by_duration(subject.theory, r, 1.0, Place::mid_flip(r), MOST_STEPS);
     let setting = Setting::Tolerance(tolerance);
     run.map_or_else(Cell::not_run, |run| map::Run { setting, ..run }.of(subject))
 }
 
-fn tolerances(subjects: &[Integrator], most_steps: u64) -> Panels<'static> {
+fn tolerances(subjects: &[Integrator]) -> Panels<'static> {
     let panel = |subject: &Integrator| Panel {
         title: subject.name.clone(),
         cells: ASPECT_RATIOS
-            .map(|r| tolerances_from_fine().map(|t| with_tolerance(subject, r, t, most_steps)).collect())
+            .map(|r| tolerances_from_fine().map(|t| with_tolerance(subject, r, t)).collect())
             .into(),
         limit: Vec::new(),
     };
@@ -151,13 +147,13 @@ fn names(subjects: &[Integrator]) -> Vec<String> {
     subjects.iter().map(|subject| subject.name.clone()).collect()
 }
 
-fn starts(subjects: &[Integrator], most_steps: u64) -> Panels<'static> {
+fn starts(subjects: &[Integrator]) -> Panels<'static> {
     let panel = |r: f64| Panel {
         title: format!("r_e = {}", ratio(r)),
         cells: (subjects.iter())
             .map(|subject| {
                 let places = map::places(r).into_iter();
-                let found = |(_, place)| cell(subject, r, 1.0, place, most_steps);
+                let found = |(_, place)| cell(subject, r, 1.0, place, MOST_STEPS);
                 places.map(found).collect()
             })
             .collect(),
@@ -185,10 +181,10 @@ fn starts(subjects: &[Integrator], most_steps: u64) -> Panels<'static> {
     }
 }
 
-fn durations(subjects: &[Integrator], most_steps: u64) -> Panels<'static> {
+fn durations(subjects: &[Integrator]) -> Panels<'static> {
     let r = 11.6;
     let row = |subject: &Integrator| {
-        let found = |periods| cell(subject, r, periods, Place::mid_flip(r), 10 * most_steps);
+        let found = |periods| cell(subject, r, periods, Place::mid_flip(r), 10 * MOST_STEPS);
         PERIODS.map(found).into()
     };
     Panels {
@@ -197,7 +193,7 @@ fn durations(subjects: &[Integrator], most_steps: u64) -> Panels<'static> {
             "GΔt = {}, tolerance {:.0e}; at most {} steps, so longer runs of methods with steps are not run.",
             map::STRAIN_PER_STEP,
             map::TOLERANCE,
-            10 * most_steps
+            10 * MOST_STEPS
         ),
         axes: ["duration (periods)", ""],
         columns: PERIODS.map(power).into(),

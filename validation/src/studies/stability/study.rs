@@ -3,7 +3,7 @@
 use super::corners::{self, Worst};
 use super::limit_study;
 use super::map::{self, ASPECT_RATIOS, Cell, STEPS};
-use super::maps::{self, FULL_STEPS, QUICK_STEPS, of, ratio, tolerances_from_fine, with_tolerance};
+use super::maps::{self, MOST_STEPS, of, ratio, tolerances_from_fine, with_tolerance};
 use crate::methods::integrators::{Integrator, Theory};
 use crate::present::study::{Exhibit, Findings, Request, Study};
 use crate::present::table::{ReportTable, decimals, number, of_words};
@@ -33,13 +33,12 @@ pub const STUDY: Study = Study {
     run,
 };
 
-fn run(request: &Request) -> Result<Option<Findings>, String> {
+fn run(_: &Request) -> Result<Option<Findings>, String> {
     let subjects = integrators::all();
-    let most_steps = request.effort.pick(QUICK_STEPS, FULL_STEPS);
-    let maps = maps::figures(&subjects, most_steps);
+    let maps = maps::figures(&subjects);
     let answer = maps::answer(&maps);
     let mut exhibits: Vec<Exhibit> = maps.into_iter().map(Exhibit::from).collect();
-    for (exhibit, table) in exhibits.iter_mut().zip(ends(&subjects, most_steps)) {
+    for (exhibit, table) in exhibits.iter_mut().zip(ends(&subjects)) {
         exhibit.table = Some(table);
     }
     exhibits.extend(limit_study::exhibits(&subjects));
@@ -57,14 +56,14 @@ fn leaves(cells: &[Cell], setting: impl Fn(usize) -> String) -> String {
 }
 
 /// The limits of each integrator, by the step in periods and by the tolerance: a row for each r_e.
-fn ends(subjects: &[Integrator], most_steps: u64) -> [ReportTable; 2] {
+fn ends(subjects: &[Integrator]) -> [ReportTable; 2] {
     let by_step = |subject: &Integrator, r: f64| {
-        let run = |step| map::by_step(subject.theory, r, step, most_steps).of(subject);
+        let run = |step| map::by_step(subject.theory, r, step, MOST_STEPS).of(subject);
         leaves(&STEPS.map(run), |k| format!("{:.0e} T", STEPS[k]))
     };
     let by_tolerance = |subject: &Integrator, r: f64| {
         let settings: Vec<f64> = tolerances_from_fine().collect();
-        let cells: Vec<_> = settings.iter().map(|t| with_tolerance(subject, r, *t, most_steps)).collect();
+        let cells: Vec<_> = settings.iter().map(|t| with_tolerance(subject, r, *t)).collect();
         leaves(&cells, |k| format!("{:.0e}", settings[k]))
     };
     let table = |words: [&str; 2],
