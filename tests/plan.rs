@@ -3,7 +3,7 @@
 use shearbed::plan::Stage;
 use shearbed::run::ensemble;
 use shearbed::scene;
-use shearbed::scene::resolved_strain;
+use shearbed::scene::{OwnRods, RodsFile, resolved_strain};
 use shearbed::{Observable, Plan, Results, Scene};
 
 const FREE: &str = r#"
@@ -370,4 +370,31 @@ fn a_plan_of_another_number_of_replicas_is_that_of_such_a_scene() {
     }
     assert_eq!(plan(FREE).with_replicas(0).scene().ensemble.replicas, 1);
     assert_eq!(plan(FREE).with_replicas(u64::MAX).scene().ensemble.replicas, scene::MAX_REPLICAS);
+}
+
+#[test]
+fn replicas_that_share_the_directions_of_a_file_are_warned_of() {
+    let p = Some([1.0, 0.0, 0.0].map(|component| vec![component; 150]));
+    let own = OwnRods { p, ..OwnRods::default() };
+    let sizes = OwnRods { aspect_ratio: Some(vec![11.6; 150]), ..OwnRods::default() };
+    let both = OwnRods { aspect_ratio: sizes.aspect_ratio.clone(), ..own.clone() };
+    let collide = [FREE, INTERACTING].concat();
+    let (scatter, alike) = ("leave out the scatter of these rods", "the 3 replicas are alike");
+    for (text, own, replicas, sd_percent, said) in [
+        (&collide[..], &own, 3, 0.0, [true, false]),
+        (FREE, &own, 3, 5.0, [true, false]),
+        (FREE, &own, 3, 0.0, [false, true]),
+        (FREE, &both, 3, 5.0, [false, true]),
+        (FREE, &sizes, 3, 0.0, [false; 2]),
+        (FREE, &own, 1, 0.0, [false; 2]),
+        (&collide, &own, 1, 0.0, [false; 2]),
+    ] {
+        let mut scene = scene(text);
+        scene.particles.rods = Some(RodsFile::with("rods.csv", own.clone()));
+        scene.particles.aspect_ratio_sd_percent = sd_percent;
+        scene.ensemble.replicas = replicas;
+        let warnings = Plan::new(&scene).unwrap().warnings().join("; ");
+        assert_eq!([scatter, alike].map(|words| warnings.contains(words)), said, "{warnings}");
+        assert!(!warnings.contains("1 replicas"), "{warnings}");
+    }
 }
