@@ -116,7 +116,7 @@ struct Off {
 /// One period of each problem, one step at a time.
 fn against_reference(mistake: &Option<Mistake>, effort: &Effort) -> Vec<Evidence> {
     let mut off = Off::default();
-    // The last scenes have the most to mistake: a mistake is seen soon, and what follows would add nothing.
+    // The last scenes use most of the rules: there a mistake is caught soon, and no further scene is needed.
     for scene in scenes(effort).iter().rev() {
         for replica in 0..effort.pick(1, 8) {
             compare(scene, replica, *mistake, &mut off);

@@ -1,7 +1,8 @@
 //! `run --until-se`: adds replicas until standard errors are small enough.
 //!
-//! The number of replicas is one of 32, 40, 48, … ([`next`]): the first at which every rule holds, that is not fewer than a checkpoint
-//! has. It depends on the scene, the seed and the rules alone, never on threads, load, or the place where a run of them stopped.
+//! The number of replicas is one of 32, 40, 48, … ([`next`]): the first at which every rule holds. It depends on the scene, the
+//! seed and the rules alone, never on threads, load, or the place where an earlier run of the same rules stopped. A checkpoint of other
+//! rules may have more replicas: then all of them are used.
 
 use super::Failure;
 use serde::Serialize;

@@ -49,7 +49,7 @@ fn the_page_begins_with_what_fails() {
 
 #[test]
 fn what_is_not_finite_is_an_answer_that_fails() {
-    for word in ["nan", "NaN", "inf", "-Infinity"] {
+    for word in ["nan", "NaN", "inf", "-Infinity", "1e308"] {
         let dir = tempfile::tempdir().unwrap();
         let (_, mut rows) = problem("mid-flip-2");
         rows[2][3] = word.into();

@@ -52,7 +52,6 @@ pub struct ChiSquare {
     basis: Basis,
     /// The terms at a place near the best one. Differences are taken from it, so that little cancels.
     origin: DVector<f64>,
-    // The matrices are symmetric, and the library's product with a transposed one is the faster.
     /// EᵀV⁻¹E, CV⁻¹E and CV⁻¹Cᵀ with E = D − S at the origin; C has a row of coefficients for each term.
     constant: f64,
     linear: DVector<f64>,
@@ -84,6 +83,7 @@ impl ChiSquare {
         })
     }
 
+    // Below, `tr_mul` is the product with the symmetric matrices: the library's faster one.
     /// χ² at a place.
     pub fn at(&self, place: &[f64]) -> f64 {
         let away = self.basis.terms(place) - &self.origin;

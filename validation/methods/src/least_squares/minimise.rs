@@ -35,8 +35,10 @@ pub fn descend(surface: &ChiSquare, fixed: &[Option<f64>], start: Vec<f64>) -> (
     }
     let mut value = surface.at(&place);
     let mut damping = 1e-3;
-    let steps = if free.is_empty() { 0 } else { STEPS };
-    for _ in 0..steps {
+    if free.is_empty() {
+        return (place, value);
+    }
+    for _ in 0..STEPS {
         let (gradient, curvature) = surface.slopes(&place, &free);
         // A parameter at an edge is held there if χ² falls outwards.
         let inwards = |k: &usize| place[free[*k]].abs() < 1.0 || gradient[*k] * place[free[*k]] > 0.0;

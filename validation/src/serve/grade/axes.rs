@@ -71,10 +71,9 @@ impl Axes {
 
     /// A gradient ∂u_i/∂x_j in the program's axes.
     pub fn gradient_to_theirs(&self, l: [[f64; 3]; 3]) -> [[f64; 3]; 3] {
-        let columns = l.map(|row| self.to_theirs(row));
         let mut theirs = [[0.0; 3]; 3];
-        for (k, row) in columns.into_iter().enumerate() {
-            theirs[self.theirs[k]] = row.map(|value| self.sign[k] * value);
+        for (k, row) in l.into_iter().enumerate() {
+            theirs[self.theirs[k]] = self.to_theirs(row).map(|value| self.sign[k] * value);
         }
         theirs
     }

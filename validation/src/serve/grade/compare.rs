@@ -35,13 +35,16 @@ pub fn compare(loaded: &LoadedProblem, answer: &Answer) -> Compared {
     let keys = loaded.problem.kind.keys().len();
     let names = &loaded.problem.columns[keys..];
     let certified = |row: usize| &loaded.certified.rows[row][keys..];
-    let finite = |row: usize| answer.rows[row].iter().all(|value| value.is_finite());
-    let error_of = |row: usize| match loaded.problem.metric {
-        _ if !finite(row) => f64::NAN,
+    let distance = |row: usize| match loaded.problem.metric {
         Metric::Angle => direction_error(&answer.rows[row], certified(row)),
         Metric::Absolute => largest(answer.rows[row].iter().zip(certified(row)).map(|(a, b)| (a - b).abs())),
         Metric::Relative => relative(names, &answer.rows[row], certified(row)),
         Metric::StandardErrors => standard_errors(names, &answer.rows[row], certified(row)),
+    };
+    // Of an infinite value, or one whose square is, no distance says anything.
+    let error_of = |row: usize| match answer.rows[row].iter().all(|value| value.is_finite()) {
+        true => Some(distance(row)).filter(|error| error.is_finite()).unwrap_or(f64::NAN),
+        false => f64::NAN,
     };
     let worst = (0..answer.rows.len()).map(|row| (row, error_of(row))).reduce(|a, b| {
         let worse = b.1.is_nan() || b.1 > a.1;

@@ -171,11 +171,7 @@ fn snapshot(
                 format!("atom {id} is there twice"),
             ));
         }
-        let ours = ["p1", "p2", "p3"].map(|column| {
-            let (theirs, sign) = axes.theirs(column);
-            let axis = usize::from(theirs.as_bytes()[1] - b'1');
-            sign * p[axis]
-        });
+        let ours = axes.to_ours((*p).into());
         let added = collector.add(*line, &[time_s, rod as f64], ours.to_vec());
         added.map_err(|(_, message)| ReadError::at(lines.path(), *line, 0, message))?;
     }
