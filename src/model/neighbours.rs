@@ -6,6 +6,7 @@ mod pairs;
 
 use crate::model::work::Counters;
 use grid::Grid;
+pub(crate) use grid::bytes;
 use pairs::Pairs;
 
 /// A rod and its nearest neighbour within its reach.
@@ -31,8 +32,8 @@ pub struct Nearest {
 /// use shearbed::model::{neighbours::Neighbours, work::Counters};
 /// let positions = [vec![0.1, 0.2, 0.9], vec![0.5; 3], vec![0.5; 3]];
 /// let (mut work, mut pairs) = (Counters::default(), Vec::new());
-/// let reach = |_rod: usize| 0.3;
-/// Neighbours::new([1.0; 3], 3).each_nearest(&positions, reach, &mut work, |near| pairs.push((near.rod, near.other)));
+/// let reaches = |_first| std::iter::repeat(0.3);
+/// Neighbours::new([1.0; 3], 3).each_nearest(&positions, reaches, &mut work, |near| pairs.push((near.rod, near.other)));
 /// assert_eq!(pairs, [(0, 1), (1, 0)]);
 /// ```
 #[derive(Clone, Debug)]
@@ -57,18 +58,19 @@ impl Neighbours {
         })
     }
 
-    /// Calls `found` with every rod that has another rod closer than its `reach`, rounded up, and with the nearest one. `positions` are
-    /// three arrays of coordinates in the volume; `work` counts the cells and distances.
-    pub fn each_nearest(
+    /// Calls `found` with every rod that has another rod closer than its reach, rounded up, and with the nearest one. `positions` are
+    /// three arrays of coordinates in the volume; `reaches` gives those of the rods from a given one on; `work` counts the cells and
+    /// distances.
+    pub fn each_nearest<R: Iterator<Item = f64>>(
         &mut self,
         positions: &[Vec<f64>; 3],
-        reach: impl Fn(usize) -> f64 + Sync,
+        reaches: impl Fn(usize) -> R + Sync,
         work: &mut Counters,
         found: impl FnMut(Nearest),
     ) {
         match &mut self.0 {
-            Search::Pairs(pairs) => pairs.each_nearest(positions, reach, work, found),
-            Search::Grid(grid) => grid.each_nearest(positions, reach, work, found),
+            Search::Pairs(pairs) => pairs.each_nearest(positions, reaches(0), work, found),
+            Search::Grid(grid) => grid.each_nearest(positions, reaches, work, found),
         }
     }
 }
@@ -77,6 +79,7 @@ impl Neighbours {
 mod tests {
     use super::*;
     use proptest::prelude::*;
+    use rand::RngExt;
 
     fn brute(positions: &[Vec<f64>; 3], rod: usize, reach: f64) -> Option<Nearest> {
         (0..positions[0].len())
@@ -96,7 +99,7 @@ mod tests {
         let mut all = Vec::new();
         Neighbours(search).each_nearest(
             positions,
-            |rod| reach[rod],
+            |first| reach[first..].iter().copied(),
             &mut Counters::default(),
             |nearest| all.push(nearest),
         );
@@ -145,12 +148,8 @@ mod tests {
         let volume = crate::model::volume::ControlVolume::holding(count, 0.02);
         let stream = |purpose| crate::model::random::stream(8, 0, purpose);
         let positions = volume.draw_positions(count, &stream(crate::model::random::Purpose::Positions));
-        let mut reach = vec![0.0; count];
-        crate::model::random::fill_uniform(
-            &mut stream(crate::model::random::Purpose::Collisions),
-            &mut reach,
-        );
-        reach.iter_mut().for_each(|reach| *reach = reach.powi(-2) / 4.0 - 0.25);
+        let mut draws = stream(crate::model::random::Purpose::Collisions);
+        let reach: Vec<f64> = (0..count).map(|_| draws.random::<f64>().powi(-2) / 4.0 - 0.25).collect();
         let on = |threads| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
             pool.install(|| found(Search::Grid(Grid::new(volume.sides(), count)), &positions, &reach))
@@ -230,7 +229,7 @@ mod tests {
         });
         for search in searches([10.0; 3], n) {
             let mut work = Counters::default();
-            Neighbours(search).each_nearest(&positions, |_| 0.1, &mut work, |_| ());
+            Neighbours(search).each_nearest(&positions, |_| std::iter::repeat(0.1), &mut work, |_| ());
             assert!(work.distances < n as u64, "{work:?} for {n} rods");
         }
     }

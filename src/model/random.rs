@@ -1,9 +1,7 @@
 //! Random streams: one per replica and purpose, so that omitting a draw does not shift any other.
 
-use crate::model::chunks::CHUNK;
-use rand::{RngExt, SeedableRng};
+use rand::SeedableRng;
 use rand_pcg::Pcg64Dxsm;
-use rayon::prelude::*;
 
 /// What a random stream is for. Each purpose has its own stream, created only where it is used.
 ///
@@ -43,19 +41,6 @@ pub fn stream(seed: u64, replica: u64, purpose: Purpose) -> Pcg64Dxsm {
         word.copy_from_slice(&mix(key.wrapping_add(step)).to_le_bytes());
     }
     Pcg64Dxsm::from_seed(bytes)
-}
-
-/// Fills `out` with the stream's next uniform numbers from [0, 1); many numbers are shared among threads by chunks.
-pub(crate) fn fill_uniform(rng: &mut Pcg64Dxsm, out: &mut [f64]) {
-    if out.len() <= CHUNK {
-        out.fill_with(|| rng.random());
-        return;
-    }
-    out.par_chunks_mut(CHUNK).enumerate().for_each(|(k, chunk)| {
-        let mut rng = ahead(rng, (k * CHUNK) as u64);
-        chunk.fill_with(|| rng.random());
-    });
-    *rng = ahead(rng, out.len() as u64);
 }
 
 /// A copy of the stream advanced by `count` numbers.
@@ -98,16 +83,5 @@ mod tests {
         assert_ne!(base, first(1, 1, Purpose::Positions));
         assert_ne!(base, first(2, 1, Purpose::Positions));
         assert_ne!(base, first(1, 2, Purpose::Collisions));
-    }
-
-    #[test]
-    fn chunks_continue_the_stream() {
-        let count = 2 * CHUNK + 17;
-        let start = stream(5, 6, Purpose::Collisions);
-        let (mut one, mut many) = (start.clone(), start);
-        let mut drawn = vec![0.0; count];
-        fill_uniform(&mut many, &mut drawn);
-        assert!(drawn.iter().all(|r| *r == one.random::<f64>()));
-        assert_eq!(one.random::<u64>(), many.random::<u64>());
     }
 }

@@ -10,17 +10,19 @@ mod state;
 #[cfg(test)]
 mod tests;
 
+use crate::model::chunks::CHUNK;
 use crate::model::collision::{Reach, kick, norm, share_velocity, step_angles, turn};
 use crate::model::contact::contact;
 use crate::model::jeffery::shape_factor;
 use crate::model::neighbours::{Nearest, Neighbours};
-use crate::model::random::{Purpose, fill_uniform, stream};
+use crate::model::random::{Purpose, ahead, stream};
 use crate::model::work::Counters;
 use crate::plan::{Plan, Stage};
 use crate::scene::{Error, Update};
 use crate::suspension::rods::Rods;
 use liquid::Liquid;
 use nalgebra::{UnitVector3, Vector3};
+use rand::RngExt;
 use rand_pcg::Pcg64Dxsm;
 use rayon::prelude::*;
 
@@ -75,7 +77,7 @@ pub struct Suspension {
     reach: Reach,
     rule: Rule,
     pub(crate) tick: u64,
-    /// R of every rod in this step.
+    /// R of every rod in this step; empty above [`MOST_KEPT`] rods.
     drawn: Vec<f64>,
     candidates: Vec<Candidate>,
     collisions: Vec<Collision>,
@@ -86,6 +88,9 @@ pub struct Suspension {
 
 /// The squared distance, the index of the rod that drew R, and that of its nearest neighbour.
 type Candidate = (f64, u32, u32);
+
+/// Up to this number of rods every R is kept for its step; of more rods the few that are needed twice are drawn again.
+pub(crate) const MOST_KEPT: usize = CHUNK;
 
 /// From this number of candidates on, contacts are computed on all threads.
 const MANY: usize = 1024;
@@ -98,12 +103,12 @@ struct Effect {
     arms: [f64; 2],
 }
 
-/// Bytes per rod with a neighbour near enough to collide with: as found and as a candidate, the effect of the collision on both
-/// rods, and half a collision; every list may have twice the capacity.
-pub(crate) const BYTES_OF_A_CANDIDATE: usize = 2 * size_of::<Nearest>()
-    + 2 * size_of::<Candidate>()
-    + size_of::<Option<Effect>>()
-    + size_of::<Collision>();
+/// The most bytes of the lists of a step, for these numbers of candidates and collisions: pairs as found and as candidates, effects, and
+/// collisions. A list may have twice the capacity that it needs.
+pub(crate) fn bytes_of_lists(candidates: f64, collisions: f64) -> f64 {
+    let candidate = 2 * size_of::<Nearest>() + 2 * size_of::<Candidate>() + size_of::<Option<Effect>>();
+    candidate as f64 * candidates + (2 * size_of::<Collision>()) as f64 * collisions
+}
 
 #[derive(Clone, Copy, Debug)]
 struct Rule {
@@ -185,21 +190,30 @@ impl Suspension {
     /// Draws R for every rod; a nearest neighbour within the reach of R makes a candidate (eqs 8 and 9).
     fn find_candidates(&mut self) {
         self.candidates.clear();
-        if let Some(draws) = &mut self.draws {
-            self.drawn.resize(self.rods.count(), 0.0);
-            fill_uniform(draws, &mut self.drawn);
-            self.counters.draws += self.drawn.len() as u64;
+        let Some(draws) = &mut self.draws else { return };
+        let (count, start) = (self.rods.count(), draws.clone());
+        *draws = ahead(&start, count as u64);
+        self.counters.draws += count as u64;
+        let Some(neighbours) = &mut self.neighbours else { return };
+        if count <= MOST_KEPT {
+            let mut draws = start.clone();
+            self.drawn.resize(count, 0.0);
+            self.drawn.fill_with(|| draws.random());
         }
-        let (Some(neighbours), false) = (&mut self.neighbours, self.drawn.is_empty()) else {
-            return;
-        };
+        let (rods, reach, drawn) = (&self.rods, &self.reach, &self.drawn);
         // The bound is tested first: most rods have no neighbour that near, and need no logarithm.
-        let rods = &self.rods;
-        let bound = |rod: usize| self.reach.bound(self.drawn[rod]) * rods.length(rod);
+        let bounds = |first: usize| {
+            let mut draws = ahead(&start, first as u64);
+            (first..).map(move |rod| {
+                let drawn = drawn.get(rod).copied().unwrap_or_else(|| draws.random());
+                reach.bound(drawn) * rods.length(rod)
+            })
+        };
         let mut work = self.counters;
-        neighbours.each_nearest(&self.positions, bound, &mut work, |nearest| {
+        neighbours.each_nearest(&self.positions, bounds, &mut work, |nearest| {
             let rod = nearest.rod as usize;
-            if nearest.square < (self.reach.of(self.drawn[rod]) * rods.length(rod)).powi(2) {
+            let drawn = drawn.get(rod).copied().unwrap_or_else(|| ahead(&start, nearest.rod).random());
+            if nearest.square < (reach.of(drawn) * rods.length(rod)).powi(2) {
                 self.candidates.push((nearest.square, nearest.rod, nearest.other));
             }
         });

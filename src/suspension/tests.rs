@@ -37,6 +37,34 @@ fn a_state_of_other_counts_or_outside_the_volume_is_refused_and_changes_nothing(
     assert_eq!(suspension.positions_in_lengths(), &places(3));
 }
 
+/// More rods than have their R kept: each candidate's is drawn again, at its place in the stream.
+#[test]
+fn candidates_of_many_rods_are_those_of_the_stream_in_every_step() {
+    let mut scene = Scene { interaction: Some(Interaction::default()), ..Scene::default() };
+    scene.particles.count = MOST_KEPT + 3000;
+    scene.particles.length_sd_percent = 20.0;
+    let plan = Plan::new(&scene).unwrap();
+    let mut suspension = Suspension::new(&plan, 0).unwrap();
+    let mut draws = stream(scene.ensemble.seed, 0, Purpose::Collisions);
+    let mut seen = 0;
+    for _ in 0..2 {
+        let drawn: Vec<f64> = (0..scene.particles.count).map(|_| draws.random()).collect();
+        let places = suspension.positions_in_lengths().clone();
+        let square = |a: usize, b: usize| places.iter().map(|x| (x[b] - x[a]).powi(2)).sum::<f64>();
+        suspension.step().unwrap();
+        for rod in (MOST_KEPT - 1000..MOST_KEPT + 3000).step_by(7) {
+            let others = (0..scene.particles.count).filter(|other| *other != rod);
+            let nearest = others.min_by(|a, b| square(rod, *a).total_cmp(&square(rod, *b))).unwrap();
+            let reach = suspension.reach.of(drawn[rod]) * suspension.rods.length(rod);
+            let expected = (square(rod, nearest) < reach * reach).then_some(nearest as u32);
+            let found = suspension.candidates.iter().find(|candidate| candidate.1 == rod as u32);
+            assert_eq!(found.map(|candidate| candidate.2), expected, "rod {rod}");
+            seen += usize::from(expected.is_some());
+        }
+    }
+    assert!(seen > 10, "{seen} candidates");
+}
+
 /// Two rods that are certain to collide, in shear of either sign and in other flows.
 #[test]
 fn a_collision_gives_both_contact_points_the_mean_velocity_along_the_line() {

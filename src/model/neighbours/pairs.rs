@@ -36,16 +36,15 @@ impl Pairs {
     pub fn each_nearest(
         &mut self,
         positions: &[Vec<f64>; 3],
-        reach: impl Fn(usize) -> f64,
+        reaches: impl Iterator<Item = f64>,
         work: &mut Counters,
         mut found: impl FnMut(Nearest),
     ) {
         let count = positions[0].len();
         self.find_least(positions);
         work.pairs_screened += (self.ahead.len() * (count / 2)) as u64;
-        for rod in 0..count {
+        for (rod, reach) in (0..count).zip(reaches) {
             let least = self.ahead[rod].min(self.behind[rod]).min(self.behind[rod + count]);
-            let reach = reach(rod);
             // Both coordinates were rounded, so their difference has an error of at most one unit.
             if f64::from(least) > reach * self.per_length + 1.0 {
                 continue;
