@@ -19,7 +19,7 @@ use crate::plan::{Plan, Stage};
 use crate::run::resume::{Halfway, Placed};
 use crate::scene::Error;
 use crate::suspension::Suspension;
-use crate::suspension::rods::Rods;
+use crate::suspension::rods::{Rods, Selected};
 use crate::suspension::snapshot::Snapshot;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
@@ -137,7 +137,8 @@ fn straight(
     let (rods, counters) = Rods::draw(plan, replica);
     for first in (recorder.done..plan.outputs()).step_by(OUTPUTS) {
         let outputs = first..plan.outputs().min(first + OUTPUTS);
-        recorder.record(outputs, &rods, |first, output, block| rods.orient(first, output as u64, block))?;
+        recorder
+            .record(outputs, &rods, |first, output, selected| rods.orient(first, output as u64, selected))?;
         look(&|| recorder.halfway(None));
     }
     let asked = plan.rods_outputs().into_iter();
@@ -167,7 +168,7 @@ fn stepped(
             look(&|| recorder.halfway(Some(suspension.placed())));
         }
         let (rods, tick) = (&suspension.rods, suspension.tick());
-        recorder.record(output..output + 1, rods, |first, _, block| rods.orient(first, tick, block))?;
+        recorder.record(output..output + 1, rods, |first, _, selected| rods.orient(first, tick, selected))?;
         if asked.binary_search(&output).is_ok() {
             let snapshot = Snapshot::of_suspension(&suspension, recorder.replica, output);
             let snapshot = snapshot.map_err(|fault| recorder.refused(0, output, fault))?;
@@ -223,13 +224,13 @@ impl<'a> Recorder<'a> {
         }
     }
 
-    /// Sums the observables of all rods at `outputs`. `orient(first, output, block)` fills a block with the directions of the rods from
-    /// `first` on, or returns the rod whose direction is unknown. Large runs sum over chunks, and then add these sums in order.
+    /// Sums the observables of all rods at `outputs`. `orient(first, output, selected)` gives the selected rods, those from `first` on,
+    /// their directions, or returns the rod whose direction is unknown. Large runs sum over chunks, and then add these sums in order.
     fn record(
         &mut self,
         outputs: Range<usize>,
         rods: &Rods,
-        orient: impl Fn(usize, usize, &mut Block) -> Result<(), Fault> + Sync,
+        orient: impl Fn(usize, usize, &mut Selected) -> Result<(), Fault> + Sync,
     ) -> Result<(), Error> {
         let count = self.plan.scene().particles.count;
         let done = outputs.end;
@@ -263,20 +264,21 @@ impl<'a> Recorder<'a> {
         part: Range<usize>,
         outputs: Range<usize>,
         rods: &Rods,
-        orient: impl Fn(usize, usize, &mut Block) -> Result<(), Fault>,
+        orient: impl Fn(usize, usize, &mut Selected) -> Result<(), Fault>,
         sums: &mut [Sum],
     ) -> Result<(), Error> {
-        let mut block = Block::default();
+        let mut selected = Selected::default();
         for first in part.step_by(BLOCK) {
-            rods.select(first, &mut block);
+            rods.select(first, &mut selected);
             for (output, sums) in outputs.clone().zip(sums.chunks_mut(self.width)) {
                 let refused = |fault| self.refused(first, output, fault);
-                orient(first, output, &mut block).map_err(refused)?;
-                fault::directions(&block).map_err(refused)?;
+                orient(first, output, &mut selected).map_err(refused)?;
+                let block = &selected.block;
+                fault::directions(block).map_err(refused)?;
                 for (observable, start) in &self.observables {
                     let sums = &mut sums[*start..][..observable.width()];
-                    observable.add(&block, sums);
-                    fault::sums(&**observable, &block, sums).map_err(refused)?;
+                    observable.add(block, sums);
+                    fault::sums(&**observable, block, sums).map_err(refused)?;
                 }
             }
         }
@@ -307,14 +309,14 @@ pub(crate) fn each_block(
     replica: u64,
     mut look: impl FnMut(usize, usize, &Block) -> Result<(), Error>,
 ) -> Result<(), Error> {
-    let mut block = Block::default();
+    let mut selected = Selected::default();
     let mut blocks = |output: usize, rods: &Rods, tick: u64| {
         (0..rods.count()).step_by(BLOCK).try_for_each(|first| {
-            rods.select(first, &mut block);
-            rods.orient(first, tick, &mut block)
-                .and_then(|()| fault::directions(&block))
+            rods.select(first, &mut selected);
+            rods.orient(first, tick, &mut selected)
+                .and_then(|()| fault::directions(&selected.block))
                 .map_err(|fault| refused(plan, replica, first, output, fault))?;
-            look(output, first, &block)
+            look(output, first, &selected.block)
         })
     };
     let (mut outputs, per_output) = (0..plan.outputs(), plan.ticks_per_output());

@@ -16,8 +16,9 @@ fn plan(count: usize, replicas: u64) -> Plan {
 fn broken(count: usize, rod: usize, at: usize, wrong: [f64; 3]) -> Result<(), Error> {
     let plan = plan(count, 2);
     let (rods, _) = Rods::draw(&plan, 1);
-    Recorder::new(&plan, 1).record(0..plan.outputs(), &rods, |first, output, block| {
-        rods.orient(first, output as u64, block)?;
+    Recorder::new(&plan, 1).record(0..plan.outputs(), &rods, |first, output, selected| {
+        rods.orient(first, output as u64, selected)?;
+        let block = &mut selected.block;
         if output == at && (first..first + block.len).contains(&rod) {
             (0..3).for_each(|axis| block.p[axis][rod - first] = wrong[axis]);
         }
@@ -59,10 +60,11 @@ fn every_block_has_its_own_rods() {
     let (rods, _) = Rods::draw(&plan, 0);
     let cubes: Vec<_> = rods.lengths().iter().map(|length| length.powi(3)).collect();
     let mean = cubes.iter().sum::<f64>() / 300.0;
-    let mut block = Block::default();
+    let mut selected = Selected::default();
     let mut seen = 0;
     for first in (0..300).step_by(BLOCK) {
-        rods.select(first, &mut block);
+        rods.select(first, &mut selected);
+        let block = &selected.block;
         for k in 0..block.len {
             assert_eq!(block.aspect_ratio[k], rods.aspect_ratio(first + k));
             assert!((block.weight[k] * mean / cubes[first + k] - 1.0).abs() < 1e-14, "{first} {k}");

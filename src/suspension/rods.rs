@@ -55,6 +55,19 @@ enum Motion {
     Free { motion: Arc<FreeMotion>, propagators: Vec<Propagator> },
 }
 
+/// A block of rods as [`Rods::select`] selects it and [`Rods::orient`] turns it.
+pub(crate) struct Selected {
+    pub block: Block,
+    /// In plane Couette flow, turns of each rod in one period of the mean rod.
+    turns: [f64; BLOCK],
+}
+
+impl Default for Selected {
+    fn default() -> Self {
+        Self { block: Block::default(), turns: [0.0; BLOCK] }
+    }
+}
+
 impl Rods {
     /// Draws the rods of a replica; the counters hold the numbers of repeated draws.
     pub fn draw(plan: &Plan, replica: u64) -> (Self, Counters) {
@@ -162,14 +175,21 @@ impl Rods {
         });
     }
 
-    /// Fills `block` with the aspect ratios, weights and stress of the rods from `first` on, at most [`BLOCK`], and sets its length.
-    pub fn select(&self, first: usize, block: &mut Block) {
+    /// Selects the rods from `first` on, at most [`BLOCK`]: their aspect ratios, weights, stress and turns. Directions are those of the
+    /// block before.
+    pub fn select(&self, first: usize, Selected { block, turns }: &mut Selected) {
         block.len = BLOCK.min(self.count() - first);
         (block.body, block.stress_pa) = (self.body, self.stress_pa);
         let rods = first..first + block.len;
         match &self.shapes {
             Shapes::Shared(r) => block.aspect_ratio[..block.len].fill(*r),
             Shapes::Each(r) => block.aspect_ratio[..block.len].copy_from_slice(&r[rods.clone()]),
+        }
+        if let Motion::Couette(clock) = &self.motion {
+            let each = self.of_several_shapes();
+            for (turns, r) in turns.iter_mut().zip(&block.aspect_ratio) {
+                *turns = clock.periods(each, *r);
+            }
         }
         if let Some(lengths) = self.lengths.get(rods) {
             for (weight, length) in block.weight.iter_mut().zip(lengths) {
@@ -178,14 +198,15 @@ impl Rods {
         }
     }
 
-    /// Fills `block`, which [`Self::select`] has set for the rods from `first` on, with their directions at `tick` (in flows other
-    /// than plane Couette flow, `tick` is the output).
+    /// Gives the block of `selected`, which are the rods from `first` on, their directions at `tick` (in flows other than plane Couette
+    /// flow, `tick` is the output).
     ///
     /// # Errors
     ///
     /// Returns the first rod of the block whose direction has an error above [`MAX_ERROR_RAD`].
-    pub fn orient(&self, first: usize, tick: u64, block: &mut Block) -> Result<(), Fault> {
-        let rods = first..first + block.len;
+    pub fn orient(&self, first: usize, tick: u64, selected: &mut Selected) -> Result<(), Fault> {
+        let Selected { block, turns } = selected;
+        let (rods, turns) = (first..first + block.len, &*turns);
         let from = self.p.each_ref().map(|axis| &axis[rods.clone()]);
         match &self.motion {
             Motion::InPhase(phases) => {
@@ -201,11 +222,11 @@ impl Rods {
                 block.turn(
                     from,
                     #[inline(always)]
-                    move |_, p, r| couette(p, r, clock.phase_of(whole, rest, clock.periods(true, r))),
+                    move |k, p, r| couette(p, r, clock.phase_of(whole, rest, turns[k])),
                 );
             }
             Motion::Couette(clock) => {
-                let (clock, each, mut elapsed) = (*clock, self.of_several_shapes(), [0.0; BLOCK]);
+                let (clock, mut elapsed) = (*clock, [0.0; BLOCK]);
                 for (elapsed, since) in elapsed.iter_mut().zip(&self.since[rods]) {
                     // There are at most 10⁹ steps, and no rod is ahead of `tick`.
                     *elapsed = f64::from((tick as u32).wrapping_sub(*since) as i32);
@@ -213,7 +234,7 @@ impl Rods {
                 block.turn(
                     from,
                     #[inline(always)]
-                    move |k, p, r| couette(p, r, clock.phase(elapsed[k], clock.periods(each, r))),
+                    move |k, p, r| couette(p, r, clock.phase(elapsed[k], turns[k])),
                 );
             }
             Motion::Steps(_) => block.turn(from, |_, p, _| p),

@@ -3,12 +3,12 @@
 #[cfg(test)]
 mod tests;
 
+use crate::observable::BLOCK;
 use crate::observable::fault::Fault;
-use crate::observable::{BLOCK, Block};
 use crate::plan::{Plan, Stage};
 use crate::scene::Scene;
 use crate::suspension::Suspension;
-use crate::suspension::rods::Rods;
+use crate::suspension::rods::{Rods, Selected};
 use serde::{Deserialize, Serialize};
 
 /// Every rod of one replica at one output, as structure of arrays.
@@ -98,11 +98,12 @@ impl Snapshot {
     fn of(rods: &Rods, replica: u64, output: usize, tick: u64) -> Result<Self, Fault> {
         let count = rods.count();
         let mut p = [(); 3].map(|()| Vec::with_capacity(count));
-        let mut block = Block::default();
+        let mut selected = Selected::default();
         for first in (0..count).step_by(BLOCK) {
-            rods.select(first, &mut block);
-            rods.orient(first, tick, &mut block)
+            rods.select(first, &mut selected);
+            rods.orient(first, tick, &mut selected)
                 .map_err(|fault| Fault { rod: fault.rod.map(|rod| first + rod), ..fault })?;
+            let block = &selected.block;
             for (axis, from) in p.iter_mut().zip(&block.p) {
                 axis.extend_from_slice(&from[..block.len]);
             }
