@@ -1,6 +1,6 @@
 //! The direction of one free rod.
 
-use super::big::{Big, Bits, length};
+use super::big::{Big, Bits, double, length};
 use super::motion::{Motion, Unit, image};
 
 /// The initial direction of a rod.
@@ -38,7 +38,7 @@ const OF_ANGLES: Bits = Bits(128);
 
 /// The rod at `time`; `None` if the unit is undefined in this flow. See [`At::time`].
 pub fn at(motion: &Motion, start: Direction, time: &Big, unit: Unit) -> Option<Rod> {
-    At::new(motion, start, [super::big::double(time)], unit).time(time)
+    At::new(motion, start, [double(time)], unit).time(time)
 }
 
 /// A rod whose directions at several times are asked for.
@@ -69,22 +69,30 @@ impl<'a> At<'a> {
     /// p by A.4 and A.5 in the form p = F p₀/|F p₀| (`motion.rs`), φ and θ by p = (sin θ cos φ, sin θ sin φ, cos θ),
     /// C = (r_e² p₁² + p₂²)^½/(r_e|p₃|) (eq. 13). Every number holds to 100 bits and more.
     pub fn time(&self, time: &Big) -> Option<Rod> {
-        let bits = self.motion.bits(super::big::double(time), self.unit, KEPT);
+        let bits = self.motion.bits(double(time), self.unit, KEPT);
         let map = self.motion.map(time, self.unit, bits)?;
         let q = image(&map, &self.start.p);
         let long = length(&q);
         let p = q.map(|x| OF_ANGLES.round(x / &long));
-        let theta = (p[0].sqr() + p[1].sqr()).sqrt().atan2(&p[2]);
+        let theta = angle(&(p[0].sqr() + p[1].sqr()).sqrt(), &p[2]);
         let phi = match (&self.start.along, self.motion.couette()) {
             (Some(along), Some(_)) => {
                 let q = image(&map, along).map(|x| OF_ANGLES.round(x));
-                Some(q[1].atan2(&q[0]))
+                Some(angle(&q[1], &q[0]))
             }
             _ if p[0] == Big::ZERO && p[1] == Big::ZERO => None,
-            _ => Some(p[1].atan2(&p[0])),
+            _ => Some(angle(&p[1], &p[0])),
         };
         Some(Rod { c_b: self.c_b.clone(), p, phi, theta })
     }
+}
+
+/// atan2(y, x) to the bits of angles: the double φ next to it is off by atan δ, δ = (y cos φ − x sin φ)/(x cos φ + y sin φ), and δ³ is
+/// below these bits. Takes half the time of the crate's own.
+fn angle(y: &Big, x: &Big) -> Big {
+    let near = OF_ANGLES.of(double(y).atan2(double(x)));
+    let (sine, cosine) = near.sin_cos();
+    near + (y * &cosine - x * &sine) / (x * &cosine + y * &sine)
 }
 
 /// p at t = 0, and C_b, which is constant in plane Couette flow and meaningless in others.
@@ -128,7 +136,6 @@ impl Start {
 
 #[cfg(test)]
 mod tests {
-    use super::super::big::double;
     use super::*;
     use crate::closed_form::{angles_at, orbit_constant_from_angles};
     use crate::quadrature::spread;
@@ -166,6 +173,30 @@ mod tests {
             let p = found.p.map(|x| double(&x));
             let from_p = (r * p[0]).hypot(p[1]) / (r * p[2].abs());
             assert!((from_p / (1.0 + from_p) - c_b).abs() < 1e-13);
+        }
+    }
+
+    #[test]
+    fn angles_are_those_of_the_slower_function_to_100_bits() {
+        let bits = OF_ANGLES;
+        let off = |x: f64, y: f64, change: f64| {
+            let (x, y) = (bits.of(x), bits.of(y) / bits.of(3.0));
+            let exact = y.atan2(&x);
+            let found = angle(&y, &x) * bits.of(1.0 + change);
+            double(&((found - &exact) / exact)).abs()
+        };
+        for (u, v) in spread(50) {
+            for (x, y) in [
+                (u - 0.5, v - 0.5),
+                (-1.0, 1e-30 * v),
+                (1e-30 * u, -1.0),
+                (1.0, 1e-320),
+                (1e100 * u, 1e90 * v),
+            ] {
+                assert!(off(x, y, 0.0) < 2f64.powi(-110), "{x} {y}");
+                // Wrong: a last digit of a double.
+                assert!(off(x, y, f64::EPSILON) > 2f64.powi(-110));
+            }
         }
     }
 
