@@ -119,10 +119,11 @@ mod tests {
         fn both_searches_find_what_a_full_search_finds(
             points in prop::collection::vec(prop::array::uniform3(0u8..40), 1..300),
             reaches in prop::collection::vec(prop_oneof![
-                0.0f64..0.02, 0.0f64..0.2, 0.2f64..1.0, 1.0f64..40.0, Just(f64::INFINITY)
+                0.0f64..2e-7, 0.0f64..0.02, 0.0f64..0.2, 0.2f64..1.0, 1.0f64..40.0, Just(f64::INFINITY)
             ], 300),
             side in prop_oneof![Just(4.0), Just(1e-3), Just(3e5)],
-            fine in prop_oneof![Just(0.0), 0.0f64..1.0],
+            // The least are below what single precision tells apart.
+            fine in prop_oneof![Just(0.0), 0.0f64..1.0, Just(1e-5), Just(1e-6)],
             shape in prop::sample::select(vec![[1.0, 1.0, 1.0], [4.0, 0.5, 0.5], [0.5, 1.0, 2.0], [1.0, 1e-4, 1.0], [1e-3, 1.0, 1e-3]]),
         ) {
             // Coordinates on a coarse lattice, so that ties and coincident rods occur; or shifted off it by `fine`.
@@ -215,6 +216,20 @@ mod tests {
                 let all = found(search, &positions, &[0.2; 16]);
                 assert_eq!(all.len(), 16);
                 assert!(all.iter().all(|nearest| nearest.rod.abs_diff(nearest.other) == 8));
+            }
+        }
+    }
+
+    #[test]
+    fn who_is_barely_within_reach_is_found() {
+        for k in 1..200 {
+            let x = |by: f64| f64::from(k) * 0.047 + by;
+            let by = f64::from(k).sqrt() * 0.007;
+            let positions = [vec![x(0.0), x(by)], vec![x(0.0), x(0.3 * by)], vec![x(0.0), x(0.1 * by)]];
+            let square: f64 = positions.iter().map(|axis| (axis[1] - axis[0]).powi(2)).sum();
+            let barely = [square.sqrt().next_up().next_up(); 2];
+            for search in searches([10.0; 3], 1000) {
+                assert_eq!(found(search, &positions, &barely).len(), 2, "{k}");
             }
         }
     }

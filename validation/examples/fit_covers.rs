@@ -22,7 +22,7 @@ use validation::serve::fit::data::TimeColumn;
 use validation::serve::fit::elsewhere::look_elsewhere;
 use validation::serve::fit::scenes::{AS_WRITTEN, Scenes, Set};
 use validation::serve::fit::search::{Fit, FitProblem, Measured, Watch, search};
-use validation::serve::sweep::Setting;
+use validation::serve::sweep::KeyValue;
 
 /// The values behind the points.
 const PLANTED: [(&str, f64); 5] = [
@@ -65,7 +65,7 @@ fn scenes(seed: u64, over: &[Range]) -> Result<Scenes, String> {
             source: "fig4".into(),
             text: text.into(),
             starts: Starts::default(),
-            settings: settings.iter().map(|text: &String| Setting::parse(text)).collect::<Result<_, _>>()?,
+            settings: settings.iter().map(|text: &String| KeyValue::parse(text)).collect::<Result<_, _>>()?,
             seed,
             time: TimeColumn::Strain,
         })

@@ -5,7 +5,7 @@ use shearbed::run::memory;
 use shearbed::run::run_replica;
 use shearbed::{Error, Plan};
 use validation::input::scenes;
-use validation::serve::sweep::{Axis, Setting, points, scene_with};
+use validation::serve::sweep::{Axis, KeyValue, points, scene_with};
 
 /// Rods times steps and outputs of one replica that is run: milliseconds.
 const WORK: u64 = 20_000;
@@ -137,7 +137,7 @@ pub fn sweep() -> Target {
             let Ok(argument) = std::str::from_utf8(&files[0].1) else {
                 return Ok(Taken::Refused("not UTF-8".into()));
             };
-            let set = Setting::parse(argument).and_then(|setting| scene_with(text, &[setting]));
+            let set = KeyValue::parse(argument).and_then(|setting| scene_with(text, &[setting]));
             let axis = match Axis::parse(argument) {
                 Ok(axis) => axis,
                 Err(why) if why.is_empty() => return Err("no reason".into()),

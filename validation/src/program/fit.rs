@@ -19,7 +19,7 @@ use crate::serve::fit::report::{self, Report};
 use crate::serve::fit::scenes::AS_WRITTEN;
 use crate::serve::fit::search::{Fit, FitProblem, Measured, Watch, search};
 use crate::serve::fit::{Hypothesis, Range, pictures, terminal};
-use crate::serve::sweep::Setting;
+use crate::serve::sweep::KeyValue;
 use input::{Input, input};
 use serde_json::{Value, json};
 use shearbed::Plan;
@@ -66,8 +66,8 @@ pub(super) struct Args {
     #[arg(long, value_name = "[SET:]KEY=VALUE", value_parser = Hypothesis::parse)]
     test: Vec<Hypothesis>,
     /// A key of every scene and the value to give it; can be given more than once
-    #[arg(long = "set", value_name = "KEY=VALUE", value_parser = Setting::parse)]
-    settings: Vec<Setting>,
+    #[arg(long = "set", value_name = "KEY=VALUE", value_parser = KeyValue::parse)]
+    settings: Vec<KeyValue>,
     #[command(flatten)]
     threads: Threads,
     /// List further points, at all times and at half and twice the concentration, with the uncertainties that each would leave
@@ -197,7 +197,7 @@ fn asked(args: &Args, input: &Input) -> Result<Value, Failure> {
             "seed": set.seed, "scene_text": set.text, "starts": set.starts.checksums()
         }));
     }
-    let set = |setting: &Setting| format!("{}={}", setting.key, setting.value);
+    let set = |setting: &KeyValue| format!("{}={}", setting.key, setting.value);
     let mut asked = json!({
         "data": data,
         "over": args.over,

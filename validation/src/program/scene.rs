@@ -6,7 +6,7 @@ use crate::files::cluster;
 use crate::files::text::{Shown, complain, line};
 use crate::input::scenes;
 use crate::input::start::Starts;
-use crate::serve::sweep::{self, Axis, Setting};
+use crate::serve::sweep::{self, Axis, KeyValue};
 use shearbed::scene::document::Document;
 use shearbed::scene::{MAX_REPLICAS, MAX_SEED};
 use shearbed::scene::{SceneProblem, of_document};
@@ -21,8 +21,8 @@ pub(super) struct Chosen {
     /// A scene file, or the name of a built-in scene (`shearbed scenes` lists them)
     scene: OsString,
     /// A key of the scene and the value to give it, as interaction.alpha=0.3; can be given more than once
-    #[arg(long = "set", value_name = "KEY=VALUE", value_parser = Setting::parse)]
-    settings: Vec<Setting>,
+    #[arg(long = "set", value_name = "KEY=VALUE", value_parser = KeyValue::parse)]
+    settings: Vec<KeyValue>,
 }
 
 /// Keys that have flags of their own.
@@ -37,13 +37,13 @@ pub(super) struct Ensemble {
 }
 
 impl Ensemble {
-    fn settings(&self) -> impl Iterator<Item = (&'static str, Setting)> {
+    fn settings(&self) -> impl Iterator<Item = (&'static str, KeyValue)> {
         let given =
             [("--replicas", "ensemble.replicas", self.replicas), ("--seed", "ensemble.seed", self.seed)];
         given.into_iter().filter_map(|(flag, key, value)| {
             let value = Value::Integer(value? as i64);
             let key = key.to_owned();
-            Some((flag, Setting { key, value }))
+            Some((flag, KeyValue { key, value }))
         })
     }
 }
@@ -68,7 +68,7 @@ pub(super) struct Named {
     /// The text as a document, with the keys that were set.
     document: Document,
     /// The keys that replace those of the text.
-    pub(super) settings: Vec<Setting>,
+    pub(super) settings: Vec<KeyValue>,
     /// The file as given, or the built-in scene's name: for messages.
     pub(super) source: String,
     /// The initial directions from files beside the scene.
@@ -91,11 +91,11 @@ impl Named {
 }
 
 /// The failure for an invalid scene: faults of the file have lines, those of `--set` have the flag.
-fn wrong(source: &str, settings: &[Setting], error: &Error) -> Failure {
+fn wrong(source: &str, settings: &[KeyValue], error: &Error) -> Failure {
     let Error::Text { problems, .. } = error else {
         return refused(source, &error.to_string());
     };
-    let set = |setting: &Setting| format!(" --set {}={}", setting.key, sweep::shown(&setting.value));
+    let set = |setting: &KeyValue| format!(" --set {}={}", setting.key, sweep::shown(&setting.value));
     let set: String = settings.iter().map(set).collect();
     let line = |problem: &SceneProblem| match problem.line {
         Some(line) => format!("{source}:{line}: {}", problem.message),
@@ -109,7 +109,7 @@ fn refused(source: &str, error: &str) -> Failure {
 }
 
 /// Reads the file `given`, or if there is none the built-in scene of that name, with the keys `settings`.
-pub(super) fn load(given: &OsStr, settings: Vec<Setting>) -> Result<Named, Failure> {
+pub(super) fn load(given: &OsStr, settings: Vec<KeyValue>) -> Result<Named, Failure> {
     let path = Path::new(given);
     let source = path.shown();
     let built_in = scenes::find(&source).filter(|_| !path.exists() || path.is_dir());
@@ -122,7 +122,7 @@ pub(super) fn load(given: &OsStr, settings: Vec<Setting>) -> Result<Named, Failu
     };
     let at = |error: Error| wrong(&source, &settings, &error);
     let mut document = Document::parse(&source, &text).map_err(at)?;
-    for Setting { key, value } in &settings {
+    for KeyValue { key, value } in &settings {
         document.set(key, value.clone()).map_err(at)?;
     }
     let mut scene = of_document(&document).map_err(at)?;

@@ -149,14 +149,26 @@ pub(super) fn sweep(args: &Args) -> Result<(), Failure> {
 /// The largest number of warnings of points on the terminal.
 const MOST_WARNINGS: usize = 10;
 
-/// Reasons to doubt results, for each point.
+/// Reasons to doubt results, each once, with the first of its points and the number of the others.
 fn warnings(points: &[Point], over: &[Axis]) -> Vec<String> {
-    let of_point = |point: &Point| {
+    let mut found: Vec<(String, &Point, usize)> = Vec::new();
+    for point in points {
+        for warning in facts::warnings(&point.plan) {
+            match found.iter_mut().find(|(known, ..)| *known == warning) {
+                Some((.., others)) => *others += 1,
+                None => found.push((warning, point, 0)),
+            }
+        }
+    }
+    let line = |(warning, point, others): (String, &Point, usize)| {
         let at = sweep::described(over, &point.values);
-        let warnings = facts::warnings(&point.plan).into_iter();
-        warnings.map(|warning| format!("--over {at}: {warning}")).collect::<Vec<_>>()
+        match others {
+            0 => format!("--over {at}: {warning}"),
+            1 => format!("--over {at} and another point: {warning}"),
+            _ => format!("--over {at} and {others} other points: {warning}"),
+        }
     };
-    points.iter().flat_map(of_point).collect()
+    found.into_iter().map(line).collect()
 }
 
 /// Refuses a key that changes the columns of the results.

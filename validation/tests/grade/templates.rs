@@ -87,6 +87,12 @@ fn interpreted_templates_pass() {
     }
 }
 
+/// What of two tools is not here.
+fn missing(tools: [&str; 2]) -> String {
+    let missing = tools.into_iter().find(|tool| !runs(tool, &["--version"]));
+    format!("no {}", missing.unwrap_or("reason"))
+}
+
 /// The studies of a program that runs speak the text protocol too, and so does the echo that the pipe's cost is taken from.
 #[test]
 fn the_studies_speak_the_text_protocol() {
@@ -158,7 +164,7 @@ fn build_systems_hold_a_program_to_the_problems() {
             );
         }
     } else {
-        skipped("cmake", "no cmake, or no c++");
+        skipped("cmake", &missing(["cmake", "c++"]));
     }
     if runs("fpm", &["--version"]) && runs("gfortran", &["--version"]) {
         put("fpm/fpm.toml", "fpm.toml", None);
@@ -169,6 +175,6 @@ fn build_systems_hold_a_program_to_the_problems() {
             assert_eq!(passed, change.is_none(), "{words}");
         }
     } else {
-        skipped("fpm", "no fpm, or no gfortran");
+        skipped("fpm", &missing(["fpm", "gfortran"]));
     }
 }

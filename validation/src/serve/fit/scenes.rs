@@ -6,7 +6,7 @@ use crate::input::start::Starts;
 use crate::methods::interpolate::interpolate;
 use crate::methods::least_squares::Datum;
 use crate::methods::least_squares::emulator::{Part, Prediction, Replica};
-use crate::serve::sweep::{self, Setting};
+use crate::serve::sweep::{self, KeyValue};
 use shearbed::observable::Channel;
 use shearbed::run::run_replica;
 use shearbed::scene::{Holds, keys};
@@ -23,7 +23,7 @@ pub struct Set {
     /// The initial directions of rods that are given in a file beside the scene, read once for all values of the parameters.
     pub starts: Starts,
     /// Keys whose values differ from the text, the same for all values of the parameters.
-    pub settings: Vec<Setting>,
+    pub settings: Vec<KeyValue>,
     /// The seed of all random numbers.
     pub seed: u64,
     /// The unit of the points' times.
@@ -158,7 +158,7 @@ impl Scenes {
                 for (key, value) in [(KEY, given), (BOX, sides)] {
                     settings.retain(|setting| setting.key != key);
                     let key = key.to_owned();
-                    settings.extend(value.map(|value| Setting { key, value }));
+                    settings.extend(value.map(|value| KeyValue { key, value }));
                 }
             }
             all.push(concentration);
@@ -181,7 +181,7 @@ impl Scenes {
         let Set { source, text, starts, settings, seed, .. } = &self.sets[set];
         let own = || self.ranges.iter().zip(values).filter(|(range, _)| range.is_of(set));
         let fitted =
-            own().map(|(range, value)| Setting { key: range.key.clone(), value: Value::Float(*value) });
+            own().map(|(range, value)| KeyValue { key: range.key.clone(), value: Value::Float(*value) });
         let settings: Vec<_> = settings.iter().cloned().chain(fitted).collect();
         let said = || {
             let pairs = own().map(|(range, value)| format!(" {}={value}", range.label()));

@@ -18,7 +18,7 @@ const ASKEW: [[f64; 3]; 3] = [[0.25, -0.5, 0.125], [0.75, 0.125, -0.25], [0.375,
 const TIMES: [f64; 6] = [1.0, 2.0, 4.0, 7.0, 12.0, 20.0];
 const TO_REST: [f64; 6] = [1.0, 2.0, 4.0, 6.25, 10.0, 65.0];
 
-struct Setting {
+struct ClosureProblem {
     name: &'static str,
     gradient_per_s: [[f64; 3]; 3],
     aspect_ratio: f64,
@@ -26,16 +26,16 @@ struct Setting {
     times: [f64; 6],
 }
 
-const fn shear(name: &'static str, closure: Closure, model: Model, start: [[f64; 3]; 3]) -> Setting {
+const fn shear(name: &'static str, closure: Closure, model: Model, start: [[f64; 3]; 3]) -> ClosureProblem {
     let closed = Closed { closure, model, start };
-    Setting { name, gradient_per_s: COUETTE, aspect_ratio: NEEDLE, closed, times: TIMES }
+    ClosureProblem { name, gradient_per_s: COUETTE, aspect_ratio: NEEDLE, closed, times: TIMES }
 }
 
-const fn ft(name: &'static str, closure: Closure, c_i: f64) -> Setting {
+const fn ft(name: &'static str, closure: Closure, c_i: f64) -> ClosureProblem {
     shear(name, closure, Model::FolgarTucker { c_i }, RANDOM)
 }
 
-const SETTINGS: [Setting; 15] = [
+const PROBLEMS: [ClosureProblem; 15] = [
     ft("closed-ft-linear-0.1", Closure::Linear, 0.1),
     ft("closed-ft-quadratic-0.01", Closure::Quadratic, 0.01),
     ft("closed-ft-hybrid-0.01", Closure::Hybrid, 0.01),
@@ -44,13 +44,17 @@ const SETTINGS: [Setting; 15] = [
     // ORW is not exactly isotropic where a is: its answer from there depends on the axes that an eigensolver happens to return.
     shear("closed-ft-orw-0.01", Closure::Orw, Model::FolgarTucker { c_i: 0.01 }, APART),
     ft("closed-ft-ibof-0.01", Closure::Ibof, 0.01),
-    Setting { times: TO_REST, ..ft("closed-ft-ibof-0.0311", Closure::Ibof, 0.0311) },
-    Setting {
+    ClosureProblem { times: TO_REST, ..ft("closed-ft-ibof-0.0311", Closure::Ibof, 0.0311) },
+    ClosureProblem {
         gradient_per_s: UNIAXIAL,
         aspect_ratio: 11.6,
         ..ft("closed-ft-hybrid-extension", Closure::Hybrid, 0.05)
     },
-    Setting { gradient_per_s: ASKEW, aspect_ratio: 3.0, ..ft("closed-ft-ibof-mixed", Closure::Ibof, 0.02) },
+    ClosureProblem {
+        gradient_per_s: ASKEW,
+        aspect_ratio: 3.0,
+        ..ft("closed-ft-ibof-mixed", Closure::Ibof, 0.02)
+    },
     shear("closed-rsc-ore-0.01", Closure::Ore, Model::Rsc { c_i: 0.01, kappa: 0.1 }, APART),
     // The parameters of the other settings are published: see `published/README.md` and fiberoripy's comparison in perfect shear.
     shear(
@@ -64,7 +68,7 @@ const SETTINGS: [Setting; 15] = [
     shear("closed-mrd-ore-0.0198", Closure::Ore, Model::Mrd { c_i: 0.0198, d: [1.0, 0.4796, 0.012] }, APART),
 ];
 
-impl Setting {
+impl ClosureProblem {
     fn equation(&self) -> Equation {
         self.closed.equation(&self.gradient_per_s, self.aspect_ratio)
     }
@@ -88,10 +92,10 @@ const AGREED: f64 = 1e-12;
 ///
 /// An error if the two differ by more than 10⁻¹², or if one fails.
 pub fn certify() -> Result<String, String> {
-    let mut table = format!("setting,time_s,{}\n", COLUMNS.join(","));
-    for setting in &SETTINGS {
-        let (equation, times_s, name) = (setting.equation(), setting.times_s(), setting.name);
-        let start = setting.closed.start();
+    let mut table = format!("problem,time_s,{}\n", COLUMNS.join(","));
+    for problem in &PROBLEMS {
+        let (equation, times_s, name) = (problem.equation(), problem.times_s(), problem.name);
+        let start = problem.closed.start();
         let first = at(&equation, &start, &times_s, 1e-14).ok_or_else(|| format!("{name}: no solution"))?;
         let second = tensors::second::at(&equation, &start, &times_s);
         for ((time, first), second) in times_s.iter().zip(first).zip(second) {
@@ -107,20 +111,20 @@ pub fn certify() -> Result<String, String> {
 }
 
 pub(super) fn problems() -> Vec<ProblemDef> {
-    let def = |setting: &'static Setting| {
-        let Closed { closure, model, .. } = setting.closed;
+    let def = |problem: &'static ClosureProblem| {
+        let Closed { closure, model, .. } = problem.closed;
         let title: &'static str =
             Box::leak(format!("a_ij(t) by {} with the {} closure", model.name(), closure.name()).into());
-        ProblemDef::new(setting.name, title, |def| built(def, setting))
+        ProblemDef::new(problem.name, title, |def| built(def, problem))
     };
-    SETTINGS.iter().map(def).collect()
+    PROBLEMS.iter().map(def).collect()
 }
 
-fn built(def: &ProblemDef, setting: &Setting) -> Built {
+fn built(def: &ProblemDef, problem: &ClosureProblem) -> Built {
     let rows = TABLE.lines().map(|line| line.split(',').map(str::to_owned).collect::<Vec<_>>());
-    let Closed { closure, model, .. } = setting.closed;
+    let Closed { closure, model, .. } = problem.closed;
     Built {
-        certified: rows.filter(|row| row[0] == setting.name).map(|row| row[1..].into()).collect(),
+        certified: rows.filter(|row| row[0] == problem.name).map(|row| row[1..].into()).collect(),
         problem: Problem {
             format: FORMAT,
             name: def.name.into(),
@@ -130,18 +134,18 @@ fn built(def: &ProblemDef, setting: &Setting) -> Built {
                  equation, not of the distribution of rods, which the problems folgar-tucker-* ask for.",
                 model.name(),
                 closure.name(),
-                match setting.closed.start == RANDOM {
+                match problem.closed.start == RANDOM {
                     true => "from a_ij = δ_ij/3 at t = 0.",
                     false => "from the a_ij(0) of problem.json, whose axes are apart: the model needs them.",
                 }
             ),
             kind: Kind::Tensor,
-            gradient_per_s: setting.gradient_per_s,
-            aspect_ratio: setting.aspect_ratio,
+            gradient_per_s: problem.gradient_per_s,
+            aspect_ratio: problem.aspect_ratio,
             aspect_ratio_sd_percent: 0.0,
             c_i: None,
-            closed: Some(setting.closed),
-            times_s: setting.times_s(),
+            closed: Some(problem.closed),
+            times_s: problem.times_s(),
             time_step_s: None,
             columns: std::iter::once("time_s").chain(COLUMNS).map(String::from).collect(),
             metric: Metric::Absolute,
@@ -194,23 +198,23 @@ mod tests {
     /// Every problem detects another closure, another model and another start.
     #[test]
     fn every_problem_tells_its_equation_from_others() {
-        for setting in &SETTINGS {
-            let times_s = setting.times_s();
-            let right = at(&setting.equation(), &setting.closed.start(), &times_s, 1e-11).unwrap();
+        for problem in &PROBLEMS {
+            let times_s = problem.times_s();
+            let right = at(&problem.equation(), &problem.closed.start(), &times_s, 1e-11).unwrap();
             let off = |equation: Equation| {
                 // A failed solution counts as different.
-                let found = at(&equation, &setting.closed.start(), &times_s, 1e-11);
+                let found = at(&equation, &problem.closed.start(), &times_s, 1e-11);
                 let apart = |all: Vec<Matrix3<f64>>| {
                     all.iter().zip(&right).map(|(a, b)| (a - b).amax()).fold(0.0, f64::max)
                 };
                 found.map_or(f64::INFINITY, apart)
             };
-            for closure in Closure::ALL.into_iter().filter(|closure| *closure != setting.closed.closure) {
-                let found = off(Equation { closure, ..setting.equation() });
-                assert!(found > 1e-6, "{} {closure:?}: {found:e}", setting.name);
+            for closure in Closure::ALL.into_iter().filter(|closure| *closure != problem.closed.closure) {
+                let found = off(Equation { closure, ..problem.equation() });
+                assert!(found > 1e-6, "{} {closure:?}: {found:e}", problem.name);
             }
-            let shape_factor = setting.equation().shape_factor * 0.999;
-            assert!(off(Equation { shape_factor, ..setting.equation() }) > 1e-6, "{}", setting.name);
+            let shape_factor = problem.equation().shape_factor * 0.999;
+            assert!(off(Equation { shape_factor, ..problem.equation() }) > 1e-6, "{}", problem.name);
         }
     }
 }

@@ -20,7 +20,7 @@ pub(crate) use doubles::{Variant, answers};
 type Pair = [f64; 14];
 
 /// The question about each pair.
-struct Setting {
+struct ContactProblem {
     name: &'static str,
     title: &'static str,
     /// The time step of A.14, s; none if rates are asked for.
@@ -32,9 +32,9 @@ struct Setting {
     table: &'static str,
 }
 
-static SETTINGS: LazyLock<[Setting; 2]> = LazyLock::new(|| {
+static PROBLEMS: LazyLock<[ContactProblem; 2]> = LazyLock::new(|| {
     [
-        Setting {
+        ContactProblem {
             name: "contact-rule",
             title: "Two rods in, both ṗ′ out: A.7 to A.13",
             step_s: None,
@@ -43,7 +43,7 @@ static SETTINGS: LazyLock<[Setting; 2]> = LazyLock::new(|| {
                        and ṗ′ = V′_r/r",
             table: include_str!("data/contact-rule.csv"),
         },
-        Setting {
+        ContactProblem {
             name: "contact-angles",
             title: "Two rods in, their angles after a step out: A.13 and A.14, corrected",
             step_s: Some(period_s(ASPECT_RATIO) / 200.0),
@@ -56,11 +56,12 @@ static SETTINGS: LazyLock<[Setting; 2]> = LazyLock::new(|| {
 });
 
 pub(super) fn problems() -> Vec<ProblemDef> {
-    let def = |setting: &'static Setting| ProblemDef::new(setting.name, setting.title, |_| setting.built());
-    SETTINGS.iter().map(def).collect()
+    let def =
+        |problem: &'static ContactProblem| ProblemDef::new(problem.name, problem.title, |_| problem.built());
+    PROBLEMS.iter().map(def).collect()
 }
 
-impl Setting {
+impl ContactProblem {
     fn built(&self) -> Built {
         let mut rows = self.table.lines().map(|line| line.split(',').map(str::to_owned).collect());
         let columns = rows.next().unwrap_or_default();

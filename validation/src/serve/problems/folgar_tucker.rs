@@ -16,7 +16,7 @@ const STRETCHED: [[f64; 3]; 3] = [[-0.0625, 0.0, 0.0], [0.5, -0.0625, 0.0], [0.0
 const ASKEW: [[f64; 3]; 3] = [[0.25, -0.5, 0.125], [0.75, 0.125, -0.25], [0.375, 0.625, -0.375]];
 
 /// A flow, rods, and the times of the answer in units of 1/G, G = 0.5/s; no times for the steady distribution.
-struct Setting {
+struct DiffusionProblem {
     name: &'static str,
     title: &'static str,
     gradient_per_s: [[f64; 3]; 3],
@@ -28,24 +28,24 @@ struct Setting {
 }
 
 #[rustfmt::skip]
-const SETTINGS: [Setting; 14] = [
-    setting("folgar-tucker-shear-0.1", "a_ij(t) in shear, C_I = 0.1", COUETTE, NEEDLE, 0.1, &[0.5, 1.0, 2.0, 4.0, 8.0], None),
-    setting("folgar-tucker-shear-0.0311", "a_ij(t) in shear, C_I = 0.0311", COUETTE, NEEDLE, 0.0311, &[1.0, 2.0, 4.0, 6.25, 10.0, 65.0], None),
-    setting("folgar-tucker-shear-0.01", "a_ij(t) in shear, C_I = 0.01", COUETTE, NEEDLE, 0.01, &[1.0, 2.0, 4.0, 7.0, 12.0, 20.0], Some("folgar-tucker-fourth-shear-0.01")),
-    setting("folgar-tucker-shear-0.001", "a_ij(t) in shear, C_I = 0.001", COUETTE, NEEDLE, 0.001, &[1.0, 3.0, 6.0, 10.0], None),
-    setting("folgar-tucker-rods-5", "a_ij(t) in shear, r_e = 5, C_I = 0.01", COUETTE, 5.0, 0.01, &[1.0, 4.0, 8.0, 16.0, 32.0], None),
-    setting("folgar-tucker-discs", "a_ij(t) in shear, r_e = 0.2, C_I = 0.02", COUETTE, 0.2, 0.02, &[1.0, 4.0, 8.0, 16.0], None),
-    setting("folgar-tucker-planar-extension", "a_ij(t) in planar extension, C_I = 0.01", PLANAR, NEEDLE, 0.01, &[0.5, 1.0, 2.0, 4.0, 8.0], None),
-    setting("folgar-tucker-uniaxial-extension", "a_ij(t) in uniaxial extension, C_I = 0.05", UNIAXIAL, 11.6, 0.05, &[0.5, 1.0, 2.0, 4.0, 8.0], None),
-    setting("folgar-tucker-mixed", "a_ij(t) in a flow without symmetry, C_I = 0.02", ASKEW, 3.0, 0.02, &[0.5, 1.0, 2.0, 4.0, 8.0], Some("folgar-tucker-fourth-mixed")),
-    setting("folgar-tucker-steady-shear-0.01", "Steady a_ij in shear, C_I = 0.01", COUETTE, NEEDLE, 0.01, &[], Some("folgar-tucker-fourth-steady")),
-    setting("folgar-tucker-steady-shear-0.001", "Steady a_ij in shear, C_I = 0.001", COUETTE, NEEDLE, 0.001, &[], None),
-    setting("folgar-tucker-steady-weak", "Steady a_ij in shear, r_e = 11.6, C_I = 0.0001", COUETTE, 11.6, 1e-4, &[], None),
-    setting("folgar-tucker-steady-stretched", "Steady a_ij in stretched shear, C_I = 0.005", STRETCHED, 20.0, 0.005, &[], None),
-    setting("folgar-tucker-steady-mixed", "Steady a_ij in a flow without symmetry, C_I = 0.02", ASKEW, 3.0, 0.02, &[], None),
+const PROBLEMS: [DiffusionProblem; 14] = [
+    problem("folgar-tucker-shear-0.1", "a_ij(t) in shear, C_I = 0.1", COUETTE, NEEDLE, 0.1, &[0.5, 1.0, 2.0, 4.0, 8.0], None),
+    problem("folgar-tucker-shear-0.0311", "a_ij(t) in shear, C_I = 0.0311", COUETTE, NEEDLE, 0.0311, &[1.0, 2.0, 4.0, 6.25, 10.0, 65.0], None),
+    problem("folgar-tucker-shear-0.01", "a_ij(t) in shear, C_I = 0.01", COUETTE, NEEDLE, 0.01, &[1.0, 2.0, 4.0, 7.0, 12.0, 20.0], Some("folgar-tucker-fourth-shear-0.01")),
+    problem("folgar-tucker-shear-0.001", "a_ij(t) in shear, C_I = 0.001", COUETTE, NEEDLE, 0.001, &[1.0, 3.0, 6.0, 10.0], None),
+    problem("folgar-tucker-rods-5", "a_ij(t) in shear, r_e = 5, C_I = 0.01", COUETTE, 5.0, 0.01, &[1.0, 4.0, 8.0, 16.0, 32.0], None),
+    problem("folgar-tucker-discs", "a_ij(t) in shear, r_e = 0.2, C_I = 0.02", COUETTE, 0.2, 0.02, &[1.0, 4.0, 8.0, 16.0], None),
+    problem("folgar-tucker-planar-extension", "a_ij(t) in planar extension, C_I = 0.01", PLANAR, NEEDLE, 0.01, &[0.5, 1.0, 2.0, 4.0, 8.0], None),
+    problem("folgar-tucker-uniaxial-extension", "a_ij(t) in uniaxial extension, C_I = 0.05", UNIAXIAL, 11.6, 0.05, &[0.5, 1.0, 2.0, 4.0, 8.0], None),
+    problem("folgar-tucker-mixed", "a_ij(t) in a flow without symmetry, C_I = 0.02", ASKEW, 3.0, 0.02, &[0.5, 1.0, 2.0, 4.0, 8.0], Some("folgar-tucker-fourth-mixed")),
+    problem("folgar-tucker-steady-shear-0.01", "Steady a_ij in shear, C_I = 0.01", COUETTE, NEEDLE, 0.01, &[], Some("folgar-tucker-fourth-steady")),
+    problem("folgar-tucker-steady-shear-0.001", "Steady a_ij in shear, C_I = 0.001", COUETTE, NEEDLE, 0.001, &[], None),
+    problem("folgar-tucker-steady-weak", "Steady a_ij in shear, r_e = 11.6, C_I = 0.0001", COUETTE, 11.6, 1e-4, &[], None),
+    problem("folgar-tucker-steady-stretched", "Steady a_ij in stretched shear, C_I = 0.005", STRETCHED, 20.0, 0.005, &[], None),
+    problem("folgar-tucker-steady-mixed", "Steady a_ij in a flow without symmetry, C_I = 0.02", ASKEW, 3.0, 0.02, &[], None),
 ];
 
-const fn setting(
+const fn problem(
     name: &'static str,
     title: &'static str,
     gradient_per_s: [[f64; 3]; 3],
@@ -53,11 +53,11 @@ const fn setting(
     c_i: f64,
     times: &'static [f64],
     fourth: Option<&'static str>,
-) -> Setting {
-    Setting { name, title, gradient_per_s, aspect_ratio, c_i, times, fourth }
+) -> DiffusionProblem {
+    DiffusionProblem { name, title, gradient_per_s, aspect_ratio, c_i, times, fourth }
 }
 
-impl Setting {
+impl DiffusionProblem {
     fn times_s(&self) -> Vec<f64> {
         match self.times {
             [] => vec![LATE_S],
@@ -91,35 +91,35 @@ const TABLE: &str = include_str!("data/folgar-tucker.csv");
 ///
 /// An error if a distribution cannot be computed.
 pub fn certify() -> Result<String, NoAnswer> {
-    let mut table = format!("setting,time_s,{},{}\n", SECOND.join(","), FOURTH.join(","));
-    for setting in &SETTINGS {
-        for (time, means) in setting.times_s().iter().zip(setting.certified()?) {
+    let mut table = format!("problem,time_s,{},{}\n", SECOND.join(","), FOURTH.join(","));
+    for problem in &PROBLEMS {
+        for (time, means) in problem.times_s().iter().zip(problem.certified()?) {
             let values = twelve_decimals(means.second.iter().chain(&means.fourth).copied());
-            table += &format!("{},{time:?},{values}\n", setting.name);
+            table += &format!("{},{time:?},{values}\n", problem.name);
         }
     }
     Ok(table)
 }
 
 pub(super) fn problems() -> Vec<ProblemDef> {
-    let second = SETTINGS
+    let second = PROBLEMS
         .iter()
-        .map(|setting| ProblemDef::new(setting.name, setting.title, |def| built(def, setting, 0..6)));
-    let fourth = SETTINGS.iter().filter_map(|setting| {
-        let title = if setting.times.is_empty() {
+        .map(|problem| ProblemDef::new(problem.name, problem.title, |def| built(def, problem, 0..6)));
+    let fourth = PROBLEMS.iter().filter_map(|problem| {
+        let title = if problem.times.is_empty() {
             "Steady a_ijkl in shear, C_I = 0.01"
-        } else if setting.name.ends_with("mixed") {
+        } else if problem.name.ends_with("mixed") {
             "a_ijkl(t) in a flow without symmetry, C_I = 0.02"
         } else {
             "a_ijkl(t) in shear, C_I = 0.01"
         };
-        Some(ProblemDef::new(setting.fourth?, title, |def| built(def, setting, 6..21)))
+        Some(ProblemDef::new(problem.fourth?, title, |def| built(def, problem, 6..21)))
     });
     second.chain(fourth).collect()
 }
 
 /// The problem with the columns `values` of the table's rows.
-fn built(def: &ProblemDef, setting: &Setting, values: std::ops::Range<usize>) -> Built {
+fn built(def: &ProblemDef, problem: &DiffusionProblem, values: std::ops::Range<usize>) -> Built {
     let fields = TABLE.lines().map(|line| line.split(',').collect::<Vec<_>>());
     let of = |row: Vec<&str>| {
         let picked = row[2..][values.clone()].iter();
@@ -127,8 +127,8 @@ fn built(def: &ProblemDef, setting: &Setting, values: std::ops::Range<usize>) ->
     };
     let mut rows = fields;
     let columns = rows.next().map(of).unwrap_or_default();
-    let steady = setting.times.is_empty();
-    let rods = match setting.aspect_ratio {
+    let steady = problem.times.is_empty();
+    let rods = match problem.aspect_ratio {
         NEEDLE => "Λ = 1 (r_e = 1e100)".to_owned(),
         r => format!("r_e = {r}"),
     };
@@ -139,7 +139,7 @@ fn built(def: &ProblemDef, setting: &Setting, values: std::ops::Range<usize>) ->
         "in time, from all directions alike at t = 0"
     };
     Built {
-        certified: rows.filter(|row| row[0] == setting.name).map(of).collect(),
+        certified: rows.filter(|row| row[0] == problem.name).map(of).collect(),
         problem: Problem {
             format: FORMAT,
             name: def.name.into(),
@@ -148,15 +148,15 @@ fn built(def: &ProblemDef, setting: &Setting, values: std::ops::Range<usize>) ->
                 "{moments} of infinitely many rods of {rods} with the rotary diffusivity D_r = C_I γ̇, C_I = {}, γ̇ = (2D:D)^½, \
                  {when}. The answer is that of the distribution, ∂ψ/∂t = D_r∇²ψ − ∇·(ṗψ) on the sphere with Jeffery's ṗ, and not \
                  of a closure: a code with a closure of a_ijkl misses it by what the closure costs.",
-                setting.c_i
+                problem.c_i
             ),
             kind: Kind::Tensor,
-            gradient_per_s: setting.gradient_per_s,
-            aspect_ratio: setting.aspect_ratio,
+            gradient_per_s: problem.gradient_per_s,
+            aspect_ratio: problem.aspect_ratio,
             aspect_ratio_sd_percent: 0.0,
-            c_i: Some(setting.c_i),
+            c_i: Some(problem.c_i),
             closed: None,
-            times_s: setting.times_s(),
+            times_s: problem.times_s(),
             time_step_s: None,
             columns,
             metric: Metric::Absolute,
@@ -196,8 +196,8 @@ mod tests {
     /// Steady a_ij and a_ijkl satisfy the moment equation, written here a second time from the problem's file alone.
     #[test]
     fn steady_tables_stand_still_by_the_equation_of_second_moments() {
-        let residual = |setting: &Setting, c_i: f64, transposed: bool| {
-            let line = TABLE.lines().find(|line| line.starts_with(&format!("{},", setting.name))).unwrap();
+        let residual = |problem: &DiffusionProblem, c_i: f64, transposed: bool| {
+            let line = TABLE.lines().find(|line| line.starts_with(&format!("{},", problem.name))).unwrap();
             let (_, values) = certified_row(line);
             let at =
                 |columns: &[&str], name: String| columns.iter().position(|column| *column == name).unwrap();
@@ -208,10 +208,10 @@ mod tests {
             let two = |i: usize, j: usize| values[1 + at(&SECOND, sorted(vec![i, j]))];
             let four = |i, j, k, l| values[7 + at(&FOURTH, sorted(vec![i, j, k, l]))];
             let l = |i: usize, j: usize| match transposed {
-                true => setting.gradient_per_s[j][i],
-                false => setting.gradient_per_s[i][j],
+                true => problem.gradient_per_s[j][i],
+                false => problem.gradient_per_s[i][j],
             };
-            let r = setting.aspect_ratio;
+            let r = problem.aspect_ratio;
             let shape = (r * r - 1.0) / (r * r + 1.0);
             let w = |i, j| 0.5 * (l(i, j) - l(j, i));
             let d = |i, j| 0.5 * (l(i, j) + l(j, i));
@@ -228,13 +228,13 @@ mod tests {
             };
             pairs().map(of).map(f64::abs).fold(0.0, f64::max)
         };
-        let steady = SETTINGS.iter().filter(|setting| setting.times.is_empty());
-        for setting in steady {
+        let steady = PROBLEMS.iter().filter(|problem| problem.times.is_empty());
+        for problem in steady {
             // Twelve decimals, times rates of about 1.
-            let right = residual(setting, setting.c_i, false);
-            assert!(right < 1e-11, "{}: {right:e}", setting.name);
-            assert!(residual(setting, 1.01 * setting.c_i, false) > 1e-6, "{}", setting.name);
-            assert!(residual(setting, setting.c_i, true) > 1e-3, "{}", setting.name);
+            let right = residual(problem, problem.c_i, false);
+            assert!(right < 1e-11, "{}: {right:e}", problem.name);
+            assert!(residual(problem, 1.01 * problem.c_i, false) > 1e-6, "{}", problem.name);
+            assert!(residual(problem, problem.c_i, true) > 1e-3, "{}", problem.name);
         }
     }
 }

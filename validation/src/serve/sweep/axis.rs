@@ -37,14 +37,14 @@ impl Axis {
 
 /// A key of the scene with a new value.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Setting {
+pub struct KeyValue {
     /// The key, such as `interaction.alpha`.
     pub key: String,
     /// The value that replaces the scene's own.
     pub value: Value,
 }
 
-impl Setting {
+impl KeyValue {
     /// Parses the argument of `--set`: a key, and one value in the form of a list element after `--over`.
     pub fn parse(text: &str) -> Result<Self, String> {
         let (key, text) = key_and_text(text, "KEY=VALUE is allowed, as interaction.alpha=0.5")?;
@@ -202,9 +202,10 @@ mod tests {
     #[test]
     fn a_key_has_three_parts_at_most() {
         let deep = |parts| format!("{}=1", vec!["a"; parts].join("."));
-        assert!(Axis::parse(&deep(3)).is_ok() && Setting::parse(&deep(3)).is_ok());
+        assert!(Axis::parse(&deep(3)).is_ok() && KeyValue::parse(&deep(3)).is_ok());
         for parts in [4, 30_000] {
-            for error in [Axis::parse(&deep(parts)).unwrap_err(), Setting::parse(&deep(parts)).unwrap_err()] {
+            for error in [Axis::parse(&deep(parts)).unwrap_err(), KeyValue::parse(&deep(parts)).unwrap_err()]
+            {
                 assert!(error.contains(&format!("it has {parts} parts, and at most 3 are allowed")));
             }
         }

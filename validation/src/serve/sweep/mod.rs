@@ -4,7 +4,7 @@ mod axis;
 mod folder;
 
 pub(crate) use axis::key_and_text;
-pub use axis::{Axis, MAX_POINTS, Setting, shown};
+pub use axis::{Axis, KeyValue, MAX_POINTS, shown};
 pub use folder::{Folder, POINT, Points, inputs};
 
 use crate::input::start::Starts;
@@ -23,7 +23,7 @@ pub struct Point {
 
 /// Every point of the grid, the last axis varying fastest, checked like a scene file. `fixed` are keys that all points have in
 /// place of the scene's own; `starts` belong to the scene's folder. An error says which point and why.
-pub fn points(text: &str, starts: &Starts, fixed: &[Setting], axes: &[Axis]) -> Result<Vec<Point>, String> {
+pub fn points(text: &str, starts: &Starts, fixed: &[KeyValue], axes: &[Axis]) -> Result<Vec<Point>, String> {
     let base = document(text)?;
     let count = (axes.iter())
         .try_fold(1_usize, |count, axis| count.checked_mul(axis.values.len()))
@@ -34,7 +34,7 @@ pub fn points(text: &str, starts: &Starts, fixed: &[Setting], axes: &[Axis]) -> 
         let values = at(axes, k);
         let keys = axes.iter().map(|axis| axis.key.as_str());
         let own = keys.zip(values.iter().cloned());
-        let settings = fixed.iter().map(Setting::pair).chain(own);
+        let settings = fixed.iter().map(KeyValue::pair).chain(own);
         let plan = plan(&base, &mut starts, settings).map_err(|error| {
             let point = described(axes, &values);
             format!("--over {point} (point {} of {count}): {error}", k + 1)
@@ -103,8 +103,8 @@ fn plan<'a>(
 }
 
 /// The scene in `text` with the keys `settings`, checked like a scene file.
-pub fn scene_with(text: &str, settings: &[Setting]) -> Result<Scene, String> {
-    with(&document(text)?, settings.iter().map(Setting::pair))
+pub fn scene_with(text: &str, settings: &[KeyValue]) -> Result<Scene, String> {
+    with(&document(text)?, settings.iter().map(KeyValue::pair))
 }
 
 fn with<'a>(base: &Document, settings: impl Iterator<Item = (&'a str, Value)>) -> Result<Scene, String> {
@@ -140,7 +140,7 @@ mod tests {
         let over = ["interaction.alpha=0.1:0.7:7", "particles.count=10,20"];
         let axes = over.map(|text| Axis::parse(text).unwrap());
         let found =
-            points(text(), &Starts::default(), &[Setting::parse("ensemble.replicas=3").unwrap()], &axes)
+            points(text(), &Starts::default(), &[KeyValue::parse("ensemble.replicas=3").unwrap()], &axes)
                 .unwrap();
         assert_eq!(found.len(), 14);
         for (k, point) in found.iter().enumerate() {

@@ -1,6 +1,6 @@
 //! The contact rule in extended precision, for the tables of certified answers.
 
-use super::{COUETTE, SETTINGS, Setting, pairs};
+use super::{COUETTE, ContactProblem, PROBLEMS, pairs};
 use crate::oracle::reference::big::{Big, Bits, angle, digits, length};
 use rayon::prelude::*;
 
@@ -13,19 +13,19 @@ pub(super) type Vector = [Big; 3];
 pub fn certify() -> Vec<(&'static str, String)> {
     let pairs = pairs();
     let rods: Vec<_> = pairs.par_iter().map(|pair| touched(&pair.map(|x| BITS.of(x)))).collect();
-    let table = |setting: &Setting| {
+    let table = |problem: &ContactProblem| {
         let row = |(snapshot, rods): (usize, &[Touched; 2])| {
-            let values = rods.iter().flat_map(|rod| setting.answer(rod));
+            let values = rods.iter().flat_map(|rod| problem.answer(rod));
             let values = values.map(|x| digits(&x, DIGITS));
             std::iter::once(snapshot.to_string()).chain(values).collect::<Vec<_>>().join(",") + "\n"
         };
         let rows: String = rods.par_iter().enumerate().map(row).collect();
-        (setting.name, setting.columns().join(",") + "\n" + &rows)
+        (problem.name, problem.columns().join(",") + "\n" + &rows)
     };
-    SETTINGS.iter().map(table).collect()
+    PROBLEMS.iter().map(table).collect()
 }
 
-impl Setting {
+impl ContactProblem {
     fn columns(&self) -> Vec<String> {
         let of_a: &[_] = match self.step_s {
             None => &["a_pdot1_per_s", "a_pdot2_per_s", "a_pdot3_per_s"],

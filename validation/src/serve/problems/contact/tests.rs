@@ -54,11 +54,11 @@ fn the_naive_reference_passes_and_a_wrong_one_fails() {
 
 #[test]
 fn the_tables_are_computed_anew() {
-    for ((name, table), setting) in certify().iter().zip(&*SETTINGS) {
-        assert_eq!(*name, setting.name);
-        assert!(table == setting.table, "{name}: the table is another one");
-        let worst = pairs().iter().map(|pair| condition(pair, setting.step_s)).fold(0.0, f64::max);
-        assert_eq!(worst.round(), setting.condition, "{name}");
+    for ((name, table), problem) in certify().iter().zip(&*PROBLEMS) {
+        assert_eq!(*name, problem.name);
+        assert!(table == problem.table, "{name}: the table is another one");
+        let worst = pairs().iter().map(|pair| condition(pair, problem.step_s)).fold(0.0, f64::max);
+        assert_eq!(worst.round(), problem.condition, "{name}");
     }
 }
 
@@ -109,9 +109,9 @@ fn condition(pair: &Pair, step_s: Option<f64>) -> f64 {
 }
 
 /// The condition number of the certified answer itself, by differences in extended precision.
-fn condition_in_many_digits(pair: &Pair, setting: &Setting) -> f64 {
+fn condition_in_many_digits(pair: &Pair, problem: &ContactProblem) -> f64 {
     let small = BITS.of(2f64.powi(-64));
-    let of = |pair: &[Big; 14]| touched(pair).map(|rod| setting.answer(&rod));
+    let of = |pair: &[Big; 14]| touched(pair).map(|rod| problem.answer(&rod));
     let norm = |x: &[Big]| double(&x.iter().fold(BITS.of(0.0), |sum, x| sum + x.sqr()).sqrt());
     let exact = pair.map(|x| BITS.of(x));
     let before = of(&exact);
@@ -130,9 +130,9 @@ fn condition_in_many_digits(pair: &Pair, setting: &Setting) -> f64 {
 #[test]
 fn condition_numbers_are_those_of_the_certified_answers() {
     for pair in &pairs()[..20] {
-        for setting in &*SETTINGS {
-            let expected = condition_in_many_digits(pair, setting);
-            let found = condition(pair, setting.step_s);
+        for problem in &*PROBLEMS {
+            let expected = condition_in_many_digits(pair, problem);
+            let found = condition(pair, problem.step_s);
             // ε^(2/3) κ², κ up to a thousand; the tolerance is rounded up to one digit.
             assert!((found / expected - 1.0).abs() < 1e-3, "{found} {expected}");
         }
