@@ -296,7 +296,7 @@ fn intervals_hold_the_planted_value_as_often_as_they_say() {
     // A rate and a frequency in each fit. Their estimates have a correlation of −0.009, and whether one interval contains its value says
     // next to nothing about the other.
     let count = enough((0.68_f64 * 0.32).sqrt(), EFFECT).div_ceil(2);
-    // Sampling noise that replicas do not quite remove, so that a fit without it would fail. The case `fit-covers` has one key.
+    // Sampling noise that replicas do not quite remove. The case `fit-covers` has one key, and a fit without that noise as its control.
     let found = repeats(count as u64, 0.02, 40);
     for (which, confidence) in [(0, 0.68), (1, 0.95)] {
         let inside = found.iter().flat_map(|repeat| repeat.inside.map(|of| of[which]));
