@@ -1,6 +1,6 @@
 //! Tensor codes with a closure: named on the exact problems with what it costs, held to 10⁻¹⁰ on their own.
 
-use crate::grading::{REFERENCE, files, problem, text, write};
+use crate::grading::{answers, problem, text, write};
 
 type M = [[f64; 3]; 3];
 
@@ -76,7 +76,7 @@ fn the_closure_of_a_program_is_named_with_its_cost() {
     of(shear, answer(shear, 0.01, quadratic));
     of(weak, answer(weak, 0.001, quadratic));
     of(steady, answer(steady, 0.01, hybrid));
-    let ended = files(REFERENCE.path(), dir.path(), &[]);
+    let ended = answers(dir.path(), &[]);
     for (name, closure, cost) in [
         (shear, "the quadratic closure, to ", "; it costs +1."),
         (weak, "the quadratic closure, to ", "; it costs +"),
@@ -100,7 +100,7 @@ fn a_coefficient_that_is_off_is_named_and_half_a_closure_is_not() {
     let name = "folgar-tucker-shear-0.01";
     let said = |rows: Vec<Vec<String>>| {
         write(dir.path(), name, "answer.csv", text(&rows));
-        files(REFERENCE.path(), dir.path(), &["--problem", name]).of(name)["diagnosis"].clone()
+        answers(dir.path(), &["--problem", name]).of(name)["diagnosis"].clone()
     };
     let half = said(answer(name, 0.005, hybrid));
     let expected = "this is the curve of the hybrid closure, with half the C_I, to ";
@@ -114,7 +114,7 @@ fn a_right_tensor_code_passes_its_closed_problem_and_another_closure_fails_by_na
     let (own, other) = ("closed-ft-quadratic-0.01", "closed-ft-hybrid-0.01");
     write(dir.path(), own, "answer.csv", text(&answer(own, 0.01, quadratic)));
     write(dir.path(), other, "answer.csv", text(&answer(other, 0.01, quadratic)));
-    let ended = files(REFERENCE.path(), dir.path(), &[]);
+    let ended = answers(dir.path(), &[]);
     assert_eq!((ended.verdict(own), ended.verdict(other)), ("PASS", "FAIL"), "{}", ended.words);
     assert!(ended.error(own) < 1e-10);
     let said = ended.diagnosis(other);
@@ -126,7 +126,7 @@ fn a_right_tensor_code_passes_its_closed_problem_and_another_closure_fails_by_na
     let (_, mut exact) = problem("folgar-tucker-shear-0.01");
     exact[0] = problem(other).1[0].clone();
     write(dir.path(), other, "answer.csv", text(&exact));
-    let ended = files(REFERENCE.path(), dir.path(), &["--problem", other]);
+    let ended = answers(dir.path(), &["--problem", other]);
     let expected = "this is the curve of the distribution, without a closure, to ";
     assert!(ended.diagnosis(other).starts_with(expected), "{}", ended.words);
 }

@@ -1,6 +1,6 @@
 //! Which layouts of an answer are read, and how.
 
-use crate::grading::{REFERENCE, files, problem, text, write};
+use crate::grading::{answers, files, problem, some, text, write};
 use crate::programs::peers;
 use std::fs;
 
@@ -37,11 +37,11 @@ fn separators_heads_and_digits_of_labels_change_nothing() {
     ] {
         write(dir.path(), "shear-plane", "answer.csv", text);
         let only = [more, &["--problem", "shear-plane", "--problem", "mid-flip-2"]].concat();
-        let ended = files(REFERENCE.path(), dir.path(), &only);
+        let ended = answers(dir.path(), &only);
         assert_eq!(ended.of("shear-plane")["verdict"], "PASS", "{}", ended.words);
         assert_eq!(ended.of("mid-flip-2")["verdict"], "MISSING");
         assert_eq!(ended.code, Some(0), "{}", ended.words);
-        let all = files(REFERENCE.path(), dir.path(), &[&only[..], &["--all"]].concat());
+        let all = answers(dir.path(), &[&only[..], &["--all"]].concat());
         assert_eq!(all.code, Some(1));
     }
 }
@@ -65,13 +65,9 @@ fn axes_in_another_order_are_put_back() {
         // The program's axes are the flow, against the gradient, and the vorticity.
         write(dir.path(), name, "answer.csv", text(&told));
         let only = ["--problem", name];
-        let wrong = files(REFERENCE.path(), dir.path(), &only);
+        let wrong = answers(dir.path(), &only);
         assert_eq!(wrong.of(name)["verdict"], "FAIL");
-        let right = files(
-            REFERENCE.path(),
-            dir.path(),
-            &[&only[..], &["--axes", "flow,-gradient,vorticity"]].concat(),
-        );
+        let right = answers(dir.path(), &[&only[..], &["--axes", "flow,-gradient,vorticity"]].concat());
         assert_eq!(right.of(name)["verdict"], "PASS", "{}", right.words);
     }
 }
@@ -89,7 +85,7 @@ fn layouts_of_other_programs_are_read_as_they_are() {
         let ending = sample.split('.').next_back().unwrap();
         fs::create_dir(dir.path().join(problem)).unwrap();
         fs::copy(layouts.join(sample), dir.path().join(problem).join(format!("answer.{ending}"))).unwrap();
-        let found = files(REFERENCE.path(), dir.path(), more);
+        let found = answers(dir.path(), more);
         assert_eq!(found.verdict(problem), verdict, "{sample}: {}", found.words);
         // A closure is near the truth; columns in a wrong order are not.
         assert!(found.error(problem) < 0.05, "{sample}: {}", found.words);
@@ -111,10 +107,11 @@ fn layouts_of_other_programs_answer_closed_equations_too() {
     {
         let dir = tempfile::tempdir().unwrap();
         write(dir.path(), name, "answer.csv", in_order(order));
-        let found = files(REFERENCE.path(), dir.path(), &["--layout", layout]);
+        let found = answers(dir.path(), &["--layout", layout]);
         assert_eq!(found.verdict(name), "PASS", "{layout}: {}", found.words);
         fs::rename(dir.path().join(name).join("answer.csv"), dir.path().join(format!("{name}.csv"))).unwrap();
-        let found = files(REFERENCE.path(), dir.path(), &["--layout", layout]);
+        let reference = some(&dir.path().join("ref"), &[name]);
+        let found = files(&reference, dir.path(), &["--layout", layout]);
         assert_eq!(found.verdict(name), "MISSING");
         let words = found.words.split_whitespace().collect::<Vec<_>>().join(" ");
         assert!(words.contains(&format!("{name}.csv: it was not read; an answer is read from")), "{words}");
@@ -129,7 +126,7 @@ fn whole_series_and_files_of_probes_are_read() {
     let answered = |problem: &str, file: &str, text: String| {
         let dir = tempfile::tempdir().unwrap();
         write(dir.path(), problem, file, text);
-        files(REFERENCE.path(), dir.path(), &["--problem", problem])
+        answers(dir.path(), &["--problem", problem])
     };
     let probes = |rows: &[Vec<String>]| {
         let row = |row: &Vec<String>| {
@@ -196,7 +193,7 @@ fn a_dump_without_times_and_shapes_is_told_what_it_does_not_say() {
         [("x", None), ("y", Some("--rod-axis y, but by shapex shapey shapez the rod lies along x"))]
     {
         let told = ["--timestep-s", "1e-5", "--rod-axis", axis];
-        let ended = files(REFERENCE.path(), dir.path(), &[&only[..], &told].concat());
+        let ended = answers(dir.path(), &[&only[..], &told].concat());
         let said = reason.is_none_or(|reason| ended.words.contains(reason));
         assert!(ended.code == Some(reason.map_or(0, |_| 2)) && said, "{}", ended.words);
     }
@@ -206,18 +203,18 @@ fn a_dump_without_times_and_shapes_is_told_what_it_does_not_say() {
         )
         .collect();
     write(dir.path(), "shear-plane", "answer.dump", timed.join("\n") + "\n");
-    let ended = files(REFERENCE.path(), dir.path(), &[&only[..], &["--timestep-s", "1e-5"]].concat());
+    let ended = answers(dir.path(), &[&only[..], &["--timestep-s", "1e-5"]].concat());
     let reason = "ITEM: TIME is 1, by --timestep-s it is ";
     assert!(ended.code == Some(2) && ended.words.contains(reason), "{}", ended.words);
     write(dir.path(), "shear-plane", "answer.dump", dump);
     for (more, reason) in
         [(&["--rod-axis", "x"][..], "--timestep-s"), (&["--timestep-s", "1e-5"], "--rod-axis")]
     {
-        let ended = files(REFERENCE.path(), dir.path(), &[&only[..], more].concat());
+        let ended = answers(dir.path(), &[&only[..], more].concat());
         assert!(ended.code == Some(2) && ended.words.contains(reason), "{}", ended.words);
     }
     let told = ["--rod-axis", "x", "--timestep-s", "1e-5"];
-    let ended = files(REFERENCE.path(), dir.path(), &[&only[..], &told].concat());
+    let ended = answers(dir.path(), &[&only[..], &told].concat());
     assert_eq!(ended.verdict("shear-plane"), "PASS", "{}", ended.words);
 }
 
@@ -233,6 +230,6 @@ fn fiberpy_has_23_before_13() {
     let dir = tempfile::tempdir().unwrap();
     write(dir.path(), "isotropic-3", "answer.csv", text(&told));
     let more = ["--layout", "fiberpy", "--axes", "vorticity,gradient,flow", "--problem", "isotropic-3"];
-    let ended = files(REFERENCE.path(), dir.path(), &more);
+    let ended = answers(dir.path(), &more);
     assert_eq!(ended.verdict("isotropic-3"), "PASS", "{}", ended.words);
 }

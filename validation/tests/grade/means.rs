@@ -1,6 +1,6 @@
 //! Means of suspensions that a program may give for the right ones, and what is said of them.
 
-use crate::grading::{REFERENCE, files, problem, text, write};
+use crate::grading::{answers, problem, text, write};
 use std::process::Command;
 
 const ENSEMBLES: [&str; 2] = ["lee-springer", "lee-springer-unequal"];
@@ -42,7 +42,7 @@ fn ensembles_of_free_rods_and_with_columns_exchanged_are_named_and_others_not() 
         let with = |means: &dyn Fn(&[String]) -> [String; 3]| {
             let dir = tempfile::tempdir().unwrap();
             write(dir.path(), name, "answer.csv", spoilt(name, means));
-            files(REFERENCE.path(), dir.path(), &["--problem", name])
+            answers(dir.path(), &[])
         };
         let of_free = |sd: &str| with(&|row| free(turns_of(row), sd).try_into().unwrap());
         let exchanged = with(&|row| [row[3].clone(), row[1].clone(), row[5].clone()]);

@@ -1,6 +1,6 @@
 //! The numbers beside a verdict, and where a diagnosis ends, on answers whose error is known.
 
-use crate::grading::{Graded, REFERENCE, files, problem, text, write};
+use crate::grading::{Graded, REFERENCE, answers, problem, text, write};
 use std::f64::consts::TAU;
 use std::fs;
 
@@ -35,7 +35,7 @@ fn turning_of(name: &str, factor: f64) -> Vec<Vec<String>> {
 fn graded(name: &str, rows: &[Vec<String>]) -> Graded {
     let dir = tempfile::tempdir().unwrap();
     write(dir.path(), name, "answer.csv", text(rows));
-    files(REFERENCE.path(), dir.path(), &["--problem", name])
+    answers(dir.path(), &["--problem", name])
 }
 
 #[test]
@@ -123,7 +123,7 @@ fn several_problems_say_together_what_is_wrong_and_none_at_rest_says_anything() 
             .iter()
             .for_each(|name| drop(write(dir.path(), name, "answer.csv", text(&turning_of(name, factor)))));
         more.iter().for_each(|(name, rows)| drop(write(dir.path(), name, "answer.csv", text(rows))));
-        let found = files(REFERENCE.path(), dir.path(), &[]);
+        let found = answers(dir.path(), &[]);
         let said = found.grade.as_ref().unwrap()["diagnosis"].as_array().unwrap().clone();
         (said.iter().map(|said| said.as_str().unwrap().to_owned()).collect::<Vec<_>>(), found)
     };

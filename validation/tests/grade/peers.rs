@@ -69,9 +69,9 @@ fn a_suspension_in_numpy_has_the_mean_of_the_core() {
         return skipped("numpy_suspension.py", "no python3 with numpy");
     };
     let code = std::fs::read_to_string(peers().join("numpy_suspension.py")).unwrap();
-    let answer = |code: &str| {
+    let answer = |code: &str, replicas: &str| {
         let output = std::process::Command::new(&python)
-            .args(["-c", code, "40", "50", "1"])
+            .args(["-c", code, replicas, "50", "1"])
             .envs(crate::programs::ONE_THREAD)
             .output()
             .unwrap();
@@ -93,11 +93,14 @@ fn a_suspension_in_numpy_has_the_mean_of_the_core() {
     let (mean, se) = (core.mean.last().unwrap(), core.se.last().unwrap());
     let off = |found: Sample| (found.mean - mean).abs() / found.se.hypot(*se);
     let (right, free) = (
-        off(answer(&code)),
-        off(answer(&code.replace(
-            "N, G, LENGTH, R_E, ALPHA, M, PER_MM3 = 100, 0.5, 0.72, 11.6, 0.5,",
-            "N, G, LENGTH, R_E, ALPHA, M, PER_MM3 = 100, 0.5, 0.72, 11.6, 0.0,",
-        ))),
+        off(answer(&code, "40")),
+        off(answer(
+            &code.replace(
+                "N, G, LENGTH, R_E, ALPHA, M, PER_MM3 = 100, 0.5, 0.72, 11.6, 0.5,",
+                "N, G, LENGTH, R_E, ALPHA, M, PER_MM3 = 100, 0.5, 0.72, 11.6, 0.0,",
+            ),
+            "10",
+        )),
     );
     assert!(right < 4.5 && free > 10.0, "{right} {free}");
 }

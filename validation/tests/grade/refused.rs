@@ -1,6 +1,6 @@
 //! What is refused, with which place and reason.
 
-use crate::grading::{REFERENCE, files, graded, problem, text, write};
+use crate::grading::{REFERENCE, answers, files, graded, problem, text, write};
 use std::fs;
 use std::path::Path;
 use std::process::Command;
@@ -68,7 +68,7 @@ fn bad_answers_are_refused_with_file_line_and_column() {
     for (text, place, reason) in cases {
         let dir = tempfile::tempdir().unwrap();
         let file = write(dir.path(), "shear-plane", "answer.csv", text);
-        let ended = files(REFERENCE.path(), dir.path(), &["--problem", "shear-plane"]);
+        let ended = answers(dir.path(), &[]);
         assert_eq!(ended.code, Some(2), "{reason}: {}", ended.words);
         let place = format!("{}{place}: ", file.display());
         assert!(

@@ -1,6 +1,6 @@
 //! `--tolerance X` and `--tolerance NAME=X`.
 
-use crate::grading::{REFERENCE, files, off_by, problem, text, write};
+use crate::grading::{answers, files, off_by, problem, some, text, write};
 
 #[test]
 fn a_users_tolerance_passes_a_code_of_that_accuracy_and_no_worse_one() {
@@ -16,12 +16,12 @@ fn a_users_tolerance_passes_a_code_of_that_accuracy_and_no_worse_one() {
         (&["--tolerance", "mid-flip-100=1e-6"], "FAIL", own),
         (&["--tolerance", "1e-7", "--tolerance", "mid-flip-2=1e-6"], "PASS", 1e-6),
     ] {
-        let graded = files(REFERENCE.path(), dir.path(), more);
+        let graded = answers(dir.path(), more);
         assert_eq!(graded.verdict("mid-flip-2"), verdict, "{more:?}: {}", graded.words);
         assert_eq!(graded.of("mid-flip-2")["tolerance"], tolerance, "{more:?}");
     }
     // A smaller one of all problems is none: the problem's own stays, and with it what its answer is worth.
-    let graded = files(REFERENCE.path(), dir.path(), &["--tolerance", "1e-15", "--problem", "mid-flip-100"]);
+    let graded = answers(dir.path(), &["--tolerance", "1e-15", "--problem", "mid-flip-100"]);
     assert_eq!((graded.code, graded.verdict("mid-flip-100")), (Some(0), "PASS"));
     assert!(graded.of("mid-flip-100")["because"].as_str().unwrap().starts_with("A right code"));
 }
@@ -29,6 +29,9 @@ fn a_users_tolerance_passes_a_code_of_that_accuracy_and_no_worse_one() {
 #[test]
 fn tolerances_that_are_none_are_refused() {
     let dir = tempfile::tempdir().unwrap();
+    // One of each kind.
+    let kinds = ["mid-flip-2", "isotropic-3", "contact-rule", "lee-springer"];
+    let reference = some(&dir.path().join("ref"), &kinds);
     for (given, reason) in [
         ("0", "a number above 0, or NAME=NUMBER, is allowed"),
         ("mid-flip-2", "a number above 0"),
@@ -38,7 +41,7 @@ fn tolerances_that_are_none_are_refused() {
         ("nan", "a number above 0"),
         ("-1e-6", "a number above 0"),
     ] {
-        let ended = files(REFERENCE.path(), dir.path(), &["--tolerance", given]);
+        let ended = files(&reference, dir.path(), &["--tolerance", given]);
         assert!(ended.code == Some(2) && ended.words.contains(reason), "{given}: {}", ended.words);
     }
 }

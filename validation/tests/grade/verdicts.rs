@@ -1,6 +1,6 @@
 //! What passes, what fails, and with which numbers.
 
-use crate::grading::{REFERENCE, files, names, off_by, problem, text, write};
+use crate::grading::{REFERENCE, answers, files, names, off_by, problem, text, write};
 use serde_json::Value;
 
 #[test]
@@ -37,7 +37,7 @@ fn the_page_begins_with_what_fails() {
     for (name, part) in [("isotropic-3", 0.5), ("mid-flip-2", 0.5), ("isotropic-11.6", 2.0)] {
         write(dir.path(), name, "answer.csv", text(&off_by(name, part)));
     }
-    let html = files(REFERENCE.path(), dir.path(), &[]).html.unwrap();
+    let html = answers(dir.path(), &[]).html.unwrap();
     let place = |name: &str| html.find(&format!("id=\"problem-{name}\"")).unwrap();
     assert!(place("isotropic-11.6") < place("isotropic-3") && place("isotropic-3") < place("mid-flip-2"));
     let titled = |title: &str| html.contains(&format!("data-label=\"{title}\""));
@@ -54,7 +54,7 @@ fn what_is_not_finite_is_an_answer_that_fails() {
         let (_, mut rows) = problem("mid-flip-2");
         rows[2][3] = word.into();
         let file = write(dir.path(), "mid-flip-2", "answer.csv", text(&rows));
-        let ended = files(REFERENCE.path(), dir.path(), &[]);
+        let ended = answers(dir.path(), &[]);
         let found = ended.of("mid-flip-2");
         let expected = format!("{}:3: a value is not finite", file.display());
         assert_eq!((ended.code, &found["verdict"], &found["error"]), (Some(1), &"FAIL".into(), &Value::Null));
@@ -66,7 +66,7 @@ fn what_is_not_finite_is_an_answer_that_fails() {
         let (_, mut rows) = problem(name);
         *rows.last_mut().unwrap().last_mut().unwrap() = "inf".into();
         write(dir.path(), name, "answer.csv", text(&rows));
-        let ended = files(REFERENCE.path(), dir.path(), &[]);
+        let ended = answers(dir.path(), &[]);
         let found = ended.of(name);
         assert_eq!((&found["verdict"], &found["diagnosis"]), (&"FAIL".into(), &Value::Null));
         assert!(found["note"].as_str().unwrap().ends_with(": a value is not finite"), "{found:#}");
@@ -85,14 +85,14 @@ fn orders_are_read_from_steps_and_judged_against_a_claim() {
     let dir = tempfile::tempdir().unwrap();
     // Errors of 4096, 256, 16 tolerances, and one below it.
     ladder(dir.path(), "mid-flip-100", &[(100, 4096.0), (200, 256.0), (400, 16.0), (800, 0.9)]);
-    let ended = files(REFERENCE.path(), dir.path(), &["--order", "4"]);
+    let ended = answers(dir.path(), &["--order", "4"]);
     let found = ended.of("mid-flip-100");
     assert_eq!((&found["verdict"], &found["steps"]), (&"PASS".into(), &800.into()), "{found:#}");
     assert!((found["observed_order"].as_f64().unwrap() - 4.0).abs() < 1e-3);
     // Without the last: 16 tolerances with 400 steps are one with twice as many.
     let other = tempfile::tempdir().unwrap();
     ladder(other.path(), "mid-flip-100", &[(100, 4096.0), (200, 256.0), (400, 16.0)]);
-    let short = files(REFERENCE.path(), other.path(), &[]);
+    let short = answers(other.path(), &[]);
     let note = short.of("mid-flip-100")["note"].as_str().unwrap();
     assert!(note.starts_with("at this order about 8e2 steps would be within the tolerance"), "{note}");
     // The picture has the program's curve in bold black, and ours in grey.
@@ -103,12 +103,12 @@ fn orders_are_read_from_steps_and_judged_against_a_claim() {
     let line = |stroke: &str| picture.match_indices(stroke).map(|(at, _)| at).collect::<Vec<_>>();
     let (bold, grey) = (line("stroke=\"#000000\" stroke-width=\"24\""), line("#9A9A9A"));
     assert!(!bold.is_empty() && grey.len() >= 4, "{} {}", bold.len(), grey.len());
-    let ended = files(REFERENCE.path(), dir.path(), &["--order", "3"]);
+    let ended = answers(dir.path(), &["--order", "3"]);
     assert_eq!(ended.of("mid-flip-100")["note"], "observed order +4.00 where 3 is claimed");
     assert_eq!(ended.code, Some(1));
     // It diverges.
     ladder(dir.path(), "mid-flip-2", &[(100, 16.0), (200, 256.0), (400, 4096.0)]);
-    let ended = files(REFERENCE.path(), dir.path(), &[]);
+    let ended = answers(dir.path(), &[]);
     let order = ended.of("mid-flip-2")["observed_order"].as_f64().unwrap();
     assert!((order + 4.0).abs() < 1e-3, "{order}");
 }
@@ -117,7 +117,7 @@ fn orders_are_read_from_steps_and_judged_against_a_claim() {
 fn one_wild_answer_between_right_ones_fails() {
     let dir = tempfile::tempdir().unwrap();
     ladder(dir.path(), "mid-flip-100", &[(100, 4096.0), (200, 256.0), (400, 1e6), (800, 0.9)]);
-    let ended = files(REFERENCE.path(), dir.path(), &[]);
+    let ended = answers(dir.path(), &[]);
     let (found, note) =
         (ended.of("mid-flip-100"), ended.of("mid-flip-100")["note"].as_str().unwrap_or_default());
     assert_eq!((ended.code, &found["verdict"]), (Some(1), &"FAIL".into()));
@@ -141,7 +141,7 @@ fn an_order_fails_where_whole_orders_are_lost_and_not_where_it_has_not_settled()
     let judged = |orders: &[(&str, f64)], claim: &str| {
         let dir = tempfile::tempdir().unwrap();
         orders.iter().for_each(|(name, order)| falling(dir.path(), name, *order));
-        files(REFERENCE.path(), dir.path(), &["--order", claim])
+        answers(dir.path(), &["--order", claim])
     };
     for (order, verdict, found) in [
         (4.0, "PASS", "seen"),
@@ -207,7 +207,7 @@ fn too_little_data_and_errors_that_are_none_do_not_pass() {
         (0.0, "a standard error above 0"),
     ] {
         write(dir.path(), "lee-springer", "answer.csv", text(&off_in_a_mean(se, 0.0)));
-        let ended = files(REFERENCE.path(), dir.path(), &[]);
+        let ended = answers(dir.path(), &[]);
         let found = ended.of("lee-springer");
         let verdict = if words.is_empty() { "PASS" } else { "FAIL" };
         assert_eq!(found["verdict"], verdict, "{found:#}");
@@ -227,7 +227,7 @@ fn a_mean_that_is_off_by_four_of_its_errors_fails() {
         [(0.002, 0.008, "FAIL"), (0.9 * allowed, sigma(4.0), "FAIL"), (0.9 * allowed, sigma(3.0), "PASS")]
     {
         write(dir.path(), "lee-springer", "answer.csv", text(&off_in_a_mean(se, off)));
-        let ended = files(REFERENCE.path(), dir.path(), &[]);
+        let ended = answers(dir.path(), &[]);
         assert_eq!(ended.verdict("lee-springer"), verdict, "{se} {off}: {}", ended.words);
     }
 }

@@ -320,7 +320,9 @@ fn a_study_spares_what_it_did_not_write_and_a_run() {
     let converge = |scene: &str, out: &str| {
         shearbed(
             dir.path(),
-            &format!("converge {scene} --set particles.count=500 --quiet --replicas 2 --out {out}"),
+            &format!(
+                "converge {scene} --set particles.aspect_ratio=1 --set time.periods=2 --quiet --out {out}"
+            ),
         )
     };
     fs::create_dir(&out).unwrap();

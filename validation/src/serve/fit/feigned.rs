@@ -3,8 +3,8 @@
 
 use super::range::Range;
 use super::search::{Fit, Measured, fitted};
-use super::tests::{normal, share};
-use crate::judge::accept::{Design, Verdict, judge};
+use super::tests::{enough, normal, share};
+use crate::judge::accept::{Verdict, judge};
 use crate::judge::statistics::Sample;
 use crate::methods::least_squares::Datum;
 use crate::methods::least_squares::basis::Basis;
@@ -89,7 +89,7 @@ const REPLICAS: u64 = 100;
 
 #[test]
 fn the_noise_of_replicas_makes_no_interval_short() {
-    let count = Design { effect: EFFECT, sd: (0.68_f64 * 0.32).sqrt() }.samples();
+    let count = enough((0.68_f64 * 0.32).sqrt(), EFFECT) as u64;
     let one = |k: u64| {
         let fit = fit(&points(1000 + k), SLOPE, 5000 + k);
         (asked(&fit), asked(&believed(&fit)), fit.feigned())

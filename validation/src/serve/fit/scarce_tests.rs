@@ -2,8 +2,8 @@
 
 use super::range::Range;
 use super::search::{Fit, Measured, fitted};
-use super::tests::{normal, share};
-use crate::judge::accept::{Design, Verdict, judge};
+use super::tests::{enough, normal, share};
+use crate::judge::accept::{Verdict, judge};
 use crate::methods::least_squares::Datum;
 use crate::methods::least_squares::basis::Basis;
 use crate::methods::least_squares::emulator::{Replica, coefficients};
@@ -14,6 +14,7 @@ use rand::SeedableRng;
 use rand_pcg::Pcg64Dxsm;
 use rayon::prelude::*;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
+use std::sync::Arc;
 
 const POINTS: usize = 20;
 const REPLICAS: u64 = 100;
@@ -46,12 +47,16 @@ fn fit(seed: u64) -> Fit {
         ..Datum::place(0, "x1", k as f64)
     };
     let data: Vec<Datum> = curve(PLANTED).enumerate().map(point).collect();
-    let model = move |values: &[f64]| -> Result<Replica, String> {
-        let mean: Vec<f64> = curve(values[0]).collect();
+    // A replica scatters alike at every value.
+    let of_replica = |replica: u64| {
+        scatter(&mut Pcg64Dxsm::seed_from_u64(seed.wrapping_mul(1_000_003).wrapping_add(1 + replica)))
+    };
+    let scatters: Arc<Vec<_>> = Arc::new((0..REPLICAS).map(of_replica).collect());
+    let model = |values: &[f64]| -> Result<Replica, String> {
+        let (mean, scatters) = (curve(values[0]).collect::<Vec<f64>>(), scatters.clone());
         Ok(Replica::whole(move |replica| {
-            let mut rng = Pcg64Dxsm::seed_from_u64(seed.wrapping_mul(1_000_003).wrapping_add(1 + replica));
-            let scatter = scatter(&mut rng);
-            Ok(mean.iter().zip(scatter).map(|(mean, own)| [mean + own; 3]).collect())
+            let own = &scatters[replica as usize];
+            Ok(mean.iter().zip(own).map(|(mean, own)| [mean + own; 3]).collect())
         }))
     };
     let (ranges, basis) = (vec![Range::parse("a.a=-1:1").unwrap()], Basis::new(1));
@@ -86,7 +91,7 @@ const ALLOWANCE: f64 = 0.01;
 #[test]
 fn a_covariance_of_few_replicas_makes_no_interval_short() {
     // The largest standard deviation of a share.
-    let count = Design { effect: EFFECT, sd: 0.5 }.samples();
+    let count = enough(0.5, EFFECT) as u64;
     let one = |k: u64| {
         let fit = fit(100 + k);
         (asked(&fit), asked(&believed(&fit)), fit.best.excess)
