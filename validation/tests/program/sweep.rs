@@ -243,3 +243,14 @@ fn bad_input_is_refused_before_anything_runs() {
     assert!(message.contains("small.toml:5: particles.count = 0 is not allowed"), "{message}");
     assert!(!dir.path().join("out").exists());
 }
+
+#[test]
+fn a_warning_of_several_points_is_said_once() {
+    let dir = folder();
+    let over = "--over interaction.alpha=0.1,0.2,0.3 --over particles.count=1,2";
+    let ended = shearbed(dir.path(), &format!("sweep small.toml {over} --quiet"));
+    assert_eq!(ended.code, Some(0), "{}", ended.stderr);
+    let of_one_rod = "interaction.alpha=0.1 particles.count=1 and 2 other points: interaction has no effect";
+    assert!(ended.stderr.contains(of_one_rod), "{}", ended.stderr);
+    assert_eq!(ended.stderr.matches("has no effect").count(), 1, "{}", ended.stderr);
+}
