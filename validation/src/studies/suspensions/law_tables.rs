@@ -13,7 +13,7 @@ pub fn law(law: &Law, strain: f64) -> [ReportTable; 4] {
 }
 
 /// A sentence on the weak order, or on why there is none.
-pub fn order_in_words(law: &Law) -> String {
+fn order_in_words(law: &Law) -> String {
     let from = law.steps.get(law.resolved_from).map_or(0, |s| s.steps_per_period);
     let order = match &law.order {
         Some(order) => format!(

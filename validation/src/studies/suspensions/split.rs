@@ -15,7 +15,7 @@ use shearbed::Scene;
 pub const TARGETS: [f64; 3] = [1e-2, 3e-3, 1e-3];
 
 /// The smallest number of replicas: fewer do not show their scatter.
-pub const FEWEST_REPLICAS: u64 = 8;
+const FEWEST_REPLICAS: u64 = 8;
 
 /// The constants of a scene's error.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
