@@ -16,14 +16,8 @@ pub fn law(law: &Law, strain: f64) -> [ReportTable; 4] {
 fn order_in_words(law: &Law) -> String {
     let from = law.steps.get(law.resolved_from).map_or(0, |s| s.steps_per_period);
     let order = match &law.order {
-        Some(order) => format!(
-            "Over the levels that resolve a flip (GΔt ≤ 1, from {from} steps on) the weak order is {:.2} ± {:.2}.",
-            order.order, order.se
-        ),
-        None => format!(
-            "Over the levels that resolve a flip (GΔt ≤ 1, from {from} steps on) noise hides the weak order: it is not \
-             readable."
-        ),
+        Some(order) => format!("the weak order is {:.2} ± {:.2}", order.order, order.se),
+        None => "noise hides the weak order: it is not readable".into(),
     };
     let line = match &law.steps_line {
         Some(line) => {
@@ -41,7 +35,7 @@ fn order_in_words(law: &Law) -> String {
         }
         None => " No straight line in 1/steps fits X̄₁.".into(),
     };
-    order + &line
+    format!("Over the levels that resolve a flip (GΔt ≤ 1, from {from} steps on) {order}.{line}")
 }
 
 fn steps(law: &Law, strain: f64) -> ReportTable {
