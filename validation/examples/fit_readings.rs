@@ -7,7 +7,6 @@ use rand_distr::{Distribution, StandardNormal};
 use rand_pcg::Pcg64Dxsm;
 use rayon::prelude::*;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
-use std::iter::once;
 use validation::cases::fit_readings::{model, one_alpha, points};
 use validation::judge::case::Effort;
 use validation::methods::least_squares::Datum;
@@ -15,7 +14,7 @@ use validation::methods::least_squares::emulator::{Prediction, Replica};
 use validation::oracle::naive::{self, Naive, mean_projections};
 use validation::serve::fit::Range;
 use validation::serve::fit::search::{FitProblem, Measured, Watch, search};
-use validation::studies::readings::{ALTERNATIVES, Change, SEED};
+use validation::studies::readings::{self, Change, SEED};
 
 const PLANTED: f64 = 0.8;
 const NOISE: f64 = 0.01;
@@ -46,10 +45,8 @@ fn two_suspensions() -> Result<(), String> {
     let model = model(&effort, REPLICAS)?;
     println!("\n| points of | α of both | χ² − χ² of this project's | in standard deviations of χ² |");
     println!("| --- | ---: | ---: | ---: |");
-    let default: Change = |_| ();
-    let all = once(("–", "this project", default)).chain(ALTERNATIVES);
     let mut own = None;
-    for (open, reading, change) in all.filter(|(open, ..)| !open.contains("step")) {
+    for (open, reading, change) in readings::all().filter(|(open, ..)| !open.contains("step")) {
         let points = points(change, &effort, REPLICAS);
         let fit = one_alpha(&points, SMALL_NOISE, REPLICAS, &model)?;
         let found = fit.best.chi_square;
@@ -67,9 +64,8 @@ fn main() -> Result<(), String> {
     two_suspensions()?;
     let most: u64 =
         std::env::args().nth(1).map_or(Ok(50), |text| text.parse()).map_err(|error| format!("{error}"))?;
-    let default: Change = |_| ();
     let rows: Vec<_> =
-        (0..TRUTH).into_par_iter().map(|replica| curve(default, PLANTED, 99, replica)).collect();
+        (0..TRUTH).into_par_iter().map(|replica| curve(|_| (), PLANTED, 99, replica)).collect();
     let mut rng = Pcg64Dxsm::seed_from_u64(7);
     let point = |k: usize| {
         let noise: f64 = StandardNormal.sample(&mut rng);
@@ -83,8 +79,7 @@ fn main() -> Result<(), String> {
     let law = ChiSquared::new((POINTS - 1) as f64).map_err(|error| error.to_string())?;
     println!("| open | reading | α | 95 % interval | χ² of {} | p |", POINTS - 1);
     println!("| --- | --- | ---: | --- | ---: | ---: |");
-    let all = once(("–", "this project", default)).chain(ALTERNATIVES);
-    for (open, reading, change) in all {
+    for (open, reading, change) in readings::all() {
         let model = move |values: &[f64]| -> Result<Replica, String> {
             let alpha = values[0];
             Ok(Replica::whole(move |replica| Ok(curve(change, alpha, 1, replica))))

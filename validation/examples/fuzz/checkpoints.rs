@@ -89,10 +89,8 @@ pub fn checkpoint() -> Target {
                     Err(error) => Ok(Taken::Refused(error.to_string())),
                     Ok(results) => {
                         let columns = results.series.iter().flat_map(|series| &series.columns);
-                        match columns.flat_map(|column| &column.mean).all(|mean| mean.is_finite()) {
-                            true => Ok(Taken::Accepted),
-                            false => Err("a mean that is not finite".into()),
-                        }
+                        let mut means = columns.flat_map(|column| &column.mean);
+                        Taken::if_finite(means.all(|mean| mean.is_finite()), "a mean")
                     }
                 },
             }

@@ -42,6 +42,13 @@ pub enum Taken {
     Refused(String),
 }
 
+impl Taken {
+    /// As something to work on, if all its numbers are finite; else this is at fault.
+    fn if_finite(finite: bool, fault: &str) -> Result<Self, String> {
+        if finite { Ok(Self::Accepted) } else { Err(format!("{fault} that is not finite")) }
+    }
+}
+
 /// Files by name.
 type Files = [(&'static str, Vec<u8>)];
 /// Takes one set of files, of which some are mutated.

@@ -84,12 +84,9 @@ pub fn data() -> Target {
             }
             let curves = experiment::read(folder, &SOURCES[0])
                 .map_err(|error| format!("checked, and then: {error}"))?;
-            let finite = |x: f64| x.is_finite();
             let all = curves.iter().flat_map(|curve| &curve.points);
-            match all.flat_map(|point| [point.x, point.y, point.u_x, point.u_y]).all(finite) {
-                true => Ok(Taken::Accepted),
-                false => Err("a point that is not finite".into()),
-            }
+            let mut numbers = all.flat_map(|point| [point.x, point.y, point.u_x, point.u_y]);
+            Taken::if_finite(numbers.all(f64::is_finite), "a point")
         }),
     }
 }
@@ -137,10 +134,7 @@ pub fn problems() -> Target {
             }
             put(&folder.join(names.iter().find(|name| called(name)).unwrap_or(&FOREIGN)), files)?;
             match problems::read(folder) {
-                Ok(found) => match found.iter().all(finite) {
-                    true => Ok(Taken::Accepted),
-                    false => Err("a number that is not finite".into()),
-                },
+                Ok(found) => Taken::if_finite(found.iter().all(finite), "a number"),
                 Err(error) => {
                     named(&error.message, Some(error.line as usize), files, &error.path.display().to_string())
                 }
@@ -193,10 +187,7 @@ pub fn answers() -> Target {
                     let numbers = graded
                         .iter()
                         .flat_map(|graded| [graded.error, graded.length_drift, graded.orbit_drift]);
-                    match numbers.flatten().all(f64::is_finite) {
-                        true => Ok(Taken::Accepted),
-                        false => Err("a number that is not finite".into()),
-                    }
+                    Taken::if_finite(numbers.flatten().all(f64::is_finite), "a number")
                 }
                 Err(errors) => {
                     let first = errors.first().ok_or("refused without a reason")?;

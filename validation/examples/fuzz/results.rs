@@ -22,12 +22,11 @@ pub fn fits() -> Target {
         take: Box::new(|folder, files| {
             put(folder, files)?;
             match data::read(&folder.join("a.csv"), 0) {
-                Ok(points) => match (points.points.iter())
-                    .all(|p| [p.time, p.u_time, p.value, p.u].iter().all(|x| x.is_finite()) && p.u > 0.0)
-                {
-                    true => Ok(Taken::Accepted),
-                    false => Err("a point that is not finite".into()),
-                },
+                Ok(points) => Taken::if_finite(
+                    (points.points.iter())
+                        .all(|p| [p.time, p.u_time, p.value, p.u].iter().all(|x| x.is_finite()) && p.u > 0.0),
+                    "a point",
+                ),
                 Err(error) => named(&error.message, error.line, files, &error.file),
             }
         }),
@@ -85,13 +84,10 @@ pub fn plots() -> Target {
             }
             let dirs = [folder.to_path_buf()];
             match program::figure(&dirs, Some("x1")) {
-                Ok(figure) => match figure.curves.iter().all(|curve| {
-                    let numbers = curve.x.iter().chain(&curve.y);
-                    numbers.copied().all(f64::is_finite)
-                }) {
-                    true => Ok(Taken::Accepted),
-                    false => Err("a curve that is not finite".into()),
-                },
+                Ok(figure) => {
+                    let mut numbers = figure.curves.iter().flat_map(|curve| curve.x.iter().chain(&curve.y));
+                    Taken::if_finite(numbers.all(|number| number.is_finite()), "a curve")
+                }
                 Err(why) => match why.contains(&folder.display().to_string()) {
                     true => Ok(Taken::Refused(why)),
                     false => Err(format!("refused without its place: {why}")),

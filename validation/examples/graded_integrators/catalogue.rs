@@ -22,14 +22,17 @@ fn named(name: &str) -> Tableau {
 }
 
 /// Name, method, order, and the forms that it is used in.
-type Family = (String, Method, Option<u32>, Vec<Form>);
+type Family = (String, Method, Option<u32>, &'static [Form]);
 
 fn families() -> Vec<Family> {
     use Form::{Angles, Linear, Normalised, Raw};
+    const EVERY: &[Form] = &[Raw, Normalised, Linear, Angles];
+    const NOT_LINEAR: &[Form] = &[Raw, Normalised, Angles];
     let mut all: Vec<Family> = Vec::new();
+    let mut add = |name: &str, method, order, forms| all.push((name.to_owned(), method, order, forms));
     for tableau in tableaus::all() {
-        let (name, order) = (tableau.name.to_owned(), tableau.order);
-        all.push((name, Method::RungeKutta(tableau), Some(order), vec![Raw, Normalised, Linear, Angles]));
+        let (name, order) = (tableau.name, tableau.order);
+        add(name, Method::RungeKutta(tableau), Some(order), EVERY);
     }
     let adams: [(u32, &[f64], &[&str]); 3] = [
         (2, &[1.5, -0.5], &["Euler", "Heun 2", "RK4"]),
@@ -39,12 +42,7 @@ fn families() -> Vec<Family> {
     for (order, b, starters) in adams {
         for starter in starters {
             let method = Method::Adams { b: b.to_vec(), starter: named(starter) };
-            all.push((
-                format!("AB{order} from {starter}"),
-                method,
-                Some(order),
-                vec![Raw, Normalised, Angles],
-            ));
+            add(&format!("AB{order} from {starter}"), method, Some(order), NOT_LINEAR);
         }
     }
     let method = Method::PredictorCorrector {
@@ -52,11 +50,11 @@ fn families() -> Vec<Family> {
         moulton: vec![9.0 / 24.0, 19.0 / 24.0, -5.0 / 24.0, 1.0 / 24.0],
         starter: named("RK4"),
     };
-    all.push(("ABM4 from RK4".into(), method, Some(4), vec![Raw, Normalised, Angles]));
+    add("ABM4 from RK4", method, Some(4), NOT_LINEAR);
     let r = 3f64.sqrt();
     let s = 15f64.sqrt();
-    type Tableau = (&'static str, u32, Vec<Vec<f64>>, Vec<f64>);
-    let implicit: [Tableau; 6] = [
+    type Implicit = (&'static str, u32, Vec<Vec<f64>>, Vec<f64>);
+    let implicit: [Implicit; 6] = [
         ("implicit Euler", 1, vec![vec![1.0]], vec![1.0]),
         ("implicit midpoint", 2, vec![vec![0.5]], vec![1.0]),
         ("trapezoidal rule", 2, vec![vec![0.0, 0.0], vec![0.5, 0.5]], vec![0.5, 0.5]),
@@ -74,30 +72,21 @@ fn families() -> Vec<Family> {
         ),
     ];
     for (name, order, a, b) in implicit {
-        all.push((
-            name.into(),
-            Method::Implicit { a, b },
-            Some(order),
-            vec![Raw, Normalised, Linear, Angles],
-        ));
+        add(name, Method::Implicit { a, b }, Some(order), EVERY);
     }
     let suzuki = 1.0 / (4.0 - 4f64.powf(1.0 / 3.0));
     let parts = vec![suzuki, suzuki, 1.0 - 4.0 * suzuki, suzuki, suzuki];
-    all.push((
-        "Suzuki 4 of implicit midpoint".into(),
-        Method::Composed(parts),
-        Some(4),
-        vec![Raw, Normalised, Linear],
-    ));
-    for name in ["Euler", "midpoint", "Heun 2", "Ralston 2"] {
-        let tableau = named(name);
-        let order = Some(tableau.order);
-        all.push((format!("Lie-group {name}"), Method::LieGroup { tableau, rkmk: false }, order, vec![Raw]));
-    }
-    for name in ["Kutta 3", "Heun 3", "RK4", "Kutta 3/8", "Gill 4"] {
-        let tableau = named(name);
-        let order = Some(tableau.order);
-        all.push((format!("RKMK {name}"), Method::LieGroup { tableau, rkmk: true }, order, vec![Raw]));
+    add("Suzuki 4 of implicit midpoint", Method::Composed(parts), Some(4), &[Raw, Normalised, Linear]);
+    let lie_group: [(&str, bool, &[&str]); 2] = [
+        ("Lie-group", false, &["Euler", "midpoint", "Heun 2", "Ralston 2"]),
+        ("RKMK", true, &["Kutta 3", "Heun 3", "RK4", "Kutta 3/8", "Gill 4"]),
+    ];
+    for (kind, rkmk, names) in lie_group {
+        for name in names {
+            let tableau = named(name);
+            let order = Some(tableau.order);
+            add(&format!("{kind} {name}"), Method::LieGroup { tableau, rkmk }, order, &[Raw]);
+        }
     }
     let yoshida = 1.0 / (2.0 - 2f64.powf(1.0 / 3.0));
     let middle = 1.0 - 2.0 * yoshida;
@@ -112,13 +101,12 @@ fn families() -> Vec<Family> {
         ),
     ];
     for (name, order, turning, stretching) in splittings {
-        all.push((name.into(), Method::Splitting { turning, stretching }, Some(order), vec![Form::Linear]));
+        add(name, Method::Splitting { turning, stretching }, Some(order), &[Linear]);
     }
     for (tableau, other) in tableaus::pairs() {
-        let name = tableau.name.to_owned();
-        all.push((name, Method::Adaptive { tableau, other }, None, vec![Raw, Normalised, Angles]));
+        add(tableau.name, Method::Adaptive { tableau, other }, None, NOT_LINEAR);
     }
-    all.push(("Dormand-Prince 8(5,3)".into(), Method::DormandPrince8, None, vec![Raw, Normalised, Angles]));
+    add("Dormand-Prince 8(5,3)", Method::DormandPrince8, None, NOT_LINEAR);
     all
 }
 
@@ -147,11 +135,11 @@ fn form_name(form: Form) -> &'static str {
 /// Every right method.
 pub fn right() -> Vec<Entry> {
     let entries = families().into_iter().flat_map(|(name, method, order, forms)| {
-        forms.into_iter().map(move |form| Entry {
-            name: format!("{name} {}", form_name(form)),
+        forms.iter().map(move |form| Entry {
+            name: format!("{name} {}", form_name(*form)),
             family: family(&method, order).to_owned(),
             method: method.clone(),
-            form,
+            form: *form,
             order,
             right: true,
         })

@@ -1,16 +1,16 @@
 //! Experiments (Figs 4 and 5): judged if the measured points are supplied, `NoData` otherwise.
 
+use super::fit_covers::set;
 use crate::input::experiment::{
     self, ANCZUROWSKI, Comparison, DataError, MeasuredCurve, OKAGAWA_MASON, Runs, Source,
 };
-use crate::input::start::Starts;
 use crate::judge::accept::Rule;
 use crate::judge::case::{Case, Effort, Evidence};
 use crate::judge::lab::{self, Change};
 use crate::judge::statistics::{Sample, worst};
 use crate::serve::fit::Range;
 use crate::serve::fit::data::TimeColumn;
-use crate::serve::fit::scenes::{Scenes, Set};
+use crate::serve::fit::scenes::Scenes;
 use shearbed::observable::Channel;
 use shearbed::scene::{Orientation, Scene};
 
@@ -58,7 +58,7 @@ fn not_fitted(theta_deg: &f64, effort: &Effort) -> Result<Vec<Evidence>, String>
     scene.particles.orientation = Orientation::Given { phi_deg: 0.0, theta_deg: *theta_deg };
     scene.particles.aspect_ratio = 3.96;
     scene.particles.aspect_ratio_sd_percent = 3.0;
-    let text = toml::to_string(&scene).map_err(|error| error.to_string())?;
+    let fitted = scene.clone();
     if *theta_deg == 90.0 {
         // Unequal rods do not stay parallel, and kick each other in the plane by the error of a time step.
         scene.particles.aspect_ratio_sd_percent = 0.0;
@@ -71,15 +71,8 @@ fn not_fitted(theta_deg: &f64, effort: &Effort) -> Result<Vec<Evidence>, String>
     };
     let (weak, strong) = (curve(0.05).concat().concat(), curve(5.0).concat().concat());
     let apart = worst(weak.iter().zip(&strong).map(|(a, b)| (a - b).abs()));
-    let set = Set {
-        source: "a case".into(),
-        text,
-        starts: Starts::default(),
-        settings: Vec::new(),
-        seed: effort.seed(0),
-        time: TimeColumn::Periods,
-    };
-    let fit = Scenes::new(vec![set], vec![Range::parse("interaction.alpha=0.05:5")?]);
+    let range = Range::parse("interaction.alpha=0.05:5")?;
+    let fit = Scenes::new(vec![set(&fitted, effort.seed(0), TimeColumn::Periods)?], vec![range]);
     let refused = fit.is_err_and(|error| {
         error.contains("disturb each other in this model only by the error of a time step")
     });
@@ -106,11 +99,6 @@ fn no_data(what: impl Into<String>) -> Vec<Evidence> {
     vec![Evidence::new(what, Rule::NoData { supply: SUPPLY.into() })]
 }
 
-/// Evidence that fails, with the reason.
-fn failed(what: impl Into<String>) -> Evidence {
-    Evidence::exact(what, f64::NAN)
-}
-
 /// The points of a source that are judged, and the number of those that are not.
 fn judged(source: &Source, effort: &Effort) -> Result<(Vec<MeasuredCurve>, usize), DataError> {
     let Some(data) = &effort.data else {
@@ -133,13 +121,10 @@ fn runs(effort: &Effort, stream: u64) -> Runs {
 }
 
 /// One goodness of fit for each scene with points.
-fn agreement(source: &Source, change: Change, effort: &Effort) -> Vec<Evidence> {
-    let (curves, late) = match judged(source, effort) {
-        Ok(found) => found,
-        Err(error) => return vec![failed(error.to_string())],
-    };
+fn agreement(source: &Source, change: Change, effort: &Effort) -> Result<Vec<Evidence>, DataError> {
+    let (curves, late) = judged(source, effort)?;
     if curves.is_empty() {
-        return no_data(format!("points of {}", source.label));
+        return Ok(no_data(format!("points of {}", source.label)));
     }
     let scenes = source.scenes.iter().zip(0..);
     let mut evidence = Vec::new();
@@ -150,10 +135,10 @@ fn agreement(source: &Source, change: Change, effort: &Effort) -> Vec<Evidence> 
         }
         evidence.push(match experiment::compare(scene, &here, change, runs(effort, stream)) {
             Ok(comparison) => fit(&comparison, late, source),
-            Err(error) => failed(format!("{scene}: {error}")),
+            Err(error) => Evidence::exact(format!("{scene}: {error}"), f64::NAN),
         });
     }
-    evidence
+    Ok(evidence)
 }
 
 fn fit(comparison: &Comparison, late: usize, source: &Source) -> Evidence {
@@ -188,22 +173,14 @@ fn fit(comparison: &Comparison, late: usize, source: &Source) -> Evidence {
 }
 
 /// The difference of the two best α. The control doubles α in the model at r_e = 14.2, which the estimate does not know.
-fn same_alpha(change: &Change, effort: &Effort) -> Vec<Evidence> {
-    let both =
-        judged(&OKAGAWA_MASON, effort).and_then(|short| Ok((short.0, judged(&ANCZUROWSKI, effort)?.0)));
-    let (short, long) = match both {
-        Ok(both) => both,
-        Err(error) => return vec![failed(error.to_string())],
-    };
+fn same_alpha(change: &Change, effort: &Effort) -> Result<Vec<Evidence>, String> {
+    let points = |source| judged(source, effort).map_err(|error| error.to_string());
+    let ((short, _), (long, _)) = (points(&OKAGAWA_MASON)?, points(&ANCZUROWSKI)?);
     if short.is_empty() || long.is_empty() {
-        return no_data("points at both aspect ratios");
+        return Ok(no_data("points at both aspect ratios"));
     }
-    let fits = experiment::alpha(&short, |_| {}, runs(effort, 0))
-        .and_then(|a| Ok((a, experiment::alpha(&long, *change, runs(effort, 1))?)));
-    let (short, long) = match fits {
-        Ok(fits) => fits,
-        Err(error) => return vec![failed(error)],
-    };
+    let short = experiment::alpha(&short, |_| {}, runs(effort, 0))?;
+    let long = experiment::alpha(&long, *change, runs(effort, 1))?;
     let what = format!(
         "best α: {:.3} ± {:.3} at r_e = 11.6, {:.3} ± {:.3} at 14.2; their difference",
         short.alpha, short.se, long.alpha, long.se
@@ -220,5 +197,5 @@ fn same_alpha(change: &Change, effort: &Effort) -> Vec<Evidence> {
         "points that would show α = 1.5 beside 0.5, a standard error of about 0.1; blunter ones \
          say nothing",
     );
-    vec![Evidence::new(what, rule)]
+    Ok(vec![Evidence::new(what, rule)])
 }

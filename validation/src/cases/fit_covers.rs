@@ -99,17 +99,16 @@ fn data(values: impl Fn(usize) -> f64) -> Vec<Datum> {
     (0..POINTS).map(point).collect()
 }
 
-/// The scenes behind one set of points.
-fn one_set(scene: &Scene, range: &Range, seed: u64, time: TimeColumn) -> Result<Scenes, String> {
-    let set = Set {
+/// The scene behind a set of points.
+pub(super) fn set(scene: &Scene, seed: u64, time: TimeColumn) -> Result<Set, String> {
+    Ok(Set {
         source: "a case".into(),
         text: toml::to_string(scene).map_err(|error| error.to_string())?,
         starts: Starts::default(),
         settings: Vec::new(),
         seed,
         time,
-    };
-    Scenes::new(vec![set], vec![range.clone()])
+    })
 }
 
 fn pool(effort: &Effort) -> Result<Pool, String> {
@@ -121,7 +120,7 @@ fn pool(effort: &Effort) -> Result<Pool, String> {
         scene.particles.count = RODS;
         scene.time.duration = 1.5;
         scene.time.steps_per_unit = Some(STEPS_PER_PERIOD);
-        one_set(&scene, &range, effort.seed(70), TimeColumn::Periods)
+        Scenes::new(vec![set(&scene, effort.seed(70), TimeColumn::Periods)?], vec![range.clone()])
     };
     let basis = Basis::new(1);
     let at_nodes = |sd_percent: f64| {
@@ -205,11 +204,6 @@ fn repeats(way: Way, effort: &Effort) -> Arc<Result<Vec<Fitted>, String>> {
     })
 }
 
-/// Evidence that fails, with the reason.
-fn failed(why: String) -> Vec<Evidence> {
-    vec![Evidence::exact(why, f64::NAN)]
-}
-
 /// Allowed difference from the stated share, 68 and 95 %: profile intervals are exact if the model is linear in α and the
 /// covariance is known; here the model is curved, and the covariance is estimated from [`DRAWN`] replicas. Some 0.44 of the variance
 /// of α are the replicas' (by the lengths of intervals with and without them), and that part, estimated from 80, has a standard
@@ -228,12 +222,9 @@ fn shares(effort: &Effort) -> u64 {
     effort.samples(Design::new(EFFECT[0], 0.5))
 }
 
-fn covers(way: &Way, effort: &Effort) -> Vec<Evidence> {
+fn covers(way: &Way, effort: &Effort) -> Result<Vec<Evidence>, String> {
     let found = repeats(*way, effort);
-    let found = match found.as_ref() {
-        Ok(found) => found,
-        Err(why) => return failed(why.clone()),
-    };
+    let found = found.as_ref().as_ref().map_err(Clone::clone)?;
     let inside = |fit: &Fitted, k: usize| {
         let (low, high) = fit.intervals[k];
         let (low, high) = match way {
@@ -249,11 +240,7 @@ fn covers(way: &Way, effort: &Effort) -> Vec<Evidence> {
                        exact, or half the length, misses more than the effect";
         Evidence::new(what, Sample::of(&shares).is(CONFIDENCES[k], ALLOWANCE[k], EFFECT[k], because))
     };
-    let outright = match outright::off(*way == Way::StraightLines, effort) {
-        Ok(outright) => outright,
-        Err(why) => return failed(why),
-    };
-    vec![rule(0), rule(1), outright]
+    Ok(vec![rule(0), rule(1), outright::off(*way == Way::StraightLines, effort)?])
 }
 
 /// The distance from the distribution of χ² to detect.
@@ -264,18 +251,17 @@ fn laws(effort: &Effort) -> u64 {
     effort.pick(1, 4) * kolmogorov_samples(DISTANCE)
 }
 
-fn refuses(way: &Way, effort: &Effort) -> Vec<Evidence> {
+fn refuses(way: &Way, effort: &Effort) -> Result<Vec<Evidence>, String> {
+    let found = repeats(*way, effort);
+    let found = found.as_ref().as_ref().map_err(Clone::clone)?;
     let law = ChiSquared::new((POINTS - 1) as f64);
     let p = |fit: &Fitted| law.as_ref().map_or(f64::NAN, |law| law.sf(fit.chi_square));
-    match repeats(*way, effort).as_ref() {
-        Ok(found) => vec![Evidence::new(
-            "p-values of χ² over repeats: uniform",
-            lab::uniform(
-                found.iter().take(laws(effort) as usize).map(p).collect(),
-                DISTANCE,
-                "Kolmogorov–Smirnov; without the spread of r_e the p-values crowd at 0, a distance near 1",
-            ),
-        )],
-        Err(why) => failed(why.clone()),
-    }
+    Ok(vec![Evidence::new(
+        "p-values of χ² over repeats: uniform",
+        lab::uniform(
+            found.iter().take(laws(effort) as usize).map(p).collect(),
+            DISTANCE,
+            "Kolmogorov–Smirnov; without the spread of r_e the p-values crowd at 0, a distance near 1",
+        ),
+    )])
 }

@@ -4,7 +4,7 @@
 //! interpretations: each describes them with an α of its own. A contact line cut at the rods' ends has less effect where rods are
 //! far apart, so that α would depend on the concentration. Who draws cannot be found in this way: `docs/src/theory/fits.md`.
 
-use crate::input::start::Starts;
+use super::fit_covers::set;
 use crate::judge::accept::Rule;
 use crate::judge::case::{Case, Effort, Evidence};
 use crate::judge::lab::problem;
@@ -15,7 +15,7 @@ use crate::methods::least_squares::emulator::{Coefficients, coefficients};
 use crate::oracle::naive::{Lines, Naive, mean_projections};
 use crate::serve::fit::Range;
 use crate::serve::fit::data::TimeColumn;
-use crate::serve::fit::scenes::{AS_WRITTEN, Scenes, Set};
+use crate::serve::fit::scenes::{AS_WRITTEN, Scenes};
 use crate::serve::fit::search::{Fit, Measured, fitted};
 use crate::studies::readings::Change;
 use rand::{RngExt, SeedableRng};
@@ -113,14 +113,7 @@ fn range() -> Result<Range, String> {
 /// `replicas` replicas of the model at the nodes of its α.
 pub fn model(effort: &Effort, replicas: u64) -> Result<Vec<Coefficients>, String> {
     let set = |(k, concentration): (usize, f64)| {
-        Ok(Set {
-            source: "a case".into(),
-            text: toml::to_string(&scene(effort, concentration)).map_err(|error| error.to_string())?,
-            starts: Starts::default(),
-            settings: Vec::new(),
-            seed: effort.seed(82 + k as u64),
-            time: TimeColumn::Periods,
-        })
+        set(&scene(effort, concentration), effort.seed(82 + k as u64), TimeColumn::Periods)
     };
     let sets = CONCENTRATIONS.into_iter().enumerate().map(set);
     let scenes = Scenes::new(sets.collect::<Result<_, String>>()?, vec![range()?])?;

@@ -84,11 +84,7 @@ fn reductions(limits: &Limits, effort: &Effort) -> Vec<Evidence> {
     free.particles.aspect_ratio_sd_percent = 3.6;
     let mut interacting = free.clone();
     lab::interaction(&mut interacting);
-    let with = |change: &dyn Fn(&mut Scene)| {
-        let mut scene = interacting.clone();
-        change(&mut scene);
-        scene
-    };
+    let with = |change: &dyn Fn(&mut Scene)| lab::changed(interacting.clone(), change);
     let alpha = with(&|scene| lab::interaction(scene).alpha = limits.alpha);
     let thin =
         with(&|scene| lab::interaction(scene).concentration_per_cm3 = Some(limits.concentration_per_cm3));

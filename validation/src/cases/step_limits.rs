@@ -72,12 +72,7 @@ pub fn cases() -> Vec<Case> {
         theory,
         found_late: OF_MIDPOINTS,
     };
-    let folded = |subjects: Integrators, theory| Claimed {
-        subjects,
-        property: Property::Order,
-        theory,
-        found_late: OF_MIDPOINTS,
-    };
+    let folded = |subjects, theory| Claimed { property: Property::Order, ..side(subjects, theory) };
     vec![
         Case::integrator("euler-step-limit")
             .claim("Explicit Euler's step on A.2 lets one rod overtake another where GΔt > 1/Λ, and never \

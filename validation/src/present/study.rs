@@ -2,7 +2,8 @@
 //!
 //! A study is a module with a `STUDY` ([`Study`]): its `run` measures records, and returns [`Findings`]. The tables are
 //! [`ReportTable`]s over the records, the pictures [`ReportFigure`]s of [`Curve`]s and [`Points`] over the same records, and the
-//! exported rows are written by [`rows_csv`](crate::present::table::rows_csv) from what the records serialize to.
+//! exported rows are written by [`columns_csv`](crate::present::table::columns_csv) from columns, or by
+//! [`rows_csv`](crate::present::table::rows_csv) from what the records serialize to.
 
 use crate::files::cluster;
 use crate::files::output::Output;

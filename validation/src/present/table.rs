@@ -199,7 +199,15 @@ pub fn two_digits(number: f64, se: f64) -> String {
     format!("{number:.places$} ± {se:.places$}")
 }
 
-/// Records as CSV; the heads are the fields' names, even without records. Every number is the shortest text that reads back as the
+/// Records as CSV by the columns over them, as [`ReportTable::csv`] writes a table.
+pub fn columns_csv<R>(
+    records: impl IntoIterator<Item: Borrow<R>>,
+    columns: Vec<Column<'_, R>>,
+) -> Result<String, String> {
+    ReportTable::new(["", ""], "", records, columns).csv()
+}
+
+/// Records as CSV by their own fields, where these are the columns; the heads are the fields' names, even without records. Every number is the shortest text that reads back as the
 /// same bits; missing values are empty, and a text that a spreadsheet would treat as a formula has an apostrophe before it.
 pub fn rows_csv<R: Serialize + Default>(records: impl IntoIterator<Item = R>) -> Result<String, String> {
     let mut plain = csv::Writer::from_writer(Vec::new());

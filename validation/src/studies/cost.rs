@@ -99,12 +99,10 @@ fn run(request: &Request) -> Result<Option<Findings>, String> {
             number("steps per period", decimals(0), |cost: &Cost| cost.steps_per_period as f64),
             number("rods", decimals(0), |cost: &Cost| cost.rods as f64),
             number("replicas", decimals(0), |cost: &Cost| cost.replicas as f64),
-            number("run time (s)", |x| format!("{x:.2}"), |cost: &Cost| cost.seconds),
-            number(
-                "times this program's",
-                |x| format!("{x:.0}"),
-                move |cost: &Cost| of_own(cost).map(|own| cost.seconds / own.seconds),
-            ),
+            number("run time (s)", decimals(2), |cost: &Cost| cost.seconds),
+            number("times this program's", decimals(0), move |cost: &Cost| {
+                of_own(cost).map(|own| cost.seconds / own.seconds)
+            }),
         ],
     );
     let by_step = ReportTable::new(
@@ -118,7 +116,7 @@ fn run(request: &Request) -> Result<Option<Findings>, String> {
             number("X̄₁", decimals(4), |step: &Step| step.x1),
             number("standard error", powers(1), |step: &Step| step.x1_se),
             number("step's error at most", powers(1), |step: &Step| step.step_error),
-            number("time of a replica (ms)", |x| format!("{x:.2}"), |step: &Step| 1e3 * step.seconds),
+            number("time of a replica (ms)", decimals(2), |step: &Step| 1e3 * step.seconds),
         ],
     );
     let answer = answer(&costs);

@@ -119,7 +119,7 @@ pub type Change = fn(&mut NaiveProblem);
 /// The alternatives: the open choice, the interpretation, and the change of the default for it. The effect of the last two
 /// depends on the time step.
 #[rustfmt::skip]
-pub const ALTERNATIVES: [(&str, &str, Change); 17] = [
+const ALTERNATIVES: [(&str, &str, Change); 17] = [
     ("who collides", "one draw per mutual pair", |p| p.reading.who = Who::PairDraws),
     ("who collides", "index order, not closest first", |p| p.reading.who = Who::IndexOrder),
     ("update", "angles: A.14 to the letter", |p| p.update = Update::Angles),
@@ -143,24 +143,29 @@ pub const ALTERNATIVES: [(&str, &str, Change); 17] = [
     }),
 ];
 
+/// This project's interpretation, then the alternatives.
+pub fn all() -> impl Iterator<Item = (&'static str, &'static str, Change)> {
+    let default: Change = |_| ();
+    once(("–", "this project", default)).chain(ALTERNATIVES)
+}
+
 /// The rows of the default and of every alternative, run over all ranks; `None` except on the root.
 pub fn measure(effort: &Effort) -> Option<Vec<ReadingRow>> {
     let replicas = effort.pick(40, 2000);
-    let default: Change = |_| ();
-    let changes: Vec<_> = once(default).chain(ALTERNATIVES.map(|(.., change)| change)).collect();
-    let job = |k: usize| Ok::<_, Infallible>(traces(changes[k], replicas));
-    let Ok(shared) = cluster::share(changes.len(), job, |_, _| Ok(()));
-    let all = shared?;
-    let (default, others) = all.split_first()?;
-    let row = |open, reading, values, changes| ReadingRow { open, reading, replicas, values, changes };
+    let readings: Vec<_> = all().collect();
+    let job = |k: usize| Ok::<_, Infallible>(traces(readings[k].2, replicas));
+    let Ok(shared) = cluster::share(readings.len(), job, |_, _| Ok(()));
+    let found = shared?;
+    let default = found.first()?;
     let each = |estimate: &dyn Fn(Quantity) -> Estimate| QUANTITIES.map(|(_, q)| estimate(q)).to_vec();
-    let values = |traces: &[Trace]| each(&|quantity| value(quantity, traces));
-    let mut rows = vec![row("–", "this project", values(default), None)];
-    for ((open, reading, _), traces) in ALTERNATIVES.into_iter().zip(others) {
-        let changes = each(&|quantity| change(quantity, default, traces));
-        rows.push(row(open, reading, values(traces), Some(changes)));
-    }
-    Some(rows)
+    let row = |k: usize| ReadingRow {
+        open: readings[k].0,
+        reading: readings[k].1,
+        replicas,
+        values: each(&|quantity| value(quantity, &found[k])),
+        changes: (k > 0).then(|| each(&|quantity| change(quantity, default, &found[k]))),
+    };
+    Some((0..readings.len()).map(row).collect())
 }
 
 /// The traces of the first `replicas` replicas of the paper's problem with `change`.

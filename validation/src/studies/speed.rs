@@ -153,7 +153,7 @@ pub enum Target {
 
 impl Check {
     /// The measured number over its target.
-    pub fn over_target(&self) -> Option<f64> {
+    fn over_target(&self) -> Option<f64> {
         match self.target {
             Target::AtMost(target) | Target::AtLeast(target) => Some(self.measured / target),
             Target::None => None,

@@ -1,7 +1,7 @@
 //! Points of free rods simulated at their own r_e, between the nodes, and the error of a fit to them. Free rods start alike in
 //! every replica, so that hardly any noise remains.
 
-use super::{POINTS, data, one_set};
+use super::{POINTS, data, set};
 use crate::judge::case::{Effort, Evidence};
 use crate::judge::lab::{self, Shared};
 use crate::judge::statistics::Sample;
@@ -9,7 +9,7 @@ use crate::methods::least_squares::basis::Basis;
 use crate::methods::least_squares::emulator::{Coefficients, Emulator, coefficients};
 use crate::serve::fit::Range;
 use crate::serve::fit::data::TimeColumn;
-use crate::serve::fit::scenes::AS_WRITTEN;
+use crate::serve::fit::scenes::{AS_WRITTEN, Scenes};
 use crate::serve::fit::search::{Measured, fitted};
 use nalgebra::{DMatrix, DVector};
 use shearbed::model::jeffery::strain_per_period;
@@ -41,7 +41,7 @@ fn simulated(effort: &Effort) -> Result<Simulated, String> {
     scene.interaction = None;
     scene.time.duration = 1.6;
     scene.time.steps_per_unit = None;
-    let scenes = one_set(&scene, &range, effort.seed(72), TimeColumn::Strain)?;
+    let scenes = Scenes::new(vec![set(&scene, effort.seed(72), TimeColumn::Strain)?], vec![range.clone()])?;
     let mut points = data(|_| f64::NAN);
     for point in &mut points {
         point.time *= strain_per_period(OWN);

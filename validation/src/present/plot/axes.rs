@@ -7,7 +7,7 @@ use super::style::{
     text_width,
 };
 use super::window::Window;
-use super::{Drawn, Figure};
+use super::{Backend, Drawn, Figure};
 use plotters::coord::Shift;
 use plotters::prelude::*;
 
@@ -54,14 +54,7 @@ fn placed(figure: &Figure, x: &[f64], y: &[f64], x_error: Errors, y_error: Error
 }
 
 /// Draws the axes and the data, all within `area`.
-pub(super) fn draw<DB: DrawingBackend>(
-    figure: &Figure,
-    legend: &Legend,
-    area: &DrawingArea<DB, Shift>,
-) -> Drawn
-where
-    DB::ErrorType: 'static,
-{
+pub(super) fn draw<DB: Backend>(figure: &Figure, legend: &Legend, area: &DrawingArea<DB, Shift>) -> Drawn {
     let looks = looks(figure);
     let curves: Vec<_> =
         (figure.curves.iter()).map(|c| placed(figure, &c.x, &c.y, None, c.half_band.as_deref())).collect();
@@ -133,16 +126,13 @@ fn axis_ink() -> ShapeStyle {
     RGBColor(85, 85, 85).stroke_width(FINE as u32)
 }
 
-fn mesh<'a, DB: DrawingBackend + 'a>(
+fn mesh<'a, DB: Backend + 'a>(
     figure: &Figure,
     legend: &Legend,
     area: &DrawingArea<DB, Shift>,
     x: Axis,
     y: Axis,
-) -> Result<Chart<'a, DB>, Box<dyn std::error::Error>>
-where
-    DB::ErrorType: 'static,
-{
+) -> Result<Chart<'a, DB>, Box<dyn std::error::Error>> {
     let widest = y.ticks.iter().map(|(_, label)| text_width(label, TEXT)).max();
     let (left, bottom) = (widest.unwrap_or(0) + 40 * FINE, 50 * FINE);
     // Smaller letters for a long name, but not too small to read.
@@ -179,10 +169,7 @@ where
 }
 
 /// Draws the translucent band with a thin edge, cut at the frame.
-fn band<DB: DrawingBackend>(chart: &mut Chart<DB>, curve: &[Placed], index: usize, window: &Window) -> Drawn
-where
-    DB::ErrorType: 'static,
-{
+fn band<DB: Backend>(chart: &mut Chart<DB>, curve: &[Placed], index: usize, window: &Window) -> Drawn {
     for run in curve.split(|p| !p.is_finite() || !p.high.is_finite()) {
         let above = run.iter().map(|p| (p.x, p.high));
         // A logarithmic axis has no place for values below 0.
@@ -202,10 +189,7 @@ where
     Ok(())
 }
 
-fn line<DB: DrawingBackend>(chart: &mut Chart<DB>, points: &[Placed], index: usize, window: &Window) -> Drawn
-where
-    DB::ErrorType: 'static,
-{
+fn line<DB: Backend>(chart: &mut Chart<DB>, points: &[Placed], index: usize, window: &Window) -> Drawn {
     for run in points.split(|p| !p.is_finite()) {
         match run {
             [] => {}
@@ -224,15 +208,7 @@ where
     Ok(())
 }
 
-fn scatter<DB: DrawingBackend>(
-    chart: &mut Chart<DB>,
-    points: &[Placed],
-    index: usize,
-    window: &Window,
-) -> Drawn
-where
-    DB::ErrorType: 'static,
-{
+fn scatter<DB: Backend>(chart: &mut Chart<DB>, points: &[Placed], index: usize, window: &Window) -> Drawn {
     let ((left, right), (low, high)) = (window.x, window.y);
     let ink = || colour(index).stroke_width(BAR_WIDTH);
     for p in points.iter().filter(|p| window.has((p.x, p.y))) {

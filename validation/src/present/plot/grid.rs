@@ -2,7 +2,7 @@
 
 use super::axis::power_of_ten;
 use super::style::{CLASSES, FINE, MARGIN, ROW, SMALL_BOLD, TEXT, class_ink, glyph, text, text_width};
-use super::{Drawn, Figure, Grid, Map};
+use super::{Backend, Drawn, Figure, Grid, Map};
 use plotters::coord::Shift;
 use plotters::prelude::*;
 
@@ -79,16 +79,13 @@ fn keys(grid: &Grid, most: i32) -> Vec<Vec<(usize, i32)>> {
 }
 
 /// Draws legend, panels and the axes' names, with the top at `top`.
-pub(super) fn draw<DB: DrawingBackend>(
+pub(super) fn draw<DB: Backend>(
     canvas: &DrawingArea<DB, Shift>,
     figure: &Figure,
     grid: &Grid,
     layout: &Layout,
     top: i32,
-) -> Drawn
-where
-    DB::ErrorType: 'static,
-{
+) -> Drawn {
     let mut y = top;
     for row in &layout.keys {
         for (class, x) in row {
@@ -124,15 +121,12 @@ fn limit_ink() -> ShapeStyle {
     RGBColor(0, 0, 0).stroke_width(3 * FINE as u32 / 2 + 1)
 }
 
-fn square<DB: DrawingBackend>(
+fn square<DB: Backend>(
     canvas: &DrawingArea<DB, Shift>,
     class: usize,
     (x, y): (i32, i32),
     (width, height): (i32, i32),
-) -> Drawn
-where
-    DB::ErrorType: 'static,
-{
+) -> Drawn {
     let corners = [(x, y), (x + width - FINE / 2, y + height - FINE / 2)];
     canvas.draw(&Rectangle::new(corners, CLASSES[class % CLASSES.len()].filled()))?;
     let centre = (x + width / 2, y + height / 2);
@@ -143,16 +137,13 @@ where
     Ok(())
 }
 
-fn panel<DB: DrawingBackend>(
+fn panel<DB: Backend>(
     canvas: &DrawingArea<DB, Shift>,
     grid: &Grid,
     map: &Map,
     layout: &Layout,
     (left, top): (i32, i32),
-) -> Drawn
-where
-    DB::ErrorType: 'static,
-{
+) -> Drawn {
     canvas.draw(&Text::new(
         map.title.as_str(),
         (left + layout.names, top + 4 * FINE),

@@ -4,7 +4,7 @@
 use super::style::{
     FINE, MARGIN, MARKER, ROW, SMALL_MARKER, TEXT, curve, cut, looks, marker, text, text_width, wrap,
 };
-use super::{Drawn, Figure};
+use super::{Backend, Drawn, Figure};
 use plotters::coord::Shift;
 use plotters::prelude::*;
 
@@ -90,10 +90,7 @@ impl Legend {
     }
 
     /// Draws the rows above the axes, with the top at `top`.
-    pub(super) fn draw<DB: DrawingBackend>(&self, canvas: &DrawingArea<DB, Shift>, top: i32) -> Drawn
-    where
-        DB::ErrorType: 'static,
-    {
+    pub(super) fn draw<DB: Backend>(&self, canvas: &DrawingArea<DB, Shift>, top: i32) -> Drawn {
         for (row, entries) in self.rows.iter().enumerate() {
             let y = top + row as i32 * ROW;
             for Entry { mark, label, x } in entries {
@@ -106,16 +103,13 @@ impl Legend {
     }
 
     /// Draws the labels beside the axes, from `left` and within `height`; `end` gives the height at which a series ends.
-    pub(super) fn draw_beside<DB: DrawingBackend>(
+    pub(super) fn draw_beside<DB: Backend>(
         &self,
         canvas: &DrawingArea<DB, Shift>,
         left: i32,
         height: (i32, i32),
         end: impl Fn(usize) -> i32,
-    ) -> Drawn
-    where
-        DB::ErrorType: 'static,
-    {
+    ) -> Drawn {
         let mut wanted: Vec<_> =
             (self.beside.iter()).map(|(series, mark, lines)| (end(*series), *mark, lines)).collect();
         let ends = || wanted.iter().map(|entry| entry.0);
@@ -173,15 +167,7 @@ fn apart(mut places: Vec<i32>, least: i32, (top, bottom): (i32, i32)) -> Vec<i32
     places
 }
 
-fn sample<DB: DrawingBackend>(
-    canvas: &DrawingArea<DB, Shift>,
-    mark: Mark,
-    (x, y): (i32, i32),
-    width: i32,
-) -> Drawn
-where
-    DB::ErrorType: 'static,
-{
+fn sample<DB: Backend>(canvas: &DrawingArea<DB, Shift>, mark: Mark, (x, y): (i32, i32), width: i32) -> Drawn {
     match mark {
         Mark::Curve(look, marked) => {
             canvas.draw(&PathElement::new(vec![(x, y), (x + width, y)], curve(look)))?;

@@ -212,6 +212,11 @@ pub struct Drawing {
 
 type Drawn = Result<(), Box<dyn Error>>;
 
+/// A canvas of plotters whose errors can be boxed.
+trait Backend: DrawingBackend<ErrorType: 'static> {}
+
+impl<DB: DrawingBackend<ErrorType: 'static>> Backend for DB {}
+
 /// The figure as an SVG document, which may also be embedded in HTML. Texts are typeset: x_1 becomes x₁.
 pub fn svg(figure: &Figure) -> Result<String, String> {
     let figure = &typeset(figure);
@@ -250,10 +255,7 @@ impl Parts {
         Self { title, legend, grid, width, height: head + body }
     }
 
-    fn draw<DB: DrawingBackend>(&self, figure: &Figure, backend: DB) -> Drawn
-    where
-        DB::ErrorType: 'static,
-    {
+    fn draw<DB: Backend>(&self, figure: &Figure, backend: DB) -> Drawn {
         let canvas = backend.into_drawing_area();
         canvas.fill(&WHITE)?;
         for (row, line) in self.title.iter().enumerate() {

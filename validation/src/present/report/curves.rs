@@ -3,7 +3,7 @@
 use super::ReportFigure;
 use crate::files::text::cell;
 use crate::present::plot::{Figure, Grid};
-use crate::present::table::{ReportTable, words};
+use crate::present::table::{columns_csv, words};
 
 /// A figure as CSV: a row for each point of each curve, with the half widths of its 95 % intervals if it has them. Every
 /// number is the shortest text that reads back as the same bits.
@@ -48,7 +48,7 @@ fn cells(picture: &Figure, grid: &Grid) -> Result<String, String> {
         words(if picture.y_name.is_empty() { "row" } else { &picture.y_name }, |cell: &Cell| cell.2),
         words("found", |cell: &Cell| grid.classes[cell.3].as_str()),
     ];
-    ReportTable::new(["", ""], "", cells, columns).csv()
+    columns_csv(cells, columns)
 }
 
 #[cfg(test)]

@@ -1,34 +1,11 @@
 //! The first screen of the report: the verdict in parts, three pictures, and the cases to look at first.
 
 use super::formats::share;
-use super::{Part, Report};
+use super::{CaseRow, Part, Report};
 use crate::judge::accept::Verdict;
 use crate::judge::case::Judges;
 use crate::present::plot::{self, Figure};
-use serde::Serialize;
-
-/// A part of the verdict.
-#[derive(Serialize)]
-pub(super) struct Card {
-    tag: &'static str,
-    name: &'static str,
-    count: String,
-    class: Verdict,
-}
-
-/// A small picture that links to its place.
-#[derive(Serialize)]
-pub(super) struct Thumbnail<'a> {
-    name: &'a str,
-    svg: String,
-}
-
-/// A passing case, and the share of its tolerance that it uses.
-#[derive(Serialize)]
-pub(super) struct Closest<'a> {
-    name: &'a str,
-    used: String,
-}
+use serde_json::{Value as Json, json};
 
 /// The heading of the cases of a kind.
 pub(super) fn title(judges: Judges) -> &'static str {
@@ -58,28 +35,22 @@ pub(super) fn means(judges: Judges) -> &'static str {
     }
 }
 
-/// The cards, one for each part.
-pub(super) fn cards(report: &Report) -> Vec<Card> {
-    let parts = report.summary.parts.iter();
-    parts
-        .map(|part| {
-            let red = |verdict| {
-                let rows = report.cases.iter().filter(|row| row.judges == part.judges);
-                rows.into_iter().any(|row| row.verdict == verdict)
-            };
-            Card {
-                tag: part.judges.tag(),
-                name: title(part.judges),
-                count: count(part),
-                class: match () {
-                    () if red(Verdict::Fail) => Verdict::Fail,
-                    () if red(Verdict::Underpowered) => Verdict::Underpowered,
-                    () if part.nodata > 0 => Verdict::NoData,
-                    () => Verdict::Pass,
-                },
-            }
+/// The cards, one for each part of the verdict.
+pub(super) fn cards(report: &Report) -> Vec<Json> {
+    let card = |part: &Part| {
+        let has = |verdict| {
+            let mut rows = report.cases.iter().filter(|row| row.judges == part.judges);
+            rows.any(|row| row.verdict == verdict)
+        };
+        let worst = [Verdict::Fail, Verdict::Underpowered, Verdict::NoData].into_iter().find(|v| has(*v));
+        json!({
+            "tag": part.judges.tag(),
+            "name": title(part.judges),
+            "count": count(part),
+            "class": worst.unwrap_or(Verdict::Pass),
         })
-        .collect()
+    };
+    report.summary.parts.iter().map(card).collect()
 }
 
 fn count(part: &Part) -> String {
@@ -93,7 +64,7 @@ fn count(part: &Part) -> String {
 
 /// The pictures of the first screen, if they exist: the paper's Fig. 4, error against run time, and one map of
 /// stability.
-pub(super) fn thumbnails(report: &Report) -> Result<Vec<Thumbnail<'_>>, String> {
+pub(super) fn thumbnails(report: &Report) -> Result<Vec<Json>, String> {
     // Three pictures are side by side and must be legible: those with space for larger letters have them.
     let wanted = [
         ("fig4", Some((420, 320))),
@@ -111,16 +82,17 @@ pub(super) fn thumbnails(report: &Report) -> Result<Vec<Thumbnail<'_>>, String> 
                 let shown = grid.maps.iter().position(|map| map.title == "implicit midpoint in p");
                 grid.maps = grid.maps.drain(..).skip(shown.unwrap_or(0)).take(1).collect();
             }
-            Ok(Thumbnail { name: &figure.name, svg: plot::svg(&small)? })
+            Ok(json!({ "name": figure.name, "svg": plot::svg(&small)? }))
         })
         .collect()
 }
 
-/// The passing cases that use the largest shares of their tolerance.
-pub(super) fn closest(report: &Report) -> Vec<Closest<'_>> {
+/// The passing cases that use the largest shares of their tolerance, with these shares.
+pub(super) fn closest(report: &Report) -> Vec<Json> {
     const SHOWN: usize = 6;
     let passing = report.cases.iter().filter(|row| row.verdict == Verdict::Pass);
     let mut used: Vec<_> = passing.filter_map(|row| Some((row.worst()?.used, row))).collect();
     used.sort_by(|a, b| b.0.total_cmp(&a.0));
-    used.into_iter().take(SHOWN).map(|(used, row)| Closest { name: &row.name, used: share(used) }).collect()
+    let closest = |(used, row): (f64, &CaseRow)| json!({ "name": row.name, "used": share(used) });
+    used.into_iter().take(SHOWN).map(closest).collect()
 }

@@ -1,10 +1,7 @@
-//! The report as one HTML file.
+//! The report as one HTML file: the data for its template.
 
 use super::first::{cards, closest, thumbnails};
 use super::formats::{bounds, detail, number, seconds, share, verdict};
-use super::page::{
-    CaseView, EquationView, ExhibitView, FigureView, Group, LineView, Link, Page, StudyView, TableView,
-};
 use super::prose::Anchors;
 use super::{CaseRow, Line, Report, ReportFigure, ReportTable};
 use crate::files::text::readable;
@@ -14,6 +11,7 @@ use crate::present::plot;
 use crate::present::study::Exhibit;
 use minijinja::value::{Serde, Value};
 use minijinja::{Environment, UndefinedBehavior};
+use serde_json::{Value as Json, json};
 
 pub(super) fn write(report: &Report) -> Result<String, String> {
     let mut environment = Environment::new();
@@ -23,24 +21,25 @@ pub(super) fn write(report: &Report) -> Result<String, String> {
     let attention = (report.cases.iter())
         .filter(|row| matches!(row.verdict, Verdict::Fail | Verdict::Underpowered))
         .map(case_link);
-    let page = Page {
-        style: include_str!("report.css"),
-        script: include_str!("report.js"),
-        headline: report.headline(),
-        good: report.exit_code() == 0,
-        cards: cards(report),
-        thumbnails: thumbnails(report)?,
-        attention: attention.collect(),
-        closest: closest(report),
-        studies: studies(report)?,
-        groups: groups(report),
-        equations: equations(report),
-        plans: &report.sections.plans,
-        false_alarm: number(report.summary.false_alarm),
-        full: report.summary.full,
-        time: seconds(report.summary.seconds),
-        origin: &report.origin,
-    };
+    let page = json!({
+        "style": include_str!("report.css"),
+        "script": include_str!("report.js"),
+        "headline": report.headline(),
+        "good": report.exit_code() == 0,
+        "cards": cards(report),
+        "thumbnails": thumbnails(report)?,
+        // The cases to look at first: failed ones, then those nearest to their bounds.
+        "attention": attention.collect::<Vec<_>>(),
+        "closest": closest(report),
+        "studies": studies(report)?,
+        "groups": groups(report),
+        "equations": equations(report),
+        "plans": report.sections.plans,
+        "false_alarm": number(report.summary.false_alarm),
+        "full": report.summary.full,
+        "time": seconds(report.summary.seconds),
+        "origin": report.origin,
+    });
     // The name's extension turns escaping on.
     environment
         .template_from_named_str("report.html", include_str!("report.html.j2"))
@@ -49,52 +48,47 @@ pub(super) fn write(report: &Report) -> Result<String, String> {
         .map_err(|error| format!("cannot write the report: {error}"))
 }
 
-fn groups(report: &Report) -> Vec<Group<'_>> {
-    let group = |judges: &Judges| Group {
-        tag: judges.tag(),
-        name: super::first::title(*judges),
-        means: super::first::means(*judges),
-        cases: (report.cases.iter())
-            .filter(|row| row.judges == *judges)
-            .map(|row| case(report, row))
-            .collect(),
+/// The cases of each kind that has any.
+fn groups(report: &Report) -> Vec<Json> {
+    let cases = |judges| report.cases.iter().filter(move |row| row.judges == judges);
+    let kinds = Judges::ALL.into_iter().filter(|judges| cases(*judges).next().is_some());
+    let group = |judges: Judges| {
+        json!({
+            "tag": judges.tag(),
+            "name": super::first::title(judges),
+            "means": super::first::means(judges),
+            "cases": cases(judges).map(|row| case(report, row)).collect::<Vec<_>>(),
+        })
     };
-    let groups = Judges::ALL.iter().map(group);
-    groups.filter(|group| !group.cases.is_empty()).collect()
+    kinds.map(group).collect()
 }
 
-fn case<'a>(report: &'a Report, row: &'a CaseRow) -> CaseView<'a> {
+fn case(report: &Report, row: &CaseRow) -> Json {
     let (symbol, word) = verdict(row.verdict);
     let equations = (report.sections.equations.iter())
         .filter(|equation| equation.cases.contains(&row.name))
         .map(|equation| format!(" eq-{}", equation.number));
     let figures = report.sections.figures().filter(|f| f.cases.contains(&row.name));
     let used = row.worst().filter(|_| row.verdict != Verdict::NoData).map(|line| line.used);
-    CaseView {
-        name: &row.name,
-        claim: &row.claim,
-        tags: row.judges.tag().to_owned() + &equations.collect::<String>(),
-        source: &row.source,
-        class: row.verdict,
-        symbol,
-        word,
-        used: used.map_or("–".into(), share),
-        bar: used.map(bar),
-        because: row.worst().map_or("no evidence", |line| &line.because),
-        evidence: row.evidence.iter().map(line).collect(),
-        caught: row.caught,
-        controls: &row.controls,
-        time: seconds(row.seconds),
-        command: &row.command,
-        figures: figures
-            .map(|f| Link {
-                anchor: format!("figure-{}", f.name),
-                text: &f.figure.title,
-                class: None,
-                symbol: "",
-            })
-            .collect(),
-    }
+    json!({
+        "name": row.name,
+        "claim": row.claim,
+        "tags": row.judges.tag().to_owned() + &equations.collect::<String>(),
+        "source": row.source,
+        "class": row.verdict,
+        "symbol": symbol,
+        "word": word,
+        "used": used.map_or("–".into(), share),
+        "bar": used.map(bar),
+        "evidence": row.evidence.iter().map(line).collect::<Vec<_>>(),
+        "caught": row.caught,
+        "controls": row.controls,
+        "time": seconds(row.seconds),
+        "command": row.command,
+        "figures": figures
+            .map(|f| link(format!("figure-{}", f.name), &f.figure.title, None))
+            .collect::<Vec<_>>(),
+    })
 }
 
 /// The used share of the tolerance as the length of a bar in percent, on a logarithmic scale from 10⁻⁴ to 10.
@@ -105,110 +99,113 @@ fn bar(used: f64) -> f64 {
     }
 }
 
-fn line(line: &Line) -> LineView<'_> {
+fn line(line: &Line) -> Json {
     let (symbol, word) = verdict(line.verdict);
     let (error, tolerance) = bounds(line);
-    LineView {
-        what: &line.what,
-        class: line.verdict,
-        symbol,
-        word,
-        error,
-        tolerance,
-        because: &line.because,
-        detail: detail(&line.judged_by),
-    }
+    json!({
+        "what": line.what,
+        "class": line.verdict,
+        "symbol": symbol,
+        "word": word,
+        "error": error,
+        "tolerance": tolerance,
+        "because": line.because,
+        "detail": detail(&line.judged_by),
+    })
 }
 
-fn studies(report: &Report) -> Result<Vec<StudyView<'_>>, String> {
+fn studies(report: &Report) -> Result<Vec<Json>, String> {
     (report.sections.studies.iter())
         .map(|study| {
-            Ok(StudyView {
-                name: &study.name,
-                title: &study.title,
-                question: &study.question,
-                answer: &study.answer,
-                command: &study.command,
-                time: seconds(study.seconds),
-                cases: case_links(report, &study.cases),
-                exhibits: (study.exhibits.iter())
-                    .map(|exhibit| view(report, exhibit))
-                    .collect::<Result<_, String>>()?,
+            let exhibits = study.exhibits.iter().map(|exhibit| view(report, exhibit));
+            Ok(json!({
+                "name": study.name,
+                "title": study.title,
+                "question": study.question,
+                "answer": study.answer,
+                "command": study.command,
+                "time": seconds(study.seconds),
+                "cases": case_links(report, &study.cases),
+                "exhibits": exhibits.collect::<Result<Vec<_>, String>>()?,
+            }))
+        })
+        .collect()
+}
+
+/// A picture, its table, and whether the table is narrow enough to be beside the picture.
+fn view(report: &Report, exhibit: &Exhibit) -> Result<Json, String> {
+    /// Largest width in letters of a table beside a picture.
+    const BESIDE: usize = 68;
+    let figure = exhibit.figure.as_ref().map(|f| self::figure(report, f));
+    let narrow = exhibit.table.as_ref().is_some_and(|table| table.letters_across() <= BESIDE);
+    Ok(json!({
+        "figure": figure.transpose()?,
+        "table": exhibit.table.as_ref().map(table),
+        "beside": exhibit.figure.is_some() && narrow,
+    }))
+}
+
+fn figure(report: &Report, figure: &ReportFigure) -> Result<Json, String> {
+    Ok(json!({
+        "name": figure.name,
+        "svg": plot::svg(&figure.figure)?,
+        "caption": figure.caption,
+        "source": figure.source,
+        "cases": case_links(report, &figure.cases),
+    }))
+}
+
+/// Each equation with the cases that test it, and the mistakes that they caught.
+fn equations(report: &Report) -> Vec<Json> {
+    let caught = |cases: &[String]| -> Vec<_> {
+        let rows = report.cases.iter().filter(|row| cases.contains(&row.name));
+        let controls = rows.flat_map(|row| &row.controls).filter(|control| control.caught);
+        controls.map(|control| control.mistake.clone()).collect()
+    };
+    let equations = report.sections.equations.iter();
+    equations
+        .map(|equation| {
+            json!({
+                "number": equation.number,
+                "says": equation.says,
+                "code": equation.code,
+                "cases": case_links(report, &equation.cases),
+                "caught": caught(&equation.cases),
             })
         })
         .collect()
 }
 
-fn view<'a>(report: &'a Report, exhibit: &'a Exhibit) -> Result<ExhibitView<'a>, String> {
-    /// Largest width in letters of a table beside a picture.
-    const BESIDE: usize = 68;
-    let figure = exhibit.figure.as_ref().map(|f| self::figure(report, f));
-    let narrow = exhibit.table.as_ref().is_some_and(|table| table.letters_across() <= BESIDE);
-    Ok(ExhibitView {
-        figure: figure.transpose()?,
-        table: exhibit.table.as_ref().map(table),
-        beside: exhibit.figure.is_some() && narrow,
-    })
-}
-
-fn figure<'a>(report: &'a Report, figure: &'a ReportFigure) -> Result<FigureView<'a>, String> {
-    Ok(FigureView {
-        name: &figure.name,
-        title: &figure.figure.title,
-        svg: plot::svg(&figure.figure)?,
-        caption: &figure.caption,
-        source: &figure.source,
-        cases: case_links(report, &figure.cases),
-    })
-}
-
-fn equations(report: &Report) -> Vec<EquationView<'_>> {
-    let caught = |cases: &[String]| {
-        let rows = report.cases.iter().filter(|row| cases.contains(&row.name));
-        let controls = rows.flat_map(|row| &row.controls).filter(|control| control.caught);
-        controls.map(|control| control.mistake.as_ref()).collect()
-    };
-    let equations = report.sections.equations.iter();
-    equations
-        .map(|equation| EquationView {
-            number: &equation.number,
-            says: &equation.says,
-            code: &equation.code,
-            cases: case_links(report, &equation.cases),
-            caught: caught(&equation.cases),
-        })
-        .collect()
-}
-
-fn table(table: &ReportTable) -> TableView<'_> {
+/// A table, with a mark for each column of numbers.
+fn table(table: &ReportTable) -> Json {
     let starts_a_number = |c: char| c.is_ascii_digit() || "+−-–±<≤>≥".contains(c);
     let is_number = |row: &Vec<String>, column| {
         let cell: Option<&String> = row.get(column);
         cell.is_some_and(|cell| cell.starts_with(starts_a_number))
     };
-    TableView {
-        numeric: (0..table.columns.len())
-            .map(|column| table.rows.iter().all(|row| is_number(row, column)))
-            .collect(),
-        name: &table.name,
-        title: &table.title,
-        caption: &table.caption,
-        columns: &table.columns,
-        rows: &table.rows,
-    }
+    let numeric = (0..table.columns.len()).map(|column| table.rows.iter().all(|row| is_number(row, column)));
+    json!({
+        "numeric": numeric.collect::<Vec<_>>(),
+        "name": table.name,
+        "title": table.title,
+        "caption": table.caption,
+        "columns": table.columns,
+        "rows": table.rows,
+    })
 }
 
 /// Links to those of the cases called `names` that are in the report.
-fn case_links<'a>(report: &'a Report, names: &[String]) -> Vec<Link<'a>> {
+fn case_links(report: &Report, names: &[String]) -> Vec<Json> {
     let cases = report.cases.iter().filter(|row| names.contains(&row.name));
     cases.map(case_link).collect()
 }
 
-fn case_link(row: &CaseRow) -> Link<'_> {
-    Link {
-        anchor: format!("case-{}", row.name),
-        text: &row.name,
-        class: Some(row.verdict),
-        symbol: verdict(row.verdict).0,
-    }
+fn case_link(row: &CaseRow) -> Json {
+    link(format!("case-{}", row.name), &row.name, Some(row.verdict))
+}
+
+/// A link inside the report: to a case with its verdict, or to a figure.
+fn link(anchor: String, text: &str, of: Option<Verdict>) -> Json {
+    let symbol = of.map_or("", |of| verdict(of).0);
+    json!({ "anchor": anchor, "text": text, "class": of, "symbol": symbol })
 }

@@ -1,6 +1,8 @@
 //! Writes report.json.
 
-use super::{CaseRow, Origin, Report, ReportEquation, ReportFigure, ReportTable, ScenePlan, Summary};
+use super::{
+    CaseRow, Origin, Report, ReportEquation, ReportFigure, ReportStudy, ReportTable, ScenePlan, Summary,
+};
 use serde::Serialize;
 
 /// Number of the format, which `schemas/report.schema.json` describes.
@@ -11,7 +13,7 @@ struct Written<'a> {
     format: u32,
     summary: &'a Summary,
     cases: &'a [CaseRow],
-    studies: Vec<StudyRecord<'a>>,
+    studies: &'a [ReportStudy],
     figures: Vec<&'a ReportFigure>,
     tables: Vec<&'a ReportTable>,
     equations: &'a [ReportEquation],
@@ -19,47 +21,13 @@ struct Written<'a> {
     origin: &'a Origin,
 }
 
-/// A study, with its pictures and tables by name.
-#[derive(Serialize)]
-struct StudyRecord<'a> {
-    name: &'a str,
-    title: &'a str,
-    question: &'a str,
-    answer: &'a str,
-    command: &'a str,
-    cases: &'a [String],
-    seconds: f64,
-    exhibits: Vec<Exhibit<'a>>,
-}
-
-#[derive(Serialize)]
-struct Exhibit<'a> {
-    figure: Option<&'a str>,
-    table: Option<&'a str>,
-}
-
 pub(super) fn write(report: &Report) -> String {
     let sections = &report.sections;
-    let studies = sections.studies.iter().map(|study| StudyRecord {
-        name: &study.name,
-        title: &study.title,
-        question: &study.question,
-        answer: &study.answer,
-        command: &study.command,
-        cases: &study.cases,
-        seconds: study.seconds,
-        exhibits: (study.exhibits.iter())
-            .map(|exhibit| Exhibit {
-                figure: exhibit.figure.as_ref().map(|figure| figure.name.as_str()),
-                table: exhibit.table.as_ref().map(|table| table.name.as_str()),
-            })
-            .collect(),
-    });
     let written = Written {
         format: FORMAT,
         summary: &report.summary,
         cases: &report.cases,
-        studies: studies.collect(),
+        studies: &sections.studies,
         figures: sections.figures().collect(),
         tables: sections.tables().collect(),
         equations: &sections.equations,

@@ -19,7 +19,7 @@ pub(super) fn write(report: &Report) -> String {
              `cargo run --release -- validate --case NAME`.\n\n";
     text += &report.sections.studies.iter().map(study).collect::<String>();
     if !report.sections.equations.is_empty() {
-        text += &section(&equation_table(&report.sections.equations));
+        text += &section("##", &equation_table(&report.sections.equations));
     }
     text += &format!(
         "Made {} by {} (shearbed {}, commit {}, {}, {} build) on {}, {} threads, {}. Seeds: {}.\n",
@@ -69,20 +69,15 @@ fn study(study: &ReportStudy) -> String {
             text += &format!("**{title}** (`curves/{}.csv`): {caption}\n\n", figure.name);
         }
         if let Some(table) = &exhibit.table {
-            text += &format!(
-                "### {}\n\n{}\n\n{}\n",
-                markdown(&table.title),
-                markdown(&table.caption),
-                table.cells_as_markdown()
-            );
+            text += &section("###", table);
         }
     }
     text
 }
 
-fn section(table: &ReportTable) -> String {
+fn section(level: &str, table: &ReportTable) -> String {
     format!(
-        "## {}\n\n{}\n\n{}\n",
+        "{level} {}\n\n{}\n\n{}\n",
         markdown(&table.title),
         markdown(&table.caption),
         table.cells_as_markdown()

@@ -8,7 +8,6 @@ mod json;
 mod junit;
 mod markdown;
 mod origin;
-mod page;
 mod prose;
 mod row;
 mod sections;

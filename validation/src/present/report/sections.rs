@@ -2,7 +2,7 @@
 
 use crate::present::study::{Exhibit, Findings, ReportFigure, ScenePlan, Study};
 use crate::present::table::ReportTable;
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 
 /// An equation of the paper, the code that implements it and the cases that test it.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
@@ -17,8 +17,8 @@ pub struct ReportEquation {
     pub cases: Vec<String>,
 }
 
-/// A study with its findings.
-#[derive(Clone, Debug, Default, PartialEq)]
+/// A study with its findings. Its record has its pictures and tables by name: they are listed beside the studies.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct ReportStudy {
     /// Name, in words joined by `-`; the anchor is `study-NAME`.
     pub name: String,
@@ -32,12 +32,26 @@ pub struct ReportStudy {
     pub command: String,
     /// The cases that judge the study.
     pub cases: Vec<String>,
-    /// Pictures beside their tables.
-    pub exhibits: Vec<Exhibit>,
-    /// The scenes that were run.
-    pub(crate) plans: Vec<ScenePlan>,
     /// Wall time in s.
     pub seconds: f64,
+    /// Pictures beside their tables.
+    #[serde(serialize_with = "names")]
+    pub exhibits: Vec<Exhibit>,
+    /// The scenes that were run.
+    #[serde(skip)]
+    pub(crate) plans: Vec<ScenePlan>,
+}
+
+fn names<S: Serializer>(exhibits: &[Exhibit], serializer: S) -> Result<S::Ok, S::Error> {
+    #[derive(Serialize)]
+    struct Names<'a> {
+        figure: Option<&'a str>,
+        table: Option<&'a str>,
+    }
+    serializer.collect_seq(exhibits.iter().map(|exhibit| Names {
+        figure: exhibit.figure.as_ref().map(|figure| figure.name.as_str()),
+        table: exhibit.table.as_ref().map(|table| table.name.as_str()),
+    }))
 }
 
 impl ReportStudy {

@@ -56,7 +56,7 @@ const fn anew(finer: u64) -> Setting {
     Setting { places: Places::Anew, ..kick(0.2, 11.6, 0.5, finer) }
 }
 
-/// The suspensions of `shearbed bench`: updates and time steps first, then the rest at the step that [`Amount`] names.
+/// The suspensions of `shearbed bench`: updates and time steps first, then the rest at [`FINER`] steps.
 const FULL: [Setting; 25] = [
     kick(0.2, 11.6, 0.5, 1),
     kick(0.2, 11.6, 0.5, 2),
@@ -98,22 +98,23 @@ const QUICK: [Setting; 9] = [
     kick(0.2, 11.6, 1.0, 4),
 ];
 
+/// Factor on the number of time steps that resolves the motion, for the comparison of suspensions.
+pub const FINER: u64 = 4;
+
 /// The size of the study.
 #[derive(Clone, Copy, Debug)]
 pub struct Amount {
     /// The suspensions.
     pub settings: &'static [Setting],
-    /// Factor on the number of time steps that resolves the motion, for the comparison of suspensions.
-    pub finer: u64,
     /// Replicas of each suspension.
     pub replicas: u64,
 }
 
 impl Amount {
     /// The amount for the report.
-    pub const QUICK: Self = Self { settings: &QUICK, finer: 4, replicas: 12 };
+    pub const QUICK: Self = Self { settings: &QUICK, replicas: 12 };
     /// The amount for `shearbed bench`.
-    pub const FULL: Self = Self { settings: &FULL, finer: 4, replicas: 48 };
+    pub const FULL: Self = Self { settings: &FULL, replicas: 48 };
 }
 
 /// The results for one suspension.

@@ -4,5 +4,5 @@ pub mod jumps;
 mod measure;
 pub mod study;
 
-pub use measure::{Amount, Coefficients, Places, Setting, kick, rows};
+pub use measure::{Amount, Coefficients, FINER, Places, Setting, kick, rows};
 pub(crate) use measure::{scene, windows};

@@ -1,7 +1,7 @@
 //! The study of the effective coefficients: C_I against concentration, shape and α, and how rods move at equal C_I.
 
 use super::jumps::{self, Compared};
-use super::{Amount, Coefficients, Places, rows};
+use super::{Amount, Coefficients, FINER, Places, rows};
 use crate::files::build;
 use crate::input::published::folgar_tucker;
 use crate::judge::statistics::{Estimate, Sample, slope, student};
@@ -34,18 +34,16 @@ pub const STUDY: Study = Study {
 const SOURCE: &str = "Folgar & Tucker 1984; eqs 5 to 10";
 
 fn run(request: &Request) -> Result<Option<Findings>, String> {
-    let amount = request.effort.pick(Amount::QUICK, Amount::FULL);
-    let rows = rows(amount, request.effort);
-    let base = base(&rows, amount.finer);
+    let rows = rows(request.effort.pick(Amount::QUICK, Amount::FULL), request.effort);
+    let base = base(&rows);
     let logarithms: Vec<_> = (base.iter()).map(|row| (row.setting.n_a3.ln(), row.c_i.value.ln())).collect();
     let answer = base.iter().find(|row| row.setting.n_a3 == 0.2).map_or(String::new(), |row| {
         format!(
-            "C_I = {:.6} ± {:.6} at n a³ = 0.2, r_e = 11.6, α = 0.5 with update = \"kick\" and {} times the default's steps, growing as \
+            "C_I = {:.6} ± {:.6} at n a³ = 0.2, r_e = 11.6, α = 0.5 with update = \"kick\" and {FINER} times the default's steps, growing as \
              (n a³)^{:.2}; a single C_I leaves a relative residual of {:.0} %. With \"rotation\" a colliding rod \
              takes a straight step in place of Jeffery's, whose error hides C_I at the default's step.",
             row.c_i.value,
             row.c_i.se,
-            amount.finer,
             slope(&logarithms),
             100.0 * row.misfit.value
         )
@@ -55,7 +53,7 @@ fn run(request: &Request) -> Result<Option<Findings>, String> {
         .filter(|row| kicked(row) && kind(row) == (11.6, 0.5) && row.setting.n_a3 == 0.2)
         .collect();
     let compared = jumps::compared(&same, request.effort);
-    let finest = compared.iter().find(|one| one.setting.finer == amount.finer);
+    let finest = compared.iter().find(|one| one.setting.finer == FINER);
     let [tail, apart] = jumps::tables(&compared, request.effort);
     let [jumped, orbits] = finest.map(jumps::figures).map_or([None, None], |both| both.map(Some));
     let [table, koch] = [coefficients(&rows), koch(&rows)];
@@ -67,7 +65,7 @@ fn run(request: &Request) -> Result<Option<Findings>, String> {
         ("folgar-tucker.json", build::json(&serde_json::json!({ "rows": rows }))?),
     ];
     let exhibits = vec![
-        Exhibit::both(against_concentration(&rows, amount.finer), table),
+        Exhibit::both(against_concentration(&rows), table),
         koch.into(),
         beside_measured(&base).into(),
         Exhibit { figure: jumped, table: Some(tail) },
@@ -102,9 +100,9 @@ fn kicked(row: &Coefficients) -> bool {
     row.setting.update == Update::Kick && row.setting.places == Places::Kept
 }
 
-/// The suspensions of r_e = 11.6 and α = 0.5 with `finer` times the default number of steps.
-fn base(rows: &[Coefficients], finer: u64) -> Vec<&Coefficients> {
-    let chosen = |row: &&Coefficients| kicked(row) && kind(row) == (11.6, 0.5) && row.setting.finer == finer;
+/// The suspensions of r_e = 11.6 and α = 0.5 with [`FINER`] times the default number of steps.
+fn base(rows: &[Coefficients]) -> Vec<&Coefficients> {
+    let chosen = |row: &&Coefficients| kicked(row) && kind(row) == (11.6, 0.5) && row.setting.finer == FINER;
     rows.iter().filter(chosen).collect()
 }
 
@@ -202,8 +200,8 @@ fn points(label: String, rows: &[&Coefficients], x: impl Fn(&Coefficients) -> f6
 }
 
 /// C_I against n a³, for every r_e and α.
-fn against_concentration(rows: &[Coefficients], finer: u64) -> ReportFigure {
-    let at_step: Vec<_> = rows.iter().filter(|row| kicked(row) && row.setting.finer == finer).collect();
+fn against_concentration(rows: &[Coefficients]) -> ReportFigure {
+    let at_step: Vec<_> = rows.iter().filter(|row| kicked(row) && row.setting.finer == FINER).collect();
     let mut kinds: Vec<_> = at_step.iter().map(|row| kind(row)).collect();
     kinds.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
     kinds.dedup();
@@ -214,7 +212,7 @@ fn against_concentration(rows: &[Coefficients], finer: u64) -> ReportFigure {
     ReportFigure::new(
         ["effective-ci", "The effective Folgar–Tucker coefficient of the model"],
         format!(
-            "Steady C_I with 95 % intervals, with `kick` at {finer} times the default's time steps. It grows about as the square root of n a³, falls \
+            "Steady C_I with 95 % intervals, with `kick` at {FINER} times the default's time steps. It grows about as the square root of n a³, falls \
              with r_e and grows nearly in proportion to α."
         ),
         ["log n a³", "log C_I"],

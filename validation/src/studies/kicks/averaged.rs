@@ -114,11 +114,10 @@ pub fn both_updates(
         lab::per_replica(&scene, replicas, |mean| mean(Channel::X[0], 1))
     };
     let (rotation, angles) = (x1(Update::Rotation), x1(Update::Angles));
-    let change: Vec<_> = angles.iter().zip(&rotation).map(|(a, r)| a - r).collect();
     BothUpdates {
         steps_per_period,
         min_contact_arm,
         rotation_x1: Sample::of(&rotation),
-        change: Sample::of(&change),
+        change: Sample::of_differences(&angles, &rotation),
     }
 }

@@ -85,7 +85,7 @@ pub struct Limit {
 pub const SCENE: &str = "fig4-n50";
 
 /// The steps per period for the counts in single periods.
-pub const PERIODS_AT: u64 = 400;
+const PERIODS_AT: u64 = 400;
 
 /// Measures everything: with a few replicas for the report of a quick run, with enough for the documents in a full one.
 pub fn measure(effort: &Effort) -> Result<Limit, String> {

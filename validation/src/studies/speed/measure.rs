@@ -38,8 +38,8 @@ pub fn measure(amount: Amount) -> Result<Speed, String> {
         memory_rate(&all, amount),
     ];
     checks.extend(against_naive(&by_rods));
-    checks.push(replicas(&one, &all, threads, amount)?);
-    checks.push(one_large_run(&one, &all, threads, amount)?);
+    checks.push(replicas([&one, &all], amount)?);
+    checks.push(one_large_run([&one, &all], amount)?);
     checks.extend([held(), plan_of_a_scene(amount), certified(&all, amount)]);
     Ok(Speed { threads, checks, by_rods, by_concentration })
 }
@@ -199,47 +199,48 @@ fn memory_rate(all: &rayon::ThreadPool, amount: Amount) -> Check {
     }
 }
 
-/// The parallel efficiency of replicas: the time on one thread over that on all, and over their number.
-fn replicas(
-    one: &rayon::ThreadPool,
-    all: &rayon::ThreadPool,
-    threads: usize,
-    amount: Amount,
-) -> Result<Check, String> {
+/// The parallel efficiency of replicas.
+fn replicas(pools: [&rayon::ThreadPool; 2], amount: Amount) -> Result<Check, String> {
+    let threads = pools[1].current_num_threads();
     let mut scene = lab::interacting_scene(&crate::judge::case::Effort::gate());
     scene.time.duration = 1.0;
     scene.ensemble.replicas = 64 * threads as u64;
-    let [alone, shared] = whole_runs(&scene, [one, all], amount)?;
-    Ok(Check {
-        what: "replicas over all cores: the time on one core over that on all, and over their number",
-        measured: alone / shared / threads as f64,
-        target: Target::AtLeast(0.9),
-        unit: "×",
-        behind: format!("{alone:.3} s on one, {shared:.3} s on {threads}, {} replicas", 64 * threads),
-    })
+    let what = "replicas over all cores: the time on one core over that on all, and over their number";
+    let work = format!(", {} replicas", 64 * threads);
+    efficiency(what, &scene, (0.9, &work), pools, amount)
 }
 
-fn one_large_run(
-    one: &rayon::ThreadPool,
-    all: &rayon::ThreadPool,
-    threads: usize,
-    amount: Amount,
-) -> Result<Check, String> {
+/// The parallel efficiency of one run of many rods.
+fn one_large_run(pools: [&rayon::ThreadPool; 2], amount: Amount) -> Result<Check, String> {
     let mut scene = lab::interacting_scene(&crate::judge::case::Effort::gate());
     scene.particles.count = amount.large_run;
     scene.time.duration = 0.04;
     scene.time.outputs_per_unit = Some(25);
     scene.ensemble.replicas = 1;
-    let [alone, shared] = whole_runs(&scene, [one, all], amount)?;
+    let what = "one large run over all cores: the time on one core over that on all, and over their number";
+    let work = format!("; {:.0e} rods, 8 steps and the draws", amount.large_run as f64);
+    efficiency(what, &scene, (0.85, &work), pools, amount)
+}
+
+/// The time of a scene on one thread over that on all, and over their number.
+fn efficiency(
+    what: &'static str,
+    scene: &Scene,
+    (least_efficiency, work): (f64, &str),
+    pools: [&rayon::ThreadPool; 2],
+    amount: Amount,
+) -> Result<Check, String> {
+    let plan = lab::plan(scene);
+    ensemble::run(&plan).map_err(|error| error.to_string())?;
+    let [alone, shared] =
+        pools.map(|pool| least(amount, || pool.install(|| seconds(|| ensemble::run(&plan)))));
+    let threads = pools[1].current_num_threads();
     Ok(Check {
-        what: "one large run over all cores: the time on one core over that on all, and over their number",
+        what,
         measured: alone / shared / threads as f64,
-        target: Target::AtLeast(0.85),
+        target: Target::AtLeast(least_efficiency),
         unit: "×",
-        behind: format!(
-            "{alone:.3} s on one, {shared:.3} s on {threads}; {:.0e} rods, 8 steps and the draws",
-            amount.large_run as f64
-        ),
+        behind: format!("{alone:.3} s on one, {shared:.3} s on {threads}{work}"),
     })
 }
 
@@ -290,10 +291,4 @@ fn certified(all: &rayon::ThreadPool, amount: Amount) -> Check {
         unit: "ms",
         behind: "nine means of r_e = 11.6, each the nearest double".into(),
     }
-}
-
-fn whole_runs(scene: &Scene, pools: [&rayon::ThreadPool; 2], amount: Amount) -> Result<[f64; 2], String> {
-    let plan = lab::plan(scene);
-    ensemble::run(&plan).map_err(|error| error.to_string())?;
-    Ok(pools.map(|pool| least(amount, || pool.install(|| seconds(|| ensemble::run(&plan))))))
 }

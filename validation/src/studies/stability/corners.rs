@@ -17,7 +17,7 @@ pub fn exact(aspect_ratio: f64, shear_rate_per_s: f64, p: &UnitVector3<f64>, tur
 }
 
 /// Shear rates in 1/s.
-pub const SHEAR_RATES: [f64; 3] = [1e-30, 0.5, 1e30];
+const SHEAR_RATES: [f64; 3] = [1e-30, 0.5, 1e30];
 
 /// Durations in periods.
 pub const TURNS: [f64; 14] =

@@ -33,30 +33,27 @@ pub const ACCURATE_RAD: f64 = 1e-2;
 pub const LENGTH_KEPT: f64 = 1e-2;
 
 impl Fate {
+    /// A one-character code, and a description in words.
+    fn names(self) -> [&'static str; 2] {
+        match self {
+            Self::RoundOff => ["=", "round-off"],
+            Self::Accurate => ["+", "accurate"],
+            Self::Wrong => ["w", "stable but wrong"],
+            Self::LengthLost => ["L", "length lost"],
+            Self::NotFinite => ["N", "not finite"],
+            Self::Refused => ["R", "refused"],
+            Self::NotRun => ["·", "not run"],
+        }
+    }
+
     /// A one-character code.
     pub fn sign(self) -> &'static str {
-        match self {
-            Self::RoundOff => "=",
-            Self::Accurate => "+",
-            Self::Wrong => "w",
-            Self::LengthLost => "L",
-            Self::NotFinite => "N",
-            Self::Refused => "R",
-            Self::NotRun => "·",
-        }
+        self.names()[0]
     }
 
     /// A description in words.
     pub fn words(self) -> &'static str {
-        match self {
-            Self::RoundOff => "round-off",
-            Self::Accurate => "accurate",
-            Self::Wrong => "stable but wrong",
-            Self::LengthLost => "length lost",
-            Self::NotFinite => "not finite",
-            Self::Refused => "refused",
-            Self::NotRun => "not run",
-        }
+        self.names()[1]
     }
 
     /// True if the end is within [`ACCURATE_RAD`] of the closed form.

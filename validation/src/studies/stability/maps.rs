@@ -61,47 +61,49 @@ pub fn answer(figures: &[ReportFigure]) -> String {
 
 /// The maps as pictures.
 pub fn figures(subjects: &[Integrator]) -> Vec<ReportFigure> {
-    [steps(subjects), tolerances(subjects), starts(subjects), durations(subjects)].map(Panels::figure).into()
+    vec![steps(subjects), tolerances(subjects), starts(subjects), durations(subjects)]
 }
 
 pub(super) fn of(subjects: &[Integrator], which: impl Fn(Theory) -> bool) -> Vec<&Integrator> {
     subjects.iter().filter(|subject: &&Integrator| which(subject.theory)).collect()
 }
 
-fn steps(subjects: &[Integrator]) -> Panels<'static> {
-    let panel = |subject: &Integrator| Panel {
+fn steps(subjects: &[Integrator]) -> ReportFigure {
+    let row = |subject: &Integrator, r: f64| {
+        let run = |quarter| {
+            let step = strain(quarter) / strain_per_period(r);
+            map::by_step(subject.theory, r, step, MOST_STEPS).of(subject)
+        };
+        classes(STRAINS.map(run))
+    };
+    let map = |subject: &Integrator| Map {
         title: subject.name.clone(),
-        cells: RODS
-            .map(|r| {
-                let run = |quarter| {
-                    let step = strain(quarter) / strain_per_period(r);
-                    map::by_step(subject.theory, r, step, MOST_STEPS).of(subject)
-                };
-                STRAINS.map(run).collect()
-            })
-            .into(),
+        cells: RODS.map(|r| row(subject, r)).into(),
         limit: limit(&subject.name),
     };
     let stepped = of(subjects, |theory| matches!(theory, Theory::Order(_)));
-    Panels {
-        words: ["stability-steps", "Stability by step and aspect ratio"],
-        caption: format!(
+    figure(
+        ["stability-steps", "Stability by step and aspect ratio"],
+        format!(
             "Runs end during a flip, at φ = 1 rad, after one period or twenty steps, whichever is more; at short steps after \
              {MOST_STEPS} of them. Right: within 10⁻² rad of the closed form. The black line is theory's longest step \
              without overtaking, where there is one: a step is inaccurate long before. The exact propagator takes no steps \
              and is right everywhere."
         ),
-        axes: ["step GΔt", "aspect ratio r_e"],
-        columns: STRAINS
-            .map(|quarter| match quarter % 4 {
-                0 => decade(quarter / 4),
-                _ => String::new(),
-            })
-            .collect(),
-        values: STRAINS.map(|quarter| strain(quarter).to_string()).collect(),
-        rows: RODS.map(ratio).into(),
-        panels: stepped.into_iter().map(panel).collect(),
-    }
+        ["step GΔt", "aspect ratio r_e"],
+        Grid {
+            columns: STRAINS
+                .map(|quarter| match quarter % 4 {
+                    0 => decade(quarter / 4),
+                    _ => String::new(),
+                })
+                .collect(),
+            values: STRAINS.map(|quarter| strain(quarter).to_string()).collect(),
+            rows: RODS.map(ratio).into(),
+            maps: stepped.into_iter().map(map).collect(),
+            ..Default::default()
+        },
+    )
 }
 
 /// The tolerances from fine to coarse, as steps are from short to long.
@@ -115,23 +117,26 @@ pub(super) fn with_tolerance(subject: &Integrator, r: f64, tolerance: f64) -> Ce
     run.map_or_else(Cell::not_run, |run| map::Run { setting, ..run }.of(subject))
 }
 
-fn tolerances(subjects: &[Integrator]) -> Panels<'static> {
-    let panel = |subject: &Integrator| Panel {
+fn tolerances(subjects: &[Integrator]) -> ReportFigure {
+    let row =
+        |subject: &Integrator, r| classes(tolerances_from_fine().map(|t| with_tolerance(subject, r, t)));
+    let map = |subject: &Integrator| Map {
         title: subject.name.clone(),
-        cells: ASPECT_RATIOS
-            .map(|r| tolerances_from_fine().map(|t| with_tolerance(subject, r, t)).collect())
-            .into(),
+        cells: ASPECT_RATIOS.map(|r| row(subject, r)).into(),
         limit: Vec::new(),
     };
-    Panels {
-        words: ["stability-tolerances", "Stability by tolerance and aspect ratio"],
-        caption: "Integrators that choose their step: one period, into a flip.".into(),
-        axes: ["tolerance", "aspect ratio r_e"],
-        columns: tolerances_from_fine().map(power).collect(),
-        values: tolerances_from_fine().map(|t| format!("{t:e}")).collect(),
-        rows: ASPECT_RATIOS.map(ratio).into(),
-        panels: of(subjects, |theory| theory == Theory::Adaptive).into_iter().map(panel).collect(),
-    }
+    figure(
+        ["stability-tolerances", "Stability by tolerance and aspect ratio"],
+        "Integrators that choose their step: one period, into a flip.",
+        ["tolerance", "aspect ratio r_e"],
+        Grid {
+            columns: tolerances_from_fine().map(power).collect(),
+            values: tolerances_from_fine().map(|t| format!("{t:e}")).collect(),
+            rows: ASPECT_RATIOS.map(ratio).into(),
+            maps: of(subjects, |theory| theory == Theory::Adaptive).into_iter().map(map).collect(),
+            ..Default::default()
+        },
+    )
 }
 
 fn power(value: f64) -> String {
@@ -147,22 +152,20 @@ fn names(subjects: &[Integrator]) -> Vec<String> {
     subjects.iter().map(|subject| subject.name.clone()).collect()
 }
 
-fn starts(subjects: &[Integrator]) -> Panels<'static> {
-    let panel = |r: f64| Panel {
+fn starts(subjects: &[Integrator]) -> ReportFigure {
+    let row = |subject: &Integrator, r| {
+        let found = |(_, place)| cell(subject, r, 1.0, place, MOST_STEPS);
+        classes(map::places(r).into_iter().map(found))
+    };
+    let map = |r: f64| Map {
         title: format!("r_e = {}", ratio(r)),
-        cells: (subjects.iter())
-            .map(|subject| {
-                let places = map::places(r).into_iter();
-                let found = |(_, place)| cell(subject, r, 1.0, place, MOST_STEPS);
-                places.map(found).collect()
-            })
-            .collect(),
+        cells: subjects.iter().map(|subject| row(subject, r)).collect(),
         limit: Vec::new(),
     };
     let places = map::places(2.0).into_iter().map(|(name, _)| name);
-    Panels {
-        words: ["stability-starts", "Stability at the poles, in the flip, and on orbits from C = 0 to ∞"],
-        caption: format!(
+    figure(
+        ["stability-starts", "Stability at the poles, in the flip, and on orbits from C = 0 to ∞"],
+        format!(
             "The end of one period and a flip. Places: {}. GΔt = {}, tolerance {:.0e}.",
             places
                 .clone()
@@ -173,77 +176,57 @@ fn starts(subjects: &[Integrator]) -> Panels<'static> {
             map::STRAIN_PER_STEP,
             map::TOLERANCE
         ),
-        axes: ["place", ""],
-        columns: places.clone().enumerate().map(|(k, _)| (k + 1).to_string()).collect(),
-        values: places.map(String::from).collect(),
-        rows: names(subjects),
-        panels: [1e-8, 1.0 + 1e-12, 11.6, 1e8].map(panel).into(),
-    }
+        ["place", ""],
+        Grid {
+            columns: places.clone().enumerate().map(|(k, _)| (k + 1).to_string()).collect(),
+            values: places.map(String::from).collect(),
+            rows: names(subjects),
+            maps: [1e-8, 1.0 + 1e-12, 11.6, 1e8].map(map).into(),
+            ..Default::default()
+        },
+    )
 }
 
-fn durations(subjects: &[Integrator]) -> Panels<'static> {
+fn durations(subjects: &[Integrator]) -> ReportFigure {
     let r = 11.6;
     let row = |subject: &Integrator| {
         let found = |periods| cell(subject, r, periods, Place::mid_flip(r), 10 * MOST_STEPS);
-        PERIODS.map(found).into()
+        classes(PERIODS.map(found))
     };
-    Panels {
-        words: ["stability-durations", "Stability over up to 10⁸ periods at r_e = 11.6"],
-        caption: format!(
+    let map = Map { cells: subjects.iter().map(row).collect(), ..Default::default() };
+    figure(
+        ["stability-durations", "Stability over up to 10⁸ periods at r_e = 11.6"],
+        format!(
             "GΔt = {}, tolerance {:.0e}; at most {} steps, so longer runs of methods with steps are not run.",
             map::STRAIN_PER_STEP,
             map::TOLERANCE,
             10 * MOST_STEPS
         ),
-        axes: ["duration (periods)", ""],
-        columns: PERIODS.map(power).into(),
-        values: PERIODS.map(|periods| format!("{periods:e}")).into(),
-        rows: names(subjects),
-        panels: vec![Panel {
-            title: String::new(),
-            cells: subjects.iter().map(row).collect(),
-            limit: Vec::new(),
-        }],
-    }
+        ["duration (periods)", ""],
+        Grid {
+            columns: PERIODS.map(power).into(),
+            values: PERIODS.map(|periods| format!("{periods:e}")).into(),
+            rows: names(subjects),
+            maps: vec![map],
+            ..Default::default()
+        },
+    )
 }
 
-/// The outcomes of one integrator, or at one aspect ratio: a row and a column for each cell.
-struct Panel {
-    title: String,
-    cells: Vec<Vec<Cell>>,
-    limit: Vec<(f64, f64)>,
+/// A picture of maps with the same rows and columns.
+fn figure(words: [&str; 2], caption: impl Into<String>, axes: [&str; 2], grid: Grid) -> ReportFigure {
+    let mut figure = ReportFigure::new(words, caption, axes);
+    figure.figure.grid = Some(Grid {
+        classes: Fate::CLASSES.map(String::from).into(),
+        limit_name: "theory: the longest step without overtaking".into(),
+        ..grid
+    });
+    figure.judged("A.1 to A.5", &["stability-map"])
 }
 
-/// A picture of panels with the same rows and columns.
-struct Panels<'a> {
-    words: [&'a str; 2],
-    caption: String,
-    axes: [&'a str; 2],
-    columns: Vec<String>,
-    values: Vec<String>,
-    rows: Vec<String>,
-    panels: Vec<Panel>,
-}
-
-impl Panels<'_> {
-    fn figure(self) -> ReportFigure {
-        let row = |row: &Vec<Cell>| row.iter().map(|cell| cell.found.class()).collect();
-        let map = |panel: Panel| Map {
-            title: panel.title,
-            cells: panel.cells.iter().map(row).collect(),
-            limit: panel.limit,
-        };
-        let mut figure = ReportFigure::new(self.words, self.caption, self.axes);
-        figure.figure.grid = Some(Grid {
-            classes: Fate::CLASSES.map(String::from).into(),
-            columns: self.columns,
-            values: self.values,
-            rows: self.rows,
-            maps: self.panels.into_iter().map(map).collect(),
-            limit_name: "theory: the longest step without overtaking".into(),
-        });
-        figure.judged("A.1 to A.5", &["stability-map"])
-    }
+/// The classes of outcomes.
+fn classes(cells: impl IntoIterator<Item = Cell>) -> Vec<usize> {
+    cells.into_iter().map(|cell| cell.found.class()).collect()
 }
 
 impl Fate {
@@ -251,16 +234,9 @@ impl Fate {
     const CLASSES: [&'static str; 6] =
         ["right", "stable but wrong", "length lost", "not finite", "refused", "not run"];
 
-    /// The index of the outcome's class in [`Self::CLASSES`].
+    /// The index of the outcome's class in [`Self::CLASSES`]: the first two outcomes are right.
     fn class(self) -> usize {
-        match self {
-            Self::RoundOff | Self::Accurate => 0,
-            Self::Wrong => 1,
-            Self::LengthLost => 2,
-            Self::NotFinite => 3,
-            Self::Refused => 4,
-            Self::NotRun => 5,
-        }
+        (self as usize).saturating_sub(1)
     }
 }
 

@@ -44,19 +44,12 @@ pub fn euler_side(aspect_ratio: f64) -> f64 {
 pub fn implicit_midpoint_order(aspect_ratio: f64) -> f64 {
     let shape = shape(aspect_ratio);
     let cubic = |u: f64| 2.0 * u.powi(3) - 3.0 * u + 1.0 / shape;
-    let (mut low, mut high) = (0.0, FRAC_1_SQRT_2);
-    if cubic(high) > 0.0 {
+    if cubic(FRAC_1_SQRT_2) > 0.0 {
         return f64::INFINITY;
     }
     // The cubic falls on this interval.
-    for _ in 0..60 {
-        let middle = 0.5 * (low + high);
-        match cubic(middle) > 0.0 {
-            true => low = middle,
-            false => high = middle,
-        }
-    }
-    2.0 / (shape * (1.0 - low * low).powf(1.5))
+    let u = last(FRAC_1_SQRT_2, |u| cubic(u) > 0.0);
+    2.0 / (shape * (1.0 - u * u).powf(1.5))
 }
 
 /// The implicit midpoint rule lets no rod cross the plane of shear up to 4/Λ.
@@ -82,15 +75,20 @@ pub fn runge_kutta_order_at_least(order: u32, aspect_ratio: f64) -> f64 {
             })
             .sum::<f64>()
     };
-    let (mut low, mut high) = (0.0, 1.0);
+    last(1.0, |x| growth(x) < 1.0) / shape(aspect_ratio)
+}
+
+/// The largest x from 0 to `high` for which `holds`, which holds up to there and not beyond.
+fn last(mut high: f64, holds: impl Fn(f64) -> bool) -> f64 {
+    let mut low = 0.0;
     for _ in 0..60 {
         let middle = 0.5 * (low + high);
-        match growth(middle) < 1.0 {
+        match holds(middle) {
             true => low = middle,
             false => high = middle,
         }
     }
-    low / shape(aspect_ratio)
+    low
 }
 
 /// As r_e → 1, RK4 in p turns every rod by less than half a turn up to 2√6: R(iy) is real at y = √6 = GΔt/2.

@@ -21,7 +21,7 @@ pub type Values = Vec<Vec<f64>>;
 pub const QUARTERS: u64 = 8;
 
 /// The factor on α of the second scene: 0.4 for 0.5.
-pub const OTHER_ALPHA: f64 = 0.8;
+const OTHER_ALPHA: f64 = 0.8;
 
 /// The correlations at one time.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -50,7 +50,7 @@ pub struct Coupled {
 impl Saving {
     /// The largest factor by which levels in Δt reduce the cost of a mean, if coarse runs cost nothing: one over the share of
     /// the variance that is left to the fine ones, 1 − ρ².
-    pub fn multilevel_at_best(&self) -> f64 {
+    fn multilevel_at_best(&self) -> f64 {
         1.0 / (1.0 - self.finer * self.finer)
     }
 
@@ -62,12 +62,12 @@ impl Saving {
     }
 
     /// The number of independent runs for the difference between two α, over that of coupled runs.
-    pub fn common_numbers(&self) -> f64 {
+    fn common_numbers(&self) -> f64 {
         1.0 / (1.0 - self.other_alpha)
     }
 
     /// The number of runs for the mean, over that of runs with the free rods as control variate.
-    pub fn control_variate(&self) -> f64 {
+    fn control_variate(&self) -> f64 {
         1.0 / (1.0 - self.free * self.free)
     }
 }

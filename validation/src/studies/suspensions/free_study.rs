@@ -5,10 +5,10 @@ use crate::files::build;
 use crate::methods::starts;
 use crate::present::plot::Curve;
 use crate::present::study::{Exhibit, Findings, ReportFigure, Request, Study};
-use crate::present::table::{Column, ReportTable, difference, number, rows_csv, words};
+use crate::present::table::{Column, ReportTable, columns_csv, difference, field, number, words};
 use crate::studies::work_precision::Budget;
+use crate::studies::work_precision::rows::seconds;
 use crate::studies::work_precision::study::{NOT_REACHED, time};
-use serde::Serialize;
 use std::collections::BTreeMap;
 
 /// The study of the initial directions of free rods.
@@ -42,47 +42,28 @@ fn run(request: &Request) -> Result<Option<Findings>, String> {
     let mut exhibits: Vec<Exhibit> = benches.iter().map(|bench| figure(bench).into()).collect();
     exhibits[0].table = Some(table(&benches));
     let files = [
-        ("suspensions.csv", rows_csv(points(&benches).map(StartRow::from))?),
+        ("suspensions.csv", points_csv(&benches)?),
         ("suspensions.json", build::json(&BTreeMap::from([("benches", &benches)]))?),
     ];
     Ok(Some(Findings::new(answer, exhibits, files)))
 }
 
-fn points(benches: &[Bench]) -> impl Iterator<Item = (&Bench, &StartCurve, &Point)> {
-    benches.iter().flat_map(|bench| {
+fn points_csv(benches: &[Bench]) -> Result<String, String> {
+    type Row<'a> = (&'a Bench, &'a StartCurve, &'a Point);
+    let points = benches.iter().flat_map(|bench| {
         let curves = bench.curves.iter();
         curves.flat_map(move |curve| curve.points.iter().map(move |point| (bench, curve, point)))
-    })
-}
-
-/// A row of suspensions.csv.
-#[derive(Default, Serialize)]
-struct StartRow {
-    scene: &'static str,
-    t_over_t: f64,
-    start: &'static str,
-    rods: usize,
-    x1_rms_error: f64,
-    trials: usize,
-    seconds_min: f64,
-    seconds_max: f64,
-    measurements: usize,
-}
-
-impl From<(&Bench, &StartCurve, &Point)> for StartRow {
-    fn from((bench, curve, point): (&Bench, &StartCurve, &Point)) -> Self {
-        Self {
-            scene: bench.free.scene,
-            t_over_t: bench.free.turns,
-            start: curve.start,
-            rods: point.rods,
-            x1_rms_error: point.error,
-            trials: point.trials,
-            seconds_min: point.seconds.least,
-            seconds_max: point.seconds.most,
-            measurements: point.seconds.measurements,
-        }
-    }
+    });
+    let mut columns = vec![
+        words("scene", |r: &Row| r.0.free.scene),
+        field("t_over_t", |r: &Row| r.0.free.turns),
+        words("start", |r: &Row| r.1.start),
+        field("rods", |r: &Row| r.2.rods),
+        field("x1_rms_error", |r: &Row| r.2.error),
+        field("trials", |r: &Row| r.2.trials),
+    ];
+    columns.extend(seconds(|r: &Row| r.2.seconds));
+    columns_csv(points, columns)
 }
 
 /// The time that each start needs for each error.

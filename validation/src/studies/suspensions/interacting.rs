@@ -9,7 +9,7 @@ use crate::files::build;
 use crate::input::scenes;
 use crate::present::plot::{Curve, Points};
 use crate::present::study::{Exhibit, Findings, ReportFigure, Request, Study};
-use crate::present::table::{Column, ReportTable, field, number, powers, rows_csv, words};
+use crate::present::table::{Column, ReportTable, columns_csv, field, number, powers, words};
 use crate::studies::work_precision::study::time;
 use crate::studies::work_precision::{Budget, measure as clock};
 use serde::Serialize;
@@ -55,8 +55,7 @@ fn run(request: &Request) -> Result<Option<Findings>, String> {
             time(answer.seconds)
         )
     });
-    let rows = study.answers.iter().map(|answer| SplitRow::of(&study.scene, answer));
-    let files = [("splits.csv", rows_csv(rows)?), ("splits.json", build::json(&study)?)];
+    let files = [("splits.csv", splits_csv(&study)?), ("splits.json", build::json(&study)?)];
     Ok(Some(Findings::new(answer, exhibits, files)))
 }
 
@@ -181,49 +180,31 @@ fn off_at_most(constants: &Constants, scope: Scope, reference: &JobMean) -> f64 
     bias.hypot(2.0 * reference.se)
 }
 
-/// A row of splits.csv.
-#[derive(Default, Serialize)]
-struct SplitRow<'a> {
-    scene: &'a str,
-    target: f64,
-    counted_from: &'static str,
-    steps_per_period: u64,
-    rods: usize,
-    replicas: u64,
-    bias_at_most: f64,
-    scatter: f64,
-    rod_steps: u64,
-    seconds: f64,
-    repeats: Option<u64>,
-    realised_error: Option<f64>,
-    realised_bias: Option<f64>,
-    realised_bias_se: Option<f64>,
-    realised_scatter: Option<f64>,
-}
-
-impl<'a> SplitRow<'a> {
-    fn of(scene: &'a str, Answer { split, seconds, realised }: &Answer) -> Self {
-        Self {
-            scene,
-            target: split.target,
-            counted_from: match split.scope {
-                Scope::OwnRods(_) => "own_rods",
-                Scope::Unbounded => "unbounded",
-            },
-            steps_per_period: split.steps_per_period,
-            rods: split.rods,
-            replicas: split.replicas,
-            bias_at_most: split.bias,
-            scatter: split.scatter,
-            rod_steps: split.rod_steps(),
-            seconds: *seconds,
-            repeats: realised.map(|r| r.repeats),
-            realised_error: realised.map(|r| r.error),
-            realised_bias: realised.map(|r| r.bias.value),
-            realised_bias_se: realised.map(|r| r.bias.se),
-            realised_scatter: realised.map(|r| r.scatter.value),
-        }
-    }
+fn splits_csv(study: &Interacting) -> Result<String, String> {
+    let realised = |name: &str, of: fn(&Realised) -> f64| {
+        field(name, move |answer: &Answer| answer.realised.as_ref().map(of))
+    };
+    let columns = vec![
+        words("scene", |_: &Answer| study.scene.as_str()),
+        field("target", |answer: &Answer| answer.split.target),
+        words("counted_from", |answer: &Answer| match answer.split.scope {
+            Scope::OwnRods(_) => "own_rods",
+            Scope::Unbounded => "unbounded",
+        }),
+        field("steps_per_period", |answer: &Answer| answer.split.steps_per_period),
+        field("rods", |answer: &Answer| answer.split.rods),
+        field("replicas", |answer: &Answer| answer.split.replicas),
+        field("bias_at_most", |answer: &Answer| answer.split.bias),
+        field("scatter", |answer: &Answer| answer.split.scatter),
+        field("rod_steps", |answer: &Answer| answer.split.rod_steps()),
+        field("seconds", |answer: &Answer| answer.seconds),
+        field("repeats", |answer: &Answer| answer.realised.map(|realised| realised.repeats)),
+        realised("realised_error", |realised| realised.error),
+        realised("realised_bias", |realised| realised.bias.value),
+        realised("realised_bias_se", |realised| realised.bias.se),
+        realised("realised_scatter", |realised| realised.scatter.value),
+    ];
+    columns_csv(&study.answers, columns)
 }
 
 /// The rule with the measured constants, in words.

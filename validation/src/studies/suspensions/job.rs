@@ -43,6 +43,11 @@ pub struct Trace {
     pub directions: Vec<[f64; 3]>,
 }
 
+/// X̄₁ of each replica at the first mark.
+pub fn x1(traces: &[Trace]) -> Vec<f64> {
+    traces.iter().map(|trace| trace.looks[0].x1).collect()
+}
+
 impl Job {
     /// The scene's replicas 0 to `replicas` with `rods` rods and `steps_per_period` steps a period, evaluated after whole periods.
     pub fn new(scene: &Scene, steps_per_period: u64, rods: usize, replicas: u64, periods: u64) -> Self {

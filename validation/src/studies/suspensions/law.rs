@@ -4,7 +4,7 @@
 
 use super::blocks::{Block, blocks, replicas_exponent};
 use super::fit::{Line, Means, Order};
-use super::job::{Job, PLACES, Trace};
+use super::job::{Job, PLACES, Trace, x1};
 use super::{Estimate, correlation};
 use crate::methods::integrators::apart_rad;
 use nalgebra::Vector3;
@@ -147,8 +147,7 @@ pub fn run(jobs: &[Job], finished: &(dyn Fn() + Sync)) -> Result<Vec<Vec<Trace>>
 /// Evaluates the results `found` of the jobs of [`jobs`].
 pub fn read(scene: &Scene, jobs: &[Job], found: &[Vec<Trace>]) -> Law {
     let (own_steps, own_rods) = (scene.steps_per_unit(), scene.particles.count);
-    let x1: Vec<Vec<f64>> =
-        (found.iter()).map(|traces| traces.iter().map(|trace| trace.looks[0].x1).collect()).collect();
+    let x1: Vec<_> = found.iter().map(|traces| x1(traces)).collect();
     let chosen = |which: &dyn Fn(&Job) -> bool| -> Vec<usize> {
         let mut chosen: Vec<_> = (0..jobs.len()).filter(|k| which(&jobs[*k])).collect();
         chosen.sort_by_key(|k| (jobs[*k].scene.particles.count, jobs[*k].scene.steps_per_unit()));
@@ -220,7 +219,6 @@ fn first_order(means: &Means, h: &[f64], resolved_from: usize) -> (usize, Option
 
 fn change(means: &Means, level: usize, coarse: &[Trace], fine: &[Trace]) -> Change {
     let (value, se) = means.difference(level, level + 1);
-    let x1 = |traces: &[Trace]| -> Vec<f64> { traces.iter().map(|trace| trace.looks[0].x1).collect() };
     let count = coarse.len().min(fine.len());
     let correlation = correlation(&x1(&coarse[..count]), &x1(&fine[..count]));
     let [apart_rad, unrelated_rad] = [0, 1].map(|shift| apart(coarse, fine, shift));

@@ -5,8 +5,7 @@ use super::blocks::Block;
 use super::law::{Change, JobMean, Law};
 use crate::present::plot::{Curve, Points};
 use crate::present::study::ReportFigure;
-use crate::present::table::{ReportTable, decimals, difference, estimate, field, number, rows_csv, words};
-use serde::Serialize;
+use crate::present::table::{ReportTable, columns_csv, decimals, difference, estimate, field, number, words};
 
 /// Tables against steps, rods and replicas; `strain` is that of a period.
 pub fn law(law: &Law, strain: f64) -> [ReportTable; 4] {
@@ -14,17 +13,11 @@ pub fn law(law: &Law, strain: f64) -> [ReportTable; 4] {
 }
 
 /// A sentence on the weak order, or on why there is none.
-pub fn order_in_words(law: &Law) -> String {
+fn order_in_words(law: &Law) -> String {
     let from = law.steps.get(law.resolved_from).map_or(0, |s| s.steps_per_period);
     let order = match &law.order {
-        Some(order) => format!(
-            "Over the levels that resolve a flip (GΔt ≤ 1, from {from} steps on) the weak order is {:.2} ± {:.2}.",
-            order.order, order.se
-        ),
-        None => format!(
-            "Over the levels that resolve a flip (GΔt ≤ 1, from {from} steps on) noise hides the weak order: it is not \
-             readable."
-        ),
+        Some(order) => format!("the weak order is {:.2} ± {:.2}", order.order, order.se),
+        None => "noise hides the weak order: it is not readable".into(),
     };
     let line = match &law.steps_line {
         Some(line) => {
@@ -42,7 +35,7 @@ pub fn order_in_words(law: &Law) -> String {
         }
         None => " No straight line in 1/steps fits X̄₁.".into(),
     };
-    order + &line
+    format!("Over the levels that resolve a flip (GΔt ≤ 1, from {from} steps on) {order}.{line}")
 }
 
 fn steps(law: &Law, strain: f64) -> ReportTable {
@@ -179,51 +172,29 @@ pub fn steps_figure(law: &Law) -> ReportFigure {
     .judged("eqs 4 to 14", &["cheapest-split", "paths-do-not-converge"])
 }
 
-/// A row of converge.csv.
-#[derive(Default, Serialize)]
-struct LawRow {
-    against: &'static str,
-    steps_per_period: u64,
-    rods: usize,
-    replicas: u64,
-    x1: f64,
-    x1_se: f64,
-    x1_less_next: Option<f64>,
-    x1_less_next_se: Option<f64>,
-    correlation: Option<f64>,
-    p1_distribution: Option<f64>,
-    p1_distribution_se: Option<f64>,
-    orbit_distribution: Option<f64>,
-    orbit_distribution_se: Option<f64>,
-    same_rod_apart_rad: Option<f64>,
-    other_rods_apart_rad: Option<f64>,
-}
-
-impl LawRow {
-    fn of(against: &'static str, mean: &JobMean, change: Option<&Change>) -> Self {
-        Self {
-            against,
-            steps_per_period: mean.steps_per_period,
-            rods: mean.rods,
-            replicas: mean.replicas,
-            x1: mean.x1,
-            x1_se: mean.se,
-            x1_less_next: change.map(|c| c.x1.value),
-            x1_less_next_se: change.map(|c| c.x1.se),
-            correlation: change.map(|c| c.correlation.value),
-            p1_distribution: change.map(|c| c.p1_distribution.value),
-            p1_distribution_se: change.map(|c| c.p1_distribution.se),
-            orbit_distribution: change.map(|c| c.orbit_distribution.value),
-            orbit_distribution_se: change.map(|c| c.orbit_distribution.se),
-            same_rod_apart_rad: change.map(|c| c.apart_rad),
-            other_rods_apart_rad: change.map(|c| c.unrelated_rad),
-        }
-    }
-}
-
 /// converge.csv of an interacting scene.
 pub fn law_csv(law: &Law) -> Result<String, String> {
+    type Row<'a> = (&'static str, &'a JobMean, Option<&'a Change>);
     let steps = law.steps.iter().enumerate();
-    let steps = steps.map(|(k, mean)| LawRow::of("steps_per_period", mean, law.changes.get(k)));
-    rows_csv(steps.chain(law.rods.iter().map(|mean| LawRow::of("rods", mean, None))))
+    let steps = steps.map(|(k, mean)| ("steps_per_period", mean, law.changes.get(k)));
+    let rods = law.rods.iter().map(|mean| ("rods", mean, None));
+    let change = |name: &str, of: fn(&Change) -> f64| field(name, move |r: &Row| r.2.map(of));
+    let columns = vec![
+        words("against", |r: &Row| r.0),
+        field("steps_per_period", |r: &Row| r.1.steps_per_period),
+        field("rods", |r: &Row| r.1.rods),
+        field("replicas", |r: &Row| r.1.replicas),
+        field("x1", |r: &Row| r.1.x1),
+        field("x1_se", |r: &Row| r.1.se),
+        change("x1_less_next", |c| c.x1.value),
+        change("x1_less_next_se", |c| c.x1.se),
+        change("correlation", |c| c.correlation.value),
+        change("p1_distribution", |c| c.p1_distribution.value),
+        change("p1_distribution_se", |c| c.p1_distribution.se),
+        change("orbit_distribution", |c| c.orbit_distribution.value),
+        change("orbit_distribution_se", |c| c.orbit_distribution.se),
+        change("same_rod_apart_rad", |c| c.apart_rad),
+        change("other_rods_apart_rad", |c| c.unrelated_rad),
+    ];
+    columns_csv(steps.chain(rods), columns)
 }

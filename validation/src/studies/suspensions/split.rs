@@ -6,7 +6,7 @@
 
 use super::Estimate;
 use super::coupled;
-use super::job::Job;
+use super::job::{Job, x1};
 use super::law::{FACES, JobMean, Law};
 use serde::Serialize;
 use shearbed::Scene;
@@ -15,7 +15,7 @@ use shearbed::Scene;
 pub const TARGETS: [f64; 3] = [1e-2, 3e-3, 1e-3];
 
 /// The smallest number of replicas: fewer do not show their scatter.
-pub const FEWEST_REPLICAS: u64 = 8;
+const FEWEST_REPLICAS: u64 = 8;
 
 /// The constants of a scene's error.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -172,9 +172,8 @@ impl Split {
         let run = |repeat: u64| {
             let mut job = self.job(scene);
             job.scene.ensemble.seed = scene.ensemble.seed + 1 + repeat;
-            let traces = job.run(&|| ())?;
-            let sum: f64 = traces.iter().map(|trace| trace.looks[0].x1).sum();
-            Ok::<_, String>(sum / traces.len() as f64)
+            let x1 = x1(&job.run(&|| ())?);
+            Ok::<_, String>(x1.iter().sum::<f64>() / x1.len() as f64)
         };
         let values = (0..repeats).map(run).collect::<Result<Vec<_>, _>>()?;
         let Estimate { value: mean, se } = Estimate::mean_of(&values);
@@ -196,7 +195,7 @@ impl Split {
 pub fn reference(scene: &Scene, steps: u64, rods: usize, replicas: u64) -> Result<JobMean, String> {
     let mut job = Job::new(scene, steps, rods, replicas, 1);
     job.scene.ensemble.seed = scene.ensemble.seed + 1_000_000;
-    let x1: Vec<_> = (job.run(&|| ())?.iter()).map(|trace| trace.looks[0].x1).collect();
+    let x1 = x1(&job.run(&|| ())?);
     let found = match replicas < 100 {
         true => Estimate::mean_of(&x1),
         false => {

@@ -5,7 +5,7 @@ use crate::files::build;
 use crate::methods::tensors::Closure;
 use crate::present::plot::{Curve, Points};
 use crate::present::study::{Exhibit, Findings, ReportFigure, Request, Study};
-use crate::present::table::{ReportTable, field, number, powers, rows_csv, words};
+use crate::present::table::{ReportTable, decimals, field, number, powers, rows_csv, words};
 
 /// The study of closures.
 pub const STUDY: Study = Study {
@@ -57,8 +57,8 @@ fn run(request: &Request) -> Result<Option<Findings>, String> {
             words("flow", |row: &Off| row.flow),
             field("C_I", |row: &Off| row.c_i),
             words("closure", |row: &Off| row.closure),
-            number("a_22", |x| format!("{x:.4}"), |row: &Off| row.a22),
-            number("exact", |x| format!("{x:.4}"), |row: &Off| row.exact_a22),
+            number("a_22", decimals(4), |row: &Off| row.a22),
+            number("exact", decimals(4), |row: &Off| row.exact_a22),
             number("largest error of a_ij", powers(1), |row: &Off| row.error),
         ],
     );
@@ -69,7 +69,7 @@ fn run(request: &Request) -> Result<Option<Findings>, String> {
         vec![
             words("method", |row: &Work| row.method),
             number("tolerance", powers(0), |row: &Work| row.tolerance),
-            number("time (ms)", |x| format!("{x:.2}"), |row: &Work| 1e3 * row.seconds),
+            number("time (ms)", decimals(2), |row: &Work| 1e3 * row.seconds),
             number("largest error of a_ij", powers(1), |row: &Work| row.error),
         ],
     );
@@ -78,10 +78,7 @@ fn run(request: &Request) -> Result<Option<Findings>, String> {
         "C_I by which the steady a_22 in shear is 0.8261, measured in polycarbonate with 30 % of glass by weight \
          (charlestucker3/Fiber-Orientation-Tools). Closures without one in 10⁻³ to 10⁻¹ are left out.",
         fitted.iter().copied(),
-        vec![
-            words("method", |row: &Fitted| row.method),
-            number("C_I", |x| format!("{x:.5}"), |row: &Fitted| row.c_i),
-        ],
+        vec![words("method", |row: &Fitted| row.method), number("C_I", decimals(5), |row: &Fitted| row.c_i)],
     );
     let files = [
         ("closures-fitted.csv", rows_csv(fitted.iter().copied())?),
