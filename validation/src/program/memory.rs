@@ -139,7 +139,7 @@ mod tests {
     #[test]
     fn what_does_not_fit_is_refused_with_its_number() {
         let mut scene = lab::interacting_scene(&crate::judge::case::Effort::gate());
-        scene.particles.count = 10_000_000;
+        scene.particles.count = 14_000_000;
         scene.ensemble.replicas = 3;
         let plan = lab::plan(&scene);
         let one = needed(&plan, 1, false, 0);
@@ -148,7 +148,7 @@ mod tests {
         assert!(fits(&plan, 1, false, one, 1).is_err(), "what is held beside counts");
         let refused = fits(&plan, 2, false, one, 0).unwrap_err();
         assert!(
-            refused.starts_with("particles.count = 10000000: 2 at a time of 3 replicas")
+            refused.starts_with("particles.count = 14000000: 2 at a time of 3 replicas")
                 && refused.contains("fewer --threads"),
             "{refused}"
         );

@@ -92,7 +92,7 @@ const AGREED: f64 = 1e-12;
 ///
 /// An error if the two differ by more than 10⁻¹², or if one fails.
 pub fn certify() -> Result<String, String> {
-    let mut table = format!("problem,time_s,{}\n", COLUMNS.join(","));
+    let mut table = format!("setting,time_s,{}\n", COLUMNS.join(","));
     for problem in &PROBLEMS {
         let (equation, times_s, name) = (problem.equation(), problem.times_s(), problem.name);
         let start = problem.closed.start();

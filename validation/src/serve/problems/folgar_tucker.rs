@@ -91,7 +91,7 @@ const TABLE: &str = include_str!("data/folgar-tucker.csv");
 ///
 /// An error if a distribution cannot be computed.
 pub fn certify() -> Result<String, NoAnswer> {
-    let mut table = format!("problem,time_s,{},{}\n", SECOND.join(","), FOURTH.join(","));
+    let mut table = format!("setting,time_s,{},{}\n", SECOND.join(","), FOURTH.join(","));
     for problem in &PROBLEMS {
         for (time, means) in problem.times_s().iter().zip(problem.certified()?) {
             let values = twelve_decimals(means.second.iter().chain(&means.fourth).copied());
