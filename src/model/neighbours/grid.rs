@@ -143,7 +143,7 @@ impl Grid {
             (buckets.into_par_iter().enumerate()).with_min_len(CHUNK / BUCKET).for_each_init(
                 || (Vec::with_capacity(most), Vec::with_capacity(most)),
                 |unsorted, (bucket, (before, entries, ends))| {
-                    self.sort_bucket(bucket * BUCKET, before as u32, entries, ends, unsorted);
+                    self.sort_bucket((bucket * BUCKET) as u32, before as u32, entries, ends, unsorted);
                 },
             );
         }
@@ -220,10 +220,9 @@ impl Grid {
                     for (places, x) in places.iter_mut().zip(own) {
                         places.iter_mut().zip(x).for_each(|(place, x)| *place = (x * per_longest) as f32);
                     }
-                    let [_, rows, columns] = self.along.map(|cells| cells as f32);
-                    for (k, cell) in cells.iter_mut().enumerate() {
-                        let at = |axis: usize| self.cell_at(axis, places[axis][k]);
-                        *cell = ((at(0) * rows + at(1)) * columns + at(2)) as u32;
+                    let [x1, x2, x3] = &*places;
+                    for (cell, ((x1, x2), x3)) in cells.iter_mut().zip(x1.iter().zip(x2).zip(x3)) {
+                        *cell = self.cell([*x1, *x2, *x3]);
                     }
                 },
             );
@@ -234,7 +233,7 @@ impl Grid {
     /// Sorts the `entries` of the cells from `first` on, of which there are `before` others, and sets the `ends` of these cells.
     fn sort_bucket(
         &self,
-        first: usize,
+        first: u32,
         before: u32,
         entries: &mut [Entry],
         ends: &mut [u32],
@@ -246,10 +245,8 @@ impl Grid {
         widest(
             #[inline(always)]
             || {
-                let [_, rows, columns] = self.along.map(|cells| cells as f32);
                 for (cell, entry) in cells.iter_mut().zip(&*entries) {
-                    let at = |axis: usize| self.cell_at(axis, entry.place[axis]);
-                    *cell = (((at(0) * rows + at(1)) * columns + at(2)) as u32 - first as u32) as u16;
+                    *cell = self.cell(entry.place).wrapping_sub(first) as u16;
                 }
             },
         );
@@ -317,12 +314,15 @@ impl Grid {
         // Places beyond the first and the last rod get rows that do not exist.
         cell[0][..shift].fill(-1.0);
         cell[0][shift + end - before..].fill(slabs);
-        for (k, entry) in self.sorted[before..end].iter().enumerate() {
-            for axis in 0..3 {
-                x[axis][shift + k] = entry.place[axis];
-                cell[axis][shift + k] = self.cell_at(axis, entry.place[axis]);
+        let entries = &self.sorted[before..end];
+        for axis in 0..3 {
+            let own = x[axis][shift..].iter_mut().zip(&mut cell[axis][shift..]);
+            for ((x, cell), entry) in own.zip(entries) {
+                (*x, *cell) = (entry.place[axis], self.cell_at(axis, entry.place[axis]));
             }
-            reach[shift + k] = entry.reach + SLACK;
+        }
+        for (reach, entry) in reach[shift..].iter_mut().zip(entries) {
+            *reach = entry.reach + SLACK;
         }
         let mut squares = [[0.0f32; PADDED]; WINDOW];
         for (offset, squares) in (1..).zip(&mut squares) {
@@ -335,7 +335,7 @@ impl Grid {
         let inner = self.sides.map(|side| side - SLACK);
         let row = |k: usize| cell[0][k] * rows + cell[1][k];
         let mut flags = [false; BLOCK];
-        for (k, flag) in (MARGIN..).zip(&mut flags) {
+        for k in MARGIN..MARGIN + BLOCK {
             let mut least = FAR;
             for (offset, squares) in (1..).zip(&squares) {
                 least = lesser(least, lesser(squares[k], squares[k - offset]));
@@ -350,7 +350,7 @@ impl Grid {
             let (low, high) = (k - MARGIN, k + MARGIN);
             let all_before = (row(low) != row(k)) | ((cell[2][low] + 1.0) * width[2] <= x[2][k] - reach[k]);
             let all_behind = (row(high) != row(k)) | (cell[2][high] * width[2] > x[2][k] + reach[k]);
-            *flag = near | !(within(0) & within(1) & all_before & all_behind);
+            flags[k - MARGIN] = near | !(within(0) & within(1) & all_before & all_behind);
         }
         flags
     }
@@ -420,11 +420,19 @@ impl Grid {
         ((x * self.per_length[axis]) as i32).clamp(0, self.along[axis] as i32 - 1) as usize
     }
 
+    /// The cell of a place in the volume.
+    #[inline(always)]
+    fn cell(&self, place: [f32; 3]) -> u32 {
+        let at = |axis: usize| self.cell_at(axis, place[axis]);
+        let [_, rows, columns] = self.along.map(|cells| cells as f32);
+        ((at(0) * rows + at(1)) * columns + at(2)) as u32
+    }
+
     /// [`Self::index`] of a coordinate in the volume, as a number with a fraction of 0: this vectorises. Of a single coordinate a cast is
     /// faster.
     #[inline(always)]
     fn cell_at(&self, axis: usize, x: f32) -> f32 {
-        let (cells, last) = (x * self.per_length[axis], (self.along[axis] - 1) as f32);
+        let (cells, last) = (x * self.per_length[axis], self.along[axis] as f32 - 1.0);
         let nearest = (cells + ROUNDS) - ROUNDS;
         let whole = if nearest > cells { nearest - 1.0 } else { nearest };
         if whole > last { last } else { whole }
