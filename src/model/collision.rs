@@ -12,13 +12,8 @@ pub fn reach(r: f64, alpha: f64, m: f64) -> f64 {
 }
 
 /// The reach of eqs 8 and 9 at fixed α and m, with an upper bound that needs no logarithm.
-///
-/// ```
-/// let reach = shearbed::model::collision::Reach::new(0.5, 3.0);
-/// assert!((reach.of(0.125) - 0.5).abs() < 1e-15); // P_c = 1/8 at s = α
-/// ```
 #[derive(Clone, Debug)]
-pub struct Reach {
+pub(crate) struct Reach {
     alpha: f64,
     m: f64,
     /// Upper bounds of s*(R): entry k holds for all R in [k, k + 1)/BINS.

@@ -10,12 +10,6 @@ pub(crate) use grid::bytes;
 use pairs::Pairs;
 
 /// A rod and its nearest neighbour within its reach.
-///
-/// ```
-/// use shearbed::model::neighbours::Nearest;
-/// let found = Nearest { rod: 0, other: 7, square: 0.25 };
-/// assert_eq!(found.square.sqrt(), 0.5);
-/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Nearest {
     /// Index of the rod that searches.
@@ -27,15 +21,6 @@ pub struct Nearest {
 }
 
 /// Searches for nearest neighbours in a volume [0, H₁) × [0, H₂) × [0, H₃). Allocates nothing after the first step.
-///
-/// ```
-/// use shearbed::model::{neighbours::Neighbours, work::Counters};
-/// let positions = [vec![0.1, 0.2, 0.9], vec![0.5; 3], vec![0.5; 3]];
-/// let (mut work, mut pairs) = (Counters::default(), Vec::new());
-/// let reaches = |_first| std::iter::repeat(0.3);
-/// Neighbours::new([1.0; 3], 3).each_nearest(&positions, reaches, &mut work, |near| pairs.push((near.rod, near.other)));
-/// assert_eq!(pairs, [(0, 1), (1, 0)]);
-/// ```
 #[derive(Clone, Debug)]
 pub struct Neighbours(Search);
 

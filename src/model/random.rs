@@ -4,13 +4,6 @@ use rand::SeedableRng;
 use rand_pcg::Pcg64Dxsm;
 
 /// What a random stream is for. Each purpose has its own stream, created only where it is used.
-///
-/// ```
-/// use shearbed::model::random::{Purpose, stream};
-/// // The same stream for the same seed, replica and purpose.
-/// assert_eq!(stream(1, 0, Purpose::Positions), stream(1, 0, Purpose::Positions));
-/// assert_ne!(stream(1, 0, Purpose::Positions), stream(1, 0, Purpose::Collisions));
-/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Purpose {
     /// Gaussian aspect ratios (eq. 11).

@@ -12,11 +12,6 @@ use rand::RngExt;
 use rand_pcg::Pcg64Dxsm;
 
 /// The volume [0, H₁) × [0, H₂) × [0, H₃), with lengths in rod lengths.
-///
-/// ```
-/// use shearbed::model::volume::ControlVolume;
-/// assert_eq!(ControlVolume::holding(100, 12.5).sides(), [2.0; 3]); // rod lengths
-/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ControlVolume {
     /// H₁/a, H₂/a and H₃/a.

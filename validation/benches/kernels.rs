@@ -2,15 +2,10 @@
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use nalgebra::{UnitVector3, Vector3};
-use rand::RngExt;
-use shearbed::model::collision::{Reach, share_velocity, step_angles, turn};
+use shearbed::model::collision::{share_velocity, step_angles, turn};
 use shearbed::model::contact::contact;
-use shearbed::model::neighbours::Neighbours;
 use shearbed::model::orientation::from_angles;
 use shearbed::model::phase::Phase;
-use shearbed::model::random::{Purpose, stream};
-use shearbed::model::volume::ControlVolume;
-use shearbed::model::work::Counters;
 use shearbed::motion::couette;
 use shearbed::run::ensemble;
 use shearbed::run::run_replica;
@@ -43,50 +38,14 @@ fn free(c: &mut Criterion) {
     group.finish();
 }
 
-/// Rods of Fig. 4's density, scattered at random.
-fn scattered(count: usize) -> (ControlVolume, [Vec<f64>; 3]) {
-    // 50 per cm³ of rods 0.72 mm long.
-    let volume = ControlVolume::holding(count, 0.05 * 0.72f64.powi(3));
-    let positions = volume.draw_positions(count, &stream(1, 0, Purpose::Positions));
-    (volume, positions)
-}
-
-/// The search for nearest neighbours within the reach of one R each: per rod.
-fn search(c: &mut Criterion) {
-    let mut group = c.benchmark_group("nearest neighbours, per rod");
-    let reach = Reach::new(0.5, 3.0);
-    for count in [100, 256, 10_000, 1_000_000] {
-        let (volume, positions) = scattered(count);
-        let mut draws = stream(1, 0, Purpose::Collisions);
-        let drawn: Vec<f64> = (0..count).map(|_| draws.random()).collect();
-        let mut neighbours = Neighbours::new(volume.sides(), count);
-        group.throughput(Throughput::Elements(count as u64));
-        group.bench_function(format!("{count} rods"), |b| {
-            b.iter(|| {
-                let (mut work, mut found) = (Counters::default(), 0);
-                let bounds = |first: usize| drawn[first..].iter().map(|drawn| reach.bound(*drawn));
-                neighbours.each_nearest(&positions, bounds, &mut work, |_| found += 1);
-                found
-            });
-        });
-    }
-    group.finish();
-}
-
-/// Translation with replacements, per rod, and what one collision takes.
-fn parts_of_a_step(c: &mut Criterion) {
-    let mut group = c.benchmark_group("parts of a step");
-    let (volume, mut positions) = scattered(10_000);
-    let mut rng = stream(1, 0, Purpose::Replacements);
-    group.throughput(Throughput::Elements(10_000));
-    group.bench_function("translation, per rod", |b| {
-        b.iter(|| volume.advance(&mut positions, 0.37, 1.0, &mut rng))
-    });
+/// What one collision takes.
+fn collision(c: &mut Criterion) {
+    let mut group = c.benchmark_group("a collision");
     group.throughput(Throughput::Elements(1));
     let p = [(0.3, 1.1), (2.0, 0.7)].map(|(phi, theta)| from_angles(phi, theta));
     let separation = Vector3::new(0.4, -0.3, 0.2);
     for (name, update) in [("rotation", turn as Turn), ("angles", step_angles)] {
-        group.bench_function(format!("a collision, {name}"), |b| {
+        group.bench_function(name, |b| {
             b.iter(|| {
                 let [a, b] = black_box(p);
                 let contact = contact(&separation, &a, &b, [0.0; 2])?;
@@ -135,5 +94,5 @@ fn whole_scenes(c: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, motion, free, search, parts_of_a_step, steps, whole_scenes);
+criterion_group!(benches, motion, free, collision, steps, whole_scenes);
 criterion_main!(benches);

@@ -22,16 +22,6 @@ pub const NUMBERS: u128 = 1 << 20;
 /// density ∝ the inflow there, at a time uniform in the step. Uniformly distributed rods therefore stay so, except in liquid that came
 /// in twice during the step, a part ∝ Δt³ of the volume. Plane Couette flow u_2 = G x_1 uses eq. 14 instead
 /// ([`ControlVolume::advance`]).
-///
-/// ```
-/// use shearbed::nalgebra::{Matrix3, Vector3};
-/// use shearbed::model::random::{Purpose, stream};
-/// use shearbed::model::volume::{ControlVolume, Inflow};
-/// let (volume, extension) = (ControlVolume::of([4.0; 3]), Matrix3::from_diagonal(&Vector3::new(1.0, -0.5, -0.5)));
-/// let mut positions = volume.draw_positions(100, &stream(1, 0, Purpose::Positions));
-/// let replaced = Inflow::new(&volume, extension, 0.1).advance(&mut positions, &mut stream(1, 0, Purpose::Replacements));
-/// assert!(replaced > 0 && positions.iter().flatten().all(|x| (0.0..4.0).contains(x)));
-/// ```
 #[derive(Clone, Debug)]
 pub struct Inflow {
     sides: [f64; 3],
