@@ -60,8 +60,8 @@ pub struct Counts {
     pub fresh_closing: [f64; 4],
     /// The same prediction for the opening ones.
     pub fresh_opening: [f64; 4],
-    /// Number of turns by a collision, two for each collision.
-    pub turns: f64,
+    /// Number of rods that collided, two for each collision.
+    pub collided: f64,
 }
 
 /// Counts the kicks of one replica over whole periods. NaN if the run stopped.
@@ -137,7 +137,7 @@ impl Counts {
         for (count, threshold) in side.iter_mut().zip(THRESHOLDS_RAD) {
             *count += angles.iter().filter(|angle| **angle > threshold).count() as f64;
         }
-        self.turns += 2.0;
+        self.collided += 2.0;
     }
 
     fn over(self, rod_periods: f64) -> Self {
@@ -147,7 +147,7 @@ impl Counts {
             opening: each(self.opening),
             fresh_closing: each(self.fresh_closing),
             fresh_opening: each(self.fresh_opening),
-            turns: self.turns / rod_periods,
+            collided: self.collided / rod_periods,
         }
     }
 
@@ -219,7 +219,7 @@ mod tests {
         let counts = counts.over(2.0);
         assert_eq!(counts.opening, [1.0, 0.5, 0.5, 0.5]);
         assert_eq!(counts.closing, [0.5, 0.5, 0.0, 0.0]);
-        assert_eq!((counts.all(0), counts.turns), (1.5, 2.0));
+        assert_eq!((counts.all(0), counts.collided), (1.5, 2.0));
         // ℓ along (1, 1, 0): stretched by u_2 = x_1; along (1, −1, 0): squeezed.
         let line = |b: Vector3<f64>| is_opening(&Vector3::z(), &b);
         assert!(line(Vector3::new(1.0, -1.0, 0.0)) && !line(Vector3::new(1.0, 1.0, 0.0)));
@@ -229,8 +229,8 @@ mod tests {
     fn a_window_is_part_of_the_run() {
         let mut scene = lab::interacting_scene(&crate::judge::case::Effort::gate());
         lab::interaction(&mut scene).concentration_per_cm3 = Some(400.0);
-        let turns = |periods| rates(&scene, 50, periods, 2, KICKS).mean(|counts| counts.turns).mean;
-        let (both, parts) = (turns(0..2), [turns(0..1), turns(1..2)]);
+        let collided = |periods| rates(&scene, 50, periods, 2, KICKS).mean(|counts| counts.collided).mean;
+        let (both, parts) = (collided(0..2), [collided(0..1), collided(1..2)]);
         assert!((2.0 * both - parts[0] - parts[1]).abs() < 1e-12 && parts[0] != parts[1]);
     }
 }

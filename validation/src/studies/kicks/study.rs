@@ -157,7 +157,7 @@ fn sides<'a>() -> [Column<'a, StepCounts>; 5] {
         mean("formula", |c| c.fresh_closing[1]),
         mean("> 0.1, opening", |c| c.opening[1]),
         mean("formula", |c| c.fresh_opening[1]),
-        mean("turns by a collision", |c| c.turns),
+        mean("turns by a collision", |c| c.collided),
     ]
 }
 
