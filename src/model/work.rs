@@ -21,11 +21,11 @@ pub struct Counters {
     pub steps: u64,
     /// Random numbers R drawn for collisions (eq. 8).
     pub draws: u64,
-    /// Pairs to which the quick test of short numbers was applied.
+    /// Pairs to which a quick test in fewer digits was applied.
     pub pairs_screened: u64,
     /// Cells of the grid searched.
     pub cells: u64,
-    /// Distances between rods computed.
+    /// Distances between rods computed in double precision.
     pub distances: u64,
     /// Pairs with P_c > R.
     pub candidates: u64,
