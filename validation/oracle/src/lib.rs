@@ -2,6 +2,7 @@
 //!
 //! Nothing here uses the simulator: the crate does not depend on it, so the compiler enforces this.
 
+pub mod angle_grid;
 pub mod closed_form;
 pub mod diffusion;
 pub mod exponential;

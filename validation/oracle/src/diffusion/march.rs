@@ -49,7 +49,7 @@ impl<'a> Density<'a> {
             let basis = self.operator.basis;
             let (degree, order) = needed(&basis, &after, self.accuracy.tail);
             // A step is accepted if its result leaves the margin empty; else it is repeated with more harmonics.
-            let full = (degree + 2 > basis.degree, order + 1 > basis.order && basis.order < basis.degree);
+            let full = (degree + 2 > basis.degree, order + 2 > basis.order && basis.order < basis.degree);
             if full.0 || full.1 {
                 let more = |now: usize, full: bool| if full { now + now / 4 + 4 } else { now };
                 self.keep(more(basis.degree, full.0), more(basis.order, full.1));

@@ -1,6 +1,8 @@
 //! Each check is a function of the model that it judges, and fails for the right model with a mistake in it.
 
+mod grid;
 mod in_time;
+mod laws;
 mod of_operator;
 mod orbits;
 mod power_moments;
