@@ -46,6 +46,7 @@ mod step_limits;
 mod subjects;
 mod symmetries;
 mod times;
+mod two_methods;
 mod volume_shapes;
 mod work_precision;
 mod work_precision_coupled;
@@ -98,6 +99,7 @@ pub fn all() -> Vec<Case> {
         closures::cases(),
         orbits::cases(),
         diffusing_rods::cases(),
+        two_methods::cases(),
     ]
     .into_iter()
     .flatten()

@@ -97,6 +97,26 @@ fn spoilt_folders_are_refused_with_their_place() {
     assert!(error.contains("no problems here"));
 }
 
+/// A folder that was exported before its answer was corrected is refused as such, and no answer is graded by it.
+#[test]
+fn an_answer_that_has_been_corrected_since_is_said_to_have_been_wrong() {
+    let dir = tempfile::tempdir().unwrap();
+    let folder = dir.path().join("folgar-tucker-planar-extension");
+    fs::create_dir(&folder).unwrap();
+    for file in ["problem.json", "certified.csv"] {
+        let text = &FILES[&format!("folgar-tucker-planar-extension/{file}")];
+        fs::write(folder.join(file), text.replace("  \"version\": 2,\n", "")).unwrap();
+    }
+    let error = problems::read(dir.path()).unwrap_err().to_string();
+    for words in
+        ["problem.json: version = 1: ", "certified a_ij were wrong by up to 1.8e-4", "problems export"]
+    {
+        assert!(error.contains(words), "{error}");
+    }
+    fs::write(folder.join("problem.json"), &FILES["folgar-tucker-planar-extension/problem.json"]).unwrap();
+    assert_eq!(problems::read(dir.path()).unwrap().len(), 1);
+}
+
 #[test]
 fn exact_answers_have_more_digits_than_a_double() {
     for def in problems::all() {

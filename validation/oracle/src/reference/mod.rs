@@ -8,6 +8,7 @@ pub mod diffusing;
 pub mod isotropic;
 pub mod motion;
 pub mod rod;
+pub mod second;
 pub mod table;
 mod twofold;
 pub mod unequal;

@@ -127,6 +127,7 @@ fn built(def: &ProblemDef, problem: &ClosureProblem) -> Built {
         certified: rows.filter(|row| row[0] == problem.name).map(|row| row[1..].into()).collect(),
         problem: Problem {
             format: FORMAT,
+            version: super::version(def.name),
             name: def.name.into(),
             title: def.title.into(),
             summary: format!(

@@ -68,6 +68,7 @@ impl ContactProblem {
         Built {
             problem: Problem {
                 format: FORMAT,
+                version: super::version(self.name),
                 name: self.name.into(),
                 title: self.title.into(),
                 summary: summary(self.step_s),

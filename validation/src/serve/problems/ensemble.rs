@@ -49,6 +49,7 @@ fn built(def: &ProblemDef, sd_percent: f64, table: &str) -> Built {
         certified: certified.collect(),
         problem: Problem {
             format: FORMAT,
+            version: super::version(def.name),
             name: def.name.into(),
             title: def.title.into(),
             summary: "The model of Lee & Springer (1982) with the paper's rods in plane Couette flow: free rods turn by Jeffery's \

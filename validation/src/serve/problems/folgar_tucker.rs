@@ -142,6 +142,7 @@ fn built(def: &ProblemDef, problem: &DiffusionProblem, values: std::ops::Range<u
         certified: rows.filter(|row| row[0] == problem.name).map(of).collect(),
         problem: Problem {
             format: FORMAT,
+            version: super::version(def.name),
             name: def.name.into(),
             title: def.title.into(),
             summary: format!(

@@ -37,6 +37,24 @@ use std::sync::{LazyLock, OnceLock};
 /// The version of the file format.
 pub const FORMAT: u32 = 1;
 
+/// The problems whose certified answer was once wrong: the name, the version of the first right one, and what was wrong before.
+const CORRECTED: [(&str, u32, &str); 1] =
+    [("folgar-tucker-planar-extension", 2, "up to 2026-11-26 its certified a_ij were wrong by up to 1.8e-4")];
+
+/// The version of a problem of this program: 1 if its certified answer has never been corrected.
+fn version(name: &str) -> u32 {
+    CORRECTED.iter().find(|(of, ..)| *of == name).map_or(1, |(_, version, _)| *version)
+}
+
+/// The version of a problem that does not state one.
+fn first() -> u32 {
+    1
+}
+
+fn is_first(version: &u32) -> bool {
+    *version == first()
+}
+
 /// What a problem asks for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
@@ -92,6 +110,9 @@ pub enum Origin {
 pub struct Problem {
     /// The version of the format, [`FORMAT`].
     pub format: u32,
+    /// The version of the problem; above 1 if its certified answer has been corrected.
+    #[serde(default = "first", skip_serializing_if = "is_first")]
+    pub version: u32,
     /// The folder's name.
     pub name: String,
     /// The title, one line.

@@ -2,7 +2,7 @@
 
 use super::check::cut;
 use super::table::{ReadError, Table};
-use super::{LoadedProblem, Origin, named};
+use super::{CORRECTED, LoadedProblem, Origin, named};
 use crate::files::difference::difference;
 use std::path::Path;
 
@@ -19,6 +19,13 @@ pub(super) fn origin(loaded: &LoadedProblem, json: &str) -> Result<Origin, ReadE
     let own = built.loaded(loaded.dir.clone());
     let path = |file: &str| loaded.dir.join(file);
     let name = &loaded.problem.name;
+    let version = loaded.problem.version;
+    if let Some((_, now, wrong)) = CORRECTED.iter().find(|(of, now, _)| of == name && version < *now) {
+        let message = format!(
+            "version = {version}: {wrong}; version {now} is right, and `shearbed problems export` writes it"
+        );
+        return Err(ReadError::whole(&path("problem.json"), message));
+    }
     let record = |loaded: &LoadedProblem| serde_json::to_value(&loaded.problem).unwrap_or_default();
     if let Some((key, found, due)) = difference(&record(loaded), &record(&own)) {
         let place = super::read::line_of(json, key.split('.').next().unwrap_or_default());

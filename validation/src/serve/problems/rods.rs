@@ -59,6 +59,7 @@ fn built(def: &ProblemDef, asked: Asked) -> Built {
     Built {
         problem: Problem {
             format: FORMAT,
+            version: super::version(def.name),
             name: def.name.into(),
             title: def.title.into(),
             summary: asked.summary,

@@ -111,6 +111,7 @@ fn unequal_table() -> Vec<Vec<String>> {
 fn problem(def: &ProblemDef, motion: &Motion, times_s: Vec<f64>, tolerance: f64) -> Problem {
     Problem {
         format: FORMAT,
+        version: super::version(def.name),
         name: def.name.into(),
         title: def.title.into(),
         summary: String::new(),

@@ -1,0 +1,293 @@
+//! What is called certified, exact or closed: each number by a second method that shares nothing with the first but what is said.
+//!
+//! The first values are those that are shipped, or that the program prints. `bash docs/numbers.sh` writes the table of the verification
+//! guide from the evidence of this case.
+
+use crate::judge::case::{Case, Effort, Evidence};
+use crate::judge::statistics::{larger, worst};
+use crate::methods::tensors;
+use crate::oracle::angle_grid;
+use crate::oracle::isotropic::mean_projections_polydisperse;
+use crate::oracle::reference::big::{Big, Bits, decimal, double, length};
+use crate::oracle::reference::isotropic::Covariance;
+use crate::oracle::reference::motion::{Motion, Unit};
+use crate::oracle::reference::second;
+use crate::oracle::spheroid::stress_coefficients;
+use crate::serve::problems::{self, Built};
+use std::sync::LazyLock;
+
+const BITS: Bits = Bits(160);
+
+/// Numbers by both methods.
+struct Compared {
+    /// The quantity, and both methods.
+    what: &'static str,
+    /// The largest difference: one unit of the last digit that is claimed, or the accuracy of the second method.
+    most: f64,
+    /// The reason for it, and what the methods share.
+    because: &'static str,
+    pairs: Vec<(Big, Big)>,
+}
+
+/// The certified number of a quantity, from the one that is shipped or printed: unchanged, but for controls.
+type Certified = fn(&str, &Big) -> Big;
+
+const ROD: &str = "p of a rod: exponential of At, and Taylor's series of ṗ itself";
+const ISOTROPIC: &str = "means of isotropic rods: an integral over ln x, and a sum over their starts";
+const UNEQUAL: &str = "means of unequal rods: trapezoid rule, and Carlson's integrals in panels";
+const FINE: &str = "means of unequal rods: trapezoid rule, and double-exponential rule";
+const DIFFUSING: &str = "a_ij of diffusing rods in time: harmonics, and a grid of angles";
+const FOURTH: &str = "a_ijkl of diffusing rods in time: harmonics, and a grid of angles";
+const STEADY: &str = "a_ij of diffusing rods, steady: elimination by degree, and a grid of angles";
+const CLOSED: &str = "closed equations: Runge–Kutta in the laboratory's axes, and Gragg's rule in those of a";
+const CONTACT: &str = "ṗ′ in contact: A.7 to A.12, and the rule's two demands solved for the changes";
+const STRESS: &str = "coefficients of the stress: integrals over u, and over ln λ";
+
+pub fn cases() -> Vec<Case> {
+    let mut case = Case::oracle("two-methods")
+        .claim("Every number that is called certified is found by two methods that share nothing but what is said, to its last digit.")
+        .source("eqs 4, 11, 12, A.1–A.12; Jeffery 1922; Folgar & Tucker 1984")
+        .subject((|_, shipped| shipped.clone()) as Certified);
+    macro_rules! wrong {
+        ($($name:literal, $what:expr, $by:literal;)*) => {
+            $(case = case.mistake($name, |what, shipped| match what == $what {
+                true => shipped + BITS.of($by),
+                false => shipped.clone(),
+            });)*
+        };
+    }
+    wrong! {
+        "the 23rd digit of a rod", ROD, 3e-23;
+        "the 21st digit of isotropic rods", ISOTROPIC, 3e-21;
+        "the 11th digit of unequal rods", UNEQUAL, 1e-11;
+        "the 10th digit of rods that diffuse", DIFFUSING, 1e-10;
+        "the 10th digit of their a_ijkl", FOURTH, 1e-10;
+        "the 10th digit of steady ones", STEADY, 1e-10;
+        "the 11th digit of closed equations", CLOSED, 1e-11;
+        "the 22nd digit of a contact", CONTACT, 1e-21;
+        "the 12th digit of a coefficient", STRESS, 1e-11;
+    }
+    vec![case.check(check)]
+}
+
+fn check(certified: &Certified, effort: &Effort) -> Vec<Evidence> {
+    static QUICK: LazyLock<Vec<Compared>> = LazyLock::new(|| compared(false));
+    static FULL: LazyLock<Vec<Compared>> = LazyLock::new(|| compared(true));
+    let all = effort.pick(&QUICK, &FULL);
+    let evidence = |one: &Compared| {
+        let off = |(first, second): &(Big, Big)| double(&(certified(one.what, first) - second)).abs();
+        Evidence::within(one.what, one.pairs.iter().map(off).fold(0.0, larger), one.most, one.because)
+    };
+    all.iter().map(evidence).collect()
+}
+
+fn compared(full: bool) -> Vec<Compared> {
+    let one = |what, most, because, pairs| Compared { what, most, because, pairs };
+    let mut all = vec![
+        one(ROD, 1e-24, "25 digits; both read L, r_e and p as exact", rods(full)),
+        one(ISOTROPIC, 1e-21, "22 digits; both use F, which the row above tests", isotropic(full)),
+        one(UNEQUAL, 4e-12, "2e-12 of the second; nothing shared but the Gaussian", unequal()),
+        one(DIFFUSING, 5e-12, "eleven decimals are printed; nothing shared", diffusing(full, 6)),
+        one(FOURTH, 5e-12, "eleven decimals are printed; nothing shared", diffusing(full, 15)),
+        one(STEADY, 5e-12, "eleven decimals are printed; nothing shared", steady(full)),
+        one(CLOSED, 1e-12, "twelve decimals; the coefficients of fitted closures are shared", closed(full)),
+        one(
+            CONTACT,
+            1e-22,
+            "25 digits, less the 2 that division by arms takes; nothing shared",
+            contacts(full),
+        ),
+        one(STRESS, 1e-12, "rounding, over coefficients up to 10; Jeffery's integrals are shared", stress()),
+    ];
+    if full {
+        let pairs = fine();
+        all.push(one(FINE, 1e-21, "22 digits; means at one r_e are shared", pairs));
+    }
+    all
+}
+
+fn named(name: &str) -> &'static Built {
+    problems::named(name).expect("a problem of this program")
+}
+
+/// The certified values of the row `at`, keys left out.
+fn row(built: &Built, at: usize) -> Vec<Big> {
+    let keys = built.problem.kind.keys().len();
+    built.certified[at][keys..].iter().map(|text| decimal(text).expect("a certified number")).collect()
+}
+
+fn rods(full: bool) -> Vec<(Big, Big)> {
+    let names: &[_] = match full {
+        false => &["mid-flip-2", "spiral"],
+        true => &[
+            "mid-flip-2",
+            "mid-flip-11.6",
+            "disc-0.1",
+            "sphere",
+            "planar-extension",
+            "couette-turned",
+            "spiral",
+        ],
+    };
+    let mut pairs = Vec::new();
+    for built in names.iter().map(|name| named(name)) {
+        let problem = &built.problem;
+        for (at, start) in built.start.iter().enumerate().take(if full { 2 } else { 1 }) {
+            let start = start.map(|x| BITS.of(x));
+            let size = length(&start);
+            let start = start.map(|x| x / &size);
+            for (time, time_s) in problem.times_s.iter().enumerate() {
+                let p = second::direction(
+                    &problem.gradient_per_s,
+                    problem.aspect_ratio,
+                    &start,
+                    &BITS.of(*time_s),
+                );
+                pairs.extend(row(built, time * built.start.len() + at).into_iter().zip(p));
+            }
+        }
+    }
+    pairs
+}
+
+fn isotropic(full: bool) -> Vec<(Big, Big)> {
+    let mut pairs = Vec::new();
+    for (name, rows, around, per_unit) in [("isotropic-3", 2, 120, 32), ("isotropic-extension", 2, 160, 40)] {
+        let (built, rows) = (named(name), if full { rows } else { 1 });
+        let problem = &built.problem;
+        let motion = Motion { gradient_per_s: problem.gradient_per_s, aspect_ratio: problem.aspect_ratio };
+        for (at, time_s) in problem.times_s.iter().enumerate().take(rows) {
+            let time = BITS.of(*time_s);
+            let map = motion.map(&time, Unit::Second, BITS).expect("seconds have a meaning in every flow");
+            let first = Covariance::at(&motion, &time, Unit::Second).expect("the same");
+            let (modulus, moments) = second::isotropic(&map, 1, around, per_unit);
+            pairs.push((first.projections()[1].clone(), modulus));
+            pairs.extend(first.fourth().into_iter().zip(moments[6..].iter().cloned()));
+            pairs.extend(row(built, at).into_iter().zip(moments));
+        }
+    }
+    pairs
+}
+
+fn unequal() -> Vec<(Big, Big)> {
+    let built = named("unequal-rods");
+    let (r, sd) = (built.problem.aspect_ratio, built.problem.aspect_ratio_sd_percent);
+    let turns =
+        |time_s: &f64| time_s * built.problem.gradient_per_s[1][0] / (std::f64::consts::TAU * (r + 1.0 / r));
+    let means =
+        built.problem.times_s.iter().map(|time_s| mean_projections_polydisperse(r, sd, turns(time_s)));
+    let pairs =
+        means.enumerate().flat_map(|(at, means)| row(built, at).into_iter().zip(means.map(|x| BITS.of(x))));
+    pairs.collect()
+}
+
+fn fine() -> Vec<(Big, Big)> {
+    let problem = &named("unequal-rods").problem;
+    let rate = problem.gradient_per_s[1][0];
+    let means =
+        second::unequal(rate, problem.aspect_ratio, problem.aspect_ratio_sd_percent, problem.times_s[0], 96);
+    row(named("unequal-rods"), 0).into_iter().zip(means).collect()
+}
+
+/// Means on the grid for a problem, at its time `at`.
+fn on_grid(built: &Built, rings: usize, time_s: f64) -> angle_grid::Means {
+    let (l, r) = (built.problem.gradient_per_s, built.problem.aspect_ratio);
+    let strain = |i: usize, j: usize| 0.5 * (l[i][j] + l[j][i]);
+    let rate = (0..9).map(|k| 2.0 * strain(k / 3, k % 3).powi(2)).sum::<f64>().sqrt();
+    let shape = 1.0 - 2.0 / (1.0 + r * r);
+    let diffusivity = built.problem.c_i.unwrap_or_default() * rate;
+    angle_grid::means(l, shape, diffusivity, rings, time_s).expect("diffusion makes it unique")
+}
+
+/// The problems' names, rings of the grid, and how many of their times.
+fn diffusing(full: bool, columns: usize) -> Vec<(Big, Big)> {
+    let asked: &[(&str, usize, usize)] = match (columns, full) {
+        (6, false) => &[("folgar-tucker-shear-0.1", 32, 2), ("folgar-tucker-planar-extension", 48, 3)],
+        (6, true) => &[
+            ("folgar-tucker-shear-0.1", 40, 5),
+            ("folgar-tucker-shear-0.0311", 48, 3),
+            ("folgar-tucker-planar-extension", 64, 5),
+            ("folgar-tucker-uniaxial-extension", 48, 5),
+            ("folgar-tucker-discs", 48, 2),
+            ("folgar-tucker-mixed", 40, 2),
+        ],
+        (_, false) => &[("folgar-tucker-fourth-mixed", 32, 1)],
+        (_, true) => &[("folgar-tucker-fourth-mixed", 40, 2)],
+    };
+    let mut pairs = Vec::new();
+    for (name, rings, times) in asked {
+        let built = named(name);
+        for (at, time_s) in built.problem.times_s.iter().enumerate().take(*times) {
+            let means = on_grid(built, *rings, *time_s);
+            let values: &[f64] = if columns == 6 { &means.second } else { &means.fourth };
+            pairs.extend(row(built, at).into_iter().zip(values.iter().map(|x| BITS.of(*x))));
+        }
+    }
+    pairs
+}
+
+fn steady(full: bool) -> Vec<(Big, Big)> {
+    let asked: &[_] = match full {
+        false => &[("folgar-tucker-steady-mixed", 40)],
+        true => &[("folgar-tucker-steady-mixed", 48), ("folgar-tucker-steady-shear-0.01", 64)],
+    };
+    let pairs = asked.iter().flat_map(|(name, rings)| {
+        let means = on_grid(named(name), *rings, f64::INFINITY);
+        row(named(name), 0).into_iter().zip(means.second.map(|x| BITS.of(x)))
+    });
+    pairs.collect()
+}
+
+fn closed(full: bool) -> Vec<(Big, Big)> {
+    let all = problems::all().iter().filter(|def| def.name.starts_with("closed-"));
+    let mut pairs = Vec::new();
+    for built in all.step_by(if full { 1 } else { 6 }).map(|def| def.built()) {
+        let problem = &built.problem;
+        let Some(closed) = &problem.closed else { continue };
+        let equation = closed.equation(&problem.gradient_per_s, problem.aspect_ratio);
+        let found = tensors::second::at(&equation, &closed.start(), &problem.times_s);
+        for (at, a) in found.iter().enumerate() {
+            let values = tensors::closures::PAIRS.map(|place| BITS.of(a[place]));
+            pairs.extend(row(built, at).into_iter().zip(values));
+        }
+    }
+    pairs
+}
+
+fn contacts(full: bool) -> Vec<(Big, Big)> {
+    let built = named("contact-rule");
+    let pairs = built.inputs.iter().enumerate().take(if full { 1000 } else { 50 }).flat_map(|(at, input)| {
+        let pair = std::array::from_fn(|k| input[k]);
+        let rates = second::contact(built.problem.gradient_per_s[1][0], &pair);
+        row(built, at).into_iter().zip(rates.into_iter().flatten())
+    });
+    pairs.collect()
+}
+
+/// Jeffery's integrals over λ itself, by the trapezoid rule in ln λ.
+fn stress() -> Vec<(Big, Big)> {
+    let mut pairs = Vec::new();
+    for r in [0.05, 0.5, 1.0, 2.0, 11.6, 100.0] {
+        let over = |f: &dyn Fn(f64) -> f64| {
+            const STEP: f64 = 0.05;
+            let node = |k: i32| (f64::from(k) * STEP).exp();
+            (-800..=800).map(|k| STEP * node(k) * f(node(k))).sum::<f64>()
+        };
+        let square = r * r;
+        let stretched = over(&|x| x / ((1.0 + x).powi(2) * (square + x).powf(1.5)));
+        let across = over(&|x| 1.0 / ((1.0 + x).powi(2) * (square + x).powf(1.5)));
+        let normal = over(&|x| 1.0 / ((1.0 + x).powi(3) * (square + x).sqrt()));
+        let (k_x, k_y, k_z) =
+            (2.0 / (3.0 * r * stretched), 2.0 / (r * (square + 1.0) * across), 1.0 / (r * normal));
+        let due = [1.5 * k_x - 2.0 * k_y + 0.5 * k_z, k_y - k_z, k_z];
+        let scale = worst(due.map(f64::abs));
+        let scaled = |x: f64| BITS.of(x / scale);
+        pairs.extend(
+            stress_coefficients(r)
+                .into_iter()
+                .zip(due)
+                .map(|(first, second)| (scaled(first), scaled(second))),
+        );
+    }
+    pairs
+}
