@@ -38,7 +38,7 @@ const UNEQUAL: &str = "means of unequal rods: trapezoid rule, and Carlson's inte
 const FINE: &str = "means of unequal rods: trapezoid rule, and double-exponential rule";
 const DIFFUSING: &str = "a_ij of diffusing rods in time: harmonics, and a grid of angles";
 const FOURTH: &str = "a_ijkl of diffusing rods in time: harmonics, and a grid of angles";
-const STEADY: &str = "a_ij of diffusing rods, steady: elimination by degree, and a grid of angles";
+const STEADY: &str = "steady a_ij of diffusing rods: elimination by degree, and a grid of angles";
 const CLOSED: &str = "closed equations: Runge–Kutta in the laboratory's axes, and Gragg's rule in those of a";
 const CONTACT: &str = "ṗ′ in contact: A.7 to A.12, and the rule's two demands solved for the changes";
 const STRESS: &str = "coefficients of the stress: integrals over u, and over ln λ";
@@ -84,20 +84,20 @@ fn check(certified: &Certified, effort: &Effort) -> Vec<Evidence> {
 fn compared(full: bool) -> Vec<Compared> {
     let one = |what, most, because, pairs| Compared { what, most, because, pairs };
     let mut all = vec![
-        one(ROD, 1e-24, "25 digits; both read L, r_e and p as exact", rods(full)),
-        one(ISOTROPIC, 1e-21, "22 digits; both use F, which the row above tests", isotropic(full)),
-        one(UNEQUAL, 4e-12, "2e-12 of the second; nothing shared but the Gaussian", unequal()),
-        one(DIFFUSING, 5e-12, "eleven decimals are printed; nothing shared", diffusing(full, 6)),
-        one(FOURTH, 5e-12, "eleven decimals are printed; nothing shared", diffusing(full, 15)),
-        one(STEADY, 5e-12, "eleven decimals are printed; nothing shared", steady(full)),
-        one(CLOSED, 1e-12, "twelve decimals; the coefficients of fitted closures are shared", closed(full)),
+        one(ROD, 1e-24, "25 digits; nothing shared", rods(full)),
+        one(ISOTROPIC, 1e-21, "22 digits; F is shared", isotropic(full)),
+        one(UNEQUAL, 4e-12, "eleven decimals; the Gaussian is shared", unequal()),
+        one(DIFFUSING, 5e-12, "eleven decimals; nothing shared", diffusing(full, 6)),
+        one(FOURTH, 5e-12, "eleven decimals; nothing shared", diffusing(full, 15)),
+        one(STEADY, 5e-12, "eleven decimals; nothing shared", steady(full)),
+        one(CLOSED, 1e-12, "twelve decimals; coefficients of fits are shared", closed(full)),
         one(
             CONTACT,
             1e-22,
-            "25 digits, less the 2 that division by arms takes; nothing shared",
+            "22 digits; nothing shared",
             contacts(full),
         ),
-        one(STRESS, 1e-12, "rounding, over coefficients up to 10; Jeffery's integrals are shared", stress()),
+        one(STRESS, 1e-12, "rounding; Jeffery's integrals are shared", stress()),
     ];
     if full {
         let pairs = fine();
