@@ -91,12 +91,7 @@ fn compared(full: bool) -> Vec<Compared> {
         one(FOURTH, 5e-12, "eleven decimals; nothing shared", diffusing(full, 15)),
         one(STEADY, 5e-12, "eleven decimals; nothing shared", steady(full)),
         one(CLOSED, 1e-12, "twelve decimals; coefficients of fits are shared", closed(full)),
-        one(
-            CONTACT,
-            1e-22,
-            "22 digits; nothing shared",
-            contacts(full),
-        ),
+        one(CONTACT, 1e-22, "22 digits; nothing shared", contacts(full)),
         one(STRESS, 1e-12, "rounding; Jeffery's integrals are shared", stress()),
     ];
     if full {

@@ -1,6 +1,6 @@
 //! Problems of suspensions with collisions after Lee & Springer (1982).
 //!
-//! The certified means are a shipped table, not computed at export: they take 20 000 replicas and minutes, and a table is the same
+//! The means are a reference of this program, not certified, and a shipped table: they take 20 000 replicas and minutes, and a table is the same
 //! on every machine. `shearbed run fig7-n50 --set interaction.update=rotation --replicas 20000 --seed 1982` wrote `data/fig7-n50.csv`, and
 //! the same with fig4-n50 wrote `data/fig4-n50.csv`; rows at other times are left out.
 

@@ -90,7 +90,7 @@ pub enum Metric {
     Absolute,
     /// For each rod of a row (columns `a_…` and `b_…`): the length of answer − certified over the length of certified.
     Relative,
-    /// |answer − certified| / (se² + certified se²)^½, the largest of a row; column `x` has its error in `x_se`.
+    /// |answer − reference| / (se² + reference se²)^½, the largest of a row; column `x` has its error in `x_se`.
     StandardErrors,
 }
 
@@ -195,7 +195,7 @@ pub struct Ensemble {
     pub m: f64,
     /// Steps per period of the mean aspect ratio; P_c has no Δt, so this is part of the model.
     pub steps_per_period: u64,
-    /// The number of replicas behind the certified means.
+    /// The number of replicas behind the reference means.
     pub certified_replicas: u64,
     /// The largest standard error of an answer; above it there is too little data to judge.
     pub largest_standard_error: f64,

@@ -30,8 +30,11 @@ pub(super) fn page(built: &Built) -> String {
         page += &format!("The equation: {}.\n", problem.equations.join("; "));
         return page;
     }
-    page +=
-        &format!("The certified values in `certified.csv` come from: {}.\n", problem.equations.join("; "));
+    let values = match problem.kind {
+        Kind::Ensemble => "The means in `certified.csv` are a reference of this program, not certified; they",
+        _ => "The certified values in `certified.csv`",
+    };
+    page += &format!("{values} come from: {}.\n", problem.equations.join("; "));
     page
 }
 
@@ -104,7 +107,7 @@ fn model(problem: &Problem, ensemble: &Ensemble) -> String {
          others take Jeffery's exact step. Then x_2 grows by G x_1 Δt; a rod that leaves at x_2 ≥ H comes back at x_2 − H with \
          x_1 = H√R, x_3 = H R′ (eq. 14), its axis and r_e kept.\n\n\
          x_1, x_2, x_3 in the columns are the means over rods and replicas of |p_1|, |p_2|, |p_3|; `x1_se` is the standard error \
-         over replicas of x1. Take at least 1000 replicas, and enough for a standard error of {} or less. The certified means are \
+         over replicas of x1. Take at least 1000 replicas, and enough for a standard error of {} or less. The reference means are \
          from {} replicas.",
         ensemble.count,
         ensemble.length_mm,
@@ -133,7 +136,7 @@ fn metric(metric: Metric) -> &'static str {
              columns `a_…` or `b_…`) over the length of the certified ones."
         }
         Metric::StandardErrors => {
-            "The error of a value is its difference from the certified one in units of (se² + certified se²)^(1/2)."
+            "The error of a value is its difference from the reference in units of (se² + reference se²)^(1/2)."
         }
     }
 }

@@ -134,16 +134,27 @@ fn broken(rods: &Rods, axes: &Matrix3<f64>, solve: Solve) -> Option<Vec<(&'stati
         let other = solve(&mirrored)?;
         laws.push(("discs are rods in −Lᵀ", beside(&other, apart(&plain(&found), &plain(&other)))));
     }
-    // ∂⟨f⟩/∂L is ∫ ⟨∇u·δṗ⟩ ds with u = f carried back by s: |∇u| ≤ e^(λs), λ the rate at which directions part at the most.
+    // ∂⟨f⟩/∂ṗ is ∫ ⟨∇u·δṗ⟩ ds with u = f carried back by s: |∇u| ≤ e^(λs), λ the rate at which directions part at the most; ∂⟨f⟩/∂D_r
+    // is ∫ ⟨∇²u⟩ ds, |∇²u| ≤ 8(1 + |ΛD|s)e^(2λs).
     let rates = SymmetricEigen::new((rods.l + rods.l.transpose()) * 0.5).eigenvalues;
     let parting = ((rates.max() - rates.min()) * rods.time).exp();
     let nudge = Matrix3::new(0.3, -0.2, 0.5, 0.1, 0.4, 0.2, -0.6, 0.1, -0.7) * (1e-9 * rods.l.norm());
-    let (before, after) = (motion(rods).diffusivity, motion(&with(rods.l + nudge)).diffusivity);
-    if before > 0.0 && rods.l.norm() > 0.0 {
-        let other = solve(&Rods { c_i: rods.c_i * before / after, ..with(rods.l + nudge) })?;
-        let due = 4.0 * nudge.norm() * rods.time * parting;
-        let by = (apart(&plain(&found), &plain(&other)) - due).max(0.0);
-        laws.push(("a small change of L changes the answer little", beside(&other, by)));
+    let before = motion(rods);
+    let nudged = [
+        ("a small change of L changes the answer little", with(rods.l + nudge)),
+        (
+            "a small change of r_e changes the answer little",
+            Rods { aspect_ratio: rods.aspect_ratio * (1.0 + 1e-9), ..*rods },
+        ),
+        ("a small change of C_I changes the answer little", Rods { c_i: rods.c_i * (1.0 + 1e-9), ..*rods }),
+    ];
+    for (law, nudged) in nudged {
+        let (other, after) = (solve(&nudged)?, motion(&nudged));
+        let moved = (after.strain - before.strain).norm() + (after.spin - before.spin).norm();
+        let spread = (after.diffusivity - before.diffusivity).abs();
+        let curved = 8.0 * (1.0 + before.strain.norm() * rods.time) * parting;
+        let due = 2.0 * rods.time * parting * (moved + curved * spread);
+        laws.push((law, beside(&other, (apart(&plain(&found), &plain(&other)) - due).max(0.0))));
     }
     let other = at(&motion(rods), Start::Isotropic, &[0.4 * rods.time, rods.time]).ok()?[1];
     laws.push(("a stop on the way changes nothing", beside(&other, apart(&plain(&found), &plain(&other)))));
@@ -161,9 +172,12 @@ fn broken(rods: &Rods, axes: &Matrix3<f64>, solve: Solve) -> Option<Vec<(&'stati
         beside(&found, squares.into_iter().fold(-least, |worst, square| worst.max(-square))),
     ));
     // d|a − δ/3|/dt ≤ −6D_r |a − δ/3| + |ΛD|, by the equation of a: turns keep the norm, and |Λ(D·pp + pp·D − 2 D:pppp)| ≤ |ΛD|.
-    let strain = motion(rods).strain.norm();
-    let by = (second - Matrix3::identity() / 3.0).norm() - strain / (6.0 * before);
-    laws.push(("diffusion keeps a near δ/3", if before > 0.0 { beside(&found, by.max(0.0)) } else { 0.0 }));
+    let strain = before.strain.norm();
+    let by = (second - Matrix3::identity() / 3.0).norm() - strain / (6.0 * before.diffusivity);
+    laws.push((
+        "diffusion keeps a near δ/3",
+        if before.diffusivity > 0.0 { beside(&found, by.max(0.0)) } else { 0.0 },
+    ));
     Some(laws)
 }
 
@@ -191,7 +205,7 @@ fn every_law_is_broken_by_a_mistake() {
         Rods { l: Matrix3::from_fn(|i, j| ASKEW[i][j]), aspect_ratio: 3.0, c_i: 0.1, time: 2.0, axis: None };
     let diffuse = Rods { c_i: 5.0, ..discs };
     let axes = Rotation3::from_euler_angles(0.4, 1.0, -0.3).into_inner();
-    let mistakes: [(&str, Rods, &str, Solve); 9] = [
+    let mistakes: [(&str, Rods, &str, Solve); 11] = [
         (
             "odd orders alone beyond a size",
             discs,
@@ -203,6 +217,18 @@ fn every_law_is_broken_by_a_mistake() {
             Rods { time: 2.0, ..discs },
             "a small change of L changes the answer little",
             |rods| added(rods, [if motion(rods).spin.norm() == 0.0 { 1e-6 } else { 0.0 }; 6]),
+        ),
+        (
+            "an error that comes and goes with r",
+            Rods { time: 2.0, ..discs },
+            "a small change of r_e changes the answer little",
+            |rods| added(rods, [if rods.aspect_ratio == 0.3 { 1e-6 } else { 0.0 }; 6]),
+        ),
+        (
+            "an error that comes and goes with C_I",
+            Rods { time: 2.0, ..discs },
+            "a small change of C_I changes the answer little",
+            |rods| added(rods, [if rods.c_i == 0.03 { 1e-6 } else { 0.0 }; 6]),
         ),
         ("the harmonics' axes", askew, "turned axes turn the answer", |rods| {
             let frame = Frame { axes: Matrix3::identity(), ..Frame::of(&motion(rods)) };
