@@ -7,6 +7,7 @@ use crate::judge::case::{Case, Effort, Evidence};
 use crate::judge::statistics::{larger, worst};
 use crate::methods::tensors;
 use crate::oracle::angle_grid;
+use crate::oracle::diffusion::{self, Start};
 use crate::oracle::isotropic::mean_projections_polydisperse;
 use crate::oracle::reference::big::{Big, Bits, decimal, double, length};
 use crate::oracle::reference::isotropic::Covariance;
@@ -212,13 +213,31 @@ fn diffusing(full: bool, columns: usize) -> Vec<(Big, Big)> {
     let mut pairs = Vec::new();
     for (name, rings, times) in asked {
         let built = named(name);
-        for (at, time_s) in built.problem.times_s.iter().enumerate().take(*times) {
-            let means = on_grid(built, *rings, *time_s);
-            let values: &[f64] = if columns == 6 { &means.second } else { &means.fourth };
-            pairs.extend(row(built, at).into_iter().zip(values.iter().map(|x| BITS.of(*x))));
+        let times_s = &built.problem.times_s[..*times];
+        // What is shipped, and what the program computes today.
+        let now = diffusion::at(&motion(built), Start::Isotropic, times_s).expect("as when it was shipped");
+        for (at, (time_s, now)) in times_s.iter().zip(now).enumerate() {
+            let grid = on_grid(built, *rings, *time_s);
+            let of = |second: &[f64], fourth: &[f64]| bigs(if columns == 6 { second } else { fourth });
+            let due = of(&grid.second, &grid.fourth);
+            pairs.extend(
+                row(built, at)
+                    .into_iter()
+                    .chain(of(&now.second, &now.fourth))
+                    .zip(due.iter().chain(&due).cloned()),
+            );
         }
     }
     pairs
+}
+
+fn motion(built: &Built) -> diffusion::Motion {
+    let problem = &built.problem;
+    diffusion::Motion::new(problem.gradient_per_s, problem.aspect_ratio, problem.c_i.unwrap_or_default())
+}
+
+fn bigs(values: &[f64]) -> Vec<Big> {
+    values.iter().map(|x| BITS.of(*x)).collect()
 }
 
 fn steady(full: bool) -> Vec<(Big, Big)> {
@@ -227,8 +246,9 @@ fn steady(full: bool) -> Vec<(Big, Big)> {
         true => &[("folgar-tucker-steady-mixed", 48), ("folgar-tucker-steady-shear-0.01", 64)],
     };
     let pairs = asked.iter().flat_map(|(name, rings)| {
-        let means = on_grid(named(name), *rings, f64::INFINITY);
-        row(named(name), 0).into_iter().zip(means.second.map(|x| BITS.of(x)))
+        let due = bigs(&on_grid(named(name), *rings, f64::INFINITY).second);
+        let now = diffusion::steady(&motion(named(name))).expect("as when it was shipped").second;
+        row(named(name), 0).into_iter().chain(bigs(&now)).zip([due.clone(), due].concat()).collect::<Vec<_>>()
     });
     pairs.collect()
 }
