@@ -45,8 +45,6 @@ pub struct Block {
     pub weight: [f64; BLOCK],
     /// The body of every rod, from which its stress follows.
     pub body: Body,
-    /// μ G n⟨a³⟩ in Pa, if the scene has a viscosity and a concentration.
-    pub stress_pa: f64,
     /// Number of rods in the block.
     pub len: usize,
 }
@@ -58,7 +56,6 @@ impl Default for Block {
             aspect_ratio: [1.0; BLOCK],
             weight: [1.0; BLOCK],
             body: Body::Spheroid,
-            stress_pa: 1.0,
             len: 0,
         }
     }
@@ -154,7 +151,7 @@ pub trait Observe: Sync {
         false
     }
 
-    /// True if the observable needs the liquid's viscosity and the rods' concentration.
+    /// True if its sums are in units of μ G n⟨a³⟩ and its means in Pa: it needs the liquid's viscosity and the rods' concentration.
     fn needs_viscosity(&self) -> bool {
         false
     }

@@ -30,7 +30,7 @@ impl Observe for Stress {
             if last.0 != r_e[i] {
                 last = (r_e[i], block.body.coefficients(r_e[i]));
             }
-            *k = last.1.map(|k| block.stress_pa * block.weight[i] * k);
+            *k = last.1.map(|k| block.weight[i] * k);
         }
         let squares = |i: usize| [p1[i] * p1[i], p2[i] * p2[i], p3[i] * p3[i]];
         // ⟨pppp⟩:D/G has the components p_i p_j p₁p₂, and ⟨pp⟩·D + D·⟨pp⟩ over G has p₁p₂ at 11 and 22, (p₁² + p₂²)/2 at 12.

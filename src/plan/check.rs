@@ -66,6 +66,14 @@ fn check_observed(scene: &Scene, flow: &VelocityGradient) -> Result<(), Invalid>
             let needs = format!("{needs} (with alpha = 0 for rods that do not collide)");
             return Err(Invalid::missing("interaction.concentration_per_cm3", &needs));
         }
+        let unit = scene.stress_pa().unwrap_or(1.0);
+        if !(1e-290..=1e290).contains(&unit.abs()) {
+            let viscosity = scene.liquid.viscosity_pa_s.unwrap_or_default();
+            let allowed = format!(
+                "one with which the stresses' unit μ G n⟨a³⟩, here {unit:e} Pa, is from 1e-290 to 1e290 Pa"
+            );
+            return Err(Invalid::new("liquid.viscosity_pa_s", format!("{viscosity:e}"), allowed));
+        }
     }
     let asked = observables.iter().find(|o| o.needs_couette());
     let other_flow = flow.shear_rate_per_s().is_none() || scene.flow.steps().is_some();

@@ -278,7 +278,7 @@ impl Tally {
         Some(self.column_of(plan, &*channel.observable, channel.name(), place, width(plan)).se)
     }
 
-    /// [`Self::column`] of an observable. Of rods that count by their cubed lengths a mean is a quotient of two sums, whose error one
+    /// [`Self::column`] of an observable, in its unit. Of rods that count by their cubed lengths a mean is a quotient of two sums, whose error one
     /// replica cannot give.
     pub(crate) fn column_of(
         &self,
@@ -289,6 +289,10 @@ impl Tally {
         width: usize,
     ) -> Column {
         let mut column = self.column(name, place, width);
+        // Only here, as squares of very small and large numbers are 0 and infinite.
+        let unit = plan.scene().unit(of);
+        column.mean.iter_mut().for_each(|mean| *mean *= unit);
+        column.se.iter_mut().for_each(|se| *se *= unit.abs());
         if self.replicas == 1 && plan.runs(Stage::Lengths) && of.weighs_rods() {
             column.se.fill(f64::NAN);
         }

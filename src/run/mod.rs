@@ -36,6 +36,8 @@ use std::ops::Range;
 pub struct Replica {
     observables: Vec<Observable>,
     pub(crate) rods: usize,
+    /// The unit of its stresses, μ G n⟨a³⟩ in Pa.
+    stress_pa: Option<f64>,
     /// Sums over rods: per output, the channels of all observables of the plan, one after the other.
     pub(crate) sums: Vec<Sum>,
     /// All rods at the outputs for which the scene asks for them.
@@ -53,6 +55,7 @@ impl Replica {
     pub fn check(&self, plan: &Plan) -> Result<(), &'static str> {
         let own = self.observables == plan.observables()
             && self.rods == plan.scene().particles.count
+            && self.stress_pa == plan.scene().stress_pa()
             && self.sums.len() == plan.outputs() * width(&self.observables);
         let spread = plan.runs(Stage::RodErrors);
         if !own || !self.sums.iter().all(|sum| sum.is_over(self.rods, spread)) {
@@ -73,7 +76,8 @@ impl Replica {
     pub fn mean(&self, channel: Channel, output: usize) -> Option<f64> {
         let place = channel.place(&self.observables)?;
         let sum = self.sums.get(output * width(&self.observables) + place)?;
-        Some(sum.value / self.rods as f64)
+        let unit = self.stress_pa.filter(|_| channel.observable.needs_viscosity()).unwrap_or(1.0);
+        Some(unit * (sum.value / self.rods as f64))
     }
 }
 
@@ -121,6 +125,7 @@ pub fn go_on(
     Ok(Replica {
         observables: plan.observables(),
         rods: plan.scene().particles.count,
+        stress_pa: plan.scene().stress_pa(),
         sums: recorder.sums,
         snapshots: recorder.snapshots,
         counters,

@@ -162,3 +162,31 @@ fn a_cylinder_counts_by_its_own_aspect_ratio() {
     assert!((s12 / (UNIT_PA * std::f64::consts::PI / 200.0) - 1.0).abs() < 1e-12, "{s12}");
     assert!(n1.abs() < 1e-12 && n2.abs() < 1e-12, "{n1} {n2}");
 }
+
+/// A unit of any size scales means and standard errors alike: over replicas, and over the rods of one.
+#[test]
+fn a_unit_changes_no_digit_of_a_standard_error() {
+    for replicas in [1, 3] {
+        let found = |viscosity_pa_s: f64, shear_rate_per_s: f64| {
+            let mut scene = plan(50, replicas).scene().clone();
+            scene.liquid.viscosity_pa_s = Some(viscosity_pa_s);
+            let gradient_per_s = [[0.0; 3], [shear_rate_per_s, 0.0, 0.0], [0.0; 3]];
+            scene.flow = scene::Flow::Gradient { gradient_per_s };
+            scene.interaction = Some(scene::Interaction { alpha: 0.0, ..scene::Interaction::default() });
+            scene.output.observables = vec![Observable::Stress];
+            let results = ensemble::run(&Plan::new(&scene).unwrap()).unwrap();
+            ["s12_pa", "n1_pa", "n2_pa"].map(|name| {
+                let column = results.column(name).unwrap();
+                (column.mean[1], column.se[1])
+            })
+        };
+        // Powers of two, so that no digit changes.
+        let one = found(1.0, 1.0);
+        for power in [-900, 900] {
+            let unit = 2f64.powi(power);
+            let scaled = one.map(|(mean, se)| (mean * unit, se * unit));
+            assert_eq!(found(unit, 1.0), scaled, "{replicas} {power}");
+        }
+        assert!(found(1.0, -1.0).iter().all(|(_, se)| *se > 0.0));
+    }
+}

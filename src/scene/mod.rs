@@ -5,7 +5,7 @@
 //! [`document::Document`] keeps the line of every value, for errors. Scenes may use `observable` and the wings before it.
 
 use crate::model::volume::ControlVolume;
-use crate::observable::Observable;
+use crate::observable::{Observable, Observe};
 use serde::{Deserialize, Deserializer, Serialize};
 
 pub mod document;
@@ -248,6 +248,11 @@ impl Scene {
     pub(crate) fn stress_pa(&self) -> Option<f64> {
         let cubes = self.concentration()? * self.particles.mean_cube();
         Some(self.liquid.viscosity_pa_s? * self.flow.gradient()?.shear_rate_per_s()? * cubes)
+    }
+
+    /// The unit of an observable's sums.
+    pub(crate) fn unit(&self, of: &dyn Observe) -> f64 {
+        if of.needs_viscosity() { self.stress_pa().unwrap_or(1.0) } else { 1.0 }
     }
 
     /// n a³, the number of rods per cubed mean rod length; `None` for free rods.

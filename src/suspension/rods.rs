@@ -32,8 +32,6 @@ pub(crate) struct Rods {
     /// 1/⟨a³⟩, with a over the mean.
     per_cube: f64,
     body: Body,
-    /// μ G n⟨a³⟩ in Pa; 1 if no observable needs it.
-    stress_pa: f64,
     motion: Motion,
 }
 
@@ -83,7 +81,6 @@ impl Rods {
             per_cube: lengths.len() as f64 / lengths.iter().map(|length| length.powi(3)).sum::<f64>(),
             lengths,
             body: plan.scene().particles.body(),
-            stress_pa: plan.scene().stress_pa().unwrap_or(1.0),
             motion,
         };
         let counters = Counters { aspect_ratios_redrawn, lengths_redrawn, ..Counters::default() };
@@ -179,7 +176,7 @@ impl Rods {
     /// block before.
     pub fn select(&self, first: usize, Selected { block, turns }: &mut Selected) {
         block.len = BLOCK.min(self.count() - first);
-        (block.body, block.stress_pa) = (self.body, self.stress_pa);
+        block.body = self.body;
         let rods = first..first + block.len;
         match &self.shapes {
             Shapes::Shared(r) => block.aspect_ratio[..block.len].fill(*r),

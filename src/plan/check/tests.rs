@@ -47,6 +47,11 @@ fn a_stress_in_pa_needs_a_viscosity_and_a_concentration() {
     assert!(refusal(&scene).contains("interaction.concentration_per_cm3"), "{}", refusal(&scene));
     scene.interaction = Some(Interaction { alpha: 0.0, ..Interaction::default() });
     assert!(crate::Plan::new(&scene).is_ok());
+    for viscosity_pa_s in [1e-295, 1e295] {
+        let mut scene = scene.clone();
+        scene.liquid.viscosity_pa_s = Some(viscosity_pa_s);
+        assert!(refusal(&scene).contains("Pa, is from 1e-290 to 1e290 Pa"), "{}", refusal(&scene));
+    }
     // Each rod counts by its own length.
     scene.particles.length_sd_percent = 10.0;
     assert!(crate::Plan::new(&scene).unwrap().runs(crate::plan::Stage::Lengths));
