@@ -2,11 +2,10 @@
 
 use super::{Failure, print};
 use crate::files::bounded;
-use crate::files::output::{RECORD, Record, Sum};
 use crate::files::text::Shown;
 use crate::files::text::snippet;
 use crate::judge::accept::Verdict;
-use crate::present::report::FORMAT;
+use crate::present::report::{self, FORMAT};
 use crate::present::table::{ReportTable, number, words};
 use crate::studies::work_precision::study::time;
 use serde::Deserialize;
@@ -144,19 +143,8 @@ fn read(path: &Path) -> Result<Report, Failure> {
     let at = |what: String| Failure::Input(format!("{}: {what}", path.shown()));
     let text = bounded::text(path, MOST_BYTES).map_err(|error| at(format!("cannot be read: {error}")))?;
     let report = parse(&text).map_err(at)?;
-    as_written(path, &text).map_err(at)?;
+    report::check(&text).map_err(at)?;
     Ok(report)
-}
-
-/// Refuses a report that was changed after `shearbed validate` wrote it. A report outside its folder cannot be checked.
-fn as_written(path: &Path, text: &str) -> Result<(), String> {
-    let (Some(dir), Some(name)) = (path.parent(), path.file_name().and_then(|name| name.to_str())) else {
-        return Ok(());
-    };
-    match Record::read(dir).map_err(|why| format!("{RECORD} beside it {why}"))? {
-        Some(record) if record.files.contains_key(name) => record.check(name, &Sum::of(text.as_bytes())),
-        _ => Ok(()),
-    }
 }
 
 /// Parses a report of this version's format, in which every case and every study occurs once.

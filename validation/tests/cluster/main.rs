@@ -201,7 +201,7 @@ const TIMED: [&str; 6] = [
 /// All of the report but times, and what is measured in times.
 #[test]
 fn validate_has_the_numbers_of_one_process() {
-    let without = ["seconds", "origin", "command"];
+    let without = ["seconds", "origin", "command", "crc32"];
     let dir = folder();
     let cases = "validate --case jeffery-period --case contact-rule --case collision-frequency --case okagawa-mason-1973 \
                  --case free-amplitude";

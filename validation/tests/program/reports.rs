@@ -24,12 +24,22 @@ fn chosen_cases_are_run_and_reported() {
     assert!(dir.path().join("out/report/report.html").is_file());
 }
 
+/// A report with the checksum of its contents at the end, as `validate` writes it.
+fn sealed(report: &Value) -> String {
+    let mut report = report.clone();
+    report.as_object_mut().unwrap().remove("crc32");
+    let text = report.to_string();
+    let body = text.strip_suffix('}').unwrap();
+    format!("{body},\"crc32\":\"{:08x}\"}}", crc32fast::hash(body.as_bytes()))
+}
+
 #[test]
 fn two_reports_are_compared() {
     let dir = unequal();
     let case = "validate --case jeffery-period --quiet --out";
     assert_eq!(shearbed(dir.path(), &format!("{case} a")).code, Some(0));
     let text = read(&dir.path().join("a/report.json"));
+    let write = |name: &str, text: &str| fs::write(dir.path().join(name), text).unwrap();
     let same = shearbed(dir.path(), "compare a/report.json a/report.json");
     assert_eq!(same.code, Some(0), "{}", same.stderr);
     assert!(same.stdout.contains("Verdicts: none of 1 changed."), "{}", same.stdout);
@@ -38,23 +48,36 @@ fn two_reports_are_compared() {
     let mut spoilt: Value = serde_json::from_str(&text).unwrap();
     spoilt["cases"][0]["verdict"] = "fail".into();
     spoilt["cases"][0]["evidence"][0]["error"] = 1.0.into();
-    fs::write(dir.path().join("b.json"), spoilt.to_string()).unwrap();
+    write("b.json", &sealed(&spoilt));
     let other = shearbed(dir.path(), "compare a/report.json b.json").stdout;
     assert!(other.contains("jeffery-period: pass → fail"), "{other}");
     assert!(other.contains("Errors that moved"), "{other}");
     let mut strange = spoilt.clone();
     strange["cases"][0]["verdict"] = "PASSED?".into();
-    fs::write(dir.path().join("c.json"), strange.to_string()).unwrap();
+    write("c.json", &sealed(&strange));
     let unknown = shearbed(dir.path(), "compare a/report.json c.json");
     assert!(unknown.code == Some(2) && unknown.stderr.contains("PASSED?"), "{}", unknown.stderr);
     let bad = shearbed(dir.path(), "compare a/report.json small.toml");
     assert_eq!(bad.code, Some(2));
     assert!(bad.stderr.contains("small.toml: is no report.json"), "{}", bad.stderr);
-    // A report that was changed in its folder is no longer what was written there.
-    fs::write(dir.path().join("a/report.json"), spoilt.to_string()).unwrap();
-    let changed = shearbed(dir.path(), "compare b.json a/report.json");
-    assert_eq!(changed.code, Some(2), "{}", changed.stdout);
-    assert!(changed.stderr.contains("a/report.json: was changed after it was written"), "{}", changed.stderr);
+    // A report that was changed is no longer what was written, wherever it lies and whatever its name is.
+    let edited = text.replacen("\"verdict\": \"pass\"", "\"verdict\": \"fail\"", 1);
+    assert_ne!(edited, text);
+    fs::create_dir(dir.path().join("copied")).unwrap();
+    let edited_names = ["a/report.json", "copied/report.json", "a/renamed.json", "loose.json"];
+    edited_names.iter().for_each(|name| write(name, &edited));
+    #[cfg(unix)]
+    std::os::unix::fs::symlink("a/report.json", dir.path().join("link.json")).unwrap();
+    let linked: &[&str] = if cfg!(unix) { &["link.json"] } else { &[] };
+    for name in edited_names.iter().chain(linked) {
+        let changed = shearbed(dir.path(), &format!("compare b.json {name}"));
+        assert_eq!(changed.code, Some(2), "{}", changed.stdout);
+        let said = format!("{name}: was changed after it was written");
+        assert!(changed.stderr.contains(&said), "{}", changed.stderr);
+    }
+    write("bare.json", &spoilt.to_string());
+    let bare = shearbed(dir.path(), "compare b.json bare.json");
+    assert!(bare.code == Some(2) && bare.stderr.contains("bare.json: has no checksum"), "{}", bare.stderr);
     assert!(read(&dir.path().join("a/junit.xml")).contains("name=\"jeffery-period\""));
 }
 

@@ -12,10 +12,10 @@ fn another_format_and_doubled_cases_are_refused() {
         });
         parse(&report.to_string()).map(|report| report.cases.len())
     };
-    assert_eq!(report(2, ["a", "b"]), Ok(2));
+    assert_eq!(report(FORMAT, ["a", "b"]), Ok(2));
     let other = report(99, ["a", "b"]).unwrap_err();
-    assert!(other.starts_with("format = 99 is not allowed: 2"), "{other}");
-    let twice = report(2, ["a", "a"]).unwrap_err();
+    assert!(other.starts_with("format = 99 is not allowed: 3"), "{other}");
+    let twice = report(FORMAT, ["a", "a"]).unwrap_err();
     assert_eq!(twice, "the case \"a\" is there twice; once is allowed");
 }
 
