@@ -360,7 +360,10 @@ fn bad_input_ends_with_two_and_leaves_nothing() {
             format!("{good} --over interaction.alpha=0.1:1 --set ensemble.replicas=7"),
             "--set ensemble.replicas: a fit takes its own ensemble",
         ),
-        ("--data one.csv --over interaction.alpha=0.1:1".into(), "1 points for 1 parameters"),
+        (
+            "--data one.csv --over interaction.alpha=0.1:1".into(),
+            "one.csv: 1 point for 1 parameter; more points than parameters are needed",
+        ),
         ("--data other=good.csv --over interaction.alpha=0.1:1".into(), "other: cannot be read"),
         (format!("{good} --over interaction.alpha=1:0.1"), "FROM < TO is allowed"),
         (format!("{good} --over interaction.alpha=0.1:1:5"), "\"1:5\" is no end of a range"),

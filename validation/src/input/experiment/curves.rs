@@ -98,8 +98,9 @@ fn convert(
     }
     let mut seen = HashMap::new();
     for row in &dataset.rows {
-        on_axis(file, row.line, "x", row.x, &provenance.x, row.u_x)?;
-        on_axis(file, row.line, "y", row.y, &provenance.y, row.u_y)?;
+        let columns = [provenance.x.quantity.column().to_owned(), column(provenance, key)];
+        on_axis(file, row.line, ["x", &columns[0]], row.x, &provenance.x, row.u_x)?;
+        on_axis(file, row.line, ["y", &columns[1]], row.y, &provenance.y, row.u_y)?;
         // 0 and −0 are the same number.
         let place = [row.x + 0.0, row.y + 0.0].map(f64::to_bits);
         if let Some(first) = seen.insert(place, row.line) {
@@ -143,11 +144,20 @@ fn convert(
 fn on_axis<Q>(
     file: &str,
     line: usize,
-    name: &str,
+    [name, column]: [&str; 2],
     value: f64,
     axis: &Axis<Q>,
     own: Option<f64>,
 ) -> Result<(), DataError> {
+    let [least, most] = axis.uncertainties();
+    if let Some(u) = own.filter(|u| !(least..=most).contains(u)) {
+        let allowed = provenance_file::uncertainty(least, most);
+        return Err(DataError::at(
+            file,
+            line,
+            format!("column {column}_u: `{u:?}` is not allowed: {allowed}"),
+        ));
+    }
     let (least, most) = axis.range();
     let slack = 3.0 * own.unwrap_or(axis.standard_uncertainty);
     if (least - slack..=most + slack).contains(&value) {

@@ -76,6 +76,12 @@ impl<Q> Axis<Q> {
         let most = self.calibration.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         (least, most)
     }
+
+    /// The allowed standard uncertainties: above the rounding of the model, and no larger than the axis.
+    pub(super) fn uncertainties(&self) -> [f64; 2] {
+        let (least, most) = self.range();
+        [1e-12 * (most - least), most - least]
+    }
 }
 
 /// The scene and observable that a dataset of the CSV file is compared with.

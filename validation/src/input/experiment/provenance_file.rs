@@ -83,6 +83,10 @@ fn is_day(text: &str) -> bool {
     (1..=days).contains(&day)
 }
 
+pub(super) fn uncertainty(least: f64, most: f64) -> String {
+    format!("one standard deviation from {least:?} to {most:?}, the width of the axis")
+}
+
 fn axis<Q>(table: &Keys<'_>, quantity: fn(&Keys<'_>) -> Result<Q, DataError>) -> Result<Axis<Q>, DataError> {
     table.only(&["quantity", "shear_rate_per_s", "calibration", "standard_uncertainty"])?;
     let axis = Axis {
@@ -91,9 +95,13 @@ fn axis<Q>(table: &Keys<'_>, quantity: fn(&Keys<'_>) -> Result<Q, DataError>) ->
         standard_uncertainty: table.number("standard_uncertainty", UNCERTAINTY, |u| u > 0.0)?,
     };
     let (least, most) = axis.range();
-    match least < most {
+    if least >= most {
+        return Err(table.refused("calibration", CALIBRATION));
+    }
+    let [least, most] = axis.uncertainties();
+    match (least..=most).contains(&axis.standard_uncertainty) {
         true => Ok(axis),
-        false => Err(table.refused("calibration", CALIBRATION)),
+        false => Err(table.refused("standard_uncertainty", &uncertainty(least, most))),
     }
 }
 
@@ -198,8 +206,8 @@ fn inputs(all: &Keys<'_>) -> Result<Vec<(usize, f64)>, DataError> {
     let stated = INPUTS.iter().enumerate().filter(|(_, (name, _))| table.has(name));
     stated
         .map(|(index, (name, _))| {
-            let allowed = "one standard deviation in the scene's unit, a number > 0";
-            Ok((index, table.number(name, allowed, |u| u > 0.0)?))
+            let allowed = "one standard deviation in the scene's unit, a number from 1e-6 to 1e6";
+            Ok((index, table.number(name, allowed, |u| (1e-6..=1e6).contains(&u))?))
         })
         .collect()
 }

@@ -96,15 +96,19 @@ pub(super) fn input(args: &Args) -> Result<Input, Failure> {
     }
     if data.len() > MOST_POINTS {
         return Err(Failure::Input(format!(
-            "--data: {} points; at most {MOST_POINTS} are allowed",
-            data.len()
+            "--data: {} points in {} files; at most {MOST_POINTS} are allowed",
+            data.len(),
+            files.len()
         )));
     }
     if data.len() <= args.over.len() {
+        let counted =
+            |count: usize, what: &str| format!("{count} {what}{}", if count == 1 { "" } else { "s" });
         return Err(Failure::Input(format!(
-            "--data: {} points for {} parameters; more points than parameters are needed",
-            data.len(),
-            args.over.len()
+            "--data {}: {} for {}; more points than parameters are needed",
+            files.iter().map(|file| file.shown()).collect::<Vec<_>>().join(" --data "),
+            counted(data.len(), "point"),
+            counted(args.over.len(), "parameter")
         )));
     }
     for (k, point) in data.iter().enumerate() {

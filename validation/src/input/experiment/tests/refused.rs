@@ -19,6 +19,11 @@ fn bad_points_are_refused_with_their_line() {
         ("t_over_T,x1,x1_u\n0.5,0.4,0\n", "a.csv:2: column x1_u: `0` is not allowed: one standard deviation"),
         ("t_over_T,x1,x1_u\n0.5,0.4,-0.1\n", "a.csv:2: column x1_u: `-0.1` is not allowed"),
         (
+            "t_over_T,x1,x1_u\n0.5,0.4,1e300\n",
+            "a.csv:2: column x1_u: `1e300` is not allowed: one standard deviation from 6e-13 to 0.6, the width of the axis",
+        ),
+        ("t_over_T,x1,x1_u\n0.5,0.4,1e-300\n", "a.csv:2: column x1_u: `1e-300` is not allowed"),
+        (
             "t_over_T,x1\n0.5,0.4\n2.1,0.3\n",
             "a.csv:3: x = 2.1 is not allowed: the axis is calibrated from 0 to 2",
         ),
@@ -40,9 +45,9 @@ fn what_would_run_for_long_is_refused() {
     let expected =
         "a.csv:3: column t_over_T_u: `0.26` is not allowed: one standard deviation of at most a quarter";
     assert!(found.starts_with(expected), "{found}");
-    let vague = PROVENANCE.replace("standard_uncertainty = 0.01", "standard_uncertainty = 500");
+    let vague = PROVENANCE.replace("standard_uncertainty = 0.01", "standard_uncertainty = 1");
     let found = refusal(&vague, super::POINTS);
-    assert!(found.starts_with("a.toml: x.standard_uncertainty = 500 is not allowed"), "{found}");
+    assert!(found.starts_with("a.toml: x.standard_uncertainty = 1 is not allowed"), "{found}");
     let many: String = (0..20_000).map(|k| format!("{},0.3\n", f64::from(k) * 1e-4)).collect();
     let found = refusal(PROVENANCE, format!("t_over_T,x1\n{many}"));
     assert!(found.starts_with("a.csv:20001: more than 20000 lines"), "{found}");
@@ -121,6 +126,13 @@ fn bad_provenance_is_refused_with_its_line() {
         ("[x]", "rods = 0\n[x]", "a.toml:7: rods = 0 is not allowed: a whole number ≥ 1"),
         ("[x]", "colour = 1\n[x]", "a.toml:7: colour is an unknown key"),
         ("[[curve]]", "[inputs]\nalpha = 0\n[[curve]]", "a.toml:16: inputs.alpha = 0 is not allowed"),
+        (
+            "= 0.005",
+            "= 1e300",
+            "a.toml:14: y.standard_uncertainty = 1e300 is not allowed: one standard deviation",
+        ),
+        ("= 0.005", "= 1e-300", "a.toml:14: y.standard_uncertainty = 1e-300 is not allowed"),
+        ("[[curve]]", "[inputs]\nalpha = 1e300\n[[curve]]", "a.toml:16: inputs.alpha = 1e300 is not allowed"),
         ("[[curve]]", "[inputs]\nbeta = 1\n[[curve]]", "a.toml:16: inputs.beta is an unknown key"),
         ("[x]", "[x", "a.toml:7: "),
     ] {
