@@ -101,10 +101,23 @@ pub(crate) fn shortened(text: &str) -> Cow<'_, str> {
     Cow::Owned(format!("{head} … ({left_out} characters are left out here) … {tail}"))
 }
 
-/// A message for the terminal: what commands one is written out, a number of many digits is a power of ten, and the middle of a
-/// long text is left out.
+/// A message for the terminal: what commands one is written out, a number of many digits is a power of ten, the system's numbers of
+/// errors go, and the middle of a long text is left out.
 pub(crate) fn message(text: &str) -> String {
-    readable(&shortened(&with_short_numbers(text))).into_owned()
+    readable(&shortened(&with_short_numbers(&without_codes(text)))).into_owned()
+}
+
+/// A text without ` (os error 2)` behind the system's words for it.
+fn without_codes(text: &str) -> String {
+    let mut parts = text.split(" (os error ");
+    let first = parts.next().unwrap_or_default().to_owned();
+    parts.fold(first, |text, part| {
+        let rest = part.trim_start_matches(|c: char| c.is_ascii_digit() || c == '-');
+        match rest.strip_prefix(')') {
+            Some(rest) if rest.len() + 1 < part.len() => text + rest,
+            _ => text + " (os error " + part,
+        }
+    })
 }
 
 /// The most characters of a number in a message.
@@ -226,6 +239,12 @@ mod tests {
         }
         let kept = [format!("{} …", 1e30), format!("{}e5", 1e30), "9".repeat(400)];
         kept.iter().for_each(|text| assert_eq!(with_short_numbers(text), *text));
+    }
+
+    #[test]
+    fn the_systems_words_have_no_number() {
+        let text = "a: Not found (os error 2); b: (os error ), c: denied (os error 13)\n";
+        assert_eq!(without_codes(text), "a: Not found; b: (os error ), c: denied\n");
     }
 
     #[test]

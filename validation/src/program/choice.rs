@@ -40,13 +40,13 @@ fn unknown(flag: &str, word: &str, what: &str, known: &[String]) -> Failure {
     near.sort_by(|a, b| b.0.total_cmp(&a.0));
     let near: Vec<_> = near.iter().take(MOST_SUGGESTED).map(|(_, name)| name.as_str()).collect();
     let suggested = match near.split_first() {
-        None => String::new(),
+        None => ".".to_owned(),
         Some((nearest, [])) => format!("; did you mean {nearest}?"),
         Some((nearest, rest)) => {
-            format!("; did you mean {nearest}? Others that are near: {}", rest.join(", "))
+            format!("; did you mean {nearest}? Others that are near: {}.", rest.join(", "))
         }
     };
-    Failure::Input(format!("{flag} {word}: {what}{suggested}. `shearbed validate --list` has all"))
+    Failure::Input(format!("{flag} {word}: {what}{suggested} `shearbed validate --list` has all"))
 }
 
 /// The list of cases: name and tags, then the claim on a line of its own.
