@@ -44,6 +44,7 @@ pub use manual::commands;
 use crate::files::output::{self, RECORD, Record, ResultFolder};
 use crate::files::text::{Shown, complain};
 use crate::files::{cluster, text};
+use crate::oracle::reference::big::finite;
 use crate::present::plot::Figure;
 use clap::error::{ContextKind, ContextValue};
 use clap::{Parser, Subcommand};
@@ -175,7 +176,8 @@ pub fn main_of(program: Vec<OsString>, arguments: Vec<OsString>) -> u8 {
 pub fn call(arguments: Vec<OsString>) -> Result<(), (String, u8)> {
     let cli = Cli::try_parse_from(with_name(arguments))
         .map_err(|error| (error.to_string(), error.exit_code() as u8))?;
-    command(cli.command).map_err(Failure::message_and_code)
+    let ended = command(cli.command).map_err(Failure::message_and_code);
+    ended.map_err(|(message, code)| (text::message(&message), code))
 }
 
 /// The picture that `shearbed plot` draws for these folders; the error says why there is none.
@@ -328,6 +330,11 @@ fn ending_in(endings: &[&str], said: &str, text: &str) -> Result<PathBuf, String
         true => Ok(path),
         false => Err(format!("a name that ends in {said} is allowed; no other format is written")),
     }
+}
+
+/// The number in the text of an option, if it is allowed; `words` say what is.
+fn number(text: &str, allowed: impl Fn(f64) -> bool, words: &str) -> Result<f64, String> {
+    finite(text).filter(|x| allowed(*x)).ok_or_else(|| format!("{words} is allowed"))
 }
 
 /// A parser of whole numbers from `least` to `most`, whose error states that range.

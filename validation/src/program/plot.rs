@@ -6,7 +6,7 @@ mod look;
 mod measured;
 mod table;
 
-use super::{Failure, ending_in, print, scene, spares};
+use super::{Failure, ending_in, number, print, scene, spares};
 use crate::files::output;
 use crate::files::text::Shown;
 use crate::present::plot::{self, Figure, names};
@@ -32,7 +32,7 @@ pub(super) struct Args {
     #[arg(long = "x", value_name = "KEY", conflicts_with = "data")]
     key: Option<String>,
     /// With --x: the time of another output
-    #[arg(long, value_name = "TIME", requires = "key", allow_negative_numbers = true)]
+    #[arg(long, value_name = "TIME", requires = "key", value_parser = time, allow_negative_numbers = true)]
     at: Option<f64>,
     /// Measured points to draw over the curves, in the columns that `shearbed fit` takes
     #[arg(long, value_name = "FILE.csv")]
@@ -45,6 +45,10 @@ pub(super) struct Args {
     /// Overwrite an existing picture
     #[arg(long)]
     force: bool,
+}
+
+fn time(text: &str) -> Result<f64, String> {
+    number(text, |_| true, "a finite number")
 }
 
 fn picture(text: &str) -> Result<PathBuf, String> {

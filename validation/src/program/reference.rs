@@ -1,10 +1,10 @@
 //! `shearbed reference`.
 
-use super::{Failure, print, progress};
+use super::{Failure, number, print, progress};
 use crate::files::output;
 use crate::files::text::Shown;
 use crate::oracle::diffusion::NoAnswer;
-use crate::oracle::reference::big::{Bits, decimal, digits, double};
+use crate::oracle::reference::big::{Bits, decimal, digits, double, finite};
 use crate::oracle::reference::constants::{self, Constant};
 use crate::oracle::reference::diffusing::Diffusing;
 use crate::oracle::reference::motion::{LARGEST_STRAIN, Motion, Unit};
@@ -242,11 +242,6 @@ fn refused(args: &Args, why: NoValue) -> Failure {
     })
 }
 
-fn number(text: &str, allowed: impl Fn(f64) -> bool, words: &str) -> Result<f64, String> {
-    let number = decimal(text).map(|x| double(&x)).filter(|x| allowed(*x));
-    number.ok_or_else(|| format!("{words} is allowed"))
-}
-
 fn aspect_ratio(text: &str) -> Result<f64, String> {
     match text {
         "inf" => Ok(f64::INFINITY),
@@ -281,7 +276,8 @@ fn unit(text: &str) -> Result<Unit, String> {
 }
 
 fn start(text: &str) -> Result<From, String> {
-    let words = "`isotropic`, or φ,θ in degrees with θ from 0 to 180,";
+    let words =
+        "`isotropic`, or φ,θ in degrees with θ from 0 to 180 (each 0 or of a size from 5e-324 to 1.8e308)";
     match text.split_once(',') {
         None if text == "isotropic" => Ok(From::Isotropic),
         None => Err(format!("{words} is allowed")),
@@ -309,7 +305,8 @@ const MOST: u64 = 100_000;
 fn times(text: &str) -> Result<Times, String> {
     let refuse = || {
         format!(
-            "FROM:TO:COUNT with finite FROM ≤ TO and a COUNT from 1 to {MOST}, or at most as many rising times T1,T2,…, are allowed"
+            "FROM:TO:COUNT with finite FROM ≤ TO and a COUNT from 1 to {MOST}, or at most as many rising times T1,T2,…, are allowed; a time is \
+             0 or of a size from 5e-324 to 1.8e308"
         )
     };
     let parts: Vec<_> = text.split(':').collect();
@@ -332,8 +329,7 @@ fn times(text: &str) -> Result<Times, String> {
 
 /// Parses a list of times, which must ascend.
 fn listed(text: &str) -> Option<Times> {
-    let times = text.split(',').map(|time| decimal(time).map(|time| double(&time)));
-    let times: Vec<f64> = times.collect::<Option<_>>()?;
+    let times: Vec<f64> = text.split(',').map(finite).collect::<Option<_>>()?;
     let rise = times.len() as u64 <= MOST && times.is_sorted_by(|a, b| a < b);
     rise.then_some(Times(times))
 }

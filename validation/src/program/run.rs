@@ -6,7 +6,7 @@ use super::record::Seconds;
 use super::scene::{Chosen, Ensemble, Named};
 use super::until::{self, LEAST, Until};
 use super::{
-    Failure, Threads, Writing, agree, checkpoint, facts, memory, on_threads, pictures, print, probe,
+    Failure, Threads, Writing, agree, checkpoint, facts, memory, number, on_threads, pictures, print, probe,
     progress, record, rods, scene, spares_inputs, tables, threads,
 };
 use crate::files::build::BUILD;
@@ -59,8 +59,7 @@ pub(super) struct Args {
 
 /// Parses the time between checkpoints, in s.
 fn seconds(text: &str) -> Result<Duration, String> {
-    let seconds = text.parse().ok().filter(|s| (0.01..=86_400.0).contains(s));
-    let seconds = seconds.ok_or("seconds from 0.01 to 86400 are allowed")?;
+    let seconds = number(text, |s| (0.01..=86_400.0).contains(&s), "a number of seconds from 0.01 to 86400")?;
     Ok(Duration::from_secs_f64(seconds))
 }
 

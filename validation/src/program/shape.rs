@@ -1,6 +1,6 @@
 //! `shearbed shape`.
 
-use super::{Failure, print};
+use super::{Failure, number, print};
 use shearbed::model::shape::{ALLOWED, Correlation, FORMULAS, spread};
 
 /// Arguments of `shape`.
@@ -14,10 +14,7 @@ pub(super) struct Args {
 
 fn ratio(text: &str) -> Result<f64, String> {
     let (least, most) = ALLOWED;
-    match text.parse() {
-        Ok(r) if (least..=most).contains(&r) => Ok(r),
-        _ => Err(format!("a number from {least} to {most} is allowed")),
-    }
+    number(text, |r| (least..=most).contains(&r), &format!("a number from {least} to {most}"))
 }
 
 /// Prints the equivalent aspect ratio of a cylinder by every formula.

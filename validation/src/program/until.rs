@@ -5,6 +5,7 @@
 //! rules may have more replicas: then all of them are used.
 
 use super::Failure;
+use crate::oracle::reference::big::finite;
 use serde::Serialize;
 use shearbed::observable::Channel;
 use shearbed::run::ensemble::Tally;
@@ -26,11 +27,9 @@ pub(super) struct Until {
 
 /// Parses a column and its largest allowed standard error.
 fn rule(text: &str) -> Result<(String, f64), String> {
-    let parts = text.split_once('=').map(|(name, value)| (name.trim(), value.trim().parse::<f64>()));
+    let parts = text.split_once('=').map(|(name, value)| (name.trim(), finite(value)));
     match parts {
-        Some((name, Ok(value))) if !name.is_empty() && value > 0.0 && value.is_finite() => {
-            Ok((name.to_owned(), value))
-        }
+        Some((name, Some(value))) if !name.is_empty() && value > 0.0 => Ok((name.to_owned(), value)),
         _ => Err("a column and a number above 0 are allowed, as x1=0.001".to_owned()),
     }
 }
@@ -38,10 +37,9 @@ fn rule(text: &str) -> Result<(String, f64), String> {
 /// Parses a time limit such as `90s`, `10min` or `1.5h`.
 pub(super) fn time_limit(text: &str) -> Result<Duration, String> {
     let units = [("min", 60.0), ("s", 1.0), ("h", 3600.0)];
-    let value = units.into_iter().find_map(|(unit, seconds)| {
-        let number = text.trim().strip_suffix(unit)?.trim_end().parse::<f64>().ok()?;
-        Some(number * seconds)
-    });
+    let value = units
+        .into_iter()
+        .find_map(|(unit, seconds)| Some(finite(text.trim().strip_suffix(unit)?)? * seconds));
     match value {
         Some(seconds) if (0.01..=31_536_000.0).contains(&seconds) => Ok(Duration::from_secs_f64(seconds)),
         _ => Err("a time from 0.01s to 8760h is allowed, as 90s, 10min or 1.5h".to_owned()),

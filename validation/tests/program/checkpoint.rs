@@ -175,8 +175,8 @@ fn a_checkpoint_of_other_work_is_refused() {
     assert!(other.stderr.contains("is damaged: its checksum is"), "{}", other.stderr);
     assert!(!dir.path().join("x2").exists());
     for (wrong, allowed) in [
-        ("--checkpoint k --every 0", "seconds from 0.01 to 86400 are allowed"),
-        ("--checkpoint k --every NaN", "seconds from 0.01 to 86400 are allowed"),
+        ("--checkpoint k --every 0", "a number of seconds from 0.01 to 86400 is allowed"),
+        ("--checkpoint k --every NaN", "a number of seconds from 0.01 to 86400 is allowed"),
         ("--every 5", "--checkpoint <FILE>"),
         ("--checkpoint /proc/k", "/proc/k: cannot be written"),
         ("--checkpoint .", "is --out x2, or a folder above it"),

@@ -55,12 +55,21 @@ pub fn number(x: &Big) -> f64 {
     double(x) + 0.0
 }
 
-/// A decimal number as written, exact to 400 bits; `None` if it is not a finite number within the range of a double.
-pub fn decimal(text: &str) -> Option<Big> {
+/// The double nearest to a decimal number; `None` if there is none: if a number other than 0 would become 0 or infinite.
+pub fn finite(text: &str) -> Option<f64> {
     let text = text.trim();
-    // Requires the double's grammar and range too, so that the stricter of two parsers decides.
-    text.parse::<f64>().ok().filter(|x| x.is_finite())?;
-    let exact = DBig::from_str(text.trim_start_matches('+')).ok()?;
+    let x = text.parse::<f64>().ok().filter(|x| x.is_finite())?;
+    let digits = text.split(['e', 'E']).next().unwrap_or(text);
+    (x != 0.0 || !digits.contains(|c: char| ('1'..='9').contains(&c))).then_some(x)
+}
+
+/// A decimal number as written, exact to 400 bits; `None` where [`finite`] has none: the time and memory of a power of ten grow with its
+/// exponent.
+pub fn decimal(text: &str) -> Option<Big> {
+    if finite(text)? == 0.0 {
+        return Some(Bits(400).of(0.0));
+    }
+    let exact = DBig::from_str(text.trim().trim_start_matches('+')).ok()?;
     Some(exact.with_rounding::<HalfEven>().with_base_and_precision::<2>(400).value())
 }
 
@@ -121,12 +130,18 @@ mod tests {
 
     #[test]
     fn numbers_are_read_and_written_exactly() {
-        for (text, expected) in
-            [("0.1", 0.1), ("-1e-300", -1e-300), ("+2.5", 2.5), ("1e3", 1000.0), ("0", 0.0), (" 7 ", 7.0)]
-        {
+        for (text, expected) in [
+            ("0.1", 0.1),
+            ("-1e-300", -1e-300),
+            ("+2.5", 2.5),
+            ("1e3", 1000.0),
+            ("0", 0.0),
+            (" 7 ", 7.0),
+            ("-0.00e-999999999", 0.0),
+        ] {
             assert_eq!(double(&decimal(text).unwrap()), expected, "{text}");
         }
-        for text in ["", "nan", "inf", "1e400", "0x10", "1,5", "1_0", "--1"] {
+        for text in ["", "nan", "inf", "1e400", "1e-400", "1e-1000000", "0x10", "1,5", "1_0", "--1"] {
             assert!(decimal(text).is_none(), "{text}");
         }
         // 0.1 is not the double 0.1.

@@ -1,7 +1,7 @@
 //! The arguments of `shearbed grade`.
 
 use super::tolerances::Tolerance;
-use crate::program::Writing;
+use crate::program::{Writing, number};
 use crate::serve::grade::live::Protocol;
 use crate::serve::grade::{Axes, Foreign};
 use crate::serve::problems::Kind;
@@ -89,10 +89,7 @@ fn kind(text: &str) -> Result<Kind, String> {
 }
 
 fn positive(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(number) if number > 0.0 && number < 1e9 => Ok(number),
-        _ => Err("a positive number below 1e9 is allowed".to_owned()),
-    }
+    number(text, |number| number > 0.0 && number < 1e9, "a positive number below 1e9")
 }
 
 fn body_axis(text: &str) -> Result<usize, String> {

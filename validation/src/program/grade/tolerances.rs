@@ -20,10 +20,9 @@ impl FromStr for Tolerance {
             Some((name, number)) => (Some(name.trim().to_owned()), number),
             None => (None, text),
         };
-        match number.trim().parse() {
-            Ok(value) if value > 0.0 && value <= 10.0 => Ok(Self { name, value }),
-            _ => Err("a number above 0, or NAME=NUMBER, is allowed".to_owned()),
-        }
+        let allowed = |value| value > 0.0 && value <= 10.0;
+        let value = crate::program::number(number, allowed, "a number above 0, at most 10, or NAME=NUMBER,")?;
+        Ok(Self { name, value })
     }
 }
 

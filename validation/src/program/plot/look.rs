@@ -1,5 +1,6 @@
 //! How a picture looks: what the flags change in it.
 
+use crate::oracle::reference::big::finite;
 use crate::present::plot::{Figure, Theme};
 use crate::program::Failure;
 use clap::builder::PossibleValuesParser;
@@ -40,9 +41,9 @@ pub(super) struct Look {
 }
 
 fn range(text: &str) -> Result<(f64, f64), String> {
-    let ends = text.split_once(':').and_then(|(from, to)| Some((from.parse().ok()?, to.parse().ok()?)));
-    let finite = ends.filter(|(from, to): &(f64, f64)| from.is_finite() && to.is_finite() && from < to);
-    finite.ok_or_else(|| "FROM:TO is allowed, two finite numbers of which the second is larger".to_owned())
+    let ends = text.split_once(':').and_then(|(from, to)| Some((finite(from)?, finite(to)?)));
+    ends.filter(|(from, to)| from < to)
+        .ok_or_else(|| "FROM:TO is allowed, two finite numbers of which the second is larger".to_owned())
 }
 
 /// The range of a side in pixels: the axes with letters of 16 pixels need the least, and a page is no larger than the most.

@@ -4,6 +4,7 @@
 use super::range::Range;
 use super::search::Fit;
 use crate::methods::least_squares::profile::{rise_of, rise_to};
+use crate::oracle::reference::big::finite;
 use crate::serve::sweep::key_and_text;
 use serde::Serialize;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
@@ -91,8 +92,8 @@ impl Hypothesis {
         let (key, other) =
             text.split_once('=').ok_or_else(|| format!("{text:?} is no hypothesis; {SHAPE}"))?;
         let (key, other) = (key.trim(), other.trim());
-        let against = match (other.parse::<f64>(), other.split_once(':')) {
-            (Ok(value), _) if value.is_finite() => Against::Value(value),
+        let against = match (finite(other), other.split_once(':')) {
+            (Some(value), _) => Against::Value(value),
             (_, Some((_, last)))
                 if key.split_once(':').is_some_and(|(_, own)| own == last) && key != other =>
             {

@@ -1,5 +1,6 @@
 //! `[SET:]KEY=FROM:TO`: a key of the scene and the range in which its value is sought, for all sets of points or for one.
 
+use crate::oracle::reference::big::finite;
 use crate::serve::sweep::key_and_text;
 use serde::Serialize;
 
@@ -33,10 +34,9 @@ impl Range {
         };
         let (key, ends) = key_and_text(text, SHAPE)?;
         let (from, to) = (ends.split_once(':')).ok_or_else(|| format!("{ends:?} is no range; {SHAPE}"))?;
-        let number = |text: &str| match text.trim().parse::<f64>() {
-            Ok(number) if number.is_finite() => Ok(number),
-            _ => Err(format!("{text:?} is no end of a range; a finite number is allowed: {SHAPE}")),
-        };
+        let refused =
+            |text: &str| format!("{text:?} is no end of a range; a finite number is allowed: {SHAPE}");
+        let number = |text: &str| finite(text).ok_or_else(|| refused(text));
         let (from, to) = (number(from)?, number(to)?);
         match from < to {
             true => Ok(Self { key: key.to_owned(), set, from, to }),
