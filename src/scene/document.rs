@@ -48,8 +48,13 @@ struct Node {
 enum Content {
     Table(Entries),
     Array(Vec<Node>),
-    /// `None` stands for an integer with too many digits.
-    Single(Option<Value>),
+    Single(Value),
+}
+
+/// The value in `text`, which has nothing else in it, as a scene file has it behind `=`; `None` if it is none.
+pub fn value(text: &str) -> Option<Value> {
+    let value = DeValue::parse(text).ok()?;
+    (value.span() == (0..text.len())).then(|| Node::read(0, &value).value())
 }
 
 impl Document {
@@ -167,11 +172,11 @@ impl<'a> Table<'a> {
 
     /// The value of `key`, or `None`.
     pub fn value(&self, key: &str) -> Option<Value> {
-        self.entries.get(key)?.value()
+        self.entries.get(key).map(Node::value)
     }
 
     /// The whole table as TOML values.
-    pub(super) fn whole(&self) -> Option<toml::Table> {
+    pub(super) fn whole(&self) -> toml::Table {
         values(self.entries)
     }
 
@@ -215,7 +220,7 @@ impl<'a> Table<'a> {
         let node = self.entries.get(key)?;
         let written = match &node.place {
             Some((_, span)) => self.document.text.get(span.clone()).unwrap_or_default().to_owned(),
-            None => node.value().as_ref().map_or_else(String::new, as_toml),
+            None => as_toml(&node.value()),
         };
         Some(shortened(&written.split_whitespace().collect::<Vec<_>>().join(" ")))
     }
@@ -241,13 +246,13 @@ fn entries(table: &DeTable<'_>) -> Entries {
     table.iter().map(node).collect()
 }
 
-fn values(entries: &Entries) -> Option<toml::Table> {
-    entries.iter().map(|(key, node)| Some((key.clone(), node.value()?))).collect()
+fn values(entries: &Entries) -> toml::Table {
+    entries.iter().map(|(key, node)| (key.clone(), node.value())).collect()
 }
 
 impl Node {
     fn read(at: usize, value: &toml::Spanned<DeValue<'_>>) -> Self {
-        let single = |value| Content::Single(Some(value));
+        let single = Content::Single;
         let content = match value.get_ref() {
             DeValue::Table(table) => Content::Table(entries(table)),
             DeValue::Array(all) => {
@@ -256,10 +261,11 @@ impl Node {
             DeValue::String(text) => single(Value::String(text.to_string())),
             DeValue::Boolean(is) => single(Value::Boolean(*is)),
             DeValue::Datetime(date) => single(Value::Datetime(*date)),
-            DeValue::Float(number) => Content::Single(number.as_str().parse().ok().map(Value::Float)),
+            DeValue::Float(number) => single(Value::Float(nearest(number.as_str(), 10))),
             DeValue::Integer(number) => {
-                let number = i64::from_str_radix(number.as_str(), number.radix());
-                Content::Single(number.ok().map(Value::Integer))
+                let (digits, radix) = (number.as_str(), number.radix());
+                let long = |_| Value::Float(nearest(digits, radix));
+                single(i64::from_str_radix(digits, radix).map_or_else(long, Value::Integer))
             }
         };
         Self { place: Some((at, value.span())), content }
@@ -271,17 +277,25 @@ impl Node {
                 Content::Table(inner.into_iter().map(|(key, value)| (key, Self::set(value))).collect())
             }
             Value::Array(all) => Content::Array(all.into_iter().map(Self::set).collect()),
-            other => Content::Single(Some(other)),
+            other => Content::Single(other),
         };
         Self { place: None, content }
     }
 
-    fn value(&self) -> Option<Value> {
+    fn value(&self) -> Value {
         match &self.content {
-            Content::Table(entries) => values(entries).map(Value::Table),
-            Content::Array(all) => all.iter().map(Self::value).collect::<Option<_>>().map(Value::Array),
+            Content::Table(entries) => Value::Table(values(entries)),
+            Content::Array(all) => Value::Array(all.iter().map(Self::value).collect()),
             Content::Single(value) => value.clone(),
         }
+    }
+}
+
+/// The double nearest to a number; infinite where there is none, which no key allows.
+fn nearest(digits: &str, radix: u32) -> f64 {
+    match radix {
+        10 => digits.parse().unwrap_or(f64::INFINITY),
+        _ => u128::from_str_radix(digits, radix).map_or(f64::INFINITY, |whole| whole as f64),
     }
 }
 

@@ -134,7 +134,7 @@ impl Reader<'_> {
         wrong_key: impl Fn(toml::Table) -> Option<(String, &'t str)>,
     ) -> bool {
         let tables = self.table.tables(last(path)).unwrap_or_default();
-        let refused = tables.iter().find_map(|table| Some((table, wrong_key(table.whole()?)?)));
+        let refused = tables.iter().find_map(|table| Some((table, wrong_key(table.whole())?)));
         if let Some((table, (key, allowed))) = &refused {
             self.wrong.push((table.offset(key), table.refusal(key, allowed)));
         }

@@ -115,10 +115,7 @@ pub(super) fn load(given: &OsStr, settings: Vec<KeyValue>) -> Result<Named, Fail
     let built_in = scenes::find(&source).filter(|_| !path.exists() || path.is_dir());
     let (text, stem, mut starts) = match built_in {
         Some(built_in) => (built_in.text.to_owned(), source.clone(), Starts::default()),
-        None => {
-            let stem = path.file_stem().unwrap_or(given).to_string_lossy().into_owned();
-            (read(path)?, stem, Starts::beside(path.parent().unwrap_or(Path::new(""))))
-        }
+        None => (read(path)?, stem_of(path), Starts::beside(path.parent().unwrap_or(Path::new("")))),
     };
     let at = |error: Error| wrong(&source, &settings, &error);
     let mut document = Document::parse(&source, &text).map_err(at)?;
@@ -128,6 +125,15 @@ pub(super) fn load(given: &OsStr, settings: Vec<KeyValue>) -> Result<Named, Fail
     let mut scene = of_document(&document).map_err(at)?;
     starts.fill(&mut scene).map_err(|error| refused(&source, &error))?;
     Ok(Named { scene, text, document, settings, source, starts, stem })
+}
+
+/// The stem of a scene file's name as a folder's: without the dots before it, which would hide the folder or lead out of its place.
+fn stem_of(path: &Path) -> String {
+    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+    match stem.trim_start_matches('.') {
+        "" => "scene".to_owned(),
+        stem => stem.to_owned(),
+    }
 }
 
 /// Prints warnings about the results on standard error, on the root only.

@@ -1,6 +1,6 @@
 //! Keys of a scene on the command line.
 
-use crate::common::{UNEQUAL, names, read, shearbed, unequal};
+use crate::common::{UNEQUAL, command, names, read, shearbed, unequal};
 use std::fs;
 
 #[test]
@@ -101,4 +101,57 @@ fn a_sweep_and_a_study_set_keys_as_a_run_does() {
     let studied = |out: &str| read(&dir.path().join(out).join("converge.csv"));
     assert_eq!(studied("e"), studied("f"));
     assert!(!dir.path().join("d").exists());
+}
+
+/// What a line of a scene file may have behind a value is no part of a value.
+#[test]
+fn nothing_behind_a_value_is_left_out() {
+    let dir = unequal();
+    for set in ["particles.count=7 # or 8", "particles.count=7#", "title='a' # b", "title=\"a\"\nx = 1"] {
+        let ended = command(dir.path(), "plan small.toml --set").arg(set).output().unwrap();
+        let said = String::from_utf8(ended.stderr).unwrap();
+        assert!(ended.status.code() == Some(2) && said.contains("is no value"), "{set}: {said}");
+    }
+    let ended = command(dir.path(), "plan small.toml --set").arg("title='a # b'").output().unwrap();
+    assert!(String::from_utf8(ended.stdout).unwrap().contains("a # b"));
+}
+
+/// A number of more digits than TOML's integers have is a number, in a file and on the command line.
+#[test]
+fn a_long_integer_is_the_number_that_it_is() {
+    let dir = unequal();
+    let scene = |count: &str, length: &str| {
+        let text = UNEQUAL.replace("count = 20", &format!("count = {count}"));
+        let text = text.replace("length_mm = 0.72", &format!("length_mm = {length}"));
+        fs::write(dir.path().join("long.toml"), text).unwrap();
+        shearbed(dir.path(), "plan long.toml")
+    };
+    for digits in ["9223372036854775808", "0x8000000000000000", "9_223_372_036_854_775_808"] {
+        let ended = scene("20", digits);
+        assert_eq!(ended.code, Some(0), "{digits}: {}", ended.stderr);
+        let same = shearbed(dir.path(), &format!("plan small.toml --set particles.length_mm={digits}"));
+        assert_eq!(same.code, Some(0), "{digits}: {}", same.stderr);
+        assert_eq!(ended.stdout.split_once('\n').unwrap().1, same.stdout.split_once('\n').unwrap().1);
+        let ended = scene(digits, "1");
+        let said = format!(
+            "long.toml:5: particles.count = {digits} is not allowed: a whole number from 1 to 100000000"
+        );
+        assert!(ended.code == Some(2) && ended.stderr.contains(&said), "{}", ended.stderr);
+    }
+    let ended = scene("20", &"9".repeat(400));
+    assert!(ended.stderr.contains("is not allowed: a finite number > 0"), "{}", ended.stderr);
+}
+
+/// A file's name makes the folder's, and dots alone make none.
+#[test]
+fn a_scene_of_dots_has_a_folder_below_out() {
+    let dir = unequal();
+    for (name, out) in
+        [("..toml", "out/scene"), ("...toml", "out/scene"), (".a.toml", "out/a"), ("a..toml", "out/a.")]
+    {
+        fs::copy(dir.path().join("small.toml"), dir.path().join(name)).unwrap();
+        let ended = shearbed(dir.path(), &format!("run {name} --force"));
+        assert_eq!(ended.code, Some(0), "{name}: {}", ended.stderr);
+        assert!(ended.stdout.contains(&format!("\nin {out}: ")), "{name}: {}", ended.stdout);
+    }
 }

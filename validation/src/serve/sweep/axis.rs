@@ -1,12 +1,15 @@
 //! `KEY=FROM:TO:COUNT` and `KEY=A,B,C`: a key of a scene and its values.
 
-use toml::{Table, Value};
+use crate::oracle::reference::big::finite;
+use serde::{Deserialize, Serialize};
+use shearbed::scene::document;
+use toml::Value;
 
 /// The largest number of points of a sweep.
 pub const MAX_POINTS: usize = 100_000;
 
 /// A key of the scene with its values, at least one.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Axis {
     /// The key, such as `interaction.alpha`.
     pub key: String,
@@ -23,8 +26,8 @@ impl Axis {
         let values = match range.as_slice() {
             [_] => each_once(split(values, ',').into_iter().map(value).collect::<Result<_, _>>()?)?,
             [from, to, count] => match evenly(from, to, count)? {
-                values if values.first() == values.last() => {
-                    return Err(format!("{from}:{to} has equal ends; each value once is allowed"));
+                values if values.windows(2).any(|pair| same(&pair[0], &pair[1])) => {
+                    return Err(format!("{from}:{to} has no {count} different values"));
                 }
                 values => values,
             },
@@ -106,33 +109,38 @@ fn split(text: &str, separator: char) -> Vec<&str> {
 
 /// Parses a value as in a scene file; a word needs no quotes.
 fn value(text: &str) -> Result<Value, String> {
-    let mut table: Table = format!("value = {text}").parse().unwrap_or_default();
-    let word = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
-    match (table.remove("value"), table.is_empty()) {
-        (Some(value), true) => Ok(value),
-        // An integer with too many digits for TOML: the key says what it allows.
-        _ if text.parse::<i128>().is_ok() => Ok(Value::Float(text.parse().unwrap_or(f64::NAN))),
-        _ if text.starts_with(char::is_alphabetic) && text.chars().all(word) => {
-            Ok(Value::String(text.to_owned()))
-        }
-        _ => Err(format!("{text:?} is no value; numbers, words and what a scene file allows are")),
-    }
+    let is_of_word = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
+    let is_word = text.starts_with(char::is_alphabetic) && text.chars().all(is_of_word);
+    let value = document::value(text).or_else(|| is_word.then(|| Value::String(text.to_owned())));
+    value.ok_or_else(|| {
+        format!("{text:?} is no value; expected a number, a word, or what a scene file has behind `=`")
+    })
 }
 
 /// The values; an error names one that stands there twice.
 fn each_once(values: Vec<Value>) -> Result<Vec<Value>, String> {
-    match (1..values.len()).find(|k| values[..*k].contains(&values[*k])) {
+    match (1..values.len()).find(|k| values[..*k].iter().any(|earlier| same(earlier, &values[*k]))) {
         Some(k) => Err(format!("{} stands there twice; each value once is allowed", values[k])),
         None => Ok(values),
     }
 }
 
+/// True if a scene is the same with either value: 1 is 1.0, and 0 is −0.
+fn same(a: &Value, b: &Value) -> bool {
+    match (a, b) {
+        (Value::Integer(a), Value::Float(b)) | (Value::Float(b), Value::Integer(a)) => *a as f64 == *b,
+        (Value::Array(a), Value::Array(b)) => a.len() == b.len() && a.iter().zip(b).all(|(a, b)| same(a, b)),
+        (Value::Table(a), Value::Table(b)) => {
+            a.len() == b.len() && a.iter().all(|(key, a)| b.get(key).is_some_and(|b| same(a, b)))
+        }
+        (a, b) => a == b,
+    }
+}
+
 /// `count` values from `from` to `to`, both included. If both are integers, so are whole values between them.
 fn evenly(from: &str, to: &str, count: &str) -> Result<Vec<Value>, String> {
-    let number = |text: &str| match text.parse::<f64>() {
-        Ok(number) if number.is_finite() => Ok(number),
-        _ => Err(format!("{text:?} is no end of a range; a finite number is allowed")),
-    };
+    let refused = |text: &str| format!("{text:?} is no end of a range; a finite number is allowed");
+    let number = |text: &str| finite(text).ok_or_else(|| refused(text));
     let (a, b) = (number(from)?, number(to)?);
     let steps = match count.parse::<usize>() {
         Ok(count) if (2..=MAX_POINTS).contains(&count) => count as i128 - 1,
@@ -252,7 +260,7 @@ mod tests {
             ("a=1:2:3:4", "neither"),
             ("a=1:x:3", "\"x\""),
             ("a=1:inf:3", "\"inf\""),
-            ("a=1:1.0:3", "equal ends"),
+            ("a=1:1.0:3", "no 3 different values"),
             ("a=1:2:1", "\"1\" is no count"),
             ("a=1:2:2.5", "from 2 to 100000"),
         ] {
