@@ -78,7 +78,7 @@ pub(super) fn sweep(args: &Args) -> Result<(), Failure> {
         spares_inputs(&out, &["sweep.csv", "sweep.json"], named.files())?;
         let in_folder = result_folder(&out, origin, bytes, &[""; 0])?;
         let points = Points {
-            described: (points.iter()).map(|point| sweep::described(&args.over, &point.values)).collect(),
+            pairs: (points.iter()).map(|point| sweep::pairs(&args.over, &point.values)).collect(),
             tables: (points[0].plan.observables().iter())
                 .map(|observable| format!("{}.csv", observable.name()))
                 .collect(),

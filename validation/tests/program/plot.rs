@@ -1,6 +1,6 @@
 //! `shearbed plot`: one picture of several runs.
 
-use crate::common::{limited, read, shearbed, unequal};
+use crate::common::{command, limited, read, shearbed, unequal};
 use std::path::Path;
 
 /// Each of these arguments ends with 2 and these words.
@@ -88,9 +88,15 @@ fn against_a_swept_key(dir: &Path) {
                 "plot k --x interaction.m",
                 "--x interaction.m: the sweep goes over interaction.alpha, particles.count, of",
             ),
+            ("plot k --x particles.count --at inf", "'inf' for '--at <TIME>': a finite number"),
+            ("plot k --x particles.count --at 1e400", "'1e400' for '--at <TIME>': a finite number"),
+            (
+                "plot k --x particles.count --at 1e-12",
+                "--at 0.000000000001: k/points/01 has no output at this time",
+            ),
             (
                 "plot k --x particles.count --at 77",
-                "--at 77: k/points/01/ has no output at this time; the nearest is at t/T = ",
+                "--at 77: k/points/01 has no output at this time; the nearest is at t/T = ",
             ),
         ],
     );
@@ -218,4 +224,79 @@ fn a_table_too_long_to_draw_is_refused_in_bounded_memory() {
     assert_eq!(ended.code, Some(2), "{}", ended.stderr);
     let said = "a/projections.csv:200002: more than 200000 rows for one picture";
     assert!(ended.stderr.contains(said), "{}", ended.stderr);
+}
+
+/// The grid, the record and the folders of a sweep must agree.
+#[test]
+fn a_sweep_is_drawn_with_all_its_points_and_no_other() {
+    let dir = unequal();
+    let sweep = "sweep small.toml --over interaction.alpha=0.1:0.3:3 --quiet --out s";
+    assert_eq!(shearbed(dir.path(), sweep).code, Some(0));
+    let at = |name: &str| dir.path().join("s").join(name);
+    let (record, grid) = (read(&at("shearbed.json")), read(&at("sweep.json")));
+    let put = |name: &str, json: &serde_json::Value| std::fs::write(at(name), json.to_string()).unwrap();
+    let sum = |text: &str| serde_json::json!({ "bytes": text.len(), "crc32": format!("{:08x}", crc32fast::hash(text.as_bytes())) });
+    let edited = |edit: &dyn Fn(&mut serde_json::Value)| {
+        let mut edited = serde_json::from_str(&record).unwrap();
+        edit(&mut edited);
+        put("shearbed.json", &edited);
+    };
+    let files = |json: &mut serde_json::Value| json["files"].as_object_mut().unwrap().clone();
+    // A point is taken out of the record, or a copy of one is added.
+    edited(&|json| drop(json["files"].as_object_mut().unwrap().remove("points/2/shearbed.json")));
+    refused(
+        dir.path(),
+        &[("plot s --x interaction.alpha", "s/shearbed.json: points/2/shearbed.json is not listed")],
+    );
+    std::fs::create_dir(at("points/4")).unwrap();
+    for name in ["projections.csv", "shearbed.json"] {
+        std::fs::copy(at(&format!("points/1/{name}")), at(&format!("points/4/{name}"))).unwrap();
+    }
+    edited(&|json| json["files"]["points/4/shearbed.json"] = files(json)["points/1/shearbed.json"].clone());
+    refused(
+        dir.path(),
+        &[("plot s", "s/shearbed.json: points/4/shearbed.json is listed, and the sweep has 3 points")],
+    );
+    // A point in place of another.
+    let (first, second) = (read(&at("points/1/shearbed.json")), read(&at("points/2/shearbed.json")));
+    std::fs::write(at("points/2/shearbed.json"), &first).unwrap();
+    edited(&|json| json["files"]["points/2/shearbed.json"] = sum(&first));
+    refused(dir.path(), &[("plot s", "s/points/2/shearbed.json: is of another point")]);
+    std::fs::write(at("points/2/shearbed.json"), second).unwrap();
+    // A grid with one value less, and its checksum.
+    let mut less: serde_json::Value = serde_json::from_str(&grid).unwrap();
+    less["over"] = serde_json::json!([{ "key": "interaction.alpha", "values": [0.1, 0.2] }]);
+    put("sweep.json", &less);
+    edited(&|json| json["files"]["sweep.json"] = sum(&less.to_string()));
+    refused(dir.path(), &[("plot s", "s/sweep.json: is of another sweep")]);
+    std::fs::write(at("sweep.json"), grid).unwrap();
+    std::fs::write(at("shearbed.json"), record).unwrap();
+    let ended = shearbed(dir.path(), "plot s --x interaction.alpha");
+    assert_eq!(
+        (ended.code, ended.stdout.as_str()),
+        (Some(0), "x1 of 3 points in out/plot.svg\n"),
+        "{}",
+        ended.stderr
+    );
+}
+
+/// A text that looks like a key and its value is a text.
+#[test]
+fn no_key_is_read_out_of_a_swept_text() {
+    let dir = unequal();
+    let ended = command(dir.path(), "sweep small.toml --quiet --out s --over")
+        .arg("title='a interaction.alpha=5','b interaction.alpha=7'")
+        .output()
+        .unwrap();
+    assert!(ended.status.success());
+    refused(
+        dir.path(),
+        &[
+            (
+                "plot s --x interaction.alpha",
+                "--x interaction.alpha: the sweep goes over title, of which one",
+            ),
+            ("plot s --x title", "--x title: its values are no numbers"),
+        ],
+    );
 }

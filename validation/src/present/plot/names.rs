@@ -42,25 +42,9 @@ pub(crate) fn key(label: &str) -> String {
     format!("{letter}{of}{unit}")
 }
 
-/// The keys and values of a point of a sweep, `KEY=VALUE KEY=VALUE`. A word without a key continues the value before.
-pub(crate) fn pairs(described: &str) -> Vec<(&str, String)> {
-    let is_key = |name: &str| {
-        !name.is_empty() && name.bytes().all(|byte| byte.is_ascii_alphanumeric() || b"_.".contains(&byte))
-    };
-    let mut pairs: Vec<(&str, String)> = Vec::new();
-    for word in described.split(' ') {
-        match (word.split_once('=').filter(|(name, _)| is_key(name)), pairs.last_mut()) {
-            (Some((key, value)), _) => pairs.push((key, value.to_owned())),
-            (None, Some((_, last))) => *last += &format!(" {word}"),
-            (None, None) => {}
-        }
-    }
-    pairs
-}
-
 /// A point of a sweep as `α = 0.5, n = 20 cm⁻³`.
-pub(crate) fn point(pairs: &[(&str, String)]) -> String {
-    let label = |(key, value): &(&str, String)| {
+pub(crate) fn point(pairs: &[(String, String)]) -> String {
+    let label = |(key, value): &(String, String)| {
         let (letter, unit) = letter(key);
         format!("{letter} = {} {unit}", short(value)).trim_end().to_owned()
     };
@@ -95,12 +79,16 @@ mod tests {
         assert_eq!(["t_over_T", "t_s", "strain"].map(time), ["t/T", "t (s)", "strain Gt"]);
         let keys = ["interaction.concentration_per_cm3", "2:interaction.alpha", "time.periods"];
         assert_eq!(keys.map(key), ["n (cm⁻³)", "α of set 2", "periods"]);
-        let two =
-            "interaction.alpha=0.25 interaction.concentration_per_cm3=20 particles.orientation=in plane";
-        let point = |described| point(&pairs(described));
-        assert_eq!(point(two), "α = 0.25, n = 20 cm⁻³, orientation = in plane");
-        assert_eq!(point("interaction.alpha=0.2727272727272727"), "α = 0.2727");
-        let table = "particles.orientation={ phi_deg = 0.0, theta_deg = 90.0 } particles.count=20";
-        assert_eq!(point(table), "orientation = { phi_deg = 0.0, theta_deg = 90.0 }, N = 20");
+        let point = |pairs: &[(&str, &str)]| {
+            let owned = |(key, value): &(&str, &str)| ((*key).to_owned(), (*value).to_owned());
+            point(&pairs.iter().map(owned).collect::<Vec<_>>())
+        };
+        let [alpha, n] = ["interaction.alpha", "interaction.concentration_per_cm3"];
+        let orientation = ("particles.orientation", "{ phi_deg = 0.0, theta_deg = 90.0 }");
+        assert_eq!(
+            point(&[(alpha, "0.25"), (n, "20"), orientation]),
+            "α = 0.25, n = 20 cm⁻³, orientation = { phi_deg = 0.0, theta_deg = 90.0 }"
+        );
+        assert_eq!(point(&[(alpha, "0.2727272727272727")]), "α = 0.2727");
     }
 }

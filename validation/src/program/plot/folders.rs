@@ -5,9 +5,10 @@ use crate::files::output::{RECORD, Record, Sum};
 use crate::files::text::Shown;
 use crate::present::plot::{Figure, names};
 use crate::program::Failure;
-use crate::serve::sweep::POINT;
-use serde_json::Value;
+use crate::serve::sweep::{self, Axis, POINT, Pairs};
+use serde_json::{Value, json as value};
 use shearbed::Scene;
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 /// A folder of tables, its label, its scene, and its record.
@@ -15,7 +16,7 @@ pub(super) struct Run {
     pub(super) dir: PathBuf,
     pub(super) label: String,
     /// Of a sweep's point: its keys and values.
-    pub(super) point: Option<String>,
+    pub(super) point: Option<Pairs>,
     pub(super) scene: Scene,
     pub(super) record: Record,
 }
@@ -42,7 +43,7 @@ pub(super) fn runs_in(dir: &Path) -> Result<Vec<Run>, Failure> {
         "run" => Ok(vec![Run {
             label: name(dir),
             point: None,
-            scene: scene(dir, "run.json", &record)?,
+            scene: scene(dir, "run.json", &json(dir, "run.json", &record)?)?,
             dir: dir.to_owned(),
             record,
         }]),
@@ -103,7 +104,7 @@ fn name(dir: &Path) -> String {
     own.file_name().unwrap_or_default().to_string_lossy().into_owned()
 }
 
-/// The points of a sweep; an error if the sweep is not finished.
+/// The points of a sweep: all of its grid and no other. An error if the sweep is not finished.
 fn points(dir: &Path, record: &Record) -> Result<Vec<Run>, Failure> {
     if !record.files.contains_key("sweep.csv") {
         return Err(Failure::Input(format!(
@@ -111,21 +112,44 @@ fn points(dir: &Path, record: &Record) -> Result<Vec<Run>, Failure> {
             dir.shown()
         )));
     }
-    let scene = scene(dir, "sweep.json", record)?;
-    let of_points = (record.files.keys()).filter_map(|name| Some((name, name.strip_suffix(RECORD)?)));
-    let point = |(name, folder): (&String, &str)| {
-        let record: Record = json(dir, name, record)?;
-        let point = record.origin.inputs[POINT].as_str().map(str::to_owned);
-        let label =
-            point.as_deref().map_or_else(|| folder.to_owned(), |point| names::point(&names::pairs(point)));
-        Ok(Run { label, point, scene: scene.clone(), dir: dir.join(folder), record })
+    let refused = |name: &str, what: String| {
+        Failure::Input(format!("{}: {what}; run the sweep again, with --force", dir.join(name).shown()))
     };
-    of_points.map(point).collect()
+    let grid: Value = json(dir, "sweep.json", record)?;
+    if grid != record.origin.inputs {
+        return Err(refused("sweep.json", format!("is of another sweep than {RECORD}")));
+    }
+    let scene = scene(dir, "sweep.json", &grid)?;
+    let axes: Vec<Axis> = serde_json::from_value(grid["over"].clone())
+        .map_err(|error| refused("sweep.json", format!("over: is no grid of this version: {error}")))?;
+    let count = sweep::count(&axes).ok_or_else(|| refused("sweep.json", "has too many points".into()))?;
+    // Their numbers have as many digits, so that they are in order.
+    let names: BTreeSet<_> =
+        (0..count).map(|k| format!("{}/{RECORD}", sweep::point_name(k, count))).collect();
+    if let Some(name) = names.iter().find(|name| !record.files.contains_key(*name)) {
+        return Err(refused(RECORD, format!("{name} is not listed")));
+    }
+    let is_own = |name: &String| names.contains(name) || ["sweep.csv", "sweep.json"].contains(&name.as_str());
+    if let Some(name) = record.files.keys().find(|name| !is_own(name)) {
+        return Err(refused(RECORD, format!("{name} is listed, and the sweep has {count} points")));
+    }
+    let point = |(k, name): (usize, &String)| {
+        let record: Record = json(dir, name, record)?;
+        let pairs = sweep::pairs(&axes, &sweep::at(&axes, k));
+        let mut inputs = grid.clone();
+        inputs[POINT] = value!(pairs);
+        if record.origin.inputs != inputs {
+            return Err(refused(name, "is of another point".into()));
+        }
+        let dir = dir.join(sweep::point_name(k, count));
+        Ok(Run { label: names::point(&pairs), point: Some(pairs), scene: scene.clone(), dir, record })
+    };
+    names.iter().enumerate().map(point).collect()
 }
 
-fn scene(dir: &Path, name: &str, record: &Record) -> Result<Scene, Failure> {
-    let mut whole: Value = json(dir, name, record)?;
-    serde_json::from_value(whole["scene"].take()).map_err(|error| {
+/// The scene in a record, the file `name`.
+fn scene(dir: &Path, name: &str, record: &Value) -> Result<Scene, Failure> {
+    serde_json::from_value(record["scene"].clone()).map_err(|error| {
         let path = dir.join(name);
         Failure::Input(format!("{}: scene: is no scene of this version: {error}", path.shown()))
     })

@@ -2,8 +2,8 @@
 //! (`shearbed.json`) for each finished point, `sweep.csv` one row a point. Every file and every point's folder appears whole
 //! or not at all.
 
-use super::Point;
 use super::axis::{Axis, shown};
+use super::{Pairs, Point};
 use crate::files::bounded;
 use crate::files::build;
 use crate::files::difference::difference;
@@ -20,13 +20,9 @@ use std::time::Duration;
 /// The inputs of a sweep, everything on which its results depend: this build, the scene without the swept keys, the grid, the
 /// warnings of the points' plans, and the checksums of files with initial directions.
 pub fn inputs(scene: &Scene, axes: &[Axis], points: &[Point], warnings: &[String]) -> Value {
-    let over = axes.iter().map(|axis| {
-        let values: Vec<_> = axis.values.iter().map(shown).collect();
-        format!("{}={}", axis.key, values.join(","))
-    });
     let mut inputs = build::record();
     inputs["scene"] = json!(scene.resolved());
-    inputs["over"] = over.collect();
+    inputs["over"] = json!(axes);
     inputs["warnings"] = json!(warnings);
     let starts = points.iter().filter_map(|point| point.plan.scene().particles.rods.as_ref());
     let starts: BTreeMap<_, _> = starts.map(|rods| (&rods.file, &rods.crc32)).collect();
@@ -36,16 +32,22 @@ pub fn inputs(scene: &Scene, axes: &[Axis], points: &[Point], warnings: &[String
     inputs
 }
 
-/// The name of a point in the inputs of its record: `interaction.alpha=0.3`.
+/// The name of a point in the inputs of its record, where its keys and values are.
 pub const POINT: &str = "point";
+
+/// The name of the folder of point `k`, counted from 0, of `count`, such as `points/03`; it counts from 1.
+pub fn point_name(k: usize, count: usize) -> String {
+    let width = count.to_string().len();
+    format!("points/{:0width$}", k + 1)
+}
 
 /// The largest size of a point's table or record, in bytes.
 const MOST_BYTES: u64 = 1 << 30;
 
 /// The points of a sweep with the names of their tables.
 pub struct Points {
-    /// The description of each point, such as `interaction.alpha=0.3`; no two are equal.
-    pub described: Vec<String>,
+    /// The keys and values of each point; no two are equal.
+    pub pairs: Vec<Pairs>,
     /// The names of the tables that each point has.
     pub tables: Vec<String>,
 }
@@ -119,7 +121,7 @@ impl Folder {
             let what = "was not written by `shearbed sweep`: move it away";
             Refused(format!("{}: {what}; nothing was changed", path.shown()))
         };
-        let ours: Vec<PathBuf> = (0..self.points.described.len()).map(|k| self.point(k)).collect();
+        let ours: Vec<PathBuf> = (0..self.points.pairs.len()).map(|k| self.point(k)).collect();
         let mut found = Vec::new();
         for path in list(&points)? {
             let record = Record::read(&path).ok().flatten();
@@ -146,15 +148,13 @@ impl Folder {
         self.folder.dir().join(self.name(k))
     }
 
-    /// The name of point `k`'s folder, such as `points/03`.
     fn name(&self, k: usize) -> String {
-        let width = self.points.described.len().to_string().len();
-        format!("points/{:0width$}", k + 1)
+        point_name(k, self.points.pairs.len())
     }
 
     /// The indices of the finished points, in order.
     pub fn finished(&self) -> Vec<usize> {
-        let all = 0..self.points.described.len();
+        let all = 0..self.points.pairs.len();
         all.filter(|k| self.point(*k).is_dir()).collect()
     }
 
@@ -179,7 +179,7 @@ impl Folder {
     /// The record of point `k` with these tables.
     fn record(&self, k: usize, tables: &[Output]) -> Record {
         let Origin { command, mut inputs } = self.folder.origin().clone();
-        inputs[POINT] = json!(self.points.described[k]);
+        inputs[POINT] = json!(self.points.pairs[k]);
         Record::new(&Origin { command, inputs }, tables)
     }
 

@@ -5,7 +5,7 @@ mod folder;
 
 pub(crate) use axis::key_and_text;
 pub use axis::{Axis, KeyValue, MAX_POINTS, shown};
-pub use folder::{Folder, POINT, Points, inputs};
+pub use folder::{Folder, POINT, Points, inputs, point_name};
 
 use crate::input::start::Starts;
 use shearbed::scene::document::Document;
@@ -25,9 +25,7 @@ pub struct Point {
 /// place of the scene's own; `starts` belong to the scene's folder. An error says which point and why.
 pub fn points(text: &str, starts: &Starts, fixed: &[KeyValue], axes: &[Axis]) -> Result<Vec<Point>, String> {
     let base = document(text)?;
-    let count = (axes.iter())
-        .try_fold(1_usize, |count, axis| count.checked_mul(axis.values.len()))
-        .filter(|count| *count <= MAX_POINTS)
+    let count = count(axes)
         .ok_or_else(|| format!("--over: more than {MAX_POINTS} points; at most {MAX_POINTS} are allowed"))?;
     let mut starts = starts.clone();
     let point = |k| {
@@ -44,10 +42,23 @@ pub fn points(text: &str, starts: &Starts, fixed: &[KeyValue], axes: &[Axis]) ->
     (0..count).map(point).collect()
 }
 
+/// The number of points of a grid; `None` if there are too many.
+pub fn count(axes: &[Axis]) -> Option<usize> {
+    let count = axes.iter().try_fold(1_usize, |count, axis| count.checked_mul(axis.values.len()));
+    count.filter(|count| *count <= MAX_POINTS)
+}
+
+/// The keys of a point and the texts of their values.
+pub type Pairs = Vec<(String, String)>;
+
+/// The keys and `values` of a point.
+pub fn pairs(axes: &[Axis], values: &[Value]) -> Pairs {
+    axes.iter().zip(values).map(|(axis, value)| (axis.key.clone(), shown(value))).collect()
+}
+
 /// The description of a point: `interaction.alpha=0.3 particles.count=10`.
 pub fn described(axes: &[Axis], values: &[Value]) -> String {
-    let pairs = axes.iter().zip(values);
-    let words: Vec<_> = pairs.map(|(axis, value)| format!("{}={}", axis.key, shown(value))).collect();
+    let words: Vec<_> = pairs(axes, values).iter().map(|(key, value)| format!("{key}={value}")).collect();
     words.join(" ")
 }
 
@@ -80,8 +91,8 @@ pub fn one_owner(flags: &[(&str, &str)]) -> Result<(), String> {
     Ok(())
 }
 
-/// The values of point `k`.
-fn at(axes: &[Axis], mut k: usize) -> Vec<Value> {
+/// The values of point `k`, counted from 0.
+pub fn at(axes: &[Axis], mut k: usize) -> Vec<Value> {
     let mut values = Vec::new();
     for axis in axes.iter().rev() {
         values.push(axis.values[k % axis.values.len()].clone());
