@@ -24,7 +24,7 @@ says() { # WORDS COMMAND…: what the command prints has these words, whatever i
 }
 says "liquid.density_kg_per_m3 [kg/m³]" "$shearbed" scenes --keys
 says "the rods' Reynolds number is" "$shearbed" plan fig4-n50 --set liquid.density_kg_per_m3=1e9 --set liquid.viscosity_pa_s=1
-says "liquid.density_kg_per_m3 = -1 is not allowed: a finite number > 0" "$shearbed" plan fig4-n50 --set liquid.density_kg_per_m3=-1
+says "liquid.density_kg_per_m3 = -1 is not allowed: expected a finite number > 0" "$shearbed" plan fig4-n50 --set liquid.density_kg_per_m3=-1
 says 73.4266 "$shearbed" period 11.6
 says "shearbed period 11.6" "$shearbed" period --help
 says "mid-flip-50" "$shearbed" problems

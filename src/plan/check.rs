@@ -70,7 +70,7 @@ fn check_observed(scene: &Scene, flow: &VelocityGradient) -> Result<(), Invalid>
         if !(1e-290..=1e290).contains(&unit.abs()) {
             let viscosity = scene.liquid.viscosity_pa_s.unwrap_or_default();
             let allowed = format!(
-                "one with which the stresses' unit μ G n⟨a³⟩, here {unit:e} Pa, is from 1e-290 to 1e290 Pa"
+                "expected one with which the stresses' unit μ G n⟨a³⟩, here {unit:e} Pa, is from 1e-290 to 1e290 Pa"
             );
             return Err(Invalid::new("liquid.viscosity_pa_s", format!("{viscosity:e}"), allowed));
         }
@@ -136,7 +136,8 @@ fn check_flow_steps(scene: &Scene, steps: &[FlowStep]) -> Result<(), Invalid> {
 fn check_rods_outputs(scene: &Scene) -> Result<(), Invalid> {
     let last = scene.outputs().saturating_sub(1).max(1) as u64;
     if let Some(every) = scene.output.rods_every.filter(|every| *every > last) {
-        let allowed = format!("a whole number from 1 to {last}, the number of outputs after the start");
+        let allowed =
+            format!("expected a whole number from 1 to {last}, the number of outputs after the start");
         return Err(Invalid::new("output.rods_every", every, allowed));
     }
     let outputs: Vec<_> = scene.output.rods_at.iter().map(|time| scene.output_at(*time)).collect();
@@ -197,7 +198,7 @@ fn check_interaction(
             None => Invalid::new(
                 "interaction.concentration_per_cm3",
                 n,
-                "a number for which the control volume's side (N/(n a³))^⅓ is a finite number > 0",
+                "expected a number for which the control volume's side (N/(n a³))^⅓ is a finite number > 0",
             ),
         });
     }

@@ -5,7 +5,7 @@
 /// ```
 /// use shearbed::{Error, Plan, scene::{Particles, Scene}};
 /// let error = shearbed::scene::parse("mine.toml", "title = 1").unwrap_err();
-/// assert!(error.to_string().contains("mine.toml:1: title = 1 is not allowed: a text in quotes"));
+/// assert!(error.to_string().contains("mine.toml:1: title = 1 is not allowed: expected a text in quotes"));
 ///
 /// let scene = Scene { particles: Particles { count: 0, ..Particles::default() }, ..Scene::default() };
 /// let Err(Error::Scene(invalid)) = Plan::new(&scene) else { panic!("no rods") };

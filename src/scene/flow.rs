@@ -77,11 +77,11 @@ impl FlowStep {
             return Err(wrong(unknown, "strain, shear_rate_per_s and gradient_per_s are the keys of a step"));
         }
         let strain = keys.remove("strain").and_then(f64::from_toml).filter(|strain| is_positive(*strain));
-        let strain = strain.ok_or(wrong("strain", "a finite number > 0"))?;
+        let strain = strain.ok_or(wrong("strain", "expected a finite number > 0"))?;
         let (key, allowed, step) = match RATES.map(|key| keys.remove(key)) {
             [Some(rate), None] => {
                 let step = f64::from_toml(rate).map(|rate| Self::shear(rate, strain));
-                (RATES[0], "a finite number other than 0", step)
+                (RATES[0], "expected a finite number other than 0", step)
             }
             [None, Some(rows)] => {
                 let step = Field::from_toml(rows).map(|gradient_per_s| Self { gradient_per_s, strain });

@@ -27,6 +27,13 @@ pub struct Key {
     pub absent: Absent,
 }
 
+impl Key {
+    /// What the key allows, in an error.
+    pub(crate) fn expected(&self) -> String {
+        format!("expected {}", self.holds)
+    }
+}
+
 /// What applies if a key is not given.
 ///
 /// ```
@@ -286,13 +293,13 @@ pub(crate) fn find(path: &str) -> Option<&'static Key> {
 /// Checks a value by itself, and adds an entry to `wrong` if its key does not allow it.
 pub(super) fn check(path: &'static str, value: &impl Field, wrong: &mut Vec<Invalid>) {
     if let Some(key) = find(path).filter(|key| !value.allowed(&key.holds)) {
-        wrong.push(Invalid::new(path, value.shown(), key.holds.to_string()));
+        wrong.push(Invalid::new(path, value.shown(), key.expected()));
     }
 }
 
 /// The error of a `value` that its key does not allow.
 pub(crate) fn refused(key: &'static str, value: impl ToString) -> Invalid {
-    Invalid::new(key, value, find(key).map_or_else(String::new, |key| key.holds.to_string()))
+    Invalid::new(key, value, find(key).map_or_else(String::new, Key::expected))
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! `[particles]`: the rods' number, lengths, aspect ratios and initial directions.
 
 use super::keys::{
-    Absent::Default as Otherwise, Absent::Other, Absent::Required, Holds, MAX_COUNT, find, table, whole,
+    Absent::Default as Otherwise, Absent::Other, Absent::Required, Holds, Key, MAX_COUNT, find, table, whole,
 };
 use super::read::Reader;
 use crate::model::shape::{ALLOWED, Correlation};
@@ -45,7 +45,7 @@ impl Particles {
     /// Reads the table: r_e is given once, directly or by a cylinder and a formula; and directions or a file of rods are given.
     pub(super) fn read(reader: &mut Reader<'_>) -> Option<Self> {
         let r_e = "particles.aspect_ratio";
-        let allowed = |key| find(key).map_or_else(String::new, |key| key.holds.to_string());
+        let allowed = |key| find(key).map_or_else(String::new, Key::expected);
         let or_cylinder = format!("{}; or physical_aspect_ratio and shape_correlation", allowed(r_e));
         let given = reader.one_of([r_e, "particles.physical_aspect_ratio"], &or_cylinder);
         let start = ["particles.orientation", "particles.rods"];

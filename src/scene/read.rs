@@ -79,17 +79,16 @@ impl Reader<'_> {
     pub fn key<T: Field>(&mut self, path: &'static str, default: T) -> Option<T> {
         let key = find(path)?;
         match self.table.value(last(path)) {
-            None if self.has(path) => self.refuse(path, &key.holds.to_string()),
             None if key.absent != Absent::Required => return Some(T::absent(default)),
             None if self.means(path) => (),
-            None => self.refuse(path, &key.holds.to_string()),
+            None => self.refuse(path, &key.expected()),
             Some(value) => {
                 // No key takes a date, which would otherwise be read as a text.
                 let value = Some(value).filter(|value| !value.is_datetime()).and_then(T::from_toml);
                 if let Some(value) = value.filter(|value| value.allowed(&key.holds)) {
                     return Some(value);
                 }
-                self.refuse(path, &key.holds.to_string());
+                self.refuse(path, &key.expected());
             }
         }
         None
@@ -106,7 +105,7 @@ impl Reader<'_> {
             None if !self.has(path) && key.absent != Absent::Required => Some(T::default()),
             None => {
                 if self.has(path) || !self.means(path) {
-                    self.refuse(path, &key.holds.to_string());
+                    self.refuse(path, &key.expected());
                 }
                 None
             }

@@ -193,14 +193,14 @@ fn every_key_of_a_scene_is_spoiled_above() {
 #[rustfmt::skip]
 const OTHER_MISTAKES: &[(&str, &str, &str, &str)] = &[
     // A table or a key that is missing.
-    (INTERACTING, "title = \"t\"\n", "", "1: title is missing: a text in quotes"),
-    (INTERACTING, "[flow]\nshear_rate_per_s = 0.5\n", "", "1: flow is missing: a table [flow] with "),
+    (INTERACTING, "title = \"t\"\n", "", "1: title is missing: expected a text in quotes"),
+    (INTERACTING, "[flow]\nshear_rate_per_s = 0.5\n", "", "1: flow is missing: expected a table [flow] with "),
     (INTERACTING, "shear_rate_per_s = 0.5", "", "2: flow.shear_rate_per_s is missing: shear_rate_per_s, gradient_per_s or steps"),
-    (INTERACTING, "count = 10\n", "", "4: particles.count is missing: a whole number from 1 to 100000000"),
-    (INTERACTING, "alpha = 0.5\n", "", "10: interaction.alpha is missing: a finite number ≥ 0"),
+    (INTERACTING, "count = 10\n", "", "4: particles.count is missing: expected a whole number from 1 to 100000000"),
+    (INTERACTING, "alpha = 0.5\n", "", "10: interaction.alpha is missing: expected a finite number ≥ 0"),
     (INTERACTING, "periods = 1\n", "", "16: time.periods is missing: periods or strain must be given"),
     (EXTENSION, "[time]\nstrain = 2\noutputs_per_strain = 10\n", "",
-     "1: time is missing: a table [time] with periods"),
+     "1: time is missing: expected a table [time] with periods"),
     // An unknown key or table.
     (INTERACTING, "count", "cuont", "5: cuont = 10: unknown key `cuont`, expected one of `count`, `length_mm`"),
     (INTERACTING, "alpha", "α", "12: α = 0.5: "),
@@ -211,7 +211,7 @@ const OTHER_MISTAKES: &[(&str, &str, &str, &str)] = &[
     (INTERACTING, "observables", "observable",
      "24: observable = [\"projections\"]: unknown key `observable`, expected"),
     // Something else where a table should be.
-    (EXTENSION, "title = \"t\"\n", "title = \"t\"\noutput = 3\n", "2: output = 3 is not allowed: a table [output]"),
+    (EXTENSION, "title = \"t\"\n", "title = \"t\"\noutput = 3\n", "2: output = 3 is not allowed: expected a table [output]"),
     (EXTENSION, "[time]", "[[time]]", "9: time = "),
     // What does not go together.
     (INTERACTING, "shear_rate", "gradient_per_s = [[0,0,0],[1,0,0],[0,0,0]]\nshear_rate",
@@ -233,7 +233,7 @@ const OTHER_MISTAKES: &[(&str, &str, &str, &str)] = &[
     (INTERACTING, "steps_per_period = 20", "outputs_per_strain = 5",
      "18: time.outputs_per_strain = 5 is not allowed: goes with strain"),
     (INTERACTING, "concentration_per_cm3 = 50", "concentration_per_cm3 = 1e-320",
-     "11: interaction.concentration_per_cm3 = 1e-320 is not allowed: a number for which the control volume"),
+     "11: interaction.concentration_per_cm3 = 1e-320 is not allowed: expected a number for which the control volume"),
     (EXTENSION, "strain = 2\noutputs_per_strain = 10", "periods = 2",
      "10: time.periods = 2 is not allowed: rods of this aspect ratio have no period in this flow: give strain"),
     (EXTENSION, "strain = 2", "strain = 2\noutputs_per_period = 5",
@@ -247,16 +247,16 @@ const OTHER_MISTAKES: &[(&str, &str, &str, &str)] = &[
     (INTERACTING, "[\"projections\"]", "[\"projections\", \"stress\"]",
      "1: liquid.viscosity_pa_s is missing: give it, for stress is in Pa"),
     (INTERACTING, "[particles]", "[liquid]\nviscosity_pa_s = 0\n[particles]",
-     "5: liquid.viscosity_pa_s = 0 is not allowed: a finite number > 0"),
+     "5: liquid.viscosity_pa_s = 0 is not allowed: expected a finite number > 0"),
     (EXTENSION, "outputs_per_strain = 10", "outputs_per_strain = 10\n[output]\nobservables = [\"orbit_constant\"]",
      "13: output.observables = [\"orbit_constant\"] is not allowed: orbit_constant needs plane Couette flow"),
     // The same shear in other axes, in which eq. 13 holds no more.
     (EXTENSION, "[[-0.5, 0, 0], [0, 1, 0], [0, 0, -0.5]]", "[[0, 1, 0], [0, 0, 0], [0, 0, 0]]\n[output]\nobservables = [\"orbit_constant\"]",
      "5: output.observables = [\"orbit_constant\"] is not allowed: orbit_constant needs plane Couette flow"),
     // Flows one after another.
-    (REVERSED, "strain = 3, ", "", "3: flow.steps.strain is missing: a finite number > 0"),
-    (REVERSED, "strain = 3", "strain = -3", "3: flow.steps.strain = -3 is not allowed: a finite number > 0"),
-    (REVERSED, "rate_per_s = 1", "rate_per_s = 0", "3: flow.steps.shear_rate_per_s = 0 is not allowed: a finite number other"),
+    (REVERSED, "strain = 3, ", "", "3: flow.steps.strain is missing: expected a finite number > 0"),
+    (REVERSED, "strain = 3", "strain = -3", "3: flow.steps.strain = -3 is not allowed: expected a finite number > 0"),
+    (REVERSED, "rate_per_s = 1", "rate_per_s = 0", "3: flow.steps.shear_rate_per_s = 0 is not allowed: expected a finite number other"),
     (REVERSED, "strain = 3, ", "strain = 3, shear_rate_per_s = 1, ", "3: flow.steps.shear_rate_per_s = 1 is not allowed: either it or"),
     (REVERSED, "[-1, 0, 0]", "[-1, 0]", "3: flow.steps.gradient_per_s = [[0, 0, 0], [-1, 0], [0, 0, 0]] is not allowed: three"),
     (REVERSED, "[-1, 0, 0]", "[0, 0, 0]", "3: flow.steps.gradient_per_s = [[0, 0, 0], [0, 0, 0], [0, 0, 0]] is not allowed: three"),

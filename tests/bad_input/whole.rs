@@ -13,7 +13,7 @@ fn an_empty_file_lacks_all_that_must_be_there() {
                 "dir/s.toml:1: flow is missing: a",
                 "dir/s.toml:1: particles is missi",
                 "dir/s.toml:1: time is missing: a",
-                "dir/s.toml:1: title is missing: ",
+                "dir/s.toml:1: title is missing: expected ",
             ]
         );
     }
@@ -22,13 +22,13 @@ fn an_empty_file_lacks_all_that_must_be_there() {
 /// One mistake of each kind, in the order of lines; the last column is the line.
 #[rustfmt::skip]
 const MANY: &[(&str, &str, &str)] = &[
-    ("shear_rate_per_s = 0.5", "shear_rate_per_s = -0.5", "3: flow.shear_rate_per_s = -0.5 is not allowed: a finite number > 0"),
+    ("shear_rate_per_s = 0.5", "shear_rate_per_s = -0.5", "3: flow.shear_rate_per_s = -0.5 is not allowed: expected a finite number > 0"),
     ("length_mm = 0.72", "lenght_mm = 0.72", "6: lenght_mm = 0.72: unknown key `lenght_mm`, expected one of"),
-    ("aspect_ratio = 11.6", "aspect_ratio = \"long\"", "7: particles.aspect_ratio = \"long\" is not allowed: a number from"),
-    ("alpha = 0.5\n", "", "10: interaction.alpha is missing: a finite number ≥ 0"),
-    ("update = \"rotation\"", "update = \"turn\"", "13: interaction.update = \"turn\" is not allowed: \"rotation\", \"angles\" or \"kick\""),
-    ("[ensemble]\nreplicas = 2", "[ensemble]\nreplicas = 0", "20: ensemble.replicas = 0 is not allowed: a whole number from 1 to"),
-    ("[\"projections\"]", "[\"projection\"]", "23: output.observables = [\"projection\"] is not allowed: a list of"),
+    ("aspect_ratio = 11.6", "aspect_ratio = \"long\"", "7: particles.aspect_ratio = \"long\" is not allowed: expected a number from"),
+    ("alpha = 0.5\n", "", "10: interaction.alpha is missing: expected a finite number ≥ 0"),
+    ("update = \"rotation\"", "update = \"turn\"", "13: interaction.update = \"turn\" is not allowed: expected \"rotation\", \"angles\" or \"kick\""),
+    ("[ensemble]\nreplicas = 2", "[ensemble]\nreplicas = 0", "20: ensemble.replicas = 0 is not allowed: expected a whole number from 1 to"),
+    ("[\"projections\"]", "[\"projection\"]", "23: output.observables = [\"projection\"] is not allowed: expected a list of"),
 ];
 
 #[test]
@@ -90,7 +90,7 @@ fn every_key_has_words_for_what_it_allows() {
     for (key, ..) in KEYS {
         let spoiled = [INTERACTING, EXTENSION, REVERSED].iter().find_map(|text| set(text, key, "{ x = 1 }"));
         let refusal = refusal(&spoiled.expect("one of the scenes has the key").0);
-        let start = format!("{key} = {{ x = 1 }} is not allowed: ");
+        let start = format!("{key} = {{ x = 1 }} is not allowed: expected ");
         let allowed = refusal.split_once(&start).map(|(_, allowed)| allowed);
         assert!(allowed.is_some_and(|allowed| !allowed.is_empty()), "{refusal}");
     }
@@ -163,7 +163,7 @@ fn r_e_is_given_once_and_a_misspelt_one_is_told_once() {
     assert!(misspelt.contains("did you mean particles.aspect_ratio?"), "{misspelt}");
     assert_eq!(misspelt.lines().count(), 1, "{misspelt}");
     let none = told("aspect_ratio = 11.6\n", "");
-    assert!(none.starts_with("dir/s.toml:4: particles.aspect_ratio is missing: "), "{none}");
+    assert!(none.starts_with("dir/s.toml:4: particles.aspect_ratio is missing: expected "), "{none}");
 }
 
 #[test]

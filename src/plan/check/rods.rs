@@ -79,7 +79,7 @@ pub(super) fn check_particles(scene: &Scene) -> Result<(), Invalid> {
     }
     let length_sd = scene.particles.length_sd_percent;
     if length_sd >= 100.0 / 3.0 {
-        let allowed = "a number below 33.3333: with more, lengths ≤ 0 are less than three standard deviations from the mean";
+        let allowed = "expected a number below 33.3333: with more, lengths ≤ 0 are less than three standard deviations from the mean";
         return Err(Invalid::new("particles.length_sd_percent", length_sd, allowed));
     }
     // Three standard deviations: P(r_e ≤ 1) = 0.0013 per rod.
@@ -91,7 +91,7 @@ pub(super) fn check_particles(scene: &Scene) -> Result<(), Invalid> {
             "particles.aspect_ratio_sd_percent",
             sd,
             format!(
-                "a number below {widest:.4} with a mean of {r}: with more, r_e ≤ 1 (for discs: r_e ≥ 1 or ≤ 0) is less than \
+                "expected a number below {widest:.4} with a mean of {r}: with more, r_e ≤ 1 (for discs: r_e ≥ 1 or ≤ 0) is less than \
                  three standard deviations from the mean"
             ),
         ));

@@ -86,7 +86,7 @@ fn fits(scene: &Scene, start: &Start) -> Result<(), String> {
     }
     match scene.misfit(own) {
         Some(misfit) => Err(format!(
-            ":{}: {} = {:?} is not allowed: {}",
+            ":{}: {} = {:?} is not allowed: expected {}",
             start.lines[misfit.rod], misfit.column, misfit.value, misfit.allowed
         )),
         None => Ok(()),
@@ -136,9 +136,12 @@ mod tests {
             ("length_mm\n1\n1\n1\n", "start.csv: has 3 rows"),
             (
                 "aspect_ratio\n2\n1\n",
-                "start.csv:3: aspect_ratio = 1.0 is not allowed: a number > 1, up to 1e100, for interacting rods",
+                "start.csv:3: aspect_ratio = 1.0 is not allowed: expected a number > 1, up to 1e100, for interacting rods",
             ),
-            ("x1_mm,x2_mm,x3_mm\n1,2,3\n3,4,1\n", "start.csv:3: x2_mm = 4.0 is not allowed: 0 to 3.41"),
+            (
+                "x1_mm,x2_mm,x3_mm\n1,2,3\n3,4,1\n",
+                "start.csv:3: x2_mm = 4.0 is not allowed: expected 0 to 3.41",
+            ),
             ("x1_mm,x2_mm,x3_mm\n1,2,-3\n3,1,1\n", "start.csv:2: x3_mm = -3.0 is not allowed"),
         ] {
             let refused = fill(text, true).unwrap_err();

@@ -37,7 +37,7 @@ fn of_environment(value: Option<OsString>) -> Result<Option<u64>, Failure> {
         Ok(0) => Ok(None),
         Ok(count) if count <= MAX_THREADS => Ok(Some(count)),
         _ => Err(Failure::Input(format!(
-            "{VARIABLE} = {text} is not allowed: a whole number from 1 to {MAX_THREADS}"
+            "{VARIABLE} = {text} is not allowed: expected a whole number from 1 to {MAX_THREADS}"
         ))),
     }
 }

@@ -342,7 +342,7 @@ fn bad_input_ends_with_two_and_leaves_nothing() {
         ),
         (
             "--data vague.csv --over interaction.alpha=0.1:1".into(),
-            "vague.csv:3: column t_over_T_u: `0.3` is not allowed: one standard deviation of at most a quarter of a period, 0.25",
+            "vague.csv:3: column t_over_T_u: `0.3` is not allowed: expected one standard deviation of at most a quarter of a period, 0.25",
         ),
         (
             format!("{good} --data small.toml=./good.csv --over interaction.alpha=0.1:1"),

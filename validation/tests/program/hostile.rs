@@ -108,7 +108,8 @@ fn a_number_of_threads_that_is_none_is_refused() {
         let output = command(dir.path(), "run small.toml").env("RAYON_NUM_THREADS", text).output().unwrap();
         let message = String::from_utf8(output.stderr).unwrap();
         assert_eq!(output.status.code(), Some(2), "{text}: {message}");
-        let expected = format!("RAYON_NUM_THREADS = {text} is not allowed: a whole number from 1 to 1024");
+        let expected =
+            format!("RAYON_NUM_THREADS = {text} is not allowed: expected a whole number from 1 to 1024");
         assert!(message.contains(&expected), "{message}");
     }
 }

@@ -28,11 +28,14 @@ fn keys_are_set_on_the_command_line_as_a_file_would() {
     for (set, message) in [
         ("--set alpha=1", "small.toml --set alpha=1: alpha = 1: unknown key `alpha`, expected one of"),
         ("--set alpha=1", "; did you mean interaction.alpha?"),
-        ("--set particles.count=0", "particles.count = 0 is not allowed: a whole number from 1 to"),
-        ("--set particles.count=20.0", "particles.count = 20.0 is not allowed: a whole number from 1 to"),
+        ("--set particles.count=0", "particles.count = 0 is not allowed: expected a whole number from 1 to"),
+        (
+            "--set particles.count=20.0",
+            "particles.count = 20.0 is not allowed: expected a whole number from 1 to",
+        ),
         (
             "--set ensemble.seed=9223372036854775808",
-            "ensemble.seed = 9.223372036854776e18 is not allowed: a whole number from 0 to 9223372036854775807",
+            "ensemble.seed = 9.223372036854776e18 is not allowed: expected a whole number from 0 to 9223372036854775807",
         ),
         ("--set particles.count=1,2", "\"1,2\" is no value"),
         ("--set particles.count=1:3:3", "\"1:3:3\" is no value"),
@@ -134,12 +137,12 @@ fn a_long_integer_is_the_number_that_it_is() {
         assert_eq!(ended.stdout.split_once('\n').unwrap().1, same.stdout.split_once('\n').unwrap().1);
         let ended = scene(digits, "1");
         let said = format!(
-            "long.toml:5: particles.count = {digits} is not allowed: a whole number from 1 to 100000000"
+            "long.toml:5: particles.count = {digits} is not allowed: expected a whole number from 1 to 100000000"
         );
         assert!(ended.code == Some(2) && ended.stderr.contains(&said), "{}", ended.stderr);
     }
     let ended = scene("20", &"9".repeat(400));
-    assert!(ended.stderr.contains("is not allowed: a finite number > 0"), "{}", ended.stderr);
+    assert!(ended.stderr.contains("is not allowed: expected a finite number > 0"), "{}", ended.stderr);
 }
 
 /// A file's name makes the folder's, and dots alone make none.

@@ -81,7 +81,7 @@ fn a_cylinder_is_given_by_its_own_aspect_ratio_and_a_formula() {
             format!("aspect_ratio = 3\n{cylinder}"),
             "c.toml:7: particles.aspect_ratio = 3 is not allowed: either",
         ),
-        (String::new(), "c.toml:4: particles.aspect_ratio is missing: a number from"),
+        (String::new(), "c.toml:4: particles.aspect_ratio is missing: expected a number from"),
         (
             "physical_aspect_ratio = 20".into(),
             "particles.shape_correlation is missing: physical_aspect_ratio = 20 takes \"gold",
@@ -93,7 +93,7 @@ fn a_cylinder_is_given_by_its_own_aspect_ratio_and_a_formula() {
         ),
         (
             cylinder.replace("20", "1.5"),
-            "particles.physical_aspect_ratio = 1.5 is not allowed: a number from",
+            "particles.physical_aspect_ratio = 1.5 is not allowed: expected a number from",
         ),
         (
             cylinder.replace("20", "3"),
@@ -101,7 +101,7 @@ fn a_cylinder_is_given_by_its_own_aspect_ratio_and_a_formula() {
         ),
         (
             cylinder.replace("cox", "coxx"),
-            "particles.shape_correlation = \"coxx\" is not allowed: \"goldsmith-mason\", \"cox\", ",
+            "particles.shape_correlation = \"coxx\" is not allowed: expected \"goldsmith-mason\", \"cox\", ",
         ),
     ] {
         fs::write(dir.path().join("c.toml"), SMALL.replace("aspect_ratio = 11.6", &change)).unwrap();

@@ -41,7 +41,7 @@ pub(super) fn read(path: &Path, source: &Source) -> Result<Vec<MeasuredCurve>, D
     let shortest = provenance.curves.iter().map(period).fold(f64::INFINITY, f64::min);
     if axis.standard_uncertainty > MOST_UNCERTAIN * shortest {
         let message = format!(
-            "x.standard_uncertainty = {} is not allowed: {TIME_UNCERTAINTY}, here {}",
+            "x.standard_uncertainty = {} is not allowed: expected {TIME_UNCERTAINTY}, here {}",
             axis.standard_uncertainty,
             MOST_UNCERTAIN * shortest
         );
@@ -120,7 +120,8 @@ fn convert(
     let vague = |row: &&DataRow| row.u_x.is_some_and(|u| u > most);
     if let Some(row) = dataset.rows.iter().find(vague) {
         let (name, u) = (provenance.x.quantity.column(), row.u_x.unwrap_or_default());
-        let message = format!("column {name}_u: `{u}` is not allowed: {TIME_UNCERTAINTY}, here {most}");
+        let message =
+            format!("column {name}_u: `{u}` is not allowed: expected {TIME_UNCERTAINTY}, here {most}");
         return Err(DataError::at(file, row.line, message));
     }
     let length = match provenance.y.quantity {
@@ -155,7 +156,7 @@ fn on_axis<Q>(
         return Err(DataError::at(
             file,
             line,
-            format!("column {column}_u: `{u:?}` is not allowed: {allowed}"),
+            format!("column {column}_u: `{u:?}` is not allowed: expected {allowed}"),
         ));
     }
     let (least, most) = axis.range();

@@ -42,7 +42,7 @@ impl<'a> Keys<'a> {
 
     /// The error that `key` is missing or has a value other than `allowed`.
     pub(super) fn refused(&self, key: &str, allowed: &str) -> DataError {
-        located(self.file, self.table.refused(key, allowed))
+        located(self.file, self.table.refused(key, format!("expected {allowed}")))
     }
 
     /// True if the table has the key.

@@ -75,8 +75,9 @@ fn records(file: &str, text: &str) -> Result<Vec<Record>, DataError> {
 fn number(file: &str, line: usize, column: &str, cell: &str) -> Result<f64, DataError> {
     let number = cell.parse().ok().filter(|number: &f64| number.is_finite());
     number.ok_or_else(|| {
-        let message =
-            format!("column {column}: `{cell}` is not allowed: a finite number with a decimal point");
+        let message = format!(
+            "column {column}: `{cell}` is not allowed: expected a finite number with a decimal point"
+        );
         DataError::at(file, line, message)
     })
 }
@@ -147,8 +148,9 @@ fn positive(file: &str, line: usize, column: &str, cell: &str) -> Result<Option<
     match number(file, line, column, cell)? {
         u if u > 0.0 => Ok(Some(u)),
         _ => {
-            let message =
-                format!("column {column}: `{cell}` is not allowed: one standard deviation, a number > 0");
+            let message = format!(
+                "column {column}: `{cell}` is not allowed: expected one standard deviation, a number > 0"
+            );
             Err(DataError::at(file, line, message))
         }
     }

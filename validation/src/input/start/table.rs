@@ -81,7 +81,9 @@ pub(super) fn read(bytes: &[u8]) -> Result<(OwnRods, Vec<u64>), String> {
         let line = record.position().map_or(0, |position| at.line(position.byte()));
         let not_allowed = |place: usize, allowed: &str| match record.get(place).unwrap_or_default() {
             "" => format!("{line}: {} is empty: {allowed} is allowed", &head[place]),
-            cell => format!("{line}: {} = {} is not allowed: {allowed}", &head[place], snippet(cell)),
+            cell => {
+                format!("{line}: {} = {} is not allowed: expected {allowed}", &head[place], snippet(cell))
+            }
         };
         let number = |place: usize| {
             let parsed = record.get(place).unwrap_or_default().parse().ok();
@@ -200,7 +202,7 @@ impl Order {
             return Ok(());
         };
         if !(rod >= 0.0 && rod.fract() == 0.0) {
-            return Err(format!("{line}: rod = {rod} is not allowed: a whole number from 0 on"));
+            return Err(format!("{line}: rod = {rod} is not allowed: expected a whole number from 0 on"));
         }
         match self.last.replace(rod) {
             Some(last) if rod <= last => Err(format!(
@@ -267,9 +269,9 @@ mod tests {
             ("p1,p2\n1,0\n", "1: column p3 is missing; p1, p2, p3 go together"),
             ("x1_mm\n1\n", "1: column x2_mm is missing"),
             ("rod,time_s\n0,0\n", "1: no column of what a rod is"),
-            ("length_mm\n1\n0\n", "3: length_mm = 0 is not allowed: a finite number > 0"),
+            ("length_mm\n1\n0\n", "3: length_mm = 0 is not allowed: expected a finite number > 0"),
             ("length_mm\n-1\n", "2: length_mm = -1 is not allowed"),
-            ("length_mm\nNaN\n", "2: length_mm = NaN is not allowed: a finite number"),
+            ("length_mm\nNaN\n", "2: length_mm = NaN is not allowed: expected a finite number"),
             ("aspect_ratio\n-2\n", "2: aspect_ratio = -2 is not allowed"),
             ("x1_mm,x2_mm,x3_mm\n1,2,3\n,,\n", "3: the rods before have a place"),
             ("x1_mm,x2_mm,x3_mm\n,,\n1,2,3\n", "3: the rods before have no place"),
@@ -287,7 +289,7 @@ mod tests {
                 "3: rod = 1 is not allowed after rod 2: each rod has one row; sort the rows by rod",
             ),
             ("rod,p1,p2,p3\n1,1,0,0\n1,0,1,0\n", "3: rod = 1 is not allowed after rod 1"),
-            ("rod,p1,p2,p3\n0.5,1,0,0\n", "2: rod = 0.5 is not allowed: a whole number from 0 on"),
+            ("rod,p1,p2,p3\n0.5,1,0,0\n", "2: rod = 0.5 is not allowed: expected a whole number from 0 on"),
             ("rod,p1,p2,p3\n-1,1,0,0\n", "2: rod = -1 is not allowed"),
             ("replica,p1,p2,p3\n0,1,0,0\n0,1,0,0\n1,0,1,0\n", "4: replica = 1 is not allowed: line 2 has 0"),
             (

@@ -1,22 +1,13 @@
 use super::*;
 
 #[test]
-fn another_format_and_doubled_cases_are_refused() {
-    let report = |format: u32, names: [&str; 2]| {
-        let cases = names.map(
-            |name| serde_json::json!({ "name": name, "verdict": "pass", "seconds": 0.1, "evidence": [] }),
-        );
-        let report = serde_json::json!({
-            "format": format, "summary": { "full": false, "seed": 1 }, "cases": cases,
-            "origin": { "commit": "a", "processor": "b" },
-        });
-        parse(&report.to_string()).map(|report| report.cases.len())
-    };
-    assert_eq!(report(FORMAT, ["a", "b"]), Ok(2));
-    let other = report(99, ["a", "b"]).unwrap_err();
-    assert!(other.starts_with("format = 99 is not allowed: 3"), "{other}");
-    let twice = report(FORMAT, ["a", "a"]).unwrap_err();
-    assert_eq!(twice, "the case \"a\" is there twice; once is allowed");
+fn another_format_is_refused() {
+    let report = serde_json::json!({
+        "format": 99, "summary": { "full": false, "seed": 1 }, "cases": [],
+        "origin": { "commit": "a", "processor": "b" },
+    });
+    let other = parse(&report.to_string()).map(|report| report.format).unwrap_err();
+    assert!(other.starts_with("format = 99 is not allowed: expected 3"), "{other}");
 }
 
 #[test]

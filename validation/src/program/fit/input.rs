@@ -187,7 +187,7 @@ fn within_scene(
     };
     if let Some(point) = points.iter().find(|point| point.u_time > most * (1.0 + 1e-12)) {
         return Err(Failure::Input(format!(
-            "{}:{}: column {}_u: `{}` is not allowed: one standard deviation of at most {what}, {most}",
+            "{}:{}: column {}_u: `{}` is not allowed: expected one standard deviation of at most {what}, {most}",
             path.shown(),
             point.line,
             time.name(),

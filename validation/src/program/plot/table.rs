@@ -107,7 +107,7 @@ impl<R: Read> Table<R> {
             let line = record.position().map_or(0, csv::Position::line);
             let refused = |k: usize, allowed: &str| {
                 let (name, cell) = (&self.header[places[k]], &record[places[k]]);
-                format!(":{line}: {name} = {} is not allowed: {allowed}", snippet(cell))
+                format!(":{line}: {name} = {} is not allowed: expected {allowed}", snippet(cell))
             };
             let number = |k: usize| record[places[k]].parse().map_err(|_| refused(k, "a number"));
             let [time, mean, se]: [f64; 3] = [number(0)?, number(1)?, number(2)?];
@@ -189,7 +189,7 @@ mod tests {
             (String::new(), 9, ":1: is empty"),
             (head.into(), 9, ":1: has a header alone"),
             ("t,x1,x1_se,x1\n0,1,1,1\n".into(), 9, ":1: column \"x1\" is there twice"),
-            (format!("{head}0,NaN,0\n"), 9, ":2: x1 = \"NaN\" is not allowed: a finite number"),
+            (format!("{head}0,NaN,0\n"), 9, ":2: x1 = \"NaN\" is not allowed: expected a finite number"),
             (format!("{head}0,1,0\n1,-inf,0\n"), 9, ":3: x1 = \"-inf\""),
             (format!("{head}0,1,inf\n"), 9, ":2: x1_se = \"inf\""),
             (format!("{head}0,1,-1\n"), 9, ":2: x1_se = \"-1\""),
@@ -197,9 +197,9 @@ mod tests {
             (
                 format!("{head}1,1,0\n1,1,0\n"),
                 9,
-                ":3: t_over_T = \"1\" is not allowed: a finite number above",
+                ":3: t_over_T = \"1\" is not allowed: expected a finite number above",
             ),
-            (format!("{head}0,one,0\n"), 9, ":2: x1 = \"one\" is not allowed: a number"),
+            (format!("{head}0,one,0\n"), 9, ":2: x1 = \"one\" is not allowed: expected a number"),
             (format!("{head}0,1\n"), 9, ":2: 2 cells; the header has 3"),
             (format!("{head}0,1,0\n1,1,0\n"), 1, &format!(":3: {more}")),
         ] {

@@ -122,7 +122,7 @@ pub fn read(path: &Path, set: usize) -> Result<Points, DataError> {
         }
         if !known.iter().any(|known| known == value) {
             return Err(refused(format!(
-                "column `{name}` is not allowed: a time ({times}), x1, x2, x3 or another column of `shearbed run` \
+                "column `{name}` is not allowed: expected a time ({times}), x1, x2, x3 or another column of `shearbed run` \
                  (phi, c_b, a11, …), and after a name `_u` for its uncertainty"
             )));
         }
@@ -150,7 +150,7 @@ pub fn read(path: &Path, set: usize) -> Result<Points, DataError> {
             })?;
             if row.x < 0.0 {
                 return Err(refused(format!(
-                    "column {}: `{}` is not allowed: a time ≥ 0",
+                    "column {}: `{}` is not allowed: expected a time ≥ 0",
                     time.name(),
                     row.x
                 )));
@@ -158,14 +158,14 @@ pub fn read(path: &Path, set: usize) -> Result<Points, DataError> {
             let [least, most] = allowed(&dataset.name);
             if !(least..=most).contains(&row.y) {
                 return Err(refused(format!(
-                    "column {}: `{:?}` is not allowed: a value from {least} to {most}",
+                    "column {}: `{:?}` is not allowed: expected a value from {least} to {most}",
                     dataset.name, row.y
                 )));
             }
             // A smaller u is lost in the rounding of the model, a larger one carries no information.
             if !(LEAST_U..=most - least).contains(&u) {
                 return Err(refused(format!(
-                    "column {}_u: `{u:?}` is not allowed: one standard deviation from {LEAST_U:?} to {}, the width of what {} can be",
+                    "column {}_u: `{u:?}` is not allowed: expected one standard deviation from {LEAST_U:?} to {}, the width of what {} can be",
                     dataset.name,
                     most - least,
                     dataset.name

@@ -6,7 +6,10 @@ fn bad_points_are_refused_with_their_line() {
         ("", "a.csv:1: the file is empty"),
         (" \n\n", "a.csv:1: the file is empty"),
         ("t_over_T,x1\n", "a.csv:1: `x1` has no points"),
-        ("t_over_T,x1\n0.5,0.4\n0.6,0.3O\n", "a.csv:3: column x1: `0.3O` is not allowed: a finite number"),
+        (
+            "t_over_T,x1\n0.5,0.4\n0.6,0.3O\n",
+            "a.csv:3: column x1: `0.3O` is not allowed: expected a finite number",
+        ),
         ("t_over_T,x1\n0.5,NaN\n", "a.csv:2: column x1: `NaN` is not allowed"),
         ("t_over_T,x1\ninf,0.4\n", "a.csv:2: column t_over_T: `inf` is not allowed"),
         ("t_over_T,x1\n,0.4\n", "a.csv:2: column t_over_T: `` is not allowed"),
@@ -16,11 +19,14 @@ fn bad_points_are_refused_with_their_line() {
         ("t_over_T,x1,x1\n0.5,0.4,0.4\n", "a.csv:1: column `x1` is there twice"),
         ("x1\n0.4\n", "a.csv:1: column t_over_T is missing"),
         ("t_over_T,x1_u\n0.5,0.1\n", "a.csv:1: column x1 is missing"),
-        ("t_over_T,x1,x1_u\n0.5,0.4,0\n", "a.csv:2: column x1_u: `0` is not allowed: one standard deviation"),
+        (
+            "t_over_T,x1,x1_u\n0.5,0.4,0\n",
+            "a.csv:2: column x1_u: `0` is not allowed: expected one standard deviation",
+        ),
         ("t_over_T,x1,x1_u\n0.5,0.4,-0.1\n", "a.csv:2: column x1_u: `-0.1` is not allowed"),
         (
             "t_over_T,x1,x1_u\n0.5,0.4,1e300\n",
-            "a.csv:2: column x1_u: `1e300` is not allowed: one standard deviation from 6e-13 to 0.6, the width of the axis",
+            "a.csv:2: column x1_u: `1e300` is not allowed: expected one standard deviation from 6e-13 to 0.6, the width of the axis",
         ),
         ("t_over_T,x1,x1_u\n0.5,0.4,1e-300\n", "a.csv:2: column x1_u: `1e-300` is not allowed"),
         (
@@ -42,8 +48,7 @@ fn what_would_run_for_long_is_refused() {
     // In t/T, a quarter of a period is 0.25.
     let own = |u: &str| format!("t_over_T,x1,t_over_T_u\n0.4,0.3,0.25\n0.5,0.4,{u}\n");
     let found = refusal(PROVENANCE, own("0.26"));
-    let expected =
-        "a.csv:3: column t_over_T_u: `0.26` is not allowed: one standard deviation of at most a quarter";
+    let expected = "a.csv:3: column t_over_T_u: `0.26` is not allowed: expected one standard deviation of at most a quarter";
     assert!(found.starts_with(expected), "{found}");
     let vague = PROVENANCE.replace("standard_uncertainty = 0.01", "standard_uncertainty = 1");
     let found = refusal(&vague, super::POINTS);
@@ -82,16 +87,16 @@ fn bad_provenance_is_refused_with_its_line() {
         (
             "csv = \"columns\"",
             "csv = \"columns\"\naspect_ratio = 3.96",
-            "a.toml:7: aspect_ratio = 3.96 is not allowed: the mean r_e of the measured rods, 11.6 in fig4-n50; the paper leaves",
+            "a.toml:7: aspect_ratio = 3.96 is not allowed: expected the mean r_e of the measured rods, 11.6 in fig4-n50; the paper leaves",
         ),
-        ("\"fraction\"", "\"a\"", "a.toml:12: y.quantity = \"a\" is not allowed: \"fraction\""),
-        ("quantity = \"t_over_T\"\n", "", "a.toml:7: x.quantity is missing: \"t_over_T\""),
+        ("\"fraction\"", "\"a\"", "a.toml:12: y.quantity = \"a\" is not allowed: expected \"fraction\""),
+        ("quantity = \"t_over_T\"\n", "", "a.toml:7: x.quantity is missing: expected \"t_over_T\""),
         ("quantity = \"fraction\"\n", "", "a.toml:11: y.quantity is missing"),
         ("quantity = \"t_over_T\"", "quantity = \"t_s\"", "a.toml:7: x.shear_rate_per_s is missing"),
         (
             "uncertainty = 0.01",
             "uncertainty = 0",
-            "a.toml:10: x.standard_uncertainty = 0 is not allowed: one standard",
+            "a.toml:10: x.standard_uncertainty = 0 is not allowed: expected one standard",
         ),
         (
             "uncertainty = 0.005",
@@ -110,10 +115,10 @@ fn bad_provenance_is_refused_with_its_line() {
         (
             "\"fig4-n50\"",
             "\"fig4\"",
-            "a.toml:16: curve.scene = \"fig4\" is not allowed: a scene of okagawa-mason-1973",
+            "a.toml:16: curve.scene = \"fig4\" is not allowed: expected a scene of okagawa-mason-1973",
         ),
         ("\"fig4-n50\"", "\"fig5\"", "a.toml:16: curve.scene = \"fig5\" is not allowed"),
-        ("\"x1\"", "\"x4\"", "a.toml:17: curve.observable = \"x4\" is not allowed: \"x1\""),
+        ("\"x1\"", "\"x4\"", "a.toml:17: curve.observable = \"x4\" is not allowed: expected \"x1\""),
         (
             "observable = \"x1\"",
             "dataset = \"x1\"\nobservable = \"x1\"",
@@ -123,13 +128,13 @@ fn bad_provenance_is_refused_with_its_line() {
         ("\"a test\"", "\" \"", "a.toml:3: digitised_by = \" \" is not allowed"),
         ("tool = \"none\"\n", "", "a.toml:1: tool is missing"),
         ("\"columns\"", "\"excel\"", "a.toml:6: csv = \"excel\" is not allowed"),
-        ("[x]", "rods = 0\n[x]", "a.toml:7: rods = 0 is not allowed: a whole number ≥ 1"),
+        ("[x]", "rods = 0\n[x]", "a.toml:7: rods = 0 is not allowed: expected a whole number ≥ 1"),
         ("[x]", "colour = 1\n[x]", "a.toml:7: colour is an unknown key"),
         ("[[curve]]", "[inputs]\nalpha = 0\n[[curve]]", "a.toml:16: inputs.alpha = 0 is not allowed"),
         (
             "= 0.005",
             "= 1e300",
-            "a.toml:14: y.standard_uncertainty = 1e300 is not allowed: one standard deviation",
+            "a.toml:14: y.standard_uncertainty = 1e300 is not allowed: expected one standard deviation",
         ),
         ("= 0.005", "= 1e-300", "a.toml:14: y.standard_uncertainty = 1e-300 is not allowed"),
         ("[[curve]]", "[inputs]\nalpha = 1e300\n[[curve]]", "a.toml:16: inputs.alpha = 1e300 is not allowed"),
