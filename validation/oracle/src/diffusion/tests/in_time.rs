@@ -27,6 +27,10 @@ fn diffusion_alone_has_the_known_decay() {
         off(&last.second, &expected).max((last.fourth[3] - fourth).abs())
     };
     assert!(error(&still) < 1e-13, "{:e}", error(&still));
+    // Not taken as steady while a difference of more than the rounding is left: 6D_r t = 21 and 42.
+    let left = at(&still, Start::Density(&start), &[0.0, 21.0 / 1.8, 42.0 / 1.8]).unwrap();
+    let left: Vec<f64> = left.iter().map(|means| means.second[2] - 1.0 / 3.0).collect();
+    assert!((left[1] / left[0] / (-21f64).exp() - 1.0).abs() < 1e-5 && left[2].abs() < 1e-15, "{left:?}");
     assert!(error(&Motion { diffusivity: 0.31, ..still }) > 1e-4);
     assert!(
         error(&Motion { strain: Matrix3::new(0.01, 0.0, 0.0, 0.0, -0.01, 0.0, 0.0, 0.0, 0.0), ..still })
