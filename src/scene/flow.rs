@@ -85,7 +85,7 @@ impl FlowStep {
             }
             [None, Some(rows)] => {
                 let step = Field::from_toml(rows).map(|gradient_per_s| Self { gradient_per_s, strain });
-                (RATES[1], "three rows of three finite numbers, with a rate of strain that is not 0", step)
+                (RATES[1], "expected three rows of three finite numbers, with a rate of strain", step)
             }
             _ => (RATES[0], "either it or gradient_per_s", None),
         };

@@ -167,7 +167,7 @@ fn a_bad_value_is_named_with_line_key_and_what_is_allowed() {
         for value in *values {
             let spoiled = [INTERACTING, EXTENSION, REVERSED].iter().find_map(|text| set(text, key, value));
             let (text, line) = spoiled.expect("one of the scenes has the key");
-            let start = format!("dir/s.toml:{line}: {key} = {value} is not allowed: {allowed}");
+            let start = format!("dir/s.toml:{line}: {key} = {value} is not allowed: expected {allowed}");
             let refusal = refusal(&text);
             assert!(refusal.starts_with(&start), "{start}\n{refusal}");
             assert_eq!(refusal.lines().count(), 1, "{refusal}");
@@ -258,8 +258,8 @@ const OTHER_MISTAKES: &[(&str, &str, &str, &str)] = &[
     (REVERSED, "strain = 3", "strain = -3", "3: flow.steps.strain = -3 is not allowed: expected a finite number > 0"),
     (REVERSED, "rate_per_s = 1", "rate_per_s = 0", "3: flow.steps.shear_rate_per_s = 0 is not allowed: expected a finite number other"),
     (REVERSED, "strain = 3, ", "strain = 3, shear_rate_per_s = 1, ", "3: flow.steps.shear_rate_per_s = 1 is not allowed: either it or"),
-    (REVERSED, "[-1, 0, 0]", "[-1, 0]", "3: flow.steps.gradient_per_s = [[0, 0, 0], [-1, 0], [0, 0, 0]] is not allowed: three"),
-    (REVERSED, "[-1, 0, 0]", "[0, 0, 0]", "3: flow.steps.gradient_per_s = [[0, 0, 0], [0, 0, 0], [0, 0, 0]] is not allowed: three"),
+    (REVERSED, "[-1, 0, 0]", "[-1, 0]", "3: flow.steps.gradient_per_s = [[0, 0, 0], [-1, 0], [0, 0, 0]] is not allowed: expected three"),
+    (REVERSED, "[-1, 0, 0]", "[0, 0, 0]", "3: flow.steps.gradient_per_s = [[0, 0, 0], [0, 0, 0], [0, 0, 0]] is not allowed: expected three"),
     (REVERSED, "strain = 3", "strain = 3, periods = 1", "3: flow.steps.periods = 1 is not allowed: strain, shear_rate"),
     (REVERSED, "strain = 5", "strain = 6", "10: time.strain = 6 is not allowed: at most 5, the strain of all flow.steps"),
     (REVERSED, "strain = 5", "periods = 1", "10: time.periods = 1 is not allowed: no periods where one flow follows"),

@@ -10,10 +10,10 @@ fn an_empty_file_lacks_all_that_must_be_there() {
         assert_eq!(
             lines,
             [
-                "dir/s.toml:1: flow is missing: a",
+                "dir/s.toml:1: flow is missing: e",
                 "dir/s.toml:1: particles is missi",
-                "dir/s.toml:1: time is missing: a",
-                "dir/s.toml:1: title is missing: expected ",
+                "dir/s.toml:1: time is missing: e",
+                "dir/s.toml:1: title is missing: ",
             ]
         );
     }
