@@ -86,39 +86,39 @@ fn refusal(text: &str) -> String {
 /// Each key, what its errors say is allowed, and values that are not.
 #[rustfmt::skip]
 const KEYS: &[(&str, &str, &[&str])] = &[
-    ("title", "a text in quotes", &["3", "true", "[]", "{ }", "1979-05-27"]),
-    ("flow.shear_rate_per_s", "a finite number > 0", NOT_POSITIVE),
-    ("flow.gradient_per_s", "three rows of three finite numbers", NOT_A_GRADIENT),
-    ("flow.steps", "1 to 1000 tables [[flow.steps]], each with strain", &["[]", "3", "[1]", "{ }", "[[]]"]),
-    ("particles.count", "a whole number from 1 to 100000000", NOT_A_COUNT),
-    ("particles.count", "a whole number from 1 to 100000000", &["100000001"]),
-    ("particles.length_mm", "a finite number > 0", NOT_POSITIVE),
-    ("particles.aspect_ratio", "a number from 1e-100 to 1e100", NOT_POSITIVE),
-    ("particles.aspect_ratio", "a number from 1e-100 to 1e100", &["1e-101", "1e101"]),
+    ("title", "expected a text in quotes", &["3", "true", "[]", "{ }", "1979-05-27"]),
+    ("flow.shear_rate_per_s", "expected a finite number > 0", NOT_POSITIVE),
+    ("flow.gradient_per_s", "expected three rows of three finite numbers", NOT_A_GRADIENT),
+    ("flow.steps", "expected 1 to 1000 tables [[flow.steps]], each with strain", &["[]", "3", "[1]", "{ }", "[[]]"]),
+    ("particles.count", "expected a whole number from 1 to 100000000", NOT_A_COUNT),
+    ("particles.count", "expected a whole number from 1 to 100000000", &["100000001"]),
+    ("particles.length_mm", "expected a finite number > 0", NOT_POSITIVE),
+    ("particles.aspect_ratio", "expected a number from 1e-100 to 1e100", NOT_POSITIVE),
+    ("particles.aspect_ratio", "expected a number from 1e-100 to 1e100", &["1e-101", "1e101"]),
     ("particles.aspect_ratio", "interacting rods need a number > 1", &["1", "1.0", "0.5"]),
-    ("particles.aspect_ratio_sd_percent", "a finite number ≥ 0", NEGATIVE),
-    ("particles.aspect_ratio_sd_percent", "a number below 30.4598 with a mean of 11.6: with more, r_e ≤ 1", &["30.5", "100", "1e300"]),
-    ("particles.orientation", "\"isotropic\" or { phi_deg = a finite number, theta_deg = ", NOT_A_DIRECTION),
-    ("interaction.concentration_per_cm3", "a finite number > 0", NOT_POSITIVE),
-    ("interaction.alpha", "a finite number ≥ 0", NEGATIVE),
-    ("interaction.m", "a finite number > 0", NOT_POSITIVE),
-    ("interaction.update", "\"rotation\", \"angles\" or \"kick\"", &["\"Angles\"", "\"\"", "1", "true"]),
-    ("interaction.min_contact_arm", "a finite number ≥ 0", NEGATIVE),
-    ("time.periods", "a finite number ≥ 0", NEGATIVE),
+    ("particles.aspect_ratio_sd_percent", "expected a finite number ≥ 0", NEGATIVE),
+    ("particles.aspect_ratio_sd_percent", "expected a number below 30.4598 with a mean of 11.6: with more, r_e ≤ 1", &["30.5", "100", "1e300"]),
+    ("particles.orientation", "expected \"isotropic\" or { phi_deg = a finite number, theta_deg = ", NOT_A_DIRECTION),
+    ("interaction.concentration_per_cm3", "expected a finite number > 0", NOT_POSITIVE),
+    ("interaction.alpha", "expected a finite number ≥ 0", NEGATIVE),
+    ("interaction.m", "expected a finite number > 0", NOT_POSITIVE),
+    ("interaction.update", "expected \"rotation\", \"angles\" or \"kick\"", &["\"Angles\"", "\"\"", "1", "true"]),
+    ("interaction.min_contact_arm", "expected a finite number ≥ 0", NEGATIVE),
+    ("time.periods", "expected a finite number ≥ 0", NEGATIVE),
     ("time.periods", "at most 1e6 outputs in all", &["1e9", "1e308"]),
-    ("time.strain", "a finite number ≥ 0", NEGATIVE),
+    ("time.strain", "expected a finite number ≥ 0", NEGATIVE),
     ("time.strain", "at most 1e6 outputs in all", &["1e7"]),
-    ("time.steps_per_period", "a whole number from 1 to 10000000", NOT_A_COUNT),
-    ("time.outputs_per_period", "a whole number from 1 to 10000000", NOT_A_COUNT),
+    ("time.steps_per_period", "expected a whole number from 1 to 10000000", NOT_A_COUNT),
+    ("time.outputs_per_period", "expected a whole number from 1 to 10000000", NOT_A_COUNT),
     ("time.outputs_per_period", "interacting rods need a divisor of steps_per_period = 20", &["3", "40"]),
-    ("time.outputs_per_strain", "a whole number from 1 to 10000000", NOT_A_COUNT),
-    ("ensemble.replicas", "a whole number from 1 to 10000000", NOT_A_COUNT),
-    ("ensemble.replicas", "a whole number from 1 to 10000000", &["10000001"]),
-    ("ensemble.seed", "a whole number from 0 to 9223372036854775807", &["-1", "1.0", "\"1\""]),
-    ("ensemble.seed", "a whole number from 0 to 9223372036854775807", &["9223372036854775808"]),
-    ("output.rods_at", "a list of finite numbers ≥ 0 that grow", &["0.1", "[-1]", "[nan]", "[0.2, 0.1]", "[\"0\"]", "{ }"]),
+    ("time.outputs_per_strain", "expected a whole number from 1 to 10000000", NOT_A_COUNT),
+    ("ensemble.replicas", "expected a whole number from 1 to 10000000", NOT_A_COUNT),
+    ("ensemble.replicas", "expected a whole number from 1 to 10000000", &["10000001"]),
+    ("ensemble.seed", "expected a whole number from 0 to 9223372036854775807", &["-1", "1.0", "\"1\""]),
+    ("ensemble.seed", "expected a whole number from 0 to 9223372036854775807", &["9223372036854775808"]),
+    ("output.rods_at", "expected a list of finite numbers ≥ 0 that grow", &["0.1", "[-1]", "[nan]", "[0.2, 0.1]", "[\"0\"]", "{ }"]),
     ("output.rods_at", "different output times, k/10 up to 1", &["[0.15]", "[1.1]", "[0, 1e300]"]),
-    ("output.observables", "a list of one or more of \"projections\", \"planar", NOT_OBSERVABLES),
+    ("output.observables", "expected a list of one or more of \"projections\", \"planar", NOT_OBSERVABLES),
 ];
 
 #[rustfmt::skip]
@@ -167,7 +167,7 @@ fn a_bad_value_is_named_with_line_key_and_what_is_allowed() {
         for value in *values {
             let spoiled = [INTERACTING, EXTENSION, REVERSED].iter().find_map(|text| set(text, key, value));
             let (text, line) = spoiled.expect("one of the scenes has the key");
-            let start = format!("dir/s.toml:{line}: {key} = {value} is not allowed: expected {allowed}");
+            let start = format!("dir/s.toml:{line}: {key} = {value} is not allowed: {allowed}");
             let refusal = refusal(&text);
             assert!(refusal.starts_with(&start), "{start}\n{refusal}");
             assert_eq!(refusal.lines().count(), 1, "{refusal}");
