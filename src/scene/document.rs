@@ -5,7 +5,7 @@
 //! let mut document = Document::parse("bed.toml", "[bed]\nwidth_mm = 3\n")?;
 //! let bed = document.root().table("bed").expect("a table");
 //! assert_eq!((bed.read::<f64>("width_mm"), bed.line("width_mm")), (Some(3.0), 2));
-//! let problem = bed.refused("depth_mm", "a number > 0");
+//! let problem = bed.refused("depth_mm", "expected a number > 0");
 //! assert_eq!((problem.line, &problem.message[..]), (Some(1), "bed.depth_mm is missing: expected a number > 0"));
 //! document.set("bed.width_mm", 4.5.into())?;
 //! assert_eq!(document.root().table("bed").expect("a table").read("width_mm"), Some(4.5));
