@@ -1,5 +1,5 @@
 //! Feeds the program's readers what people and machines might: mutated and generated scene files, folders of measured points,
-//! arguments of `sweep`, problems, answers, points to fit, folders of results, checkpoints. None may panic, hang, take memory without bound or let a number pass
+//! arguments of `sweep`, problems, answers, points to fit, folders of results, checkpoints, folders to write to. None may panic, hang, take memory without bound or let a number pass
 //! that is not finite, and whoever is refused is told where and why.
 //!
 //!     cargo run --release -p shearbed --example fuzz -- TARGET COUNT [SEED]
@@ -8,6 +8,7 @@
 //! that the gate runs is the test below.
 
 mod checkpoints;
+mod folders;
 mod mutate;
 mod readers;
 mod results;
@@ -72,6 +73,7 @@ fn targets() -> Vec<Target> {
         results::fits(),
         results::plots(),
         checkpoints::checkpoint(),
+        folders::folders(),
     ]
 }
 

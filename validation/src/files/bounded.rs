@@ -4,6 +4,7 @@
 //! a stranger or edited since this program wrote it. Nothing else in this crate opens a file for reading (a folder is
 //! opened once, to be synchronised): clippy forbids it (`clippy.toml`).
 
+use cap_std::fs::Dir;
 use std::fs::{File, FileType, OpenOptions};
 use std::io::{self, Read};
 use std::path::Path;
@@ -33,10 +34,24 @@ pub fn open_with(path: &Path, options: &mut OpenOptions) -> io::Result<File> {
         }
         // For a pipe without a reader or a socket the system says "No such device or address".
         Err(error) => match std::fs::metadata(path).map(|found| found.file_type()) {
-            Ok(kind) if !kind.is_file() && !kind.is_dir() => Err(not_regular(kind)),
+            Ok(kind) if !kind.is_file() => Err(not_regular(kind)),
             _ => Err(error),
         },
     }
+}
+
+/// Opens a regular file in a folder for reading, without leaving the folder by a link.
+///
+/// # Errors
+///
+/// Those of [`open`].
+pub fn open_in(dir: &Dir, name: &Path) -> io::Result<File> {
+    let mut options = cap_std::fs::OpenOptions::new();
+    #[cfg(unix)]
+    cap_std::fs::OpenOptionsExt::custom_flags(&mut options, NONBLOCK);
+    let file = dir.open_with(name, options.read(true))?.into_std();
+    regular(&file)?;
+    Ok(file)
 }
 
 /// Fails if an open file is not a regular one.
@@ -83,8 +98,16 @@ fn too_long(most: u64) -> io::Error {
 ///
 /// Those of [`bytes`].
 pub fn length_and_crc32(path: &Path, most: u64) -> io::Result<(u64, u32)> {
+    length_and_crc32_of(open(path)?, most)
+}
+
+/// The same of an open file.
+///
+/// # Errors
+///
+/// Those of [`bytes`].
+pub fn length_and_crc32_of(mut file: File, most: u64) -> io::Result<(u64, u32)> {
     let (mut length, mut sum) = (0, crc32fast::Hasher::new());
-    let mut file = open(path)?;
     let mut block = vec![0; 1 << 16];
     loop {
         let read = match file.read(&mut block) {
@@ -118,8 +141,12 @@ pub fn text(path: &Path, most: u64) -> io::Result<String> {
 #[cfg(unix)]
 fn without_waiting(options: &mut OpenOptions) {
     use std::os::unix::fs::OpenOptionsExt;
-    options.custom_flags(rustix::fs::OFlags::NONBLOCK.bits() as i32);
+    options.custom_flags(NONBLOCK);
 }
+
+/// Opening a pipe returns at once.
+#[cfg(unix)]
+const NONBLOCK: i32 = rustix::fs::OFlags::NONBLOCK.bits() as i32;
 
 /// Sets options so that opening a pipe or a device returns at once.
 #[cfg(not(unix))]

@@ -7,7 +7,7 @@ mod tolerances;
 pub(super) use args::Args;
 
 use super::{Failure, print, result_folder, spares_inputs};
-use crate::files::output::{self, RECORD, ResultFolder};
+use crate::files::output::{self, RECORD, Record, ResultFolder};
 use crate::files::text::Shown;
 use crate::present::plot;
 use crate::serve::grade::live::{self, Mode, Program, Protocol};
@@ -30,6 +30,12 @@ pub(super) fn grade(args: &Args) -> Result<(), Failure> {
         return live::echo(args.protocol, io::stdin().lock(), io::stdout().lock()).map_err(Failure::Input);
     }
     spares_inputs(&args.out, &PAGES, args.reference.as_ref().map(|dir| dir.join(RECORD)))?;
+    if let Some(dir) = &args.reference
+        && let Ok(Some(record)) = Record::read(dir)
+    {
+        let incomplete = |why: String| Failure::Input(format!("{}: {why}", dir.join(RECORD).shown()));
+        record.is_complete().map_err(incomplete)?;
+    }
     let (report, wanted, inputs) = match (&args.command, &args.reference, &args.mine) {
         (Some(command), reference, _) => program(args, command, reference.as_deref())?,
         (None, Some(reference), Some(mine)) => files(args, reference, mine)?,

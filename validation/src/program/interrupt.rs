@@ -35,6 +35,17 @@ pub(super) fn watch() {
     std::thread::spawn(wait);
 }
 
+/// Makes a limit on the size of files (`ulimit -f`) an error of the write that meets it; the system would end the program.
+#[cfg(unix)]
+pub(super) fn outlive_limits() {
+    // If this fails, the system ends the program.
+    let _ = signal_hook::flag::register(signal_hook::consts::SIGXFSZ, std::sync::Arc::default());
+}
+
+/// Does nothing: there is no such signal.
+#[cfg(not(unix))]
+pub(super) fn outlive_limits() {}
+
 /// Does nothing: the system ends the program.
 #[cfg(not(unix))]
 pub(super) fn watch() {}

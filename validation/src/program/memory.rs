@@ -28,12 +28,24 @@ pub(super) fn check_beside(
     source: &str,
     beside: u64,
 ) -> Result<(), Failure> {
+    check_each([(plan, source.to_owned())], threads, vtk, beside)
+}
+
+/// The same of several plans with the sources of their messages. The system is asked once.
+pub(super) fn check_each<'a>(
+    plans: impl IntoIterator<Item = (&'a Plan, String)>,
+    threads: Option<u64>,
+    vtk: bool,
+    beside: u64,
+) -> Result<(), Failure> {
     let threads = threads::count(threads)?;
-    match available() {
-        Some(free) => fits(plan, threads, vtk, free, beside)
-            .map_err(|message| Failure::Input(format!("{source}: {message}"))),
-        None => Ok(()),
-    }
+    let Some(free) = available() else {
+        return Ok(());
+    };
+    plans.into_iter().try_for_each(|(plan, source)| {
+        fits(plan, threads, vtk, free, beside)
+            .map_err(|message| Failure::Input(format!("{source}: {message}")))
+    })
 }
 
 /// Refuses jobs if one of them needs more memory than is available next to the results of all.

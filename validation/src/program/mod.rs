@@ -50,7 +50,6 @@ use clap::error::{ContextKind, ContextValue};
 use clap::{Parser, Subcommand};
 use serde_json::{Value, json};
 use std::ffi::OsString;
-use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use terminal::{log, print, progress, restart};
@@ -126,9 +125,10 @@ impl Failure {
 
 /// Runs the command given by the process's arguments.
 pub fn main() -> ExitCode {
+    interrupt::outlive_limits();
     let cli = match Cli::try_parse() {
         Ok(cli) => cli,
-        Err(error) => return print_usage(&error),
+        Err(error) => return print_usage(&error).into(),
     };
     let joined = match cluster::Joined::new() {
         Ok(joined) => joined,
@@ -155,10 +155,7 @@ pub fn main_of(program: Vec<OsString>, arguments: Vec<OsString>) -> u8 {
     words::give(program, arguments.clone());
     let cli = match Cli::try_parse_from(with_name(arguments)) {
         Ok(cli) => cli,
-        Err(error) => {
-            print_usage(&error);
-            return error.exit_code() as u8;
-        }
+        Err(error) => return print_usage(&error),
     };
     interrupt::watch();
     match command(cli.command).map_err(Failure::message_and_code) {
@@ -204,17 +201,31 @@ fn on_one_line(error: &clap::Error, message: String) -> String {
 }
 
 /// Prints what is wrong with the arguments, or the help; returns the exit code.
-fn print_usage(error: &clap::Error) -> ExitCode {
+fn print_usage(error: &clap::Error) -> u8 {
     let (message, code) = (error.to_string(), error.exit_code());
     match error.use_stderr() {
         true => complain(&text::message(&on_one_line(error, message))),
-        // Where even this cannot be written, the exit code has to say it.
-        false => drop(io::stdout().write_all(message.as_bytes())),
+        false => {
+            if let Err((message, code)) = print(&message).map_err(Failure::message_and_code) {
+                cluster::failed(&message, code);
+                return code;
+            }
+        }
     }
-    ExitCode::from(code as u8)
+    code as u8
 }
 
 impl Command {
+    /// True if the command does nothing but print.
+    fn only_prints(&self) -> bool {
+        match self {
+            Self::Plan(_) | Self::Scenes(_) | Self::Shape(_) | Self::Cite | Self::Completions(_) => true,
+            Self::Problems(args) => args.only_prints(),
+            Self::Reference(args) => args.only_prints(),
+            _ => false,
+        }
+    }
+
     /// True if ranks share the command's work; such a command checks itself that their inputs agree.
     fn is_shared(&self) -> bool {
         matches!(self, Self::Run(_) | Self::Validate(_) | Self::Sweep(_) | Self::Converge(_))
@@ -223,6 +234,9 @@ impl Command {
 
 fn command(command: Command) -> Result<(), Failure> {
     threads::check()?;
+    if command.only_prints() {
+        terminal::is_open()?;
+    }
     if !command.is_shared() {
         agree(&words::command(), json!({}))?;
         if !cluster::is_root() {
@@ -253,7 +267,7 @@ fn command(command: Command) -> Result<(), Failure> {
 /// Options of every command that writes a folder of results.
 #[derive(clap::Args)]
 struct Writing {
-    /// Overwrite files in the folder that this command did not write, or wrote from other input
+    /// Overwrite files in the folder that this command did not write, or that were edited, or wrote from other input (`run` needs no --force for these)
     #[arg(long)]
     force: bool,
     /// Print nothing but errors and warnings
@@ -284,8 +298,8 @@ fn spares_inputs(
     names: &[impl AsRef<Path>],
     inputs: impl IntoIterator<Item = PathBuf>,
 ) -> Result<(), Failure> {
-    let earlier = Record::read(dir).ok().flatten().map(|record| record.files);
-    let earlier = earlier.iter().flat_map(|files| files.keys()).map(|name| dir.join(name));
+    let earlier = Record::read(dir).ok().flatten();
+    let earlier = earlier.iter().flat_map(Record::names).map(|name| dir.join(name));
     let new = names.iter().map(|name| dir.join(name));
     spares(dir, new.chain([dir.join(RECORD)]).chain(earlier), inputs)
 }

@@ -31,6 +31,12 @@ enum What {
     Schema,
 }
 
+impl Args {
+    pub(super) fn only_prints(&self) -> bool {
+        !matches!(self.what, Some(What::Export { .. }))
+    }
+}
+
 fn tar(text: &str) -> Result<PathBuf, String> {
     ending_in(&["tar"], ".tar", text)
 }
@@ -42,6 +48,10 @@ pub(super) fn problems(args: &Args) -> Result<(), Failure> {
         Some(What::Schema) => print(problems::SCHEMA),
         Some(What::Export { dir, archive, writing }) => {
             let mut said = String::new();
+            if let Some(file) = archive {
+                // Checked before the folder is written.
+                output::may_write(file, &problems::archive(), writing.force)?;
+            }
             if let Some(dir) = dir {
                 let names = problems::export(dir, writing.force)?;
                 said += &format!("in {}: {}\n", dir.shown(), names.join(", "));

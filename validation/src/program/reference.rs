@@ -61,6 +61,12 @@ pub(super) struct Args {
     force: bool,
 }
 
+impl Args {
+    pub(super) fn only_prints(&self) -> bool {
+        self.out.is_none()
+    }
+}
+
 /// The value of `--start`.
 #[derive(Clone, Copy, Debug)]
 enum From {

@@ -9,12 +9,11 @@ use super::{
     Failure, Threads, Writing, agree, checkpoint, facts, memory, number, on_threads, pictures, print, probe,
     progress, record, rods, scene, spares_inputs, tables, threads,
 };
-use crate::files::build::BUILD;
-use crate::files::checkpoint::{Progress, Replicas, without_replicas};
-use crate::files::output::{Origin, Output, Record, ResultFolder};
+use crate::files::checkpoint::{Progress, Replicas};
+use crate::files::cluster;
+use crate::files::output::{Output, ResultFolder};
 use crate::files::text::Shown;
 use crate::files::text::line;
-use crate::files::{bounded, cluster};
 use crate::present::plot;
 use serde_json::{Value, json};
 use shearbed::Error;
@@ -91,23 +90,6 @@ fn inputs(args: &Args, plan: &Plan) -> Value {
     json!({ "scene": scene })
 }
 
-/// The record of an earlier run of this scene in `dir` whose replicas are all among the first `kept` of a checkpoint: results that
-/// continue from there contain the earlier ones.
-fn earlier(dir: &Path, plan: &Plan, kept: u64) -> Option<Origin> {
-    let record = Record::read(dir).ok()??;
-    let run: Value = serde_json::from_str(&bounded::text(&dir.join(RUN), MOST_OF_RECORD).ok()?).ok()?;
-    let replicas = run["scene"]["ensemble"]["replicas"].as_u64()?;
-    let mut scene = record.origin.inputs["scene"].clone();
-    if let Some(ensemble) = scene["ensemble"].as_object_mut() {
-        ensemble.remove("replicas");
-    }
-    let own = json!({ "scene": without_replicas(plan.scene()), "version": BUILD.version });
-    let own = Origin::new("run", own);
-    let found = json!({ "scene": scene, "version": record.origin.inputs["version"] });
-    let same = Origin::new(&record.origin.command, found) == own;
-    (same && replicas <= kept).then_some(record.origin)
-}
-
 /// The run's checkpoint, if one is requested.
 fn open_checkpoint(args: &Args, plan: &Plan, path: Option<&Path>) -> Result<Option<Arc<Replicas>>, Failure> {
     let every = args.every.unwrap_or(Duration::from_secs(60));
@@ -157,11 +139,11 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     }
     probe(&out, bytes)?;
     let checkpoint = open_checkpoint(args, &plan, path.as_deref())?;
-    let contained = checkpoint.as_ref().and_then(|replicas| earlier(&out, &plan, replicas.replicas()));
-    let folder = ResultFolder::new(&out, "run", inputs, args.writing.force).extends(contained);
+    let folder = ResultFolder::new(&out, "run", inputs, args.writing.force).from_any_input();
     if cluster::is_root() {
         folder.check(&names)?;
     }
+    let replaced = folder.difference();
     scene::warn(&named.source, &facts::warnings(&plan));
     let mut seconds = Seconds { plan: start.elapsed().as_secs_f64(), ..Seconds::default() };
 
@@ -197,14 +179,16 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     folder.write(files)?;
     if !args.writing.quiet {
         let until = until.as_ref().map(|until| format!("{}\n\n", until.text())).unwrap_or_default();
+        let replaced = replaced.map(|difference| format!("(replaced an earlier run: {difference})\n"));
         print(&format!(
-            "{}\nMeans ± standard errors, rods: {}, replicas: {}\n\n{}{until}in {}: {}\n",
+            "{}\nMeans ± standard errors, rods: {}, replicas: {}\n\n{}{until}in {}: {}\n{}",
             line(&scene.title),
             scene.particles.count,
             plan.scene().ensemble.replicas,
             tables::summary(&results),
             out.shown(),
-            names.join(", ")
+            names.join(", "),
+            replaced.unwrap_or_default()
         ))?;
     }
     until.map_or(Ok(()), |until| until.failure())
@@ -217,8 +201,6 @@ fn ended<T>(source: &str, results: Result<T, Error>) -> Result<T, Failure> {
 
 /// The file with the scene, plan, counters and times of a run.
 const RUN: &str = "run.json";
-/// The largest size of that file, in bytes.
-const MOST_OF_RECORD: u64 = 64 << 20;
 
 /// The names of the files of a run, except those of single times of its rods.
 fn names(plan: &Plan, vtk: bool) -> Vec<String> {

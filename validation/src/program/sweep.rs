@@ -61,9 +61,10 @@ pub(super) fn sweep(args: &Args) -> Result<(), Failure> {
                 points[0].plan.time_name()
             )));
         }
-        let at = format!("{}: --over {}", named.source, sweep::described(&args.over, &point.values));
-        memory::check(&point.plan, args.threads.given, false, &at)?;
     }
+    let at =
+        |point: &Point| format!("{}: --over {}", named.source, sweep::described(&args.over, &point.values));
+    memory::check_each(points.iter().map(|point| (&point.plan, at(point))), args.threads.given, false, 0)?;
     let out = (args.out.clone()).unwrap_or_else(|| Path::new("out").join(format!("sweep-{}", named.stem)));
     let total = points.len();
     let warned = warnings(&points, &args.over);

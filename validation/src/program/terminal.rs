@@ -34,6 +34,34 @@ pub(super) fn print(text: &str) -> Result<(), Failure> {
     }
 }
 
+/// Refuses to print where nobody can read it: to a standard output that was closed (`>&-`). The runtime opens /dev/null in its place
+/// for reading and writing, before `main`; a shell's `> /dev/null` is opened for writing alone.
+///
+/// # Errors
+///
+/// Standard output is /dev/null, opened for reading and writing.
+#[cfg(unix)]
+pub(super) fn is_open() -> Result<(), Failure> {
+    use rustix::fs::{OFlags, fcntl_getfl, fstat, stat};
+    let stdout = io::stdout();
+    let null = || Ok::<_, rustix::io::Errno>(fstat(&stdout)?.st_rdev == stat("/dev/null")?.st_rdev);
+    let both = fcntl_getfl(&stdout).is_ok_and(|flags| flags & OFlags::RWMODE == OFlags::RDWR);
+    match both && null().unwrap_or(false) {
+        true => Err(Failure::Input(
+            "standard output: cannot be written: it is closed, or /dev/null opened for reading and writing; open it for writing alone \
+             (`> /dev/null`) to discard what this command prints"
+                .to_owned(),
+        )),
+        false => Ok(()),
+    }
+}
+
+/// Never refuses.
+#[cfg(not(unix))]
+pub(super) fn is_open() -> Result<(), Failure> {
+    Ok(())
+}
+
 /// Prints a line about progress to standard error if no bar shows it, as in the log of a job.
 pub(super) fn log(line: &str, quiet: bool) {
     if quiet || !cluster::is_root() || io::stderr().is_terminal() {

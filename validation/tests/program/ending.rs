@@ -2,7 +2,7 @@
 #![cfg(unix)]
 
 use crate::common::running::Running;
-use crate::common::{SMALL, command, files, folder, shearbed};
+use crate::common::{SMALL, command, files, folder, limited, shearbed};
 use std::fs;
 use std::path::Path;
 use std::process::Command;
@@ -75,10 +75,33 @@ fn a_reader_that_goes_away_is_no_error() {
 #[test]
 fn what_cannot_be_written_is_told() {
     let dir = folder();
-    let full = fs::File::options().write(true).open("/dev/full").unwrap();
-    let output = command(dir.path(), "scenes").stdout(full).output().unwrap();
-    assert_eq!(output.status.code(), Some(2));
-    assert!(String::from_utf8(output.stderr).unwrap().contains("standard output: cannot be written"));
+    for arguments in [
+        "scenes",
+        "cite",
+        "problems",
+        "problems schema",
+        "plan small.toml",
+        "reference --aspect-ratio 5 --times 0:1:3",
+        "completions bash",
+        "shape --physical 5",
+        "--help",
+        "--version",
+        "help run",
+    ] {
+        // What only `clap` prints is looked for by programs that discard it.
+        let closed =
+            if arguments.contains("help") || arguments.contains("version") { None } else { Some(">&-") };
+        for closed in closed.into_iter().chain(["> /dev/full"]) {
+            let ended = limited(dir.path(), &format!("exec {closed}"), arguments);
+            assert_eq!(ended.code, Some(2), "{arguments} {closed}: {}", ended.stderr);
+            assert!(ended.stderr.contains("standard output: cannot be written"), "{}", ended.stderr);
+        }
+        let ended = limited(dir.path(), "exec > /dev/null", arguments);
+        assert_eq!((ended.code, ended.stderr.as_str()), (Some(0), ""), "{arguments}");
+    }
+    // What writes files does so all the same.
+    let run = limited(dir.path(), "exec >&-", "run small.toml --out closed");
+    assert_eq!((run.code, run.stderr.as_str()), (Some(0), ""));
     // Nobody, not even root, makes files there.
     for arguments in ["run small.toml", "sweep small.toml --over interaction.alpha=1,2", "validate", "bench"]
     {

@@ -70,10 +70,15 @@ fn a_killed_sweep_goes_on_to_the_same_bytes() {
     }
     assert!(!killed.join("sweep.csv").exists());
     // What a kill in the middle of a point leaves.
-    fs::create_dir_all(killed.join("points/.12.shearbed-part")).unwrap();
-    fs::write(killed.join("points/.12.shearbed-part/projections.csv"), "half a ta").unwrap();
+    let left = killed.join("points/.shearbed-0123456789abcdef");
+    fs::create_dir(&left).unwrap();
+    fs::write(left.join("projections.csv"), "half a ta").unwrap();
 
-    let text = succeeds(dir.path(), &format!("{sweep} 2"));
+    let ended = shearbed(dir.path(), &format!("{sweep} 2"));
+    let said = "killed/points/.shearbed-0123456789abcdef: a shearbed that was killed left this folder";
+    assert!(ended.stderr.contains(said), "{}", ended.stderr);
+    let text = ended.stdout;
+    fs::remove_dir_all(left).unwrap();
     assert!(text.starts_with("goes on from killed: 3 of 12 points are finished\n"), "{text}");
     assert!(text.contains("points: 12, of which 3 were finished before"), "{text}");
     succeeds(dir.path(), &format!("{sweep} 1").replace("killed", "whole"));

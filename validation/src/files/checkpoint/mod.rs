@@ -13,7 +13,6 @@ pub use replicas::Replicas;
 pub use saved::{Progress, without_replicas};
 pub(crate) use stop::{last_words, on_stop, stays};
 
-use crate::files::bounded;
 use crate::files::build;
 use crate::files::output::{Origin, OutputError, Part, Refused, Replaced};
 use crate::files::text::Shown;
@@ -54,14 +53,8 @@ impl Checkpoint {
 
     /// The state in the file; `None` if there is no file.
     pub fn read<T: DeserializeOwned>(&self) -> Result<Option<T>, Refused> {
-        match bounded::open(self.path()) {
-            Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
-            Err(error) => Err(self.refused(&format!("cannot be read: {error}"))),
-            Ok(file) => {
-                let why = |why: String| self.refused(&why);
-                self.state(file).map(Some).map_err(why)
-            }
-        }
+        let file = self.file.open().map_err(|error| self.refused(&format!("cannot be read: {error}")))?;
+        file.map(|file| self.state(file).map_err(|why| self.refused(&why))).transpose()
     }
 
     /// Replaces the state in the file.

@@ -105,12 +105,18 @@ fn one_process_at_a_time_and_files_alone() {
     let Refused(why) = Checkpoint::open(&path, "test", json!({})).err().unwrap();
     assert!(why.contains("another shearbed is at work with this file"), "{why}");
     drop(held);
-    let Refused(why) = opened(dir.path(), 1).read::<Vec<f64>>().unwrap_err();
+    let Refused(why) = Checkpoint::open(dir.path(), "test", json!({})).err().unwrap();
     assert!(why.contains("it is a folder; a regular file is needed"), "{why}");
+    // Of two that begin, the second is refused when it writes.
+    let new = dir.path().join("new");
+    let [first, second] = [opened(&new, 1), opened(&new, 2)];
+    first.write(&state()).unwrap();
+    let why = second.write(&state()).unwrap_err().to_string();
+    assert!(why.contains("another shearbed is at work with this file"), "{why}");
     let Refused(why) = Checkpoint::open(Path::new(".."), "test", json!({})).err().unwrap();
     assert!(why.contains("the name of a file is allowed"), "{why}");
     #[cfg(target_os = "linux")]
-    assert!(Checkpoint::open(Path::new("/proc/x"), "test", json!({})).is_err());
+    assert!(opened(Path::new("/proc/x"), 1).write(&state()).is_err());
 }
 
 /// The layout of a run's checkpoint.

@@ -1,12 +1,16 @@
 //! The rule for overwriting, for all commands: without `--force`, files that a command did not write itself, or wrote from other
 //! inputs, are left unchanged.
 
-use super::record::{Origin, RECORD, Record, State};
-use super::{Claim, Output, PATIENCE, Refused, appear};
+use super::claim::beneath;
+use super::record::{Origin, RECORD, Record, State, Sum};
+use super::{Claim, Output, PATIENCE, Refused, at};
 use crate::files::build::BUILD;
 use crate::files::text::Shown;
+use cap_std::ambient_authority;
+use cap_std::fs::Dir;
 use serde_json::Value;
-use std::fs;
+use std::collections::BTreeMap;
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 /// The error that a file would be overwritten, and what to do next.
@@ -26,8 +30,8 @@ pub struct ResultFolder {
     dir: PathBuf,
     origin: Origin,
     force: bool,
-    /// Earlier results that the new ones contain.
-    earlier: Option<Origin>,
+    /// True if results of the same command from other inputs may be replaced too.
+    from_any_input: bool,
     /// How to give the command another folder, for messages.
     other: &'static str,
 }
@@ -40,7 +44,7 @@ impl ResultFolder {
             dir: dir.to_owned(),
             origin: Origin::new(command, inputs),
             force,
-            earlier: None,
+            from_any_input: false,
             other: OTHER_OUT,
         }
     }
@@ -50,9 +54,9 @@ impl ResultFolder {
         Self { other: "another folder", ..self }
     }
 
-    /// Allows results of the origin `earlier` to be replaced too, because the new ones contain them.
-    pub fn extends(self, earlier: Option<Origin>) -> Self {
-        Self { earlier, ..self }
+    /// Allows results of the same command from other inputs to be replaced too.
+    pub fn from_any_input(self) -> Self {
+        Self { from_any_input: true, ..self }
     }
 
     /// The path of the folder.
@@ -76,8 +80,14 @@ impl ResultFolder {
         Record::read(&self.dir).is_ok_and(|record| record.is_some_and(own))
     }
 
+    /// The first difference from the inputs of earlier results of this command in the folder.
+    pub fn difference(&self) -> Option<String> {
+        let found = Record::read(&self.dir).ok()??;
+        found.origin.difference(&self.origin).filter(|_| found.origin.command == self.origin.command)
+    }
+
     /// Fails if files with these names must not be written. They may be written if none exists, or if this command wrote the folder before
-    /// from the same inputs (or those of [`Self::extends`]) and the files have not been changed since.
+    /// from the same inputs (or any, with [`Self::from_any_input`]) and the files have not been changed since.
     ///
     /// # Errors
     ///
@@ -88,9 +98,19 @@ impl ResultFolder {
         }
         let (record, command) = (self.dir.join(RECORD), &self.origin.command);
         let in_the_way = |path: &Path, what: &str| in_the_way(path, what, self.other);
+        let dir = match Dir::open_ambient_dir(&self.dir, ambient_authority()) {
+            Err(error) if error.kind() == ErrorKind::NotFound => return Ok(()),
+            dir => dir.map_err(at(&self.dir))?,
+        };
+        let found = Record::read(&self.dir).map_err(|why| in_the_way(&record, &why))?;
+        let is_there = |name: &str| match beneath(&dir, name) {
+            Ok(Some((folder, last))) => folder.symlink_metadata(last).is_ok(),
+            Ok(None) => false,
+            Err(_) => true,
+        };
         let mut names = names.iter().map(|name| (name.as_ref(), self.dir.join(name.as_ref())));
-        let Some(found) = Record::read(&self.dir).map_err(|why| in_the_way(&record, &why))? else {
-            return match names.find(|(_, path)| fs::symlink_metadata(path).is_ok()) {
+        let Some(found) = found else {
+            return match names.find(|(name, _)| is_there(name)) {
                 Some((_, path)) => Err(in_the_way(
                     &path,
                     &format!("is here already, and no {RECORD} says that this command wrote it"),
@@ -102,15 +122,14 @@ impl ResultFolder {
             let what = format!("results of `shearbed {}` are kept here", found.origin.command);
             return Err(in_the_way(&record, &what));
         }
-        let contained = self.earlier.as_ref() == Some(&found.origin);
-        if let Some(difference) = found.origin.difference(&self.origin).filter(|_| !contained) {
+        if let Some(difference) = found.origin.difference(&self.origin).filter(|_| !self.from_any_input) {
             let what =
                 format!("results of `shearbed {command}` from other input are kept here: {difference}");
             return Err(in_the_way(&record, &what));
         }
         names.try_for_each(|(name, path)| {
-            let why = match found.state(&self.dir, name) {
-                Ok(State::Absent | State::AsWritten) => return Ok(()),
+            let why = match found.state(&dir, name) {
+                Ok(State::Absent | State::AsWritten(_)) => return Ok(()),
                 Ok(State::Changed) => format!("was changed after `shearbed {command}` wrote it"),
                 Ok(State::Foreign) => format!("was not written by `shearbed {command}`"),
                 Err(error) => format!("cannot be read: {error}"),
@@ -125,26 +144,30 @@ impl ResultFolder {
     /// # Errors
     ///
     /// Those of [`Self::check`], or if writing fails; then nothing has changed.
-    pub fn write(&self, mut files: Vec<Output>) -> Result<(), Refused> {
-        let record = Record::new(&self.origin, &files).file();
+    pub fn write(&self, files: Vec<Output>) -> Result<(), Refused> {
+        let record = Record::new(&self.origin, &files);
         let names: Vec<String> = files.iter().map(|(name, _)| name.clone()).collect();
-        files.push(record);
-        if !self.dir.exists() && appear(&self.dir, &files)? {
-            return Ok(());
+        loop {
+            if let Some(claim) = Claim::open(&self.dir, PATIENCE)? {
+                self.check(&names)?;
+                let earlier = self.earlier(&claim);
+                let left_over: Vec<_> =
+                    earlier.keys().filter(|name| !names.contains(name)).cloned().collect();
+                return Ok(claim.write(&record, &files, earlier, &left_over)?);
+            }
+            let all = [&files[..], &[record.file()]].concat();
+            if Claim::appear(&self.dir, &all)?.is_some() {
+                return Ok(());
+            }
         }
-        let claim = Claim::new(&self.dir, PATIENCE)?;
-        self.check(&names)?;
-        Ok(claim.write_all(&files, &self.left_over(&names))?)
     }
 
-    /// The unchanged files that the folder's record lists besides `names`, if this command wrote them: left beside new results, they
-    /// would be mistaken for them. Those of another command stay, also with `--force`.
-    pub(crate) fn left_over(&self, names: &[String]) -> Vec<String> {
+    /// The unchanged files that the folder's record lists, if this command wrote them: left beside new results, they would be mistaken
+    /// for them. Those of another command stay, also with `--force`.
+    pub(crate) fn earlier(&self, claim: &Claim) -> BTreeMap<String, Sum> {
         let record = Record::read(&self.dir).ok().flatten();
-        let Some(record) = record.filter(|record| record.origin.command == self.origin.command) else {
-            return Vec::new();
-        };
-        record.unchanged(&self.dir).filter(|name| !names.contains(name)).cloned().collect()
+        let own = record.filter(|record| record.origin.command == self.origin.command);
+        own.map(|record| record.unchanged(&claim.dir)).unwrap_or_default()
     }
 }
 
@@ -152,6 +175,7 @@ impl ResultFolder {
 mod tests {
     use super::*;
     use serde_json::json;
+    use std::fs;
 
     fn folder(dir: &Path, command: &str, seed: u64) -> ResultFolder {
         ResultFolder::new(dir, command, json!({ "seed": seed }), false)

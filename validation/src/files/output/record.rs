@@ -4,15 +4,16 @@
 //! ([`super::ResultFolder`]), and lets `plot` and `compare` detect files that were changed since.
 
 use super::Output;
+use super::claim::beneath;
 use crate::files::bounded;
 use crate::files::difference::difference;
 use crate::files::text::shortened;
+use cap_std::fs::Dir;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use std::collections::BTreeMap;
-use std::fs;
 use std::io::{self, ErrorKind};
-use std::path::{Component, Path};
+use std::path::Path;
 
 /// The name of the file, which is written last.
 pub const RECORD: &str = "shearbed.json";
@@ -63,6 +64,9 @@ pub struct Record {
     pub origin: Origin,
     /// Length and checksum of each file by its name; for points of a sweep only their records are listed.
     pub files: BTreeMap<String, Sum>,
+    /// While `files` are moved into place: the earlier files that they replace.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    replaces: Option<BTreeMap<String, Sum>>,
 }
 
 /// The length and the checksum (CRC-32 as eight hexadecimal digits) of a file.
@@ -91,7 +95,18 @@ impl Record {
     /// The record of `files` written from `origin`.
     pub fn new<C: AsRef<[u8]>>(origin: &Origin, files: &[(String, C)]) -> Self {
         let sum = |(name, contents): &(String, C)| (name.clone(), Sum::of(contents.as_ref()));
-        Self { format: FORMAT, origin: origin.clone(), files: files.iter().map(sum).collect() }
+        let files = files.iter().map(sum).collect();
+        Self { format: FORMAT, origin: origin.clone(), files, replaces: None }
+    }
+
+    /// The record while its files replace `earlier` ones.
+    pub(super) fn replacing(&self, earlier: BTreeMap<String, Sum>) -> Self {
+        Self { replaces: Some(earlier), ..self.clone() }
+    }
+
+    /// The names of all files that are listed.
+    pub fn names(&self) -> impl Iterator<Item = &String> {
+        self.files.keys().chain(self.replaces.iter().flat_map(BTreeMap::keys))
     }
 
     /// The record as a file.
@@ -121,8 +136,10 @@ impl Record {
         }
     }
 
-    /// Fails if a file of the folder has another sum than the record lists; the error does not contain the file's name.
+    /// Fails if a file of the folder has another sum than the record lists, or if the folder is incomplete; the error does not contain
+    /// the file's name.
     pub fn check(&self, name: &str, sum: &Sum) -> Result<(), String> {
+        self.is_complete()?;
         match self.files.get(name) {
             Some(listed) if listed == sum => Ok(()),
             Some(_) => Err(format!(
@@ -132,39 +149,55 @@ impl Record {
         }
     }
 
-    /// The listed files that have not been changed. Names that lead outside the folder are ignored.
-    pub(super) fn unchanged(&self, dir: &Path) -> impl Iterator<Item = &String> {
-        let inside = |name: &str| {
-            let mut parts = Path::new(name).components();
-            parts.all(|part| matches!(part, Component::Normal(_)))
-        };
-        let as_written = move |name: &&String| matches!(self.state(dir, name), Ok(State::AsWritten));
-        self.files.keys().filter(move |name| inside(name)).filter(as_written)
+    /// Fails if the folder's command was stopped while it replaced files there; the error does not contain the folder's name.
+    pub fn is_complete(&self) -> Result<(), String> {
+        match self.replaces {
+            None => Ok(()),
+            Some(_) => Err(format!(
+                "is of an incomplete folder: `shearbed {}` was stopped while it replaced files there; run it again",
+                self.origin.command
+            )),
+        }
     }
 
-    /// The state of a file of the folder compared with the record.
-    pub(super) fn state(&self, dir: &Path, name: &str) -> io::Result<State> {
-        let path = dir.join(name);
-        match (self.files.get(name), fs::symlink_metadata(&path)) {
-            (_, Err(error)) if absent(&error) => Ok(State::Absent),
-            (_, Err(error)) => Err(error),
-            (None, _) => Ok(State::Foreign),
-            (Some(sum), Ok(_)) => match bounded::length_and_crc32(&path, sum.bytes) {
-                Ok((bytes, crc32)) if Sum::from_parts(bytes, crc32) == *sum => Ok(State::AsWritten),
-                Err(error) if !matches!(error.kind(), ErrorKind::FileTooLarge | ErrorKind::InvalidInput) => {
-                    Err(error)
-                }
-                _ => Ok(State::Changed),
-            },
+    /// The listed files that have not been changed.
+    pub(super) fn unchanged(&self, dir: &Dir) -> BTreeMap<String, Sum> {
+        let as_written = |name: &String| match self.state(dir, name) {
+            Ok(State::AsWritten(sum)) => Some((name.clone(), sum)),
+            _ => None,
+        };
+        self.names().filter_map(as_written).collect()
+    }
+
+    /// The state of a file of the folder compared with the record. No link is followed.
+    pub(super) fn state(&self, dir: &Dir, name: &str) -> io::Result<State> {
+        let Some((folder, last)) = beneath(dir, name)? else {
+            return Ok(State::Absent);
+        };
+        let found = match folder.symlink_metadata(&last) {
+            Err(error) if absent(&error) => return Ok(State::Absent),
+            found => found?,
+        };
+        let listed = [Some(&self.files), self.replaces.as_ref()].into_iter().flatten();
+        let listed: Vec<_> = listed.filter_map(|files| files.get(name)).collect();
+        let most = listed.iter().map(|sum| sum.bytes).max();
+        match most {
+            None => Ok(State::Foreign),
+            Some(most) if found.is_file() && found.len() <= most => {
+                let (bytes, crc32) = bounded::length_and_crc32_of(bounded::open_in(&folder, &last)?, most)?;
+                let sum = Sum::from_parts(bytes, crc32);
+                Ok(if listed.contains(&&sum) { State::AsWritten(sum) } else { State::Changed })
+            }
+            Some(_) => Ok(State::Changed),
         }
     }
 }
 
 /// The state of a file in a folder with a record.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum State {
     Absent,
-    AsWritten,
+    AsWritten(Sum),
     Changed,
     Foreign,
 }

@@ -1,40 +1,52 @@
 //! A single file that one process replaces repeatedly, always as a whole.
 
-use super::claim::{Lock, writing};
+use super::stage::{Stage, report};
 use super::{OutputError, at};
-use std::fs::{self, File};
-use std::io::{self, BufWriter, Write};
+use crate::files::bounded;
+use cap_std::ambient_authority;
+use cap_std::fs::Dir;
+use std::fs::{self, File, TryLockError};
+use std::io::{self, BufWriter, Seek, Write};
 use std::path::{Path, PathBuf};
-use std::sync::MutexGuard;
-use std::time::Duration;
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
-/// A file that no other process replaces while this exists. Its lock and the file being written are hidden beside it; a killed process
-/// may leave them, and the next one takes them over.
+/// A file that no other process replaces while this exists.
 #[derive(Debug)]
 pub struct Replaced {
     path: PathBuf,
-    part: PathBuf,
-    _lock: Lock,
+    name: String,
+    /// The file in place, locked, if there is one.
+    file: Mutex<Option<File>>,
+}
+
+/// The name of new contents in their hidden folder.
+const NEW: &str = "new";
+
+fn busy() -> io::Error {
+    let why = "another shearbed is at work with this file; wait for it, or give another";
+    io::Error::new(io::ErrorKind::WouldBlock, why)
 }
 
 impl Replaced {
-    /// Claims a file, which need not exist; creates its folder if that does not exist.
+    /// Claims a file, which need not exist.
     pub fn claim(path: &Path) -> Result<Self, OutputError> {
         let not_a_file = || io::Error::new(io::ErrorKind::InvalidInput, "the name of a file is allowed");
-        let name = path.file_name().ok_or_else(not_a_file).map_err(at(path))?;
-        let name = name.to_string_lossy();
-        let parent = path.parent().filter(|dir| !dir.as_os_str().is_empty());
-        let dir = parent.unwrap_or(Path::new("."));
-        let lock = Lock::new(dir, &format!(".checkpoint-{name}.lock"), Duration::ZERO, |reason| {
-            at(path)(match reason.kind() {
-                io::ErrorKind::WouldBlock => io::Error::new(
-                    reason.kind(),
-                    "another shearbed is at work with this file; wait for it, or give another",
-                ),
-                _ => reason,
-            })
-        })?;
-        Ok(Self { path: path.to_owned(), part: dir.join(format!(".checkpoint-{name}.part")), _lock: lock })
+        let name =
+            path.file_name().and_then(|name| name.to_str()).ok_or_else(not_a_file).map_err(at(path))?;
+        let file = loop {
+            let file = match bounded::open_with(path, File::options().read(true).write(true)) {
+                Err(error) if error.kind() == io::ErrorKind::NotFound => break None,
+                file => file.map_err(at(path))?,
+            };
+            if let Err(TryLockError::WouldBlock) = file.try_lock() {
+                return Err(at(path)(busy()));
+            }
+            // The process that held the lock may have replaced the file.
+            if is_at(&file, path) {
+                break Some(file);
+            }
+        };
+        Ok(Self { path: path.to_owned(), name: name.to_owned(), file: Mutex::new(file) })
     }
 
     /// The path of the file.
@@ -42,71 +54,82 @@ impl Replaced {
         &self.path
     }
 
+    /// The file, to be read; `None` if there is none.
+    pub fn open(&self) -> io::Result<Option<File>> {
+        let file = self.held().as_ref().map(File::try_clone).transpose()?;
+        file.map(|mut file| file.rewind().map(|()| file)).transpose()
+    }
+
+    fn held(&self) -> MutexGuard<'_, Option<File>> {
+        self.file.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
     /// Writes new contents, which `Part::finish` moves into place: at every moment either the old or the new file is there, complete
-    /// and on the disk.
+    /// and on the disk. Creates the file's folder if that does not exist.
     pub fn write(
         &self,
         write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
     ) -> Result<Part<'_>, OutputError> {
-        let writing = writing();
-        // An obstacle at the place of the new file stays.
-        let part = anew(&self.part).map_err(at(&self.path))?;
         let written = || {
-            let mut file = BufWriter::new(part);
+            let parent = self.path.parent().filter(|dir| !dir.as_os_str().is_empty());
+            let parent = parent.unwrap_or(Path::new("."));
+            fs::create_dir_all(parent)?;
+            let above = Dir::open_ambient_dir(parent, ambient_authority())?;
+            report(&above, parent);
+            let stage = Stage::new(&above)?;
+            let mut options = cap_std::fs::OpenOptions::new();
+            let file = stage.dir.open_with(NEW, options.read(true).write(true).create_new(true))?;
+            let mut file = BufWriter::new(file.into_std());
             write(&mut file)?;
-            file.into_inner().map_err(io::IntoInnerError::into_error)
+            let file = file.into_inner().map_err(io::IntoInnerError::into_error)?;
+            Ok(Part { of: self, file, stage })
         };
-        match written() {
-            Ok(file) => Ok(Part { of: self, file, _writing: writing }),
-            Err(error) => Err(self.given_up(error)),
-        }
-    }
-
-    fn given_up(&self, error: io::Error) -> OutputError {
-        // The first error is the one to report.
-        let _ = fs::remove_file(&self.part);
-        at(&self.path)(error)
+        written().map_err(at(&self.path))
     }
 }
 
-/// A new file in place of the remains of a killed process; fails if there is no regular file but a link or a pipe, for example.
-fn anew(path: &Path) -> io::Result<File> {
-    match fs::symlink_metadata(path) {
-        Ok(found) if found.is_file() => fs::remove_file(path)?,
-        Ok(_) => {
-            let name = path.file_name().unwrap_or_default().to_string_lossy();
-            let why = format!("{name} beside it is in the way: it is no regular file; remove it");
-            return Err(io::Error::new(io::ErrorKind::InvalidInput, why));
-        }
-        Err(_) => {}
-    }
-    File::create_new(path)
+/// True if an open file is the one at `path`.
+#[cfg(unix)]
+fn is_at(file: &File, path: &Path) -> bool {
+    use std::os::unix::fs::MetadataExt;
+    let of = |found: fs::Metadata| (found.dev(), found.ino());
+    file.metadata().map(of).ok() == fs::metadata(path).map(of).ok()
+}
+
+/// Always true: open files are not replaced on this system.
+#[cfg(not(unix))]
+fn is_at(_: &File, _: &Path) -> bool {
+    true
 }
 
 /// New contents that are not yet in place. Nothing else is written meanwhile.
 pub struct Part<'a> {
     of: &'a Replaced,
     file: File,
-    _writing: MutexGuard<'static, ()>,
+    stage: Stage,
 }
 
 impl Part<'_> {
     /// Writes the contents to the disk and moves them into place.
     pub fn finish(self) -> Result<(), OutputError> {
-        let Replaced { path, part, .. } = self.of;
-        let moved = self.file.sync_all().and_then(|()| fs::rename(part, path));
-        moved.map_err(|error| self.of.given_up(error))?;
+        let Self { of, file, stage } = self;
+        let mut held = of.held();
+        let moved = || {
+            file.sync_all()?;
+            // Locked before others see it; where files have no locks, nobody is kept out.
+            let _ = file.try_lock();
+            match *held {
+                Some(_) => stage.place(NEW, &of.name),
+                None => stage.place_new(NEW, &of.name),
+            }
+        };
+        moved().map_err(|error| match error.kind() {
+            io::ErrorKind::AlreadyExists => at(&of.path)(busy()),
+            _ => at(&of.path)(error),
+        })?;
         // If a folder cannot be synchronised, the system decides when the name reaches the disk.
-        let _ = part.parent().map(synchronise);
+        let _ = stage.synchronise();
+        *held = Some(file);
         Ok(())
     }
-}
-
-/// Writes the names in a folder to the disk.
-#[expect(
-    clippy::disallowed_methods,
-    reason = "a folder, which bounded::open refuses, and which nothing waits for"
-)]
-fn synchronise(dir: &Path) -> io::Result<()> {
-    File::open(dir)?.sync_all()
 }

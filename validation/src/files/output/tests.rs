@@ -1,4 +1,5 @@
 use super::*;
+use serde_json::json;
 use std::collections::BTreeMap;
 
 fn contents(dir: &Path) -> BTreeMap<String, Option<String>> {
@@ -9,8 +10,12 @@ fn contents(dir: &Path) -> BTreeMap<String, Option<String>> {
         .collect()
 }
 
-fn output(name: &str, text: &str) -> Output {
-    (name.to_owned(), text.to_owned())
+fn outputs(names: &[&str], text: &str) -> Vec<Output> {
+    names.iter().map(|name| ((*name).to_owned(), text.to_owned())).collect()
+}
+
+fn folder(dir: &Path, force: bool) -> ResultFolder {
+    ResultFolder::new(dir, "test", json!({}), force)
 }
 
 #[test]
@@ -18,33 +23,30 @@ fn all_files_are_written_and_replaced() {
     let dir = tempfile::tempdir().unwrap();
     let inner = dir.path().join("a/b");
     probe(&inner, 1000).unwrap();
-    assert!(!inner.exists());
+    assert_eq!(contents(dir.path()), BTreeMap::new());
     for text in ["old", "new"] {
-        write_all(&inner, &[output("x", text), output("y", "")]).unwrap();
+        folder(&inner, false).write(outputs(&["x", "y/z"], text)).unwrap();
+        let found = contents(&inner);
+        assert_eq!(found.keys().collect::<Vec<_>>(), ["shearbed.json", "x", "y"]);
+        assert_eq!(found["x"].as_deref(), Some(text));
+        assert_eq!(fs::read_to_string(inner.join("y/z")).unwrap(), text);
     }
-    let expected = [("x", "new"), ("y", "")].map(|(name, text)| (name.to_owned(), Some(text.to_owned())));
-    assert_eq!(contents(&inner), BTreeMap::from(expected));
+    assert_eq!(contents(dir.path()).len(), 1);
 }
 
 #[test]
-fn a_target_that_is_a_folder_leaves_everything_as_it_was() {
+fn what_cannot_be_written_leaves_everything_as_it_was() {
     let dir = tempfile::tempdir().unwrap();
     fs::write(dir.path().join("x"), "old").unwrap();
     fs::create_dir(dir.path().join("y")).unwrap();
     let before = contents(dir.path());
-    let error =
-        write_all(dir.path(), &[output("x", "new"), output("y", "new"), output("z", "new")]).unwrap_err();
-    assert_eq!(error.path, dir.path().join("y"));
+    let Refused(error) = folder(dir.path(), true).write(outputs(&["x", "y", "z"], "new")).unwrap_err();
+    assert_eq!(error, format!("{}: cannot be written: is a directory", dir.path().join("y").display()));
     assert_eq!(contents(dir.path()), before);
-}
-
-#[test]
-fn a_folder_made_for_files_that_fail_is_removed() {
-    let dir = tempfile::tempdir().unwrap();
-    let made = dir.path().join("made");
-    let error = write_all(&made, &[output("no/such/folder", ""), output("a\0b", "")]).unwrap_err();
-    assert_eq!(error.path, made.join("no/such/folder"));
-    assert!(!made.exists());
+    let made = dir.path().join("made/below");
+    let Refused(error) = folder(&made, false).write(outputs(&["a/b", "c\0d"], "")).unwrap_err();
+    assert!(error.contains("made/below/c"), "{error}");
+    assert_eq!(contents(dir.path()), before);
 }
 
 #[test]
@@ -54,23 +56,86 @@ fn a_folder_that_is_a_file_is_named() {
     fs::write(&file, "old").unwrap();
     for dir in [file.clone(), file.join("below")] {
         assert_eq!(probe(&dir, 0).unwrap_err().path, dir);
-        assert_eq!(write_all(&dir, &[output("x", "")]).unwrap_err().path, dir);
+        let Refused(error) = folder(&dir, true).write(outputs(&["x"], "")).unwrap_err();
+        assert!(error.starts_with(&format!("{}: cannot be written: ", dir.display())), "{error}");
     }
     assert_eq!(fs::read_to_string(&file).unwrap(), "old");
 }
 
-/// Threads claim, make and remove one folder independently, without disturbing each other.
+/// A process that is killed between two moves leaves a record of both sets. No reader takes any of its files, and the same command
+/// goes on.
 #[test]
-fn a_folder_that_others_make_and_remove_is_claimed() {
+fn half_a_replacement_is_seen_and_completed() {
+    let dir = tempfile::tempdir().unwrap();
+    let own = folder(dir.path(), false);
+    own.write(outputs(&["a", "b", "gone"], "old")).unwrap();
+    let claim = Claim::open(dir.path(), PATIENCE).unwrap().unwrap();
+    let begun = Record::new(own.origin(), &outputs(&["a", "b"], "new"));
+    let begun = begun.replacing(own.earlier(&claim));
+    drop(claim);
+    fs::write(dir.path().join(RECORD), begun.file().1).unwrap();
+    fs::write(dir.path().join("a"), "new").unwrap();
+    let read = Record::read(dir.path()).unwrap().unwrap();
+    for (name, text) in [("a", "new"), ("b", "old")] {
+        let why = read.check(name, &Sum::of(text.as_bytes())).unwrap_err();
+        assert!(why.contains("`shearbed test` was stopped while it replaced files there"), "{why}");
+    }
+    // A file that was edited meanwhile stays.
+    fs::write(dir.path().join("b"), "mine").unwrap();
+    let Refused(why) = own.write(outputs(&["a", "b"], "new")).unwrap_err();
+    assert!(why.contains("b: was changed after"), "{why}");
+    fs::write(dir.path().join("b"), "old").unwrap();
+    own.write(outputs(&["a", "b"], "new")).unwrap();
+    let found = contents(dir.path());
+    assert_eq!(found.keys().collect::<Vec<_>>(), ["a", "b", "shearbed.json"]);
+    assert_eq!(found["b"].as_deref(), Some("new"));
+    assert!(Record::read(dir.path()).unwrap().unwrap().check("b", &Sum::of(b"new")).is_ok());
+}
+
+/// Threads make and replace one folder independently, without mixing their files.
+#[test]
+fn several_writers_do_not_mix_their_files() {
     let dir = tempfile::tempdir().unwrap();
     let shared = dir.path().join("shared");
     std::thread::scope(|scope| {
-        for _ in 0..4 {
-            scope.spawn(|| {
-                for _ in 0..1000 {
-                    Claim::new(&shared, Duration::from_secs(600)).unwrap();
+        for writer in 0..4 {
+            let shared = &shared;
+            scope.spawn(move || {
+                for round in 0..50 {
+                    folder(shared, true).write(outputs(&["x", "y"], &format!("{writer} {round}"))).unwrap();
                 }
             });
         }
     });
+    let found = contents(&shared);
+    assert_eq!(found.keys().collect::<Vec<_>>(), ["shearbed.json", "x", "y"]);
+    assert_eq!(found["x"], found["y"]);
+}
+
+#[cfg(unix)]
+#[test]
+fn no_link_below_the_folder_is_followed() {
+    use std::os::unix::fs::symlink;
+    let dir = tempfile::tempdir().unwrap();
+    let [out, home] = ["out", "home"].map(|name| dir.path().join(name));
+    for name in [&out, &home] {
+        fs::create_dir(name).unwrap();
+    }
+    fs::write(home.join("keys"), "mine").unwrap();
+    fs::write(out.join("kept"), "mine").unwrap();
+    symlink("../home", out.join("sub")).unwrap();
+    symlink("../home/keys", out.join("a")).unwrap();
+    let own = folder(&out, true);
+    let listed = [outputs(&["sub/keys"], "mine"), outputs(&["a"], "mine")].concat();
+    fs::write(out.join(RECORD), Record::new(own.origin(), &listed).file().1).unwrap();
+    let Refused(why) = own.write(outputs(&["sub/keys"], "new")).unwrap_err();
+    assert!(why.contains("sub/keys: cannot be written: sub is a link, which is not followed here"), "{why}");
+    let claim = Claim::open(&out, PATIENCE).unwrap().unwrap();
+    assert!(claim.write_folder("sub/new", &outputs(&["x"], "")).is_err());
+    assert!(claim.remove_folder("sub/keys").is_err());
+    drop(claim);
+    // In place of a link a file is written; what it led to stays, also as a listed file that is no longer written.
+    own.write(outputs(&["a"], "new")).unwrap();
+    assert!(!out.join("a").is_symlink() && out.join("sub").is_symlink());
+    assert_eq!(contents(&home), BTreeMap::from([("keys".to_owned(), Some("mine".to_owned()))]));
 }

@@ -7,7 +7,7 @@ use super::{Pairs, Point};
 use crate::files::bounded;
 use crate::files::build;
 use crate::files::difference::difference;
-use crate::files::output::{self, Claim, Origin, Output, OutputError, RECORD, Record, Refused, ResultFolder};
+use crate::files::output::{Claim, Origin, Output, OutputError, RECORD, Record, Refused, ResultFolder};
 use crate::files::text::{Shown, cell};
 use serde_json::{Value, json};
 use shearbed::Scene;
@@ -55,8 +55,8 @@ pub struct Points {
 /// The folder of one sweep; no other process writes to it during the lifetime of this value.
 pub struct Folder {
     folder: ResultFolder,
-    /// The text of `sweep.json`.
-    inputs: String,
+    /// `sweep.json`, with which a sweep begins.
+    first: Vec<Output>,
     points: Points,
     claim: Claim,
 }
@@ -69,12 +69,22 @@ impl Folder {
     /// Another sweep in the folder, files of unknown origin under the names of a sweep's, or a point that was changed: all are left
     /// as they are, unless `folder` has force, which empties the folder of sweeps. Another process at work in the folder.
     pub fn open(folder: ResultFolder, inputs: &Value, points: Points) -> Result<Self, Refused> {
-        let claim = Claim::new(folder.dir(), Duration::ZERO)?;
+        let first = vec![("sweep.json".to_owned(), format!("{inputs:#}\n"))];
+        let begun = Record::new(folder.origin(), &first);
+        let claim = loop {
+            if let Some(claim) = Claim::open(folder.dir(), Duration::ZERO)? {
+                break claim;
+            }
+            if let Some(claim) = Claim::appear(folder.dir(), &[&first[..], &[begun.file()]].concat())? {
+                break claim;
+            }
+        };
+        claim.report("points");
         let own = folder.is_own();
         // Without a record, points are of unknown origin, too.
         let names = ["sweep.json", "sweep.csv", "points"];
         folder.check(if own { &names[..2] } else { &names })?;
-        let folder = Self { folder, inputs: format!("{inputs:#}\n"), points, claim };
+        let folder = Self { folder, first, points, claim };
         // Where its `sweep.json` is gone, a sweep begins again and keeps its points.
         if !own || folder.folder.dir().join("sweep.json").symlink_metadata().is_err() {
             folder.begin(own)?;
@@ -89,16 +99,14 @@ impl Folder {
 
     /// Removes the points of another sweep, unless the sweep is `own`, and writes `sweep.json`.
     fn begin(&self, own: bool) -> Result<(), Refused> {
+        let earlier = self.folder.earlier(&self.claim);
         let mut left_over = vec!["sweep.csv".to_owned()];
         if !own {
-            for point in self.others()? {
-                fs::remove_dir_all(&point).map_err(|reason| OutputError { path: point, reason })?;
-            }
-            left_over.extend(self.folder.left_over(&["sweep.json".to_owned()]));
+            self.others()?.iter().try_for_each(|point| self.claim.remove_folder(point))?;
+            left_over.extend(earlier.keys().filter(|name| *name != "sweep.json").cloned());
         }
-        let files = vec![("sweep.json".to_owned(), self.inputs.clone())];
-        let record = Record::new(self.folder.origin(), &files).file();
-        Ok(self.claim.write_all(&[files, vec![record]].concat(), &left_over)?)
+        let record = Record::new(self.folder.origin(), &self.first);
+        Ok(self.claim.write(&record, &self.first, earlier, &left_over)?)
     }
 
     /// The folders of the points of another sweep.
@@ -106,7 +114,7 @@ impl Folder {
     /// # Errors
     ///
     /// A file in one of them that the sweep did not write, or a folder in the way of a point: force does not remove these.
-    fn others(&self) -> Result<Vec<PathBuf>, Refused> {
+    fn others(&self) -> Result<Vec<String>, Refused> {
         let points = self.folder.dir().join("points");
         let list = |dir: &Path| -> Result<Vec<PathBuf>, Refused> {
             let failed = |reason| OutputError { path: dir.to_owned(), reason };
@@ -138,7 +146,7 @@ impl Folder {
             if let Some(file) = list(&path)?.iter().find(|file| !is_own(file)) {
                 return Err(foreign(file));
             }
-            found.push(path);
+            found.push(format!("points/{}", name(&path)));
         }
         Ok(found)
     }
@@ -163,7 +171,7 @@ impl Folder {
         let files = [tables, &[self.record(k, tables).file()]].concat();
         self.is_there()?;
         // If the folder is gone meanwhile, that is the reason to report.
-        output::write_folder(&self.point(k), &files).map_err(|error| self.is_there().err().unwrap_or(error))
+        self.claim.write_folder(&self.name(k), &files).map_err(|error| self.is_there().err().unwrap_or(error))
     }
 
     /// Fails if somebody has removed or moved the folder.
@@ -257,10 +265,9 @@ impl Folder {
         }
         let path = self.folder.dir().join("sweep.csv");
         let text = csv(&rows).map_err(|error| Refused(format!("{}: {error}", path.shown())))?;
-        let table = ("sweep.csv".to_owned(), text);
-        let inputs = ("sweep.json".to_owned(), self.inputs.clone());
-        let record = Record::new(self.folder.origin(), &[vec![table.clone(), inputs], records].concat());
-        self.claim.write_all(&[table, record.file()], &[])?;
+        let table = [("sweep.csv".to_owned(), text)];
+        let record = Record::new(self.folder.origin(), &[&table[..], &self.first, &records].concat());
+        self.claim.write(&record, &table, self.folder.earlier(&self.claim), &[])?;
         Ok(rows)
     }
 }

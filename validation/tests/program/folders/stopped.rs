@@ -1,8 +1,13 @@
 //! A full disk, and runs that were killed.
 
-use crate::common::{SMALL, command, files, folder, kill, limited, shearbed, wait_for};
+use crate::common::{SMALL, command, files, folder, kill, limited, names, shearbed, wait_for};
+use rand::{RngExt, SeedableRng};
+use rand_pcg::Pcg64Dxsm;
 use std::fs;
+use std::path::Path;
 use std::process::Stdio;
+use std::time::Duration;
+use validation::files::output::{RECORD, Record, Sum};
 
 #[test]
 fn a_full_disk_is_found_before_the_work() {
@@ -19,7 +24,7 @@ fn a_full_disk_is_found_before_the_work() {
         "validate --out x",
         "bench --out x",
     ] {
-        let ended = limited(dir.path(), "trap '' XFSZ; ulimit -f 100", arguments);
+        let ended = limited(dir.path(), "ulimit -f 100", arguments);
         let message = ended.stderr;
         assert_eq!(ended.code, Some(2), "{arguments}: {message}");
         assert!(message.contains("x: cannot be written: File too large"), "{message}");
@@ -28,76 +33,173 @@ fn a_full_disk_is_found_before_the_work() {
     }
 }
 
+/// A limit on the size of files that the largest file alone meets, after all work: the system would kill without a word.
 #[test]
-fn what_a_killed_run_left_is_put_right_by_the_next() {
+fn a_file_that_is_too_large_is_an_error() {
     let dir = folder();
-    let run = "run small.toml --quiet --out x";
-    assert_eq!(shearbed(dir.path(), run).code, Some(0));
-    let x = dir.path().join("x");
-    let whole = files(&x);
-    // Killed as it wrote: half a set under a hidden name, and the temporary files of an older version.
-    for name in ["x/.shearbed-part/curves", ".y.shearbed-part"] {
-        fs::create_dir_all(dir.path().join(name)).unwrap();
-        fs::write(dir.path().join(name).join("half.csv"), "half a ta").unwrap();
+    for arguments in
+        ["problems export x --quiet", "reference --aspect-ratio 5 --times 0:9:20000 --out x/a.csv"]
+    {
+        let ended = limited(dir.path(), "ulimit -f 40", arguments);
+        assert_eq!(ended.code, Some(2), "{arguments}: {}", ended.stderr);
+        assert!(ended.stderr.contains("cannot be written: "), "{}", ended.stderr);
+        assert_eq!(names(dir.path()), ["small.toml"], "{arguments}");
     }
-    fs::write(dir.path().join(".y.shearbed-part/.shearbed-lock"), "").unwrap();
-    fs::write(x.join(".shearbed-Ab3dE6"), "half a ta").unwrap();
-    fs::write(x.join("notes.txt"), "the user's own").unwrap();
-    assert_eq!(shearbed(dir.path(), run).code, Some(0));
-    let mut found = files(&x);
-    assert_eq!(found.remove("notes.txt").unwrap(), b"the user's own");
-    assert_eq!(found.keys().collect::<Vec<_>>(), whole.keys().collect::<Vec<_>>());
-    assert_eq!(shearbed(dir.path(), &run.replace("out x", "out y")).code, Some(0));
-    assert!(!dir.path().join(".y.shearbed-part").exists());
-    assert_eq!(files(&dir.path().join("y")).len(), whole.len());
-
-    // Killed between two moves: the set is whole under its hidden name. It is moved before anything else happens, even
-    // by a command that then fails.
-    let ready = x.join(".shearbed-ready");
-    fs::create_dir(&ready).unwrap();
-    for name in ["projections.csv", "run.json"] {
-        fs::rename(x.join(name), ready.join(name)).unwrap();
-    }
-    let limited = shearbed(dir.path(), "sweep small.toml --over interaction.alpha=1,2 --out x/points/no");
-    assert_eq!(limited.code, Some(0), "{}", limited.stderr);
-    fs::remove_dir_all(x.join("points")).unwrap();
-    assert!(ready.exists());
-    fs::write(x.join("sweep.json"), "no record").unwrap();
-    assert_eq!(shearbed(dir.path(), "sweep small.toml --over interaction.alpha=1,2 --out x").code, Some(2));
-    assert!(!ready.exists());
-    assert_eq!(fs::read(x.join("projections.csv")).unwrap(), whole["projections.csv"]);
-    assert!(x.join("run.json").exists());
 }
 
-/// Killed when some of its files are written under their hidden names. A loaded machine may miss that moment; whatever the moment
-/// is, the set is whole or not there.
+/// What killed processes of other versions left, and what only looks so, is the user's to remove.
 #[test]
-fn a_run_killed_at_any_moment_leaves_a_whole_set_or_none() {
+fn hidden_names_of_others_stay_and_what_a_kill_left_is_reported() {
     let dir = folder();
-    let run = |seed: usize| format!("run small.toml --quiet --threads 1 --seed {seed} --out x");
-    assert_eq!(shearbed(dir.path(), &run(0)).code, Some(0));
-    let x = dir.path().join("x");
-    let names: Vec<_> = files(&x).into_keys().collect();
-    fs::remove_dir_all(&x).unwrap();
-    let written = || {
-        let hidden = fs::read_dir(dir.path().join(".x.shearbed-part"));
-        hidden.map_or(0, |hidden| 1 + hidden.count())
-    };
-    // The hidden folder, its lock and the files, several times each; and the whole set.
-    for round in 0..8 * (names.len() + 4) {
-        let mut child = command(dir.path(), &run(round)).spawn().unwrap();
-        let least = 1 + round % (names.len() + 4);
-        while written() < least && !x.exists() && child.try_wait().unwrap().is_none() {
-            std::thread::yield_now();
-        }
-        child.kill().unwrap();
-        child.wait().unwrap();
-        if x.exists() {
-            let found: Vec<_> = files(&x).into_keys().filter(|name| !name.starts_with('.')).collect();
-            assert_eq!(found, names, "round {round}");
-            fs::remove_dir_all(&x).unwrap();
+    let run = "run small.toml --quiet --out x";
+    let left = "x/.shearbed-0123456789abcdef";
+    for name in [left, "x/.shearbed-ready", "x/.shearbed-mine", ".shearbed-part", ".x.shearbed-part"] {
+        fs::create_dir_all(dir.path().join(name)).unwrap();
+        fs::write(dir.path().join(name).join("projections.csv"), "mine").unwrap();
+    }
+    fs::write(dir.path().join("x/.shearbed-lock"), "mine").unwrap();
+    let before = files(dir.path());
+    for arguments in [
+        run,
+        "reference --aspect-ratio 5 --times 1 --out x/r.csv",
+        "run small.toml --out .shearbed-mine --checkpoint .shearbed-c",
+        run,
+    ] {
+        let ended = shearbed(dir.path(), arguments);
+        assert_eq!(ended.code, Some(0), "{}", ended.stderr);
+        let said = format!("warning: {left}: a shearbed that was killed left this folder");
+        let reported = usize::from(!arguments.contains(".shearbed-mine"));
+        assert_eq!(ended.stderr.matches(&said).count(), reported, "{}", ended.stderr);
+        assert_eq!(ended.stderr.lines().count(), reported, "{}", ended.stderr);
+    }
+    let after = files(dir.path());
+    for (name, bytes) in &before {
+        assert_eq!(after.get(name), Some(bytes), "{name}");
+    }
+    assert!(after.contains_key(".shearbed-mine/run.json") && after.contains_key(".shearbed-c"));
+}
+
+/// A umask that keeps this process out of the folders that it makes.
+#[cfg(target_os = "linux")]
+#[test]
+fn no_umask_leaves_half_a_folder() {
+    let dir = folder();
+    fs::set_permissions(dir.path(), std::os::unix::fs::PermissionsExt::from_mode(0o777)).unwrap();
+    assert_eq!(shearbed(dir.path(), "run small.toml --quiet --out there").code, Some(0));
+    fs::set_permissions(dir.path().join("there"), std::os::unix::fs::PermissionsExt::from_mode(0o777))
+        .unwrap();
+    let before = files(dir.path());
+    // Root may do all: it becomes somebody else.
+    let is_root = rustix::process::geteuid().is_root();
+    let other = if is_root { "setpriv --reuid 65534 --regid 65534 --clear-groups" } else { "" };
+    // Under a path that others may read.
+    let (place, program) = (tempfile::tempdir().unwrap(), env!("CARGO_BIN_EXE_shearbed"));
+    fs::set_permissions(place.path(), std::os::unix::fs::PermissionsExt::from_mode(0o755)).unwrap();
+    let copy = place.path().join("shearbed");
+    fs::hard_link(program, &copy).or_else(|_| fs::copy(program, &copy).map(drop)).unwrap();
+    for umask in ["177", "277", "377", "477", "577", "677", "777"] {
+        for arguments in [
+            "run small.toml --quiet --out x/y",
+            "run small.toml --quiet --seed 2 --out there",
+            "sweep small.toml --over interaction.alpha=1,2 --quiet --out x",
+            "reference --aspect-ratio 5 --times 1 --out x/r.csv",
+            "reference --aspect-ratio 5 --times 1 --out r.csv",
+        ] {
+            let script = format!("umask {umask}; exec {other} {} {arguments}", copy.display());
+            let ended =
+                std::process::Command::new("bash").args(["-c", &script]).current_dir(dir.path()).output();
+            let ended = ended.unwrap();
+            let said = String::from_utf8_lossy(&ended.stderr);
+            assert_eq!(ended.status.code(), Some(2), "{umask} {arguments}: {said}");
+            assert!(said.contains("cannot be written: "), "{umask} {arguments}: {said}");
+            assert_eq!(files(dir.path()), before, "{umask} {arguments}: {said}");
         }
     }
+}
+
+/// Commands that make folders and files, and that replace them.
+const COMMANDS: [&str; 6] = [
+    "run small.toml --quiet --seed 3 --out new",
+    "run small.toml --quiet --seed SEED --out old",
+    "run small.toml --quiet --seed 3 --replicas 40 --checkpoint kept --every 0.01 --out checked",
+    "sweep small.toml --over interaction.alpha=0.1,0.2,0.3 --quiet --out swept",
+    "reference --aspect-ratio 2 --times 0:1:200 --force --out file/r.csv",
+    "validate --case jeffery-period --case kick-bound --quiet --checkpoint cases --out report",
+];
+
+/// Kills commands: at a random moment, when a hidden folder appears, when the record of a folder changes. Then nothing of the user's is
+/// lost, a folder is the old or the new one or says that it is incomplete, and the same command works. `SHEARBED_KILLS` sets their number.
+#[test]
+fn a_command_killed_at_any_moment_loses_nothing_and_works_again() {
+    let dir = folder();
+    let kills = std::env::var("SHEARBED_KILLS").ok().map_or(36, |kills| kills.parse().unwrap());
+    let mut random = Pcg64Dxsm::seed_from_u64(49);
+    let own = ["old", "swept", "checked", "report"].map(|name| dir.path().join(name).join("notes.txt"));
+    let mut incomplete = 0;
+    for kill in 0..kills {
+        let line = COMMANDS[kill % COMMANDS.len()].replace("SEED", &kill.to_string());
+        let out = dir.path().join(line.rsplit(' ').next().unwrap());
+        let record = || fs::read(out.join(RECORD)).unwrap_or_default();
+        let hidden =
+            |at: &Path| fs::read_dir(at).is_ok_and(|mut found| found.any(|entry| is_hidden(&entry.unwrap())));
+        let before = record();
+        let mut child =
+            command(dir.path(), &line).stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+        let moment = random.random_range(0..3);
+        while child.try_wait().unwrap().is_none() {
+            let seen = match moment {
+                0 => true,
+                1 => hidden(&out) || hidden(out.parent().unwrap()),
+                _ => record() != before,
+            };
+            if seen {
+                break;
+            }
+        }
+        let most = [50_000, 5_000, 300][moment];
+        std::thread::sleep(Duration::from_micros(random.random_range(0..most)));
+        child.kill().unwrap();
+        child.wait().unwrap();
+
+        if let Ok(Some(record)) = Record::read(&out) {
+            let sums: Vec<_> = (record.files.keys())
+                .map(|name| fs::read(out.join(name)).map(|bytes| Sum::of(&bytes)).ok())
+                .collect();
+            let whole =
+                sums.iter().zip(record.files.values()).all(|(found, listed)| found.as_ref() == Some(listed));
+            let says_so = record.files.iter().all(|(name, sum)| record.check(name, sum).is_err());
+            assert!(whole || says_so, "{kill}: {line}");
+            incomplete += usize::from(says_so && !record.files.is_empty());
+        }
+        for notes in own.iter().filter(|notes| notes.exists()) {
+            assert_eq!(fs::read(notes).unwrap(), b"mine", "{kill}: {line}");
+        }
+        let ended = shearbed(dir.path(), &line);
+        assert_eq!(ended.code, Some(0), "{kill}: {line}: {}", ended.stderr);
+        assert!(
+            ended.stderr.lines().all(|line| line.contains("that was killed left this folder")),
+            "{}",
+            ended.stderr
+        );
+        for left in
+            fs::read_dir(dir.path()).unwrap().chain(fs::read_dir(&out).into_iter().flatten()).flatten()
+        {
+            if is_hidden(&left) {
+                fs::remove_dir_all(left.path()).unwrap();
+            }
+        }
+        for notes in own.iter().filter(|notes| notes.parent().unwrap().exists()) {
+            fs::write(notes, "mine").unwrap();
+        }
+        if kill % COMMANDS.len() == 0 {
+            fs::remove_dir_all(out).unwrap();
+        }
+    }
+    println!("{kills} kills, {incomplete} of them left a folder that says that it is incomplete");
+}
+
+fn is_hidden(entry: &fs::DirEntry) -> bool {
+    entry.file_name().to_string_lossy().starts_with(".shearbed-")
 }
 
 /// A run that waits for another one in its folder has not opened its checkpoint yet; the file stays all the same.
@@ -106,7 +208,7 @@ fn a_run_killed_at_any_moment_leaves_a_whole_set_or_none() {
 fn a_signal_before_the_checkpoint_is_opened_says_that_it_stays() {
     let dir = folder();
     fs::create_dir(dir.path().join("x")).unwrap();
-    let lock = fs::File::create(dir.path().join("x/.shearbed-lock")).unwrap();
+    let lock = fs::File::open(dir.path().join("x")).unwrap();
     lock.lock().unwrap();
     for (there, said) in [
         (true, "kept stays as it is, and the same command goes on from there"),
@@ -122,7 +224,7 @@ fn a_signal_before_the_checkpoint_is_opened_says_that_it_stays() {
         let open = format!("/proc/{}/fd", child.id());
         wait_for("the lock is waited for", || {
             let mut open = fs::read_dir(&open).into_iter().flatten().flatten();
-            open.any(|fd| fs::read_link(fd.path()).is_ok_and(|path| path.ends_with(".shearbed-lock")))
+            open.any(|fd| fs::read_link(fd.path()).is_ok_and(|path| path.ends_with("x")))
         });
         kill(child.id(), "-TERM");
         let ended = child.wait_with_output().unwrap();
