@@ -154,6 +154,13 @@ pub fn names(dir: &Path) -> Vec<String> {
     names
 }
 
+/// Removes the hidden folders that killed processes left in a folder, and returns their number.
+pub fn remove_left(dir: &Path) -> usize {
+    let left: Vec<_> = names(dir).into_iter().filter(|name| name.starts_with(".shearbed-")).collect();
+    left.iter().for_each(|name| fs::remove_dir_all(dir.join(name)).unwrap());
+    left.len()
+}
+
 /// A file's text.
 pub fn read(path: &Path) -> String {
     fs::read_to_string(path).unwrap()

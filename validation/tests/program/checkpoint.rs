@@ -2,7 +2,7 @@
 #![cfg(unix)]
 
 use crate::common::running::Running;
-use crate::common::{SMALL, command, files, folder, shearbed};
+use crate::common::{SMALL, command, files, folder, remove_left, shearbed};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Dxsm;
 use std::collections::BTreeMap;
@@ -84,6 +84,8 @@ fn a_run_that_is_killed_goes_on_to_the_same_bits() {
                 }
                 code => panic!("{name}, {signal}: {code:?}, {}", ended.stderr),
             }
+            // Of what was left in the middle of writing the next life would warn first.
+            assert!(remove_left(&dir.path().join("kept")) == 0 || signal == "-KILL");
         }
         let goes_on = format!("goes on from kept/{name}: ");
         let last = shearbed(dir.path(), &run);

@@ -118,7 +118,7 @@ fn a_run_replaces_an_earlier_one_and_says_so_but_nothing_that_was_edited() {
     fs::write(out.join("notes.txt"), "mine").unwrap();
     for (arguments, what) in [
         ("--seed 2", "scene.ensemble.seed was 1 and is 2 now"),
-        ("--replicas 4", "scene.ensemble.seed was 2 and is 1 now"),
+        ("--replicas 4", "scene.ensemble.replicas was 3 and is 4 now"),
         ("--set interaction.alpha=0.4", "scene.ensemble.replicas was 4 and is 3 now"),
     ] {
         let ended = run(arguments);

@@ -1,6 +1,6 @@
 //! More replicas for an old run, and replicas until a standard error is small enough: the bits of one run.
 
-use crate::common::{SMALL, files, folder, read, shearbed};
+use crate::common::{SMALL, files, folder, read, remove_left, shearbed};
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::fs;
@@ -78,33 +78,6 @@ fn fewer_replicas_and_other_scenes_are_refused_and_change_nothing() {
         refused(dir, &format!("--checkpoint kept {arguments}"), &[why]);
     }
     assert!(before == (files(&dir.join("a")), fs::read(dir.join("kept")).unwrap()));
-}
-
-/// One rule: other results stay without --force. A run that goes on contains the replicas of the folder; any other does not.
-#[test]
-fn only_results_that_the_new_ones_contain_are_replaced() {
-    let dir = folder();
-    let dir = dir.path();
-    run(dir, "small.toml --replicas 5 --checkpoint five --out a");
-    run(dir, "small.toml --replicas 3 --checkpoint three --out b");
-    let before = files(&dir.join("a"));
-    for (arguments, why) in [
-        ("--replicas 9", "scene.ensemble.replicas was 5 and is 9 now"),
-        ("--replicas 9 --checkpoint new", "scene.ensemble.replicas was 5 and is 9 now"),
-        // Of the folder's 5 replicas this file has 3.
-        ("--replicas 9 --checkpoint three", "scene.ensemble.replicas was 5 and is 9 now"),
-        ("--replicas 9 --seed 2 --checkpoint new", "scene.ensemble.replicas was 5 and is 9 now"),
-        ("--until-se x1=0.1", "scene.ensemble.replicas was 5 and is \"until_se x1=0.1\" now"),
-    ] {
-        refused(dir, arguments, &[why, "--force"]);
-        assert!(before == files(&dir.join("a")) && !dir.join("new").exists(), "{arguments}");
-    }
-    // What somebody changed since stays too.
-    fs::write(dir.join("b/projections.csv"), "edited").unwrap();
-    let ended = shearbed(dir, "run small.toml --replicas 9 --checkpoint three --out b");
-    assert!(ended.stderr.contains("b/projections.csv: was changed"), "{}", ended.stderr);
-    run(dir, "small.toml --replicas 9 --checkpoint five --out a");
-    run(dir, "small.toml --until-se x1=0.05 --checkpoint five --out a");
 }
 
 /// The largest standard error of a column of a table.
@@ -255,6 +228,8 @@ fn a_killed_extension_goes_on_to_the_same_bits() {
             }
             running.signal("-KILL");
             running.end();
+            // Of what was left in the middle of writing the next life would warn first.
+            remove_left(dir);
         }
         let wanted = match name {
             "more" => "whole".to_owned(),

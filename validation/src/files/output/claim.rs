@@ -101,13 +101,17 @@ impl Claim {
         stage.appear(Path::new(&last)).map_err(at(&path))
     }
 
-    /// Removes a folder with all that is in it.
-    pub fn remove_folder(&self, name: &str) -> Result<(), OutputError> {
+    /// Removes a file, or a folder with all that is in it.
+    pub fn remove(&self, name: &str) -> Result<(), OutputError> {
         let remove = || match beneath(&self.dir, name)? {
-            Some((folder, last)) => folder.remove_dir_all(last),
+            Some((folder, last)) if folder.symlink_metadata(&last)?.is_dir() => folder.remove_dir_all(last),
+            Some((folder, last)) => folder.remove_file(last),
             None => Ok(()),
         };
-        remove().map_err(at(&self.path.join(name)))
+        match remove() {
+            Err(error) if error.kind() != io::ErrorKind::NotFound => Err(at(&self.path.join(name))(error)),
+            _ => Ok(()),
+        }
     }
 
     /// Warns of what killed processes left in a folder of this one.
@@ -117,17 +121,6 @@ impl Claim {
             && let Ok(dir) = above.open_dir(last)
         {
             report(&dir, &self.path.join(name));
-        }
-    }
-
-    fn remove(&self, name: &str) -> Result<(), OutputError> {
-        let remove = || match beneath(&self.dir, name)? {
-            Some((folder, last)) => folder.remove_file(last),
-            None => Ok(()),
-        };
-        match remove() {
-            Err(error) if error.kind() != io::ErrorKind::NotFound => Err(at(&self.path.join(name))(error)),
-            _ => Ok(()),
         }
     }
 

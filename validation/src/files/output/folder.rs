@@ -265,15 +265,5 @@ mod tests {
             let found = refused(&own, &["a.csv"]);
             assert!(found.starts_with(why), "{found}");
         }
-        // A record that lists files outside the folder is not followed.
-        let outside = dir.path().join("outside.csv");
-        fs::write(&outside, "of ../outside.csv\n").unwrap();
-        let inner = dir.path().join("inner");
-        fs::create_dir(&inner).unwrap();
-        let own = folder(&inner, "run", 1);
-        let record = Record::new(&own.origin, &files(&["../outside.csv"]));
-        fs::write(inner.join(RECORD), record.file().1).unwrap();
-        own.write(files(&["a.csv"])).unwrap();
-        assert!(outside.exists());
     }
 }

@@ -102,7 +102,7 @@ impl Folder {
         let earlier = self.folder.earlier(&self.claim);
         let mut left_over = vec!["sweep.csv".to_owned()];
         if !own {
-            self.others()?.iter().try_for_each(|point| self.claim.remove_folder(point))?;
+            self.others()?.iter().try_for_each(|point| self.claim.remove(point))?;
             left_over.extend(earlier.keys().filter(|name| *name != "sweep.json").cloned());
         }
         let record = Record::new(self.folder.origin(), &self.first);
