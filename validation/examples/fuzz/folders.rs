@@ -138,11 +138,14 @@ fn tried(case: &Path, random: &mut Pcg64Dxsm, mutated: &str) -> Result<Taken, St
     }
     let before = tree(case);
     let force = random.random_bool(0.4);
-    let names: Vec<_> = NAMES.into_iter().filter(|_| random.random_bool(0.6)).collect();
+    let mut names: Vec<_> = NAMES.into_iter().filter(|_| random.random_bool(0.6)).collect();
+    if names.is_empty() {
+        names.push("a.csv");
+    }
     let files: Vec<_> = names.iter().map(|name| ((*name).to_owned(), format!("new {name}"))).collect();
     let refused = |why: Refused| why.to_string();
     let (done, written) = match random.random_range(0..6) {
-        0 => (write_one(&out.join(names.first().unwrap_or(&"x.csv")), b"new", force).map_err(refused), None),
+        0 => (write_one(&out.join(names[0]), b"new", force).map_err(refused), None),
         1 => (probe(&out, 10).map_err(|error| error.to_string()), Some(vec![])),
         2 => {
             let kept = Checkpoint::open(&out.join("kept"), "run", json!({}));

@@ -267,7 +267,7 @@ fn command(command: Command) -> Result<(), Failure> {
 /// Options of every command that writes a folder of results.
 #[derive(clap::Args)]
 struct Writing {
-    /// Overwrite files in the folder that this command did not write, or that were edited, or wrote from other input (`run` needs no --force for these)
+    /// Overwrite files in the folder that this command did not write, or wrote from other input
     #[arg(long)]
     force: bool,
     /// Print nothing but errors and warnings
