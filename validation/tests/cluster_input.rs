@@ -5,7 +5,8 @@
 
 mod common;
 
-use common::{PATIENCE, SMALL, folder};
+use common::bounded::Bounded;
+use common::{SMALL, folder};
 use std::fs;
 use std::path::Path;
 use std::process::Command;
@@ -14,16 +15,12 @@ use std::process::Command;
 fn job(dir: &Path, ranks: &[&str]) -> (Option<i32>, String) {
     let program = env!("CARGO_BIN_EXE_shearbed");
     let ranks: Vec<_> = (ranks.iter()).map(|command| format!("-n 1 {program} {command}")).collect();
-    let output = Command::new("timeout")
-        .args([&PATIENCE.as_secs().to_string(), "mpirun"])
+    let output = Command::new("mpirun")
         .args(ranks.join(" : ").split_whitespace())
         .envs(["OMPI_ALLOW_RUN_AS_ROOT", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM"].map(|name| (name, "1")))
         .env("OMPI_MCA_rmaps_base_oversubscribe", "1")
         .current_dir(dir)
-        .output()
-        .unwrap();
-    let in_time = output.status.code() != Some(124);
-    assert!(in_time, "this machine did not end the job within {PATIENCE:?}, or it hangs");
+        .ended();
     (output.status.code(), String::from_utf8_lossy(&output.stderr).into_owned())
 }
 

@@ -25,8 +25,18 @@ function p = advance(L, r, time, steps, p)
   end
 end
 
-line = fgetl(stdin);
-while ischar(line)
+% The next line of standard input, byte by byte as a pipe gives it: fgetl waits for the line after it. Empty at the end.
+function line = next_line()
+  line = "";
+  byte = fread(stdin, 1, "*char");
+  while !isempty(byte) && byte != "\n"
+    line(end + 1) = byte;
+    byte = fread(stdin, 1, "*char");
+  end
+end
+
+line = next_line();
+while !isempty(line)
   x = sscanf(line, "%f");
   L = reshape(x(2:10), 3, 3)';
   steps = x(13);
@@ -37,5 +47,5 @@ while ischar(line)
     printf("%d%s\n", x(1), sprintf(" %.17g", p));
   end
   fflush(stdout);
-  line = fgetl(stdin);
+  line = next_line();
 end

@@ -2,8 +2,6 @@
 
 use super::*;
 use common::running::Running;
-use std::thread::sleep;
-use std::time::{Duration, Instant};
 
 #[test]
 fn bad_input_on_one_rank_ends_the_job() {
@@ -34,8 +32,8 @@ fn bad_input_on_all_ranks_is_told_once() {
 fn a_root_that_cannot_write_ends_the_job() {
     let dir = folder();
     let over = "sweep long.toml --over interaction.alpha=1,2 --replicas 1 --over ensemble.seed=1,2 --out x";
-    let first = mpirun(dir.path(), &format!("-n 2 shearbed {over} --threads 1 --quiet")).status();
-    assert!(first.unwrap().success());
+    let first = mpirun(dir.path(), &format!("-n 2 shearbed {over} --threads 1 --quiet")).ended();
+    assert!(first.status.success());
     fs::remove_dir_all(dir.path().join("x/points")).unwrap();
     fs::write(dir.path().join("x/points"), "in the way").unwrap();
     let (code, message) = shearbed(dir.path(), &format!("-n 4 shearbed {over} --threads 1"));
@@ -58,24 +56,8 @@ fn a_rank_that_dies_ends_the_job() {
 
 /// A failing job's exit code and message.
 fn shearbed(dir: &Path, arguments: &str) -> (Option<i32>, String) {
-    let mut job = mpirun(dir, arguments).stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
-    let status = end_of(&mut job);
-    (status.code(), text(&job.wait_with_output().unwrap().stderr))
-}
-
-/// Waits for a job's end.
-pub fn end_of(job: &mut Child) -> std::process::ExitStatus {
-    let start = Instant::now();
-    loop {
-        if let Some(status) = job.try_wait().unwrap() {
-            return status;
-        }
-        if start.elapsed() > PATIENCE {
-            job.kill().unwrap();
-            panic!("this machine did not end the job within {PATIENCE:?}, or it hangs");
-        }
-        sleep(Duration::from_millis(10));
-    }
+    let job = mpirun(dir, arguments).ended();
+    (job.status.code(), text(&job.stderr))
 }
 
 /// The processes that a process has started, in order.

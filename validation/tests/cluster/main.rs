@@ -7,13 +7,14 @@
 mod common;
 mod ended;
 
-use common::{PATIENCE, UNEQUAL, files, kill, wait_for};
-use ended::{children, end_of};
+use crate::common::bounded::{Bounded, end};
+use common::{UNEQUAL, files, kill, wait_for};
+use ended::children;
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
-use std::process::{Child, Command, Output, Stdio};
+use std::process::{Command, Output, Stdio};
 use tempfile::TempDir;
 
 const PROGRAM: &str = env!("CARGO_BIN_EXE_shearbed");
@@ -67,11 +68,9 @@ fn both(dir: &Path, ranks: usize, arguments: &str) -> [BTreeMap<String, Vec<u8>>
         .args(arguments.split_whitespace())
         .args(["--out", "alone", "--threads", "2"])
         .current_dir(dir)
-        .output()
-        .unwrap();
+        .ended();
     assert!(alone.status.success(), "{}", text(&alone.stderr));
-    let shared =
-        mpirun(dir, &format!("-n {ranks} shearbed {arguments} --out shared --threads 1")).output().unwrap();
+    let shared = mpirun(dir, &format!("-n {ranks} shearbed {arguments} --out shared --threads 1")).ended();
     assert!(shared.status.success(), "{}", text(&shared.stderr));
     // Only the root prints. Cases are printed as they end.
     let lines = |output: &Output| {
@@ -138,7 +137,7 @@ fn a_killed_job_is_gone_on_with_by_one_process() {
     fs::write(dir.path().join("small.toml"), scene).unwrap();
     let over = "sweep small.toml --over interaction.alpha=0.1:2:20 --replicas 100";
     let points = dir.path().join("shared/points");
-    let mut job = mpirun(dir.path(), &format!("-n 4 shearbed {over} --out shared --threads 1"))
+    let job = mpirun(dir.path(), &format!("-n 4 shearbed {over} --out shared --threads 1"))
         .stderr(Stdio::null())
         .spawn()
         .unwrap();
@@ -147,14 +146,14 @@ fn a_killed_job_is_gone_on_with_by_one_process() {
     if let Some(rank) = children(job.id()).get(2) {
         kill(*rank, "-9");
     }
-    let ended = end_of(&mut job).success();
+    let ended = end("the killed job", job).status.success();
     assert_eq!(dir.path().join("shared/sweep.csv").exists(), ended);
     for out in ["shared", "alone"] {
         let ended = Command::new(PROGRAM)
             .args(format!("{over} --out {out}").split_whitespace())
             .current_dir(dir.path())
-            .status();
-        assert!(ended.unwrap().success());
+            .ended();
+        assert!(ended.status.success());
     }
     assert_eq!(files(&dir.path().join("shared")), files(&dir.path().join("alone")));
 }
@@ -169,7 +168,7 @@ fn other_ranks_need_the_scene_and_write_nothing() {
         ("converge small.toml", "converge.csv"),
     ] {
         let rank = format!("shearbed {command} --out {written}-x --threads 1");
-        let job = mpirun(root.path(), &format!("-n 1 {rank} : -n 2 -wdir {folder} {rank}")).output().unwrap();
+        let job = mpirun(root.path(), &format!("-n 1 {rank} : -n 2 -wdir {folder} {rank}")).ended();
         assert!(job.status.success(), "{}", text(&job.stderr));
         let written = root.path().join(format!("{written}-x")).join(written);
         assert!(written.exists(), "{}", written.display());

@@ -1,10 +1,11 @@
 //! Grading answers made by a test: the exported problems, answers as rows of text, and what `shearbed grade` says.
 
+use crate::bounded::Bounded;
 use serde_json::Value;
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
+use std::process::Command;
 use std::sync::LazyLock;
 use tempfile::TempDir;
 
@@ -14,9 +15,8 @@ pub static REFERENCE: LazyLock<TempDir> = LazyLock::new(|| {
     let exported = Command::new(env!("CARGO_BIN_EXE_shearbed"))
         .args(["problems", "export", "--force"])
         .arg(dir.path())
-        .stdout(Stdio::null())
-        .status();
-    assert!(exported.unwrap().success());
+        .ended();
+    assert!(exported.status.success());
     dir
 });
 
@@ -38,8 +38,7 @@ pub fn graded(arguments: &[&str]) -> Graded {
         .arg(out.path())
         .args(arguments)
         .envs(crate::programs::ONE_THREAD)
-        .output()
-        .unwrap();
+        .ended();
     let words = [output.stdout, output.stderr].map(|bytes| String::from_utf8_lossy(&bytes).into_owned());
     let text = |name: &str| fs::read_to_string(out.path().join(name)).ok();
     let files = ["grade.json", "grade.html", "grade.md", "junit.xml"].map(|name| text(name).is_some());

@@ -4,7 +4,11 @@
 
 #[cfg(unix)]
 pub mod running;
+pub mod bounded;
 
+pub use bounded::PATIENCE;
+
+use bounded::Bounded;
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
@@ -12,10 +16,6 @@ use std::process::Command;
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 use tempfile::TempDir;
-
-/// How long a test waits for the program. It is no measure of the program: a machine that needs longer is at fault, and the
-/// message says so.
-pub const PATIENCE: Duration = Duration::from_secs(600);
 
 /// A scene of milliseconds.
 pub const SMALL: &str = r#"title = "A small scene"
@@ -110,19 +110,14 @@ pub fn shearbed(dir: &Path, arguments: &str) -> Ended {
     told(&mut command(dir, arguments))
 }
 
-/// The same under the limits that a shell sets first. What should be refused might work for hours: it is ended then.
+/// The same under the limits that a shell sets first.
 pub fn limited(dir: &Path, limits: &str, arguments: &str) -> Ended {
     let script = format!("{limits}; exec {} {arguments}", env!("CARGO_BIN_EXE_shearbed"));
-    let seconds = PATIENCE.as_secs();
-    let ended =
-        told(Command::new("timeout").args([&seconds.to_string(), "bash", "-c", &script]).current_dir(dir));
-    let in_time = ended.code != Some(124);
-    assert!(in_time, "this machine did not end `{arguments}` within {seconds} s, or it was not refused");
-    ended
+    told(Command::new("bash").args(["-c", &script]).current_dir(dir))
 }
 
 fn told(command: &mut Command) -> Ended {
-    let output = command.output().unwrap();
+    let output = command.ended();
     Ended {
         code: output.status.code(),
         stdout: String::from_utf8(output.stdout).unwrap(),
@@ -132,8 +127,7 @@ fn told(command: &mut Command) -> Ended {
 
 /// Sends a signal, unless the process has ended.
 pub fn kill(id: u32, signal: &str) {
-    let sent = Command::new("kill").args([signal, &id.to_string()]).output();
-    sent.unwrap();
+    Command::new("kill").args([signal, &id.to_string()]).ended();
 }
 
 /// Waits until something has come about.

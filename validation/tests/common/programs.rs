@@ -1,5 +1,6 @@
 //! Programs in other languages, where a machine has them.
 
+use crate::bounded::{Bounded, end};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
@@ -19,8 +20,13 @@ pub fn python(module: &str) -> Option<String> {
 
 /// Whether a program can be run, and ends well.
 pub fn runs(program: &str, arguments: &[&str]) -> bool {
-    let quiet = Command::new(program).args(arguments).stdout(Stdio::null()).stderr(Stdio::null()).status();
-    quiet.is_ok_and(|status| status.success())
+    let quiet = Command::new(program)
+        .args(arguments)
+        .stdin(Stdio::null())
+        .stdout(Stdio::null())
+        .stderr(Stdio::null())
+        .spawn();
+    quiet.is_ok_and(|child| end(program, child).status.success())
 }
 
 /// For NumPy, whose threads spin while they wait.
@@ -28,7 +34,7 @@ pub const ONE_THREAD: [(&str, &str); 1] = [("OPENBLAS_NUM_THREADS", "1")];
 
 /// Runs a program that must end well.
 pub fn run(program: &str, arguments: &[&Path]) {
-    let output = Command::new(program).args(arguments).envs(ONE_THREAD).output().unwrap();
+    let output = Command::new(program).args(arguments).envs(ONE_THREAD).ended();
     assert!(output.status.success(), "{program} {arguments:?}: {}", String::from_utf8_lossy(&output.stderr));
 }
 

@@ -2,6 +2,7 @@
 //! where DOCS_SLOW is set, as in `.ci/run`; or `sh,no-run`, for what needs a network or another machine. A block `text` right
 //! after it is what it prints; `…` stands for anything.
 
+use crate::bounded::Bounded;
 use crate::pages::{blocks, under};
 use std::path::Path;
 use std::process::{Command, Stdio};
@@ -61,7 +62,7 @@ fn run(page: &str, slow: bool) -> Result<usize, String> {
 fn shell(commands: &str, path: &str, dir: &Path) -> (bool, String) {
     let mut shell = Command::new("bash");
     shell.args(["-euo", "pipefail", "-c", commands]).current_dir(dir);
-    let ended = shell.env("PATH", path).stdin(Stdio::null()).output().unwrap();
+    let ended = shell.env("PATH", path).stdin(Stdio::null()).ended();
     let printed = [ended.stdout, ended.stderr].concat();
     (ended.status.success(), String::from_utf8_lossy(&printed).into_owned())
 }

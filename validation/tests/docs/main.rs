@@ -2,6 +2,8 @@
 //! the user guide runs and prints what is shown, numbers are those of their commands, and the parts keep to their length.
 
 mod blocks;
+#[path = "../common/bounded.rs"]
+mod bounded;
 mod generated;
 mod length;
 mod links;

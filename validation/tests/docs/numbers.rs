@@ -1,6 +1,7 @@
 //! Numbers of the text: `0.326<!--=fig4.x1-->` is the value of `fig4.x1` in docs/numbers.tsv, which has the command that prints it.
 //! `docs/numbers.sh` makes the table afresh.
 
+use crate::bounded::Bounded;
 use crate::pages::{Page, places, readmes, root, under};
 use pulldown_cmark::Event;
 use std::collections::{BTreeMap, BTreeSet};
@@ -78,7 +79,7 @@ fn printed(command: &str) -> String {
     let dir = tempfile::tempdir().unwrap();
     let mut shell = Command::new("bash");
     let shell = shell.args(["-euo", "pipefail", "-c", command]).current_dir(dir.path());
-    let ended = shell.env("PATH", path).env("ROOT", root()).output().unwrap();
+    let ended = shell.env("PATH", path).env("ROOT", root()).ended();
     assert!(ended.status.success(), "{command}: {}", String::from_utf8_lossy(&ended.stderr));
     String::from_utf8(ended.stdout).unwrap().trim().to_owned()
 }

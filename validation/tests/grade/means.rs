@@ -1,5 +1,6 @@
 //! Means of suspensions that a program may give for the right ones, and what is said of them.
 
+use crate::bounded::Bounded;
 use crate::grading::{answers, problem, text, write};
 use std::process::Command;
 
@@ -11,8 +12,7 @@ fn free(turns: f64, sd_percent: &str) -> Vec<String> {
         .args(["reference", "--aspect-ratio", "11.6", "--shear-rate-per-s", "0.5"])
         .args(["--times", &format!("{turns}:{turns}:1")])
         .args((sd_percent != "0").then_some(["--aspect-ratio-sd-percent", sd_percent]).into_iter().flatten())
-        .output()
-        .unwrap();
+        .ended();
     let table = String::from_utf8(output.stdout).unwrap();
     let row = table.lines().nth(1).unwrap_or_else(|| panic!("{}", String::from_utf8_lossy(&output.stderr)));
     row.split(',').skip(3).take(3).map(str::to_owned).collect()

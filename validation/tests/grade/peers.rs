@@ -1,6 +1,7 @@
 //! Programs that nobody here wrote, and small ones in other languages, graded as a user would. What cannot run here is skipped
 //! by name and reason in one line, and recorded answers (`validation/peers/recorded`) are graded in its place.
 
+use crate::bounded::{ANSWER_S, Bounded};
 use crate::grading::{Graded, REFERENCE, files, graded, names, some};
 use crate::programs::{peers, python, run, runs, skipped};
 use serde_json::Value;
@@ -56,7 +57,7 @@ fn numpy_rk4_passes_with_order_4_and_euler_fails_with_order_1() {
         }
     }
     let live = format!("'{python}' '{}' --live", script.display());
-    let live = graded(&["--command", &live, "--brief", "--order", "4", "--timeout", "100000"]);
+    let live = graded(&["--command", &live, "--brief", "--order", "4", "--timeout", ANSWER_S]);
     assert_eq!(live.code, Some(0), "{}", live.words);
 }
 
@@ -73,8 +74,7 @@ fn a_suspension_in_numpy_has_the_mean_of_the_core() {
         let output = std::process::Command::new(&python)
             .args(["-c", code, replicas, "50", "1"])
             .envs(crate::programs::ONE_THREAD)
-            .output()
-            .unwrap();
+            .ended();
         assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
         let answer: Value = serde_json::from_slice(&output.stdout).unwrap();
         let x1: Vec<_> = answer["x1"].as_array().unwrap().iter().map(|x| x.as_f64().unwrap()).collect();
@@ -115,7 +115,7 @@ fn c_compiled_with_cc_passes_with_order_4() {
     run("cc", &[Path::new("-O2"), Path::new("-o"), &program, &peers().join("c_rk4.c"), Path::new("-lm")]);
     let command = format!("'{}'", program.display());
     let some = ["mid-flip-11.6", "poles", "spiral"].map(|name| ["--problem", name]);
-    let asked = ["--command", &command, "--order", "4", "--timeout", "100000"];
+    let asked = ["--command", &command, "--order", "4", "--timeout", ANSWER_S];
     let found = graded(&[&asked[..], some.as_flattened()].concat());
     assert_eq!(found.code, Some(0), "{}", found.words);
     assert!((found.order("mid-flip-11.6") - 4.0).abs() < 0.2);
@@ -157,7 +157,7 @@ fn javascript_has_order_2() {
     let command = format!("node '{}'", script.display());
     let of = ["--problem", "mid-flip-2", "--problem", "mid-flip-11.6", "--problem", "spiral"];
     let found = graded(
-        &[&["--command", &command, "--brief", "--order", "2", "--timeout", "100000"][..], &of].concat(),
+        &[&["--command", &command, "--brief", "--order", "2", "--timeout", ANSWER_S][..], &of].concat(),
     );
     for name in ["mid-flip-2", "mid-flip-11.6", "spiral"] {
         assert!((found.order(name) - 2.0).abs() < 0.2, "{name}: {}", found.words);
@@ -212,7 +212,7 @@ fn fiberoripy_is_right_until_rods_are_fibres_and_its_closure_is_no_solution() {
     judge_fiberoripy(&files(REFERENCE.path(), &mine, &[]));
     let command = format!("'{python}' '{}' --live", script.display());
     let of = ["--problem", "mid-flip-2", "--problem", "mid-flip-10000"];
-    let live = graded(&[&["--command", &command, "--brief", "--timeout", "100000"][..], &of].concat());
+    let live = graded(&[&["--command", &command, "--brief", "--timeout", ANSWER_S][..], &of].concat());
     assert_eq!(live.verdict("mid-flip-2"), "PASS", "{}", live.words);
     assert_eq!(live.verdict("mid-flip-10000"), "FAIL", "{}", live.words);
     let note = live.of("mid-flip-10000")["note"].as_str().unwrap();

@@ -1,5 +1,6 @@
 //! What is refused, with which place and reason.
 
+use crate::bounded::Bounded;
 use crate::grading::{REFERENCE, answers, files, graded, problem, text, write};
 use std::fs;
 use std::path::Path;
@@ -145,7 +146,7 @@ fn ten_million_rows_are_refused_at_the_first_that_nobody_asked_for() {
             dir.path().display(),
             dir.path().join("out").display()
         );
-        let output = Command::new("sh").args(["-c", &command]).output().unwrap();
+        let output = Command::new("sh").args(["-c", &command]).ended();
         let words = String::from_utf8_lossy(&output.stderr);
         assert!(output.status.code() == Some(2) && words.contains(place), "{words}");
     }

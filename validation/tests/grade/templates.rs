@@ -1,5 +1,6 @@
 //! The templates of `peers/templates`: each is compiled where its tool is there, and graded over the text protocol.
 
+use crate::bounded::{ANSWER_S, Bounded};
 use crate::grading::{Graded, graded};
 use crate::programs::{peers, python, run, runs, skipped};
 use std::path::{Path, PathBuf};
@@ -8,7 +9,7 @@ const PROBLEMS: [&str; 3] = ["mid-flip-2", "disc-0.1", "spiral"];
 
 fn judged(command: &str, more: &[&str]) -> Graded {
     let problems = PROBLEMS.map(|name| ["--problem", name]);
-    let asked = ["--protocol", "text", "--command", command, "--order", "4", "--timeout", "100000"];
+    let asked = ["--protocol", "text", "--command", command, "--order", "4", "--timeout", ANSWER_S];
     graded(&[&asked[..], more, problems.as_flattened()].concat())
 }
 
@@ -131,8 +132,7 @@ fn build_systems_hold_a_program_to_the_problems() {
             .args(arguments)
             .current_dir(dir.path())
             .env("PATH", &all)
-            .output()
-            .unwrap();
+            .ended();
         (
             output.status.success(),
             format!("{}{}", String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr)),

@@ -1,6 +1,7 @@
 //! How the program ends when it is told to, or when what it writes to has gone.
 #![cfg(unix)]
 
+use crate::common::bounded::{Bounded, end};
 use crate::common::running::Running;
 use crate::common::{SMALL, command, files, folder, limited, shearbed};
 use std::fs;
@@ -64,7 +65,7 @@ fn a_reader_that_goes_away_is_no_error() {
     for arguments in ["scenes", "plan fig4-n50", "--help", "run small.toml", "scenes --show fig5"] {
         // The reader is gone before the first line.
         let script = format!("{program} {arguments} | true; echo ${{PIPESTATUS[0]}}");
-        let output = Command::new("bash").args(["-c", &script]).current_dir(dir.path()).output().unwrap();
+        let output = Command::new("bash").args(["-c", &script]).current_dir(dir.path()).ended();
         assert_eq!(String::from_utf8(output.stdout).unwrap(), "0\n", "{arguments}");
         assert_eq!(String::from_utf8(output.stderr).unwrap(), "", "{arguments}");
     }

@@ -1,6 +1,7 @@
 //! Experiments without points, and with synthetic ones: made here from the model itself with another seed, read off with
 //! noise of known size, and written where only these tests look.
 
+use crate::common::bounded::Bounded;
 use rand::SeedableRng;
 use rand_distr::{Distribution, StandardNormal};
 use rand_pcg::Pcg64Dxsm;
@@ -100,7 +101,7 @@ fn validate(case: &str, data: Option<&Path>) -> (Option<i32>, String, serde_json
     if let Some(data) = data {
         command.arg("--data").arg(data);
     }
-    let ended = command.output().unwrap();
+    let ended = command.ended();
     let text = [ended.stdout, ended.stderr].concat();
     let report = fs::read_to_string(dir.path().join("out/report/report.json")).unwrap_or("null".to_owned());
     (ended.status.code(), String::from_utf8(text).unwrap(), serde_json::from_str(&report).unwrap())
@@ -220,8 +221,7 @@ fn points_of_rods_in_the_shear_plane_are_not_fitted() {
             .args(["fit", "--data", "points.csv", "--replicas", "20", "--quiet", "--out", "out", "--force"])
             .args(arguments.split_whitespace())
             .current_dir(dir.path())
-            .output()
-            .unwrap();
+            .ended();
         (done.status.code(), String::from_utf8(done.stderr).unwrap())
     };
     for key in ["interaction.alpha=0.05:5", "interaction.m=1:6"] {

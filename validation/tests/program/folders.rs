@@ -2,6 +2,7 @@
 
 mod stopped;
 
+use crate::common::bounded::end;
 use crate::common::{command, files, folder, shearbed};
 use std::collections::BTreeSet;
 use std::fs;
@@ -94,7 +95,7 @@ fn two_sweeps_started_together_do_not_mix() {
             let mut child = command(dir.path(), &of_seed(seed, &out));
             child.stderr(Stdio::piped()).spawn().unwrap()
         });
-        let both = both.map(|child| child.wait_with_output().unwrap());
+        let both = both.map(|child| end("a sweep", child));
         let codes = both.each_ref().map(|output| output.status.code());
         let found = files(&dir.path().join(&out));
         match codes {
@@ -131,8 +132,8 @@ fn two_runs_into_one_folder_do_not_mix_their_files() {
         // Every other round into a folder that is there.
         let out = format!("round-{}", round / 2);
         let both = [1, 2].map(|seed| command(dir.path(), &of_seed(seed, &out)).spawn().unwrap());
-        for mut child in both {
-            assert_eq!(child.wait().unwrap().code(), Some(0), "round {round}");
+        for child in both {
+            assert_eq!(end("a run", child).status.code(), Some(0), "round {round}");
         }
         let found = files(&dir.path().join(&out));
         let record: serde_json::Value = serde_json::from_slice(&found["run.json"]).unwrap();

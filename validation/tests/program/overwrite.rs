@@ -1,5 +1,6 @@
 //! What lies in a folder already, and what is left where a run cannot be.
 
+use crate::common::bounded::Bounded;
 use crate::common::{UNEQUAL, files, limited, names, read, shearbed, unequal};
 use std::fs;
 use std::path::Path;
@@ -207,7 +208,7 @@ fn a_file_is_written_where_a_link_leads_and_a_pipe_keeps_nobody_waiting() {
     let mkfifo = |name: &str| {
         let pipe = dir.path().join(name);
         fs::create_dir_all(pipe.parent().unwrap()).unwrap();
-        assert!(std::process::Command::new("mkfifo").arg(&pipe).status().unwrap().success());
+        assert!(std::process::Command::new("mkfifo").arg(&pipe).ended().status.success());
     };
     // A pipe that nobody reads or writes keeps no command waiting, wherever it lies.
     for (pipe, arguments) in [

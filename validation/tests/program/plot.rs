@@ -1,5 +1,6 @@
 //! `shearbed plot`: one picture of several runs.
 
+use crate::common::bounded::Bounded;
 use crate::common::{command, limited, read, shearbed, unequal};
 use std::path::Path;
 
@@ -286,8 +287,7 @@ fn no_key_is_read_out_of_a_swept_text() {
     let dir = unequal();
     let ended = command(dir.path(), "sweep small.toml --quiet --out s --over")
         .arg("title='a interaction.alpha=5','b interaction.alpha=7'")
-        .output()
-        .unwrap();
+        .ended();
     assert!(ended.status.success());
     refused(
         dir.path(),

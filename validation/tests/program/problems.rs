@@ -1,5 +1,6 @@
 //! Reference problems as files.
 
+use crate::common::bounded::Bounded;
 use crate::common::files;
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -143,7 +144,7 @@ fn an_archive_has_every_file_with_its_checksum_a_licence_and_a_citation() {
     let file = dir.path().join("problems.tar");
     let exported = |more: &[&str]| {
         let mut shearbed = std::process::Command::new(env!("CARGO_BIN_EXE_shearbed"));
-        shearbed.args(["problems", "export", "--archive"]).arg(&file).args(more).output().unwrap()
+        shearbed.args(["problems", "export", "--archive"]).arg(&file).args(more).ended()
     };
     let first = exported(&[]);
     assert!(first.status.success(), "{}", String::from_utf8_lossy(&first.stderr));
@@ -155,8 +156,7 @@ fn an_archive_has_every_file_with_its_checksum_a_licence_and_a_citation() {
     assert_eq!(fs::read_to_string(&file).unwrap(), "mine");
     assert!(exported(&["--force"]).status.success());
     let shell = |command: &str| {
-        let ended =
-            std::process::Command::new("sh").args(["-ec", command]).current_dir(dir.path()).output().unwrap();
+        let ended = std::process::Command::new("sh").args(["-ec", command]).current_dir(dir.path()).ended();
         (ended.status.success(), String::from_utf8_lossy(&ended.stdout).into_owned())
     };
     let folder = format!("shearbed-problems-{}", env!("CARGO_PKG_VERSION"));

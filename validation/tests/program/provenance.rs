@@ -1,5 +1,6 @@
 //! Which build made a result, and the command that repeats it.
 
+use crate::common::bounded::Bounded;
 use crate::common::{FREE, command, folder, shearbed};
 use serde_json::Value;
 use std::fs;
@@ -8,7 +9,7 @@ use std::process::Command;
 
 /// What git prints in a folder, or nothing.
 fn git(dir: &Path, arguments: &[&str]) -> Option<String> {
-    let output = Command::new("git").arg("-C").arg(dir).args(arguments).output().ok()?;
+    let output = Command::new("git").arg("-C").arg(dir).args(arguments).ended();
     let text = String::from_utf8(output.stdout).ok()?;
     output.status.success().then(|| text.trim().to_owned())
 }
@@ -56,15 +57,15 @@ fn the_command_is_as_it_was_called_and_a_shell_repeats_it() {
     let dir = folder();
     let out = "it's $HOME; `a b`";
     let arguments = ["validate", "--case", "jeffery-period", "--quiet", "--out", out];
-    assert!(command(dir.path(), "").args(arguments).status().unwrap().success());
+    assert!(command(dir.path(), "").args(arguments).ended().status.success());
     let written = |name: &str| fs::read_to_string(dir.path().join(out).join(name)).unwrap();
     let report: Value = serde_json::from_str(&written("report.json")).unwrap();
     let line = report["origin"]["command"].as_str().unwrap().to_owned();
     assert!(line.starts_with(env!("CARGO_BIN_EXE_shearbed")), "{line}");
     assert!(written("report.md").contains(&format!("`` {line} ``")), "{line}");
     fs::remove_dir_all(dir.path().join(out)).unwrap();
-    let again = Command::new("bash").args(["-c", &line]).current_dir(dir.path()).status();
-    assert!(again.unwrap().success());
+    let again = Command::new("bash").args(["-c", &line]).current_dir(dir.path()).ended();
+    assert!(again.status.success());
     assert!(dir.path().join(out).join("report.json").exists());
 }
 
@@ -75,15 +76,14 @@ fn the_build_script_knows_its_own_checkout_alone() {
     let script = dir.path().join("script");
     let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("build.rs");
     let rustc = std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into());
-    let built = Command::new(rustc).args(["--edition", "2024", "-o"]).arg(&script).arg(source).status();
-    assert!(built.unwrap().success());
+    let built = Command::new(rustc).args(["--edition", "2024", "-o"]).arg(&script).arg(source).ended();
+    assert!(built.status.success());
     let commit = |root: &Path| {
         let output = Command::new(&script)
             .env("CARGO_MANIFEST_DIR", root.join("validation"))
             // As in a hook of git.
             .env("GIT_DIR", env!("CARGO_MANIFEST_DIR"))
-            .output()
-            .unwrap();
+            .ended();
         let text = String::from_utf8(output.stdout).unwrap();
         let line = text.lines().find_map(|line| line.strip_prefix("cargo::rustc-env=SHEARBED_COMMIT="));
         line.unwrap().to_owned()

@@ -1,5 +1,6 @@
 //! `shearbed reference` as a user meets it.
 
+use crate::common::bounded::Bounded;
 use std::fs;
 use std::process::Command;
 
@@ -8,8 +9,7 @@ fn reference(arguments: &str) -> (Option<i32>, String, String) {
     let output = Command::new(env!("CARGO_BIN_EXE_shearbed"))
         .arg("reference")
         .args(arguments.split_whitespace())
-        .output()
-        .unwrap();
+        .ended();
     let text = |bytes| String::from_utf8(bytes).unwrap();
     (output.status.code(), text(output.stdout), text(output.stderr))
 }

@@ -1,5 +1,6 @@
 //! Bad input: exit code 2, a message, and nothing written.
 
+use crate::common::bounded::end;
 use crate::common::{UNEQUAL, names, read, shearbed, unequal};
 use std::fs;
 
@@ -60,13 +61,8 @@ fn a_message_is_written_in_one_piece() {
     let first_piece = |words: &[&str]| {
         let (ours, theirs) = UnixDatagram::pair().unwrap();
         let mut program = std::process::Command::new(env!("CARGO_BIN_EXE_shearbed"));
-        let status = program
-            .args(words)
-            .current_dir(dir.path())
-            .stderr(OwnedFd::from(theirs))
-            .output()
-            .unwrap()
-            .status;
+        program.args(words).current_dir(dir.path()).stdout(Stdio::null()).stderr(OwnedFd::from(theirs));
+        let status = end(&format!("{words:?}"), program.spawn().unwrap()).status;
         let mut piece = vec![0; 1 << 16];
         let length = ours.recv(&mut piece).unwrap();
         (status.code(), String::from_utf8(piece[..length].to_vec()).unwrap())

@@ -1,5 +1,6 @@
 //! Keys of a scene on the command line.
 
+use crate::common::bounded::Bounded;
 use crate::common::{UNEQUAL, command, names, read, shearbed, unequal};
 use std::fs;
 
@@ -111,11 +112,11 @@ fn a_sweep_and_a_study_set_keys_as_a_run_does() {
 fn nothing_behind_a_value_is_left_out() {
     let dir = unequal();
     for set in ["particles.count=7 # or 8", "particles.count=7#", "title='a' # b", "title=\"a\"\nx = 1"] {
-        let ended = command(dir.path(), "plan small.toml --set").arg(set).output().unwrap();
+        let ended = command(dir.path(), "plan small.toml --set").arg(set).ended();
         let said = String::from_utf8(ended.stderr).unwrap();
         assert!(ended.status.code() == Some(2) && said.contains("is no value"), "{set}: {said}");
     }
-    let ended = command(dir.path(), "plan small.toml --set").arg("title='a # b'").output().unwrap();
+    let ended = command(dir.path(), "plan small.toml --set").arg("title='a # b'").ended();
     assert!(String::from_utf8(ended.stdout).unwrap().contains("a # b"));
 }
 

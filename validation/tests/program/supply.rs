@@ -1,6 +1,7 @@
 //! docs/src/developer/dependencies.md is true, and the oracles ask for nothing of what they judge. Licences and sources are cargo-deny's:
 //! validation/deny.toml.
 
+use crate::common::bounded::Bounded;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 use std::process::Command;
@@ -20,8 +21,7 @@ fn tree(packages: &[&str], edges: &str) -> BTreeSet<[String; 3]> {
         .args(["--target", "x86_64-unknown-linux-gnu"])
         .args(packages.iter().flat_map(|package| ["--package", package]))
         .current_dir(env!("CARGO_MANIFEST_DIR"))
-        .output()
-        .unwrap();
+        .ended();
     assert!(tree.status.success(), "{}", String::from_utf8_lossy(&tree.stderr));
     let tree = String::from_utf8(tree.stdout).unwrap();
     let row = |line: &str| {

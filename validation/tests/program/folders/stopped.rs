@@ -1,5 +1,6 @@
 //! A full disk, and runs that were killed.
 
+use crate::common::bounded::{Bounded, end};
 use crate::common::{SMALL, command, files, folder, kill, limited, names, remove_left, shearbed, wait_for};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Dxsm;
@@ -106,9 +107,7 @@ fn no_umask_leaves_half_a_folder() {
             "reference --aspect-ratio 5 --times 1 --out r.csv",
         ] {
             let script = format!("umask {umask}; exec {other} {} {arguments}", copy.display());
-            let ended =
-                std::process::Command::new("bash").args(["-c", &script]).current_dir(dir.path()).output();
-            let ended = ended.unwrap();
+            let ended = std::process::Command::new("bash").args(["-c", &script]).current_dir(dir.path()).ended();
             let said = String::from_utf8_lossy(&ended.stderr);
             assert_eq!(ended.status.code(), Some(2), "{umask} {arguments}: {said}");
             assert!(said.contains("cannot be written: "), "{umask} {arguments}: {said}");
@@ -158,7 +157,7 @@ fn a_command_killed_at_any_moment_loses_nothing_and_works_again() {
         let most = [50_000, 5_000, 300][moment];
         std::thread::sleep(Duration::from_micros(random.random_range(0..most)));
         child.kill().unwrap();
-        child.wait().unwrap();
+        end(&line, child);
 
         if let Ok(Some(record)) = Record::read(&out) {
             let sums: Vec<_> = (record.files.keys())
@@ -218,7 +217,7 @@ fn a_signal_before_the_checkpoint_is_opened_says_that_it_stays() {
             open.any(|fd| fs::read_link(fd.path()).is_ok_and(|path| path.ends_with("x")))
         });
         kill(child.id(), "-TERM");
-        let ended = child.wait_with_output().unwrap();
+        let ended = end("a run", child);
         let message = String::from_utf8(ended.stderr).unwrap();
         assert_eq!(ended.status.code(), Some(143), "{message}");
         assert!(message.contains(said), "{message}");
