@@ -20,8 +20,33 @@ pub fn program(name: &str, pids: Option<&str>) -> ExitCode {
             std::thread::sleep(Duration::from_secs(1000));
         }
     };
-    if name == "never_reads" {
-        forever();
+    match name {
+        "never_reads" => forever(),
+        #[cfg(target_os = "linux")]
+        "hangs_in_the_group_of_shearbed" => {
+            use rustix::process::{getpgid, getppid, setpgid};
+            setpgid(None, getppid().and_then(|parent| getpgid(Some(parent)).ok())).unwrap();
+            forever();
+        }
+        #[cfg(target_os = "linux")]
+        "hangs_with_daemons" => {
+            for session in [
+                "setsid sleep 1000 >/dev/null &",
+                "trap '' TERM HUP; env -i setsid sh -c 'sleep 1000; :' >/dev/null &",
+            ] {
+                let script = format!("exec 2>/dev/null; {session} echo $!");
+                let daemon = Command::new("sh").args(["-c", &script]).output().unwrap().stdout;
+                note(String::from_utf8(daemon).unwrap().trim().parse().unwrap());
+            }
+            forever();
+        }
+        #[cfg(target_os = "linux")]
+        "leaves_a_daemon" => {
+            let daemon =
+                Command::new("sh").args(["-c", "setsid sleep 1000 >/dev/null 2>&1 & echo $!"]).output();
+            note(String::from_utf8(daemon.unwrap().stdout).unwrap().trim().parse().unwrap());
+        }
+        _ => {}
     }
     let mut out = std::io::stdout();
     for (k, line) in std::io::stdin().lock().lines().enumerate() {

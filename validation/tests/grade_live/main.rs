@@ -2,8 +2,11 @@
 //! nobody left behind. The programs are this test itself, started with `--program NAME`.
 
 mod acting;
+#[path = "../common/bounded.rs"]
+mod bounded;
 mod cases;
 
+use bounded::{ANSWER_S, Bounded, PATIENCE, end};
 use cases::{CASES, Case};
 use libtest_mimic::{Arguments, Failed, Trial};
 use serde_json::Value;
@@ -23,6 +26,8 @@ fn main() -> ExitCode {
     trials.push(Trial::test("program_that_cannot_be_started", cannot_be_started));
     trials.push(Trial::test("program_with_axes_of_its_own", axes_of_its_own));
     trials.push(Trial::test("program_ends_with_shearbed", ends_with_shearbed));
+    #[cfg(target_os = "linux")]
+    trials.push(Trial::test("program_of_another_user_is_named", another_user_s_is_named));
     let mut arguments = Arguments::from_args();
     // They mostly wait.
     arguments.test_threads = arguments.test_threads.or(Some(CASES.len()));
@@ -48,8 +53,7 @@ fn shearbed_with(
         .arg(out)
         .args(more)
         .args(problems.iter().flat_map(|name| ["--problem", name]))
-        .output()
-        .unwrap();
+        .ended();
     let words = [output.stdout, output.stderr].map(|bytes| String::from_utf8_lossy(&bytes).into_owned());
     (output.status.code(), words.concat())
 }
@@ -64,7 +68,7 @@ fn judge(case: &Case) -> Result<(), Failed> {
     // One problem shows what is wrong; several that all is right, and that a program is given up.
     let several = case.verdict == "PASS" || case.program.starts_with("hangs");
     let problems = if several { &PROBLEMS[..] } else { &PROBLEMS[..1] };
-    let timeout_s = if runs_out { "1" } else { "100000" };
+    let timeout_s = if runs_out { "1" } else { ANSWER_S };
     let (code, words) = shearbed(&command, dir.path(), timeout_s, problems);
     let grade: Value = serde_json::from_str(&fs::read_to_string(dir.path().join("grade.json"))?)?;
     let found = &grade["problems"][0];
@@ -100,14 +104,11 @@ fn judge(case: &Case) -> Result<(), Failed> {
     Ok(())
 }
 
-/// The longest that a test waits for the system: what is not there by then is missing, or the machine is broken.
-const BOUND: Duration = Duration::from_secs(600);
-
-/// Waits until something is so. False when it is not within [`BOUND`].
+/// Waits until something is so. False when it is not within [`PATIENCE`].
 fn comes(is: impl Fn() -> bool) -> bool {
     let begun = Instant::now();
     while !is() {
-        if begun.elapsed() > BOUND {
+        if begun.elapsed() > PATIENCE {
             return false;
         }
         std::thread::sleep(Duration::from_millis(10));
@@ -134,7 +135,7 @@ fn axes_of_its_own() -> Result<(), Failed> {
     let command = format!("'{}' --program flows_along_1 '{}'", own.display(), pids.display());
     for (axes, expected) in [("flow,gradient,vorticity", 0), ("gradient,flow,vorticity", 1)] {
         let out = dir.path().join(axes);
-        let (code, words) = shearbed_with(&["--axes", axes], &command, &out, "100000", &PROBLEMS[..1]);
+        let (code, words) = shearbed_with(&["--axes", axes], &command, &out, ANSWER_S, &PROBLEMS[..1]);
         if code != Some(expected) {
             return Err(format!("{axes}: {code:?} {words}").into());
         }
@@ -176,7 +177,7 @@ fn ends_with_shearbed() -> Result<(), Failed> {
     }
     let id = rustix::process::Pid::from_child(&shearbed);
     rustix::process::kill_process(id, rustix::process::Signal::TERM)?;
-    let status = shearbed.wait()?;
+    let status = end("shearbed grade", shearbed).status;
     if status.code() != Some(128 + 15) || dir.path().join("out").exists() {
         return Err(format!("{status}").into());
     }
@@ -186,4 +187,47 @@ fn ends_with_shearbed() -> Result<(), Failed> {
         }
     }
     Ok(())
+}
+
+/// A process that shearbed may not kill keeps it from nothing, and is named. Made by root alone, with `setpriv`.
+#[cfg(target_os = "linux")]
+fn another_user_s_is_named() -> Result<(), Failed> {
+    use std::os::unix::fs::PermissionsExt;
+    use std::os::unix::process::CommandExt;
+    const NOBODY: u32 = 65534;
+    let setpriv = Path::new("/usr/bin/setpriv");
+    if !rustix::process::geteuid().is_root() || !setpriv.is_file() {
+        eprintln!("skipped: a process of another user is made by root with setpriv alone");
+        return Ok(());
+    }
+    let dir = tempfile::tempdir()?;
+    let [root, own] = ["root", "shearbed"].map(|name| dir.path().join(name));
+    fs::copy(setpriv, &root)?;
+    fs::copy(env!("CARGO_BIN_EXE_shearbed"), &own)?;
+    for (path, mode) in [(dir.path(), 0o777), (&root, 0o4755), (&own, 0o755)] {
+        fs::set_permissions(path, fs::Permissions::from_mode(mode))?;
+    }
+    let pids = dir.path().join("pids");
+    let script = format!("echo $$ >> {}; exec sleep 1000", pids.display());
+    let command = format!("{} --reuid 0 --regid 0 --clear-groups sh -c '{script}'", root.display());
+    let output = Command::new(&own)
+        .args(["grade", "--brief", "--timeout", "1", "--problem", "mid-flip-2", "--command", &command])
+        .current_dir(dir.path())
+        .uid(NOBODY)
+        .gid(NOBODY)
+        .ended();
+    let words = String::from_utf8_lossy(&output.stdout).split_whitespace().collect::<Vec<_>>().join(" ");
+    let pids = fs::read_to_string(pids)?;
+    for id in pids.split_whitespace() {
+        let id = rustix::process::Pid::from_raw(id.parse()?).unwrap();
+        rustix::process::kill_process(id, rustix::process::Signal::KILL)?;
+    }
+    let [id] = pids.split_whitespace().collect::<Vec<_>>()[..] else {
+        return Err(format!("it was started again: {pids} {words}").into());
+    };
+    let named = format!("process {id} (sleep, user id 0) cannot be stopped: Operation not permitted");
+    match output.status.code() == Some(1) && words.contains(&named) {
+        true => Ok(()),
+        false => Err(format!("{}: {words}", output.status).into()),
+    }
 }

@@ -59,3 +59,23 @@ fn no_wing_needs_one_that_is_declared_after_it() {
     let wrong = "use crate::files::text;\nuse crate::program::run;\n#[cfg(test)]\nmod tests {}";
     assert_eq!(later(&["files", "judge", "program"], "judge", wrong), ["program"]);
 }
+
+/// A process that hangs would keep every other test from its end.
+#[test]
+fn no_test_waits_for_a_process_without_a_bound() {
+    let tests = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests");
+    // The bound itself, a program that is graded, and one that is killed first.
+    let exempt = ["common/bounded.rs", "common/running.rs", "grade_live/acting.rs", "program/order.rs"];
+    for path in sources(&tests).into_iter().filter(|path| !exempt.iter().any(|end| path.ends_with(end))) {
+        let text = fs::read_to_string(&path).unwrap();
+        for call in [".output()", ".status()", ".wait()", ".wait_with_output()"] {
+            let found = text.lines().position(|line| line.contains(call));
+            assert_eq!(
+                found,
+                None,
+                "{call} in {}: use `ended` or `end` of common/bounded.rs",
+                path.display()
+            );
+        }
+    }
+}

@@ -1,5 +1,6 @@
 //! Error against run time of a program and of the project's own integrators, and the cost of the pipe itself.
 
+use super::pipe::{LONGEST_LINE, next_line};
 use super::program::{Program, Question};
 use super::protocol::Protocol;
 use crate::methods::integrators::{Setting, Theory};
@@ -33,13 +34,19 @@ pub struct Bench {
 }
 
 /// Answers every request with its start until the input ends: this measures the cost of the pipe and the protocol alone.
-pub fn echo(protocol: Protocol, input: impl BufRead, mut output: impl Write) -> Result<(), String> {
-    for line in input.lines() {
-        let line = line.map_err(|error| error.to_string())?;
-        let answer = protocol.echo(&line)?;
+pub fn echo(protocol: Protocol, mut input: impl BufRead, mut output: impl Write) -> Result<(), String> {
+    loop {
+        let line = next_line(&mut input).map_err(|error| error.to_string())?;
+        if line.is_empty() {
+            return Ok(());
+        }
+        if line.len() > LONGEST_LINE {
+            return Err(format!("--echo: a line is longer than {LONGEST_LINE} bytes: no request is"));
+        }
+        let line = String::from_utf8(line).map_err(|_| "--echo: a line is not UTF-8 text")?;
+        let answer = protocol.echo(line.trim_end_matches(['\n', '\r']))?;
         writeln!(output, "{answer}").and_then(|()| output.flush()).map_err(|error| error.to_string())?;
     }
-    Ok(())
 }
 
 /// The least time in s of a request for one rod to the program `echo`.

@@ -1,19 +1,19 @@
 //! Grading a running program: requests go to its standard input, answers come from its standard output.
 
 mod bench;
+mod kill;
 mod ladder;
 pub mod pipe;
 mod program;
 mod protocol;
-mod signals;
 mod studies;
 mod text;
 
 pub use bench::{Bench, echo, theory};
+pub use kill::end_all;
 pub use ladder::{Mode, grade, mode};
 pub use program::{Asked, Program, Question};
 pub use protocol::Protocol;
-pub use signals::end_all;
 pub use studies::{Studies, studies};
 
 use crate::serve::problems::{self, LoadedProblem};

@@ -1,8 +1,8 @@
 //! A program behind two pipes: lines in, lines out, with each wait bounded in time and memory.
 
-use super::signals;
+use super::kill;
 use crate::files::text;
-use std::io::{BufRead, BufReader, Read, Write};
+use std::io::{self, BufRead, BufReader, Read, Write};
 use std::process::{Child, ChildStderr, ChildStdin, ChildStdout, Command, ExitStatus, Stdio};
 use std::sync::mpsc::{self, Receiver, RecvTimeoutError, Sender, SyncSender};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -20,7 +20,7 @@ const LAST_WORDS: usize = 2048;
 
 /// The time that a program has to end once its input or its output is closed: thousands of times what it needs, as the
 /// machine may be busy. Only a remark depends on it, no verdict.
-const GRACE: Duration = Duration::from_secs(10);
+const GRACE: Duration = Duration::from_secs(5);
 
 /// The reason why there is no next line.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -29,6 +29,8 @@ pub enum Trouble {
     Hung(Duration),
     /// The program ended: its exit code or signal, and the end of what it wrote to standard error.
     Ended(String, String),
+    /// It closed its standard output and went on.
+    Closed,
     /// The line with this number is longer than [`LONGEST_LINE`].
     TooLong(u64),
 }
@@ -45,6 +47,7 @@ impl std::fmt::Display for Trouble {
             Self::Ended(how, words) => {
                 write!(f, "the program ended: {how}; its last words on standard error: {words}")
             }
+            Self::Closed => write!(f, "it closed its standard output and went on; it was stopped"),
             Self::TooLong(line) => write!(
                 f,
                 "line {line} of standard output is longer than {LONGEST_LINE} bytes; the program was stopped"
@@ -58,7 +61,7 @@ enum Heard {
     TooLong,
 }
 
-/// A running program. When dropped, the program and all processes in its process group are killed and waited for.
+/// A running program. When dropped, the program and its descendants are killed.
 pub struct Pipe {
     child: Child,
     requests: Option<Sender<Vec<u8>>>,
@@ -68,8 +71,8 @@ pub struct Pipe {
     all_said: Receiver<()>,
     /// Number of lines received so far.
     heard: u64,
-    /// The exit status, once the process has been reaped: its id may then be in use again.
-    status: Option<ExitStatus>,
+    /// The exit status and a message on each process that could not be killed, once all were killed.
+    end: Option<(Option<ExitStatus>, Vec<String>)>,
 }
 
 impl Pipe {
@@ -78,26 +81,29 @@ impl Pipe {
         let (program, arguments) = words.split_first().ok_or("the command is empty")?;
         let mut command = Command::new(program);
         command.args(arguments).stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
-        #[cfg(unix)]
-        std::os::unix::process::CommandExt::process_group(&mut command, 0);
-        let mut child = command.spawn().map_err(|error| format!("{program}: cannot be started: {error}"))?;
-        signals::running().insert(child.id());
+        let mut child =
+            kill::start(&mut command).map_err(|error| format!("{program}: cannot be started: {error}"))?;
         let (stdin, stdout, stderr) = (child.stdin.take(), child.stdout.take(), child.stderr.take());
         let (requests, to_write) = mpsc::channel();
         let (heard, lines) = mpsc::sync_channel(LINES_HELD);
         let last_words = Arc::new(Mutex::new(Vec::new()));
         let (saying, all_said) = mpsc::channel();
         // The threads are never joined: a process outside the process group may hold a pipe open for ever.
+        let words = Arc::clone(&last_words);
+        let pipe = Self { child, requests: Some(requests), lines, last_words, all_said, heard: 0, end: None };
         if let (Some(stdin), Some(stdout), Some(stderr)) = (stdin, stdout, stderr) {
-            let words = Arc::clone(&last_words);
-            thread::spawn(move || write_requests(stdin, to_write));
-            thread::spawn(move || read_lines(stdout, heard));
-            thread::spawn(move || {
-                keep_last_words(stderr, &words);
-                drop::<Sender<()>>(saying);
-            });
+            let thread = || thread::Builder::new();
+            let started = (thread().spawn(move || write_requests(stdin, to_write)))
+                .and_then(|_| thread().spawn(move || read_lines(stdout, heard)))
+                .and_then(|_| {
+                    thread().spawn(move || {
+                        keep_last_words(stderr, &words);
+                        drop::<Sender<()>>(saying);
+                    })
+                });
+            started.map_err(|error| format!("{program}: no thread for its pipes: {error}"))?;
         }
-        Ok(Self { child, requests: Some(requests), lines, last_words, all_said, heard: 0, status: None })
+        Ok(pipe)
     }
 
     /// Sends a line. If the program does not read it, the missing answer shows that.
@@ -128,8 +134,18 @@ impl Pipe {
         }
     }
 
-    /// Closes the program's input and waits for its end. `Err` says what was wrong with the end.
+    /// Closes the program's input, waits for its end, and ends its descendants. `Err` says what was wrong with the end.
     pub fn close(mut self) -> Result<(), String> {
+        let wrong: Vec<_> = self.ends().err().into_iter().chain(self.left()).collect();
+        if wrong.is_empty() { Ok(()) } else { Err(wrong.join("; ")) }
+    }
+
+    /// Stops the program and its descendants. Returns a message on each process that cannot be stopped.
+    pub fn left(mut self) -> Vec<String> {
+        self.stop().1.clone()
+    }
+
+    fn ends(&mut self) -> Result<(), String> {
         drop(self.requests.take());
         let deadline = Instant::now() + GRACE;
         while !self.has_ended() {
@@ -165,16 +181,10 @@ impl Pipe {
         while !self.has_ended() && Instant::now() < deadline {
             thread::sleep(Duration::from_millis(5));
         }
-        let how = match self.has_ended() {
-            true => match self.stop() {
-                Some(status) => status.to_string(),
-                None => "nobody knows how".to_owned(),
-            },
-            false => {
-                self.stop();
-                "it closed its standard output and went on; it was stopped".to_owned()
-            }
-        };
+        if !self.has_ended() {
+            return Trouble::Closed;
+        }
+        let how = self.stop().0.map_or("nobody knows how".to_owned(), |status| status.to_string());
         // Its last output may still be on the way; a child process may hold standard error open.
         let _ = self.all_said.recv_timeout(GRACE);
         let words = self.last_words.lock().unwrap_or_else(PoisonError::into_inner);
@@ -186,7 +196,7 @@ impl Pipe {
     /// True if the program has ended; it is not reaped, so that its id stays reserved until [`Pipe::stop`].
     #[cfg(unix)]
     fn has_ended(&mut self) -> bool {
-        if self.status.is_some() {
+        if self.end.is_some() {
             return true;
         }
         use rustix::process::{WaitId, WaitIdOptions, waitid};
@@ -200,22 +210,8 @@ impl Pipe {
         !matches!(self.child.try_wait(), Ok(None))
     }
 
-    /// Kills the program's whole process group and reaps the program, so that no zombie remains.
-    fn stop(&mut self) -> Option<ExitStatus> {
-        if self.status.is_some() {
-            return self.status;
-        }
-        signals::running().remove(&self.child.id());
-        #[cfg(unix)]
-        {
-            // An error means that the group is empty.
-            let group = rustix::process::Pid::from_child(&self.child);
-            let _ = rustix::process::kill_process_group(group, rustix::process::Signal::KILL);
-        }
-        #[cfg(not(unix))]
-        let _ = self.child.kill();
-        self.status = self.child.wait().ok();
-        self.status
+    fn stop(&mut self) -> &(Option<ExitStatus>, Vec<String>) {
+        self.end.get_or_insert_with(|| kill::end(&mut self.child))
     }
 }
 
@@ -235,20 +231,20 @@ fn write_requests(mut stdin: ChildStdin, requests: Receiver<Vec<u8>>) {
 
 fn read_lines(stdout: ChildStdout, heard: SyncSender<Heard>) {
     let mut reader = BufReader::new(stdout);
-    loop {
-        let mut line = Vec::new();
-        let most = LONGEST_LINE as u64 + 1;
-        match reader.by_ref().take(most).read_until(b'\n', &mut line) {
-            Ok(0) | Err(_) => return,
-            Ok(_) => {
-                let too_long = line.len() > LONGEST_LINE;
-                let sent = heard.send(if too_long { Heard::TooLong } else { Heard::Line(line) });
-                if too_long || sent.is_err() {
-                    return;
-                }
-            }
+    while let Ok(line @ [_, ..]) = next_line(&mut reader).as_deref() {
+        let too_long = line.len() > LONGEST_LINE;
+        let sent = heard.send(if too_long { Heard::TooLong } else { Heard::Line(line.to_owned()) });
+        if too_long || sent.is_err() {
+            return;
         }
     }
+}
+
+/// The next line with its end, cut one byte after [`LONGEST_LINE`]; empty at the end of the input.
+pub(super) fn next_line(reader: &mut impl BufRead) -> io::Result<Vec<u8>> {
+    let mut line = Vec::new();
+    reader.take(LONGEST_LINE as u64 + 1).read_until(b'\n', &mut line)?;
+    Ok(line)
 }
 
 /// Reads all output, so that the program never waits for a reader, and keeps its end.

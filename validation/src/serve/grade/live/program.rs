@@ -1,6 +1,6 @@
 //! A program that answers requests, kept within its limits, and restarted after a breach of the protocol.
 
-use super::pipe::Pipe;
+use super::pipe::{Pipe, Trouble};
 use super::protocol::{Answer, Protocol, Request};
 use crate::methods::integrators::{Failure, Integrator, RodProblem, Setting, Theory};
 use crate::serve::grade::Axes;
@@ -9,7 +9,7 @@ use std::hash::{BuildHasher, RandomState};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
-/// The program is not asked again after this number of answers that did not come in time.
+/// The program is not asked again after it was waited for in vain this number of times.
 const MOST_HANGS: u32 = 2;
 
 /// The program is not started again after this number of breaches of the protocol.
@@ -45,7 +45,10 @@ struct State {
     pipe: Option<Pipe>,
     /// The id of the last request.
     asked: u64,
+    /// Number of answers that were waited for in vain.
     hangs: u32,
+    /// True if nothing came to the last of them in time, though the program kept its output open.
+    late: bool,
     breaches: u32,
     /// The reason why the program is not asked again.
     given_up: Option<String>,
@@ -134,7 +137,7 @@ impl Program {
         let mut state = self.state();
         if let Some(reason) = &state.given_up {
             let words = format!("not asked: {reason}");
-            return Err(match state.hangs >= MOST_HANGS {
+            return Err(match state.late {
                 true => Asked::Late(words),
                 false => Asked::Breach(words),
             });
@@ -146,8 +149,7 @@ impl Program {
         match state.ask(self, question, setting) {
             Ok(Answer::Directions(p)) => Ok((p, asked.elapsed())),
             Ok(Answer::Error(reason)) => Err(Asked::Says(reason)),
-            Err(breach) if breach.hung => Err(Asked::Late(state.breached(breach))),
-            Err(breach) => Err(Asked::Breach(state.breached(breach))),
+            Err(breach) => Err(state.breached(breach)),
         }
     }
 
@@ -209,15 +211,16 @@ impl Program {
     }
 }
 
-/// A breach of the protocol: a message, and true in `hung` if nothing came at all.
+/// A breach of the protocol.
 struct Breach {
     what: String,
-    hung: bool,
+    /// What kept the answer from coming.
+    trouble: Option<Trouble>,
 }
 
 impl State {
     fn ask(&mut self, program: &Program, question: &Question, setting: Setting) -> Result<Answer, Breach> {
-        let wrong = |what: String| Breach { what, hung: false };
+        let wrong = |what: String| Breach { what, trouble: None };
         if self.pipe.is_none() {
             self.pipe = Some(Pipe::start(&program.words).map_err(wrong)?);
         }
@@ -238,10 +241,8 @@ impl State {
         };
         pipe.nothing_more(Duration::ZERO).map_err(wrong)?;
         pipe.send(program.protocol.write(&request).map_err(wrong)?);
-        let (line, text) = pipe.line(program.timeout).map_err(|trouble| Breach {
-            what: trouble.to_string(),
-            hung: matches!(trouble, super::pipe::Trouble::Hung(_)),
-        })?;
+        let (line, text) = (pipe.line(program.timeout))
+            .map_err(|trouble| Breach { what: trouble.to_string(), trouble: Some(trouble) })?;
         let answer = (program.protocol.read(&text, self.asked, question.start.len()))
             .map_err(|reason| wrong(format!("line {line} of standard output: {reason}")))?;
         Ok(match answer {
@@ -250,18 +251,22 @@ impl State {
         })
     }
 
-    /// Stops the program, notes the breach, and returns its description; after too many the program is given up.
-    fn breached(&mut self, breach: Breach) -> String {
-        self.pipe = None;
+    /// Stops the program, notes the breach with what could not be stopped, and describes it; after too many the program is given up.
+    fn breached(&mut self, Breach { mut what, trouble }: Breach) -> Asked {
+        let left = self.pipe.take().map(Pipe::left).unwrap_or_default();
+        left.iter().for_each(|left| what += &format!("; {left}"));
         self.breaches += 1;
-        self.hangs += u32::from(breach.hung);
-        self.log.push(format!("{}: {}", self.during, breach.what));
+        self.late = matches!(trouble, Some(Trouble::Hung(_)));
+        self.hangs += u32::from(matches!(trouble, Some(Trouble::Hung(_) | Trouble::Closed)));
+        self.log.push(format!("{}: {what}", self.during));
         if self.hangs >= MOST_HANGS {
             self.given_up = Some(format!("{} answers did not come in time", self.hangs));
+        } else if !left.is_empty() {
+            self.given_up = Some("it cannot be stopped".to_owned());
         } else if self.breaches >= MOST_BREACHES {
             self.given_up = Some(format!("it broke the protocol {} times", self.breaches));
         }
-        breach.what
+        if self.late { Asked::Late(what) } else { Asked::Breach(what) }
     }
 }
 
