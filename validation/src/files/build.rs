@@ -45,5 +45,5 @@ struct Made<'a, T> {
 pub fn json(data: &impl Serialize) -> Result<String, String> {
     let made = Made { build: BUILD, data };
     let text = serde_json::to_string_pretty(&made).map_err(|error| error.to_string())?;
-    Ok(text + "\n")
+    Ok(super::text::json(&text) + "\n")
 }

@@ -37,6 +37,17 @@ pub(crate) fn readable(text: &str) -> Cow<'_, str> {
     Cow::Owned(all)
 }
 
+/// JSON in which the characters that [`readable`] writes out are escaped too; it has the same values.
+pub(crate) fn json(text: &str) -> String {
+    let written = |text: &mut String, c: char| match commands(c) {
+        true => c.encode_utf16(&mut [0; 2]).iter().for_each(|unit| *text += &format!("\\u{unit:04x}")),
+        false => text.push(c),
+    };
+    let mut all = String::new();
+    text.chars().for_each(|c| written(&mut all, c));
+    all
+}
+
 /// Writes a text to standard error in one call: a reader of several processes' output joins the pieces as they arrive, possibly
 /// with another process's in between. Errors are ignored: then only the exit code and the files show the failure.
 pub(crate) fn complain(text: &str) {
@@ -245,6 +256,14 @@ mod tests {
     fn the_systems_words_have_no_number() {
         let text = "a: Not found (os error 2); b: (os error ), c: denied (os error 13)\n";
         assert_eq!(without_codes(text), "a: Not found; b: (os error ), c: denied\n");
+    }
+
+    #[test]
+    fn json_that_is_escaped_has_the_same_values() {
+        let value = serde_json::json!({ "a\u{202e}": "\u{9b}2J \u{1b} α\n\u{e0041}\u{7f}" });
+        let text = json(&serde_json::to_string_pretty(&value).unwrap());
+        assert!(!text.contains(commands) && text.contains("\\udb40\\udc41") && text.contains('α'), "{text}");
+        assert_eq!(serde_json::from_str::<serde_json::Value>(&text).unwrap(), value);
     }
 
     #[test]

@@ -210,7 +210,9 @@ fn subscript(c: char) -> Option<char> {
 /// The text for a Markdown cell: on one line, without markup except for code.
 pub(crate) fn markdown(text: &str) -> String {
     let mut escaped = String::new();
-    for piece in pieces(text) {
+    // Markdown ends code at as many backticks as it begins with.
+    let paired = !text.contains("``") && text.matches('`').count().is_multiple_of(2);
+    for piece in if paired { pieces(text) } else { vec![Piece::Text(text)] } {
         match piece {
             Piece::Code(code) => escaped += &format!("`{}`", code.replace('\n', " ").replace('|', "\\|")),
             Piece::Text(text) | Piece::Equation(text) | Piece::Figure(text) => {
@@ -218,7 +220,7 @@ pub(crate) fn markdown(text: &str) -> String {
                     '\n' => escaped.push(' '),
                     '<' => escaped.push_str("&lt;"),
                     '&' => escaped.push_str("&amp;"),
-                    '|' | '*' | '_' | '\\' | '[' => escaped.extend(['\\', c]),
+                    '|' | '*' | '_' | '\\' | '[' | '`' => escaped.extend(['\\', c]),
                     _ => escaped.push(c),
                 });
             }

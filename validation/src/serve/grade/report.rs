@@ -2,7 +2,8 @@
 
 use super::live::Studies;
 use super::{Graded, Verdict};
-use crate::files::text::escaped;
+use crate::files::text::{escaped, readable};
+use crate::present::markup;
 use crate::present::table::{ReportTable, of_words, wrapped};
 use crate::serve::problems::Origin;
 use serde::Serialize;
@@ -230,13 +231,17 @@ pub fn terminal(report: &Report) -> String {
 pub fn markdown(report: &Report) -> String {
     let mut text = String::from("# Grades\n");
     for (k, table) in tables(report).iter().enumerate() {
-        text += &format!("\n## {}\n\n{}\n\n{}", table.title, table.caption, table.cells_as_markdown());
+        let [title, caption] = [&table.title, &table.caption].map(|text| markup::markdown(text));
+        text += &format!("\n## {title}\n\n{caption}\n\n{}", table.cells_as_markdown());
         if k == 0 {
             text += "\n";
-            text += &lines(report).iter().map(|line| format!("- {line}\n")).collect::<String>();
+            text += &lines(report)
+                .iter()
+                .map(|line| format!("- {}\n", markup::markdown(line)))
+                .collect::<String>();
         }
     }
-    text
+    readable(&text).into_owned()
 }
 
 /// The content of junit.xml: a test case for each problem. A missing answer is skipped, or a failure if all are needed; a problem

@@ -64,6 +64,24 @@ fn every_writer_has_every_problem_and_its_verdict() {
 }
 
 #[test]
+fn what_a_program_says_is_no_markup_and_commands_no_terminal() {
+    let mut report = report();
+    let hostile = "\u{1b}]0;x\u{7}\u{9b}2J\u{202e}<img src=x> [a](javascript:b) `` ` <b>\n# c";
+    report.problems[1].note = Some(hostile.into());
+    report.answers = hostile.into();
+    report.remarks = vec![hostile.into()];
+    let (page, json) = (markdown(&report), json(&report).unwrap());
+    let commands = |text: &str| text.chars().any(|c| c != '\n' && (c.is_control() || c == '\u{202e}'));
+    assert!(!commands(&page) && !commands(&json), "{page}{json}");
+    for markup in ["<img", "<b>", " [a]", "\n# c", " `"] {
+        assert!(!page.contains(markup), "{markup}: {page}");
+    }
+    assert_eq!(page.matches(r"\[a](javascript:b)").count(), 3, "{page}");
+    let read: serde_json::Value = serde_json::from_str(&json).unwrap();
+    assert_eq!(read["remarks"][0], hostile);
+}
+
+#[test]
 fn the_terminal_has_80_columns_and_one_line_for_all_that_is_missing() {
     let mut report = report();
     report.answers = "python3 my_code.py ".repeat(20);
