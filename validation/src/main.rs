@@ -10,7 +10,7 @@ fn main() -> ExitCode {
     let work = Builder::new().name("main".to_owned()).stack_size(STACK);
     match work.spawn(validation::program::main).map(|work| work.join()) {
         Ok(Ok(code)) => code,
-        Ok(Err(_)) => ExitCode::from(101),
+        Ok(Err(_)) => ExitCode::from(validation::program::code_of_panic()),
         Err(error) => {
             eprintln!("error: no thread to work on: {error}");
             ExitCode::from(2)

@@ -32,7 +32,7 @@ pub(super) fn watch() {
         crate::serve::grade::live::end_all();
         output::stop(code)
     };
-    std::thread::spawn(wait);
+    let _ = std::thread::Builder::new().spawn(wait);
 }
 
 /// Makes a limit on the size of files (`ulimit -f`) an error of the write that meets it; the system would end the program.

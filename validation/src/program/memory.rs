@@ -14,6 +14,22 @@ const PROGRAM: u64 = 32 << 20;
 /// Bytes that a thread needs in addition to its replica: its stack.
 const THREAD: u64 = 2 << 20;
 
+/// Refuses a command where a limit of the shell leaves less than it needs for itself: later the system would end it without a message.
+/// Of the address space most is only reserved, by the C library for each thread.
+pub(super) fn check_start() -> Result<(), Failure> {
+    const LEAST: u64 = 224 << 20;
+    const EACH_THREAD: u64 = 16 << 20;
+    let needed = LEAST + threads::count(None)?.min(16) * EACH_THREAD;
+    match available::within_limits() {
+        Some(free) if free < needed => Err(Failure::Input(format!(
+            "this command needs {} of address space, and {} are free; allowed: a higher limit (ulimit -v, ulimit -d)",
+            size(needed),
+            size(free)
+        ))),
+        _ => Ok(()),
+    }
+}
+
 /// Refuses a plan that needs more memory than is available, with `threads` replicas at a time, and with `vtk` files for
 /// ParaView. If the available memory is unknown, nothing is refused.
 pub(super) fn check(plan: &Plan, threads: Option<u64>, vtk: bool, source: &str) -> Result<(), Failure> {

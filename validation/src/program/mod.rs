@@ -40,6 +40,7 @@ mod validate;
 mod words;
 
 pub use manual::commands;
+pub use threads::code_of_panic;
 
 use crate::files::output::{self, RECORD, Record, ResultFolder};
 use crate::files::text::{Shown, complain};
@@ -126,6 +127,7 @@ impl Failure {
 /// Runs the command given by the process's arguments.
 pub fn main() -> ExitCode {
     interrupt::outlive_limits();
+    threads::watch();
     let cli = match Cli::try_parse() {
         Ok(cli) => cli,
         Err(error) => return print_usage(&error).into(),
@@ -145,7 +147,7 @@ pub fn main() -> ExitCode {
             let (message, code) = failure.message_and_code();
             joined.fail(&message, code)
         }
-        Err(panic) => joined.fail(&panic, 101),
+        Err(panic) => joined.fail(&panic, code_of_panic()),
     }
 }
 
@@ -226,6 +228,20 @@ impl Command {
         }
     }
 
+    /// True if the memory that a plan needs is checked, or nothing needs any.
+    fn checks_a_plan(&self) -> bool {
+        self.is_shared() && !matches!(self, Self::Validate(_))
+            || matches!(
+                self,
+                Self::Plan(_)
+                    | Self::Fit(_)
+                    | Self::Scenes(_)
+                    | Self::Cite
+                    | Self::Completions(_)
+                    | Self::Man(_)
+            )
+    }
+
     /// True if ranks share the command's work; such a command checks itself that their inputs agree.
     fn is_shared(&self) -> bool {
         matches!(self, Self::Run(_) | Self::Validate(_) | Self::Sweep(_) | Self::Converge(_))
@@ -236,6 +252,9 @@ fn command(command: Command) -> Result<(), Failure> {
     threads::check()?;
     if command.only_prints() {
         terminal::is_open()?;
+    }
+    if !command.checks_a_plan() {
+        memory::check_start()?;
     }
     if !command.is_shared() {
         agree(&words::command(), json!({}))?;

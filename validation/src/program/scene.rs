@@ -146,8 +146,8 @@ pub(super) fn warn<'a>(source: &str, warnings: impl IntoIterator<Item = &'a Stri
     }
 }
 
-/// The largest size of a scene file, in bytes.
-const MOST_BYTES: u64 = 64 << 20;
+/// The largest size of a scene file, in bytes: 200,000 times of outputs. A parsed text takes up to a hundred times its size.
+const MOST_BYTES: u64 = 4_000_000;
 
 fn read(path: &Path) -> Result<String, Failure> {
     let source = path.shown();

@@ -1,7 +1,9 @@
 //! The number of threads of a command.
 
 use super::{Failure, whole};
+use crate::files::text::complain;
 use std::ffi::OsString;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// The largest allowed number of threads.
 const MAX_THREADS: u64 = 1024;
@@ -42,6 +44,31 @@ fn of_environment(value: Option<OsString>) -> Result<Option<u64>, Failure> {
     }
 }
 
+/// True once no thread could be had.
+static NONE_LEFT: AtomicBool = AtomicBool::new(false);
+
+/// Makes a panic for want of a thread, of rayon's common pool or of a progress bar, a message like others.
+pub(super) fn watch() {
+    let others = std::panic::take_hook();
+    std::panic::set_hook(Box::new(move |panic| {
+        let words = panic.to_string();
+        let none_left =
+            ["failed to spawn thread", "global thread pool"].iter().any(|part| words.contains(part));
+        match none_left && !NONE_LEFT.swap(true, Ordering::Relaxed) {
+            true => complain(&format!("error: the system gives no more threads; allowed: {ALLOWED}\n")),
+            false => others(panic),
+        }
+    }));
+}
+
+/// What to do where the system gives no more threads.
+const ALLOWED: &str = "fewer (--threads 1, RAYON_NUM_THREADS=1), or a higher limit of processes (ulimit -u)";
+
+/// The exit code of a panic: 2 for want of a thread.
+pub fn code_of_panic() -> u8 {
+    if NONE_LEFT.load(Ordering::Relaxed) { 2 } else { 101 }
+}
+
 /// Calls `work` on this number of threads.
 pub(super) fn on_threads<T: Send>(
     threads: Option<u64>,
@@ -49,7 +76,8 @@ pub(super) fn on_threads<T: Send>(
 ) -> Result<T, Failure> {
     let count = count(threads)? as usize;
     let pool = rayon::ThreadPoolBuilder::new().num_threads(count).build();
-    let pool = pool.map_err(|error| Failure::Input(format!("--threads {count}: {error}")))?;
+    let pool =
+        pool.map_err(|error| Failure::Input(format!("--threads {count}: {error}; allowed: {ALLOWED}")))?;
     Ok(pool.install(work))
 }
 

@@ -26,6 +26,7 @@ mod reference;
 mod refused;
 mod report;
 mod reports;
+mod resources;
 mod rods;
 mod run;
 mod scenes;

@@ -1,6 +1,7 @@
 //! One process, without MPI.
 
 use super::failed;
+use crate::files::text::complain;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use std::process::ExitCode;
@@ -9,8 +10,19 @@ use std::process::ExitCode;
 pub struct Joined;
 
 impl Joined {
-    /// Does nothing, as there are no ranks to join.
+    /// Warns where a launcher of MPI started several processes, each of which runs the whole command.
     pub fn new() -> Result<Self, String> {
+        let set = |name: String| std::env::var(name).ok()?.parse::<u64>().ok();
+        // Set by Open MPI, and by MPICH, Intel MPI and Slurm's PMI.
+        for launcher in ["OMPI_COMM_WORLD", "PMI"] {
+            let size = set(format!("{launcher}_SIZE")).unwrap_or(1);
+            if size > 1 && set(format!("{launcher}_RANK")) == Some(0) {
+                complain(&format!(
+                    "warning: {launcher}_SIZE = {size}: this build shares no work over ranks, and each of the {size} processes runs \
+                     the whole command; start one, or build with --features mpi (docs/src/user/long-runs.md)\n"
+                ));
+            }
+        }
         Ok(Self)
     }
 

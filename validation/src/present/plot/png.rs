@@ -7,18 +7,49 @@ use super::sheet::{self, Canvas};
 use super::style::FINE;
 use super::{Drawing, Figure};
 use plotters_backend::BackendColor;
+use std::io::Write;
 use tiny_skia::{Color, FillRule, LineJoin, Paint, Path, Pixmap, Stroke, StrokeDash, Transform};
+
+/// The most pixels that are drawn at a time: a larger picture is drawn in bands.
+const AT_ONCE: u32 = 1 << 24;
 
 /// The figure as [`super::svg`] draws it, as a PNG file with four pixels per SVG pixel in each direction, 384 an inch.
 pub fn png(figure: &Figure) -> Result<Drawing, String> {
-    let (pixels, missing) = sheet::draw(figure, Pixmap::new)?;
-    let cannot = |error| format!("cannot draw the figure '{}': {error}", figure.title);
-    Ok(Drawing { bytes: encoded(&pixels).map_err(cannot)?, missing })
+    in_bands(figure, AT_ONCE)
 }
 
-fn encoded(pixels: &Pixmap) -> Result<Vec<u8>, png::EncodingError> {
+fn in_bands(figure: &Figure, at_once: u32) -> Result<Drawing, String> {
+    let cannot = |error: png::EncodingError| format!("cannot draw the figure '{}': {error}", figure.title);
+    let band = |top| sheet::draw(figure, |width, height| Band::new(width, height, top, at_once));
+    let (mut band_of_rows, missing) = band(0)?;
+    let (width, height) = (band_of_rows.pixels.width(), band_of_rows.height);
     let mut bytes = Vec::new();
-    let mut encoder = png::Encoder::new(&mut bytes, pixels.width(), pixels.height());
+    let mut writer = header(&mut bytes, width, height).map_err(cannot)?;
+    let mut rows = writer.stream_writer().map_err(cannot)?;
+    loop {
+        for row in band_of_rows.pixels.pixels().chunks(width as usize) {
+            // White is drawn first, so no pixel is transparent.
+            let rgb: Vec<u8> =
+                row.iter().flat_map(|pixel| [pixel.red(), pixel.green(), pixel.blue()]).collect();
+            rows.write_all(&rgb).map_err(|error| cannot(error.into()))?;
+        }
+        let top = band_of_rows.top + band_of_rows.pixels.height();
+        if top >= height {
+            break;
+        }
+        band_of_rows = band(top)?.0;
+    }
+    rows.finish().map_err(cannot)?;
+    writer.finish().map_err(cannot)?;
+    Ok(Drawing { bytes, missing })
+}
+
+fn header(
+    bytes: &mut Vec<u8>,
+    width: u32,
+    height: u32,
+) -> Result<png::Writer<&mut Vec<u8>>, png::EncodingError> {
+    let mut encoder = png::Encoder::new(bytes, width, height);
     encoder.set_color(png::ColorType::Rgb);
     // A browser's pixel is 1/96 inch.
     let per_metre = (96.0 * f64::from(FINE) / 0.0254).round() as u32;
@@ -27,13 +58,26 @@ fn encoded(pixels: &Pixmap) -> Result<Vec<u8>, png::EncodingError> {
         yppu: per_metre,
         unit: png::Unit::Meter,
     }));
-    let mut writer = encoder.write_header()?;
-    // White is drawn first, so no pixel is transparent.
-    let rgb: Vec<u8> =
-        (pixels.pixels().iter()).flat_map(|pixel| [pixel.red(), pixel.green(), pixel.blue()]).collect();
-    writer.write_image_data(&rgb)?;
-    writer.finish()?;
-    Ok(bytes)
+    encoder.write_header()
+}
+
+/// Rows of a picture from `top` on.
+struct Band {
+    pixels: Pixmap,
+    top: u32,
+    /// Of the whole picture.
+    height: u32,
+}
+
+impl Band {
+    fn new(width: u32, height: u32, top: u32, at_once: u32) -> Option<Self> {
+        let rows = (at_once / width.max(1)).clamp(1, height.saturating_sub(top).max(1));
+        Some(Self { pixels: Pixmap::new(width, rows)?, top, height })
+    }
+
+    fn place(&self) -> Transform {
+        Transform::from_translate(0.0, -(self.top as f32))
+    }
 }
 
 fn paint(BackendColor { alpha, rgb }: BackendColor) -> Paint<'static> {
@@ -43,14 +87,14 @@ fn paint(BackendColor { alpha, rgb }: BackendColor) -> Paint<'static> {
     paint
 }
 
-impl Canvas for Pixmap {
+impl Canvas for Band {
     fn fill(&mut self, path: &Path, color: BackendColor) {
-        self.fill_path(path, &paint(color), FillRule::Winding, Transform::identity(), None);
+        self.pixels.fill_path(path, &paint(color), FillRule::Winding, self.place(), None);
     }
 
     fn stroke(&mut self, path: &Path, color: BackendColor, width: f32, dashes: &[f32]) {
         let dash = (!dashes.is_empty()).then(|| StrokeDash::new(dashes.to_vec(), 0.0)).flatten();
         let stroke = Stroke { width, line_join: LineJoin::Round, dash, ..Stroke::default() };
-        self.stroke_path(path, &paint(color), &stroke, Transform::identity(), None);
+        self.pixels.stroke_path(path, &paint(color), &stroke, self.place(), None);
     }
 }

@@ -8,10 +8,15 @@ use std::path::Path;
 pub(super) fn available() -> Option<u64> {
     let read = |file: &str| text(Path::new(file)).unwrap_or_default();
     let machine = number_of(&read("/proc/meminfo"), "MemAvailable:")?;
-    let (limits, status) = (read("/proc/self/limits"), read("/proc/self/status"));
     let groups = of_groups(Path::new("/sys/fs/cgroup"), &read("/proc/self/cgroup"));
-    let others = [of_limits(&limits, &status), groups].into_iter().flatten();
+    let others = [within_limits(), groups].into_iter().flatten();
     others.chain([machine]).min()
+}
+
+/// Bytes left within a shell's `ulimit -v` and `-d`; `None` where neither is set.
+pub(super) fn within_limits() -> Option<u64> {
+    let read = |file: &str| text(Path::new(file)).unwrap_or_default();
+    of_limits(&read("/proc/self/limits"), &read("/proc/self/status"))
 }
 
 /// The text of a short file of the system.

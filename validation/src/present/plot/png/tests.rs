@@ -54,6 +54,20 @@ fn a_png_shows_what_the_svg_does() {
 }
 
 #[test]
+fn a_picture_in_bands_has_the_pixels_of_the_whole() {
+    for figure in [synthetic(), many()] {
+        let [whole, bands] =
+            [u32::MAX, 1 << 18].map(|at_once| read(&in_bands(&figure, at_once).unwrap().bytes));
+        assert!(whole.0 * whole.1 > 8 << 18, "several bands");
+        assert_eq!((whole.0, whole.1), (bands.0, bands.1));
+        let differ = whole.2.iter().zip(&bands.2).filter(|(a, b)| a != b).count();
+        assert_eq!(differ, 0, "of {} pixels", whole.2.len());
+    }
+    let largest = Band::new(16_000, 16_000, 0, AT_ONCE).unwrap();
+    assert!(largest.pixels.pixels().len() <= AT_ONCE as usize);
+}
+
+#[test]
 fn letters_are_drawn_or_named() {
     let titled = |title: &str| Figure { title: title.into(), ..Figure::default() };
     let drawn = |title: &str| png(&titled(title)).unwrap();
