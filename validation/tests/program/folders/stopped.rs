@@ -107,7 +107,8 @@ fn no_umask_leaves_half_a_folder() {
             "reference --aspect-ratio 5 --times 1 --out r.csv",
         ] {
             let script = format!("umask {umask}; exec {other} {} {arguments}", copy.display());
-            let ended = std::process::Command::new("bash").args(["-c", &script]).current_dir(dir.path()).ended();
+            let ended =
+                std::process::Command::new("bash").args(["-c", &script]).current_dir(dir.path()).ended();
             let said = String::from_utf8_lossy(&ended.stderr);
             assert_eq!(ended.status.code(), Some(2), "{umask} {arguments}: {said}");
             assert!(said.contains("cannot be written: "), "{umask} {arguments}: {said}");
