@@ -1,7 +1,7 @@
 //! How the program ends when it is told to, or when what it writes to has gone.
 #![cfg(unix)]
 
-use crate::common::bounded::{Bounded, end};
+use crate::common::bounded::Bounded;
 use crate::common::running::Running;
 use crate::common::{SMALL, command, files, folder, limited, shearbed};
 use std::fs;

@@ -3,6 +3,8 @@
 use crate::common::bounded::end;
 use crate::common::{UNEQUAL, names, read, shearbed, unequal};
 use std::fs;
+#[cfg(unix)]
+use std::process::Stdio;
 
 /// Arguments, and a part of the message.
 #[rustfmt::skip]
