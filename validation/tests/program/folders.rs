@@ -78,7 +78,7 @@ fn a_damaged_point_does_not_reach_the_table() {
     }
     let run = shearbed(dir.path(), &format!("{SWEEP} --out good"));
     assert_eq!(run.code, Some(2), "{}", run.stderr);
-    assert!(run.stderr.contains("good/points/1: not as it was written: point was"), "{}", run.stderr);
+    assert!(run.stderr.contains("good/points/1: not as it was written: point.1.2 was"), "{}", run.stderr);
 }
 
 #[test]
