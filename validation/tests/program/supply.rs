@@ -114,7 +114,11 @@ fn what_is_built_in_several_versions_is_said() {
 #[test]
 fn the_oracles_ask_for_nothing_of_what_they_judge() {
     let oracle = manifest("oracle/Cargo.toml");
-    let asked_for = oracle["dependencies"].as_table().unwrap();
-    assert!(asked_for.len() > 5 && !asked_for.keys().any(|name| name.starts_with("shearbed")));
-    assert!(!oracle.contains_key("dev-dependencies"));
+    for (table, least) in [("dependencies", 6), ("dev-dependencies", 1)] {
+        let asked_for = oracle[table].as_table().unwrap();
+        assert!(
+            asked_for.len() >= least && !asked_for.keys().any(|name| name.starts_with("shearbed")),
+            "{table}"
+        );
+    }
 }
