@@ -16,10 +16,12 @@ const THREAD: u64 = 2 << 20;
 
 /// Refuses a command where a limit of the shell leaves less than it needs for itself: later the system would end it without a message.
 /// Of the address space most is only reserved, by the C library for each thread.
-pub(super) fn check_start() -> Result<(), Failure> {
-    const LEAST: u64 = 224 << 20;
+pub(super) fn check_start(on_threads: bool) -> Result<(), Failure> {
+    const LEAST: u64 = 16 << 20;
+    const WITH_THREADS: u64 = 208 << 20;
     const EACH_THREAD: u64 = 16 << 20;
-    let needed = LEAST + threads::count(None)?.min(16) * EACH_THREAD;
+    let threads = if on_threads { WITH_THREADS + threads::count(None)?.min(16) * EACH_THREAD } else { 0 };
+    let needed = LEAST + threads;
     match available::within_limits() {
         Some(free) if free < needed => Err(Failure::Input(format!(
             "this command needs {} of address space, and {} are free; allowed: a higher limit (ulimit -v, ulimit -d)",

@@ -254,7 +254,7 @@ fn command(command: Command) -> Result<(), Failure> {
         terminal::is_open()?;
     }
     if !command.checks_a_plan() {
-        memory::check_start()?;
+        memory::check_start(!matches!(command, Command::Plot(_) | Command::Compare(_) | Command::Shape(_)))?;
     }
     if !command.is_shared() {
         agree(&words::command(), json!({}))?;

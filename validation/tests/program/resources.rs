@@ -31,7 +31,7 @@ fn a_request_without_an_end_is_refused() {
 
 #[cfg(target_os = "linux")]
 #[test]
-fn a_command_without_memory_is_refused_before_it_starts() {
+fn a_command_with_little_memory_does_its_work_or_is_refused() {
     let dir = folder();
     assert_eq!(shearbed(dir.path(), "run small.toml --out x --quiet").code, Some(0));
     for arguments in [
@@ -44,8 +44,8 @@ fn a_command_without_memory_is_refused_before_it_starts() {
         for limit in [80_000, 130_000, 200_000] {
             let ended =
                 limited(dir.path(), &format!("export RAYON_NUM_THREADS=2; ulimit -v {limit}"), arguments);
-            // A run needs less.
-            let runs = arguments.starts_with("run") && ended.code == Some(0);
+            // Some need less.
+            let runs = ended.code == Some(0);
             let refused = ended.code == Some(2) && ended.stderr.starts_with("error: ");
             assert!(runs || refused, "{arguments} with {limit} kB: {:?} {}", ended.code, ended.stderr);
         }
