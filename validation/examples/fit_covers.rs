@@ -16,7 +16,7 @@ use std::collections::BTreeMap;
 use validation::input::scenes;
 use validation::input::start::Starts;
 use validation::methods::least_squares::Datum;
-use validation::methods::least_squares::likelihood::{EMULATOR, REPLICAS};
+use validation::methods::least_squares::likelihood::{EMULATOR, REPLICAS, Rods};
 use validation::serve::fit::Range;
 use validation::serve::fit::data::TimeColumn;
 use validation::serve::fit::elsewhere::look_elsewhere;
@@ -91,7 +91,7 @@ fn whole_fit(k: u64, truth: &[f64], over: &[Range]) -> Result<Fit, String> {
     let scenes = scenes(2000 + k, over)?;
     let model = |values: &[f64]| scenes.model(&data, AS_WRITTEN, values);
     let problem = FitProblem {
-        measured: Measured { data: &data, ranges: over, rods_over_measured: &[0.0, 0.0] },
+        measured: Measured { data: &data, ranges: over, rods: &Rods::none(2) },
         model: &model,
         most_replicas: 1000,
     };
@@ -142,7 +142,7 @@ fn main() -> Result<(), String> {
                 continue;
             }
         };
-        let found = fit.best.chi_square_of_points();
+        let found = fit.best.goodness.chi_square_of_points();
         let p = law.sf(found);
         differences.push(found - noise(k, truth.len()).iter().map(|noise| noise * noise).sum::<f64>());
         (answered, chi_square) = (answered + 1, chi_square + found);

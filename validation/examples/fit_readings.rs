@@ -11,6 +11,7 @@ use validation::cases::fit_readings::{model, one_alpha, points};
 use validation::judge::case::Effort;
 use validation::methods::least_squares::Datum;
 use validation::methods::least_squares::emulator::{Prediction, Replica};
+use validation::methods::least_squares::likelihood::Rods;
 use validation::oracle::naive::{self, Naive, mean_projections};
 use validation::serve::fit::Range;
 use validation::serve::fit::search::{FitProblem, Measured, Watch, search};
@@ -88,7 +89,7 @@ fn main() -> Result<(), String> {
             measured: Measured {
                 data: &data,
                 ranges: &[Range::parse("interaction.alpha=0.2:3")?],
-                rods_over_measured: &[0.0],
+                rods: &Rods::none(1),
             },
             model: &model,
             most_replicas: most,

@@ -8,6 +8,7 @@
 //! `outright.rs` has a set that is simulated between them. The example `fit_covers` repeats whole fits.
 
 mod outright;
+mod rods;
 
 use crate::input::start::Starts;
 use crate::judge::accept::{Design, kolmogorov_samples};
@@ -17,6 +18,7 @@ use crate::judge::statistics::Sample;
 use crate::methods::least_squares::Datum;
 use crate::methods::least_squares::basis::Basis;
 use crate::methods::least_squares::emulator::{Coefficients, Emulator, coefficients};
+use crate::methods::least_squares::likelihood::Rods;
 use crate::serve::fit::Range;
 use crate::serve::fit::data::TimeColumn;
 use crate::serve::fit::scenes::{AS_WRITTEN, Scenes, Set};
@@ -26,7 +28,6 @@ use rand_distr::{Distribution, StandardNormal};
 use rand_pcg::Pcg64Dxsm;
 use rayon::prelude::*;
 use shearbed::Scene;
-use statrs::distribution::{ChiSquared, ContinuousCDF};
 use std::sync::Arc;
 
 /// The α behind the synthetic points, and its place between the ends of the range, −1 and 1, at no node.
@@ -76,6 +77,15 @@ pub fn cases() -> Vec<Case> {
             .subject(Way::AsItIs)
             .mistake("σ = 0 % for points of σ = 3.6 %", Way::NoSpread)
             .check(refuses),
+        Case::program("fit-shares-rods")
+            .claim(
+                "Where all points are means over the same rods, p-values of a fit are uniform and its intervals hold α as often as stated.",
+            )
+            .source("eq. 7; docs/src/theory/fits.md")
+            .subject(rods::Treatment::AsItIs)
+            .mistake("rods that scatter as polynomials of replicas do", rods::Treatment::OfPolynomials)
+            .mistake("points taken for independent", rods::Treatment::Independent)
+            .check(rods::hold),
     ]
 }
 
@@ -160,8 +170,7 @@ fn repeat(pool: &Pool, way: Way, seed: u64, k: u64) -> Result<Fit, String> {
         drawn = vec![mean; DRAWN];
     }
     let data = data(|k| pool.truth[k] + NOISE * noise[k]);
-    let measured =
-        Measured { data: &data, ranges: std::slice::from_ref(&pool.range), rods_over_measured: &[0.0] };
+    let measured = Measured { data: &data, ranges: std::slice::from_ref(&pool.range), rods: &Rods::none(1) };
     fitted(&measured, &pool.basis, &vec![(pool.range.from, pool.range.to)], &drawn)
 }
 
@@ -170,7 +179,7 @@ struct Fitted {
     /// Lower and upper ends of the 68 and 95 % intervals.
     intervals: [(f64, f64); 2],
     estimate: f64,
-    chi_square: f64,
+    p: f64,
 }
 
 /// Fits of each model; several treatments share them.
@@ -193,7 +202,7 @@ fn repeats(way: Way, effort: &Effort) -> Arc<Result<Vec<Fitted>, String>> {
                     (found.low, found.high)
                 }),
                 estimate: fit.values(&fit.best.place)[0],
-                chi_square: fit.best.chi_square_of_points(),
+                p: fit.best.goodness.p_value(),
             })
         };
         let count = match simulated {
@@ -254,12 +263,10 @@ fn laws(effort: &Effort) -> u64 {
 fn refuses(way: &Way, effort: &Effort) -> Result<Vec<Evidence>, String> {
     let found = repeats(*way, effort);
     let found = found.as_ref().as_ref().map_err(Clone::clone)?;
-    let law = ChiSquared::new((POINTS - 1) as f64);
-    let p = |fit: &Fitted| law.as_ref().map_or(f64::NAN, |law| law.sf(fit.chi_square));
     Ok(vec![Evidence::new(
         "p-values of χ² over repeats: uniform",
         lab::uniform(
-            found.iter().take(laws(effort) as usize).map(p).collect(),
+            found.iter().take(laws(effort) as usize).map(|fit| fit.p).collect(),
             DISTANCE,
             "Kolmogorov–Smirnov; without the spread of r_e the p-values crowd at 0, a distance near 1",
         ),

@@ -12,6 +12,7 @@ use crate::judge::lab::{self, Shared};
 use crate::methods::least_squares::Datum;
 use crate::methods::least_squares::basis::Basis;
 use crate::methods::least_squares::emulator::{Coefficients, coefficients};
+use crate::methods::least_squares::likelihood::Rods;
 use crate::oracle::naive::{Lines, Naive, mean_projections};
 use crate::serve::fit::Range;
 use crate::serve::fit::data::TimeColumn;
@@ -23,7 +24,6 @@ use rand_distr::StandardNormal;
 use rand_pcg::Pcg64Dxsm;
 use rayon::prelude::*;
 use shearbed::Scene;
-use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 const PLANTED: f64 = 0.8;
 /// The two suspensions: n a³ = 0.0075 and 0.75.
@@ -126,11 +126,9 @@ pub fn model(effort: &Effort, replicas: u64) -> Result<Vec<Coefficients>, String
 /// The fit of a common α of both suspensions to points that are means of `replicas` replicas.
 pub fn one_alpha(points: &[f64], u: f64, replicas: u64, model: &[Coefficients]) -> Result<Fit, String> {
     let range = range()?;
-    let measured = Measured {
-        data: &data(|k| points[k], u),
-        ranges: std::slice::from_ref(&range),
-        rods_over_measured: &[1.0 / replicas as f64; CONCENTRATIONS.len()],
-    };
+    let rods = Rods { over_measured: vec![1.0 / replicas as f64; CONCENTRATIONS.len()], in_u: false };
+    let measured =
+        Measured { data: &data(|k| points[k], u), ranges: std::slice::from_ref(&range), rods: &rods };
     fitted(&measured, &Basis::new(1), &vec![(range.from, range.to)], model)
 }
 
@@ -143,11 +141,10 @@ fn accepted(change: &Change, effort: &Effort) -> Result<Vec<Evidence>, String> {
         .map(|mean| mean + NOISE * rng.sample::<f64, _>(StandardNormal))
         .collect();
     let fit = one_alpha(&points, NOISE, replicas, model)?;
-    let law = ChiSquared::new((points.len() - 1) as f64).map_err(|error| error.to_string())?;
     Ok(vec![Evidence::new(
         "p-value of χ² of one α for both suspensions",
         Rule::PValue {
-            p: law.sf(fit.best.chi_square),
+            p: fit.best.goodness.p_value(),
             samples: replicas,
             enough: REPLICAS,
             distance: None,

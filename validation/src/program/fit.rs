@@ -13,6 +13,7 @@ use crate::files::text::Shown;
 use crate::files::text::command;
 use crate::input::experiment::MOST_BYTES;
 use crate::present::plot;
+use crate::serve::fit::contents::{self, Contents};
 use crate::serve::fit::design::{Candidate, design};
 use crate::serve::fit::elsewhere::look_elsewhere;
 use crate::serve::fit::report::{self, Report};
@@ -58,9 +59,12 @@ pub(super) struct Args {
     /// The seed of all random numbers, in place of the scene's own
     #[arg(long, value_name = "S", value_parser = whole(0, MAX_SEED), allow_negative_numbers = true)]
     seed: Option<u64>,
-    /// Rods that each measured point is a mean over; without it the points' uncertainties must include the scatter of rods
+    /// Rods that each measured point is a mean over
     #[arg(long, value_name = "N", value_parser = whole(1, u64::MAX), allow_negative_numbers = true)]
     rods: Option<u64>,
+    /// What u contains [default: reading]
+    #[arg(long, value_name = "WHAT", requires_if("rods", "rods"))]
+    u_contains: Option<Contents>,
     /// Test a value of a fitted key, or whether it has the same value in two sets (1:interaction.alpha=2:interaction.alpha);
     /// can be given more than once
     #[arg(long, value_name = "[SET:]KEY=VALUE", value_parser = Hypothesis::parse)]
@@ -146,15 +150,12 @@ fn work(args: &Args, input: &Input, watch: &Watch<'_>) -> Result<Done, Failure> 
     let Input { scenes, data, .. } = input;
     let stopped = |error: String| Failure::Input(error);
     let model = |values: &[f64]| scenes.model(data, AS_WRITTEN, values);
-    let rods: Vec<f64> = (scenes.sets.iter().enumerate())
-        .map(|(set, _)| {
-            let middle: Vec<f64> = args.over.iter().map(|range| range.from).collect();
-            let count = scenes.scene(set, &middle).map_or(f64::NAN, |scene| scene.particles.count as f64);
-            args.rods.map_or(0.0, |rods| count / rods as f64)
-        })
-        .collect();
+    let from: Vec<f64> = args.over.iter().map(|range| range.from).collect();
+    let count = |set| scenes.scene(set, &from).map(|scene| scene.particles.count as f64);
+    let counts: Vec<f64> = (0..scenes.sets.len()).map(count).collect::<Result<_, _>>().map_err(stopped)?;
+    let rods = contents::rods(args.rods, args.u_contains, &counts);
     let problem = FitProblem {
-        measured: Measured { data, ranges: &args.over, rods_over_measured: &rods },
+        measured: Measured { data, ranges: &args.over, rods: &rods },
         model: &model,
         most_replicas: args.replicas,
     };
@@ -163,6 +164,7 @@ fn work(args: &Args, input: &Input, watch: &Watch<'_>) -> Result<Done, Failure> 
     let shifts = shifts(input, &fit, &model, watch).map_err(stopped)?;
     let mut report = report::report(&fit, data, shifts);
     report.warnings.extend(unsearched);
+    report.warnings.extend(contents::warning(&fit, data, args.rods, args.u_contains, &counts));
     report.warnings.extend(scenes.moving_points());
     report.tests = args.test.iter().map(|held| held.test(&fit)).collect::<Result<_, _>>().map_err(stopped)?;
     let known = taken_as_known(&report);
@@ -203,6 +205,7 @@ fn asked(args: &Args, input: &Input) -> Result<Value, Failure> {
         "over": args.over,
         "set": args.settings.iter().map(set).collect::<Vec<_>>(),
         "rods": args.rods,
+        "u_contains": args.u_contains,
         "most_replicas": args.replicas,
     });
     // Without tests the record is the same as before `--test` existed.

@@ -1,5 +1,6 @@
 //! `shearbed fit` as a user meets it: synthetic points, files, refusals. No point here is measured.
 
+mod contents;
 mod design;
 mod several;
 

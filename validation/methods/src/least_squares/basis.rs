@@ -18,6 +18,8 @@ pub struct Basis {
     degrees: Vec<Degrees>,
     /// All nodes, including the corners.
     pub nodes: Vec<Vec<f64>>,
+    /// Indices of the nodes in the inner half of the box.
+    pub inner: Vec<usize>,
     /// Maps values at the nodes to coefficients: a row for each coefficient, a column for each node.
     pub project: DMatrix<f64>,
     /// Maps coefficients to those of the residual that polynomials of one degree less leave at the nodes: terms × terms. It
@@ -48,7 +50,8 @@ impl Basis {
             let less = missed.row(term) - nearest.row(row);
             missed.set_row(term, &less);
         }
-        Self { missed, project, degrees, nodes }
+        let is_inner = |k: &usize| nodes[*k].iter().all(|place| place.abs() < 0.6);
+        Self { missed, project, degrees, inner: (0..nodes.len()).filter(is_inner).collect(), nodes }
     }
 
     /// The value of every term at a place of the box.

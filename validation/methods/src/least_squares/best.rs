@@ -2,10 +2,11 @@
 
 use super::Datum;
 use super::emulator::Emulator;
-use super::likelihood::{CAUSES, Causes, ChiSquare, REPLICAS, causes};
+use super::likelihood::{CAUSES, Causes, ChiSquare, REPLICAS, Rods, causes};
 use super::minimise::minimise;
 use super::scarce::{added, scatter_of_covariance};
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, DVector};
+use statrs::distribution::{ChiSquared, ContinuousCDF, FisherSnedecor};
 
 /// The best-fitting place in a box, by generalised least squares. V is taken at the best place; the two are found by iteration.
 #[derive(Clone, Debug)]
@@ -21,8 +22,8 @@ pub struct Best {
     /// The covariance of the parameters by cause, on the box's scale: A V_cause Aᵀ, A = (JᵀV⁻¹J)⁻¹JᵀV⁻¹, with the replicas' noise
     /// subtracted in JᵀV⁻¹J. The last one is added for the finite number of replicas behind V.
     pub spread: Vec<DMatrix<f64>>,
-    /// The average relative excess of χ² due to the finite number of replicas behind V.
-    pub excess: f64,
+    /// χ² of the points and its law.
+    pub goodness: Goodness,
     /// A, parameters × points: the sensitivity of each estimate to each point.
     pub influence: DMatrix<f64>,
 }
@@ -30,8 +31,7 @@ pub struct Best {
 impl Best {
     /// The covariance of the parameters, on the box's scale.
     pub fn covariance(&self) -> DMatrix<f64> {
-        let zero = DMatrix::zeros(self.place.len(), self.place.len());
-        self.spread.iter().fold(zero, |sum, one| sum + one)
+        sum(&self.spread)
     }
 
     /// The best place if the replicas' noise is not subtracted, for a control.
@@ -57,12 +57,39 @@ impl Best {
         let (hidden, all) = (&self.spread[CAUSES.len()], self.covariance());
         axes.iter().map(|&axis| 1.0 - hidden[(axis, axis)] / all[(axis, axis)]).fold(1.0, f64::min)
     }
+}
 
+/// The least χ² with a covariance of a finite number of replicas.
+#[derive(Clone, Copy, Debug)]
+pub struct Goodness {
+    /// χ².
+    pub chi_square: f64,
+    /// The average relative excess of χ² due to the finite number of replicas behind V.
+    pub excess: f64,
+    /// Points less parameters.
+    pub freedom: usize,
+}
+
+impl Goodness {
     /// χ² without the average contribution of the noise of V.
     pub fn chi_square_of_points(&self) -> f64 {
         self.chi_square * (1.0 - self.excess)
     }
+
+    /// The probability of a larger χ² if the model is right. With a covariance of n replicas χ² follows Hotelling's law, as F of q and
+    /// n − q degrees of freedom, q = points − parameters; n is that number from which V alone would give this excess, (q + 1)/(n − 1).
+    pub fn p_value(&self) -> f64 {
+        let q = self.freedom as f64;
+        let rest = (q + 1.0) / self.excess - q + 1.0;
+        match FisherSnedecor::new(q, rest) {
+            Ok(law) if rest < EXACT => law.sf(self.chi_square * rest / (q * (rest + q - 1.0))),
+            _ => ChiSquared::new(q).map_or(f64::NAN, |law| law.sf(self.chi_square)),
+        }
+    }
 }
+
+/// Degrees of freedom beyond which F is χ² to all digits that are printed.
+const EXACT: f64 = 1e6;
 
 /// Added variance over the present one, if the replicas are too few to estimate it; the result is a request for more replicas.
 const UNKNOWN: f64 = 99.0;
@@ -71,22 +98,54 @@ const UNKNOWN: f64 = 99.0;
 const ROUNDS: usize = 6;
 const STAYS: f64 = 1e-3;
 
+/// Parts of the points' squared uncertainties that are tried as the scatter of shared rods.
+const PARTS: u32 = 20;
+
+/// A part is possible if −2 ln L is at most this much above its least: 95 % of χ² of one degree of freedom.
+const POSSIBLE: f64 = 3.84;
+
+/// The rods of the most likely scatter and of the largest possible one, if the points' uncertainties contain it, by the restricted
+/// likelihood at a place, in which the parameters are free (D. A. Harville, J. Am. Stat. Assoc. 72 (1977) 320).
+pub fn within(data: &[Datum], emulator: &Emulator, place: &[f64]) -> Option<[Rods; 2]> {
+    let of_replica = emulator.covariance_of_replica(place);
+    let sets = data.iter().map(|datum| datum.set + 1).max().unwrap_or(0);
+    let slopes = emulator.slopes(place);
+    let error = DVector::from_iterator(data.len(), data.iter().map(|datum| datum.value)) - emulator.at(place);
+    let others = sum(&causes(data, emulator, place, &Rods::none(sets))[1..]);
+    let of_part = |part: u32| {
+        let rods = Rods::within(data, &of_replica, sets, f64::from(part) / f64::from(PARTS));
+        let inverse = (&others + sum(&rods.covariances(data, &of_replica))).cholesky()?;
+        let weighted = inverse.solve(&slopes);
+        let told = slopes.tr_mul(&weighted).cholesky()?;
+        let gradient = weighted.tr_mul(&error);
+        let chi_square = error.dot(&inverse.solve(&error)) - gradient.dot(&told.solve(&gradient));
+        let misfit = chi_square + inverse.ln_determinant() + told.ln_determinant();
+        misfit.is_finite().then_some((misfit, rods))
+    };
+    let parts: Vec<(f64, Rods)> = (0..=PARTS).filter_map(of_part).collect();
+    let likely = parts.iter().min_by(|a, b| a.0.total_cmp(&b.0))?;
+    let most = parts.iter().rfind(|(misfit, _)| *misfit <= likely.0 + POSSIBLE)?;
+    Some([likely.1.clone(), most.1.clone()])
+}
+
+fn sum(parts: &[DMatrix<f64>]) -> DMatrix<f64> {
+    parts.iter().skip(1).fold(parts[0].clone(), |sum, one| sum + one)
+}
+
 /// The best place; `None` if V or the information is not positive definite, or χ² is not finite.
-pub fn best(data: &[Datum], emulator: &Emulator, rods_over_measured: &[f64]) -> Option<Best> {
+pub fn best(data: &[Datum], emulator: &Emulator, rods: &Rods) -> Option<Best> {
     let parameters = emulator.basis.nodes[0].len();
     let mut place = vec![0.0; parameters];
-    let total =
-        |causes: &Causes| causes.iter().fold(DMatrix::zeros(data.len(), data.len()), |sum, one| sum + one);
     for _ in 0..ROUNDS {
-        let causes = causes(data, emulator, &place, rods_over_measured);
-        let surface = ChiSquare::new(data, emulator, &total(&causes), &place)?;
+        let causes = causes(data, emulator, &place, rods);
+        let surface = ChiSquare::new(data, emulator, &sum(&causes), &place)?;
         let before = std::mem::replace(&mut place, minimise(&surface, &vec![None; parameters], &[]).0);
         if before.iter().zip(&place).all(|(a, b)| (a - b).abs() < STAYS) {
             break;
         }
     }
-    let causes = causes(data, emulator, &place, rods_over_measured);
-    let covariance = total(&causes);
+    let causes = causes(data, emulator, &place, rods);
+    let covariance = sum(&causes);
     let surface = ChiSquare::new(data, emulator, &covariance, &place)?;
     let (place, chi_square) = minimise(&surface, &vec![None; parameters], &[&place]);
     if !chi_square.is_finite() {
@@ -103,11 +162,12 @@ pub fn best(data: &[Datum], emulator: &Emulator, rods_over_measured: &[f64]) -> 
     let influence = solver.solve(&weighted.transpose());
     let mut spread: Vec<_> =
         (causes.iter()).map(|cause| &influence * cause * influence.transpose()).collect();
-    let scatter =
-        scatter_of_covariance(data, emulator, &emulator.covariance(&place), rods_over_measured, &projector);
-    let linear = spread.iter().fold(DMatrix::zeros(parameters, parameters), |sum, one| sum + one);
+    let of_replica = emulator.covariance_of_replica(&place);
+    let scatter = scatter_of_covariance(data, emulator, &of_replica, &rods.over_measured, &projector);
+    let linear = sum(&spread);
     let hidden = added(&linear, &(&influence * &scatter * influence.transpose()));
     spread.push(hidden.unwrap_or_else(|| linear * UNKNOWN));
     let excess = ((&projector * &scatter).trace() / (data.len() - parameters).max(1) as f64).min(1.0);
-    Some(Best { place, chi_square, surface, causes, spread, excess, influence })
+    let goodness = Goodness { chi_square, excess, freedom: data.len() - parameters };
+    Some(Best { place, chi_square, surface, causes, spread, goodness, influence })
 }

@@ -1,7 +1,7 @@
 //! The model between the nodes: a polynomial for each measured point, and an estimate of its error.
 
 use super::basis::Basis;
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{DMatrix, DVector, RowDVector};
 use rayon::prelude::*;
 use std::collections::HashMap;
 
@@ -85,10 +85,12 @@ pub struct Emulator {
     mean: [DMatrix<f64>; 3],
     /// Deviations of each replica's coefficients from the mean, at a point's time.
     deviations: Vec<DMatrix<f64>>,
+    /// Deviations of each replica itself at the inner nodes.
+    inner: Vec<DMatrix<f64>>,
 }
 
-/// The coefficients of one replica: at a point's time, before and after.
-pub type Coefficients = [DMatrix<f64>; 3];
+/// The coefficients of one replica: at a point's time, before and after; then its values at the inner nodes.
+pub type Coefficients = [DMatrix<f64>; 4];
 
 /// Runs `replicas` at every node of a box, in parallel, and returns their coefficients in order; `value` converts a node's coordinates to
 /// parameters. Parts with the same dependencies at several nodes run once per replica.
@@ -111,7 +113,9 @@ pub fn coefficients(
         let of = |which: usize| {
             DMatrix::from_fn(rows.len(), rows[0].len(), |node, point| rows[node][point][which])
         };
-        Ok([0, 1, 2].map(|which| &basis.project * of(which)))
+        let [at, before, after] = [0, 1, 2].map(of);
+        let inner = at.select_rows(&basis.inner);
+        Ok([&basis.project * at, &basis.project * before, &basis.project * after, inner])
     };
     replicas.into_par_iter().map(one).collect()
 }
@@ -125,12 +129,11 @@ impl Emulator {
             let zero = DMatrix::zeros(first.nrows(), first.ncols());
             replicas.iter().fold(zero, |sum, one| sum + &one[which]) * share
         };
-        let at = mean(0);
-        Self {
-            basis: basis.clone(),
-            deviations: replicas.iter().map(|one| &one[0] - &at).collect(),
-            mean: [at, mean(1), mean(2)],
-        }
+        let away = |which: usize| {
+            let mean = mean(which);
+            replicas.iter().map(|one| &one[which] - &mean).collect()
+        };
+        Self { basis: basis.clone(), deviations: away(0), inner: away(3), mean: [mean(0), mean(1), mean(2)] }
     }
 
     /// Number of replicas.
@@ -162,7 +165,7 @@ impl Emulator {
     }
 
     /// The difference between these polynomials and those of one degree less, without the contribution of the replicas' noise to its
-    /// square, which is part of [`Emulator::covariance`].
+    /// square, which is part of [`Emulator::covariance_of_mean`].
     pub fn lack_of_fit(&self, place: &[f64]) -> DVector<f64> {
         let terms = self.basis.missed.tr_mul(&self.basis.terms(place));
         let n = self.replicas() as f64;
@@ -195,18 +198,35 @@ impl Emulator {
         sum / (n * (n - 1.0))
     }
 
-    /// The covariance of one replica's predictions, points × points.
-    pub fn covariance(&self, place: &[f64]) -> DMatrix<f64> {
+    /// The covariance of the mean curve, points × points.
+    pub fn covariance_of_mean(&self, place: &[f64]) -> DMatrix<f64> {
         let terms = self.basis.terms(place);
-        let rows: Vec<_> = (self.deviations.iter()).map(|one| one.tr_mul(&terms).transpose()).collect();
-        let spread = DMatrix::from_rows(&rows);
-        spread.tr_mul(&spread) / (self.deviations.len() as f64 - 1.0)
+        let rows = self.deviations.iter().map(|one| one.tr_mul(&terms).transpose());
+        covariance(&rows.collect::<Vec<_>>()) / self.replicas() as f64
+    }
+
+    /// The covariance of one replica's predictions, points × points, at the inner node nearest to `place`. A replica's polynomial scatters
+    /// less: it averages over nodes, between which collisions differ.
+    pub fn covariance_of_replica(&self, place: &[f64]) -> DMatrix<f64> {
+        let far = |node: usize| -> f64 {
+            self.basis.nodes[node].iter().zip(place).map(|(a, b)| (a - b).powi(2)).sum()
+        };
+        let inner = &self.basis.inner;
+        let nearest = (0..inner.len()).min_by(|a, b| far(inner[*a]).total_cmp(&far(inner[*b]))).unwrap_or(0);
+        let rows = self.inner.iter().map(|one| one.row(nearest).into_owned());
+        covariance(&rows.collect::<Vec<_>>())
     }
 
     /// The derivative of every prediction by every parameter, on the box's scale: points × parameters.
     pub fn slopes(&self, place: &[f64]) -> DMatrix<f64> {
         self.mean[0].tr_mul(&self.basis.slopes_of_all(place))
     }
+}
+
+/// The covariance of deviations from the mean, a row for each replica.
+fn covariance(rows: &[RowDVector<f64>]) -> DMatrix<f64> {
+    let spread = DMatrix::from_rows(rows);
+    spread.tr_mul(&spread) / (rows.len() as f64 - 1.0)
 }
 
 #[cfg(test)]

@@ -17,26 +17,60 @@ pub const CAUSES: [&str; 5] = [
 /// The covariance of the points by cause, at one place of the box.
 pub type Causes = [DMatrix<f64>; CAUSES.len()];
 
+/// Index in `CAUSES` of the measured rods.
+pub const RODS: usize = 2;
 /// Index in `CAUSES` of the simulation's own noise.
 pub const REPLICAS: usize = 3;
 /// Index in `CAUSES` of the emulator's error.
 pub const EMULATOR: usize = 4;
 
-/// The covariance of each cause. `rods_over_measured` is, for each data set, the number of rods of a replica over the number of rods
-/// averaged in a point, or 0 if unknown. Different data sets have different rods.
-pub fn causes(data: &[Datum], emulator: &Emulator, place: &[f64], rods_over_measured: &[f64]) -> Causes {
-    let reading = DVector::from_iterator(data.len(), data.iter().map(|datum| datum.u.powi(2)));
-    let of_replica = emulator.covariance(place);
+/// The rods that were measured.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Rods {
+    /// For each data set: the number of rods of a replica over the number of rods averaged in a point, 0 if the points share no rods.
+    pub over_measured: Vec<f64>,
+    /// True if the points' uncertainties contain the scatter of these rods.
+    pub in_u: bool,
+}
+
+impl Rods {
+    /// Points of `sets` sets that share no rods.
+    pub fn none(sets: usize) -> Self {
+        Self { over_measured: vec![0.0; sets], in_u: false }
+    }
+
+    /// Rods whose scatter is the share `share` of the squared uncertainties.
+    pub fn within(data: &[Datum], of_replica: &DMatrix<f64>, sets: usize, share: f64) -> Self {
+        let ratio = |set: usize| {
+            let here = || (0..data.len()).filter(|k| data[*k].set == set);
+            let (u, rods) = (here().map(|k| data[k].u.powi(2)), here().map(|k| of_replica[(k, k)]));
+            share * u.sum::<f64>() / rods.sum::<f64>().max(f64::MIN_POSITIVE)
+        };
+        Self { over_measured: (0..sets).map(ratio).collect(), in_u: true }
+    }
+
+    /// The covariances of the points by reading and by rods. Different data sets have different rods.
+    pub fn covariances(&self, data: &[Datum], of_replica: &DMatrix<f64>) -> [DMatrix<f64>; 2] {
+        let rods = DMatrix::from_fn(data.len(), data.len(), |i, j| match data[i].set == data[j].set {
+            true => self.over_measured[data[i].set] * of_replica[(i, j)],
+            false => 0.0,
+        });
+        let contained = if self.in_u { 1.0 } else { 0.0 };
+        let reading = |k: usize| (data[k].u.powi(2) - contained * rods[(k, k)]).max(0.0);
+        let reading = DVector::from_iterator(data.len(), (0..data.len()).map(reading));
+        [DMatrix::from_diagonal(&reading), rods]
+    }
+}
+
+/// The covariance of each cause.
+pub fn causes(data: &[Datum], emulator: &Emulator, place: &[f64], rods: &Rods) -> Causes {
+    let [reading, rods] = rods.covariances(data, &emulator.covariance_of_replica(place));
     let lack = emulator.lack_of_fit(place);
-    let rods = DMatrix::from_fn(data.len(), data.len(), |i, j| match data[i].set == data[j].set {
-        true => rods_over_measured[data[i].set] * of_replica[(i, j)],
-        false => 0.0,
-    });
     [
-        DMatrix::from_diagonal(&reading),
+        reading,
         DMatrix::from_diagonal(&emulator.time_variance(place)),
         rods,
-        of_replica / emulator.replicas() as f64,
+        emulator.covariance_of_mean(place),
         // A polynomial's error may move points together or independently: half of either.
         (&lack * lack.transpose() + DMatrix::from_diagonal(&lack.map(|lack| lack * lack))) / 2.0,
     ]

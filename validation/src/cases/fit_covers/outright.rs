@@ -7,6 +7,7 @@ use crate::judge::lab::{self, Shared};
 use crate::judge::statistics::Sample;
 use crate::methods::least_squares::basis::Basis;
 use crate::methods::least_squares::emulator::{Coefficients, Emulator, coefficients};
+use crate::methods::least_squares::likelihood::Rods;
 use crate::serve::fit::Range;
 use crate::serve::fit::data::TimeColumn;
 use crate::serve::fit::scenes::{AS_WRITTEN, Scenes};
@@ -58,8 +59,7 @@ fn simulated(effort: &Effort) -> Result<Simulated, String> {
     for (point, value) in points.iter_mut().zip(curve.iter()) {
         point.value = *value;
     }
-    let measured =
-        Measured { data: &points, ranges: std::slice::from_ref(&range), rods_over_measured: &[0.0] };
+    let measured = Measured { data: &points, ranges: std::slice::from_ref(&range), rods: &Rods::none(1) };
     let fit = fitted(&measured, &basis, &vec![(range.from, range.to)], &at_nodes)?;
     let uncertainty = fit.best.covariance()[(0, 0)].sqrt();
     Ok(Simulated { influence: &fit.best.influence / uncertainty, basis, at_nodes, at_own })

@@ -16,7 +16,7 @@ use super::search::{Fit, Watch, values};
 use crate::methods::least_squares::Datum;
 use crate::methods::least_squares::basis::Basis;
 use crate::methods::least_squares::emulator::{Emulator, coefficients};
-use crate::methods::least_squares::likelihood::correlation_of;
+use crate::methods::least_squares::likelihood::{Rods, correlation_of};
 pub(super) use known::Known;
 use nalgebra::{DMatrix, DVector};
 use serde::Serialize;
@@ -113,7 +113,7 @@ pub fn design(
     fit: &Fit,
     scenes: &Scenes,
     data: &[Datum],
-    rods_over_measured: &[f64],
+    rods: &Rods,
     watch: &Watch<'_>,
 ) -> Result<Design, String> {
     let best = fit.values(&fit.best.place);
@@ -146,13 +146,14 @@ pub fn design(
             Err(error) => return Err(error),
         };
         let of_time = emulator.time_variance(&fit.best.place);
-        let of_replica = emulator.covariance(&fit.best.place);
+        let of_replica = emulator.covariance_of_replica(&fit.best.place);
         let rows: Vec<_> = places_of_box.iter().map(|place| emulator.at(place)).collect();
+        let [reading, scatter] = rods.covariances(&of, &of_replica);
         for (k, place) in of.into_iter().enumerate() {
             columns.push(DVector::from_iterator(rows.len(), rows.iter().map(|row| row[k])));
             found.candidates.push(Candidate {
                 concentration_per_cm3: concentrations[place.set],
-                u: (place.u.powi(2) + of_time[k] + rods_over_measured[place.set] * of_replica[(k, k)]).sqrt(),
+                u: (reading[(k, k)] + of_time[k] + scatter[(k, k)]).sqrt(),
                 set: place.set,
                 column: place.column,
                 time: place.time,

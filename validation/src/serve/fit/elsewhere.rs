@@ -164,7 +164,7 @@ impl Line<'_> {
     /// χ² at the place `at` from the predictions `rows` of its replicas.
     fn tried(&self, at: f64, rows: &[Vec<Prediction>]) -> Result<Tried, String> {
         let measured = &self.problem.measured;
-        let found = Direct::of(measured.data, rows, measured.rods_over_measured);
+        let found = Direct::of(measured.data, rows, measured.rods);
         let Direct { mean, se, chi_square } = found.ok_or("the covariance of the points is not positive")?;
         Ok(Tried { at, chi_square, mean, se })
     }

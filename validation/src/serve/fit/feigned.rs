@@ -9,6 +9,7 @@ use crate::judge::statistics::Sample;
 use crate::methods::least_squares::Datum;
 use crate::methods::least_squares::basis::Basis;
 use crate::methods::least_squares::emulator::{Replica, coefficients};
+use crate::methods::least_squares::likelihood::Rods;
 use crate::methods::least_squares::profile::profile;
 use rand::SeedableRng;
 use rand_pcg::Pcg64Dxsm;
@@ -60,7 +61,7 @@ fn points(seed: u64) -> Vec<Datum> {
 fn fit(data: &[Datum], slope: f64, seed: u64) -> Fit {
     let (ranges, basis) = (ranges(), Basis::new(1));
     let found = coefficients(&basis, &model(slope, seed), &|node| node.to_vec(), 0..REPLICAS, &|| ());
-    let measured = Measured { data, ranges: &ranges, rods_over_measured: &[0.0] };
+    let measured = Measured { data, ranges: &ranges, rods: &Rods::none(1) };
     fitted(&measured, &basis, &vec![(-1.0, 1.0)], &found.unwrap()).unwrap()
 }
 

@@ -10,7 +10,7 @@ pub const CHECK: &str = "check their columns, units and uncertainties, the scene
                          holds the value";
 
 /// The probability of a larger χ² if the model were right.
-pub fn p_value(chi_square: f64, points: usize, parameters: usize) -> f64 {
+fn p_value(chi_square: f64, points: usize, parameters: usize) -> f64 {
     ChiSquared::new(points.saturating_sub(parameters) as f64).map_or(f64::NAN, |law| law.sf(chi_square))
 }
 

@@ -5,6 +5,7 @@
 //! the measured rods, the model's replicas and the polynomials' lack of fit. `docs/src/theory/fits.md` has the formulas.
 
 pub mod budget;
+pub mod contents;
 pub mod data;
 pub mod design;
 pub mod elsewhere;

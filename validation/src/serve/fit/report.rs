@@ -2,7 +2,7 @@
 
 use super::budget::{self, Part, Residual, Shift};
 use super::design::{Candidate, Step};
-use super::goodness::{CHECK, p_value};
+use super::goodness::CHECK;
 use super::hypothesis::Tested;
 use super::range::Range;
 use super::search::{Fit, MOST_SHARE};
@@ -86,7 +86,7 @@ const ALIKE: f64 = 0.95;
 /// The report of a fit of the points `data`.
 pub fn report(fit: &Fit, data: &[Datum], shifts: Vec<Shift>) -> Report {
     let freedom = data.len() - fit.ranges.len();
-    let p_value = p_value(fit.best.chi_square_of_points(), data.len(), fit.ranges.len());
+    let p_value = fit.best.goodness.p_value();
     let values = fit.values(&fit.best.place);
     let covariance = fit.covariance();
     let correlation = correlation_of(&fit.best.covariance());
@@ -114,7 +114,7 @@ pub fn report(fit: &Fit, data: &[Datum], shifts: Vec<Shift>) -> Report {
     Report {
         warnings: warnings(fit, &parameters, &correlation, p_value),
         parameters,
-        chi2: fit.best.chi_square_of_points(),
+        chi2: fit.best.goodness.chi_square_of_points(),
         degrees_of_freedom: freedom,
         p_value,
         order: fit.ranges.iter().map(Range::label).collect(),

@@ -7,13 +7,12 @@ use crate::judge::accept::{Verdict, judge};
 use crate::methods::least_squares::Datum;
 use crate::methods::least_squares::basis::Basis;
 use crate::methods::least_squares::emulator::{Replica, coefficients};
-use crate::methods::least_squares::likelihood::CAUSES;
+use crate::methods::least_squares::likelihood::{CAUSES, Rods};
 use crate::methods::least_squares::profile::profile;
 use nalgebra::DMatrix;
 use rand::SeedableRng;
 use rand_pcg::Pcg64Dxsm;
 use rayon::prelude::*;
-use statrs::distribution::{ChiSquared, ContinuousCDF};
 use std::sync::Arc;
 
 const POINTS: usize = 20;
@@ -61,7 +60,8 @@ fn fit(seed: u64) -> Fit {
     };
     let (ranges, basis) = (vec![Range::parse("a.a=-1:1").unwrap()], Basis::new(1));
     let found = coefficients(&basis, &model, &|node| node.to_vec(), 0..REPLICAS, &|| ()).unwrap();
-    let measured = Measured { data: &data, ranges: &ranges, rods_over_measured: &[1.0] };
+    let rods = Rods { over_measured: vec![1.0], in_u: false };
+    let measured = Measured { data: &data, ranges: &ranges, rods: &rods };
     fitted(&measured, &basis, &vec![(-1.0, 1.0)], &found).unwrap()
 }
 
@@ -69,7 +69,7 @@ fn fit(seed: u64) -> Fit {
 fn believed(fit: &Fit) -> Fit {
     let mut best = fit.best.clone();
     best.spread[CAUSES.len()] = DMatrix::zeros(1, 1);
-    best.excess = 0.0;
+    best.goodness.excess = 0.0;
     Fit { profiles: vec![profile(&best, 0)], best, ..fit.clone() }
 }
 
@@ -79,7 +79,7 @@ fn asked(fit: &Fit) -> ([bool; 2], f64) {
         let ends = fit.interval(0, confidence);
         (ends.low..=ends.high).contains(&PLANTED)
     });
-    (inside, ChiSquared::new((POINTS - 1) as f64).unwrap().sf(fit.best.chi_square_of_points()))
+    (inside, fit.best.goodness.p_value())
 }
 
 /// With q = 19 and n − 1 = 99 a covariance taken as known is 0.81 of the right one and the estimates' covariance is 1.24 of it: its
@@ -94,7 +94,7 @@ fn a_covariance_of_few_replicas_makes_no_interval_short() {
     let count = enough(0.5, EFFECT) as u64;
     let one = |k: u64| {
         let fit = fit(100 + k);
-        (asked(&fit), asked(&believed(&fit)), fit.best.excess)
+        (asked(&fit), asked(&believed(&fit)), fit.best.goodness.excess)
     };
     let all: Vec<_> = (0..count).into_par_iter().map(one).collect();
     // The excess is (1 + q)/(n − 1) if V comes from replicas alone.

@@ -7,7 +7,7 @@ use crate::methods::least_squares::Datum;
 use crate::methods::least_squares::basis::Basis;
 use crate::methods::least_squares::best::{Best, best};
 use crate::methods::least_squares::emulator::{Coefficients, Emulator, Model, Sides, coefficients};
-use crate::methods::least_squares::likelihood::{EMULATOR, REPLICAS};
+use crate::methods::least_squares::likelihood::{EMULATOR, REPLICAS, Rods};
 use crate::methods::least_squares::profile::{Interval, Profile, interval, profile, rise_of};
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
@@ -48,8 +48,8 @@ pub struct Measured<'a> {
     pub data: &'a [Datum],
     /// The parameters.
     pub ranges: &'a [Range],
-    /// For each data set: rods of a replica over rods that each point is a mean of; 0 where the latter number is not known.
-    pub rods_over_measured: &'a [f64],
+    /// The rods that were measured.
+    pub rods: &'a Rods,
 }
 
 /// The input of a fit.
@@ -161,7 +161,7 @@ pub fn search(problem: &FitProblem<'_>, watch: &Watch<'_>) -> Result<Fit, String
                     100.0 * fit.feigned()
                 ));
             }
-            if fit.best.excess > MOST_EXCESS {
+            if fit.best.goodness.excess > MOST_EXCESS {
                 return Err(format!(
                     "--replicas: {wanted} are too few for the covariance of {} points; give {} or more",
                     problem.measured.data.len(),
@@ -211,7 +211,7 @@ pub fn fitted(
     found: &[Coefficients],
 ) -> Result<Fit, String> {
     let emulator = Emulator::new(basis, found);
-    let best = best(measured.data, &emulator, measured.rods_over_measured)
+    let best = best(measured.data, &emulator, measured.rods)
         .ok_or("the points say nothing about a parameter: no model value changes with it")?;
     Ok(Fit {
         ranges: measured.ranges.to_vec(),

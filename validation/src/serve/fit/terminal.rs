@@ -133,7 +133,7 @@ fn added(added: &Added, count: usize, times: &[&str]) -> String {
 }
 
 /// The number of decimals that show two digits of `number`, at most 12.
-fn decimals(number: f64) -> usize {
+pub(super) fn decimals(number: f64) -> usize {
     match number.log10().floor() {
         log if log.is_finite() => (1.0 - log).clamp(0.0, 12.0) as usize,
         _ => 4,

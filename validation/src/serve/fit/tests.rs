@@ -9,6 +9,7 @@ use super::search::{Fit, FitProblem, Measured, Watch, search};
 use crate::judge::accept::{Rule, Verdict, judge};
 use crate::methods::least_squares::Datum;
 use crate::methods::least_squares::emulator::{Prediction, Replica};
+use crate::methods::least_squares::likelihood::Rods;
 use crate::methods::least_squares::profile::{region, rise_of_several};
 use nalgebra::{DMatrix, DVector};
 use rand::SeedableRng;
@@ -66,7 +67,7 @@ fn ranges(over: &[&str]) -> Vec<Range> {
 fn fit(data: &[Datum], over: &[&str], seed: u64, scatter: f64, most_replicas: u64) -> Fit {
     let model = model(seed, scatter);
     let problem = FitProblem {
-        measured: Measured { data, ranges: &ranges(over), rods_over_measured: &[0.0] },
+        measured: Measured { data, ranges: &ranges(over), rods: &Rods::none(1) },
         model: &model,
         most_replicas,
     };
@@ -125,7 +126,7 @@ fn another_minimum_of_the_range_is_seen() {
     let (data, model) = (points(0.3, 1.0, 0.01, 1), model(1, 1e-9));
     let look_at = |data: &[Datum], fit: &Fit| {
         let problem = FitProblem {
-            measured: Measured { data, ranges: &fit.ranges, rods_over_measured: &[0.0] },
+            measured: Measured { data, ranges: &fit.ranges, rods: &Rods::none(1) },
             model: &model,
             most_replicas: 20,
         };
@@ -168,7 +169,7 @@ fn surface_of(of: fn(f64, f64, f64) -> f64, [x, y]: [f64; 2]) -> Fit {
     };
     let ranges = ranges(&["a.x=-6:6", "a.y=-60:60"]);
     let problem = FitProblem {
-        measured: Measured { data: &data, ranges: &ranges, rods_over_measured: &[0.0] },
+        measured: Measured { data: &data, ranges: &ranges, rods: &Rods::none(1) },
         model: &model,
         most_replicas: 100,
     };
@@ -334,7 +335,7 @@ fn a_straight_line_has_the_estimate_and_the_intervals_of_the_textbook() {
         measured: Measured {
             data: &data,
             ranges: &ranges(&["line.a=-3:5", "line.b=0.1:4"]),
-            rods_over_measured: &[0.0],
+            rods: &Rods::none(1),
         },
         model: &line,
         most_replicas: 50,

@@ -5,6 +5,7 @@ use super::search::{Fit, Measured, fitted};
 use crate::methods::least_squares::Datum;
 use crate::methods::least_squares::basis::Basis;
 use crate::methods::least_squares::emulator::{Replica, coefficients};
+use crate::methods::least_squares::likelihood::Rods;
 
 fn ranges(over: [&str; 2]) -> Vec<Range> {
     over.map(|text| Range::parse(text).unwrap()).to_vec()
@@ -26,7 +27,7 @@ fn of_two_signs() -> Fit {
     let (ranges, basis) = (ranges(["a.a=-1:1", "a.b=-1:1"]), Basis::new(2));
     let found = coefficients(&basis, &two_signs, &|node| node.to_vec(), 0..2, &|| ()).unwrap();
     let data = points(&[(0.49, 0.01), (-0.35, 0.05), (-0.5, 0.6)]);
-    let measured = Measured { data: &data, ranges: &ranges, rods_over_measured: &[0.0] };
+    let measured = Measured { data: &data, ranges: &ranges, rods: &Rods::none(1) };
     fitted(&measured, &basis, &vec![(-1.0, 1.0); 2], &found).unwrap()
 }
 

@@ -7,6 +7,7 @@ use crate::judge::accept::{Verdict, judge};
 use crate::methods::least_squares::Datum;
 use crate::methods::least_squares::basis::Basis;
 use crate::methods::least_squares::emulator::{Replica, coefficients};
+use crate::methods::least_squares::likelihood::Rods;
 use rand::SeedableRng;
 use rand_pcg::Pcg64Dxsm;
 use rayon::prelude::*;
@@ -55,7 +56,7 @@ fn fit(curve: Curve, rates: [f64; 2], seed: u64) -> Fit {
     let basis = Basis::new(2);
     let value = |node: &[f64]| values(&ranges, &sides, node);
     let found = coefficients(&basis, &model, &value, 0..REPLICAS, &|| ()).unwrap();
-    let measured = Measured { data: &data, ranges: &ranges, rods_over_measured: &[0.0; 2] };
+    let measured = Measured { data: &data, ranges: &ranges, rods: &Rods::none(2) };
     fitted(&measured, &basis, &sides, &found).unwrap()
 }
 

@@ -1,5 +1,6 @@
 use super::*;
 use crate::methods::least_squares::emulator::Replica;
+use crate::methods::least_squares::likelihood::Rods;
 
 /// Of a straight line, along which χ² rises as a square.
 #[test]
@@ -11,7 +12,7 @@ fn a_closer_box_is_three_quarters_as_wide() {
     };
     let data: Vec<_> =
         (0..4).map(|k| Datum { value: 0.0, u: 0.2, ..Datum::place(0, "x1", f64::from(k)) }).collect();
-    let measured = Measured { data: &data, ranges: &ranges, rods_over_measured: &[0.0] };
+    let measured = Measured { data: &data, ranges: &ranges, rods: &Rods::none(1) };
     let fit = search(&FitProblem { measured, model: &model, most_replicas: 3 }, &Watch::SILENT).unwrap();
     let width = |far: f64| {
         let sides = other_sides(&fit, &whole(&ranges), far).0;

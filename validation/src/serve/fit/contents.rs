@@ -1,0 +1,108 @@
+//! What the points' uncertainties contain: the error of reading alone, or the scatter of the measured rods too, which all points of a
+//! curve share.
+
+use super::search::Fit;
+use super::terminal::decimals;
+use crate::methods::least_squares::Datum;
+use crate::methods::least_squares::best::{Best, best, within};
+use crate::methods::least_squares::likelihood::{RODS, Rods};
+use serde::Serialize;
+
+/// What the command says of the points' uncertainties.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, clap::ValueEnum)]
+#[serde(rename_all = "snake_case")]
+pub enum Contents {
+    /// The error of reading a point, independent of other points
+    Reading,
+    /// Also the scatter of the rods, as a standard error over rods does
+    Rods,
+}
+
+/// The rods that were measured as the command says, `counts` in a replica of each set. Without a number the points share no rods.
+pub fn rods(measured: Option<u64>, contents: Option<Contents>, counts: &[f64]) -> Rods {
+    match measured {
+        None => Rods::none(counts.len()),
+        Some(measured) => Rods {
+            over_measured: counts.iter().map(|count| count / measured as f64).collect(),
+            in_u: contents == Some(Contents::Rods),
+        },
+    }
+}
+
+/// Ratios of standard uncertainties below which the answer does not depend on what u contains.
+const ALIKE: f64 = 1.1;
+
+/// A warning if the answer depends on what the points' uncertainties contain and the command does not say it, or if they are too small
+/// for what it says. The arguments are those of [`rods`].
+pub fn warning(
+    fit: &Fit,
+    data: &[Datum],
+    measured: Option<u64>,
+    contents: Option<Contents>,
+    counts: &[f64],
+) -> Option<String> {
+    let other = |rods: &Rods| best(data, &fit.emulator, rods).filter(|other| differs(fit, other));
+    let own = answer(fit, &fit.best);
+    let u: f64 = data.iter().map(|datum| datum.u.powi(2)).sum();
+    let times = (u / fit.best.causes[RODS].trace()).sqrt();
+    match (measured, contents) {
+        (None, None) => {
+            let [likely, most] = within(data, &fit.emulator, &fit.best.place)?;
+            let of_replica = fit.emulator.covariance_of_replica(&fit.best.place);
+            let share = |rods: &Rods| 100.0 * rods.covariances(data, &of_replica)[1].trace() / u;
+            let contained = other(&most).map(|best| {
+                format!(
+                    "; if u contains that scatter, which by the residuals is {:.0} % of u² or up to {:.0} %: {}",
+                    share(&likely),
+                    share(&most),
+                    answer(fit, &best)
+                )
+            });
+            let as_scene = Rods { over_measured: vec![1.0; counts.len()], in_u: false };
+            let beside = other(&as_scene).map(|best| {
+                format!(
+                    "; if u is the reading alone, and as many rods as the scene has were measured: {}",
+                    answer(fit, &best)
+                )
+            });
+            let said: String = [contained, beside].into_iter().flatten().collect();
+            (!said.is_empty()).then(|| {
+                format!(
+                    "--rods is not given, so the points count as independent: {own} (95 %). The scatter of measured rods moves all points of \
+                     a curve together{said}. Give --rods N if u is the reading alone, --rods N --u-contains rods if it contains the scatter \
+                     of N rods, and --u-contains reading if the points share no rods"
+                )
+            })
+        }
+        (Some(rods), None) if times > 0.7 => {
+            let other = best(data, &fit.emulator, &self::rods(measured, Some(Contents::Rods), counts))?;
+            Some(format!(
+                "u is {times:.1} times the scatter of {rods} rods, but counts as the error of reading alone: {own} (95 %). If it contains \
+                 that scatter, --u-contains rods gives {}; --u-contains reading says that it does not",
+                answer(fit, &other)
+            ))
+        }
+        (Some(rods), Some(Contents::Rods)) if times < 0.7 => Some(format!(
+            "--u-contains rods: u is only {times:.2} times the scatter of {rods} rods, and cannot contain it: check --rods, or give \
+             --u-contains reading"
+        )),
+        _ => None,
+    }
+}
+
+/// True if a standard uncertainty differs.
+fn differs(fit: &Fit, other: &Best) -> bool {
+    let [own, other] = [&fit.best, other].map(|best| best.covariance().diagonal().map(f64::sqrt));
+    own.iter().zip(&other).any(|(own, other)| (own / other).max(other / own) > ALIKE)
+}
+
+/// Each parameter with half its 95 % interval by linear theory.
+fn answer(fit: &Fit, best: &Best) -> String {
+    let covariance = best.covariance();
+    let one = |(axis, range): (usize, &super::Range)| {
+        let half = 1.96 * covariance[(axis, axis)].sqrt() * fit.scale(axis);
+        let digits = decimals(half.min(range.to - range.from));
+        format!("{} = {:.digits$} ± {half:.digits$}", range.name(), fit.value(axis, best.place[axis]))
+    };
+    fit.ranges.iter().enumerate().map(one).collect::<Vec<_>>().join(", ")
+}
