@@ -33,7 +33,7 @@ fn tolerances_that_are_none_are_refused() {
     let kinds = ["mid-flip-2", "isotropic-3", "contact-rule", "lee-springer"];
     let reference = some(&dir.path().join("ref"), &kinds);
     for (given, reason) in [
-        ("0", "a number above 0, or NAME=NUMBER, is allowed"),
+        ("0", "a number above 0, at most 10, or NAME=NUMBER, is allowed"),
         ("mid-flip-2", "a number above 0"),
         ("mid-flip-3=1e-6", "no problem of this name is graded"),
         ("mid-flip-2=1e-12", "its own tolerance is 6e-11"),

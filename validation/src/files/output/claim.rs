@@ -39,8 +39,11 @@ impl Claim {
     pub fn appear<C: AsRef<[u8]>>(path: &Path, files: &[(String, C)]) -> Result<Option<Self>, OutputError> {
         let (above, missing) = existing(path);
         let mut missing = missing.components();
-        let Some(Component::Normal(first)) = missing.next() else {
-            return Err(at(path)(io::ErrorKind::InvalidFilename.into()));
+        let first = match missing.next() {
+            Some(Component::Normal(first)) => first,
+            // Made since the caller looked.
+            None if path.exists() => return Ok(None),
+            _ => return Err(at(path)(io::ErrorKind::InvalidFilename.into())),
         };
         let below = missing.as_path();
         let dir = Dir::open_ambient_dir(above, ambient_authority()).map_err(at(path))?;
