@@ -79,7 +79,7 @@ pub fn cases() -> Vec<Case> {
             .check(refuses),
         Case::program("fit-shares-rods")
             .claim(
-                "Where all points are means over the same rods, p-values of a fit are uniform and its intervals hold α as often as stated.",
+                "Where all points are means over the same rods, χ² of a fit is no larger than due, and its intervals hold α as often as stated.",
             )
             .source("eq. 7; docs/src/theory/fits.md")
             .subject(rods::Treatment::AsItIs)

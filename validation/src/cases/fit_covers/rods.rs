@@ -5,9 +5,9 @@
 //! there is: its covariance is the right one. The example `fit_experiments` takes the rods of another simulator.
 
 use super::{CONFIDENCES, DRAWN, Pool, SIMULATED, data, pool};
-use crate::judge::accept::{Design, kolmogorov_samples};
+use crate::judge::accept::Design;
 use crate::judge::case::{Effort, Evidence};
-use crate::judge::lab::{self, Shared};
+use crate::judge::lab::Shared;
 use crate::judge::statistics::Sample;
 use crate::methods::least_squares::emulator::{Coefficients, Emulator};
 use crate::methods::least_squares::likelihood::Rods;
@@ -53,7 +53,7 @@ impl Scatter {
     }
 }
 
-/// Whether the intervals hold the planted α, and the p-value.
+/// Whether the intervals hold the planted α, and χ² per degree of freedom.
 type Repeat = ([bool; 2], f64);
 
 /// What the repeats share.
@@ -114,7 +114,8 @@ fn repeat(
         let found = fit.interval(0, confidence);
         (found.low..=found.high).contains(&PLANTED)
     });
-    Ok((inside, fit.best.goodness.p_value()))
+    let goodness = &fit.best.goodness;
+    Ok((inside, goodness.chi_square_of_points() / goodness.freedom as f64))
 }
 
 static MIDDLES: Shared<(), Middle> = Shared::new();
@@ -123,14 +124,15 @@ static MIDDLES: Shared<(), Middle> = Shared::new();
 const ALLOWANCE: [f64; 2] = [0.04, 0.02];
 /// The effect to detect beyond that: points taken for independent miss 0.3.
 const EFFECT: f64 = 0.2;
-/// The distance from uniform p-values to detect.
-const DISTANCE: f64 = 0.2;
+/// The excess of χ² per degree of freedom to detect, and a bound of its deviation, (2/19)^½ = 0.32 in theory.
+const EXCESS: f64 = 0.2;
+const DEVIATION: f64 = 0.6;
 
 pub(super) fn hold(treatment: &Treatment, effort: &Effort) -> Result<Vec<Evidence>, String> {
     let pool = SIMULATED.get(effort, (), || pool(effort));
     let pool = pool.as_ref().as_ref().map_err(Clone::clone)?;
     let middle = MIDDLES.get(effort, (), || middle(pool));
-    let count = effort.samples(Design::new(EFFECT, 0.5)).max(kolmogorov_samples(DISTANCE));
+    let count = effort.samples(Design::new(EFFECT, 0.5)).max(effort.samples(Design::new(EXCESS, DEVIATION)));
     // A mistake shows in one of them.
     let scatters: &[Scatter] = match treatment {
         Treatment::AsItIs => &[Scatter::BesideU, Scatter::InU],
@@ -145,9 +147,12 @@ pub(super) fn hold(treatment: &Treatment, effort: &Effort) -> Result<Vec<Evidenc
             .map(|k| repeat((pool, &middle), *treatment, *scatter, seed(k)))
             .collect::<Result<_, _>>()?;
         if *scatter == Scatter::BesideU {
-            let because = "Kolmogorov–Smirnov; the polynomials of replicas scatter less than their rods";
-            let p = repeats.iter().map(|(_, p)| *p).collect();
-            all.push(Evidence::new("p-values of χ²: uniform", lab::uniform(p, DISTANCE, because)));
+            let below: Vec<f64> = repeats.iter().map(|(_, ratio)| 1.0 - ratio).collect();
+            let because = "with a tenth more a right model would be rejected twice as often as due";
+            all.push(Evidence::new(
+                "1 − χ² per degree of freedom",
+                Sample::of(&below).exceeds(-0.1, EXCESS, because),
+            ));
         }
         for (k, confidence) in CONFIDENCES.into_iter().enumerate() {
             let shares: Vec<f64> = repeats.iter().map(|(inside, _)| f64::from(u8::from(inside[k]))).collect();
