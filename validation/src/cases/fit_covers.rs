@@ -79,12 +79,11 @@ pub fn cases() -> Vec<Case> {
             .check(refuses),
         Case::program("fit-shares-rods")
             .claim(
-                "Where all points are means over the same rods, χ² of a fit is no larger than due, and its intervals hold α as often as stated.",
+                "Where all points are means over the same rods, χ² of a fit is no larger than due.",
             )
             .source("eq. 7; docs/src/theory/fits.md")
             .subject(rods::Treatment::AsItIs)
             .mistake("rods that scatter as polynomials of replicas do", rods::Treatment::OfPolynomials)
-            .mistake("points taken for independent", rods::Treatment::Independent)
             .check(rods::hold),
     ]
 }
