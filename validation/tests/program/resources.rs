@@ -1,7 +1,6 @@
 //! What the program says where there is too little memory, no thread, too long an input, or a launcher of ranks that it cannot use.
 
-use crate::common::bounded::Bounded;
-use crate::common::{SMALL, command, folder, limited, shearbed};
+use crate::common::{SMALL, folder, limited, shearbed};
 use std::fs;
 use std::path::Path;
 
@@ -85,6 +84,7 @@ fn a_command_without_threads_is_refused() {
 #[cfg(not(feature = "mpi"))]
 #[test]
 fn a_build_without_mpi_says_that_its_launcher_starts_it_several_times() {
+    use crate::common::{bounded::Bounded, command};
     let dir = folder();
     for (launcher, size, rank, warned) in [
         ("OMPI_COMM_WORLD", "3", "0", true),
