@@ -41,12 +41,8 @@ fn another_input_is_told_before_anything_runs() {
         (run, "scenes", "command is \"scenes\" there and \"run\""),
         (run, sweep, "command is \"sweep\" there and \"run\""),
         ("plan small.toml", run, "command is \"run\" there and \"plan\""),
-        (
-            sweep,
-            "sweep small.toml --over interaction.alpha=1,3 --out x",
-            "over.1 is \"interaction.alpha=1,3\" there",
-        ),
-        (sweep, "sweep small.toml --over interaction.m=1,2 --out x", "over.1 is \"interaction.m=1,2\" there"),
+        (sweep, "sweep small.toml --over interaction.alpha=1,3 --out x", "over.1.values.2 is 3 there"),
+        (sweep, "sweep small.toml --over interaction.m=1,2 --out x", "over.1.key is \"interaction.m\" there"),
         (
             sweep,
             "sweep small.toml --over interaction.alpha=1,2 --seed 9 --out x",
