@@ -85,14 +85,14 @@ fn check(certified: &Certified, effort: &Effort) -> Vec<Evidence> {
 fn compared(full: bool) -> Vec<Compared> {
     let one = |what, most, because, pairs| Compared { what, most, because, pairs };
     let mut all = vec![
-        one(ROD, 1e-24, "25 digits; nothing shared", rods(full)),
-        one(ISOTROPIC, 1e-21, "22 digits; F is shared", isotropic(full)),
+        one(ROD, 1e-24, "25 digits; arithmetic is shared", rods(full)),
+        one(ISOTROPIC, 1e-21, "22 digits; F and arithmetic are shared", isotropic(full)),
         one(UNEQUAL, 4e-12, "eleven decimals; the Gaussian is shared", unequal()),
         one(DIFFUSING, 5e-12, "eleven decimals; nothing shared", diffusing(full, 6)),
         one(FOURTH, 5e-12, "eleven decimals; nothing shared", diffusing(full, 15)),
         one(STEADY, 5e-12, "eleven decimals; nothing shared", steady(full)),
         one(CLOSED, 1e-12, "twelve decimals; coefficients of fits are shared", closed(full)),
-        one(CONTACT, 1e-22, "22 digits; nothing shared", contacts(full)),
+        one(CONTACT, 1e-22, "22 digits; arithmetic is shared", contacts(full)),
         one(STRESS, 1e-12, "rounding; Jeffery's integrals are shared", stress()),
     ];
     if full {
