@@ -4,12 +4,15 @@ use std::path::Path;
 use std::process::Command;
 
 /// What the program is made of, from the workspace's root.
-const SOURCES: [&str; 8] = [
+const SOURCES: [&str; 11] = [
     "Cargo.toml",
     "Cargo.lock",
     "src",
     "validation/Cargo.toml",
     "validation/build.rs",
+    "validation/cli",
+    "validation/methods",
+    "validation/oracle",
     "validation/fonts",
     "validation/src",
     "validation/scenes",

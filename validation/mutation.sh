@@ -7,7 +7,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 out=target/mutants
-common=(--package shearbed-core --profile mutation --minimum-test-timeout 60 --no-times --cargo-arg=--locked)
+common=(--package shearbed --profile mutation --minimum-test-timeout 60 --no-times --cargo-arg=--locked)
 mkdir -p "$out"
 cargo mutants --output "$out" "${common[@]}" "$@" || [ $? = 2 ] || [ $? = 3 ]
 missed=$out/mutants.out/missed.txt
@@ -19,4 +19,4 @@ names=()
 while read -r name; do
   names+=(--re "^$(sed 's/[][\.*+?(){}|^$]/\\&/g' <<<"$name")\$")
 done <"$missed"
-cargo mutants --output "$out/gate" "${common[@]}" --test-package shearbed "${names[@]}" -- --test gate
+cargo mutants --output "$out/gate" "${common[@]}" --test-package shearbed-validation "${names[@]}" -- --test gate

@@ -29,7 +29,7 @@ says 73.4266 "$shearbed" period 11.6
 says "shearbed period 11.6" "$shearbed" period --help
 says "mid-flip-50" "$shearbed" problems
 # The generated pages and the schema take up all three.
-UPDATE_DOCS=1 cargo test --locked --quiet -p shearbed --test docs generated
+UPDATE_DOCS=1 cargo test --locked --quiet -p shearbed-cli --test docs generated
 for made in "docs/src/reference/keys.md density_kg_per_m3" "docs/src/reference/commands.md shearbed period" "validation/schemas/scene.json density_kg_per_m3"; do
   says "${made#* }" cat "${made%% *}"
 done

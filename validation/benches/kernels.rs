@@ -9,10 +9,10 @@ use shearbed::model::phase::Phase;
 use shearbed::motion::couette;
 use shearbed::run::ensemble;
 use shearbed::run::run_replica;
+use shearbed_validation::input::scenes;
+use shearbed_validation::judge::lab;
+use shearbed_validation::oracle::naive::{Naive, NaiveProblem};
 use std::hint::black_box;
-use validation::input::scenes;
-use validation::judge::lab;
-use validation::oracle::naive::{Naive, NaiveProblem};
 
 /// One exact step of a rod, and the phase it takes where aspect ratios differ.
 fn motion(c: &mut Criterion) {
@@ -28,7 +28,7 @@ fn motion(c: &mut Criterion) {
 fn free(c: &mut Criterion) {
     let mut group = c.benchmark_group("free rods, per rod and output");
     for sd in [0.0, 3.6] {
-        let mut scene = lab::free_scene(&validation::judge::case::Effort::gate());
+        let mut scene = lab::free_scene(&shearbed_validation::judge::case::Effort::gate());
         scene.particles.count = 10_000;
         scene.particles.aspect_ratio_sd_percent = sd;
         let plan = lab::plan(&scene);
@@ -67,7 +67,7 @@ type Turn = fn(&UnitVector3<f64>, &Vector3<f64>, f64) -> (UnitVector3<f64>, f64)
 fn steps(c: &mut Criterion) {
     let mut group = c.benchmark_group("step, per rod");
     for count in [100, 10_000, 1_000_000] {
-        let mut scene = lab::interacting_scene(&validation::judge::case::Effort::gate());
+        let mut scene = lab::interacting_scene(&shearbed_validation::judge::case::Effort::gate());
         scene.particles.count = count;
         let mut suspension = lab::suspension(&scene, 0);
         group.throughput(Throughput::Elements(count as u64));

@@ -1,8 +1,8 @@
 //! Your own integrator, graded as those of the project are: `cargo run --release --example bring_your_own`.
 
 use nalgebra::Vector3;
-use validation::methods::integrators::{Integrator, RodProblem, Setting, grade};
-use validation::studies::work_precision::{Budget, curve, order};
+use shearbed_validation::methods::integrators::{Integrator, RodProblem, Setting, grade};
+use shearbed_validation::studies::work_precision::{Budget, curve, order};
 
 /// Heun's method: one step of length h (in 1/G) from p.
 fn heun(problem: &RodProblem, p: Vector3<f64>, h: f64) -> Vector3<f64> {

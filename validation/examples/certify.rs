@@ -1,10 +1,10 @@
 //! Writes the certified answers of problems to standard output: a table is the same on every machine. `unequal-rods` takes minutes.
 //!
-//!     cargo run --release -p shearbed --example certify -- folgar-tucker > validation/src/serve/problems/data/folgar-tucker.csv
+//!     cargo run --release -p shearbed-validation --example certify -- folgar-tucker > validation/src/serve/problems/data/folgar-tucker.csv
 
-use validation::oracle::reference::big::digits;
-use validation::oracle::reference::unequal::means_to_22_digits;
-use validation::serve::problems::{self, closed, folgar_tucker};
+use shearbed_validation::oracle::reference::big::digits;
+use shearbed_validation::oracle::reference::unequal::means_to_22_digits;
+use shearbed_validation::serve::problems::{self, closed, folgar_tucker};
 
 fn main() {
     let table = match std::env::args().nth(1).as_deref() {

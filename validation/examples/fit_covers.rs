@@ -1,7 +1,7 @@
 //! Repeats whole fits of synthetic points of two thin suspensions, each with a seed and noise of its own, and counts how often the
 //! intervals hold the planted values:
 //!
-//!     cargo run --release -p shearbed --example fit_covers -- 200 interaction.alpha=0.2:3 interaction.m=1.2:6
+//!     cargo run --release -p shearbed-validation --example fit_covers -- 200 interaction.alpha=0.2:3 interaction.m=1.2:6
 //!
 //! `100..200` goes on where 100 repeats have ended.
 //! Keys are `interaction.alpha`, `interaction.m`, `particles.aspect_ratio`, `particles.aspect_ratio_sd_percent` and
@@ -11,18 +11,18 @@ use rand::SeedableRng;
 use rand_distr::{Distribution, StandardNormal};
 use rand_pcg::Pcg64Dxsm;
 use rayon::prelude::*;
+use shearbed_validation::input::scenes;
+use shearbed_validation::input::start::Starts;
+use shearbed_validation::methods::least_squares::Datum;
+use shearbed_validation::methods::least_squares::likelihood::{EMULATOR, REPLICAS, Rods};
+use shearbed_validation::serve::fit::Range;
+use shearbed_validation::serve::fit::data::TimeColumn;
+use shearbed_validation::serve::fit::elsewhere::look_elsewhere;
+use shearbed_validation::serve::fit::scenes::{AS_WRITTEN, Scenes, Set};
+use shearbed_validation::serve::fit::search::{Fit, FitProblem, Measured, Watch, search};
+use shearbed_validation::serve::sweep::KeyValue;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 use std::collections::BTreeMap;
-use validation::input::scenes;
-use validation::input::start::Starts;
-use validation::methods::least_squares::Datum;
-use validation::methods::least_squares::likelihood::{EMULATOR, REPLICAS, Rods};
-use validation::serve::fit::Range;
-use validation::serve::fit::data::TimeColumn;
-use validation::serve::fit::elsewhere::look_elsewhere;
-use validation::serve::fit::scenes::{AS_WRITTEN, Scenes, Set};
-use validation::serve::fit::search::{Fit, FitProblem, Measured, Watch, search};
-use validation::serve::sweep::KeyValue;
 
 /// The values behind the points.
 const PLANTED: [(&str, f64); 5] = [

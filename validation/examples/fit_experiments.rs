@@ -1,6 +1,6 @@
 //! Whole fits of experiments by another simulator: how often the intervals hold the planted α, and whether p-values are uniform.
 //!
-//!     cargo run --release -p shearbed --example fit_experiments -- 300 rods 300
+//!     cargo run --release -p shearbed-validation --example fit_experiments -- 300 rods 300
 //!
 //! Each of 300 experiments is one suspension of 300 rods by the naive reference, with a reading error of 0.003. The model has as many rods.
 //!
@@ -16,18 +16,18 @@ use rand::{RngExt, SeedableRng};
 use rand_distr::StandardNormal;
 use rand_pcg::Pcg64Dxsm;
 use rayon::prelude::*;
-use validation::input::scenes;
-use validation::input::start::Starts;
-use validation::judge::lab::problem;
-use validation::methods::least_squares::Datum;
-use validation::methods::least_squares::likelihood::{RODS, Rods};
-use validation::oracle::naive::Naive;
-use validation::serve::fit::Range;
-use validation::serve::fit::data::TimeColumn;
-use validation::serve::fit::report::report;
-use validation::serve::fit::scenes::{AS_WRITTEN, Scenes, Set};
-use validation::serve::fit::search::{FitProblem, Measured, Watch, search};
-use validation::serve::sweep::{self, KeyValue};
+use shearbed_validation::input::scenes;
+use shearbed_validation::input::start::Starts;
+use shearbed_validation::judge::lab::problem;
+use shearbed_validation::methods::least_squares::Datum;
+use shearbed_validation::methods::least_squares::likelihood::{RODS, Rods};
+use shearbed_validation::oracle::naive::Naive;
+use shearbed_validation::serve::fit::Range;
+use shearbed_validation::serve::fit::data::TimeColumn;
+use shearbed_validation::serve::fit::report::report;
+use shearbed_validation::serve::fit::scenes::{AS_WRITTEN, Scenes, Set};
+use shearbed_validation::serve::fit::search::{FitProblem, Measured, Watch, search};
+use shearbed_validation::serve::sweep::{self, KeyValue};
 
 const PLANTED: f64 = 0.8;
 const TIMES: usize = 20;

@@ -1,21 +1,21 @@
 //! What α would be under each open reading of the paper, and what points of two suspensions tell of the readings, as Markdown
-//! tables. `cargo run --release -p shearbed --example fit_readings -- 50` gives each value of α up to 50 replicas in the
+//! tables. `cargo run --release -p shearbed-validation --example fit_readings -- 50` gives each value of α up to 50 replicas in the
 //! first; in the second points and model have 10 000.
 
 use rand::SeedableRng;
 use rand_distr::{Distribution, StandardNormal};
 use rand_pcg::Pcg64Dxsm;
 use rayon::prelude::*;
+use shearbed_validation::cases::fit_readings::{model, one_alpha, points};
+use shearbed_validation::judge::case::Effort;
+use shearbed_validation::methods::least_squares::Datum;
+use shearbed_validation::methods::least_squares::emulator::{Prediction, Replica};
+use shearbed_validation::methods::least_squares::likelihood::Rods;
+use shearbed_validation::oracle::naive::{self, Naive, mean_projections};
+use shearbed_validation::serve::fit::Range;
+use shearbed_validation::serve::fit::search::{FitProblem, Measured, Watch, search};
+use shearbed_validation::studies::readings::{self, Change, SEED};
 use statrs::distribution::{ChiSquared, ContinuousCDF};
-use validation::cases::fit_readings::{model, one_alpha, points};
-use validation::judge::case::Effort;
-use validation::methods::least_squares::Datum;
-use validation::methods::least_squares::emulator::{Prediction, Replica};
-use validation::methods::least_squares::likelihood::Rods;
-use validation::oracle::naive::{self, Naive, mean_projections};
-use validation::serve::fit::Range;
-use validation::serve::fit::search::{FitProblem, Measured, Watch, search};
-use validation::studies::readings::{self, Change, SEED};
 
 const PLANTED: f64 = 0.8;
 const NOISE: f64 = 0.01;

@@ -1,7 +1,7 @@
 //! Prints what other interpretations of the paper change as a Markdown table; with `-- full`, from as many replicas as `--full`.
 
-use validation::judge::case::{Effort, GATE_SEED};
-use validation::studies::readings::{measure, table};
+use shearbed_validation::judge::case::{Effort, GATE_SEED};
+use shearbed_validation::studies::readings::{measure, table};
 
 fn main() {
     let full = std::env::args().any(|argument| argument == "full");

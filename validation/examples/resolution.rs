@@ -1,11 +1,11 @@
 //! Prints the table of docs/src/theory/time-step.md that says which steps resolve the motion, as Markdown.
 //!
-//! `cargo run --release -p shearbed --example resolution -- REPLICAS [R_E...]`: 50 replicas, and the aspect ratios of the
+//! `cargo run --release -p shearbed-validation --example resolution -- REPLICAS [R_E...]`: 50 replicas, and the aspect ratios of the
 //! table, where nothing else is asked for.
 
-use validation::cases::resolution::{change, scene, steps, x1};
-use validation::judge::case::Effort;
-use validation::judge::statistics::Sample;
+use shearbed_validation::cases::resolution::{change, scene, steps, x1};
+use shearbed_validation::judge::case::Effort;
+use shearbed_validation::judge::statistics::Sample;
 
 /// GΔt of the reference, and of the steps that are compared with it.
 const FINE: f64 = 0.023;

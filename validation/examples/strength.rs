@@ -1,13 +1,13 @@
 //! Tries the probabilities that the gate promises: the cases at many seeds, and how often each turned red, and why.
 //!
-//! `cargo run --release -p shearbed --example strength -- SEEDS [full] [CASE...]` prints the tables of
+//! `cargo run --release -p shearbed-validation --example strength -- SEEDS [full] [CASE...]` prints the tables of
 //! `docs/src/verification/error-rates.md`, after every 20 seeds those until then. SEEDS is the last one, or the first and the last as `61..200`. A
 //! case whose evidence is the same at the first five seeds draws nothing, and is not run again.
 
+use shearbed_validation::cases;
+use shearbed_validation::judge::accept::{Rule, Verdict};
+use shearbed_validation::judge::case::{Case, Effort, Outcome};
 use std::collections::BTreeMap;
-use validation::cases;
-use validation::judge::accept::{Rule, Verdict};
-use validation::judge::case::{Case, Effort, Outcome};
 
 fn main() {
     let mut words = std::env::args().skip(1);
@@ -136,7 +136,7 @@ impl Record {
             let mean = drawn.iter().sum::<f64>() / n;
             let sd = (drawn.iter().map(|m| (m - mean).powi(2)).sum::<f64>() / (n - 1.0).max(1.0)).sqrt();
             let least = drawn.iter().copied().fold(f64::INFINITY, f64::min);
-            let miss = validation::judge::accept::upper_tail(mean / sd.max(1.0));
+            let miss = shearbed_validation::judge::accept::upper_tail(mean / sd.max(1.0));
             format!("{mistake}: {least:.1}, {mean:.1} ± {sd:.1}, {miss:.0e}{still}")
         });
         format!(

@@ -1,8 +1,8 @@
 //! Prints the tables of docs/src/theory/time-step.md as Markdown; with `-- full`, from as many replicas as `--full`.
 
-use validation::judge::case::{Effort, GATE_SEED};
-use validation::present::study::Request;
-use validation::studies::kicks::study::STUDY;
+use shearbed_validation::judge::case::{Effort, GATE_SEED};
+use shearbed_validation::present::study::Request;
+use shearbed_validation::studies::kicks::study::STUDY;
 
 fn main() -> Result<(), String> {
     let full = std::env::args().any(|argument| argument == "full");

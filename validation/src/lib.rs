@@ -1,5 +1,5 @@
 //! The validation suite of shearbed: cases with tolerances and controls, the oracles that judge the core,
-//! the report, and the program's commands. Each wing may use those before it.
+//! the report, reference problems, grading and fits. Each wing may use those before it.
 #![cfg_attr(not(test), deny(clippy::disallowed_methods))]
 
 pub mod files;
@@ -9,7 +9,6 @@ pub mod present;
 pub mod studies;
 pub mod serve;
 pub mod cases;
-pub mod program;
 
 pub use shearbed_methods as methods;
 pub use shearbed_oracle as oracle;

@@ -1,9 +1,9 @@
 //! The acceptance gate: one named test per case of the registry.
 
 use libtest_mimic::{Arguments, Trial};
-use validation::cases;
-use validation::judge::accept::Verdict;
-use validation::judge::case::Effort;
+use shearbed_validation::cases;
+use shearbed_validation::judge::accept::Verdict;
+use shearbed_validation::judge::case::Effort;
 
 fn main() {
     let trials = cases::all()

@@ -1,7 +1,7 @@
 //! Every method that is graded, right, and with one coefficient wrong.
 
-use validation::methods::textbook::tableaus::{self, Tableau};
-use validation::methods::textbook::{Form, Method};
+use shearbed_validation::methods::textbook::tableaus::{self, Tableau};
+use shearbed_validation::methods::textbook::{Form, Method};
 
 /// A method to be graded.
 #[derive(Clone)]

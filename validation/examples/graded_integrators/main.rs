@@ -11,13 +11,13 @@ mod catalogue;
 use catalogue::Entry;
 use libtest_mimic::{Arguments, Failed, Trial};
 use rayon::prelude::*;
+use shearbed_validation::methods::textbook::{Form, Setting, advance};
+use shearbed_validation::serve::grade::live::{self, Mode, Program, Protocol};
+use shearbed_validation::serve::grade::{Claim, Graded, Order, Verdict, settle};
+use shearbed_validation::serve::problems::LoadedProblem;
 use std::io::{BufRead, Write};
 use std::process::ExitCode;
 use std::time::Duration;
-use validation::methods::textbook::{Form, Setting, advance};
-use validation::serve::grade::live::{self, Mode, Program, Protocol};
-use validation::serve::grade::{Claim, Graded, Order, Verdict, settle};
-use validation::serve::problems::LoadedProblem;
 
 fn main() -> ExitCode {
     let words: Vec<_> = std::env::args().skip(1).collect();

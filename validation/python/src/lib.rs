@@ -20,7 +20,7 @@ use std::path::Path;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::mpsc::{self, RecvTimeoutError};
 use std::time::Duration;
-use validation::input::{scenes, start::Starts};
+use shearbed_validation::input::{scenes, start::Starts};
 
 create_exception!(
     _core,
@@ -99,7 +99,7 @@ fn run<'py>(
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let plan = plan(name, text, replicas, seed)?;
-    validation::program::fits(&plan, threads.map(|count| count as u64), name).map_err(SceneError::new_err)?;
+    shearbed_cli::fits(&plan, threads.map(|count| count as u64), name).map_err(SceneError::new_err)?;
     let pool = threads
         .map(|count| rayon::ThreadPoolBuilder::new().num_threads(count).build())
         .transpose()
@@ -212,7 +212,7 @@ fn dictionary<'py>(py: Python<'py>, plan: &Plan, results: Results) -> PyResult<B
 /// code, and what went wrong.
 #[pyfunction]
 fn call(py: Python<'_>, arguments: Vec<OsString>) -> (u8, String) {
-    let ended = py.detach(|| std::panic::catch_unwind(|| validation::program::call(arguments)));
+    let ended = py.detach(|| std::panic::catch_unwind(|| shearbed_cli::call(arguments)));
     match ended {
         Ok(Ok(())) => (0, String::new()),
         Ok(Err((message, code))) => (code, message),
@@ -223,7 +223,7 @@ fn call(py: Python<'_>, arguments: Vec<OsString>) -> (u8, String) {
 /// The program: `program` are the words that start it again. Ends the process.
 #[pyfunction]
 fn main(py: Python<'_>, program: Vec<OsString>, arguments: Vec<OsString>) {
-    py.detach(|| std::process::exit(i32::from(validation::program::main_of(program, arguments))))
+    py.detach(|| std::process::exit(i32::from(shearbed_cli::main_of(program, arguments))))
 }
 
 #[pymodule]

@@ -13,4 +13,4 @@ pub mod checkpoint;
 pub mod cluster;
 pub(crate) mod difference;
 pub mod output;
-pub(crate) mod text;
+pub mod text;

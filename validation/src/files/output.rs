@@ -12,7 +12,7 @@ pub use claim::Claim;
 pub use folder::ResultFolder;
 pub use record::{Origin, RECORD, Record, Sum};
 pub use replaced::{Part, Replaced};
-pub(crate) use stage::stop;
+pub use stage::stop;
 use stage::{PATIENCE, Stage};
 
 use crate::files::bounded;

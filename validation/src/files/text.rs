@@ -24,7 +24,7 @@ fn invisible(c: char) -> bool {
 }
 
 /// The text with every character of `commands` escaped, such as `\u{1b}`.
-pub(crate) fn readable(text: &str) -> Cow<'_, str> {
+pub fn readable(text: &str) -> Cow<'_, str> {
     if !text.contains(commands) {
         return Cow::Borrowed(text);
     }
@@ -50,7 +50,7 @@ pub(crate) fn json(text: &str) -> String {
 
 /// Writes a text to standard error in one call: a reader of several processes' output joins the pieces as they arrive, possibly
 /// with another process's in between. Errors are ignored: then only the exit code and the files show the failure.
-pub(crate) fn complain(text: &str) {
+pub fn complain(text: &str) {
     let _ = std::io::stderr().write_all(text.as_bytes());
 }
 
@@ -70,12 +70,12 @@ pub(crate) fn escaped(text: &str) -> String {
 }
 
 /// A readable text on one line.
-pub(crate) fn line(text: &str) -> String {
+pub fn line(text: &str) -> String {
     readable(text).replace('\n', "\\n").replace('\t', " ")
 }
 
 /// A path in a message.
-pub(crate) trait Shown {
+pub trait Shown {
     /// The path on one line, as [`line`] writes it.
     fn shown(&self) -> String;
 }
@@ -93,7 +93,7 @@ const MOST: usize = 8192;
 const SNIPPET: usize = 40;
 
 /// The start of a value in quotes, for a message: enough to find it in its file, and little of what may be private.
-pub(crate) fn snippet(value: &str) -> String {
+pub fn snippet(value: &str) -> String {
     let start: String = value.chars().take(SNIPPET).collect();
     let more = if start.len() < value.len() { "…" } else { "" };
     format!("\"{}{more}\"", line(&start).replace('"', "\\\""))
@@ -114,7 +114,7 @@ pub(crate) fn shortened(text: &str) -> Cow<'_, str> {
 
 /// A message for the terminal: what commands one is written out, a number of many digits is a power of ten, the system's numbers of
 /// errors go, and the middle of a long text is left out.
-pub(crate) fn message(text: &str) -> String {
+pub fn message(text: &str) -> String {
     readable(&shortened(&with_short_numbers(&without_codes(text)))).into_owned()
 }
 
@@ -157,7 +157,7 @@ fn with_short_numbers(text: &str) -> String {
 }
 
 /// A number with four decimals, or as a power of ten where it would have hundreds of digits.
-pub(crate) fn four_decimals(x: f64) -> String {
+pub fn four_decimals(x: f64) -> String {
     match x.abs() < 1e12 {
         true => format!("{x:.4}"),
         false => format!("{x:.4e}"),
@@ -165,12 +165,12 @@ pub(crate) fn four_decimals(x: f64) -> String {
 }
 
 /// Rows of cells as lines of columns that are aligned on the left.
-pub(crate) fn left_aligned(rows: &[Vec<String>]) -> String {
+pub fn left_aligned(rows: &[Vec<String>]) -> String {
     aligned(rows, |cell, width| format!("{cell:<width$}"))
 }
 
 /// Rows of cells as lines of columns that are aligned on the right.
-pub(crate) fn right_aligned(rows: &[Vec<String>]) -> String {
+pub fn right_aligned(rows: &[Vec<String>]) -> String {
     aligned(rows, |cell, width| format!("{cell:>width$}"))
 }
 
@@ -200,7 +200,7 @@ pub(crate) fn cell(text: &str) -> String {
 
 /// A command line that a POSIX shell splits into these words; a word that is not valid text is quoted in the form of bash and
 /// zsh.
-pub(crate) fn command<W: AsRef<OsStr>>(words: impl IntoIterator<Item = W>) -> String {
+pub fn command<W: AsRef<OsStr>>(words: impl IntoIterator<Item = W>) -> String {
     let words: Vec<_> = words.into_iter().map(|word| quoted(word.as_ref())).collect();
     words.join(" ")
 }

@@ -33,7 +33,7 @@ pub const STUDY: Study = Study {
         "reading-contact-lines",
         "faces-cost-collisions",
     ],
-    command: "cargo run --release -p shearbed --example readings",
+    command: "cargo run --release -p shearbed-validation --example readings",
     parts: &[],
     shared: true,
     run,

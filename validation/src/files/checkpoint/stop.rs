@@ -9,17 +9,17 @@ type Last = Box<dyn FnOnce() -> Option<String> + Send>;
 static LAST: Mutex<Option<Last>> = Mutex::new(None);
 
 /// Sets the last action before a signal ends the program, replacing the previous one. It returns a message on how to resume, if possible.
-pub(crate) fn on_stop(last: impl FnOnce() -> Option<String> + Send + 'static) {
+pub fn on_stop(last: impl FnOnce() -> Option<String> + Send + 'static) {
     *LAST.lock().unwrap_or_else(PoisonError::into_inner) = Some(Box::new(last));
 }
 
 /// Runs the last action, at most once, and returns its message.
-pub(crate) fn last_words() -> Option<String> {
+pub fn last_words() -> Option<String> {
     let last = LAST.lock().unwrap_or_else(PoisonError::into_inner).take();
     last.and_then(|last| last())
 }
 
 /// The message that a checkpoint is kept; `None` if there is no such file.
-pub(crate) fn stays(path: &Path) -> Option<String> {
+pub fn stays(path: &Path) -> Option<String> {
     path.exists().then(|| format!("{} stays as it is, and the same command goes on from there", path.shown()))
 }

@@ -25,7 +25,7 @@ fn held<T>(mutex: &'static Mutex<T>) -> MutexGuard<'static, T> {
 }
 
 /// Waits until no files are being written, then ends the process, so that no hidden folder is left.
-pub(crate) fn stop(code: i32) -> ! {
+pub fn stop(code: i32) -> ! {
     let _writing = held(&WRITING);
     std::process::exit(code)
 }

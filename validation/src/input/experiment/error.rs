@@ -19,12 +19,12 @@ pub struct DataError {
 
 impl DataError {
     /// An error about a whole file or folder.
-    pub(crate) fn whole(file: &Path, message: impl Into<String>) -> Self {
+    pub fn whole(file: &Path, message: impl Into<String>) -> Self {
         Self { file: file.shown(), line: None, message: message.into() }
     }
 
     /// An error in a line.
-    pub(crate) fn at(file: &str, line: usize, message: impl Into<String>) -> Self {
+    pub fn at(file: &str, line: usize, message: impl Into<String>) -> Self {
         Self { file: file.to_owned(), line: Some(line), message: message.into() }
     }
 }
@@ -46,10 +46,10 @@ pub(super) fn unreadable(file: &Path, error: &io::Error) -> DataError {
 }
 
 /// Size limit in bytes of a file of measured points.
-pub(crate) const MOST_BYTES: u64 = 64 << 20;
+pub const MOST_BYTES: u64 = 64 << 20;
 
 /// The text of a file in UTF-8, without a byte-order mark.
-pub(crate) fn read_text(path: &Path) -> Result<String, DataError> {
+pub fn read_text(path: &Path) -> Result<String, DataError> {
     let text = bounded::text(path, MOST_BYTES).map_err(|error| unreadable(path, &error))?;
     let text = text.strip_prefix('\u{feff}').map_or(text.clone(), str::to_owned);
     if text.trim().is_empty() {

@@ -22,7 +22,7 @@ pub use compare::{Runs, alpha, compare};
 pub use comparison::{AlphaFit, Comparison, Point};
 pub use error::DataError;
 use error::unreadable;
-pub(crate) use error::{MOST_BYTES, read_text};
+pub use error::{MOST_BYTES, read_text};
 pub use provenance::{Axis, Key, Layout, OBSERVABLES, Projection, Provenance, Time};
 
 use crate::files::bounded;

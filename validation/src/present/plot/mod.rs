@@ -10,7 +10,7 @@ mod boxes;
 mod grid;
 mod legend;
 mod letters;
-pub(crate) mod names;
+pub mod names;
 mod pdf;
 mod png;
 mod sheet;
@@ -33,7 +33,7 @@ use serde::{Deserialize, Deserializer, Serialize};
 use std::collections::BTreeSet;
 use std::error::Error;
 use style::{AXES_HEIGHT, FINE, MARGIN, ROW, TITLE, WIDTH};
-pub(crate) use style::{FITTED, MEASURED};
+pub use style::{FITTED, MEASURED};
 pub use theme::Theme;
 
 /// A curve, optionally with its 95 % band.

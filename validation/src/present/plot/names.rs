@@ -3,12 +3,12 @@
 use shearbed::observable::Channel;
 
 /// The symbol of a column of `shearbed run`, such as `X̄₁` for `x1`; the name of any other column.
-pub(crate) fn channel(column: &str) -> String {
+pub fn channel(column: &str) -> String {
     Channel::named(column).map_or_else(|| column.to_owned(), Channel::symbol)
 }
 
 /// The label of a column of times.
-pub(crate) fn time(column: &str) -> String {
+pub fn time(column: &str) -> String {
     match column {
         "t_over_T" => "t/T",
         "t_s" => "t (s)",
@@ -34,7 +34,7 @@ fn letter(key: &str) -> (&str, &'static str) {
 }
 
 /// The label of a key on an axis, with its unit: `n (cm⁻³)`. `2:KEY` is the key of the second set.
-pub(crate) fn key(label: &str) -> String {
+pub fn key(label: &str) -> String {
     let (set, key) = label.split_once(':').map_or((None, label), |(set, key)| (Some(set), key));
     let (letter, unit) = letter(key);
     let of = set.map_or(String::new(), |set| format!(" of set {set}"));
@@ -43,7 +43,7 @@ pub(crate) fn key(label: &str) -> String {
 }
 
 /// A point of a sweep as `α = 0.5, n = 20 cm⁻³`.
-pub(crate) fn point(pairs: &[(String, String)]) -> String {
+pub fn point(pairs: &[(String, String)]) -> String {
     let label = |(key, value): &(String, String)| {
         let (letter, unit) = letter(key);
         format!("{letter} = {} {unit}", short(value)).trim_end().to_owned()

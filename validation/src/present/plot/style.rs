@@ -60,9 +60,11 @@ const NAMED: [&str; 11] = [
 /// A theory's line has its method's colour; its look is this much above the method's, and so above all others.
 const THEORY: usize = 42;
 
-/// The ends of the labels of measured points and of the curve that was fitted to them.
-pub(crate) const MEASURED: &str = ", measured ± u";
-pub(crate) const FITTED: &str = ", best fit";
+// The ends of the labels of measured points and of the curve that was fitted to them.
+/// That of points.
+pub const MEASURED: &str = ", measured ± u";
+/// That of a curve.
+pub const FITTED: &str = ", best fit";
 
 /// The look of every curve and then of all points: that of the integrator named in the label, or the first that is not used in the
 /// figure. Where several curves were fitted, points look as theirs.

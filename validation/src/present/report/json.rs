@@ -7,7 +7,7 @@ use crate::files::output::Sum;
 use serde::Serialize;
 
 /// Number of the format, which `schemas/report.schema.json` describes.
-pub(crate) const FORMAT: u32 = 3;
+pub const FORMAT: u32 = 3;
 
 #[derive(Serialize)]
 struct Written<'a> {
@@ -42,7 +42,7 @@ pub(super) fn write(report: &Report) -> String {
 }
 
 /// Fails if a report's checksum, its last key, is not that of the text before it.
-pub(crate) fn check(text: &str) -> Result<(), String> {
+pub fn check(text: &str) -> Result<(), String> {
     let (before, last) = text.rsplit_once(',').unwrap_or((text, ""));
     let last: String = last.split_whitespace().collect();
     match last.strip_prefix("\"crc32\":\"").and_then(|rest| rest.strip_suffix("\"}")) {

@@ -15,7 +15,7 @@ mod sections;
 mod tests;
 
 pub(crate) use formats::digits;
-pub(crate) use json::{FORMAT, check};
+pub use json::{FORMAT, check};
 pub(crate) use prose::typeset;
 
 use crate::files::output::Output;

@@ -26,7 +26,7 @@ pub const STUDY: Study = Study {
         "updates-in-the-limit",
         "paths-do-not-converge",
     ],
-    command: "cargo run --release -p shearbed --example time_step",
+    command: "cargo run --release -p shearbed-validation --example time_step",
     parts: &[],
     shared: false,
     run,

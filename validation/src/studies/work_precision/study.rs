@@ -262,7 +262,7 @@ pub fn orders_table(orders: &Orders) -> ReportTable {
 pub(crate) const NOT_REACHED: &str = "not reached";
 
 /// Seconds as a text with a suitable unit.
-pub(crate) fn time(seconds: f64) -> String {
+pub fn time(seconds: f64) -> String {
     let (scale, unit) = match seconds {
         s if s < 1e-6 => (1e9, "ns"),
         s if s < 1e-3 => (1e6, "µs"),

@@ -1,0 +1,95 @@
+//! `shearbed bench`: runs the studies that have named parts, alone and with longer measurements.
+
+use super::finished::Finished;
+use super::{Failure, Writing, checkpoint, on_threads, print, progress, result_folder};
+use serde_json::json;
+use shearbed_validation::files::text::Shown;
+use shearbed_validation::judge::case::Effort;
+use shearbed_validation::present::plot;
+use shearbed_validation::present::study::Request;
+use shearbed_validation::studies;
+use std::path::PathBuf;
+use std::time::Instant;
+
+/// Arguments of `bench`.
+#[derive(clap::Args)]
+#[command(after_help = "Example:\n  shearbed bench --case re11.6")]
+pub(super) struct Args {
+    /// Run this bench only, as re11.6, fig7-n50 or speed; can be given more than once
+    #[arg(long = "case", value_name = "NAME")]
+    cases: Vec<String>,
+    /// Keep finished studies in this file, and skip those that it has
+    #[arg(long, value_name = "FILE")]
+    checkpoint: Option<PathBuf>,
+    /// The folder for the tables, their data and the pictures
+    #[arg(long, value_name = "DIR", default_value = "out/bench")]
+    out: PathBuf,
+    #[command(flatten)]
+    writing: Writing,
+}
+
+/// Measures errors against run times, one bench after the other: for a rod on one core, and for suspensions by runs on all
+/// cores with the time of one. Measures the speed of the core, too.
+pub(super) fn bench(args: &Args) -> Result<(), Failure> {
+    check(&args.cases)?;
+    let wanted = |name: &str| args.cases.is_empty() || args.cases.iter().any(|case| case == name);
+    let origin = ("bench", json!({ "cases": args.cases }), args.writing.force);
+    let path = args.checkpoint.as_deref();
+    let path = path.map(|path| checkpoint::check(path, &args.out)).transpose()?;
+    let folder = result_folder(&args.out, origin, 0, &[""; 0])?;
+    let open =
+        |path: &PathBuf| Finished::open(path, "bench", json!({ "cases": args.cases }), args.writing.quiet);
+    let finished = path.as_ref().map(open).transpose()?;
+    let effort = Effort { full: true, ..Effort::gate() };
+    let (mut files, mut tables) = (Vec::new(), String::new());
+    let bar = progress(1, "", args.writing.quiet);
+    for study in studies::ALL {
+        if !study.parts.iter().any(|name| wanted(name)) {
+            continue;
+        }
+        bar.set_message(study.title);
+        let kept = finished.as_ref().and_then(|finished| finished.study(study.name));
+        let found = match kept {
+            Some((found, _)) => found,
+            None => {
+                let start = Instant::now();
+                let found = on_threads(None, || {
+                    study.found(&Request { effort: &effort, wanted: &wanted, finished: &|| () })
+                })?;
+                let Some(found) = found.map_err(Failure::Failed)? else {
+                    continue;
+                };
+                let measured = (found, start.elapsed().as_secs_f64());
+                finished.as_ref().map_or(Ok(()), |finished| finished.add_study(study.name, &measured))?;
+                measured.0
+            }
+        };
+        files.extend(found.files);
+        for exhibit in found.exhibits {
+            if let Some(figure) = exhibit.figure {
+                let svg = plot::svg(&figure.figure).map_err(Failure::Failed)?;
+                files.push((format!("{}.svg", figure.name), svg));
+            }
+            tables.extend(exhibit.table.map(|table| table.for_terminal()));
+        }
+    }
+    bar.finish_and_clear();
+    let names: Vec<_> = files.iter().map(|(name, _)| name.clone()).collect();
+    folder.write(files)?;
+    if args.writing.quiet {
+        return Ok(());
+    }
+    print(&format!("{tables}in {}: {}\n", args.out.shown(), names.join(", ")))
+}
+
+/// Refuses names that no bench has; `names` are the arguments of `--case`.
+fn check(names: &[String]) -> Result<(), Failure> {
+    let known: Vec<_> = studies::ALL.iter().flat_map(|study| study.parts).copied().collect();
+    match names.iter().find(|name| !known.contains(&name.as_str())) {
+        Some(unknown) => Err(Failure::Input(format!(
+            "--case {unknown}: no bench has this name; there are {}",
+            known.join(", ")
+        ))),
+        None => Ok(()),
+    }
+}

@@ -1,0 +1,57 @@
+//! Validation of a checkpoint's path.
+
+use super::Failure;
+use shearbed_validation::files::checkpoint::{on_stop, stays};
+use shearbed_validation::files::text::Shown;
+use shearbed_validation::files::{cluster, output};
+use std::path::{Component, Path, PathBuf};
+
+/// The extensions of result files.
+const ENDINGS: [&str; 9] = ["csv", "svg", "json", "pvd", "vtp", "html", "md", "xml", "png"];
+
+/// Checks a checkpoint's path and resolves its links; from then on the message after a signal says that the file is kept.
+///
+/// # Errors
+///
+/// More than one rank; a name that the results in `out` may have, whether or not these files and folders exist.
+pub(super) fn check(checkpoint: &Path, out: &Path) -> Result<PathBuf, Failure> {
+    let refused = |what: &str| Failure::Input(format!("--checkpoint {}: {what}", checkpoint.shown()));
+    if cluster::size() > 1 {
+        let ranks = cluster::size();
+        return Err(refused(&format!("{ranks} ranks; one process alone is allowed")));
+    }
+    let path = output::followed(checkpoint);
+    let (file, folder) = (resolved(&path), resolved(out));
+    if folder.starts_with(&file) {
+        return Err(refused(&format!(
+            "is --out {}, or a folder above it; another name is allowed",
+            out.shown()
+        )));
+    }
+    let of_results = ENDINGS.iter().any(|end| file.extension().is_some_and(|own| own == *end));
+    if of_results && file.starts_with(&folder) {
+        return Err(refused(
+            "a result may have that name; choose a checkpoint outside the output folder, or a name without .csv, .svg, .json or \
+             the like at its end",
+        ));
+    }
+    let kept = path.clone();
+    on_stop(move || stays(&kept));
+    Ok(path)
+}
+
+/// The path with links resolved; the file or folder need not exist.
+fn resolved(path: &Path) -> PathBuf {
+    let path = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
+    let mut resolved = PathBuf::new();
+    for part in path.components() {
+        match part {
+            Component::ParentDir => _ = resolved.pop(),
+            part => resolved.push(part),
+        }
+        if let Ok(real) = resolved.canonicalize() {
+            resolved = real;
+        }
+    }
+    resolved
+}

@@ -1,0 +1,97 @@
+//! The choice of cases for `validate`: by name, by tag, or all.
+
+use super::Failure;
+use shearbed_validation::cases;
+use shearbed_validation::judge::case::Case;
+
+/// The largest number of names that an error suggests.
+const MOST_SUGGESTED: usize = 10;
+
+/// The least similarity, by Jaro and Winkler, of a suggested name: unrelated names of cases have a similarity of about
+/// 0.5.
+const NEAR: f64 = 0.7;
+
+/// The cases with these names and tags in the order of the registry; all cases if both lists are empty.
+pub(super) fn chosen(names: &[String], tags: &[String]) -> Result<Vec<Case>, Failure> {
+    let mut all = cases::all();
+    let known: Vec<_> = all.iter().map(|case| case.about.name.to_owned()).collect();
+    for name in names {
+        if !known.contains(name) {
+            return Err(unknown("--case", name, "no case has this name", &known));
+        }
+    }
+    let mut known: Vec<String> = all.iter().flat_map(|case| case.about.tags()).collect();
+    known.sort();
+    known.dedup();
+    for tag in tags {
+        if !known.contains(tag) {
+            return Err(unknown("--tag", tag, "no case has this tag", &known));
+        }
+    }
+    let tagged = |case: &Case| case.about.tags().iter().any(|tag| tags.contains(tag));
+    let named = |case: &Case| names.iter().any(|name| name == case.about.name);
+    all.retain(|case| (names.is_empty() && tags.is_empty()) || named(case) || tagged(case));
+    Ok(all)
+}
+
+fn unknown(flag: &str, word: &str, what: &str, known: &[String]) -> Failure {
+    let mut near: Vec<_> = known.iter().map(|name| (strsim::jaro_winkler(word, name), name)).collect();
+    near.retain(|(likeness, _)| *likeness >= NEAR);
+    near.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let near: Vec<_> = near.iter().take(MOST_SUGGESTED).map(|(_, name)| name.as_str()).collect();
+    let suggested = match near.split_first() {
+        None => ".".to_owned(),
+        Some((nearest, [])) => format!("; did you mean {nearest}?"),
+        Some((nearest, rest)) => {
+            format!("; did you mean {nearest}? Others that are near: {}.", rest.join(", "))
+        }
+    };
+    Failure::Input(format!("{flag} {word}: {what}{suggested} `shearbed validate --list` has all"))
+}
+
+/// The list of cases: name and tags, then the claim on a line of its own.
+pub(super) fn list(cases: &[Case]) -> String {
+    let line = |case: &Case| {
+        let about = &case.about;
+        format!("{:<28} [{}]\n    {}\n", about.name, about.tags().join(" "), about.claim)
+    };
+    let cases_by_line: String = cases.iter().map(line).collect();
+    format!(
+        "{cases_by_line}\n{} cases. Tags: what a case judges, and the equations that it tests.\n",
+        cases.len()
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn names(names: &[&str], tags: &[&str]) -> Result<Vec<&'static str>, String> {
+        let owned = |words: &[&str]| words.iter().map(|word| (*word).to_owned()).collect::<Vec<_>>();
+        match chosen(&owned(names), &owned(tags)) {
+            Ok(cases) => Ok(cases.iter().map(|case| case.about.name).collect()),
+            Err(failure) => Err(failure.message_and_code().0),
+        }
+    }
+
+    #[test]
+    fn cases_are_chosen_by_name_and_by_tag() {
+        assert_eq!(names(&["jeffery-period"], &[]).unwrap(), ["jeffery-period"]);
+        let measured = names(&[], &["measurement"]).unwrap();
+        assert!(measured.contains(&"okagawa-mason-1973") && measured.len() < 10, "{measured:?}");
+        assert!(names(&[], &["eq-A.13"]).unwrap().contains(&"corrected-a13"));
+        assert_eq!(names(&[], &[]).unwrap().len(), cases::all().len());
+    }
+
+    #[test]
+    fn a_wrong_name_is_met_with_the_nearest() {
+        let error = names(&["jefery-period"], &[]).unwrap_err();
+        assert!(error.contains("did you mean jeffery-period?"), "{error}");
+        assert!(error.matches(',').count() <= MOST_SUGGESTED, "{error}");
+        let error = names(&[], &["measurements"]).unwrap_err();
+        assert!(error.contains("did you mean measurement?"), "{error}");
+        // A name that resembles no other gets no suggestion.
+        let error = names(&["zzz"], &[]).unwrap_err();
+        assert!(error.contains("zzz") && !error.contains("did you mean"), "{error}");
+    }
+}

@@ -1,0 +1,217 @@
+//! `shearbed converge`.
+
+use super::scene::{Chosen, Ensemble};
+use super::{
+    Failure, Threads, Writing, agree, duration, memory, on_threads, print, progress, result_folder, scene,
+    spares_inputs, whole,
+};
+use serde::Serialize;
+use serde_json::json;
+use shearbed::Scene;
+use shearbed::model::jeffery::strain_per_period;
+use shearbed::plan::Stage;
+use shearbed::scene::{MAX_REPLICAS, resolved_strain};
+use shearbed_validation::files::output::Output;
+use shearbed_validation::files::text::{Shown, complain};
+use shearbed_validation::files::{build, cluster};
+use shearbed_validation::present::table::{ReportTable, rows_csv};
+use shearbed_validation::studies::suspensions::interacting::splits_table;
+use shearbed_validation::studies::suspensions::law::{self, Law, Replicas};
+use shearbed_validation::studies::suspensions::law_tables;
+use shearbed_validation::studies::suspensions::split::{Constants, Scope, Split, TARGETS};
+use shearbed_validation::studies::work_precision::order::{self, OrderVerdict};
+use shearbed_validation::studies::work_precision::rows::orders_csv;
+use shearbed_validation::studies::work_precision::study::orders_table;
+use std::path::{Path, PathBuf};
+
+/// Arguments of `converge`.
+#[derive(clap::Args)]
+#[command(after_help = "Example:\n  shearbed converge fig4-n50 --replicas 20")]
+pub(super) struct Args {
+    #[command(flatten)]
+    chosen: Chosen,
+    /// The folder for the tables and converge.json [default: out/converge-<scene>]
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Replicas, 2 or more, at every step and number of rods [default: as many as some three minutes
+    /// of one core allow, fewer at fine steps]
+    #[arg(long, value_name = "N", value_parser = whole(2, MAX_REPLICAS), allow_negative_numbers = true)]
+    replicas: Option<u64>,
+    #[command(flatten)]
+    threads: Threads,
+    #[command(flatten)]
+    writing: Writing,
+}
+
+/// Studies a scene: an interacting one by the law of its mean and directions, a free one by every fixed-step integrator.
+pub(super) fn converge(args: &Args) -> Result<(), Failure> {
+    let named = args.chosen.load(&Ensemble::default(), &[])?;
+    let at = |message: String| format!("{}: {message}", named.source);
+    let plan = named.plan()?;
+    if plan.runs(Stage::Contacts) && !law::judges(&plan) {
+        let (key, steps) = (named.scene.time.unit.steps_key(), named.scene.steps_per_unit());
+        return Err(Failure::Input(at(format!(
+            "converge of interacting rods needs plane Couette flow, only ∂u_2/∂x_1 other than 0, time.periods and no particles.rods; \
+             else halve the time step and compare: sweep --over {key}={steps},{},{}",
+            2 * steps,
+            4 * steps
+        ))));
+    }
+    let stem = format!("converge-{}", named.stem);
+    let out = (args.out.clone()).unwrap_or_else(|| Path::new("out").join(stem));
+    let input = json!({ "scene": named.scene.resolved(), "replicas": args.replicas });
+    agree("converge", input.clone())?;
+    let names = ["converge.csv", "converge.json", "replicas.csv"];
+    spares_inputs(&out, &names, named.files())?;
+    let folder = result_folder(&out, ("converge", input, args.writing.force), 0, &names)?;
+    let replicas = args.replicas.map_or(Replicas::CONVERGE, Replicas::Each);
+    let done = match plan.runs(Stage::Contacts) {
+        true => {
+            let warnings = [plan.warnings(), vec![coarse(&named.scene)], other_end(&named.scene)].concat();
+            scene::warn(&named.source, &warnings);
+            on_threads(args.threads.given, || interacting(&named.scene, replicas, warnings, args))?
+        }
+        // This takes milliseconds, so that the root does it alone.
+        false if cluster::is_root() => free(&named.scene).map(Some),
+        false => Ok(None),
+    }
+    .map_err(|failure| match failure {
+        Failure::Input(message) => Failure::Input(at(message)),
+        Failure::Failed(message) => Failure::Failed(at(message)),
+    })?;
+    let Some(done) = done else {
+        return Ok(());
+    };
+    let names: Vec<_> = done.files.iter().map(|(name, _)| name.clone()).collect();
+    folder.write(done.files)?;
+    if !args.writing.quiet {
+        let text: String = done.tables.iter().map(ReportTable::for_terminal).collect();
+        print(&format!("{text}in {}: {}\n", out.shown(), names.join(", ")))?;
+    }
+    match done.wrong {
+        None => Ok(()),
+        Some(names) => Err(Failure::Failed(at(format!("the observed order is not that of theory: {names}")))),
+    }
+}
+
+/// The results of a study.
+struct Done {
+    tables: Vec<ReportTable>,
+    files: Vec<Output>,
+    /// The integrators whose order differs from theory.
+    wrong: Option<String>,
+}
+
+fn done(tables: Vec<ReportTable>, files: Vec<(&str, Result<String, String>)>) -> Result<Done, Failure> {
+    let written = |(name, text): (&str, Result<String, String>)| Ok((name.to_owned(), text?));
+    let files: Result<_, _> = files.into_iter().map(written).collect();
+    Ok(Done { tables, files: files.map_err(Failure::Failed)?, wrong: None })
+}
+
+/// Studies every fixed-step integrator on one rod of the scene's mean aspect ratio, from its start, for its number of periods.
+fn free(scene: &Scene) -> Result<Done, Failure> {
+    if scene.flow.shear_rate_per_s().is_none() {
+        return Err(Failure::Input(
+            "flow: converge compares integrators of free rods in plane Couette flow; give shear_rate_per_s"
+                .into(),
+        ));
+    }
+    let orders = order::of_scene(scene).ok_or_else(|| {
+        Failure::Input("time: converge compares integrators of free rods over periods; give periods".into())
+    })?;
+    let (csv, json) = (orders_csv(&orders.studies), build::json(&orders));
+    let wrong: Vec<_> = (orders.studies.iter())
+        .filter(|study| study.found == OrderVerdict::Not)
+        .map(|study| study.subject.as_str())
+        .collect();
+    let files = vec![("converge.csv", csv), ("converge.json", json)];
+    Ok(Done {
+        wrong: (!wrong.is_empty()).then(|| wrong.join(", ")),
+        ..done(vec![orders_table(&orders)], files)?
+    })
+}
+
+/// A sentence where the scene ends at another time than the study's runs.
+fn other_end(scene: &Scene) -> Vec<String> {
+    let periods = scene.time.duration;
+    let other = (periods != 1.0).then(|| {
+        format!("time.periods = {periods} is not used: every run of this study ends after one period, whose means it compares")
+    });
+    other.into_iter().collect()
+}
+
+/// A sentence on the tried steps that are coarser than the default.
+fn coarse(scene: &Scene) -> String {
+    let strain = |steps: u64| strain_per_period(scene.particles.aspect_ratio) / steps as f64;
+    let resolved = resolved_strain(scene.particles.aspect_ratio);
+    let steps = law::STEPS_PER_PERIOD.map(|steps| (steps, strain(steps) > resolved));
+    let coarse = steps.iter().filter(|(_, coarse)| *coarse).count();
+    let (first, last) = (law::STEPS_PER_PERIOD[0], law::STEPS_PER_PERIOD[coarse.max(1) - 1]);
+    format!(
+        "{first} to {last} steps a period (strain per step {:.3} to {:.3}) are coarser than the default step (strain per step at \
+         most {resolved:.3}): they are run on purpose, to show what a coarse step changes",
+        strain(first),
+        strain(last),
+    )
+}
+
+/// The content of converge.json for an interacting scene.
+#[derive(Serialize)]
+struct Written {
+    warnings: Vec<String>,
+    law: Law,
+    constants: Option<Constants>,
+    splits: Vec<Split>,
+}
+
+/// Studies X̄₁ and the directions of an interacting scene against steps, rods and replicas, and derives the cost of accuracy;
+/// `None` except on the root.
+fn interacting(
+    scene: &Scene,
+    replicas: Replicas,
+    warnings: Vec<String>,
+    args: &Args,
+) -> Result<Option<Done>, Failure> {
+    let jobs = law::jobs(scene, replicas);
+    memory::check_jobs(&jobs, args.threads.given)?;
+    if !args.writing.quiet && cluster::is_root() {
+        complain(&format!("{}; nothing is kept before it ends\n", duration::of_jobs(&jobs)));
+    }
+    let bar = progress(jobs.iter().map(|job| job.replicas).sum(), "replicas", args.writing.quiet);
+    let found = cluster::share(jobs.len(), |k| jobs[k].run(&|| bar.inc(1)), |_, _| Ok(()));
+    bar.finish_and_clear();
+    let Some(found) = found.map_err(Failure::Failed)? else {
+        return Ok(None);
+    };
+    let law = law::read(scene, &jobs, &found);
+    let mut tables = law_tables::law(&law, strain_per_period(scene.particles.aspect_ratio)).to_vec();
+    if law.blocks.is_empty() {
+        // The last table is that of blocks of replicas, which are too few.
+        tables.pop();
+    }
+    let constants = Constants::of(&law);
+    let scopes = [Scope::OwnRods(scene.particles.count), Scope::Unbounded];
+    let splits: Vec<_> = (constants.iter())
+        .flat_map(|constants| scopes.map(|scope| TARGETS.map(|target| constants.cheapest(scope, target))))
+        .flatten()
+        .collect();
+    tables.extend((constants.iter()).map(|constants| splits_table(constants, &splits)));
+    let (csv, blocks) = (law_tables::law_csv(&law), rows_csv(law.blocks.iter().copied()));
+    let json = build::json(&Written { warnings, law, constants, splits });
+    let files = vec![("converge.csv", csv), ("replicas.csv", blocks), ("converge.json", json)];
+    done(tables, files).map(Some)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_scene_that_does_not_end_after_a_period_is_told_so() {
+        let mut scene = Scene::default();
+        scene.time = shearbed::scene::Time::periods(1.0);
+        assert!(other_end(&scene).is_empty());
+        scene.time.duration = 0.5;
+        assert!(other_end(&scene)[0].starts_with("time.periods = 0.5 is not used: "));
+    }
+}

@@ -1,0 +1,195 @@
+//! Properties of a scene that are known before a run: its period, its step, its shape factor, and how dilute it is.
+
+use super::rods;
+use serde::Serialize;
+use shearbed::Plan;
+use shearbed_validation::files::text::four_decimals;
+
+/// Properties of a scene in numbers; null if a property does not exist.
+#[derive(Serialize)]
+pub(super) struct Facts {
+    /// T, if the flow has a period.
+    period_s: Option<f64>,
+    /// GΔt, if the run takes steps.
+    strain_per_step: Option<f64>,
+    /// Λ = (r_e² − 1)/(r_e² + 1) of the mean aspect ratio.
+    shape_factor: f64,
+    /// n⟨a³⟩ with the full length a, for interacting rods.
+    n_a3: Option<f64>,
+    /// n from the number of rods and the box, if a box is given.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    concentration_per_cm3: Option<f64>,
+    /// `dilute`, `semi-dilute` or `concentrated`.
+    regime: Option<&'static str>,
+    /// r_e with the formula that computed it from a physical aspect ratio; none without such a formula.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    equivalent: Option<Equivalent>,
+    /// The number of rows and the largest size of rods.csv; none without that file.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    rods: Option<RodsOut>,
+}
+
+/// The r_e of a cylinder.
+#[derive(Serialize)]
+struct Equivalent {
+    aspect_ratio: f64,
+    formula: &'static str,
+    by: &'static str,
+}
+
+/// The size of `rods.csv`.
+#[derive(Serialize)]
+struct RodsOut {
+    rows: u64,
+    most_bytes: u64,
+}
+
+impl Facts {
+    pub(super) fn of(plan: &Plan) -> Self {
+        let scene = plan.scene();
+        let r = scene.particles.aspect_ratio;
+        let cube_cm3 = (0.1 * scene.particles.length_mm).powi(3) * scene.particles.mean_cube();
+        let n_a3 = scene.concentration_per_cm3().map(|n| n * cube_cm3);
+        let period_s = plan.elapsed(1.0).seconds;
+        Self {
+            period_s: (plan.time_name() != "strain" && period_s.is_finite()).then_some(period_s),
+            strain_per_step: (plan.steps() > 0)
+                .then(|| plan.elapsed(1.0).strain / scene.steps_per_unit() as f64),
+            // r² would be infinite for long rods, so numerator and denominator are divided by r.
+            shape_factor: (r - 1.0 / r) / (r + 1.0 / r),
+            n_a3,
+            concentration_per_cm3: scene.box_mm().and(scene.concentration_per_cm3()),
+            regime: n_a3.map(|n_a3| regime(n_a3, r)),
+            equivalent: scene.particles.shape_correlation.map(|correlation| Equivalent {
+                aspect_ratio: r,
+                formula: correlation.formula().formula,
+                by: correlation.formula().name,
+            }),
+            rods: (plan.rods_out() > 0)
+                .then(|| RodsOut { rows: plan.rods_out(), most_bytes: rods::most_bytes(plan, false) }),
+        }
+    }
+
+    /// The facts on one line.
+    pub(super) fn text(&self) -> String {
+        let mut parts = Vec::new();
+        parts.extend(self.period_s.map(|period| format!("T = {} s", four_decimals(period))));
+        parts.extend(self.strain_per_step.map(|strain| format!("GΔt = {}", four_decimals(strain))));
+        parts.push(format!("Λ = {:.6}", self.shape_factor));
+        let of_box = self.concentration_per_cm3;
+        parts.extend(of_box.map(|n| format!("n = {} per cm³", four_decimals(n))));
+        let dilute = self.n_a3.zip(self.regime);
+        parts.extend(dilute.map(|(n_a3, regime)| format!("n a³ = {n_a3:.3e} ({regime})")));
+        parts.extend(self.equivalent.as_ref().map(|found| {
+            let Equivalent { aspect_ratio, formula, by } = found;
+            format!("r_e = {} ({by}: {formula})", four_decimals(*aspect_ratio))
+        }));
+        let rods = self.rods.as_ref().map(|rods| {
+            let megabytes = 1e-6 * rods.most_bytes as f64;
+            format!("\nrods.csv: {} rows, at most {megabytes:.2} MB", rods.rows)
+        });
+        parts.join(", ") + &rods.unwrap_or_default() + "\n"
+    }
+}
+
+/// The regime by Doi & Edwards: rods turn freely below one rod in the cube of a rod's length; above, they hinder each other, and
+/// from a volume fraction of about 1/r_e, which is n a³ = r_e, they do so everywhere.
+fn regime(n_a3: f64, aspect_ratio: f64) -> &'static str {
+    match n_a3 {
+        n_a3 if n_a3 < 1.0 => "dilute",
+        n_a3 if n_a3 < aspect_ratio => "semi-dilute",
+        _ => "concentrated",
+    }
+}
+
+/// Reasons to doubt the results of a plan.
+pub(super) fn warnings(plan: &Plan) -> Vec<String> {
+    let mut warnings = plan.warnings();
+    warnings.extend(cut_short(plan));
+    let facts = Facts::of(plan);
+    if let Some((n_a3, regime)) = facts.n_a3.zip(facts.regime).filter(|(n_a3, _)| *n_a3 >= 1.0) {
+        let shown = match n_a3 < 1e4 {
+            true => format!("{n_a3:.3}"),
+            false => format!("{n_a3:.3e}"),
+        };
+        let scene = plan.scene();
+        let volume = match scene.box_mm() {
+            Some(_) => "box_mm",
+            None => "concentration_per_cm3",
+        };
+        let lengths = if scene.particles.rods.is_some() { "rods" } else { "length_mm" };
+        warnings.push(format!(
+            "interaction.{volume} and particles.{lengths} give n a³ = {shown}: {regime}. The model is for \
+             dilute suspensions, n a³ < 1, in which two rods meet at a time"
+        ));
+    }
+    warnings.extend(thin_box(plan));
+    warnings
+}
+
+/// A warning if the control volume is thinner than a rod is long.
+fn thin_box(plan: &Plan) -> Option<String> {
+    let scene = plan.scene();
+    let (sides, length) = (scene.box_mm()?, scene.particles.length_mm);
+    let thinnest = sides.into_iter().fold(f64::INFINITY, f64::min);
+    (thinnest < length).then(|| {
+        format!(
+            "interaction.box_mm = {sides:?}: {thinnest} mm is less than a rod's length, {length} mm; rods near a face lack neighbours, and \
+             here all are near one"
+        )
+    })
+}
+
+/// A warning if a scene ends between two outputs, as nothing is run after the last output.
+fn cut_short(plan: &Plan) -> Option<String> {
+    let time = &plan.scene().time;
+    let (key, end) = (time.unit.duration_key(), time.duration);
+    let times = plan.times();
+    let last = *times.last()?;
+    // An end that differs from an output by rounding is not between outputs.
+    (last < end * (1.0 - 1e-12)).then(|| {
+        format!(
+            "{key} = {end} ends between two outputs: the last one is at {last}; choose an output interval that divides {end}"
+        )
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use shearbed_validation::input::scenes;
+
+    #[test]
+    fn a_scene_that_ends_between_outputs_says_so() {
+        let mut scene = scenes::find("fig4-n50").unwrap().scene().unwrap();
+        let told = |scene: &shearbed::Scene| cut_short(&Plan::new(scene).unwrap());
+        for (periods, last) in
+            [(6.0, None), (0.3, None), (0.0, None), (0.35, Some("0.34")), (0.005, Some("at 0;"))]
+        {
+            scene.time.duration = periods;
+            let told = told(&scene);
+            assert_eq!(told.is_some(), last.is_some(), "{periods}: {told:?}");
+            assert!(told.is_none_or(|told| told.contains(last.unwrap())));
+        }
+    }
+
+    fn facts(n: f64) -> (Facts, Vec<String>) {
+        let mut scene = scenes::find("fig4-n50").unwrap().scene().unwrap();
+        scene.interaction.as_mut().unwrap().concentration_per_cm3 = Some(n);
+        let plan = Plan::new(&scene).unwrap();
+        (Facts::of(&plan), warnings(&plan))
+    }
+
+    #[test]
+    fn fig_4_is_dilute_and_a_dense_one_is_warned_of() {
+        // 50 per cm³ of 0.072 cm.
+        let (dilute, none) = facts(50.0);
+        assert!((dilute.n_a3.unwrap() - 0.0186624).abs() < 1e-12 && none.is_empty());
+        assert_eq!(dilute.regime, Some("dilute"));
+        let (dense, warned) = facts(5000.0);
+        assert_eq!(dense.regime, Some("semi-dilute"));
+        assert!(warned[0].contains("n a³ = 1.866"), "{warned:?}");
+        assert_eq!(facts(50_000.0).0.regime, Some("concentrated"));
+        assert!(dilute.text().starts_with("T = 146.8"), "{}", dilute.text());
+    }
+}

@@ -1,0 +1,229 @@
+//! `shearbed fit`.
+
+mod input;
+mod shifts;
+
+use super::{
+    Failure, Threads, Writing, on_threads, print, progress, restart, result_folder, scene, spares_inputs,
+    whole,
+};
+use input::{Input, input};
+use serde_json::{Value, json};
+use shearbed::Plan;
+use shearbed::scene::{MAX_REPLICAS, MAX_SEED};
+use shearbed_validation::files::build::BUILD;
+use shearbed_validation::files::output::Output;
+use shearbed_validation::files::text::Shown;
+use shearbed_validation::files::text::command;
+use shearbed_validation::input::experiment::MOST_BYTES;
+use shearbed_validation::present::plot;
+use shearbed_validation::serve::fit::contents::{self, Contents};
+use shearbed_validation::serve::fit::design::{Candidate, design};
+use shearbed_validation::serve::fit::elsewhere::look_elsewhere;
+use shearbed_validation::serve::fit::report::{self, Report};
+use shearbed_validation::serve::fit::scenes::AS_WRITTEN;
+use shearbed_validation::serve::fit::search::{Fit, FitProblem, Measured, Watch, search};
+use shearbed_validation::serve::fit::{Hypothesis, Range, pictures, terminal};
+use shearbed_validation::serve::sweep::KeyValue;
+use shifts::{shifts, taken_as_known};
+use std::ffi::OsString;
+use std::path::{Path, PathBuf};
+
+/// The default of the largest number of replicas at each value of the parameters.
+const MOST_REPLICAS: u64 = 1000;
+
+/// Arguments of `fit`.
+#[derive(clap::Args)]
+#[command(override_usage = "shearbed fit <SCENE> --data <FILE.csv> --over <KEY=FROM:TO> [OPTIONS]")]
+#[command(after_help = "\
+FILE.csv has the columns t_over_T (or t_s, strain), x1, x1_u, and as you like x2, x2_u, … (docs/src/user/fitting.md).
+Examples:
+  shearbed fit fig4-n50 --data points.csv --over interaction.alpha=0.05:5
+  shearbed fit a.toml --data a.csv --data b.toml=b.csv --over interaction.m=1:6")]
+pub(super) struct Args {
+    /// A scene file, or the name of a built-in scene
+    scene: OsString,
+    /// Measured points of SCENE; SCENE2=FILE.csv: points of another scene, fitted with the same parameters, but for those of one set
+    #[arg(long, value_name = "FILE.csv", required = true)]
+    data: Vec<OsString>,
+    /// A key of the scene to fit, and the range to look in; up to three times. SET:KEY=FROM:TO: a value of its own for the scene
+    /// of the first, second, … --data
+    #[arg(long, value_name = "[SET:]KEY=FROM:TO", required = true, value_parser = Range::parse)]
+    over: Vec<Range>,
+    /// The folder for fit.json, tables and pictures [default: out/fit-<scene>]
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// The most replicas at each value, 20 or more; fewer run where the model's error is small
+    #[arg(long, value_name = "N", default_value_t = MOST_REPLICAS, value_parser = whole(20, MAX_REPLICAS), allow_negative_numbers = true)]
+    replicas: u64,
+    /// The seed of all random numbers, in place of the scene's own
+    #[arg(long, value_name = "S", value_parser = whole(0, MAX_SEED), allow_negative_numbers = true)]
+    seed: Option<u64>,
+    /// Rods that each measured point is a mean over
+    #[arg(long, value_name = "N", value_parser = whole(1, u64::MAX), allow_negative_numbers = true)]
+    rods: Option<u64>,
+    /// What u contains [default: reading]
+    #[arg(long, value_name = "WHAT", requires_if("rods", "rods"))]
+    u_contains: Option<Contents>,
+    /// Test a value of a fitted key, or whether it has the same value in two sets (1:interaction.alpha=2:interaction.alpha);
+    /// can be given more than once
+    #[arg(long, value_name = "[SET:]KEY=VALUE", value_parser = Hypothesis::parse)]
+    test: Vec<Hypothesis>,
+    /// A key of every scene and the value to give it; can be given more than once
+    #[arg(long = "set", value_name = "KEY=VALUE", value_parser = KeyValue::parse)]
+    settings: Vec<KeyValue>,
+    #[command(flatten)]
+    threads: Threads,
+    /// List further points, at all times and at half and twice the concentration, with the uncertainties that each would leave
+    #[arg(long)]
+    design: bool,
+    #[command(flatten)]
+    writing: Writing,
+}
+
+/// The record of a fit.
+const FIT: &str = "fit.json";
+
+/// The results of a fit.
+struct Done {
+    fit: Fit,
+    report: Report,
+    figures: Vec<(String, plot::Figure)>,
+    candidates: Vec<Candidate>,
+}
+
+/// Fits keys of a scene to measured points.
+pub(super) fn fit(args: &Args) -> Result<(), Failure> {
+    args.test.iter().try_for_each(|held| held.check(&args.over)).map_err(Failure::Input)?;
+    let input = input(args)?;
+    let out = (args.out.clone()).unwrap_or_else(|| Path::new("out").join(format!("fit-{}", input.stem)));
+    let asked = asked(args, &input)?;
+    let names = [FIT, "residuals.csv", "profiles.csv", "design.csv", super::plot::FIGURES];
+    let scenes = input.scenes.sets.iter();
+    let scenes = scenes.flat_map(|set| set.starts.files().chain([PathBuf::from(&set.source)]));
+    spares_inputs(&out, &names, input.files.iter().cloned().chain(scenes))?;
+    let folder = result_folder(&out, ("fit", asked.clone(), args.writing.force), 0, &names)?;
+    let bar = progress(0, "runs", args.writing.quiet);
+    let watch = Watch {
+        stage: &|name| restart(&bar, name),
+        planned: &|runs| bar.inc_length(runs),
+        done: &|| bar.inc(1),
+    };
+    let done = on_threads(args.threads.given, || work(args, &input, &watch))?;
+    bar.finish_and_clear();
+    let done = done?;
+    let times: Vec<&str> = input.scenes.sets.iter().map(|set| set.time.name()).collect();
+    let mut files: Vec<Output> = vec![
+        ("residuals.csv".into(), report::residuals_csv(&done.report, &times).map_err(Failure::Failed)?),
+        ("profiles.csv".into(), report::profiles_csv(&done.fit).map_err(Failure::Failed)?),
+    ];
+    if args.design {
+        let text = report::design_csv(&done.fit, &done.candidates, &times);
+        files.push(("design.csv".into(), text.map_err(Failure::Failed)?));
+    }
+    let kept = serde_json::to_string(&done.figures).map_err(|error| Failure::Failed(error.to_string()))?;
+    files.push((super::plot::FIGURES.into(), kept));
+    for (stem, figure) in &done.figures {
+        files.push((format!("{stem}.svg"), plot::svg(figure).map_err(Failure::Failed)?));
+    }
+    let names: Vec<&str> = std::iter::once(FIT).chain(files.iter().map(|(name, _)| name.as_str())).collect();
+    let record = record(&asked, &done, &names)?;
+    let names = names.join(", ");
+    files.push((FIT.into(), record));
+    folder.write(files)?;
+    scene::warn(&input.stem, &done.report.warnings);
+    if args.writing.quiet {
+        return Ok(());
+    }
+    let design = (done.report.design.as_ref())
+        .map_or(String::new(), |steps| terminal::design(&done.fit, steps, &times) + "\n");
+    print(&format!(
+        "{}\n{}\n{}\n{design}in {}: {names}\n",
+        terminal::sentence(&done.fit, &done.report),
+        terminal::tests(&done.report),
+        terminal::table(&done.fit, &done.report),
+        out.shown(),
+    ))
+}
+
+fn work(args: &Args, input: &Input, watch: &Watch<'_>) -> Result<Done, Failure> {
+    let Input { scenes, data, .. } = input;
+    let stopped = |error: String| Failure::Input(error);
+    let model = |values: &[f64]| scenes.model(data, AS_WRITTEN, values);
+    let from: Vec<f64> = args.over.iter().map(|range| range.from).collect();
+    let count = |set| scenes.scene(set, &from).map(|scene| scene.particles.count as f64);
+    let counts: Vec<f64> = (0..scenes.sets.len()).map(count).collect::<Result<_, _>>().map_err(stopped)?;
+    let rods = contents::rods(args.rods, args.u_contains, &counts);
+    let problem = FitProblem {
+        measured: Measured { data, ranges: &args.over, rods: &rods },
+        model: &model,
+        most_replicas: args.replicas,
+    };
+    let fit = search(&problem, watch).map_err(stopped)?;
+    let unsearched = look_elsewhere(&problem, &fit, watch).map_err(stopped)?;
+    let shifts = shifts(input, &fit, &model, watch).map_err(stopped)?;
+    let mut report = report::report(&fit, data, shifts);
+    report.warnings.extend(unsearched);
+    report.warnings.extend(contents::warning(&fit, data, args.rods, args.u_contains, &counts));
+    report.warnings.extend(scenes.moving_points());
+    report.tests = args.test.iter().map(|held| held.test(&fit)).collect::<Result<_, _>>().map_err(stopped)?;
+    let known = taken_as_known(&report);
+    report.warnings.extend(known);
+    let mut candidates = Vec::new();
+    if args.design {
+        let found = design(&fit, scenes, data, &rods, watch).map_err(stopped)?;
+        report.warnings.extend(found.warnings);
+        report.design = Some(found.steps);
+        candidates = found.candidates;
+    }
+    let best = scenes.plans(&fit.values(&fit.best.place), data, AS_WRITTEN).map_err(stopped)?;
+    let mut warnings: Vec<String> = best.iter().flat_map(Plan::warnings).collect();
+    warnings.dedup();
+    report.warnings.extend(warnings);
+    let places = pictures::places(data);
+    let drawn = |values: &[f64]| scenes.model(&places, AS_WRITTEN, values);
+    let curves = pictures::best_curves(&fit, &places, &drawn, watch).map_err(stopped)?;
+    let times: Vec<&str> = scenes.sets.iter().map(|set| set.time.name()).collect();
+    let figures = pictures::figures(&fit, &report, data, (&places, &curves), &input.names, &times);
+    Ok(Done { fit, report, figures, candidates })
+}
+
+/// The inputs of a fit, on which all its results depend.
+fn asked(args: &Args, input: &Input) -> Result<Value, Failure> {
+    let mut data = Vec::new();
+    for (set, path) in input.scenes.sets.iter().zip(&input.files) {
+        let (_, crc32) = shearbed_validation::files::bounded::length_and_crc32(path, MOST_BYTES)
+            .map_err(|error| Failure::Input(format!("{}: cannot be read: {error}", path.shown())))?;
+        data.push(json!({
+            "scene": set.source, "file": path.display().to_string(), "crc32": crc32, "time": set.time,
+            "seed": set.seed, "scene_text": set.text, "starts": set.starts.checksums()
+        }));
+    }
+    let set = |setting: &KeyValue| format!("{}={}", setting.key, setting.value);
+    let mut asked = json!({
+        "data": data,
+        "over": args.over,
+        "set": args.settings.iter().map(set).collect::<Vec<_>>(),
+        "rods": args.rods,
+        "u_contains": args.u_contains,
+        "most_replicas": args.replicas,
+    });
+    // Without tests the record is the same as before `--test` existed.
+    if !args.test.is_empty() {
+        asked["test"] = json!(args.test.iter().map(Hypothesis::text).collect::<Vec<_>>());
+    }
+    Ok(asked)
+}
+
+/// The text of `fit.json`.
+fn record(asked: &Value, done: &Done, files: &[&str]) -> Result<String, Failure> {
+    let failed = |error: serde_json::Error| Failure::Failed(error.to_string());
+    let mut record = serde_json::to_value(&done.report).map_err(failed)?;
+    record["build"] = json!(BUILD);
+    record["command"] = json!(command(super::words::words()));
+    for (key, value) in asked.as_object().into_iter().flatten() {
+        record[key] = value.clone();
+    }
+    record["files"] = json!(files);
+    serde_json::to_string_pretty(&record).map(|text| text + "\n").map_err(failed)
+}

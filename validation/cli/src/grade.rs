@@ -1,0 +1,269 @@
+//! `shearbed grade`.
+
+mod args;
+mod inputs;
+mod tolerances;
+
+pub(super) use args::Args;
+
+use super::{Failure, print, result_folder, spares_inputs};
+use serde_json::Value;
+use shearbed_validation::files::output::{self, RECORD, Record, ResultFolder};
+use shearbed_validation::files::text::Shown;
+use shearbed_validation::present::plot;
+use shearbed_validation::serve::grade::live::{self, Mode, Program, Protocol};
+use shearbed_validation::serve::grade::{
+    self, Claim, DumpOptions, FileOptions, Graded, LineEnds, Options, Report,
+};
+use shearbed_validation::serve::problems::{self, Kind, LoadedProblem};
+use std::io;
+use std::path::Path;
+use std::time::Duration;
+
+/// Pictures of the report: error against steps, and error against run time.
+const PICTURES: [&str; 2] = ["steps.svg", "work-precision.svg"];
+
+/// The report in four formats.
+const PAGES: [&str; 4] = ["grade.json", "grade.html", "grade.md", "junit.xml"];
+
+/// Grades answers in files, or a running program.
+pub(super) fn grade(args: &Args) -> Result<(), Failure> {
+    if args.echo {
+        return live::echo(args.protocol, io::stdin().lock(), io::stdout().lock()).map_err(Failure::Input);
+    }
+    spares_inputs(&args.out, &PAGES, args.reference.as_ref().map(|dir| dir.join(RECORD)))?;
+    if let Some(dir) = &args.reference
+        && let Ok(Some(record)) = Record::read(dir)
+    {
+        let incomplete = |why: String| Failure::Input(format!("{}: {why}", dir.join(RECORD).shown()));
+        record.is_complete().map_err(incomplete)?;
+    }
+    let (report, wanted, inputs) = match (&args.command, &args.reference, &args.mine) {
+        (Some(command), reference, _) => program(args, command, reference.as_deref())?,
+        (None, Some(reference), Some(mine)) => files(args, reference, mine)?,
+        _ => {
+            return Err(Failure::Input("give REF and MINE, or --command".to_owned()));
+        }
+    };
+    let pictures = pictures(&report, &wanted).map_err(Failure::Failed)?;
+    let inside: Vec<_> = pictures.iter().map(|(_, svg)| svg.as_str()).collect();
+    let html = grade::html(&report, report.passes(), &inside).map_err(Failure::Failed)?;
+    let pages = [
+        grade::json(&report).map_err(Failure::Failed)?,
+        html,
+        grade::markdown(&report),
+        grade::junit(&report),
+    ];
+    let mut files: Vec<_> = PAGES.map(str::to_owned).into_iter().zip(pages).collect();
+    files.extend(pictures);
+    ResultFolder::new(&args.out, "grade", inputs, args.writing.force).write(files)?;
+    if !args.writing.quiet {
+        let place = args.out.join("grade.html");
+        print(&format!("{}\nreport: {}\n", grade::terminal(&report), place.shown()))?;
+    }
+    match report.passes() {
+        true => Ok(()),
+        false => Err(Failure::Failed(format!("not every problem passed: {}", report.counts()))),
+    }
+}
+
+/// Pictures of the program in bold and of the project's own integrators, as SVG with file names.
+fn pictures(report: &Report, problems: &[LoadedProblem]) -> Result<Vec<output::Output>, String> {
+    let mut pictures = Vec::new();
+    if let Some(steps) = grade::figures::steps(problems, &report.problems) {
+        pictures.push((PICTURES[0].to_owned(), plot::svg_of_one(&steps)?));
+    }
+    if let Some(bench) = report.live.as_ref().and_then(|live| live.work_precision.as_ref()) {
+        pictures.push((PICTURES[1].to_owned(), bench.picture()?));
+    }
+    Ok(pictures)
+}
+
+fn options(args: &Args) -> Options {
+    Options {
+        file: FileOptions {
+            columns: args.columns.clone(),
+            foreign: args.layout,
+            axes: args.axes,
+            ends: match args.windows_text {
+                true => LineEnds::Windows,
+                false => LineEnds::Unix,
+            },
+        },
+        dump: DumpOptions { timestep_s: args.timestep_s, rod_axis: args.rod_axis },
+        claim: Claim { order: args.order },
+    }
+}
+
+/// True if a problem of this name should be graded.
+fn asked_for(args: &Args, name: &str) -> bool {
+    args.problems.is_empty() || args.problems.iter().any(|asked| asked == name)
+}
+
+/// Refuses a name after `--problem` that is not one of `names`.
+fn check_names(args: &Args, names: &[String]) -> Result<(), Failure> {
+    match args.problems.iter().find(|name| !names.contains(name)) {
+        None => Ok(()),
+        Some(unknown) => Err(Failure::Input(format!(
+            "--problem {unknown}: no problem has this name; there are {}",
+            names.join(", ")
+        ))),
+    }
+}
+
+/// The problems to grade.
+fn chosen(args: &Args, mut all: Vec<LoadedProblem>) -> Result<Vec<LoadedProblem>, Failure> {
+    all.retain(|loaded| {
+        let of_kind = args.kind.is_none_or(|kind| kind == loaded.problem.kind);
+        of_kind && asked_for(args, &loaded.problem.name)
+    });
+    match all.is_empty() {
+        true => Err(Failure::Input("--kind and --problem leave no problem to grade".to_owned())),
+        false => Ok(all),
+    }
+}
+
+fn names(all: &[LoadedProblem]) -> Vec<String> {
+    all.iter().map(|loaded| loaded.problem.name.clone()).collect()
+}
+
+/// A report, the problems that it covers, and the inputs on which it depends.
+type Done = (Report, Vec<LoadedProblem>, Value);
+
+fn files(args: &Args, reference: &Path, mine: &Path) -> Result<Done, Failure> {
+    let all = problems::read(reference).map_err(|error| Failure::Input(error.to_string()))?;
+    let names = names(&all);
+    check_names(args, &names)?;
+    let wanted = tolerances::with(&args.tolerances, chosen(args, all)?)?;
+    if !mine.is_dir() {
+        return Err(Failure::Input(format!(
+            "{}: no such folder; answers are asked for in MINE/NAME",
+            mine.shown()
+        )));
+    }
+    output::probe(&args.out, 0)?;
+    let problems = grade::grade(&wanted, mine, &options(args)).map_err(|errors| {
+        let lines: Vec<_> = errors.iter().map(ToString::to_string).collect();
+        Failure::Input(lines.join("\n"))
+    })?;
+    let mut report = report(args, [reference.shown(), mine.shown()], problems, not_read(mine, &names));
+    report.diagnosis = grade::overall(&wanted, &report.problems);
+    report.remarks.extend(grade::remark(&report.problems, args.order));
+    let inputs = inputs::of_files(args, reference, mine, &wanted)?;
+    Ok((report, wanted, inputs))
+}
+
+/// Remarks on folders of answers without a problem, and on files outside a folder with a problem's name.
+fn not_read(mine: &Path, names: &[String]) -> Vec<String> {
+    let remark = |entry: std::fs::DirEntry| {
+        let (path, name) = (entry.path(), entry.file_name().to_string_lossy().into_owned());
+        let stem = name.strip_suffix(".csv").filter(|stem| names.iter().any(|known| known == stem));
+        match stem {
+            _ if path.is_dir() && !names.contains(&name) => {
+                Some(format!("{}: no problem has this name; it was not read", path.shown()))
+            }
+            Some(stem) => {
+                let place = mine.join(stem).join("answer.csv");
+                Some(format!("{}: it was not read; an answer is read from {}", path.shown(), place.shown()))
+            }
+            _ => None,
+        }
+    };
+    let entries = std::fs::read_dir(mine).into_iter().flatten().flatten();
+    let mut remarks: Vec<_> = entries.filter_map(remark).collect();
+    remarks.sort();
+    remarks
+}
+
+fn report(
+    args: &Args,
+    [reference, answers]: [String; 2],
+    problems: Vec<Graded>,
+    remarks: Vec<String>,
+) -> Report {
+    Report {
+        all: args.all,
+        format: 1,
+        shearbed: env!("CARGO_PKG_VERSION").to_owned(),
+        reference,
+        answers,
+        problems,
+        live: None,
+        diagnosis: Vec::new(),
+        remarks,
+    }
+}
+
+/// Refuses other problems than those about rods: for a running program such a name is a wrong request, not an unknown name.
+fn check_rods_alone(args: &Args) -> Result<(), Failure> {
+    const INSTEAD: &str =
+        "a program that runs is asked about single rods only; other answers go into files (grade REF MINE)";
+    let other = |name: &&String| {
+        let of_rods = problems::free_rods().contains(&name.as_str());
+        !of_rods && problems::all().iter().any(|def| def.name == **name)
+    };
+    if let Some(name) = args.problems.iter().find(other) {
+        return Err(Failure::Input(format!("--problem {name}: {INSTEAD}")));
+    }
+    match args.kind {
+        None | Some(Kind::Rods) => Ok(()),
+        Some(_) => Err(Failure::Input(format!("--kind: {INSTEAD}; rods is allowed"))),
+    }
+}
+
+/// The problems to ask a program.
+fn about_rods(args: &Args, reference: Option<&Path>) -> Result<Vec<LoadedProblem>, Failure> {
+    check_rods_alone(args)?;
+    let Some(dir) = reference else {
+        let all: Vec<_> = problems::free_rods().into_iter().map(str::to_owned).collect();
+        check_names(args, &all)?;
+        return Ok(live::built_in(|name| asked_for(args, name)));
+    };
+    let mut rods = problems::read(dir).map_err(|error| Failure::Input(error.to_string()))?;
+    rods.retain(|loaded| loaded.problem.kind == Kind::Rods);
+    check_names(args, &names(&rods))?;
+    chosen(args, rods)
+}
+
+fn program(args: &Args, command: &str, reference: Option<&Path>) -> Result<Done, Failure> {
+    let wanted = tolerances::with(&args.tolerances, about_rods(args, reference)?)?;
+    let inputs = inputs::of_program(args, reference, &wanted)?;
+    let origin = ("grade", inputs.clone(), args.writing.force);
+    result_folder(&args.out, origin, 0, &[&PAGES[..], &PICTURES].concat())?;
+    let timeout = Duration::from_secs_f64(args.timeout);
+    let program =
+        Program::start(command, args.protocol, timeout).map_err(Failure::Input)?.with_axes(args.axes);
+    let mode = live::mode(&program);
+    let claim = Claim { order: args.order };
+    let mut problems: Vec<_> =
+        wanted.iter().map(|problem| live::grade(&program, problem, mode, claim)).collect();
+    grade::settle(&wanted, &mut problems, claim.order);
+    let observed = problems.iter().filter(|graded| graded.verdict == grade::Verdict::Pass);
+    let theory =
+        live::theory(mode == Mode::Tolerance, observed.filter_map(|graded| graded.observed_order).next());
+    let program = program.with_theory(theory);
+    let studies =
+        (!args.brief && program.given_up().is_none()).then(|| live::studies(&program, &echo(args.protocol)));
+    let mut remarks: Vec<_> = studies.iter().flat_map(live::Studies::left_out).collect();
+    remarks.extend(grade::remark(&problems, claim.order));
+    remarks.extend(program.breaches());
+    remarks.extend(program.given_up().map(|reason| format!("the program was given up: {reason}")));
+    if let Err(end) = program.close() {
+        remarks.push(format!("the program's end: {end}"));
+    }
+    let reference = reference.map_or("built-in problems".to_owned(), |dir| dir.shown());
+    let mut report = report(args, [reference, command.to_owned()], problems, remarks);
+    report.live = studies;
+    let asked: Vec<_> = wanted.iter().map(live::last_time).collect();
+    report.diagnosis = grade::overall(&asked, &report.problems);
+    Ok((report, wanted, inputs))
+}
+
+/// The command line of this program as an echo.
+fn echo(protocol: Protocol) -> String {
+    let words = super::words::again();
+    let words: Vec<_> = words.iter().map(|word| word.to_string_lossy()).collect();
+    let quoted = shlex::try_join(words.iter().map(|word| word.as_ref()));
+    let program = quoted.unwrap_or_else(|_| "shearbed".to_owned());
+    format!("{program} grade --echo --protocol {}", protocol.word())
+}

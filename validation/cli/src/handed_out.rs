@@ -1,0 +1,126 @@
+//! `shearbed completions` and `shearbed man`: scripts for shells and manual pages, made from the parser of the command line.
+
+use super::{Cli, Failure, Writing, print};
+use clap::CommandFactory;
+use clap_complete::Shell;
+use serde_json::json;
+use shearbed_validation::files::output::{Output, ResultFolder};
+use shearbed_validation::files::text::Shown;
+use std::path::PathBuf;
+
+/// Arguments of `completions`.
+#[derive(clap::Args)]
+#[command(after_help = "Example:\n  shearbed completions bash > shearbed.bash")]
+pub(super) struct Completions {
+    /// The shell
+    shell: Shell,
+}
+
+/// Arguments of `man`.
+#[derive(clap::Args)]
+#[command(after_help = "Example:\n  shearbed man man1")]
+pub(super) struct Man {
+    /// The folder for shearbed.1 and a page for each command
+    dir: PathBuf,
+    #[command(flatten)]
+    writing: Writing,
+}
+
+/// Prints the completion script for a shell.
+pub(super) fn completions(args: &Completions) -> Result<(), Failure> {
+    let mut script = Vec::new();
+    clap_complete::generate(args.shell, &mut Cli::command(), "shearbed", &mut script);
+    print(&String::from_utf8_lossy(&script))
+}
+
+/// Writes the manual pages.
+pub(super) fn man(args: &Man) -> Result<(), Failure> {
+    let mut command = Cli::command().disable_help_subcommand(true);
+    command.build();
+    let mut pages = Vec::new();
+    add_pages(&command, &mut pages).map_err(|error| Failure::Failed(error.to_string()))?;
+    let names: Vec<_> = pages.iter().map(|(name, _)| name.clone()).collect();
+    let folder = ResultFolder::new(&args.dir, "man", json!({}), args.writing.force).as_argument();
+    folder.write(pages)?;
+    match args.writing.quiet {
+        true => Ok(()),
+        false => print(&format!("in {}: {}\n", args.dir.shown(), names.join(", "))),
+    }
+}
+
+/// Adds the page of a command, then those of its subcommands.
+fn add_pages(command: &clap::Command, pages: &mut Vec<Output>) -> std::io::Result<()> {
+    let page = clap_mangen::Man::new(command.clone());
+    let mut text = Vec::new();
+    page.render(&mut text)?;
+    pages.push((page.get_filename(), String::from_utf8_lossy(&text).into_owned()));
+    command
+        .get_subcommands()
+        .filter(|below| !below.is_hide_set())
+        .try_for_each(|below| add_pages(below, pages))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::Parser;
+
+    /// Each command's examples, as its help prints them.
+    fn examples() -> Vec<(String, Vec<String>)> {
+        let root = Cli::command();
+        let of = |command: &clap::Command| {
+            let help = command.get_after_help().map(ToString::to_string).unwrap_or_default();
+            let lines = help
+                .lines()
+                .filter(|line| line.starts_with("  shearbed "))
+                .map(|line| line.trim().to_owned());
+            (command.get_name().to_owned(), lines.collect())
+        };
+        root.get_subcommands().map(of).collect()
+    }
+
+    fn parses(line: &str, more: &[&str]) -> Result<(), String> {
+        // Text after > is for the shell.
+        let mut words = shlex::split(line.split(" >").next().unwrap()).unwrap();
+        words.extend(more.iter().map(|word| (*word).to_owned()));
+        Cli::try_parse_from(words).map(drop).map_err(|error| error.to_string())
+    }
+
+    #[test]
+    fn every_command_has_an_example_that_parses() {
+        for (command, lines) in examples() {
+            assert!(!lines.is_empty(), "{command} has no example");
+            for line in lines {
+                assert!(line.starts_with(&format!("shearbed {command}")), "{line}");
+                assert_eq!(parses(&line, &[]), Ok(()), "{line}");
+                assert!(parses(&line, &["--no-such-flag"]).is_err(), "{line}");
+            }
+        }
+    }
+
+    #[test]
+    fn every_command_has_a_page_and_is_completed() {
+        let dir = tempfile::tempdir().unwrap();
+        let out = dir.path().join("man1");
+        let args = |out: PathBuf| Man { dir: out, writing: Writing { force: false, quiet: true } };
+        man(&args(out.clone())).unwrap();
+        let mut script = Vec::new();
+        clap_complete::generate(Shell::Bash, &mut Cli::command(), "shearbed", &mut script);
+        let script = String::from_utf8(script).unwrap();
+        for command in Cli::command().get_subcommands() {
+            let name = command.get_name();
+            let page =
+                shearbed_validation::files::bounded::text(&out.join(format!("shearbed-{name}.1")), 1 << 20)
+                    .unwrap();
+            assert!(page.contains("Example"), "{name}: {page}");
+            assert!(
+                script.contains(&format!("shearbed__subcmd__{name}"))
+                    || script.contains(&format!("shearbed__{name}")),
+                "{name}"
+            );
+        }
+        // Pages are results like others: files of unknown origin are kept.
+        std::fs::remove_file(out.join("shearbed.json")).unwrap();
+        assert!(man(&args(out)).is_err());
+    }
+}

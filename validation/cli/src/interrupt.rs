@@ -1,0 +1,51 @@
+//! An orderly end after Ctrl-C and similar signals.
+
+/// Makes SIGINT, SIGTERM and SIGHUP end the program with a message and the exit code that a shell expects, 128 plus
+/// the signal's number, and never in the middle of writing files.
+#[cfg(unix)]
+pub(super) fn watch() {
+    use shearbed_validation::files::{checkpoint, cluster, output};
+    use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
+    use signal_hook::iterator::Signals;
+
+    // If this fails, the system ends the program in its usual way.
+    let Ok(mut signals) = Signals::new([SIGINT, SIGTERM, SIGHUP]) else {
+        return;
+    };
+    let wait = move || {
+        let Some(signal) = signals.forever().next() else {
+            return;
+        };
+        let name = match signal {
+            SIGINT => "SIGINT",
+            SIGTERM => "SIGTERM",
+            _ => "SIGHUP",
+        };
+        let code = 128 + signal;
+        super::terminal::clear();
+        let kept = checkpoint::last_words().unwrap_or_else(|| match super::words::command().as_str() {
+            "sweep" => "finished points are kept, and the same command goes on from them".to_owned(),
+            command => format!("`shearbed {command}` keeps nothing before it ends"),
+        });
+        let message = format!("stopped by {name}: files that were not complete were not written; {kept}");
+        cluster::failed(&message, code as u8);
+        shearbed_validation::serve::grade::live::end_all();
+        output::stop(code)
+    };
+    let _ = std::thread::Builder::new().spawn(wait);
+}
+
+/// Makes a limit on the size of files (`ulimit -f`) an error of the write that meets it; the system would end the program.
+#[cfg(unix)]
+pub(super) fn outlive_limits() {
+    // If this fails, the system ends the program.
+    let _ = signal_hook::flag::register(signal_hook::consts::SIGXFSZ, std::sync::Arc::default());
+}
+
+/// Does nothing: there is no such signal.
+#[cfg(not(unix))]
+pub(super) fn outlive_limits() {}
+
+/// Does nothing: the system ends the program.
+#[cfg(not(unix))]
+pub(super) fn watch() {}

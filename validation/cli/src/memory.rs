@@ -1,0 +1,211 @@
+//! Refusal of scenes that need too much memory, before they start.
+
+mod available;
+
+use super::{Failure, rods, tables, threads};
+use available::available;
+use shearbed::Plan;
+use shearbed::run::memory;
+use shearbed_validation::studies::suspensions::job::{Job, Look};
+
+/// Bytes that the program needs in addition to its work, including memory that the allocator does not return.
+const PROGRAM: u64 = 32 << 20;
+
+/// Bytes that a thread needs in addition to its replica: its stack.
+const THREAD: u64 = 2 << 20;
+
+/// Refuses a command where a limit of the shell leaves less than it needs for itself: later the system would end it without a message.
+/// Of the address space most is only reserved, by the C library for each thread.
+pub(super) fn check_start(on_threads: bool) -> Result<(), Failure> {
+    const LEAST: u64 = 16 << 20;
+    const WITH_THREADS: u64 = 208 << 20;
+    const EACH_THREAD: u64 = 16 << 20;
+    let threads = if on_threads { WITH_THREADS + threads::count(None)?.min(16) * EACH_THREAD } else { 0 };
+    let needed = LEAST + threads;
+    match available::within_limits() {
+        Some(free) if free < needed => Err(Failure::Input(format!(
+            "this command needs {} of address space, and {} are free; allowed: a higher limit (ulimit -v, ulimit -d)",
+            size(needed),
+            size(free)
+        ))),
+        _ => Ok(()),
+    }
+}
+
+/// Refuses a plan that needs more memory than is available, with `threads` replicas at a time, and with `vtk` files for
+/// ParaView. If the available memory is unknown, nothing is refused.
+pub(super) fn check(plan: &Plan, threads: Option<u64>, vtk: bool, source: &str) -> Result<(), Failure> {
+    check_beside(plan, threads, vtk, source, 0)
+}
+
+/// The same with `beside` further bytes for each replica.
+pub(super) fn check_beside(
+    plan: &Plan,
+    threads: Option<u64>,
+    vtk: bool,
+    source: &str,
+    beside: u64,
+) -> Result<(), Failure> {
+    check_each([(plan, source.to_owned())], threads, vtk, beside)
+}
+
+/// The same of several plans with the sources of their messages. The system is asked once.
+pub(super) fn check_each<'a>(
+    plans: impl IntoIterator<Item = (&'a Plan, String)>,
+    threads: Option<u64>,
+    vtk: bool,
+    beside: u64,
+) -> Result<(), Failure> {
+    let threads = threads::count(threads)?;
+    let Some(free) = available() else {
+        return Ok(());
+    };
+    plans.into_iter().try_for_each(|(plan, source)| {
+        fits(plan, threads, vtk, free, beside)
+            .map_err(|message| Failure::Input(format!("{source}: {message}")))
+    })
+}
+
+/// Refuses jobs if one of them needs more memory than is available next to the results of all.
+pub(super) fn check_jobs(jobs: &[Job], threads: Option<u64>) -> Result<(), Failure> {
+    let threads = threads::count(threads)?;
+    let free = available().unwrap_or(u64::MAX);
+    let left: u64 = jobs.iter().map(left_by).sum();
+    for job in jobs {
+        let mut scene = job.scene.clone();
+        scene.ensemble.replicas = job.replicas;
+        let plan = Plan::new(&scene).map_err(|error| Failure::Input(error.to_string()))?;
+        let at_once = threads.min(job.replicas);
+        // Directions are copied for evaluation.
+        let copies = at_once * 24 * scene.particles.count as u64;
+        let needed = memory::bytes(&plan, at_once) + copies + threads * THREAD + PROGRAM + left;
+        if needed > free {
+            return Err(Failure::Input(format!(
+                "particles.count = {}: with {} rods, {at_once} replicas at a time need {} of memory, and {} are free; \
+                 allowed: fewer --threads, --replicas or particles",
+                jobs[0].scene.particles.count,
+                scene.particles.count,
+                size(needed),
+                size(free),
+            )));
+        }
+    }
+    Ok(())
+}
+
+/// The bytes of a job's results, which are kept until all jobs are done.
+fn left_by(job: &Job) -> u64 {
+    let looks = job.replicas * (job.marks.len() * size_of::<Look>()) as u64;
+    looks + job.followed.min(job.replicas) * 24 * job.scene.particles.count as u64
+}
+
+/// The bytes that a run of a plan needs, with its results and their tables and pictures at its end, and `beside` bytes for
+/// each replica.
+fn needed(plan: &Plan, threads: u64, vtk: bool, beside: u64) -> u64 {
+    // A growing text may reserve twice its length.
+    let rods = rods::most_bytes(plan, vtk).saturating_mul(2);
+    let replicas = threads.min(plan.scene().ensemble.replicas);
+    let rest = replicas * beside + threads * THREAD + PROGRAM + tables::most_memory(plan);
+    memory::bytes(plan, threads).saturating_add(rest).saturating_add(rods)
+}
+
+/// Refuses the output of every rod at the requested times, if the plan would fit in memory without it.
+fn rods_fit(plan: &Plan, threads: u64, vtk: bool, free: u64) -> Result<(), String> {
+    let mut scene = plan.scene().clone();
+    scene.output.drop_rods();
+    let without = Plan::new(&scene).map_err(|error| error.to_string())?;
+    if plan.rods_out() == 0 || needed(&without, threads, false, 0) > free {
+        return Ok(());
+    }
+    let output = &plan.scene().output;
+    let at = (!output.rods_at.is_empty()).then(|| format!("output.rods_at = {:?}", output.rods_at));
+    let every = output.rods_every.map(|every| format!("output.rods_every = {every}"));
+    let keys: Vec<_> = [at, every].into_iter().flatten().collect();
+    Err(format!(
+        "{}: {} times of {} rods in each of {} replicas make files of up to {} and need {} of memory, and {} are free; \
+         allowed: fewer times, rods or replicas",
+        keys.join(", "),
+        plan.rods_outputs().len(),
+        plan.scene().particles.count,
+        plan.scene().ensemble.replicas,
+        size(rods::most_bytes(plan, vtk)),
+        size(needed(plan, threads, vtk, 0)),
+        size(free),
+    ))
+}
+
+fn fits(plan: &Plan, threads: u64, vtk: bool, free: u64, beside: u64) -> Result<(), String> {
+    let most = needed(plan, threads, vtk, beside);
+    if most <= free {
+        return Ok(());
+    }
+    rods_fit(plan, threads, vtk, free)?;
+    let replicas = threads.min(plan.scene().ensemble.replicas);
+    let least = needed(plan, 1, vtk, beside);
+    let allowed = match least <= free {
+        true => format!("fewer --threads: {} with one", size(least)),
+        false => format!("fewer: one replica needs {}", size(least)),
+    };
+    Err(format!(
+        "particles.count = {}: {replicas} at a time of {} replicas, with {} outputs each, need {} of memory, and {} are \
+         free; allowed: {allowed}",
+        plan.scene().particles.count,
+        plan.scene().ensemble.replicas,
+        plan.outputs(),
+        size(most),
+        size(free),
+    ))
+}
+
+fn size(bytes: u64) -> String {
+    format!("{:.2} GB", 1e-9 * bytes as f64)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use shearbed_validation::judge::lab;
+
+    #[test]
+    fn what_does_not_fit_is_refused_with_its_number() {
+        let mut scene = lab::interacting_scene(&shearbed_validation::judge::case::Effort::gate());
+        scene.particles.count = 14_000_000;
+        scene.ensemble.replicas = 3;
+        let plan = lab::plan(&scene);
+        let one = needed(&plan, 1, false, 0);
+        assert!((1.0e9..1.2e9).contains(&(one as f64)), "{one}");
+        assert_eq!(fits(&plan, 1, false, one, 0), Ok(()));
+        assert!(fits(&plan, 1, false, one, 1).is_err(), "what is held beside counts");
+        let refused = fits(&plan, 2, false, one, 0).unwrap_err();
+        assert!(
+            refused.starts_with("particles.count = 14000000: 2 at a time of 3 replicas")
+                && refused.contains("fewer --threads"),
+            "{refused}"
+        );
+        assert!(fits(&plan, 1, false, one - 1, 0).unwrap_err().contains("fewer: one replica needs 1."));
+    }
+
+    #[test]
+    fn rods_that_do_not_fit_are_refused_by_their_key() {
+        let mut scene = lab::interacting_scene(&shearbed_validation::judge::case::Effort::gate());
+        let without = needed(&lab::plan(&scene), 1, false, 0);
+        scene.output.rods_at = vec![0.0, 0.5, 1.0];
+        let plan = lab::plan(&scene);
+        let (table, lines) = (needed(&plan, 1, false, 0), needed(&plan, 1, true, 0));
+        // 300 rods: 57 bytes for each, and the text of their rows twice.
+        assert_eq!(table - without, 300 * (57 + 2 * 261));
+        assert_eq!(fits(&plan, 1, true, lines, 0), Ok(()));
+        let refused = fits(&plan, 1, true, lines - 1, 0).unwrap_err();
+        let expected =
+            "output.rods_at = [0.0, 0.5, 1.0]: 3 times of 100 rods in each of 1 replicas make files of up to";
+        assert!(refused.starts_with(expected), "{refused}");
+        // If the run alone does not fit, the message does not blame the rods.
+        let refused = fits(&plan, 1, true, without - 1, 0).unwrap_err();
+        assert!(refused.starts_with("particles.count"), "{refused}");
+        scene.ensemble.replicas = 10_000_000;
+        scene.output.rods_at = (0..51).map(|k| f64::from(k) / 50.0).collect();
+        scene.particles.count = 1_000_000;
+        let refused = fits(&lab::plan(&scene), 1, true, 1 << 40, 0).unwrap_err();
+        assert!(refused.starts_with("output.rods_at"), "{refused}");
+    }
+}

@@ -1,0 +1,66 @@
+//! Results as pictures: each observable's means against time with 95 % bands.
+
+use shearbed::run::ensemble::{Column, Series};
+use shearbed::{Observable, Results, Scene};
+use shearbed_validation::judge::statistics::student;
+use shearbed_validation::present::plot::{Curve, Figure};
+
+/// The stems of the names of an observable's pictures.
+pub(super) fn stems(observable: Observable) -> Vec<String> {
+    let stem = observable.name().to_owned();
+    match observable.is_density() {
+        true => vec![stem.clone(), format!("{stem}_density")],
+        false => vec![stem],
+    }
+}
+
+/// The pictures of an observable, each with the stem of its file's name.
+pub(super) fn figures(scene: &Scene, results: &Results, series: &Series) -> Vec<(String, Figure)> {
+    let stem = series.observable.name();
+    let half_widths = half_widths(scene);
+    let figure = |x_name: &str, y_name: &str, curves| Figure {
+        title: scene.title.clone(),
+        x_name: x_name.to_owned(),
+        y_name: y_name.to_owned(),
+        curves,
+        ..Figure::default()
+    };
+    let time_name = if results.time_name == "strain" { "strain" } else { "t/T" };
+    let against_time = |channels: &[Column]| {
+        let curve = |channel: &Column| Curve {
+            label: channel.name.clone(),
+            x: results.times.clone(),
+            y: channel.mean.clone(),
+            half_band: half_widths.map(|factor| channel.se.iter().map(|se| factor * se).collect()),
+        };
+        figure(time_name, series.observable.label(), channels.iter().map(curve).collect())
+    };
+    match (series.observable.is_density(), series.columns.split_first()) {
+        (true, Some((mean, density))) => {
+            let ends = [0, results.times.len().saturating_sub(1)];
+            let curves = ends.map(|output| Curve {
+                label: format!("{time_name} = {}", results.times[output]),
+                x: (0..density.len()).map(|bin| (bin as f64 + 0.5) / density.len() as f64).collect(),
+                y: density.iter().map(|channel| channel.mean[output]).collect(),
+                half_band: half_widths
+                    .map(|factor| density.iter().map(|channel| factor * channel.se[output]).collect()),
+            });
+            let density = figure("C_b = C/(1 + C)", "density", curves.into());
+            vec![
+                (stem.to_owned(), against_time(std::slice::from_ref(mean))),
+                (format!("{stem}_density"), density),
+            ]
+        }
+        _ => vec![(stem.to_owned(), against_time(&series.columns))],
+    }
+}
+
+/// Half the width of a 95 % band in standard errors: Student's t for the number of replicas, or of rods for a single replica.
+/// `None` if there is only one value, which has no standard error.
+pub(super) fn half_widths(scene: &Scene) -> Option<f64> {
+    let samples = match scene.ensemble.replicas {
+        1 => scene.particles.count as u64,
+        replicas => replicas,
+    };
+    (samples > 1).then(|| student(0.05, samples))
+}

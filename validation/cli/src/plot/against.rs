@@ -1,0 +1,94 @@
+//! A channel at one time against a swept key.
+
+use super::Drawn;
+use crate::Failure;
+use shearbed_validation::files::text::Shown;
+use shearbed_validation::oracle::reference::big::finite;
+use shearbed_validation::present::plot::{Curve, Figure, names};
+use shearbed_validation::serve::sweep::Pairs;
+
+/// The picture of a sweep with the values of `key` across: the channel at the time `at`, by default that of the last output. There is
+/// one curve for each combination of the other keys.
+pub(super) fn against(drawn: Drawn, key: &str, at: Option<f64>) -> Result<Figure, Failure> {
+    let refused = |what: String| Failure::Input(format!("--x {key}: {what}"));
+    let Drawn { figure, runs, .. } = drawn;
+    let mut curves: Vec<(Pairs, Vec<[f64; 3]>)> = Vec::new();
+    let mut times = Vec::new();
+    for (curve, run) in figure.curves.iter().zip(&runs) {
+        let point = run.point.as_ref().ok_or_else(|| {
+            refused(format!("{} is no sweep; a folder of `shearbed sweep` is allowed", run.dir.shown()))
+        })?;
+        let (value, others) = value(point, key).map_err(refused)?;
+        let at = at.or(curve.x.last().copied()).unwrap_or(f64::NAN);
+        let off = |place: &usize| (curve.x[*place] - at).abs();
+        let place = (0..curve.x.len()).min_by(|a, b| off(a).total_cmp(&off(b))).unwrap_or(0);
+        if off(&place) > 1e-9 * at.abs() {
+            return Err(Failure::Input(format!(
+                "--at {at}: {} has no output at this time; the nearest is at {} = {}",
+                run.dir.shown(),
+                figure.x_name,
+                curve.x[place]
+            )));
+        }
+        times.push(curve.x[place]);
+        let half = curve.half_band.as_ref().map_or(f64::NAN, |band| band[place]);
+        let own = [value, curve.y[place], half];
+        match curves.iter_mut().find(|(same, _)| *same == others) {
+            Some((_, points)) => points.push(own),
+            None => curves.push((others, vec![own])),
+        }
+    }
+    times.dedup();
+    let when = match times[..] {
+        [time] => format!("{} = {time}", figure.x_name),
+        _ => "the last output".into(),
+    };
+    let curve = |(others, mut points): (Pairs, Vec<[f64; 3]>)| {
+        points.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        let column = |k: usize| points.iter().map(|point| point[k]).collect::<Vec<_>>();
+        let half = column(2);
+        Curve {
+            label: if others.is_empty() { figure.y_name.clone() } else { names::point(&others) },
+            x: column(0),
+            y: column(1),
+            half_band: (!half.iter().any(|half| half.is_nan())).then_some(half),
+        }
+    };
+    Ok(Figure {
+        title: format!("{}, {when}", runs[0].scene.title),
+        x_name: names::key(key),
+        curves: curves.into_iter().map(curve).collect(),
+        ..figure
+    })
+}
+
+/// The value of `key` in a point of a sweep, and the other keys.
+fn value(point: &Pairs, key: &str) -> Result<(f64, Pairs), String> {
+    let mut pairs = point.clone();
+    let own = pairs.iter().position(|(name, _)| name == key).ok_or_else(|| {
+        let keys: Vec<_> = pairs.iter().map(|(name, _)| name.as_str()).collect();
+        format!("the sweep goes over {}, of which one is allowed", keys.join(", "))
+    })?;
+    let (_, number) = pairs.remove(own);
+    let number = finite(&number).ok_or("its values are no numbers; a key with numbers is allowed")?;
+    Ok((number, pairs))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_point_has_the_value_of_a_key_and_what_is_left() {
+        let [alpha, orientation, count] =
+            [("interaction.alpha", "0.5"), ("particles.orientation", "in plane"), ("particles.count", "20")]
+                .map(|(key, value)| (key.to_owned(), value.to_owned()));
+        let point = vec![alpha.clone(), orientation.clone(), count.clone()];
+        let of = |key| value(&point, key);
+        assert_eq!(of("interaction.alpha"), Ok((0.5, vec![orientation.clone(), count])));
+        assert_eq!(of("particles.count"), Ok((20.0, vec![alpha, orientation])));
+        assert!(of("particles.orientation").unwrap_err().starts_with("its values are no numbers"));
+        let keys = "the sweep goes over interaction.alpha, particles.orientation, particles.count, of which one is allowed";
+        assert_eq!(of("alpha").unwrap_err(), keys);
+    }
+}

@@ -1,0 +1,341 @@
+//! `shearbed reference`.
+
+use super::{Failure, number, print, progress};
+use shearbed_validation::files::output;
+use shearbed_validation::files::text::Shown;
+use shearbed_validation::oracle::diffusion::NoAnswer;
+use shearbed_validation::oracle::reference::big::{Bits, decimal, digits, double, finite};
+use shearbed_validation::oracle::reference::constants::{self, Constant};
+use shearbed_validation::oracle::reference::diffusing::Diffusing;
+use shearbed_validation::oracle::reference::motion::{LARGEST_STRAIN, Motion, Unit};
+use shearbed_validation::oracle::reference::rod::Direction;
+use shearbed_validation::oracle::reference::table::{self, NoValue, Start, Table};
+use shearbed_validation::oracle::reference::unequal::LONGEST_TURNS;
+use std::path::{Path, PathBuf};
+
+/// Arguments of `reference`.
+#[derive(clap::Args)]
+#[command(after_help = "Example:\n  shearbed reference --aspect-ratio 11.6 --start 0,90 --times 0:1:101")]
+pub(super) struct Args {
+    /// r_e, from 1e-100 to 1e100, or `inf` for Λ = 1
+    #[arg(long, value_name = "R|inf", value_parser = aspect_ratio, allow_negative_numbers = true)]
+    aspect_ratio: f64,
+    /// Where rods point at t = 0: `isotropic`, or one rod's angles φ,θ in degrees
+    #[arg(long, value_name = "isotropic|PHI_DEG,THETA_DEG", default_value = "isotropic", value_parser = start, allow_hyphen_values = true)]
+    start: From,
+    /// COUNT evenly spaced times with both ends (COUNT = 1: the time FROM), or rising times with commas between
+    #[arg(long, value_name = "FROM:TO:COUNT|T1,T2,…", value_parser = times, allow_hyphen_values = true, required_unless_present_any = ["constants", "explain", "steady"])]
+    times: Option<Times>,
+    /// What times count: periods of (mean) r_e, strain, or seconds; period unless given, and strain for r_e = inf
+    #[arg(long, value_name = "period|strain|s", value_parser = unit)]
+    unit: Option<Unit>,
+    /// G of plane Couette flow, u_2 = G x_1
+    #[arg(long, value_name = "G", default_value = "1", value_parser = rate, allow_negative_numbers = true)]
+    shear_rate_per_s: f64,
+    /// Another steady flow: nine numbers ∂u_i/∂x_j, row by row, in 1/s
+    #[arg(long, value_name = "L11,L12,…,L33", value_parser = gradient, conflicts_with = "shear_rate_per_s", allow_hyphen_values = true)]
+    gradient_per_s: Option<[[f64; 3]; 3]>,
+    /// Standard deviation of a Gaussian r_e in percent of the mean, for isotropic starts
+    #[arg(long, value_name = "PERCENT", default_value = "0", value_parser = deviation, allow_negative_numbers = true)]
+    aspect_ratio_sd_percent: f64,
+    /// C_I: rods of an isotropic start with rotary diffusion D_r = C_I γ̇, γ̇ = (2D:D)^½; `inf` for all directions alike
+    #[arg(long, value_name = "C", value_parser = c_i, allow_negative_numbers = true)]
+    c_i: Option<f64>,
+    /// The steady distribution of rods with diffusion, in a last row at the time inf
+    #[arg(long, requires = "c_i")]
+    steady: bool,
+    /// The fourth moments a_ijkl of an isotropic start in place of its other means
+    #[arg(long)]
+    fourth: bool,
+    /// What does not change with time: T, ⟨φ⟩, C_b, means over phases, plateaus
+    #[arg(long, conflicts_with_all = ["times", "unit", "fourth", "c_i", "aspect_ratio_sd_percent", "explain"])]
+    constants: bool,
+    /// Say what each column is, its unit and its equation, and compute nothing
+    #[arg(long)]
+    explain: bool,
+    /// A file for the CSV, in place of standard output
+    #[arg(long, value_name = "FILE")]
+    out: Option<PathBuf>,
+    /// Overwrite an existing file that has other contents
+    #[arg(long, requires = "out")]
+    force: bool,
+}
+
+impl Args {
+    pub(super) fn only_prints(&self) -> bool {
+        self.out.is_none()
+    }
+}
+
+/// The value of `--start`.
+#[derive(Clone, Copy, Debug)]
+enum From {
+    Isotropic,
+    Angles { phi_deg: f64, theta_deg: f64 },
+}
+
+/// The value of `--times`.
+#[derive(Clone, Debug)]
+struct Times(Vec<f64>);
+
+/// Prints or writes reference values.
+pub(super) fn reference(args: &Args) -> Result<(), Failure> {
+    let rate = args.shear_rate_per_s;
+    let couette = [[0.0; 3], [rate, 0.0, 0.0], [0.0; 3]];
+    let motion =
+        Motion { gradient_per_s: args.gradient_per_s.unwrap_or(couette), aspect_ratio: args.aspect_ratio };
+    let direction = match args.start {
+        From::Isotropic => None,
+        From::Angles { phi_deg, theta_deg } => Some(Direction::Angles { phi_deg, theta_deg }),
+    };
+    let text = if args.constants {
+        let constants = constants::constants(&motion, direction).ok_or_else(|| no_couette("--constants"))?;
+        constants_csv(&constants)
+    } else {
+        let asked = asked(args, &motion, direction)?;
+        match args.explain {
+            true => explained(&asked),
+            false => csv(&values(args, &motion, &asked).map_err(|why| refused(args, why))?),
+        }
+    };
+    match &args.out {
+        Some(path) => write(path, text, args.force),
+        None => print(&text),
+    }
+}
+
+/// The rods of the requested values.
+enum Asked {
+    /// Free rods.
+    Free(Start),
+    /// Rods with diffusion.
+    Diffusing(Diffusing),
+}
+
+fn asked(args: &Args, motion: &Motion, direction: Option<Direction>) -> Result<Asked, Failure> {
+    let sd = args.aspect_ratio_sd_percent;
+    // Without diffusion the rods are free; their means have full precision, but there is no steady distribution.
+    if let Some(c_i) = args.c_i.filter(|c_i| *c_i > 0.0 || args.steady) {
+        if direction.is_some() {
+            return Err(isotropic_only(&format!("--c-i {c_i}")));
+        }
+        if sd != 0.0 {
+            return Err(Failure::Input(format!(
+                "--aspect-ratio-sd-percent {sd}: rods with --c-i have one aspect ratio; 0 is allowed with it"
+            )));
+        }
+        let (fourth, steady) = (args.fourth, args.steady);
+        return Ok(Asked::Diffusing(Diffusing { motion: *motion, c_i, fourth, steady }));
+    }
+    match direction {
+        None => Ok(Asked::Free(Start::Isotropic { aspect_ratio_sd_percent: sd, fourth: args.fourth })),
+        Some(_) if sd != 0.0 => Err(isotropic_only(&format!("--aspect-ratio-sd-percent {sd}"))),
+        Some(_) if args.fourth => Err(isotropic_only("--fourth")),
+        Some(direction) => Ok(Asked::Free(Start::Rod(direction))),
+    }
+}
+
+fn values(args: &Args, motion: &Motion, asked: &Asked) -> Result<Table, NoValue> {
+    let unit = args.unit.unwrap_or(if args.aspect_ratio.is_finite() { Unit::Period } else { Unit::Strain });
+    let times = args.times.as_ref().map_or(&[][..], |times| &times.0);
+    match asked {
+        Asked::Free(start) => {
+            // Fewer take less than a second.
+            let bar = progress(times.len() as u64, "times", times.len() < 1000);
+            let table = table::table(motion, *start, times, unit, || bar.inc(1));
+            bar.finish_and_clear();
+            table
+        }
+        Asked::Diffusing(rods) => rods.table(times, unit),
+    }
+}
+
+fn csv(table: &Table) -> String {
+    let names = table.columns.iter().map(|column| column.name.clone());
+    let header: Vec<_> = names.collect();
+    let mut text = header.join(",") + "\n";
+    for row in &table.rows {
+        let fields: Vec<_> =
+            row.iter().map(|value| value.map_or(String::new(), |x| format!("{x:?}"))).collect();
+        text += &(fields.join(",") + "\n");
+    }
+    text
+}
+
+fn constants_csv(constants: &[Constant]) -> String {
+    let mut text = String::from("quantity,value,unit,equation\n");
+    for constant in constants {
+        let value = digits(&constant.value, 25);
+        text += &format!("{},{value},{},\"{}\"\n", constant.quantity, constant.unit, constant.equation);
+    }
+    text
+}
+
+fn explained(asked: &Asked) -> String {
+    let (columns, digits) = match asked {
+        Asked::Free(start) => (
+            table::columns(*start),
+            "Values are correctly rounded doubles at exactly the time in the unit of --unit; the other times are rounded. With \
+             --aspect-ratio-sd-percent they are rounded to eleven decimals.",
+        ),
+        Asked::Diffusing(rods) => (
+            rods.columns(),
+            "The density is that of rods with rotary diffusion C_I γ̇ (Folgar & Tucker 1984), without a closure. Values are rounded \
+             to the decimals that two solutions of different degree, order and step agree on, eleven at most. The last row of \
+             --steady has the time inf.",
+        ),
+    };
+    let line =
+        |column: &table::Column| format!("{:<10} {:<4} {}\n", column.name, column.unit, column.equation);
+    let text: String = columns.iter().map(line).collect();
+    format!("{text}Numbers before words are equations of Lee & Springer (1982). {digits}\n")
+}
+
+fn write(path: &Path, text: String, force: bool) -> Result<(), Failure> {
+    if path.file_name().is_none() {
+        return Err(Failure::Input(format!("--out {}: is no file name", path.shown())));
+    }
+    Ok(output::write_one(path, text.as_bytes(), force)?)
+}
+
+fn no_couette(flag: &str) -> Failure {
+    Failure::Input(format!(
+        "{flag}: this flow has none; plane Couette flow (--shear-rate-per-s G or a gradient with L21 alone) and a finite \
+         --aspect-ratio are allowed"
+    ))
+}
+
+fn isotropic_only(flag: &str) -> Failure {
+    Failure::Input(format!("{flag}: needs many rods; only --start isotropic is allowed with it"))
+}
+
+fn refused(args: &Args, why: NoValue) -> Failure {
+    Failure::Input(match why {
+        NoValue::Past => {
+            "--times: rods with diffusion have no past; times from 0 are allowed with --c-i".into()
+        }
+        NoValue::Steady(NoAnswer::Unsettled) => format!(
+            "--steady: nothing settles with --c-i {:?} in this flow; a C_I above 0 and a flow that strains are allowed",
+            args.c_i.unwrap_or_default()
+        ),
+        NoValue::Steady(why) => format!(
+            "--steady with --c-i {:?}: {why}; a larger C_I is allowed (in plane Couette flow from 1e-5 on, in any flow from \
+             about 1e-4 on)",
+            args.c_i.unwrap_or_default()
+        ),
+        NoValue::Diffusion(why) => format!(
+            "--times with --c-i {:?}: {why}; a larger C_I or shorter --times are allowed (from C_I = 1e-4 on, a strain of 100; at 1e-5, of 10), and \
+             --steady",
+            args.c_i.unwrap_or_default()
+        ),
+        NoValue::Unit => format!(
+            "--unit{}: this flow has no such unit of time; s is allowed, strain where it stretches, and period in plane Couette flow \
+             (--shear-rate-per-s G) of rods with a finite r_e",
+            if args.unit.is_none() { " is missing, and periods are its default" } else { "" }
+        ),
+        NoValue::Strain => format!(
+            "--times: |L|t is above {LARGEST_STRAIN}, the most that is allowed where rods have no period: in flows other than plane Couette flow, or \
+             at an infinite aspect ratio"
+        ),
+        NoValue::Time => {
+            "--times: a time in s, strain or periods is no finite double; smaller times are allowed".into()
+        }
+        NoValue::Unequal => format!(
+            "--aspect-ratio-sd-percent {}: is allowed in plane Couette flow, up to {LONGEST_TURNS} periods, without --fourth, for \
+             r_e from 1e-4 to 1e4 of which eight standard deviations do not reach 1 or 0",
+            args.aspect_ratio_sd_percent
+        ),
+    })
+}
+
+fn aspect_ratio(text: &str) -> Result<f64, String> {
+    match text {
+        "inf" => Ok(f64::INFINITY),
+        _ => number(text, |r| (1e-100..=1e100).contains(&r), "a number from 1e-100 to 1e100, or inf,"),
+    }
+}
+
+fn c_i(text: &str) -> Result<f64, String> {
+    let words = "0 (free rods), a number from 1e-9 to 1e9, or inf (all directions alike)";
+    match text {
+        "inf" => Ok(f64::INFINITY),
+        _ => number(text, |c| c == 0.0 || (1e-9..=1e9).contains(&c), words),
+    }
+}
+
+fn rate(text: &str) -> Result<f64, String> {
+    let words = "a number with a size from 1e-100 to 1e100";
+    number(text, |g| (1e-100..=1e100).contains(&g.abs()), words)
+}
+
+fn deviation(text: &str) -> Result<f64, String> {
+    number(text, |sd| (0.0..100.0).contains(&sd), "a number from 0 to below 100")
+}
+
+fn unit(text: &str) -> Result<Unit, String> {
+    match text {
+        "period" => Ok(Unit::Period),
+        "strain" => Ok(Unit::Strain),
+        "s" => Ok(Unit::Second),
+        _ => Err("period, strain or s is allowed".into()),
+    }
+}
+
+fn start(text: &str) -> Result<From, String> {
+    let words =
+        "`isotropic`, or φ,θ in degrees with θ from 0 to 180 (each 0 or of a size from 5e-324 to 1.8e308)";
+    match text.split_once(',') {
+        None if text == "isotropic" => Ok(From::Isotropic),
+        None => Err(format!("{words} is allowed")),
+        Some((phi, theta)) => Ok(From::Angles {
+            phi_deg: number(phi, |_| true, words)?,
+            theta_deg: number(theta, |theta| (0.0..=180.0).contains(&theta), words)?,
+        }),
+    }
+}
+
+fn gradient(text: &str) -> Result<[[f64; 3]; 3], String> {
+    let words = "nine finite numbers with sizes from 1e-100 to 1e100 or 0, separated by commas,";
+    let within = |x: f64| x == 0.0 || (1e-100..=1e100).contains(&x.abs());
+    let entries = text.split(',').map(|entry| number(entry, within, words));
+    let entries: Vec<f64> = entries.collect::<Result<_, _>>()?;
+    match <[f64; 9]>::try_from(entries) {
+        Ok(l) => Ok([[l[0], l[1], l[2]], [l[3], l[4], l[5]], [l[6], l[7], l[8]]]),
+        Err(_) => Err(format!("{words} are allowed")),
+    }
+}
+
+/// The largest number of times.
+const MOST: u64 = 100_000;
+
+fn times(text: &str) -> Result<Times, String> {
+    let refuse = || {
+        format!(
+            "FROM:TO:COUNT with finite FROM ≤ TO and a COUNT from 1 to {MOST}, or at most as many rising times T1,T2,…, are allowed; a time is \
+             0 or of a size from 5e-324 to 1.8e308"
+        )
+    };
+    let parts: Vec<_> = text.split(':').collect();
+    let [from, to, count] = parts[..] else {
+        return listed(text).ok_or_else(refuse);
+    };
+    let count = count.parse::<u64>().ok().filter(|count| (1..=MOST).contains(count));
+    let (Some(from), Some(to), Some(count)) = (decimal(from), decimal(to), count) else {
+        return Err(refuse());
+    };
+    if from > to {
+        return Err(refuse());
+    }
+    // Exact until the end, so that each time is the double nearest to its decimal.
+    let gaps = Bits(400).of((count - 1).max(1) as f64);
+    let span = to - &from;
+    let time = |k: u64| &from + &span * Bits(400).of(k as f64) / &gaps;
+    Ok(Times((0..count).map(|k| double(&time(k))).collect()))
+}
+
+/// Parses a list of times, which must ascend.
+fn listed(text: &str) -> Option<Times> {
+    let times: Vec<f64> = text.split(',').map(finite).collect::<Option<_>>()?;
+    let rise = times.len() as u64 <= MOST && times.is_sorted_by(|a, b| a < b);
+    rise.then_some(Times(times))
+}

@@ -1,0 +1,84 @@
+//! `shearbed plan` and `shearbed scenes`.
+
+use super::duration;
+use super::facts::{self, Facts};
+use super::scene::{Chosen, Ensemble};
+use super::until::{LEAST, Until};
+use super::{Failure, memory, print};
+use shearbed_validation::files::text::{left_aligned, line};
+use shearbed_validation::input::{scene_keys, scenes};
+
+/// Arguments of `plan`.
+#[derive(clap::Args)]
+#[command(after_help = "Example:\n  shearbed plan fig4-n50 --set interaction.alpha=0.3")]
+pub(super) struct PlanArgs {
+    #[command(flatten)]
+    chosen: Chosen,
+    #[command(flatten)]
+    until: Until,
+}
+
+/// Arguments of `scenes`.
+#[derive(clap::Args)]
+#[command(after_help = "Example:\n  shearbed scenes --show fig4-n50 > mine.toml")]
+pub(super) struct ScenesArgs {
+    /// Print this built-in scene's file, to start a scene of your own from
+    #[arg(long, value_name = "NAME")]
+    show: Option<String>,
+    /// Print every key of a scene file: what it means, its unit, what is allowed, its default
+    #[arg(long, conflicts_with = "show")]
+    keys: bool,
+}
+
+/// Prints a scene's plan. Fails if `run` would fail because of memory.
+pub(super) fn plan(args: &PlanArgs) -> Result<(), Failure> {
+    let named = args.chosen.load(&Ensemble::default(), &[])?;
+    let plan = named.plan()?;
+    args.until.check(&plan, &named.source)?;
+    let plan = if args.until.is_empty() { plan } else { plan.with_replicas(LEAST) };
+    // The plan's text ends with its own warnings; they are removed and printed last with all others.
+    let said = |warnings: Vec<String>| -> String {
+        let lines = warnings.iter().map(|warning| format!("warning: {warning}\n"));
+        lines.collect()
+    };
+    let text = plan.to_string();
+    let stages = text.strip_suffix(&said(plan.warnings())).unwrap_or(&text);
+    print(&format!(
+        "{stages}{}{}{}{}",
+        Facts::of(&plan).text(),
+        duration::of_scene(&plan),
+        args.until.planned(),
+        said(facts::warnings(&plan))
+    ))?;
+    // A plan that `run` would refuse here is still shown: it may fit on another machine.
+    memory::check(&plan, None, false, &named.source)
+}
+
+/// Lists the built-in scenes, or prints one.
+pub(super) fn scenes(args: &ScenesArgs) -> Result<(), Failure> {
+    if args.keys {
+        return print(&scene_keys::text());
+    }
+    let Some(name) = &args.show else {
+        return print(&table()?);
+    };
+    match scenes::find(name) {
+        Some(built_in) => print(built_in.text),
+        None => {
+            let names: Vec<_> = scenes::ALL.iter().map(|built_in| built_in.name).collect();
+            let names = names.join(", ");
+            Err(Failure::Input(format!(
+                "--show {}: no built-in scene has this name; there are {names}",
+                line(name)
+            )))
+        }
+    }
+}
+
+fn table() -> Result<String, Failure> {
+    let row = |built_in: &scenes::BuiltIn| {
+        let scene = built_in.scene().map_err(|error| Failure::Input(error.to_string()))?;
+        Ok(vec![built_in.name.to_owned(), scene.title])
+    };
+    Ok(left_aligned(&scenes::ALL.iter().map(row).collect::<Result<Vec<_>, Failure>>()?))
+}

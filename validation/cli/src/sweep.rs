@@ -1,0 +1,229 @@
+//! `shearbed sweep`.
+
+use super::scene::{Chosen, Ensemble};
+use super::{
+    Failure, Threads, Writing, agree, facts, log, memory, on_threads, print, progress, result_folder, scene,
+    spares_inputs,
+    tables::{self, is_bounded},
+};
+use shearbed::run::ensemble;
+use shearbed_validation::files::cluster;
+use shearbed_validation::files::output::Output;
+use shearbed_validation::files::text;
+use shearbed_validation::files::text::Shown;
+use shearbed_validation::serve::sweep::{self, Axis, Folder, Point, Points};
+use std::path::{Path, PathBuf};
+
+/// Arguments of `sweep`.
+#[derive(clap::Args)]
+#[command(after_help = "\
+An interrupted sweep goes on when the same command is given again. Every point has the same seed.
+Examples:
+  shearbed sweep fig4-n50 --over interaction.alpha=0.1:1:10 --replicas 100
+  shearbed sweep mine.toml --over interaction.update=rotation,angles,kick")]
+pub(super) struct Args {
+    #[command(flatten)]
+    chosen: Chosen,
+    #[command(flatten)]
+    ensemble: Ensemble,
+    /// A key of the scene and its values: FROM:TO:COUNT evenly with both ends, or a list; given more than once, every
+    /// combination is a point
+    #[arg(long, value_name = "KEY=VALUES", required = true, value_parser = Axis::parse)]
+    over: Vec<Axis>,
+    /// The folder for sweep.csv, sweep.json and points/ [default: out/sweep-<scene>]
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    #[command(flatten)]
+    threads: Threads,
+    #[command(flatten)]
+    writing: Writing,
+}
+
+/// Runs the unfinished points of a sweep, and writes one row per point.
+pub(super) fn sweep(args: &Args) -> Result<(), Failure> {
+    let named = args.chosen.load(&args.ensemble, &args.over)?;
+    check(&args.over)?;
+    if let Some(key) = named.scene.output.rods_key() {
+        return Err(Failure::Input(format!(
+            "{}: {key}: a sweep writes no rods; remove this key",
+            named.source
+        )));
+    }
+    let points = sweep::points(&named.text, &named.starts, &named.settings, &args.over)
+        .map_err(|error| Failure::Input(format!("{}: {error}", named.source)))?;
+    for point in &points {
+        if point.plan.time_name() != points[0].plan.time_name() {
+            return Err(Failure::Input(format!(
+                "{}: --over {}: its time is {}, that of the first point {}; all points have the same columns",
+                named.source,
+                sweep::described(&args.over, &point.values),
+                point.plan.time_name(),
+                points[0].plan.time_name()
+            )));
+        }
+    }
+    let at =
+        |point: &Point| format!("{}: --over {}", named.source, sweep::described(&args.over, &point.values));
+    memory::check_each(points.iter().map(|point| (&point.plan, at(point))), args.threads.given, false, 0)?;
+    let out = (args.out.clone()).unwrap_or_else(|| Path::new("out").join(format!("sweep-{}", named.stem)));
+    let total = points.len();
+    let warned = warnings(&points, &args.over);
+    let inputs = sweep::inputs(&named.scene, &args.over, &points, &warned);
+    agree("sweep", inputs.clone())?;
+
+    // Only the root can access the folder.
+    let mut folder = None;
+    let open = || {
+        let bytes = (points.iter()).map(|point| tables::most_bytes(&point.plan)).sum();
+        let origin = ("sweep", inputs.clone(), args.writing.force);
+        spares_inputs(&out, &["sweep.csv", "sweep.json"], named.files())?;
+        let in_folder = result_folder(&out, origin, bytes, &[""; 0])?;
+        let points = Points {
+            pairs: (points.iter()).map(|point| sweep::pairs(&args.over, &point.values)).collect(),
+            tables: (points[0].plan.observables().iter())
+                .map(|observable| format!("{}.csv", observable.name()))
+                .collect(),
+        };
+        let opened = folder.insert(Folder::open(in_folder, &inputs, points)?);
+        Ok::<_, Failure>(self::jobs(&opened.finished(), total))
+    };
+    let (checked, jobs): (Option<usize>, Vec<usize>) = cluster::from_root(open)?;
+    scene::warn(&named.source, warned.iter().take(MOST_WARNINGS));
+    let more = warned.len().saturating_sub(MOST_WARNINGS);
+    scene::warn(
+        &named.source,
+        (more > 0).then(|| format!("and {more} more points with warnings: sweep.json has them all")).iter(),
+    );
+    let new = jobs.len() - usize::from(checked.is_some());
+    let finished = total - new;
+    if finished > 0 && !args.writing.quiet {
+        print(&format!("goes on from {}: {finished} of {total} points are finished\n", out.shown()))?;
+    }
+    let mut ended = finished;
+    let bar = progress(jobs.len() as u64, "points", args.writing.quiet);
+    let job = |job: usize| {
+        let k = jobs[job];
+        tables_of(&points[k]).map_err(|error| {
+            let point = sweep::described(&args.over, &points[k].values);
+            Failure::Input(format!("{}: --over {point}: {error}", named.source))
+        })
+    };
+    let arrived = |job: usize, tables: &Vec<Output>| {
+        bar.inc(1);
+        let k = jobs[job];
+        // Results arrive only on the root.
+        let Some(folder) = &folder else {
+            return Ok(());
+        };
+        match checked {
+            Some(finished) if finished == k => match folder.tables(k)? == *tables {
+                true => Ok(()),
+                false => Err(other_numbers(&folder.point(k))),
+            },
+            _ => {
+                folder.write(k, tables)?;
+                ended += 1;
+                let line = format!("kept in {}: {ended} of {total} points are finished", out.shown());
+                log(&line, args.writing.quiet);
+                Ok(())
+            }
+        }
+    };
+    let shared = on_threads(args.threads.given, || cluster::share(jobs.len(), job, arrived))??;
+    bar.finish_and_clear();
+    let (Some(folder), true) = (&folder, shared.is_some()) else {
+        return Ok(());
+    };
+    let values: Vec<_> = points.iter().map(|point| point.values.clone()).collect();
+    let rows = folder.gather(&args.over, &values)?;
+    if args.writing.quiet {
+        return Ok(());
+    }
+    print(&format!(
+        "{}\npoints: {total}, of which {finished} were finished before\n\n{}\nin {}: sweep.csv, sweep.json, points\n",
+        text::line(&named.scene.title),
+        table(&rows, args.over.len()),
+        out.shown(),
+    ))
+}
+
+/// The largest number of warnings of points on the terminal.
+const MOST_WARNINGS: usize = 10;
+
+/// Reasons to doubt results, each once, with the first of its points and the number of the others.
+fn warnings(points: &[Point], over: &[Axis]) -> Vec<String> {
+    let mut found: Vec<(String, &Point, usize)> = Vec::new();
+    for point in points {
+        for warning in facts::warnings(&point.plan) {
+            match found.iter_mut().find(|(known, ..)| *known == warning) {
+                Some((.., others)) => *others += 1,
+                None => found.push((warning, point, 0)),
+            }
+        }
+    }
+    let line = |(warning, point, others): (String, &Point, usize)| {
+        let at = sweep::described(over, &point.values);
+        match others {
+            0 => format!("--over {at}: {warning}"),
+            1 => format!("--over {at} and another point: {warning}"),
+            _ => format!("--over {at} and {others} other points: {warning}"),
+        }
+    };
+    found.into_iter().map(line).collect()
+}
+
+/// Refuses a key that changes the columns of the results.
+fn check(axes: &[Axis]) -> Result<(), Failure> {
+    match axes.iter().find(|axis| axis.key.starts_with("output")) {
+        Some(axis) => Err(Failure::Input(format!(
+            "--over {}: all points have the same columns; keys of other tables are allowed",
+            axis.key
+        ))),
+        None => Ok(()),
+    }
+}
+
+/// The points to run: the missing ones; if others are finished, the first of these comes before them, and its result is
+/// compared with the stored one, to detect a program whose numbers have changed.
+fn jobs(finished: &[usize], points: usize) -> (Option<usize>, Vec<usize>) {
+    let missing: Vec<_> = (0..points).filter(|k| finished.binary_search(k).is_err()).collect();
+    let checked = finished.first().copied().filter(|_| !missing.is_empty());
+    (checked, checked.into_iter().chain(missing).collect())
+}
+
+/// Runs a point and returns a table for each observable.
+fn tables_of(point: &Point) -> Result<Vec<Output>, String> {
+    let results = ensemble::run(&point.plan).map_err(|error| error.to_string())?;
+    let table = |series: &ensemble::Series| {
+        let name = format!("{}.csv", series.observable.name());
+        Ok((name, tables::csv(&results, series)?))
+    };
+    results.series.iter().map(table).collect()
+}
+
+fn other_numbers(point: &Path) -> Failure {
+    Failure::Input(format!(
+        "{}: run again, this point gives other numbers, so another build of the program wrote the folder; give another --out, \
+         or remove the folder; nothing of it was changed",
+        point.shown()
+    ))
+}
+
+/// The largest numbers of rows and columns of a table for the terminal.
+const MOST: (usize, usize) = (32, 9);
+
+/// A table with shortened numbers; empty if there are too many rows to read.
+fn table(rows: &[Vec<String>], swept: usize) -> String {
+    if rows.len() > MOST.0 + 1 {
+        return String::new();
+    }
+    let columns = rows[0].len().min(swept + MOST.1);
+    let short = |column: usize, text: &String| match text.parse::<f64>() {
+        Ok(number) if column >= swept && is_bounded(&rows[0][column]) => text::four_decimals(number),
+        Ok(number) if column >= swept => format!("{number:.3e}"),
+        _ => text.clone(),
+    };
+    let cells: Vec<Vec<_>> =
+        (rows.iter()).map(|row| (0..columns).map(|c| short(c, &row[c])).collect()).collect();
+    text::right_aligned(&cells)
+}

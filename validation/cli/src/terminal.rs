@@ -1,0 +1,112 @@
+//! Output of a command on the terminal while it runs.
+
+use super::Failure;
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle, WeakProgressBar};
+use shearbed_validation::files::cluster;
+use shearbed_validation::files::text::{complain, readable};
+use std::fmt;
+use std::io::{self, IsTerminal, Write};
+use std::sync::{Mutex, PoisonError};
+use std::time::Duration;
+
+/// The last progress bar.
+static BAR: Mutex<Option<WeakProgressBar>> = Mutex::new(None);
+
+/// Removes the progress bar from the terminal, so that an error starts on a line of its own.
+pub(super) fn clear() {
+    let bar = BAR.lock().unwrap_or_else(PoisonError::into_inner).take();
+    if let Some(bar) = bar.and_then(|bar| bar.upgrade()) {
+        bar.finish_and_clear();
+    }
+}
+
+/// Prints to standard output. It is no error if the reader has closed the pipe, as `head` does.
+pub(super) fn print(text: &str) -> Result<(), Failure> {
+    if !cluster::is_root() {
+        return Ok(());
+    }
+    let mut stdout = io::stdout().lock();
+    match stdout.write_all(readable(text).as_bytes()).and_then(|()| stdout.flush()) {
+        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
+            Err(Failure::Input(format!("standard output: cannot be written: {error}")))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Refuses to print where nobody can read it: to a standard output that was closed (`>&-`). The runtime opens /dev/null in its place
+/// for reading and writing, before `main`; a shell's `> /dev/null` is opened for writing alone.
+///
+/// # Errors
+///
+/// Standard output is /dev/null, opened for reading and writing.
+#[cfg(unix)]
+pub(super) fn is_open() -> Result<(), Failure> {
+    use rustix::fs::{OFlags, fcntl_getfl, fstat, stat};
+    let stdout = io::stdout();
+    let null = || Ok::<_, rustix::io::Errno>(fstat(&stdout)?.st_rdev == stat("/dev/null")?.st_rdev);
+    let both = fcntl_getfl(&stdout).is_ok_and(|flags| flags & OFlags::RWMODE == OFlags::RDWR);
+    match both && null().unwrap_or(false) {
+        true => Err(Failure::Input(
+            "standard output: cannot be written: it is closed, or /dev/null opened for reading and writing; open it for writing alone \
+             (`> /dev/null`) to discard what this command prints"
+                .to_owned(),
+        )),
+        false => Ok(()),
+    }
+}
+
+/// Never refuses.
+#[cfg(not(unix))]
+pub(super) fn is_open() -> Result<(), Failure> {
+    Ok(())
+}
+
+/// Prints a line about progress to standard error if no bar shows it, as in the log of a job.
+pub(super) fn log(line: &str, quiet: bool) {
+    if quiet || !cluster::is_root() || io::stderr().is_terminal() {
+        return;
+    }
+    complain(&format!("{}\n", readable(line)));
+}
+
+/// Restarts a bar for the next part of the work, with 0 steps: `inc_length` adds some.
+pub(super) fn restart(bar: &ProgressBar, part: &str) {
+    bar.set_message(part.to_owned());
+    bar.set_length(0);
+    bar.set_position(0);
+    bar.reset_elapsed();
+}
+
+/// A bar for slow work on a terminal, hidden elsewhere. It shows the time left once a step is done, from the mean rate;
+/// for a single step it shows the elapsed time. With 0 steps it is prepared for [`restart`].
+pub(super) fn progress(steps: u64, what: &str, quiet: bool) -> ProgressBar {
+    if quiet || !cluster::is_root() || !io::stderr().is_terminal() {
+        return ProgressBar::hidden();
+    }
+    let template = match steps {
+        1 => "{spinner} running for {elapsed} {msg}".to_owned(),
+        0 => format!("{{msg}} {{wide_bar}} {{pos}}/{{len}} {what}, {{left}}"),
+        _ => format!("{{wide_bar}} {{pos}}/{{len}} {what}, {{left}} {{msg}}"),
+    };
+    let of_what = if steps == 0 { " in this part" } else { "" };
+    let left = move |state: &ProgressState, text: &mut dyn fmt::Write| {
+        let elapsed = state.elapsed().as_secs_f64();
+        let words = match (state.pos(), state.len()) {
+            (0, _) | (_, None) => format!("{elapsed:.0} s so far"),
+            (done, Some(all)) => {
+                let rate = done as f64 / elapsed.max(1e-9);
+                format!("{rate:.2} a second, {:.0} s left{of_what}", all.saturating_sub(done) as f64 / rate)
+            }
+        };
+        // If even this cannot be written, there is no bar.
+        let _ = text.write_str(&words);
+    };
+    let style = ProgressStyle::with_template(&template);
+    let style = style.unwrap_or_else(|_| ProgressStyle::default_bar());
+    let bar = ProgressBar::with_draw_target(Some(steps), ProgressDrawTarget::stderr());
+    bar.set_style(style.with_key("left", left));
+    bar.enable_steady_tick(Duration::from_millis(500));
+    *BAR.lock().unwrap_or_else(PoisonError::into_inner) = Some(bar.downgrade());
+    bar
+}

@@ -1,0 +1,35 @@
+//! Pages and files that are made from the program are what it would make now.
+
+use crate::pages::root;
+use shearbed_validation::cases::catalogue;
+use shearbed_validation::input::scene_keys;
+use std::fs;
+
+/// Compares a committed file with what is made now, or writes it.
+fn fresh(file: &str, expected: &str) {
+    let path = root().join(file);
+    if std::env::var_os("UPDATE_DOCS").is_some() {
+        fs::write(&path, expected).unwrap();
+    }
+    let found = fs::read_to_string(&path).unwrap_or_default();
+    assert!(found == expected, "{file} is stale: UPDATE_DOCS=1 cargo test -p shearbed-cli --test docs");
+}
+
+#[test]
+fn the_page_of_commands_is_fresh() {
+    fresh("docs/src/reference/commands.md", &shearbed_cli::commands());
+}
+
+#[test]
+fn the_page_of_keys_and_the_schema_of_scenes_are_fresh() {
+    let head = "# Keys of a scene\n\nMade from the table of keys that the program reads by; `shearbed scenes --keys` prints it. A JSON Schema \
+                for editors is `validation/schemas/scene.json`. [Scenes](../user/scenes.md) shows how keys go together.\n\n";
+    fresh("docs/src/reference/keys.md", &format!("{head}{}", scene_keys::markdown()));
+    let schema = serde_json::to_string_pretty(&scene_keys::schema()).unwrap();
+    fresh("validation/schemas/scene.json", &format!("{schema}\n"));
+}
+
+#[test]
+fn the_page_of_equations_is_fresh() {
+    fresh("docs/src/verification/equations.md", &catalogue::markdown());
+}

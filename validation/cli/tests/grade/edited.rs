@@ -1,0 +1,256 @@
+//! Edited problems: refused under the name of a built-in problem, said to be foreign under another, and never a panic.
+
+use crate::grading::{REFERENCE, files, names, problem, some, text, write};
+use serde_json::{Value, json};
+use shearbed_validation::serve::grade::{self, Axes, Claim, DumpOptions, FileOptions, LineEnds, Options};
+use shearbed_validation::serve::problems::{self, LoadedProblem};
+use std::fs;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::Path;
+
+/// Writes `problem.json` of a problem in a folder of references, with one key changed.
+fn edit(reference: &Path, name: &str, key: &str, value: Value) {
+    let path = reference.join(name).join("problem.json");
+    let mut told: Value = serde_json::from_str(&fs::read_to_string(&path).unwrap()).unwrap();
+    told[key] = value;
+    fs::write(&path, serde_json::to_string_pretty(&told).unwrap()).unwrap();
+}
+
+#[test]
+fn an_edited_built_in_problem_is_refused_with_file_key_found_and_expected() {
+    for (name, key, value) in [
+        ("mid-flip-2", "metric", json!("relative")),
+        ("mid-flip-2", "tolerance", json!(1.0)),
+        ("mid-flip-2", "tolerance", json!(1e308)),
+        ("mid-flip-2", "tolerance", json!(0.01)),
+        ("mid-flip-2", "aspect_ratio", json!(0.0)),
+        ("mid-flip-2", "aspect_ratio", json!(-1.0)),
+        ("mid-flip-2", "aspect_ratio", json!(2.5)),
+        ("mid-flip-2", "because", json!("I say so")),
+        ("spiral", "gradient_per_s", json!([[0, 0, 0], [0.5, 0, 0], [0, 0, 0]])),
+        ("mid-flip-2", "kind", json!("tensor")),
+        ("isotropic-3", "metric", json!("angle")),
+        ("contact-rule", "metric", json!("angle")),
+        ("contact-angles", "metric", json!("angle")),
+        ("lee-springer", "metric", json!("angle")),
+        ("unequal-rods", "metric", json!("angle")),
+    ] {
+        let dir = tempfile::tempdir().unwrap();
+        let reference = some(&dir.path().join("ref"), &[name]);
+        let mine = dir.path().join("mine");
+        write(&mine, name, "answer.csv", text(&problem(name).1));
+        assert_eq!(files(&reference, &mine, &[]).code, Some(0), "{name}");
+        edit(&reference, name, key, value.clone());
+        let ended = files(&reference, &mine, &[]);
+        let place = reference.join(name).join("problem.json");
+        let said = [&place.display().to_string(), key].map(|words| ended.words.contains(words));
+        assert!(
+            ended.code == Some(2) && said == [true; 2] && ended.grade.is_none(),
+            "{name}, {key} = {value}: {:?} {}",
+            ended.code,
+            ended.words
+        );
+        assert!(!ended.words.contains("panicked"), "{}", ended.words);
+    }
+}
+
+#[test]
+fn a_turned_table_of_a_built_in_problem_is_refused_with_its_place() {
+    for (file, line, column) in [("certified.csv", 3, 4), ("start.csv", 2, 3)] {
+        let dir = tempfile::tempdir().unwrap();
+        let reference = some(dir.path(), &["shear-plane"]);
+        let path = reference.join("shear-plane").join(file);
+        let turned = fs::read_to_string(&path).unwrap();
+        let mut rows: Vec<Vec<String>> =
+            turned.lines().map(|line| line.split(',').map(str::to_owned).collect()).collect();
+        // Turned by a right angle in the shear plane: |p| stays.
+        let from = if file == "start.csv" { 1 } else { 2 };
+        let row = &mut rows[line - 1];
+        row.swap(from, from + 1);
+        fs::write(&path, text(&rows)).unwrap();
+        let ended = files(&reference, dir.path(), &[]);
+        let place = format!("{}:{line}:", path.display());
+        assert!(
+            ended.code == Some(2) && ended.words.contains(&place) && ended.words.contains("shear-plane"),
+            "{column} {:?} {}",
+            ended.code,
+            ended.words
+        );
+    }
+}
+
+/// Renames a problem.
+fn rename(reference: &Path, name: &str, to: &str) {
+    fs::rename(reference.join(name), reference.join(to)).unwrap();
+    edit(reference, to, "name", json!(to));
+}
+
+#[test]
+fn a_problem_of_another_name_is_foreign_in_every_report() {
+    let dir = tempfile::tempdir().unwrap();
+    let reference = some(&dir.path().join("ref"), &["mid-flip-2", "sphere"]);
+    rename(&reference, "mid-flip-2", "my-own");
+    let mine = dir.path().join("mine");
+    write(&mine, "my-own", "answer.csv", text(&problem("mid-flip-2").1));
+    write(&mine, "sphere", "answer.csv", text(&problem("sphere").1));
+    let ended = files(&reference, &mine, &[]);
+    assert_eq!(ended.code, Some(0), "{}", ended.words);
+    assert_eq!(ended.of("my-own")["reference"], "foreign");
+    assert_eq!(ended.of("sphere")["reference"], "built-in");
+    for text in [&ended.words, ended.html.as_ref().unwrap()] {
+        assert!(text.contains("FOREIGN"), "{text}");
+    }
+    let alone = files(&reference, &mine, &["--problem", "sphere"]);
+    assert!(!alone.words.contains("FOREIGN"), "{}", alone.words);
+    // Another name in problem.json than that of the folder would look for its answers elsewhere.
+    edit(&reference, "my-own", "name", json!("../mine"));
+    let ended = files(&reference, &mine, &[]);
+    assert!(ended.code == Some(2) && ended.words.contains("name"), "{}", ended.words);
+}
+
+/// Values that a key may be given by mistake or on purpose.
+fn values() -> Vec<Value> {
+    let texts = [
+        "",
+        "rods",
+        "tensor",
+        "contact",
+        "ensemble",
+        "angle",
+        "absolute",
+        "relative",
+        "standard-errors",
+        "../x",
+    ];
+    let numbers = [0.0, -1.0, 0.5, 1.0, 1e-300, 1e308, -1e308];
+    let columns = ["time_s", "rod", "snapshot", "p1", "a11", "x1", "x1_se", "a_pdot1_per_s", "b_phi_rad"];
+    let mut all: Vec<Value> = texts.map(Value::from).into();
+    all.extend(numbers.map(Value::from));
+    all.extend([
+        Value::Null,
+        json!(true),
+        json!([]),
+        json!({}),
+        json!([0.0]),
+        json!([1.0, 0.5]),
+        json!([1.0, 2.0]),
+    ]);
+    all.extend([json!(columns), json!(columns[..2]), json!(["time_s", "p1", "p2", "p3"])]);
+    let small = [[1e-300, 0.0, 0.0], [0.0; 3], [0.0; 3]];
+    all.extend([[[0.0; 3]; 3], [[1e308; 3]; 3], small].map(|matrix| json!(matrix)));
+    all.push(json!({"count": 100, "length_mm": 0.7, "concentration_per_cm3": 50.0, "alpha": 0.5, "m": 3.0,
+        "steps_per_period": 200, "certified_replicas": 20000, "largest_standard_error": 1e300}));
+    all
+}
+
+fn options() -> Options {
+    Options {
+        file: FileOptions { columns: None, foreign: None, axes: Axes::default(), ends: LineEnds::Unix },
+        dump: DumpOptions { timestep_s: None, rod_axis: None },
+        claim: Claim { order: None },
+    }
+}
+
+/// Answers with the problem's own certified rows, and with each of their values moved.
+fn judged(loaded: &LoadedProblem, mine: &Path) -> Result<(), String> {
+    for moved in [0.0, 0.3] {
+        let keys = loaded.problem.kind.keys().len();
+        let mut rows = vec![loaded.problem.columns.clone()];
+        for row in &loaded.certified.rows {
+            let value = |(k, x): (usize, &f64)| {
+                if k < keys { x.to_string() } else { (x + moved).to_string() }
+            };
+            rows.push(row.iter().enumerate().map(value).collect());
+        }
+        write(mine, &loaded.problem.name, "answer.csv", text(&rows));
+        let one = std::slice::from_ref(loaded);
+        let graded = catch_unwind(AssertUnwindSafe(|| grade::grade(one, mine, &options())));
+        let graded = graded.map_err(|_| "a panic".to_owned())?;
+        let graded = graded.map_err(|errors| errors[0].to_string())?;
+        let told = serde_json::to_value(&graded[0]).map_err(|error| error.to_string())?;
+        if moved > 0.0 && told["verdict"] == "PASS" {
+            return Err(format!("a wrong answer passes: {told:#}"));
+        }
+    }
+    Ok(())
+}
+
+/// Keys that are shown and change no verdict: one of the values that are accepted is judged.
+const WORDS: [&str; 5] = ["title", "summary", "because", "axes", "equations"];
+
+/// Every key of every problem with each of the values: refused, or the same problem, or, under another name, foreign.
+#[test]
+fn no_value_of_any_key_panics_or_is_taken_silently() {
+    let values = values();
+    let hook = std::panic::take_hook();
+    std::panic::set_hook(Box::new(|_| {}));
+    let mut wrong = Vec::new();
+    let (mut refused, mut foreign) = (0, 0);
+    // Problems of a form differ in their numbers alone: one in shear and one in another flow stand for single rods and for isotropic ones,
+    // unequal rods for ensembles, and mixed flows for diffusing rods. Of every other form there is one.
+    let one_of_a_form = |name: &String| match name.as_str() {
+        "mid-flip-2" | "spiral" | "isotropic-3" | "isotropic-extension" | "lee-springer-unequal" => true,
+        name if ["folgar-tucker", "closed"].iter().any(|kind| name.starts_with(kind)) => {
+            name.ends_with("-mixed")
+        }
+        name => {
+            !["rods", "ensemble"].contains(&problem(name).0["kind"].as_str().unwrap())
+                && !name.starts_with("isotropic")
+        }
+    };
+    for name in names().into_iter().filter(one_of_a_form) {
+        for own in [false, true] {
+            let dir = tempfile::tempdir().unwrap();
+            let reference = some(&dir.path().join("ref"), &[&name]);
+            let mine = dir.path().join("mine");
+            let called = if own { "my-own".to_owned() } else { name.clone() };
+            if own {
+                rename(&reference, &name, &called);
+            }
+            let path = reference.join(&called).join("problem.json");
+            let told: Value = serde_json::from_str(&fs::read_to_string(&path).unwrap()).unwrap();
+            let mut keys: Vec<_> = told.as_object().unwrap().keys().cloned().collect();
+            keys.extend(["ensemble", "closed", "time_step_s", "surplus"].map(String::from));
+            for key in keys {
+                let mut alike = 0;
+                for value in values.iter().filter(|value| told[&key] != **value) {
+                    let mut spoilt = told.clone();
+                    spoilt[&key] = value.clone();
+                    fs::write(&path, spoilt.to_string()).unwrap();
+                    let mut fault =
+                        |what: String| wrong.push(format!("{called} ({name}), {key} = {value}: {what}"));
+                    match problems::read(&reference) {
+                        Err(error) if error.path.starts_with(&reference) && !error.message.is_empty() => {
+                            refused += 1
+                        }
+                        Err(error) => fault(error.to_string()),
+                        // An optional key that is not there is the default.
+                        Ok(_) if !own && value.is_null() && told[&key].is_null() => {}
+                        Ok(_) if !own => fault("taken silently".to_owned()),
+                        Ok(found) => {
+                            foreign += 1;
+                            alike += 1;
+                            if WORDS.contains(&key.as_str()) && alike > 1 {
+                                continue;
+                            }
+                            if let Err(what) = judged(&found[0], &mine) {
+                                fault(what);
+                            }
+                        }
+                    }
+                }
+            }
+        }
+    }
+    std::panic::set_hook(hook);
+    assert!(wrong.is_empty(), "{} of them:\n{}", wrong.len(), wrong.join("\n"));
+    assert!(refused > 10_000 && foreign > 100, "{refused} refused, {foreign} foreign");
+}
+
+#[test]
+fn what_is_exported_is_read_as_built_in() {
+    let found = problems::read(REFERENCE.path()).unwrap();
+    let foreign = found.iter().filter(|loaded| loaded.origin != problems::Origin::BuiltIn);
+    assert_eq!(foreign.count(), 0);
+    assert_eq!(found.len(), problems::all().len());
+}

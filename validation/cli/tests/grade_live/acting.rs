@@ -1,0 +1,165 @@
+//! Programs that behave, and programs that do not.
+
+use serde_json::{Value, json};
+use shearbed::nalgebra::{Matrix3, Vector3};
+use shearbed_validation::methods::textbook::extrapolated::{extrapolated, rk4_in_p};
+use std::fs;
+use std::io::{BufRead, Write};
+use std::process::{Command, ExitCode, Stdio};
+use std::time::Duration;
+
+/// Acts as a program that is to be graded. Where its name does not say when, it does what that says from its third answer on.
+pub fn program(name: &str, pids: Option<&str>) -> ExitCode {
+    let note = |pid: u32| {
+        let file = fs::OpenOptions::new().create(true).append(true).open(pids.unwrap());
+        writeln!(file.unwrap(), "{pid}").unwrap();
+    };
+    note(std::process::id());
+    let forever = || -> ! {
+        loop {
+            std::thread::sleep(Duration::from_secs(1000));
+        }
+    };
+    match name {
+        "never_reads" => forever(),
+        #[cfg(target_os = "linux")]
+        "hangs_in_the_group_of_shearbed" => {
+            use rustix::process::{getpgid, getppid, setpgid};
+            setpgid(None, getppid().and_then(|parent| getpgid(Some(parent)).ok())).unwrap();
+            forever();
+        }
+        #[cfg(target_os = "linux")]
+        "hangs_with_daemons" => {
+            for session in [
+                "setsid sleep 1000 >/dev/null &",
+                "trap '' TERM HUP; env -i setsid sh -c 'sleep 1000; :' >/dev/null &",
+            ] {
+                let script = format!("exec 2>/dev/null; {session} echo $!");
+                let daemon = Command::new("sh").args(["-c", &script]).output().unwrap().stdout;
+                note(String::from_utf8(daemon).unwrap().trim().parse().unwrap());
+            }
+            forever();
+        }
+        #[cfg(target_os = "linux")]
+        "leaves_a_daemon" => {
+            let daemon =
+                Command::new("sh").args(["-c", "setsid sleep 1000 >/dev/null 2>&1 & echo $!"]).output();
+            note(String::from_utf8(daemon.unwrap().stdout).unwrap().trim().parse().unwrap());
+        }
+        _ => {}
+    }
+    let mut out = std::io::stdout();
+    for (k, line) in std::io::stdin().lock().lines().enumerate() {
+        let request: Value = serde_json::from_str(&line.unwrap()).unwrap();
+        let answer = answer(name, &request, k as u64 + 1);
+        match (name, k) {
+            ("is_right_on_one_line_of_stderr_each", _) => eprintln!("working"),
+            ("floods_stderr", 2) => (0..20_000).for_each(|_| eprintln!("{}", "x".repeat(1000))),
+            ("hangs", 2) => forever(),
+            ("hangs_at_once", _) => forever(),
+            ("hangs_with_a_child", _) => {
+                let child = Command::new("sleep").arg("1000").stderr(Stdio::null()).spawn();
+                note(child.unwrap().id());
+                forever();
+            }
+            ("ends", 2) => {
+                eprintln!("out of ideas");
+                return ExitCode::from(3);
+            }
+            ("ends_after_a_right_answer", 2) => return ExitCode::from(4),
+            ("aborts", 2) => std::process::abort(),
+            ("prints_junk", 2) => writeln!(out, "step 1 of 10").unwrap(),
+            ("floods_stdout_with_lines", 1) => while writeln!(out, "flood").is_ok() {},
+            ("floods_stdout_without_lines", 2) => while write!(out, "flood").is_ok() {},
+            ("answers_twice", 0) => writeln!(out, "{answer}").unwrap(),
+            ("answers_the_next_in_advance", 2) => {
+                // Both lines at once: which of them is read when is the system's to say.
+                let mut next = answer.clone();
+                next["id"] = json!(request["id"].as_u64().unwrap() + 1);
+                write!(out, "{answer}\n{next}\n").unwrap();
+                out.flush().unwrap();
+                continue;
+            }
+            ("has_an_id_twice", 2) => {
+                let line = answer.to_string().replacen('{', "{\"id\":0,", 1);
+                writeln!(out, "{line}").unwrap();
+                out.flush().unwrap();
+                continue;
+            }
+            #[cfg(unix)]
+            ("closes_its_output", 2) => {
+                // Another program in its place, without the pipe.
+                use std::os::unix::process::CommandExt;
+                let error = Command::new("sleep").arg("1000").stdout(Stdio::null()).exec();
+                panic!("{error}");
+            }
+            _ => {}
+        }
+        if writeln!(out, "{answer}").and_then(|()| out.flush()).is_err() {
+            return ExitCode::FAILURE;
+        }
+    }
+    match name {
+        "stays" => forever(),
+        "says_more_at_the_end" => println!("bye"),
+        _ => {}
+    }
+    ExitCode::SUCCESS
+}
+
+/// The answer to the `count`-th request.
+fn answer(name: &str, request: &Value, count: u64) -> Value {
+    let id = request["id"].as_u64().unwrap();
+    if name == "only_has_errors" {
+        return json!({"id": id, "error": "not today"});
+    }
+    let number = |value: &Value| value.as_f64().unwrap();
+    let mut l = Matrix3::from_fn(|i, j| number(&request["gradient_per_s"][i][j]));
+    if name == "transposes" {
+        l.transpose_mut();
+    }
+    // Shear of its own first axis, and nothing else.
+    if name == "flows_along_1" {
+        l = Matrix3::from_fn(|i, j| if (i, j) == (0, 1) { l[(i, j)] } else { 0.0 });
+    }
+    let square = number(&request["aspect_ratio"]).powi(2);
+    let a = (square * l - l.transpose()) / (square + 1.0);
+    let finer = if name == "ends_after_a_right_answer" { 1024 } else { 1 };
+    let steps = finer * request["steps"].as_u64().unwrap();
+    let h = number(&request["end_s"]) / steps as f64;
+    let moved = |p: Vector3<f64>| match method(name) {
+        (Some(order), normalised) => extrapolated(order, normalised, &a, p, h, steps),
+        (None, _) => rk4_in_p(&a, p, h, steps),
+    };
+    let rods = request["start"].as_array().unwrap();
+    let mut p: Vec<_> = (rods.iter())
+        .map(|p| moved(Vector3::from_fn(|i, _| number(&p[i]))))
+        .map(|p| if name == "is_off_by_1e-8" { off_by_1e_8(p) } else { p })
+        .map(|p| json!([p.x, p.y, p.z]))
+        .collect();
+    match name {
+        "is_garbage_every_third_time" if count.is_multiple_of(3) => p.fill(json!([0.6, 0.0, 0.8])),
+        "is_garbage_below_256_steps" if steps < 256 => p.fill(json!([0.6, 0.0, 0.8])),
+        "answers_nan" if count > 2 => p[0][0] = Value::Null,
+        "forgets_a_rod" if count > 2 => drop(p.pop()),
+        "answers_out_of_order" if count == 3 => return json!({"id": id - 1, "p": p}),
+        _ => {}
+    }
+    json!({"id": id, "p": p})
+}
+
+/// The order of a Runge–Kutta method by its name, `rk_P` or `rk_P_normalised`, and whether it takes |p| back to 1.
+fn method(name: &str) -> (Option<usize>, bool) {
+    let words: Vec<_> = name.split('_').collect();
+    match words[..] {
+        ["rk", order] => (order.parse().ok(), false),
+        ["rk", order, "normalised"] => (order.parse().ok(), true),
+        _ => (None, false),
+    }
+}
+
+/// Turned by 10⁻⁸ rad.
+fn off_by_1e_8(p: Vector3<f64>) -> Vector3<f64> {
+    let across = p.cross(&Vector3::z()).normalize();
+    p + across * 1e-8
+}

@@ -1,0 +1,22 @@
+use shearbed_validation::judge::case::{Case, Effort, Evidence};
+use shearbed_validation::oracle::closed_form;
+use shearbed_validation::judge::statistics::worst;
+
+type Period = fn(f64, f64) -> f64;
+
+pub fn cases() -> Vec<Case> {
+    vec![
+        Case::core("period-formula")
+            .claim("The core's period is T = 2π(r_e + 1/r_e)/G.")
+            .source("eq. 15")
+            .subject(shearbed::model::jeffery::period_s as Period)
+            .mistake("r_e − 1/r_e", |g, r| std::f64::consts::TAU * (r - 1.0 / r) / g)
+            .check(period),
+    ]
+}
+
+fn period(period_s: &Period, _: &Effort) -> Vec<Evidence> {
+    let error = |r| (period_s(0.5, r) / closed_form::period_s(0.5, r) - 1.0).abs();
+    let because = "four roundings in each of the two formulas";
+    vec![Evidence::within("relative error", worst([1.01, 11.6, 1e6].map(error)), 8.0 * f64::EPSILON, because)]
+}

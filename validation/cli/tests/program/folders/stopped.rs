@@ -1,0 +1,226 @@
+//! A full disk, and runs that were killed.
+
+use crate::common::bounded::{Bounded, end};
+use crate::common::{SMALL, command, files, folder, kill, limited, names, remove_left, shearbed, wait_for};
+use rand::{RngExt, SeedableRng};
+use rand_pcg::Pcg64Dxsm;
+use shearbed_validation::files::output::{RECORD, Record, Sum};
+use std::fs;
+use std::path::Path;
+use std::process::Stdio;
+use std::time::Duration;
+
+#[test]
+fn a_full_disk_is_found_before_the_work() {
+    let dir = folder();
+    // Hours of work.
+    let long = SMALL
+        .replace("replicas = 3", "replicas = 1000000")
+        .replace("steps_per_period = 20", "steps_per_period = 2000");
+    fs::write(dir.path().join("long.toml"), long).unwrap();
+    for arguments in [
+        "run long.toml --out x",
+        "sweep long.toml --over interaction.alpha=1,2 --out x",
+        "converge long.toml --out x",
+        "validate --out x",
+        "bench --out x",
+    ] {
+        let ended = limited(dir.path(), "ulimit -f 100", arguments);
+        let message = ended.stderr;
+        assert_eq!(ended.code, Some(2), "{arguments}: {message}");
+        assert!(message.contains("x: cannot be written: File too large"), "{message}");
+        assert!(message.contains("MB are to be written there"), "{message}");
+        assert!(!dir.path().join("x").exists(), "{arguments}");
+    }
+}
+
+/// A limit on the size of files that the largest file alone meets, after all work: the system would kill without a word.
+#[test]
+fn a_file_that_is_too_large_is_an_error() {
+    let dir = folder();
+    for arguments in
+        ["problems export x --quiet", "reference --aspect-ratio 5 --times 0:9:20000 --out x/a.csv"]
+    {
+        let ended = limited(dir.path(), "ulimit -f 40", arguments);
+        assert_eq!(ended.code, Some(2), "{arguments}: {}", ended.stderr);
+        assert!(ended.stderr.contains("cannot be written: "), "{}", ended.stderr);
+        assert_eq!(names(dir.path()), ["small.toml"], "{arguments}");
+    }
+}
+
+/// What killed processes of other versions left, and what only looks so, is the user's to remove.
+#[test]
+fn hidden_names_of_others_stay_and_what_a_kill_left_is_reported() {
+    let dir = folder();
+    let run = "run small.toml --quiet --out x";
+    let left = "x/.shearbed-0123456789abcdef";
+    for name in [left, "x/.shearbed-ready", "x/.shearbed-mine", ".shearbed-part", ".x.shearbed-part"] {
+        fs::create_dir_all(dir.path().join(name)).unwrap();
+        fs::write(dir.path().join(name).join("projections.csv"), "mine").unwrap();
+    }
+    fs::write(dir.path().join("x/.shearbed-lock"), "mine").unwrap();
+    let before = files(dir.path());
+    for arguments in [
+        run,
+        "reference --aspect-ratio 5 --times 1 --out x/r.csv",
+        "run small.toml --out .shearbed-mine --checkpoint .shearbed-c",
+        run,
+    ] {
+        let ended = shearbed(dir.path(), arguments);
+        assert_eq!(ended.code, Some(0), "{}", ended.stderr);
+        let said = format!("warning: {left}: a shearbed that was killed left this folder");
+        let reported = usize::from(!arguments.contains(".shearbed-mine"));
+        assert_eq!(ended.stderr.matches(&said).count(), reported, "{}", ended.stderr);
+        assert_eq!(ended.stderr.matches("warning: ").count(), reported, "{}", ended.stderr);
+    }
+    let after = files(dir.path());
+    for (name, bytes) in &before {
+        assert_eq!(after.get(name), Some(bytes), "{name}");
+    }
+    assert!(after.contains_key(".shearbed-mine/run.json") && after.contains_key(".shearbed-c"));
+}
+
+/// A umask that keeps this process out of the folders that it makes.
+#[cfg(target_os = "linux")]
+#[test]
+fn no_umask_leaves_half_a_folder() {
+    let dir = folder();
+    fs::set_permissions(dir.path(), std::os::unix::fs::PermissionsExt::from_mode(0o777)).unwrap();
+    assert_eq!(shearbed(dir.path(), "run small.toml --quiet --out there").code, Some(0));
+    fs::set_permissions(dir.path().join("there"), std::os::unix::fs::PermissionsExt::from_mode(0o777))
+        .unwrap();
+    let before = files(dir.path());
+    // Root may do all: it becomes somebody else.
+    let is_root = rustix::process::geteuid().is_root();
+    let other = if is_root { "setpriv --reuid 65534 --regid 65534 --clear-groups" } else { "" };
+    // Under a path that others may read.
+    let (place, program) = (tempfile::tempdir().unwrap(), env!("CARGO_BIN_EXE_shearbed"));
+    fs::set_permissions(place.path(), std::os::unix::fs::PermissionsExt::from_mode(0o755)).unwrap();
+    let copy = place.path().join("shearbed");
+    fs::hard_link(program, &copy).or_else(|_| fs::copy(program, &copy).map(drop)).unwrap();
+    for umask in ["177", "277", "377", "477", "577", "677", "777"] {
+        for arguments in [
+            "run small.toml --quiet --out x/y",
+            "run small.toml --quiet --seed 2 --out there",
+            "sweep small.toml --over interaction.alpha=1,2 --quiet --out x",
+            "reference --aspect-ratio 5 --times 1 --out x/r.csv",
+            "reference --aspect-ratio 5 --times 1 --out r.csv",
+        ] {
+            let script = format!("umask {umask}; exec {other} {} {arguments}", copy.display());
+            let ended =
+                std::process::Command::new("bash").args(["-c", &script]).current_dir(dir.path()).ended();
+            let said = String::from_utf8_lossy(&ended.stderr);
+            assert_eq!(ended.status.code(), Some(2), "{umask} {arguments}: {said}");
+            assert!(said.contains("cannot be written: "), "{umask} {arguments}: {said}");
+            assert_eq!(files(dir.path()), before, "{umask} {arguments}: {said}");
+        }
+    }
+}
+
+/// Commands that make folders and files, and that replace them.
+const COMMANDS: [&str; 6] = [
+    "run small.toml --quiet --seed 3 --out new",
+    "run small.toml --quiet --seed SEED --out old",
+    "run small.toml --quiet --seed 3 --replicas 40 --checkpoint kept --every 0.01 --out checked",
+    "sweep small.toml --over interaction.alpha=0.1,0.2,0.3 --quiet --out swept",
+    "reference --aspect-ratio 2 --times 0:1:200 --force --out file/r.csv",
+    "validate --case jeffery-period --case kick-bound --quiet --checkpoint cases --out report",
+];
+
+/// Kills commands: at a random moment, when a hidden folder appears, when the record of a folder changes. Then nothing of the user's is
+/// lost, a folder is the old or the new one or says that it is incomplete, and the same command works. `SHEARBED_KILLS` sets their number.
+#[test]
+fn a_command_killed_at_any_moment_loses_nothing_and_works_again() {
+    let dir = folder();
+    let kills = std::env::var("SHEARBED_KILLS").ok().map_or(36, |kills| kills.parse().unwrap());
+    let mut random = Pcg64Dxsm::seed_from_u64(49);
+    let own = ["old", "swept", "checked", "report"].map(|name| dir.path().join(name).join("notes.txt"));
+    let mut incomplete = 0;
+    for kill in 0..kills {
+        let line = COMMANDS[kill % COMMANDS.len()].replace("SEED", &kill.to_string());
+        let out = dir.path().join(line.rsplit(' ').next().unwrap());
+        let record = || fs::read(out.join(RECORD)).unwrap_or_default();
+        let hidden = |at: &Path| at.is_dir() && names(at).iter().any(|name| name.starts_with(".shearbed-"));
+        let before = record();
+        let mut child =
+            command(dir.path(), &line).stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+        let moment = random.random_range(0..3);
+        while child.try_wait().unwrap().is_none() {
+            let seen = match moment {
+                0 => true,
+                1 => hidden(&out) || hidden(out.parent().unwrap()),
+                _ => record() != before,
+            };
+            if seen {
+                break;
+            }
+        }
+        let most = [50_000, 5_000, 300][moment];
+        std::thread::sleep(Duration::from_micros(random.random_range(0..most)));
+        child.kill().unwrap();
+        end(&line, child);
+
+        if let Ok(Some(record)) = Record::read(&out) {
+            let sums: Vec<_> = (record.files.keys())
+                .map(|name| fs::read(out.join(name)).map(|bytes| Sum::of(&bytes)).ok())
+                .collect();
+            let whole =
+                sums.iter().zip(record.files.values()).all(|(found, listed)| found.as_ref() == Some(listed));
+            let says_so = record.files.iter().all(|(name, sum)| record.check(name, sum).is_err());
+            assert!(whole || says_so, "{kill}: {line}");
+            incomplete += usize::from(says_so && !record.files.is_empty());
+        }
+        for notes in own.iter().filter(|notes| notes.exists()) {
+            assert_eq!(fs::read(notes).unwrap(), b"mine", "{kill}: {line}");
+        }
+        let ended = shearbed(dir.path(), &line);
+        assert_eq!(ended.code, Some(0), "{kill}: {line}: {}", ended.stderr);
+        assert!(
+            ended.stderr.lines().all(|line| line.contains("that was killed left this folder")),
+            "{}",
+            ended.stderr
+        );
+        for place in [dir.path(), &out, out.parent().unwrap()].into_iter().filter(|place| place.is_dir()) {
+            remove_left(place);
+        }
+        for notes in own.iter().filter(|notes| notes.parent().unwrap().exists()) {
+            fs::write(notes, "mine").unwrap();
+        }
+        if kill % COMMANDS.len() == 0 {
+            fs::remove_dir_all(out).unwrap();
+        }
+    }
+    println!("{kills} kills, {incomplete} of them left a folder that says that it is incomplete");
+}
+
+/// A run that waits for another one in its folder has not opened its checkpoint yet; the file stays all the same.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_signal_before_the_checkpoint_is_opened_says_that_it_stays() {
+    let dir = folder();
+    fs::create_dir(dir.path().join("x")).unwrap();
+    let lock = fs::File::open(dir.path().join("x")).unwrap();
+    lock.lock().unwrap();
+    for (there, said) in [
+        (true, "kept stays as it is, and the same command goes on from there"),
+        (false, "`shearbed run` keeps nothing before it ends"),
+    ] {
+        if there {
+            fs::write(dir.path().join("kept"), "").unwrap();
+        } else {
+            fs::remove_file(dir.path().join("kept")).unwrap();
+        }
+        let mut run = command(dir.path(), "run small.toml --out x --checkpoint kept");
+        let child = run.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
+        let open = format!("/proc/{}/fd", child.id());
+        wait_for("the lock is waited for", || {
+            let mut open = fs::read_dir(&open).into_iter().flatten().flatten();
+            open.any(|fd| fs::read_link(fd.path()).is_ok_and(|path| path.ends_with("x")))
+        });
+        kill(child.id(), "-TERM");
+        let ended = end("a run", child);
+        let message = String::from_utf8(ended.stderr).unwrap();
+        assert_eq!(ended.status.code(), Some(143), "{message}");
+        assert!(message.contains(said), "{message}");
+    }
+}

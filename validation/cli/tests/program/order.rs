@@ -1,0 +1,81 @@
+//! The wings of the core and of the suite need each other one way, in the order of `lib.rs`.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// Modules in the order of their declarations.
+fn declared(lib: &str) -> Vec<&str> {
+    lib.lines().filter_map(|line| line.strip_prefix("pub mod ")?.strip_suffix(';')).collect()
+}
+
+/// Rust files below a folder that are not of tests alone.
+pub fn sources(folder: &Path) -> Vec<PathBuf> {
+    let mut found = Vec::new();
+    for entry in fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        let stem = path.file_stem().unwrap().to_string_lossy().into_owned();
+        match path.is_dir() {
+            _ if stem == "tests" => {}
+            true => found.extend(sources(&path)),
+            false if path.extension().is_some_and(|of| of == "rs") => found.push(path),
+            false => {}
+        }
+    }
+    found
+}
+
+/// The modules that a source names as `crate::module`, out of its tests and comments.
+fn named(source: &str) -> impl Iterator<Item = &str> {
+    let code = source.split("#[cfg(test)]\nmod ").next().unwrap_or_default();
+    let lines = code.lines().filter(|line| !line.trim_start().starts_with("//"));
+    let word = |rest: &'_ str| rest.find(|c: char| !c.is_alphanumeric() && c != '_').unwrap_or(rest.len());
+    lines.flat_map(move |line| line.split("crate::").skip(1).map(move |rest| &rest[..word(rest)]))
+}
+
+/// What a source of a module names that is declared after it.
+fn later<'a>(order: &[&str], module: &str, source: &'a str) -> Vec<&'a str> {
+    let place = |name: &str| order.iter().position(|known| *known == name);
+    let own = place(module).unwrap_or_else(|| panic!("{module} is not declared"));
+    named(source).filter(|name| place(name).is_some_and(|place| place > own)).collect()
+}
+
+#[test]
+fn no_wing_needs_one_that_is_declared_after_it() {
+    for (folder, wings) in [("../src", 7), ("../../src", 7)] {
+        let root = Path::new(env!("CARGO_MANIFEST_DIR")).join(folder);
+        let lib = fs::read_to_string(root.join("lib.rs")).unwrap();
+        let order = declared(&lib);
+        assert_eq!(order.len(), wings, "{order:?}");
+        for wing in &order {
+            let sources = sources(&root.join(wing));
+            assert!(!sources.is_empty());
+            for path in sources {
+                let text = fs::read_to_string(&path).unwrap();
+                assert_eq!(later(&order, wing, &text), [""; 0], "{}", path.display());
+            }
+        }
+    }
+    // One that needs a wing above it is found.
+    let wrong = "use crate::files::text;\nuse crate::program::run;\n#[cfg(test)]\nmod tests {}";
+    assert_eq!(later(&["files", "judge", "program"], "judge", wrong), ["program"]);
+}
+
+/// A process that hangs would keep every other test from its end.
+#[test]
+fn no_test_waits_for_a_process_without_a_bound() {
+    let tests = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests");
+    // The bound itself, a program that is graded, and one that is killed first.
+    let exempt = ["common/bounded.rs", "common/running.rs", "grade_live/acting.rs", "program/order.rs"];
+    for path in sources(&tests).into_iter().filter(|path| !exempt.iter().any(|end| path.ends_with(end))) {
+        let text = fs::read_to_string(&path).unwrap();
+        for call in [".output()", ".status()", ".wait()", ".wait_with_output()"] {
+            let found = text.lines().position(|line| line.contains(call));
+            assert_eq!(
+                found,
+                None,
+                "{call} in {}: use `ended` or `end` of common/bounded.rs",
+                path.display()
+            );
+        }
+    }
+}
