@@ -8,13 +8,13 @@
 //! q = exp((W + ΛD)t) p(0) ([`motion`]). In plane Couette flow u_2 = G x_1 it has the period
 //! T = 2π(r_e + 1/r_e)/G (eq. 15).
 //!
-//! In each time step every rod finds its nearest neighbour in the control volume and draws a random number R. Where P_c = (α/(s/a + α))^m > R (eqs 7 and 8, [`model::collision`])
-//! the two rods collide: the velocities of their contact points along the contact line ([`model::contact`])
-//! become their mean (eqs 5 and 6), and for that step each rod turns accordingly (A.7 to A.14). All other
-//! rods take Jeffery's exact motion ([`suspension`]).
+//! In each time step every rod finds its nearest neighbour in the control volume and draws a random number R. Where P_c
+//! = (α/(s/a + α))^m > R (eqs 7 and 8, [`model::collision`]) the two rods collide: the velocities of their contact
+//! points along the contact line ([`model::contact`]) become their mean (eqs 5 and 6), and for that step each rod turns
+//! accordingly (A.7 to A.14). All other rods take Jeffery's exact motion ([`suspension`]).
 //!
-//! The results are means over rods against time ([`observable`]): projections (eqs 4 and 21), the mean angle (eq. 18), the orbit
-//! constant (eq. 13), ⟨pp⟩; or an observable of your own ([`run::own`]).
+//! The results are means over rods against time ([`observable`]): projections (eqs 4 and 21), the mean angle (eq. 18),
+//! the orbit constant (eq. 13), ⟨pp⟩; or an observable of your own ([`run::own`]).
 //!
 //! # Data goes one way
 //!

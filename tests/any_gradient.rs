@@ -14,7 +14,8 @@ const ELLIPTIC: &str = "[[0, -0.3, 0], [1, 0, 0], [0, 0, 0]]";
 
 fn text(gradient: &str, particles: &str, alpha: f64, time: &str) -> String {
     format!(
-        "title = \"t\"\n[flow]\ngradient_per_s = {gradient}\n[particles]\nlength_mm = 0.72\norientation = \"isotropic\"\n\
+        "title = \"t\"\n[flow]\ngradient_per_s = {gradient}\n[particles]\nlength_mm = 0.72\norientation = \
+            \"isotropic\"\n\
          {particles}\n[interaction]\nconcentration_per_cm3 = 1000\nalpha = {alpha}\n[time]\n{time}\n[output]\n\
          observables = [\"projections\", \"orientation_tensor\"]\n"
     )
@@ -43,12 +44,9 @@ fn apart(one: &Results, other: &Results) -> f64 {
 #[test]
 fn rods_that_do_not_meet_are_free() {
     let rods = "count = 100\naspect_ratio = 5\naspect_ratio_sd_percent = 10";
-    for (gradient, time) in [
-        (SHEAR, "strain = 30"),
-        (EXTENSION, "strain = 6"),
-        (GENERAL, "strain = 6"),
-        (ELLIPTIC, "periods = 2"),
-    ] {
+    for (gradient, time) in
+        [(SHEAR, "strain = 30"), (EXTENSION, "strain = 6"), (GENERAL, "strain = 6"), (ELLIPTIC, "periods = 2")]
+    {
         let [free, stepped] = [0.0, 1e-15].map(|alpha| run(&scene(gradient, rods, alpha, time)));
         assert_eq!((free.counters.steps, stepped.counters.collisions), (0, 0));
         assert!(stepped.counters.steps > 50 && stepped.counters.replacements > 100);
@@ -62,8 +60,7 @@ fn rods_that_do_not_meet_are_free() {
 fn many_unequal_rods_that_do_not_meet_are_free() {
     let rods = "count = 70000\naspect_ratio = 5\naspect_ratio_sd_percent = 10";
     let time = "strain = 0.4\nsteps_per_strain = 10\noutputs_per_strain = 5\n[output]\nrods_at = [0.4]";
-    let text =
-        |alpha: f64| text(EXTENSION, rods, alpha, time).replace("\n[output]\nobservables", "\nobservables");
+    let text = |alpha: f64| text(EXTENSION, rods, alpha, time).replace("\n[output]\nobservables", "\nobservables");
     let [free, stepped] = [0.0, 1e-300].map(|alpha| run(&scene::parse("s.toml", &text(alpha)).unwrap()));
     assert_eq!((free.counters.steps, stepped.counters.collisions), (0, 0));
     for (free, stepped) in free.snapshots[0].p.iter().zip(&stepped.snapshots[0].p) {
@@ -72,21 +69,21 @@ fn many_unequal_rods_that_do_not_meet_are_free() {
     }
 }
 
-/// By hand: it turns by (2 W:W)^½ = 2 where it strains by (2 D:D)^½ = 0.1, so 20 for each unit of strain, 0.37 in a step at most:
-/// 55 steps, or 60 with ten outputs.
+/// By hand: it turns by (2 W:W)^½ = 2 where it strains by (2 D:D)^½ = 0.1, so 20 for each unit of strain, 0.37 in a
+/// step at most: 55 steps, or 60 with ten outputs.
 #[test]
 fn a_flow_that_mostly_turns_takes_more_steps() {
     let turning = "[[0.05, -1, 0], [1, 0, 0], [0, 0, -0.05]]";
-    let steps = |gradient: &str, time: &str| {
-        scene(gradient, "count = 10\naspect_ratio = 5", 0.5, time).steps_per_unit()
-    };
+    let steps =
+        |gradient: &str, time: &str| scene(gradient, "count = 10\naspect_ratio = 5", 0.5, time).steps_per_unit();
     assert_eq!(steps(turning, "strain = 1\noutputs_per_strain = 1"), 55);
     assert_eq!(steps(turning, "strain = 1"), 60);
     assert_eq!(steps(EXTENSION, "strain = 1\noutputs_per_strain = 1"), 3);
     assert_eq!(steps(SHEAR, "strain = 1"), 10);
 }
 
-/// Rods and liquid that turn as one body have no velocity along a contact line: collisions change nothing, if they are kicks.
+/// Rods and liquid that turn as one body have no velocity along a contact line: collisions change nothing, if they are
+/// kicks.
 #[test]
 fn in_a_rotation_kicks_do_nothing() {
     let rotation = "[[0, -0.5, 0], [0.5, 0, 0], [0, 0, 0]]";
@@ -104,11 +101,11 @@ fn in_a_rotation_kicks_do_nothing() {
     assert!(apart(&free, &straight) > 0.01 && warned == 1);
 }
 
-/// Shear counted in strain and in periods is the same suspension, collision by collision: a period of 40 units of strain.
+/// Shear counted in strain and in periods is the same suspension, collision by collision: a period of 40 units of
+/// strain.
 #[test]
 fn shear_by_strain_is_shear_by_periods() {
-    let r = (40.0 + (40.0f64.powi(2) - 4.0 * std::f64::consts::TAU.powi(2)).sqrt())
-        / (2.0 * std::f64::consts::TAU);
+    let r = (40.0 + (40.0f64.powi(2) - 4.0 * std::f64::consts::TAU.powi(2)).sqrt()) / (2.0 * std::f64::consts::TAU);
     for rods in ["", "length_sd_percent = 20"] {
         let rods = format!("count = 60\naspect_ratio = {r}\n{rods}");
         let by_strain = "strain = 8\nsteps_per_strain = 10\noutputs_per_strain = 1";
@@ -161,11 +158,10 @@ fn a_turned_flow_turns_the_result() {
     let other = run("[[0, 0, 0], [0, 0, 1], [0, 0, 0]]");
     assert!(one.counters.collisions > 10_000);
     let farthest = |names: [[&str; 2]; 3]| {
-        let columns =
-            names.map(|[of_one, of_other]| (one.column(of_one).unwrap(), other.column(of_other).unwrap()));
-        let differences = columns.into_iter().flat_map(|(a, b)| {
-            (0..a.mean.len()).map(|k| (a.mean[k] - b.mean[k]).abs() / f64::hypot(a.se[k], b.se[k]))
-        });
+        let columns = names.map(|[of_one, of_other]| (one.column(of_one).unwrap(), other.column(of_other).unwrap()));
+        let differences = columns
+            .into_iter()
+            .flat_map(|(a, b)| (0..a.mean.len()).map(|k| (a.mean[k] - b.mean[k]).abs() / f64::hypot(a.se[k], b.se[k])));
         differences.fold(0.0, f64::max)
     };
     assert!(farthest([["x2", "x3"], ["x1", "x2"], ["x3", "x1"]]) < 5.0);
@@ -182,10 +178,7 @@ fn what_cannot_be_stepped_is_refused() {
         Plan::parse("s.toml", &text).map(|_| ()).map_err(|refused| refused.to_string())
     };
     let refused = in_box("[1e103, 1e103, 1e103]").unwrap_err();
-    assert!(
-        refused.contains("interaction.box_mm = [1e103") && refused.contains("their product"),
-        "{refused}"
-    );
+    assert!(refused.contains("interaction.box_mm = [1e103") && refused.contains("their product"), "{refused}");
     let refused = in_box("[1e-4, 1e3, 1]").unwrap_err();
     assert!(refused.contains("cross the control volume 30 times"), "{refused}");
     assert_eq!(in_box("[20, 5, 5]"), Ok(()));
@@ -193,7 +186,8 @@ fn what_cannot_be_stepped_is_refused() {
         (
             "[[1, 0, 0], [0, -1, 0], [0, 0, 1e-3]]",
             "strain = 1",
-            "3: flow.gradient_per_s = [[1, 0, 0], [0, -1, 0], [0, 0, 1e-3]] is not allowed: where rods interact, a gradient with ∂u_1/∂x_1 + ∂u_2/∂x_2 + ∂u_3/∂x_3 = 0",
+            "3: flow.gradient_per_s = [[1, 0, 0], [0, -1, 0], [0, 0, 1e-3]] is not allowed: where rods interact, a \
+                gradient with ∂u_1/∂x_1 + ∂u_2/∂x_2 + ∂u_3/∂x_3 = 0",
         ),
         (EXTENSION, "strain = 1\nsteps_per_strain = 12", ""),
         (

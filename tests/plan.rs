@@ -20,8 +20,7 @@ periods = 2
 "#;
 
 const ALPHA_0: &str = "[interaction]\nconcentration_per_cm3 = 50\nalpha = 0\n";
-const INTERACTING: &str =
-    "[interaction]\nconcentration_per_cm3 = 50\nalpha = 0.5\n[ensemble]\nreplicas = 3\n";
+const INTERACTING: &str = "[interaction]\nconcentration_per_cm3 = 50\nalpha = 0.5\n[ensemble]\nreplicas = 3\n";
 const ALL_OBSERVABLES: &str = r#"
 [output]
 observables = ["orbit_constant", "projections", "orientation_tensor", "mean_angle", "cos_2phi", "planar_projections",
@@ -196,9 +195,7 @@ fn steps_resolve_the_motion_by_default() {
         assert_eq!(plan.warnings().len(), usize::from(r < 10.0), "{r}");
     }
     // Outputs that are given fall on steps.
-    for (r, outputs, steps) in
-        [(50.0, 4, 3500), (50.0, 8, 3600), (11.6, 40, 200), (11.6, 7, 350), (11.6, 1000, 1000)]
-    {
+    for (r, outputs, steps) in [(50.0, 4, 3500), (50.0, 8, 3600), (11.6, 40, 200), (11.6, 7, 350), (11.6, 1000, 1000)] {
         let plan = plan(&turning(r, &format!("outputs_per_period = {outputs}")));
         assert_eq!((plan.steps(), plan.outputs()), (steps, outputs + 1), "{r} {outputs}");
     }
@@ -261,9 +258,7 @@ fn rods_that_are_too_thick_to_collide_as_lines_are_warned_of() {
         let warnings = plan(&turning(r, "")).warnings();
         assert_eq!(warnings.len(), usize::from(warns), "{r}");
         assert!(warnings.iter().all(|text| {
-            text.starts_with(&format!(
-                "particles.aspect_ratio = {r}: the collision rule is for slender rods, r_e ≫ 1."
-            ))
+            text.starts_with(&format!("particles.aspect_ratio = {r}: the collision rule is for slender rods, r_e ≫ 1."))
         }));
         let free = turning(r, "").replace("alpha = 0.5", "alpha = 0");
         assert_eq!(plan(&free).warnings(), Vec::<String>::new());
@@ -286,16 +281,14 @@ fn long_rods_need_more_steps_than_there_may_be_and_say_what_to_set() {
     let long = turning(1e5, "").replace("periods = 1", "periods = 1000");
     let refusal = refusal(&long);
     assert!(
-        refusal.contains("at most 1e9 steps in all, not 6.98")
-            && refusal.contains("6981350 a period by default"),
+        refusal.contains("at most 1e9 steps in all, not 6.98") && refusal.contains("6981350 a period by default"),
         "{refusal}"
     );
 }
 
 #[test]
 fn a_stage_that_is_kept_brings_what_it_needs() {
-    let all =
-        [Stage::Positions, Stage::Translation, Stage::Neighbours, Stage::CollisionDraws, Stage::Contacts];
+    let all = [Stage::Positions, Stage::Translation, Stage::Neighbours, Stage::CollisionDraws, Stage::Contacts];
     let plan = plan(&format!("{FREE}{ALPHA_0}"));
     assert!(!all.iter().any(|stage| plan.runs(*stage)));
     for (stage, brought) in all.into_iter().zip([1, 2, 3, 3, 5]) {
@@ -325,8 +318,7 @@ fn the_unit_of_a_period_is_the_same_in_any_axes() {
     let straight = plan(FREE);
     let mut turned = straight.scene().clone();
     let shear_rate_per_s = turned.flow.shear_rate_per_s().unwrap();
-    turned.flow =
-        scene::Flow::Gradient { gradient_per_s: [[0.0; 3], [0.0; 3], [0.0, shear_rate_per_s, 0.0]] };
+    turned.flow = scene::Flow::Gradient { gradient_per_s: [[0.0; 3], [0.0; 3], [0.0, shear_rate_per_s, 0.0]] };
     let (unit, of_turned) = (straight.elapsed(1.0), Plan::new(&turned).unwrap().elapsed(1.0));
     assert!((of_turned.seconds / unit.seconds - 1.0).abs() < 1e-14, "{of_turned:?}");
     assert!((of_turned.strain / unit.strain - 1.0).abs() < 1e-14, "{of_turned:?}");

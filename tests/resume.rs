@@ -13,7 +13,8 @@ fn plan(count: usize, flow: &str, interaction: &str, time: &str, replicas: u64) 
     let text = format!(
         "title = \"t\"\n[flow]\n{flow}\n[particles]\ncount = {count}\nlength_mm = 0.72\naspect_ratio = 11.6\n\
          aspect_ratio_sd_percent = 3.6\norientation = \"isotropic\"\n{interaction}\n[time]\n{time}\n\
-         [ensemble]\nreplicas = {replicas}\nseed = 5\n[output]\nobservables = [\"projections\", \"orientation_tensor\"]\n"
+         [ensemble]\nreplicas = {replicas}\nseed = 5\n[output]\nobservables = [\"projections\", \
+         \"orientation_tensor\"]\n"
     );
     Plan::new(&scene::parse("s.toml", &text).unwrap()).unwrap()
 }
@@ -39,29 +40,14 @@ fn scenes() -> Vec<(Plan, usize)> {
         (plan(40, COUETTE, DENSE, steps, 1), 50),
         // The search by cells, and numbers that are drawn by chunks.
         (plan(700, COUETTE, DENSE, steps, 3), 50),
-        (
-            plan(
-                70_000,
-                COUETTE,
-                DENSE,
-                "periods = 0.03\noutputs_per_period = 100\nsteps_per_period = 200",
-                3,
-            ),
-            6,
-        ),
+        (plan(70_000, COUETTE, DENSE, "periods = 0.03\noutputs_per_period = 100\nsteps_per_period = 200", 3), 6),
         // Every rod at some outputs.
         (with_rods(plan(40, COUETTE, DENSE, steps, 3), vec![0.1, 0.3, 0.5]), 50),
         (with_rods(plan(40, COUETTE, "", "periods = 3", 3), vec![0.0, 2.0]), 3),
         // Free rods, more outputs than are made at once.
         (plan(40, COUETTE, "", "periods = 3", 3), 3),
         (
-            plan(
-                40,
-                "gradient_per_s = [[0.5,0,0],[0,-0.5,0],[0.1,0,0]]",
-                "",
-                "strain = 8\noutputs_per_strain = 20",
-                3,
-            ),
+            plan(40, "gradient_per_s = [[0.5,0,0],[0,-0.5,0],[0.1,0,0]]", "", "strain = 8\noutputs_per_strain = 20", 3),
             3,
         ),
     ]
@@ -163,11 +149,8 @@ fn replicas_and_tallies_of_other_scenes_are_refused() {
 
     let replica = run_replica(&plan, 0).unwrap();
     assert_eq!(replica.check(&plan), Ok(()));
-    let spoilt: [(&str, Spoil); 3] = [
-        ("sums", shorter),
-        ("rods", |rods| *rods = json!(41)),
-        ("observables", |all| *all = json!(["projections"])),
-    ];
+    let spoilt: [(&str, Spoil); 3] =
+        [("sums", shorter), ("rods", |rods| *rods = json!(41)), ("observables", |all| *all = json!(["projections"]))];
     for (key, spoil) in spoilt {
         let mut other = serde_json::to_value(&replica).unwrap();
         spoil(&mut other[key]);
@@ -184,11 +167,7 @@ fn replicas_and_tallies_of_other_scenes_are_refused() {
         ("deviation", shorter, lengths),
         ("over_rods", shorter, lengths),
         ("replicas", |replicas| *replicas = json!(4), lengths),
-        (
-            "deviation",
-            |all| all[3] = json!(-1.0),
-            "it has a mean that is not finite, or a negative deviation",
-        ),
+        ("deviation", |all| all[3] = json!(-1.0), "it has a mean that is not finite, or a negative deviation"),
     ];
     for (key, spoil, cause) in spoilt {
         let mut other = serde_json::to_value(&tally).unwrap();
@@ -200,7 +179,8 @@ fn replicas_and_tallies_of_other_scenes_are_refused() {
     }
 }
 
-/// A replica of a plan of one, whole or halfway, is one of a plan of several where it has dropped the errors over its rods.
+/// A replica of a plan of one, whole or halfway, is one of a plan of several where it has dropped the errors over its
+/// rods.
 #[test]
 fn a_single_replica_becomes_the_first_of_several() {
     for (one, _) in scenes() {

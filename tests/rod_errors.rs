@@ -23,8 +23,7 @@ fn alike(orientation: [f64; 2]) -> Orientation {
 /// 500 rods of r_e = 5 drawn out by planar extension: nearly all lie along axis 1 after a strain of 30.
 fn drawn_out(count: usize) -> Scene {
     let mut scene = Scene::default();
-    scene.flow =
-        shearbed::scene::Flow::Gradient { gradient_per_s: [[1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0; 3]] };
+    scene.flow = shearbed::scene::Flow::Gradient { gradient_per_s: [[1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0; 3]] };
     scene.time = shearbed::scene::Time::strain(40.0);
     scene.time.outputs_per_unit = Some(1);
     scene.particles.count = count;
@@ -74,14 +73,13 @@ fn of_each_rod(observable: Observable, snapshot: &Snapshot) -> Vec<Vec<f64>> {
 fn standard_error(values: impl Iterator<Item = f64> + Clone) -> f64 {
     let n = values.clone().count() as f64;
     let mean = values.clone().sum::<f64>() / n;
-    let (sum, squares) = values.fold((0.0, 0.0), |(sum, squares), value| {
-        (sum + (value - mean), squares + (value - mean) * (value - mean))
-    });
+    let (sum, squares) = values
+        .fold((0.0, 0.0), |(sum, squares), value| (sum + (value - mean), squares + (value - mean) * (value - mean)));
     ((squares - sum * sum / n) / n / (n - 1.0)).sqrt()
 }
 
-/// Every standard error of the results at their snapshots, beside that of two passes: the columns that are off by more than
-/// n ε of themselves, with room for the two passes' own rounding.
+/// Every standard error of the results at their snapshots, beside that of two passes: the columns that are off by more
+/// than n ε of themselves, with room for the two passes' own rounding.
 fn off(results: &Results) -> Vec<String> {
     let mut off = Vec::new();
     for snapshot in &results.snapshots {

@@ -133,8 +133,7 @@ fn times_that_are_no_outputs_are_refused_with_what_is() {
 /// At the widest spread that is allowed one draw in 750 crosses 1, or of discs 0, and is drawn again.
 #[test]
 fn rods_stay_rods_and_discs_discs() {
-    for (mean, widest, side) in
-        [(4.0, 25.0, 1.0..f64::MAX), (0.25, 100.0 / 3.0, 0.0..1.0), (0.8, 25.0 / 3.0, 0.0..1.0)]
+    for (mean, widest, side) in [(4.0, 25.0, 1.0..f64::MAX), (0.25, 100.0 / 3.0, 0.0..1.0), (0.8, 25.0 / 3.0, 0.0..1.0)]
     {
         let mut scene = scene(SCENE);
         scene.particles.count = 100_000;

@@ -11,7 +11,8 @@ fn text(length: &str, interaction: &str) -> String {
     format!(
         "title = \"t\"\n[flow]\nshear_rate_per_s = 0.5\n[particles]\ncount = 300\n{length}\naspect_ratio = 11.6\n\
          orientation = \"isotropic\"\n[interaction]\n{interaction}\nalpha = 0.5\n[time]\nperiods = 0.2\n\
-         steps_per_period = 200\noutputs_per_period = 10\n[output]\nobservables = [\"projections\", \"particle_stress\"]\n"
+         steps_per_period = 200\noutputs_per_period = 10\n[output]\nobservables = [\"projections\", \
+         \"particle_stress\"]\n"
     )
 }
 
@@ -38,11 +39,8 @@ const DENSE: &str = "concentration_per_cm3 = 1000";
 /// Twice the size in twice the box is the same suspension, to the bit: nothing but ratios of lengths counts.
 #[test]
 fn the_unit_of_length_does_not_count() {
-    let (short, long) =
-        ("length_mm = 0.5\nlength_sd_percent = 30", "length_mm = 1.0\nlength_sd_percent = 30");
-    for (of_short, of_long) in
-        [("box_mm = [8, 4, 2]", "box_mm = [16, 8, 4]"), (DENSE, "concentration_per_cm3 = 125")]
-    {
+    let (short, long) = ("length_mm = 0.5\nlength_sd_percent = 30", "length_mm = 1.0\nlength_sd_percent = 30");
+    for (of_short, of_long) in [("box_mm = [8, 4, 2]", "box_mm = [16, 8, 4]"), (DENSE, "concentration_per_cm3 = 125")] {
         let [short, long] = [scene(short, of_short), scene(long, of_long)].map(|scene| run(&scene));
         assert!(short.counters.collisions > 100, "{:?}", short.counters);
         assert_eq!(means(&short), means(&long), "{of_short}");
@@ -70,10 +68,7 @@ fn boxes_and_lengths_that_cannot_be_are_refused() {
     let length = "length_mm = 0.72";
     for (interaction, why) in [
         ("m = 3", "concentration_per_cm3 or box_mm must be given"),
-        (
-            "concentration_per_cm3 = 1002\nbox_mm = [12, 5, 5]",
-            "300 rods in [12.0, 5.0, 5.0] mm are 1000 per cm³",
-        ),
+        ("concentration_per_cm3 = 1002\nbox_mm = [12, 5, 5]", "300 rods in [12.0, 5.0, 5.0] mm are 1000 per cm³"),
         ("box_mm = [12, 5]", "[H1, H2, H3], three finite numbers > 0"),
         ("box_mm = [12, 5, 5, 5]", "[H1, H2, H3], three finite numbers > 0"),
         ("box_mm = [12, 5, 0]", "[H1, H2, H3], three finite numbers > 0"),
@@ -84,9 +79,7 @@ fn boxes_and_lengths_that_cannot_be_are_refused() {
         let refusal = refusal(length, interaction);
         assert!(refusal.starts_with("s.toml:") && refusal.contains(why), "{refusal}");
     }
-    for (sd, why) in
-        [("33.4", "a number below 33.3333: with more, lengths ≤ 0"), ("-1", "a finite number ≥ 0")]
-    {
+    for (sd, why) in [("33.4", "a number below 33.3333: with more, lengths ≤ 0"), ("-1", "a finite number ≥ 0")] {
         let refusal = refusal(&format!("{length}\nlength_sd_percent = {sd}"), DENSE);
         assert!(refusal.starts_with("s.toml:7: ") && refusal.contains(why), "{refusal}");
     }
@@ -98,8 +91,7 @@ fn lengths_have_the_spread_that_is_asked_for_and_move_no_other_draw() {
     unequal.particles.count = 40_000;
     let mut equal = unequal.clone();
     equal.particles.length_sd_percent = 0.0;
-    let [equal, unequal] =
-        [equal, unequal].map(|scene| Suspension::new(&Plan::new(&scene).unwrap(), 0).unwrap());
+    let [equal, unequal] = [equal, unequal].map(|scene| Suspension::new(&Plan::new(&scene).unwrap(), 0).unwrap());
     assert_eq!(equal.lengths(), vec![1.0; 40_000]);
     assert_eq!(equal.directions(), unequal.directions());
     assert_eq!(equal.positions_in_lengths(), unequal.positions_in_lengths());
@@ -161,13 +153,10 @@ fn a_run_goes_on_to_the_same_bits() {
 /// Rods given one by one as they would have been drawn are the same suspension, to the bit.
 #[test]
 fn rods_of_a_file_are_those_that_it_has() {
-    let mut drawn = scene(
-        "length_mm = 1\nlength_sd_percent = 30\naspect_ratio_sd_percent = 8.5",
-        "concentration_per_cm3 = 400",
-    );
+    let mut drawn =
+        scene("length_mm = 1\nlength_sd_percent = 30\naspect_ratio_sd_percent = 8.5", "concentration_per_cm3 = 400");
     // Places in mm are those in lengths.
-    let [x1, x2, x3] =
-        Suspension::new(&Plan::new(&drawn).unwrap(), 0).unwrap().positions_in_lengths().clone();
+    let [x1, x2, x3] = Suspension::new(&Plan::new(&drawn).unwrap(), 0).unwrap().positions_in_lengths().clone();
     let suspension = Suspension::new(&Plan::new(&drawn).unwrap(), 0).unwrap();
     let directions = suspension.directions();
     let whole = OwnRods {
@@ -184,13 +173,8 @@ fn rods_of_a_file_are_those_that_it_has() {
         run(&scene)
     };
     // Directions of a suspension have been through the motion of no time, which rounds: a collision magnifies that.
-    for (found, expected) in
-        of_a_file(whole.clone()).series[0].columns.iter().zip(&expected.series[0].columns)
-    {
-        assert!(
-            found.mean.iter().zip(&expected.mean).all(|(a, b)| (a - b).abs() < 1e-12),
-            "{found:?} {expected:?}"
-        );
+    for (found, expected) in of_a_file(whole.clone()).series[0].columns.iter().zip(&expected.series[0].columns) {
+        assert!(found.mean.iter().zip(&expected.mean).all(|(a, b)| (a - b).abs() < 1e-12), "{found:?} {expected:?}");
     }
     // What it lacks is drawn.
     let whole = OwnRods { p: None, ..whole };
@@ -211,11 +195,7 @@ fn rods_of_a_file_are_those_that_it_has() {
     // Equal rods given one by one are equal rods.
     drawn.particles.length_sd_percent = 0.0;
     drawn.particles.aspect_ratio_sd_percent = 0.0;
-    let equal = OwnRods {
-        aspect_ratio: Some(vec![11.6; 300]),
-        length_mm: Some(vec![1.0; 300]),
-        ..OwnRods::default()
-    };
+    let equal = OwnRods { aspect_ratio: Some(vec![11.6; 300]), length_mm: Some(vec![1.0; 300]), ..OwnRods::default() };
     let mut given = drawn.clone();
     given.particles.rods = Some(RodsFile::with("rods.csv", equal));
     let plan = Plan::new(&given).unwrap();

@@ -57,10 +57,7 @@ fn commit(root: &Path) -> Option<String> {
     let commit = git(&["rev-parse", "--short=12", "HEAD"])?;
     let mut status = vec!["status", "--porcelain", "--untracked-files=all", "--"];
     status.extend(SOURCES);
-    match git(&status)?.is_empty() {
-        true => Some(commit),
-        false => Some(format!("{commit}-dirty")),
-    }
+    if git(&status)?.is_empty() { Some(commit) } else { Some(format!("{commit}-dirty")) }
 }
 
 /// What a command prints, if it is there and succeeds.

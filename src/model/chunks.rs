@@ -3,10 +3,12 @@
 use rayon::prelude::*;
 use std::ops::Range;
 
-/// Rods per chunk, the least work given to a thread. A run of one chunk stays on one thread; then replicas are shared among threads.
+/// Rods per chunk, the least work given to a thread. A run of one chunk stays on one thread; then replicas are shared
+/// among threads.
 pub(crate) const CHUNK: usize = 1 << 16;
 
-/// Calls `each` with the number and the coordinates of every chunk of `axes`; returns the results in the order of chunks.
+/// Calls `each` with the number and the coordinates of every chunk of `axes`; returns the results in the order of
+/// chunks.
 pub(crate) fn over_chunks<T: Send>(
     axes: &mut [Vec<f64>; 3],
     each: impl Fn(usize, [&mut [f64]; 3]) -> T + Sync,

@@ -4,8 +4,9 @@ use crate::model::contact::Contact;
 use crate::model::orientation::{angles, from_angles};
 use nalgebra::{UnitVector3, Vector3};
 
-/// The reach s*/a = α(R^{−1/m} − 1) in rod lengths at R = `r`: the separation at which P_c = (α/(s/a + α))^m equals R (eq. 7; eq. 10
-/// with m = 3). P_c > R is the same as s < s* (eqs 8 and 9). `alpha` and `m` are positive. Infinite for R = 0.
+/// The reach s*/a = α(R^{−1/m} − 1) in rod lengths at R = `r`: the separation at which P_c = (α/(s/a + α))^m equals R
+/// (eq. 7; eq. 10 with m = 3). P_c > R is the same as s < s* (eqs 8 and 9). `alpha` and `m` are positive. Infinite for
+/// R = 0.
 #[inline]
 pub fn reach(r: f64, alpha: f64, m: f64) -> f64 {
     alpha * libm::expm1(-libm::log(r) / m)
@@ -47,9 +48,9 @@ impl Reach {
 
 /// The direction rates ṗ′ of both rods after a collision, from those before it (eqs 5 and 6, A.7 to A.12).
 ///
-/// `relative_velocity` is u(x_B) − u(x_A), `rates` are ṗ_A and ṗ_B; all in one unit of length and time. The contact points' velocities
-/// along ℓ become their mean; the components normal to ℓ do not change. As ℓ is normal to both rods, only ṗ·ℓ changes:
-/// ṗ′_A = ṗ_A + ℓ (v̄ − v_A)/r_A.
+/// `relative_velocity` is u(x_B) − u(x_A), `rates` are ṗ_A and ṗ_B; all in one unit of length and time. The contact
+/// points' velocities along ℓ become their mean; the components normal to ℓ do not change. As ℓ is normal to both rods,
+/// only ṗ·ℓ changes: ṗ′_A = ṗ_A + ℓ (v̄ − v_A)/r_A.
 pub fn share_velocity(
     contact: &Contact,
     relative_velocity: &Vector3<f64>,
@@ -99,7 +100,8 @@ pub fn step_angles(p: &UnitVector3<f64>, rate: &Vector3<f64>, time: f64) -> (Uni
     (stepped, norm(rate) * time)
 }
 
-/// The direction after a step with a collision: `end`, where free motion took `p`, turned by |`change`|·`time` about p × `change`.
+/// The direction after a step with a collision: `end`, where free motion took `p`, turned by |`change`|·`time` about p
+/// × `change`.
 pub fn kick(end: &Vector3<f64>, p: &Vector3<f64>, change: &Vector3<f64>, time: f64) -> UnitVector3<f64> {
     let speed = norm(change);
     if speed == 0.0 {
@@ -169,11 +171,7 @@ mod tests {
     fn turning_is_by_the_angle_and_towards_the_rate() {
         let (p, angle) = turn(&Vector3::x_axis(), &Vector3::new(0.0, 2.0, 0.0), 0.25);
         assert_eq!(angle, 0.5);
-        assert_relative_eq!(
-            p.into_inner(),
-            Vector3::new(0.5f64.cos(), 0.5f64.sin(), 0.0),
-            max_relative = 1e-15
-        );
+        assert_relative_eq!(p.into_inner(), Vector3::new(0.5f64.cos(), 0.5f64.sin(), 0.0), max_relative = 1e-15);
         let (p, angle) = turn(&Vector3::x_axis(), &Vector3::new(0.0, 1e300, 0.0), 1.0);
         assert!((p.norm() - 1.0).abs() < 1e-15 && angle == 1e300);
     }
@@ -228,8 +226,7 @@ mod tests {
         let dt = 1e-4;
         let apart = turn(&p, &rate, dt).0.into_inner() - step_angles(&p, &rate, dt).0.into_inner();
         assert!(apart.norm() < 1e-7);
-        let apart =
-            turn(&p, &rate, 10.0 * dt).0.into_inner() - step_angles(&p, &rate, 10.0 * dt).0.into_inner();
+        let apart = turn(&p, &rate, 10.0 * dt).0.into_inner() - step_angles(&p, &rate, 10.0 * dt).0.into_inner();
         assert!(apart.norm() > 1e-9, "they are different updates");
     }
 }

@@ -51,7 +51,8 @@ mod tests {
 
         #[test]
         fn the_line_between_the_contact_points_is_perpendicular_to_both_rods(
-            d in prop::array::uniform3(-3.0f64..3.0), a in prop::array::uniform2(0.1f64..3.0), b in prop::array::uniform2(0.1f64..3.0)
+            d in prop::array::uniform3(-3.0f64..3.0), a in prop::array::uniform2(0.1f64..3.0),
+                b in prop::array::uniform2(0.1f64..3.0)
         ) {
             let (d, p_a, p_b) = (Vector3::from(d), from_angles(a[0], a[1]), from_angles(2.0 + b[0], b[1]));
             prop_assume!(p_a.cross(&p_b).norm() > 0.05);

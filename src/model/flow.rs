@@ -55,7 +55,8 @@ impl VelocityGradient {
         self.scaled(Self::strain_rate)
     }
 
-    /// The magnitude (2 W:W)^½ of the vorticity in 1/s, twice the rate at which the liquid turns: |G| in plane Couette flow.
+    /// The magnitude (2 W:W)^½ of the vorticity in 1/s, twice the rate at which the liquid turns: |G| in plane Couette
+    /// flow.
     pub fn turn_per_s(&self) -> f64 {
         self.scaled(Self::vorticity)
     }

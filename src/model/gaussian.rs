@@ -1,7 +1,8 @@
 //! Gaussian numbers by the ziggurat method with 256 layers (Doornik 2005, ZIGNOR; Marsaglia & Tsang 2000).
 //!
-//! The numbers equal those of `rand_distr`, draw by draw. That crate takes its exponential and logarithm from the machine's
-//! mathematical library if any crate of the build enables `std` of `num-traits`; here they are the same on every machine.
+//! The numbers equal those of `rand_distr`, draw by draw. That crate takes its exponential and logarithm from the
+//! machine's mathematical library if any crate of the build enables `std` of `num-traits`; here they are the same on
+//! every machine.
 
 use rand::distr::Open01;
 use rand::{Rng, RngExt};
@@ -44,8 +45,8 @@ fn tail(rng: &mut impl Rng) -> f64 {
     }
 }
 
-/// The right ends of the layers, from the lowest up; all have the same area under exp(−x²/2). The tail begins at X[1] = 3.654…,
-/// and X[0] is a layer's area over the density there.
+/// The right ends of the layers, from the lowest up; all have the same area under exp(−x²/2). The tail begins at X[1] =
+/// 3.654…, and X[0] is a layer's area over the density there.
 #[rustfmt::skip]
 const X: [f64; 257] = [
     3.910_757_959_537_09, 3.654_152_885_361_009, 3.449_278_298_560_964_5, 3.320_244_733_839_166,

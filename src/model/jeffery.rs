@@ -23,8 +23,8 @@ pub fn strain_per_period(aspect_ratio: f64) -> f64 {
     TAU * (aspect_ratio + 1.0 / aspect_ratio)
 }
 
-/// ṗ = ω × p per unit of strain in plane Couette flow u_2 = ±x_1 (`sign` of G) at Λ = `shape_factor`: A.1 for the direction, without
-/// the spin about it. A.2 and A.3 follow as the rates of its angles.
+/// ṗ = ω × p per unit of strain in plane Couette flow u_2 = ±x_1 (`sign` of G) at Λ = `shape_factor`: A.1 for the
+/// direction, without the spin about it. A.2 and A.3 follow as the rates of its angles.
 pub fn couette_rate(p: &Vector3<f64>, shape_factor: f64, sign: f64) -> Vector3<f64> {
     let (half, stretch) = (0.5 * sign, shape_factor * sign * p.x * p.y);
     Vector3::new(

@@ -1,8 +1,8 @@
-//! The physics of the paper, each formula as a plain function: flow, directions, Jeffery's equation, contacts and collisions,
-//! the control volume, nearest neighbours, random numbers.
+//! The physics of the paper, each formula as a plain function: flow, directions, Jeffery's equation, contacts and
+//! collisions, the control volume, nearest neighbours, random numbers.
 //!
-//! These modules use nothing else of the core; they know neither scenes nor runs. A formula is a function with its equation number
-//! and its units; a kernel over many rods keeps the bits of the plain function beside it.
+//! These modules use nothing else of the core; they know neither scenes nor runs. A formula is a function with its
+//! equation number and its units; a kernel over many rods keeps the bits of the plain function beside it.
 
 pub(crate) mod chunks;
 pub mod collision;

@@ -36,16 +36,12 @@ const FEW: usize = 256;
 impl Neighbours {
     /// A search for `count` rods in a volume with these `sides`.
     pub fn new(sides: [f64; 3], count: usize) -> Self {
-        Self(if count <= FEW {
-            Search::Pairs(Pairs::new(sides))
-        } else {
-            Search::Grid(Grid::new(sides, count))
-        })
+        Self(if count <= FEW { Search::Pairs(Pairs::new(sides)) } else { Search::Grid(Grid::new(sides, count)) })
     }
 
-    /// Calls `found` with every rod that has another rod closer than its reach, rounded up, and with the nearest one. `positions` are
-    /// three arrays of coordinates in the volume; `reaches` gives those of the rods from a given one on; `work` counts the cells and
-    /// distances.
+    /// Calls `found` with every rod that has another rod closer than its reach, rounded up, and with the nearest one.
+    /// `positions` are three arrays of coordinates in the volume; `reaches` gives those of the rods from a given one
+    /// on; `work` counts the cells and distances.
     pub fn each_nearest<R: Iterator<Item = f64>>(
         &mut self,
         positions: &[Vec<f64>; 3],
@@ -78,8 +74,8 @@ mod tests {
             .min_by(|a, b| a.square.total_cmp(&b.square).then(a.other.cmp(&b.other)))
     }
 
-    /// What `search` finds, in the order of rods. A search may report rods a little beyond the reach; they are removed here by the
-    /// exact reach.
+    /// What `search` finds, in the order of rods. A search may report rods a little beyond the reach; they are removed
+    /// here by the exact reach.
     fn found(search: Search, positions: &[Vec<f64>; 3], reach: &[f64]) -> Vec<Nearest> {
         let mut all = Vec::new();
         Neighbours(search).each_nearest(
@@ -109,7 +105,8 @@ mod tests {
             side in prop_oneof![Just(4.0), Just(1e-3), Just(3e5)],
             // The least are below what single precision tells apart.
             fine in prop_oneof![Just(0.0), 0.0f64..1.0, Just(1e-5), Just(1e-6)],
-            shape in prop::sample::select(vec![[1.0, 1.0, 1.0], [4.0, 0.5, 0.5], [0.5, 1.0, 2.0], [1.0, 1e-4, 1.0], [1e-3, 1.0, 1e-3]]),
+            shape in prop::sample::select(vec![[1.0, 1.0, 1.0], [4.0, 0.5, 0.5], [0.5, 1.0, 2.0], [1.0, 1e-4,
+                1.0], [1e-3, 1.0, 1e-3]]),
         ) {
             // Coordinates on a coarse lattice, so that ties and coincident rods occur; or shifted off it by `fine`.
             let place = |k: usize, i: usize, x: u8| {
@@ -153,15 +150,8 @@ mod tests {
         // Cells are 1 wide. Rod 0 is close to a cell's face; four others in its cell and one in the next lie between it
         // and its partner, all of them farther than the reach.
         let far = [0.05, 0.05];
-        let row = [
-            (0.5, 0.95),
-            (far[0], 0.5),
-            (far[0], 0.5),
-            (far[0], 0.5),
-            (far[0], 0.5),
-            (far[1], 1.95),
-            (0.5, 1.05),
-        ];
+        let row =
+            [(0.5, 0.95), (far[0], 0.5), (far[0], 0.5), (far[0], 0.5), (far[0], 0.5), (far[1], 1.95), (0.5, 1.05)];
         for mirrored in [false, true] {
             let mut points: Vec<[f64; 3]> = row.map(|(x, z)| [x, x, z]).into();
             if mirrored {
@@ -223,9 +213,7 @@ mod tests {
     fn a_short_reach_computes_few_distances() {
         let n = 1000;
         let positions: [Vec<f64>; 3] = std::array::from_fn(|k| {
-            (0..n)
-                .map(|i| ((i as f64 + 0.5) * [0.618_033_99, 0.754_877_67, 0.569_840_29][k]).fract() * 10.0)
-                .collect()
+            (0..n).map(|i| ((i as f64 + 0.5) * [0.618_033_99, 0.754_877_67, 0.569_840_29][k]).fract() * 10.0).collect()
         });
         for search in searches([10.0; 3], n) {
             let mut work = Counters::default();

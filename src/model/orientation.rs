@@ -11,8 +11,8 @@ pub fn from_angles(phi_rad: f64, theta_rad: f64) -> UnitVector3<f64> {
     UnitVector3::new_normalize(Vector3::new(sin_theta * cos_phi, sin_theta * sin_phi, cos_theta))
 }
 
-/// The direction with the angles `phi_deg` and `theta_deg` in degrees: exact at multiples of 90°, with a relative error of a few
-/// roundings in every component.
+/// The direction with the angles `phi_deg` and `theta_deg` in degrees: exact at multiples of 90°, with a relative error
+/// of a few roundings in every component.
 pub fn from_degrees(phi_deg: f64, theta_deg: f64) -> UnitVector3<f64> {
     let ([cos_phi, sin_phi], [cos_theta, sin_theta]) = (of_degrees(phi_deg), of_degrees(theta_deg));
     UnitVector3::new_normalize(Vector3::new(sin_theta * cos_phi, sin_theta * sin_phi, cos_theta))
@@ -96,8 +96,7 @@ mod tests {
     fn right_angles_are_exact_and_others_those_of_radians() {
         for quarters in -9i32..=9 {
             let [cos, sin] = of_degrees(90.0 * f64::from(quarters));
-            let expected =
-                [[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]][quarters.rem_euclid(4) as usize];
+            let expected = [[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]][quarters.rem_euclid(4) as usize];
             assert_eq!([cos, sin], expected);
         }
         for k in 0..2000 {
@@ -105,9 +104,7 @@ mod tests {
             let (sin, cos) = degrees.to_radians().sin_cos();
             let found = of_degrees(degrees);
             // The radians, up to 15, are rounded to 15 ε.
-            assert!(
-                (found[0] - cos).abs() < 16.0 * f64::EPSILON && (found[1] - sin).abs() < 16.0 * f64::EPSILON
-            );
+            assert!((found[0] - cos).abs() < 16.0 * f64::EPSILON && (found[1] - sin).abs() < 16.0 * f64::EPSILON);
         }
         // cos(90° − 10⁻⁹ °) to full relative precision; computed from radians it has six digits.
         let [cos, _] = of_degrees(90.0 - 2f64.powi(-30));

@@ -22,9 +22,9 @@ impl Phase {
         Self::of_part(turns.fract())
     }
 
-    /// The phase of `turns`, |turns| < 2⁵¹, without a branch or a call, so that it vectorises over rods: the nearest quarter turn is
-    /// removed, and the polynomials of fdlibm (Sun Microsystems 1993, `k_sin.c` and `k_cos.c`), good to 1 ulp up to π/4, give the
-    /// rest.
+    /// The phase of `turns`, |turns| < 2⁵¹, without a branch or a call, so that it vectorises over rods: the nearest
+    /// quarter turn is removed, and the polynomials of fdlibm (Sun Microsystems 1993, `k_sin.c` and `k_cos.c`), good to
+    /// 1 ulp up to π/4, give the rest.
     #[inline(always)]
     pub(crate) fn of_part(turns: f64) -> Self {
         let rest = turns - nearest_whole(turns);
@@ -71,8 +71,8 @@ fn horner(c: &[f64; 6], z: f64) -> f64 {
     c[0] + z * (c[1] + z * (c[2] + z * (c[3] + z * (c[4] + z * c[5]))))
 }
 
-/// The nearest whole number (ties to even) for |x| < 2⁵¹: adding 1.5 · 2⁵² leaves no digits for a fraction. Takes two instructions on
-/// every machine, unlike `f64::round`.
+/// The nearest whole number (ties to even) for |x| < 2⁵¹: adding 1.5 · 2⁵² leaves no digits for a fraction. Takes two
+/// instructions on every machine, unlike `f64::round`.
 #[inline(always)]
 pub(crate) fn nearest_whole(x: f64) -> f64 {
     const SHIFT: f64 = 6_755_399_441_055_744.0;

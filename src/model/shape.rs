@@ -1,5 +1,5 @@
-//! Equivalent aspect ratios: a cylinder of length over diameter r turns in shear as an ellipsoid of aspect ratio r_e does (Bretherton
-//! 1962). The formulas give r_e for r.
+//! Equivalent aspect ratios: a cylinder of length over diameter r turns in shear as an ellipsoid of aspect ratio r_e
+//! does (Bretherton 1962). The formulas give r_e for r.
 
 use serde::{Deserialize, Serialize};
 
@@ -59,7 +59,8 @@ pub struct Formula {
     value: fn(f64) -> f64,
 }
 
-/// The smallest and the largest r allowed: the formulas are not meant for shorter cylinders, and no experiment has longer ones.
+/// The smallest and the largest r allowed: the formulas are not meant for shorter cylinders, and no experiment has
+/// longer ones.
 pub const ALLOWED: (f64, f64) = (2.0, 1000.0);
 
 /// All formulas.
@@ -99,8 +100,8 @@ pub const FORMULAS: [Formula; 4] = [
 ];
 
 impl Formula {
-    /// r_e of a cylinder of aspect ratio `r`; `None` outside the formula's meaning: where r_e exceeds r, which is true of no long
-    /// cylinder, or falls as r grows.
+    /// r_e of a cylinder of aspect ratio `r`; `None` outside the formula's meaning: where r_e exceeds r, which is true
+    /// of no long cylinder, or falls as r grows.
     pub fn equivalent(&self, r: f64) -> Option<f64> {
         let value = (self.value)(r);
         let rises = (self.value)(1.001 * r) > value;

@@ -1,4 +1,5 @@
-//! The particle stress of a dilute suspension of rigid bodies without Brownian motion, with their whole effect on the liquid around them:
+//! The particle stress of a dilute suspension of rigid bodies without Brownian motion, with their whole effect on the
+//! liquid around them:
 //!   σ = μ n a³ [k_A ⟨pppp⟩:D + k_B (⟨pp⟩·D + D·⟨pp⟩) + k_C D] + isotropic,
 //! Here n is the number of bodies of length a per volume (Leal & Hinch 1971; docs/src/theory/coefficients.md).
 
@@ -24,8 +25,8 @@ pub enum Body {
 }
 
 impl Body {
-    /// k_A, k_B and k_C at the aspect ratio `r_e`. For a cylinder, k_A is Batchelor's series in 1/ln 2r (1970b), and k_C is that of strain
-    /// across an infinite cylinder.
+    /// k_A, k_B and k_C at the aspect ratio `r_e`. For a cylinder, k_A is Batchelor's series in 1/ln 2r (1970b), and
+    /// k_C is that of strain across an infinite cylinder.
     pub fn coefficients(self, r_e: f64) -> [f64; 3] {
         match self {
             // 2φ/(na³) = π/(3r²).
@@ -43,8 +44,8 @@ impl Body {
 /// Distance of r from 1 below which [`spheroid`] uses its series: at this distance both ways are good to 1e-8.
 const NEARLY_ROUND: f64 = 1e-3;
 
-/// A, B and C of σ = 2μφ[A ⟨pppp⟩:D + B (⟨pp⟩·D + D·⟨pp⟩) + C D], with φ the spheroids' volume fraction, from Jeffery's integrals in
-/// closed form: the stress in strains along p (k_x), in a plane through p (k_y) and across p (k_z).
+/// A, B and C of σ = 2μφ[A ⟨pppp⟩:D + B (⟨pp⟩·D + D·⟨pp⟩) + C D], with φ the spheroids' volume fraction, from Jeffery's
+/// integrals in closed form: the stress in strains along p (k_x), in a plane through p (k_y) and across p (k_z).
 fn spheroid(r: f64) -> [f64; 3] {
     let d = r - 1.0;
     if d.abs() < NEARLY_ROUND {
@@ -78,17 +79,11 @@ mod tests {
         ] {
             let found = spheroid(r);
             for k in 0..3 {
-                assert!(
-                    (found[k] - expected[k]).abs() <= tolerance * expected[k].abs().max(1.0),
-                    "{r}: {found:?}"
-                );
+                assert!((found[k] - expected[k]).abs() <= tolerance * expected[k].abs().max(1.0), "{r}: {found:?}");
             }
         }
         let [a, b, c] = spheroid(1.0 + 1e-6);
-        assert!(
-            a.abs() < 1e-11 && (b - 15.0 / 14.0 * 1e-6).abs() < 1e-11 && (c - 2.5).abs() < 1e-6,
-            "{a} {b} {c}"
-        );
+        assert!(a.abs() < 1e-11 && (b - 15.0 / 14.0 * 1e-6).abs() < 1e-11 && (c - 2.5).abs() < 1e-6, "{a} {b} {c}");
     }
 
     /// Batchelor's series at r = 10 by hand, and 4φ/(na³).

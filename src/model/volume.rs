@@ -61,16 +61,16 @@ impl ControlVolume {
         positions
     }
 
-    /// Positions in rod lengths of rods at `places`, given in the unit of `length`. Positions rounded beyond a face are set to the face.
+    /// Positions in rod lengths of rods at `places`, given in the unit of `length`. Positions rounded beyond a face are
+    /// set to the face.
     pub fn within(&self, places: &[Vec<f64>; 3], length: f64) -> [Vec<f64>; 3] {
-        let axis =
-            |axis: usize| places[axis].iter().map(move |x| (x / length).min(self.sides[axis])).collect();
+        let axis = |axis: usize| places[axis].iter().map(move |x| (x / length).min(self.sides[axis])).collect();
         std::array::from_fn(axis)
     }
 
-    /// Moves every rod with the liquid of plane Couette flow u_2 = ±x_1 over `strain` ≥ 0 (`sign` of G) and replaces the rods that left
-    /// through the faces normal to axis 2: x_1 = H₁√R, x_3 = H₃R, x_2 is the overshoot modulo H₂ (eq. 14 with the text's second coordinate
-    /// read as x_3). Returns the number of rods replaced.
+    /// Moves every rod with the liquid of plane Couette flow u_2 = ±x_1 over `strain` ≥ 0 (`sign` of G) and replaces
+    /// the rods that left through the faces normal to axis 2: x_1 = H₁√R, x_3 = H₃R, x_2 is the overshoot modulo H₂
+    /// (eq. 14 with the text's second coordinate read as x_3). Returns the number of rods replaced.
     pub fn advance(&self, positions: &mut [Vec<f64>; 3], strain: f64, sign: f64, rng: &mut Pcg64Dxsm) -> u64 {
         let carry = |[x1, x2, _]: [&mut [f64]; 3]| self.carry(x1, x2, sign * strain);
         advance(positions, COUETTE_NUMBERS, rng, carry, |axes, rng| self.replace(axes, rng))
@@ -104,7 +104,8 @@ impl ControlVolume {
     }
 }
 
-/// `x.rem_euclid(side)`, without a division for a rod that is less than a side away, as nearly all are: x − side is exact there.
+/// `x.rem_euclid(side)`, without a division for a rod that is less than a side away, as nearly all are: x − side is
+/// exact there.
 #[inline]
 fn modulo(x: f64, side: f64) -> f64 {
     if x >= side && x < 2.0 * side {
@@ -119,8 +120,8 @@ fn modulo(x: f64, side: f64) -> f64 {
 /// Random numbers used per replaced rod in plane Couette flow.
 pub(crate) const COUETTE_NUMBERS: u128 = 2;
 
-/// Moves all rods by `carry`, which returns how many left, then replaces those in the order of rods, each with the next `numbers` of the
-/// stream. Returns the number of rods replaced.
+/// Moves all rods by `carry`, which returns how many left, then replaces those in the order of rods, each with the next
+/// `numbers` of the stream. Returns the number of rods replaced.
 fn advance(
     positions: &mut [Vec<f64>; 3],
     numbers: u128,
@@ -192,8 +193,7 @@ mod tests {
             let sides = volume.sides();
             let mut positions = volume.draw_positions(1000, &stream(3, 0, Purpose::Positions));
             let before = positions.clone();
-            let replaced =
-                volume.advance(&mut positions, 0.3, sign, &mut stream(3, 0, Purpose::Replacements));
+            let replaced = volume.advance(&mut positions, 0.3, sign, &mut stream(3, 0, Purpose::Replacements));
             let mut changed = 0;
             for rod in 0..1000 {
                 let moved = before[1][rod] + sign * 0.3 * before[0][rod];

@@ -1,7 +1,8 @@
 //! Numbers with an error bound: the sum of two doubles (106 bits) and a bound on its distance from the true value.
 //!
-//! Sums and products of double-doubles: Joldes, Muller & Popescu 2017, algorithms 6 (relative error 3 u²) and 11 (5 u²), u = 2⁻⁵³;
-//! errors propagate as in interval arithmetic. Results that a double-double holds exactly have no error, so that 0 stays 0.
+//! Sums and products of double-doubles: Joldes, Muller & Popescu 2017, algorithms 6 (relative error 3 u²) and 11 (5
+//! u²), u = 2⁻⁵³; errors propagate as in interval arithmetic. Results that a double-double holds exactly have no error,
+//! so that 0 stays 0.
 
 use std::ops::{Add, Mul, Neg, Sub};
 
@@ -26,11 +27,9 @@ impl Ball {
     pub const ZERO: Self = Self::exact(0.0);
     pub const ONE: Self = Self::exact(1.0);
     /// 2π.
-    pub const TAU: Self =
-        Self { hi: std::f64::consts::TAU, lo: 2.449_293_598_294_706_4e-16, error: 8.0 * ROUNDING };
+    pub const TAU: Self = Self { hi: std::f64::consts::TAU, lo: 2.449_293_598_294_706_4e-16, error: 8.0 * ROUNDING };
     /// ln 2.
-    pub const LN_2: Self =
-        Self { hi: std::f64::consts::LN_2, lo: 2.319_046_813_846_299_6e-17, error: ROUNDING };
+    pub const LN_2: Self = Self { hi: std::f64::consts::LN_2, lo: 2.319_046_813_846_299_6e-17, error: ROUNDING };
 
     /// The double `x`, without error.
     pub const fn exact(x: f64) -> Self {

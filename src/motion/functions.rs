@@ -37,9 +37,10 @@ pub(super) fn exp_and_power(x: Ball) -> (Ball, i32) {
     }
     // Below e⁻³⁰⁰⁰ < 2⁻⁴³²⁸ the result is negligible beside any quotient of two doubles.
     if x.hi < -3000.0 {
-        return match x.hi + x.error < -3000.0 {
-            true => (Ball::ZERO.widened(1.0), -4328),
-            false => (Ball::ZERO.widened(1.0 + libm::exp(x.hi + x.error)), 0),
+        return if x.hi + x.error < -3000.0 {
+            (Ball::ZERO.widened(1.0), -4328)
+        } else {
+            (Ball::ZERO.widened(1.0 + libm::exp(x.hi + x.error)), 0)
         };
     }
     let powers_of_two = (x.hi / std::f64::consts::LN_2).round();
@@ -77,15 +78,14 @@ pub(super) fn sin_cos(turns: Ball) -> (Ball, Ball) {
         2 => (-sin, -cos),
         _ => (-cos, sin),
     };
-    let widened = |value: Ball| match value.is_zero() && moved == 0.0 {
-        true => value,
-        false => value.widened(moved + LEFT_OUT * value.hi.abs()),
+    let widened = |value: Ball| {
+        if value.is_zero() && moved == 0.0 { value } else { value.widened(moved + LEFT_OUT * value.hi.abs()) }
     };
     (widened(sin), widened(cos))
 }
 
-/// Σ zᵏ/n! over n = `last`, `last` − 2, … with k counted from the end: the cosine for an even `last`, the sine over its argument for
-/// an odd one.
+/// Σ zᵏ/n! over n = `last`, `last` − 2, … with k counted from the end: the cosine for an even `last`, the sine over its
+/// argument for an odd one.
 fn horner_of(z: Ball, last: usize) -> Ball {
     horner((0..=last).rev().step_by(2), z)
 }

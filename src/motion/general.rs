@@ -1,11 +1,12 @@
 //! The motion of a free rod in any velocity gradient: its matrix N, and the parts of the exponential of N.
 //!
-//! With Λ = (r_e² − 1)/(r_e² + 1), A = W + ΛD = (L − ρLᵀ)/(1 + ρ) for rods, ρ = 1/r_e²; a disc moves as the rod of 1/r_e in the
-//! flow −Lᵀ. N = L − ρLᵀ has no cancellation for long rods, and its invariants are polynomials in ρ whose coefficients depend on L
-//! alone. A multiple of 1 in L changes |q| only and is removed.
+//! With Λ = (r_e² − 1)/(r_e² + 1), A = W + ΛD = (L − ρLᵀ)/(1 + ρ) for rods, ρ = 1/r_e²; a disc moves as the rod of
+//! 1/r_e in the flow −Lᵀ. N = L − ρLᵀ has no cancellation for long rods, and its invariants are polynomials in ρ whose
+//! coefficients depend on L alone. A multiple of 1 in L changes |q| only and is removed.
 //!
-//! Coordinates that N does not couple form blocks, each with its own exponential. One exponential of all coordinates would lose digits:
-//! of a block in which the start is small beside the rounding of another, and of blocks whose rates nearly coincide.
+//! Coordinates that N does not couple form blocks, each with its own exponential. One exponential of all coordinates
+//! would lose digits: of a block in which the start is small beside the rounding of another, and of blocks whose rates
+//! nearly coincide.
 
 use super::ball::Ball;
 use super::functions::exp_and_power;
@@ -47,18 +48,15 @@ impl General {
         let magnitude = magnitude(&l);
         let rod = aspect_ratio >= 1.0;
         let without_trace = traceless(l);
-        let x: Square =
-            from_fn(|i| from_fn(|j| if rod { without_trace[i][j] } else { -without_trace[j][i] }));
+        let x: Square = from_fn(|i| from_fn(|j| if rod { without_trace[i][j] } else { -without_trace[j][i] }));
         let r = Ball::exact(aspect_ratio);
         let square = r * r;
         // ρ and 1 − ρ, both without cancellation.
         let difference = (r - Ball::ONE) * (r + Ball::ONE);
-        let (rho, rest) =
-            if rod { (Ball::ONE.over(square), difference.over(square)) } else { (square, -difference) };
+        let (rho, rest) = if rod { (Ball::ONE.over(square), difference.over(square)) } else { (square, -difference) };
         let n: Square = from_fn(|i| from_fn(|j| x[i][j] - rho * x[j][i]));
         let forward: Square = product(|i, k| x[i][k], |k, j| x[k][j]);
-        let mixed: [Square; 2] =
-            [product(|i, k| x[i][k], |k, j| x[j][k]), product(|i, k| x[k][i], |k, j| x[k][j])];
+        let mixed: [Square; 2] = [product(|i, k| x[i][k], |k, j| x[j][k]), product(|i, k| x[k][i], |k, j| x[k][j])];
         let n_squared: Square = from_fn(|i| {
             from_fn(|j| forward[i][j] - rho * (mixed[0][i][j] + mixed[1][i][j]) + rho * rho * forward[j][i])
         });
@@ -79,8 +77,8 @@ impl General {
         }
     }
 
-    /// The period in units in which L is about 1, and |ln| of the ratio by which the rest of the motion grows in it relative to
-    /// the rotating part; `None` if there is no period.
+    /// The period in units in which L is about 1, and |ln| of the ratio by which the rest of the motion grows in it
+    /// relative to the rotating part; `None` if there is no period.
     pub fn period(&self) -> Option<(Ball, f64)> {
         let (period, drift) = self.cubic.period()?;
         Some((period.over(self.slower), drift))
@@ -109,7 +107,8 @@ impl General {
         Some(Time { span: turns * period, turns: Some(turns) })
     }
 
-    /// The time of `turns` periods of `mean`, the motion of another aspect ratio in this flow; `None` if it has no period.
+    /// The time of `turns` periods of `mean`, the motion of another aspect ratio in this flow; `None` if it has no
+    /// period.
     pub fn time_of_periods_of(&self, mean: &Self, turns: Ball) -> Option<Time> {
         let (period, _) = mean.period()?;
         Some(Time { span: turns * period * self.slower, turns: None })
@@ -134,11 +133,11 @@ impl General {
         })
     }
 
-    /// The rows that move a rod starting along `p`, and `p` times the rows' powers of two, scaled to a largest component of about 1.
+    /// The rows that move a rod starting along `p`, and `p` times the rows' powers of two, scaled to a largest
+    /// component of about 1.
     pub fn rows_from(&self, p: [f64; 3], time: Time) -> (Rows, [Ball; 3]) {
         let rows = self.rows(self.reached(p), time);
-        let most =
-            (0..3).filter(|&i| p[i] != 0.0).map(|i| rows.powers[i] + exponent(p[i])).fold(i32::MIN, i32::max);
+        let most = (0..3).filter(|&i| p[i] != 0.0).map(|i| rows.powers[i] + exponent(p[i])).fold(i32::MIN, i32::max);
         let start = from_fn(|i| match p[i] {
             0.0 => Ball::ZERO,
             component => Ball::exact(component).shifted(rows.powers[i] - most),
@@ -212,8 +211,8 @@ fn others(left_out: usize) -> [usize; 2] {
     [[1, 2], [0, 2], [0, 1]][left_out]
 }
 
-/// Δ of two coordinates: (1 − ρ)²(h² + L_ij L_ji) − ρ(L_ij − L_ji)² with h = (L_ii − L_jj)/2, free of cancellation both for long rods and
-/// near spheres.
+/// Δ of two coordinates: (1 − ρ)²(h² + L_ij L_ji) − ρ(L_ij − L_ji)² with h = (L_ii − L_jj)/2, free of cancellation both
+/// for long rods and near spheres.
 fn square_of_pair(l: &Square, [i, j]: [usize; 2], rho: Ball, rest: Ball) -> Ball {
     let half = (l[i][i] - l[j][j]).scaled(0.5);
     let turning = l[i][j] - l[j][i];

@@ -1,8 +1,8 @@
 //! The exact motion of a free rod over any time, with a bound on its error.
 //!
-//! The substitution p = q/|q| makes Jeffery's equation linear: q(t) = exp(At) p(0) with A = W + ΛD (the trace of A changes only |q|
-//! and is left out). Plane Couette flow along the axes uses its closed form; every other flow is computed
-//! with numbers of 106 bits that carry an error bound (`general.rs`), taking L, r_e and p as exact.
+//! The substitution p = q/|q| makes Jeffery's equation linear: q(t) = exp(At) p(0) with A = W + ΛD (the trace of A
+//! changes only |q| and is left out). Plane Couette flow along the axes uses its closed form; every other flow is
+//! computed with numbers of 106 bits that carry an error bound (`general.rs`), taking L, r_e and p as exact.
 
 mod ball;
 mod functions;
@@ -21,7 +21,8 @@ use nalgebra::{Matrix3, UnitVector3, Vector3};
 use std::f64::consts::TAU;
 use steps::Steps;
 
-/// The direction p = q/|q| after the phase `phase` of a free rod in plane Couette flow with G > 0; q is given by `turned`.
+/// The direction p = q/|q| after the phase `phase` of a free rod in plane Couette flow with G > 0; q is given by
+/// `turned`.
 #[inline(always)]
 pub fn couette(p: [f64; 3], aspect_ratio: f64, phase: Phase) -> [f64; 3] {
     let q = turned(p, aspect_ratio, phase);
@@ -72,11 +73,11 @@ pub enum Span {
 pub struct Moved {
     /// The direction at the end.
     pub p: UnitVector3<f64>,
-    /// A bound on the angle in rad between `p` and the true direction of a rod that started exactly along the given direction; infinite
-    /// if no bound is known.
+    /// A bound on the angle in rad between `p` and the true direction of a rod that started exactly along the given
+    /// direction; infinite if no bound is known.
     pub error: f64,
-    /// ‖\|M\|\|p\|‖/‖M p‖ of the map q = M p: the factor by which relative errors of the start's components may be amplified at
-    /// the end.
+    /// ‖\|M\|\|p\|‖/‖M p‖ of the map q = M p: the factor by which relative errors of the start's components may be
+    /// amplified at the end.
     pub condition: f64,
 }
 
@@ -118,14 +119,14 @@ impl Propagator {
         Self(Motion::General(General::new(flow, aspect_ratio)))
     }
 
-    /// The motion of rods with `aspect_ratio` > 0 in a sequence of `flows`, at least one, each with its strain. Its spans must be
-    /// strains.
+    /// The motion of rods with `aspect_ratio` > 0 in a sequence of `flows`, at least one, each with its strain. Its
+    /// spans must be strains.
     pub(crate) fn of_steps(flows: &[(VelocityGradient, f64)], aspect_ratio: f64) -> Self {
         Self(Motion::Steps(Steps::new(flows, aspect_ratio)))
     }
 
-    /// The period in s of the rotating part of the motion, `None` if there is none. After a period every direction is back, except for
-    /// [`Self::drift_per_period`].
+    /// The period in s of the rotating part of the motion, `None` if there is none. After a period every direction is
+    /// back, except for [`Self::drift_per_period`].
     pub fn period_s(&self) -> Option<f64> {
         match &self.0 {
             Motion::Couette { shear_rate_per_s, aspect_ratio } => {
@@ -145,8 +146,8 @@ impl Propagator {
         }
     }
 
-    /// The linear map q = M p, scaled by an arbitrary positive factor, and a bound on its relative error (in Frobenius's norm),
-    /// without the rounding to double. `None` for a span in periods if the motion has no period.
+    /// The linear map q = M p, scaled by an arbitrary positive factor, and a bound on its relative error (in
+    /// Frobenius's norm), without the rounding to double. `None` for a span in periods if the motion has no period.
     pub fn map(&self, span: Span) -> Option<(Matrix3<f64>, f64)> {
         match &self.0 {
             Motion::Couette { aspect_ratio, .. } => {
@@ -187,8 +188,8 @@ impl Propagator {
         }
     }
 
-    /// The direction of a rod that started along `p`, and the bound of [`Moved::error`]; periods in `span` are those of `mean`, in the
-    /// same flow. `None` for a span in periods if `mean` has no period.
+    /// The direction of a rod that started along `p`, and the bound of [`Moved::error`]; periods in `span` are those of
+    /// `mean`, in the same flow. `None` for a span in periods if `mean` has no period.
     pub(crate) fn direction_beside(&self, mean: &Self, p: [f64; 3], span: Span) -> Option<([f64; 3], f64)> {
         match &self.0 {
             Motion::General(general) => {
@@ -214,8 +215,8 @@ impl Propagator {
         }
     }
 
-    /// The phase in plane Couette flow, and the error that rounding adds to the map: sixteen roundings of one evaluation, and four
-    /// of turns computed from seconds or strain.
+    /// The phase in plane Couette flow, and the error that rounding adds to the map: sixteen roundings of one
+    /// evaluation, and four of turns computed from seconds or strain.
     fn phase(&self, span: Span) -> Option<(Phase, f64)> {
         let Motion::Couette { shear_rate_per_s, aspect_ratio } = self.0 else {
             return None;
@@ -255,9 +256,7 @@ fn quotient(ticks: f64, each: f64) -> Ball {
 
 fn time_beside(general: &General, mean: &Propagator, span: Span) -> Option<modes::Time> {
     match (span, &mean.0) {
-        (Span::Periods(ticks, each), Motion::General(mean)) => {
-            general.time_of_periods_of(mean, quotient(ticks, each))
-        }
+        (Span::Periods(ticks, each), Motion::General(mean)) => general.time_of_periods_of(mean, quotient(ticks, each)),
         _ => time(general, span),
     }
 }

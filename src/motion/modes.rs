@@ -4,10 +4,10 @@
 //!
 //! exp(xτ) = h(x) + ((x − m)² − Δ)(e^{λτ} − h(λ))/χ′(λ),  h(x) = e^{mτ}(cosh √Δτ + (x − m) sinh √Δτ/√Δ)  modulo χ.
 //!
-//! h contains no root, and the formula is the same for a real, an equal and a complex pair; λ is well separated: if the roots' sum is 0
-//! and the largest of |c|^½ and |d|^⅓ is 1, χ′(λ) is never small (its minimum is 1.9, at c = −1, where the pair coincides). So the kinds
-//! of flow need no distinction, and the only iteration is a Newton method that always ends. For short times, where
-//! e^{λτ} − h(λ) would cancel, the series is used instead.
+//! h contains no root, and the formula is the same for a real, an equal and a complex pair; λ is well separated: if the
+//! roots' sum is 0 and the largest of |c|^½ and |d|^⅓ is 1, χ′(λ) is never small (its minimum is 1.9, at c = −1, where
+//! the pair coincides). So the kinds of flow need no distinction, and the only iteration is a Newton method that always
+//! ends. For short times, where e^{λτ} − h(λ) would cancel, the series is used instead.
 
 use super::ball::Ball;
 use super::functions::{INVERSE_FACTORIALS, cosh_sinh_over, exp, sin_cos};
@@ -51,7 +51,8 @@ impl Pair {
         -self.square.hi > 2.0 * self.square.error
     }
 
-    /// √Δ if the pair is real and the time is long, else 0; then cosh √Δτ and sinh √Δτ/√Δ, both divided by e to that rate times τ.
+    /// √Δ if the pair is real and the time is long, else 0; then cosh √Δτ and sinh √Δτ/√Δ, both divided by e to that
+    /// rate times τ.
     fn at(&self, time: Time) -> (Ball, Ball, Ball) {
         let tau = time.span;
         let z = self.square * tau * tau;
@@ -65,9 +66,10 @@ impl Pair {
             (Ball::ZERO, cos, sin.over(omega))
         } else {
             // If Δ may be 0, its root and so the result are unknown.
-            let root = match self.square.hi > 2.0 * self.square.error {
-                true => self.square.sqrt(),
-                false => Ball::ONE.widened(f64::INFINITY),
+            let root = if self.square.hi > 2.0 * self.square.error {
+                self.square.sqrt()
+            } else {
+                Ball::ONE.widened(f64::INFINITY)
             };
             let other = exp((root * tau).scaled(-2.0));
             let sinh = (Ball::ONE - other).over(root).scaled(0.5);
@@ -82,11 +84,8 @@ impl Cubic {
         // The cube of this is still a normal number.
         let size = libm::scalbn(1.0, (libm::log2(size).ceil() as i32).max(-330));
         let inverse = size.recip();
-        let of_size = [
-            t.scaled(inverse),
-            c.scaled(inverse).scaled(inverse),
-            d.scaled(inverse).scaled(inverse).scaled(inverse),
-        ];
+        let of_size =
+            [t.scaled(inverse), c.scaled(inverse).scaled(inverse), d.scaled(inverse).scaled(inverse).scaled(inverse)];
         let root = largest_root(of_size).scaled(size);
         let middle = (t - root).scaled(0.5);
         // The product of the pair is c − 2λm.
@@ -154,7 +153,8 @@ fn largest_root([t, c, d]: [Ball; 3]) -> Ball {
         return Ball::ZERO;
     }
     let sign = if d.hi < 0.0 { -1.0 } else { 1.0 };
-    // Starting beyond the root (at 4/3), where the cubic is convex, Newton's method descends to the root and never passes it.
+    // Starting beyond the root (at 4/3), where the cubic is convex, Newton's method descends to the root and never
+    // passes it.
     let (c0, d0) = (c.hi, d.hi.abs());
     let mut x = 4.0 / 3.0;
     for _ in 0..200 {

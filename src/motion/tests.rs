@@ -15,8 +15,7 @@ fn apart(a: &UnitVector3<f64>, b: &UnitVector3<f64>) -> f64 {
 
 #[test]
 fn quarter_turns_are_exact() {
-    for (turns, cos, sin) in [(0.25, 0.0, 1.0), (-0.25, 0.0, -1.0), (0.5, -1.0, 0.0), (1e8 + 0.75, 0.0, -1.0)]
-    {
+    for (turns, cos, sin) in [(0.25, 0.0, 1.0), (-0.25, 0.0, -1.0), (0.5, -1.0, 0.0), (1e8 + 0.75, 0.0, -1.0)] {
         let phase = Phase::of_turns(turns);
         assert_eq!((phase.cos, phase.sin), (cos, sin), "{turns}");
     }
@@ -68,7 +67,8 @@ proptest! {
         }
         let moved = there_and_back.moved(&p, Span::Strain(2.0 * all, 1.0)).unwrap();
         prop_assert!(apart(&p, &moved.p) <= moved.error + 4.0 * f64::EPSILON && moved.error < 1e-8);
-        let (end, error) = there_and_back.direction_beside(&once, [p.x, p.y, p.z], Span::Strain(2.0 * all, 1.0)).unwrap();
+        let (end, error) = there_and_back.direction_beside(&once, [p.x, p.y, p.z], Span::Strain(2.0 * all,
+            1.0)).unwrap();
         prop_assert_eq!((Vector3::from(end), error), (moved.p.into_inner(), moved.error));
         let (map, _) = there_and_back.map(Span::Strain(2.0 * all, 1.0)).unwrap();
         prop_assert!((map / map.amax() - Matrix3::identity()).amax() < 1e-8);
@@ -105,7 +105,8 @@ proptest! {
     }
 
     #[test]
-    fn plane_couette_flow_by_either_way(phi in 0.0f64..6.2, theta in 0.0f64..3.1, r in 0.05f64..50.0, turns in 0.0f64..3.0) {
+    fn plane_couette_flow_by_either_way(phi in 0.0f64..6.2, theta in 0.0f64..3.1, r in 0.05f64..50.0,
+        turns in 0.0f64..3.0) {
         let p = orientation::from_angles(phi, theta);
         let flow = VelocityGradient::plane_couette(-0.5).unwrap();
         let (closed, general) = (Propagator::new(&flow, r), Propagator::general(&flow, r));
@@ -130,7 +131,8 @@ proptest! {
 
     /// Rods of another aspect ratio are observed at the mean rods' periods.
     #[test]
-    fn periods_are_those_of_the_mean(phi in 0.0f64..6.2, theta in 0.0f64..3.1, r in 2.0f64..30.0, turns in 0.0f64..5.0) {
+    fn periods_are_those_of_the_mean(phi in 0.0f64..6.2, theta in 0.0f64..3.1, r in 2.0f64..30.0,
+        turns in 0.0f64..5.0) {
         let p = orientation::from_angles(phi, theta);
         // Shear u_3 = x_2/2, alone and with an extension that leaves a rotating part.
         for rows in [
@@ -185,8 +187,7 @@ fn a_direction_and_a_map_have_no_size() {
         // The error has the length 5e-6 · size, the vector 5 · size.
         assert!((error / 1.01e-6 - 1.0).abs() < 1e-9, "{error}");
 
-        let map =
-            [0, 1, 2].map(|i| [0, 1, 2].map(|j| ball(if i == j { 4.0 * size } else { 0.0 }, 4e-20 * size)));
+        let map = [0, 1, 2].map(|i| [0, 1, 2].map(|j| ball(if i == j { 4.0 * size } else { 0.0 }, 4e-20 * size)));
         let (_, error) = general::rounded(&map);
         // Nine components have that error, three have that size.
         assert!((error / (3f64.sqrt() * 1e-20) - 1.0).abs() < 1e-12, "{error}");
@@ -238,8 +239,8 @@ fn a_spiral_keeps_its_phase_over_many_turns() {
     assert!(apart(&end, &expected) < 1e-8, "{end:?}");
 }
 
-/// A rod is drawn into the plane of axes 1 and 2 and turns in it by 1.5 rad, ever more slowly. If all axes are coupled, however weakly,
-/// cancellation hides the turning in the eigenvalues, until it is unknown.
+/// A rod is drawn into the plane of axes 1 and 2 and turns in it by 1.5 rad, ever more slowly. If all axes are coupled,
+/// however weakly, cancellation hides the turning in the eigenvalues, until it is unknown.
 #[test]
 fn the_bound_on_a_slow_spiral_is_kept() {
     let p = UnitVector3::new_normalize(Vector3::new(0.6, 0.0, 0.8));
@@ -252,7 +253,8 @@ fn the_bound_on_a_slow_spiral_is_kept() {
                 let rods = Propagator::new(&flow, 3.3);
                 rods.moved(&p, Span::Seconds(1.5 / turning)).unwrap()
             };
-            // The bound allows a hundred roundings of 2⁻¹⁰² in the exponent; a bound as wide as double precision's would fail.
+            // The bound allows a hundred roundings of 2⁻¹⁰² in the exponent; a bound as wide as double precision's
+            // would fail.
             let exponent = 1.05 / turning;
             let uncoupled = moved(0.0);
             assert!(

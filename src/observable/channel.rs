@@ -51,7 +51,8 @@ impl Channel {
         all.find(|channel| channel.name() == name)
     }
 
-    /// The index of this channel among the channels of `observables`, one observable after the other; `None` if it is not among them.
+    /// The index of this channel among the channels of `observables`, one observable after the other; `None` if it is
+    /// not among them.
     pub(crate) fn place(self, observables: &[Observable]) -> Option<usize> {
         let before = observables.iter().position(|o| *o == self.observable)?;
         let start: usize = observables[..before].iter().map(|o| o.width()).sum();

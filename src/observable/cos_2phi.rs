@@ -1,5 +1,5 @@
-//! ⟨cos 2φ⟩ = ⟨(p₁² − p₂²)/(p₁² + p₂²)⟩: −1 along the flow, 1 along the gradient. A rod along the vorticity axis, where φ is
-//! undefined, counts as 0.
+//! ⟨cos 2φ⟩ = ⟨(p₁² − p₂²)/(p₁² + p₂²)⟩: −1 along the flow, 1 along the gradient. A rod along the vorticity axis, where
+//! φ is undefined, counts as 0.
 
 use super::{Block, Observe, Sum};
 

@@ -3,12 +3,12 @@
 
 use crate::observable::{Block, Observe, Sum, lane_sum};
 
-/// The largest deviation from 1 of a block's mean |p|²: p = q/|q| is rounded about ten times, each time by at most ε/2 relatively,
-/// and counts twice; the sum over 128 rods in 8 lanes is rounded 24 times.
+/// The largest deviation from 1 of a block's mean |p|²: p = q/|q| is rounded about ten times, each time by at most ε/2
+/// relatively, and counts twice; the sum over 128 rods in 8 lanes is rounded 24 times.
 const DIRECTION: f64 = 32.0 * f64::EPSILON;
 
-/// The largest deviation from 1 of the trace of ⟨pp⟩: 10⁸ rods are summed as 16 per lane, 512 blocks per chunk and 1526 chunks, each sum
-/// with a relative rounding of at most ε/2.
+/// The largest deviation from 1 of the trace of ⟨pp⟩: 10⁸ rods are summed as 16 per lane, 512 blocks per chunk and 1526
+/// chunks, each sum with a relative rounding of at most ε/2.
 const TRACE: f64 = 4096.0 * f64::EPSILON;
 
 /// A failed check of a replica at one output.
@@ -19,18 +19,15 @@ pub(crate) struct Fault {
     pub cause: String,
 }
 
-/// Fails if a rod of `block` has no unit direction: if its length is off by more than 5e-13 or is not a number. One sum checks all
-/// rods, which costs less than a comparison per rod.
+/// Fails if a rod of `block` has no unit direction: if its length is off by more than 5e-13 or is not a number. One sum
+/// checks all rods, which costs less than a comparison per rod.
 #[inline]
 pub(crate) fn directions(block: &Block) -> Result<(), Fault> {
     let [p1, p2, p3] = &block.p;
     let square = move |k: usize| p1[k] * p1[k] + p2[k] * p2[k] + p3[k] * p3[k];
     let count = block.len as f64;
     // NaN fails this comparison too.
-    match (lane_sum(block.len, square) - count).abs() <= count * DIRECTION {
-        true => Ok(()),
-        false => Err(farthest(block, square)),
-    }
+    if (lane_sum(block.len, square) - count).abs() <= count * DIRECTION { Ok(()) } else { Err(farthest(block, square)) }
 }
 
 /// A fault that names the rod whose |p|² is farthest from 1.
@@ -46,7 +43,8 @@ fn farthest(block: &Block, square: impl Fn(usize) -> f64) -> Fault {
     Fault {
         rod: Some(rod),
         cause: format!(
-            "its direction came out as ({p1}, {p2}, {p3}), whose length is not 1: the motion of r_e = {} in this flow is \
+            "its direction came out as ({p1}, {p2}, {p3}), whose length is not 1: the motion of r_e = {} in this flow \
+                is \
              out of reach of double precision",
             block.aspect_ratio[rod]
         ),
@@ -84,9 +82,10 @@ pub(crate) fn trace(observable: &dyn Observe, sums: &[Sum], count: usize) -> Res
         return Ok(());
     };
     let trace = sum / count as f64;
-    match (trace - 1.0).abs() <= TRACE {
-        true => Ok(()),
-        false => Err(Fault { rod: None, cause: format!("the trace of {tensor} came out as {trace}, not 1") }),
+    if (trace - 1.0).abs() <= TRACE {
+        Ok(())
+    } else {
+        Err(Fault { rod: None, cause: format!("the trace of {tensor} came out as {trace}, not 1") })
     }
 }
 
@@ -123,13 +122,9 @@ mod tests {
     fn good_directions_pass_and_any_other_is_named() {
         for len in [1, 7, 8, 100, 128] {
             assert_eq!(directions(&block(len)), Ok(()));
-            for wrong in [
-                [0.0; 3],
-                [f64::NAN, 0.0, 1.0],
-                [f64::INFINITY, 0.0, 0.0],
-                [0.6, 0.8, 1e-5],
-                [1.0 - 1e-12, 0.0, 0.0],
-            ] {
+            for wrong in
+                [[0.0; 3], [f64::NAN, 0.0, 1.0], [f64::INFINITY, 0.0, 0.0], [0.6, 0.8, 1e-5], [1.0 - 1e-12, 0.0, 0.0]]
+            {
                 let rod = len / 2;
                 let mut spoiled = block(len);
                 (0..3).for_each(|axis| spoiled.p[axis][rod] = wrong[axis]);

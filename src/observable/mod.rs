@@ -51,13 +51,7 @@ pub struct Block {
 
 impl Default for Block {
     fn default() -> Self {
-        Self {
-            p: [[0.0; BLOCK]; 3],
-            aspect_ratio: [1.0; BLOCK],
-            weight: [1.0; BLOCK],
-            body: Body::Spheroid,
-            len: 0,
-        }
+        Self { p: [[0.0; BLOCK]; 3], aspect_ratio: [1.0; BLOCK], weight: [1.0; BLOCK], body: Body::Spheroid, len: 0 }
     }
 }
 
@@ -93,8 +87,8 @@ fn turned(
     }
 }
 
-/// A value per rod whose mean over rods and replicas is computed against time, with its standard error. A scene can name those in
-/// [`Observable::ALL`]; [`crate::run::own::observe`] takes any other.
+/// A value per rod whose mean over rods and replicas is computed against time, with its standard error. A scene can
+/// name those in [`Observable::ALL`]; [`crate::run::own::observe`] takes any other.
 ///
 /// ```
 /// use shearbed::observable::{Block, Observe, Sum};
@@ -131,8 +125,8 @@ pub trait Observe: Sync {
     /// The names of the columns; at least one.
     fn columns(&self) -> &[&'static str];
 
-    /// The symbol of a column by its place in [`Observe::columns`], with a unit in parentheses, as it stands on an axis: `φ̄ (rad)`.
-    /// The column's name unless the observable says otherwise.
+    /// The symbol of a column by its place in [`Observe::columns`], with a unit in parentheses, as it stands on an
+    /// axis: `φ̄ (rad)`. The column's name unless the observable says otherwise.
     fn symbol(&self, column: usize) -> String {
         self.columns()[column].to_owned()
     }
@@ -140,8 +134,8 @@ pub trait Observe: Sync {
     /// Adds the rods of `block` to `sums`, one per column.
     fn add(&self, block: &Block, sums: &mut [Sum]);
 
-    /// The least and the largest mean that a column can have, by its place in [`Observe::columns`]: measured values beyond are
-    /// refused. Unbounded unless the observable says otherwise.
+    /// The least and the largest mean that a column can have, by its place in [`Observe::columns`]: measured values
+    /// beyond are refused. Unbounded unless the observable says otherwise.
     fn range(&self, _column: usize) -> [f64; 2] {
         [f64::NEG_INFINITY, f64::INFINITY]
     }
@@ -151,7 +145,8 @@ pub trait Observe: Sync {
         false
     }
 
-    /// True if its sums are in units of μ G n⟨a³⟩ and its means in Pa: it needs the liquid's viscosity and the rods' concentration.
+    /// True if its sums are in units of μ G n⟨a³⟩ and its means in Pa: it needs the liquid's viscosity and the rods'
+    /// concentration.
     fn needs_viscosity(&self) -> bool {
         false
     }
@@ -172,8 +167,8 @@ pub trait Observe: Sync {
     }
 }
 
-/// The range of a mean of products of direction components, by a column's name: `a1123` for p₁²p₂p₃. With exponents e of sum d a
-/// product is at most Π (e/d)^(e/2).
+/// The range of a mean of products of direction components, by a column's name: `a1123` for p₁²p₂p₃. With exponents e
+/// of sum d a product is at most Π (e/d)^(e/2).
 fn range_of_product(column: &str) -> [f64; 2] {
     let axes = &column[1..];
     let exponents = ['1', '2', '3'].map(|axis| axes.matches(axis).count() as i32);
@@ -210,7 +205,8 @@ pub(crate) fn lane_sum(len: usize, f: impl Fn(usize) -> f64) -> f64 {
     )
 }
 
-/// `of(len)`, compiled once more for whole blocks: where the compiler knows the length, loops have no ends to look after.
+/// `of(len)`, compiled once more for whole blocks: where the compiler knows the length, loops have no ends to look
+/// after.
 #[inline(always)]
 pub(crate) fn whole_or<T>(len: usize, of: impl Fn(usize) -> T) -> T {
     if len == BLOCK { of(BLOCK) } else { of(len) }

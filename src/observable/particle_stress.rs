@@ -1,6 +1,7 @@
-//! The stress of dilute slender rods in plane Couette flow, over μ_fiber G: shear stress σ₁₂ and normal stress differences
-//! N₁ = σ₂₂ − σ₁₁ (flow less gradient) and N₂ = σ₁₁ − σ₃₃ of σ_ij = μ_fiber ⟨p_i p_j p_k p_l⟩ D_kl, which is
-//! μ_fiber G ⟨p_i p_j p₁p₂⟩ (Batchelor 1970; docs/src/theory/coefficients.md). μ_fiber ∝ n⟨a³⟩: rods count by their cubed length.
+//! The stress of dilute slender rods in plane Couette flow, over μ_fiber G: shear stress σ₁₂ and normal stress
+//! differences N₁ = σ₂₂ − σ₁₁ (flow less gradient) and N₂ = σ₁₁ − σ₃₃ of σ_ij = μ_fiber ⟨p_i p_j p_k p_l⟩ D_kl, which
+//! is μ_fiber G ⟨p_i p_j p₁p₂⟩ (Batchelor 1970; docs/src/theory/coefficients.md). μ_fiber ∝ n⟨a³⟩: rods count by their
+//! cubed length.
 
 use super::{Block, Observe, Sum};
 

@@ -1,5 +1,6 @@
-//! The stress of dilute rods in plane Couette flow, in Pa: shear stress σ₁₂ and normal stress differences N₁ = σ₂₂ − σ₁₁ (flow less
-//! gradient) and N₂ = σ₁₁ − σ₃₃, with the coefficients of the rods' own shape ([`crate::model::stress`]).
+//! The stress of dilute rods in plane Couette flow, in Pa: shear stress σ₁₂ and normal stress differences N₁ = σ₂₂ −
+//! σ₁₁ (flow less gradient) and N₂ = σ₁₁ − σ₃₃, with the coefficients of the rods' own shape
+//! ([`crate::model::stress`]).
 
 use super::{BLOCK, Block, Observe, Sum};
 
@@ -33,7 +34,8 @@ impl Observe for Stress {
             *k = last.1.map(|k| block.weight[i] * k);
         }
         let squares = |i: usize| [p1[i] * p1[i], p2[i] * p2[i], p3[i] * p3[i]];
-        // ⟨pppp⟩:D/G has the components p_i p_j p₁p₂, and ⟨pp⟩·D + D·⟨pp⟩ over G has p₁p₂ at 11 and 22, (p₁² + p₂²)/2 at 12.
+        // ⟨pppp⟩:D/G has the components p_i p_j p₁p₂, and ⟨pp⟩·D + D·⟨pp⟩ over G has p₁p₂ at 11 and 22, (p₁² + p₂²)/2
+        // at 12.
         sums[0].add_each(block.len, |i| {
             let (s, [a, b, c]) = (squares(i), k[i]);
             a * s[0] * s[1] + 0.5 * (b * (s[0] + s[1]) + c)

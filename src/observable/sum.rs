@@ -22,9 +22,9 @@ pub struct Sum {
     pub spread: Option<Spread>,
 }
 
-/// Sums of differences from the value of the first rod. If rods are nearly alike, differences keep the digits that Σf² − (Σf)²/n
-/// loses: however far the first rod is from the mean, the squared error has a relative rounding of at most about n ε, for
-/// (f₁ − ⟨f⟩)² is one of the squares in it.
+/// Sums of differences from the value of the first rod. If rods are nearly alike, differences keep the digits that Σf²
+/// − (Σf)²/n loses: however far the first rod is from the mean, the squared error has a relative rounding of at most
+/// about n ε, for (f₁ − ⟨f⟩)² is one of the squares in it.
 ///
 /// ```
 /// use shearbed::observable::Spread;
@@ -83,7 +83,8 @@ impl Sum {
     }
 }
 
-/// Σ (f − first), Σ (f − first)² and Σ f, in the lanes of [`lane_sum`]; side by side, so that no sum waits for its own last add.
+/// Σ (f − first), Σ (f − first)² and Σ f, in the lanes of [`lane_sum`]; side by side, so that no sum waits for its own
+/// last add.
 #[inline(always)]
 fn moments<S: Simd>(simd: S, values: &[f64], first: f64) -> [f64; 3] {
     let mut sums = [f64x8::splat(simd, 0.0); 3];

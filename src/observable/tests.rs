@@ -50,14 +50,13 @@ fn one_rod_by_hand() {
     let tensor = [4.0, 9.0, 36.0, -6.0, 12.0, -18.0].map(|x| x / 49.0);
     close(observe(Observable::OrientationTensor), tensor.to_vec());
     // By exponents of 2/7, −3/7 and 6/7: 1111, 1112, 1113, 1122, 1123, 1133, 1222, 1223, 1233, 1333, 2222, …
-    let quads = [
-        16.0, -24.0, 48.0, 36.0, -72.0, 144.0, -54.0, 108.0, -216.0, 432.0, 81.0, -162.0, 324.0, -648.0,
-        1296.0,
-    ];
+    let quads =
+        [16.0, -24.0, 48.0, 36.0, -72.0, 144.0, -54.0, 108.0, -216.0, 432.0, 81.0, -162.0, 324.0, -648.0, 1296.0];
     close(observe(Observable::OrientationTensor4), quads.map(|x| x / 2401.0).to_vec());
     // p₁p₂ = −6/49; p₂² − p₁² = 5/49; p₁² − p₃² = −32/49.
     close(observe(Observable::ParticleStress), [36.0, -30.0, 192.0].map(|x| x / 2401.0).to_vec());
-    // With k_A, k_B and k_C of r = 2: k_A p₁²p₂² + ½k_B(p₁² + p₂²) + ½k_C, k_A p₁p₂(p₂² − p₁²), p₁p₂(k_A(p₁² − p₃²) + k_B).
+    // With k_A, k_B and k_C of r = 2: k_A p₁²p₂² + ½k_B(p₁² + p₂²) + ½k_C, k_A p₁p₂(p₂² − p₁²), p₁p₂(k_A(p₁² − p₃²) +
+    // k_B).
     let [a, b, c] = Body::Spheroid.coefficients(2.0);
     let (a, b) = (a / 2401.0, b / 49.0);
     close(observe(Observable::Stress), vec![36.0 * a + 6.5 * b + 0.5 * c, -30.0 * a, 192.0 * a - 6.0 * b]);

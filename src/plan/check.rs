@@ -18,18 +18,22 @@ use crate::scene::{
 const MAX_STEPS: f64 = 1e9;
 /// The limit follows from memory: 52 channels of 10⁶ outputs are 2.5 GB of sums.
 const MAX_OUTPUTS: f64 = 1e6;
-/// Largest relative deviation of a concentration from that of count and box, for sides given to about five digits; the box is used.
+/// Largest relative deviation of a concentration from that of count and box, for sides given to about five digits; the
+/// box is used.
 const AGREE: f64 = 1e-3;
-/// Largest ratio of trace to largest component for which a gradient counts as traceless: rounded decimals leave about this much.
+/// Largest ratio of trace to largest component for which a gradient counts as traceless: rounded decimals leave about
+/// this much.
 const INCOMPRESSIBLE: f64 = 1e-6;
-/// Largest number of times that the liquid may cross the control volume in a step: places are drawn for a rod until one is inside.
+/// Largest number of times that the liquid may cross the control volume in a step: places are drawn for a rod until one
+/// is inside.
 const MAX_CROSSINGS: f64 = 30.0;
-/// Largest growth of the rotating part over the whole time for which a flow counts as periodic: a rod misses its start by as many rad.
+/// Largest growth of the rotating part over the whole time for which a flow counts as periodic: a rod misses its start
+/// by as many rad.
 const MAX_DRIFT: f64 = 1e-6;
 
-/// The mistakes in a scene: all values that their keys do not allow, or else inconsistent values: of the particles, and the first of the
-/// rest, whose checks depend on one another. Only [`super::Plan::new`] checks whether the rods' motion is within reach of double
-/// precision.
+/// The mistakes in a scene: all values that their keys do not allow, or else inconsistent values: of the particles, and
+/// the first of the rest, whose checks depend on one another. Only [`super::Plan::new`] checks whether the rods' motion
+/// is within reach of double precision.
 pub(super) fn invalid(scene: &Scene) -> Vec<Invalid> {
     let wrong = scene.out_of_range();
     if !wrong.is_empty() {
@@ -54,7 +58,8 @@ pub(super) fn closed_form(scene: &Scene, flow: &VelocityGradient) -> bool {
     flow.shear_rate_per_s().is_some() && scene.time.unit == TimeUnit::Period
 }
 
-/// Stresses in Pa need a viscosity and a concentration; orbit constants (eq. 13) and all stresses need plane Couette flow along the axes.
+/// Stresses in Pa need a viscosity and a concentration; orbit constants (eq. 13) and all stresses need plane Couette
+/// flow along the axes.
 fn check_observed(scene: &Scene, flow: &VelocityGradient) -> Result<(), Invalid> {
     let observables = &scene.output.observables;
     if let Some(asked) = observables.iter().find(|o| o.needs_viscosity()) {
@@ -81,10 +86,8 @@ fn check_observed(scene: &Scene, flow: &VelocityGradient) -> Result<(), Invalid>
         return Ok(());
     };
     let names: Vec<_> = observables.iter().map(|o| o.name()).collect();
-    let allowed = format!(
-        "{} needs plane Couette flow: only ∂u_2/∂x_1 other than 0, and always the same",
-        asked.name()
-    );
+    let allowed =
+        format!("{} needs plane Couette flow: only ∂u_2/∂x_1 other than 0, and always the same", asked.name());
     Err(Invalid::new("output.observables", format!("{names:?}"), allowed))
 }
 
@@ -99,16 +102,12 @@ fn check_motion(scene: &Scene) -> Result<(), Invalid> {
     }
     time::check_time(scene, &flow)?;
     check_rods_outputs(scene)?;
-    match closed_form(scene, &flow) || no_interaction(scene).is_some() {
-        true => Ok(()),
-        false => time::check_steps(scene, &flow),
-    }
+    if closed_form(scene, &flow) || no_interaction(scene).is_some() { Ok(()) } else { time::check_steps(scene, &flow) }
 }
 
 /// Checks a sequence of flows: rods must be free, time must be a strain, and the run must end within the last flow.
 fn check_flow_steps(scene: &Scene, steps: &[FlowStep]) -> Result<(), Invalid> {
-    let refused =
-        |allowed: String| Err(Invalid::new("flow.steps", format!("{} steps", steps.len()), allowed));
+    let refused = |allowed: String| Err(Invalid::new("flow.steps", format!("{} steps", steps.len()), allowed));
     if scene.interaction.is_some() {
         return refused("free rods: leave [interaction] out, or give one gradient".to_owned());
     }
@@ -127,17 +126,17 @@ fn check_flow_steps(scene: &Scene, steps: &[FlowStep]) -> Result<(), Invalid> {
         ));
     }
     let seconds = || steps.iter().map(|step| step.strain / step.rate_per_s());
-    match seconds().all(|seconds| seconds > 0.0) && seconds().sum::<f64>().is_finite() {
-        true => Ok(()),
-        false => refused("rates at which each lasts a finite number of seconds > 0".to_owned()),
+    if seconds().all(|seconds| seconds > 0.0) && seconds().sum::<f64>().is_finite() {
+        Ok(())
+    } else {
+        refused("rates at which each lasts a finite number of seconds > 0".to_owned())
     }
 }
 
 fn check_rods_outputs(scene: &Scene) -> Result<(), Invalid> {
     let last = scene.outputs().saturating_sub(1).max(1) as u64;
     if let Some(every) = scene.output.rods_every.filter(|every| *every > last) {
-        let allowed =
-            format!("expected a whole number from 1 to {last}, the number of outputs after the start");
+        let allowed = format!("expected a whole number from 1 to {last}, the number of outputs after the start");
         return Err(Invalid::new("output.rods_every", every, allowed));
     }
     let outputs: Vec<_> = scene.output.rods_at.iter().map(|time| scene.output_at(*time)).collect();
@@ -160,11 +159,7 @@ fn refused_gradient(scene: &Scene, allowed: &str) -> Invalid {
     Invalid::new("flow.gradient_per_s", format!("{rows:?}"), allowed)
 }
 
-fn check_interaction(
-    scene: &Scene,
-    interaction: &Interaction,
-    flow: &VelocityGradient,
-) -> Result<(), Invalid> {
+fn check_interaction(scene: &Scene, interaction: &Interaction, flow: &VelocityGradient) -> Result<(), Invalid> {
     let (given, of_box) = (interaction.concentration_per_cm3, interaction.box_mm);
     let (Some(n), Some(volume)) = (scene.concentration_per_cm3(), scene.volume()) else {
         return Err(Invalid::missing(
@@ -186,14 +181,13 @@ fn check_interaction(
     }
     let sound = |side: f64| side.is_finite() && side > 0.0;
     let other_flow = flow.shear_rate_per_s().is_none();
-    if !(volume.sides().into_iter().all(sound) && n.is_finite() && n > 0.0)
-        || other_flow && !volume.is_known()
-    {
+    if !(volume.sides().into_iter().all(sound) && n.is_finite() && n > 0.0) || other_flow && !volume.is_known() {
         return Err(match of_box {
             Some(sides) => Invalid::new(
                 "interaction.box_mm",
                 format!("{sides:?}"),
-                "lengths for which the sides over the rods' length, their product and the concentration are finite numbers > 0",
+                "lengths for which the sides over the rods' length, their product and the concentration are finite \
+                    numbers > 0",
             ),
             None => Invalid::new(
                 "interaction.concentration_per_cm3",
@@ -206,7 +200,8 @@ fn check_interaction(
     if trace.is_nan() || trace.abs() > INCOMPRESSIBLE * gradient.amax() {
         return Err(refused_gradient(
             scene,
-            "where rods interact, a gradient with ∂u_1/∂x_1 + ∂u_2/∂x_2 + ∂u_3/∂x_3 = 0: any other changes the volume of the \
+            "where rods interact, a gradient with ∂u_1/∂x_1 + ∂u_2/∂x_2 + ∂u_3/∂x_3 = 0: any other changes the volume \
+                of the \
              liquid and the concentration of the rods",
         ));
     }

@@ -1,5 +1,5 @@
-//! The motion of free rods to each output of a scene, except in plane Couette flow by periods: computed once for all replicas.
-//! A scene whose directions are not known accurately is refused.
+//! The motion of free rods to each output of a scene, except in plane Couette flow by periods: computed once for all
+//! replicas. A scene whose directions are not known accurately is refused.
 
 use crate::model::flow::VelocityGradient;
 use crate::model::orientation::from_degrees;
@@ -8,8 +8,8 @@ use crate::scene::{Invalid, Scene, TimeUnit};
 use nalgebra::{Matrix3, UnitVector3};
 use rayon::prelude::*;
 
-/// The largest error of a direction in rad; a scene with a larger one is refused. It is far below the resolution of any mean over
-/// rods, and far above round-off.
+/// The largest error of a direction in rad; a scene with a larger one is refused. It is far below the resolution of any
+/// mean over rods, and far above round-off.
 pub const MAX_ERROR_RAD: f64 = 1e-6;
 /// A bound on the relative error of a component of a direction given in degrees: from sine, cosine, product and length.
 const ROUNDING_OF_START: f64 = 4.0 * f64::EPSILON;
@@ -18,7 +18,8 @@ const ROUNDING_OF_START: f64 = 4.0 * f64::EPSILON;
 #[derive(Clone, Debug)]
 pub(crate) struct FreeMotion {
     pub way: Way,
-    /// The bound on the error of a direction in rad; for random directions, and each rod's own, that of the map relative to its size.
+    /// The bound on the error of a direction in rad; for random directions, and each rod's own, that of the map
+    /// relative to its size.
     pub error_rad: f64,
 }
 
@@ -28,8 +29,9 @@ pub(crate) enum Way {
     Alike(Vec<[f64; 3]>),
     /// All rods have the same shape: the map to each output, repeated periodically.
     Maps(Vec<Matrix3<f64>>),
-    /// A propagator per rod, or one if the shapes are equal: `spans` to each output, `mean` with the periods, and whether the starts are
-    /// `rounded` from other numbers. Random starts are not: they are the doubles that were drawn.
+    /// A propagator per rod, or one if the shapes are equal: `spans` to each output, `mean` with the periods, and
+    /// whether the starts are `rounded` from other numbers. Random starts are not: they are the doubles that were
+    /// drawn.
     Each { mean: Box<Propagator>, spans: Vec<Span>, rounded: bool },
 }
 
@@ -99,8 +101,8 @@ fn stepped(scene: &Scene, r: f64) -> Option<Propagator> {
     Some(Propagator::of_steps(&flows?, r))
 }
 
-/// The direction of a rod that started along `start`, its error in rad, and the part that comes from rounding the start; periods in
-/// `span` are those of `mean`.
+/// The direction of a rod that started along `start`, its error in rad, and the part that comes from rounding the
+/// start; periods in `span` are those of `mean`.
 pub(crate) fn directed(
     propagator: &Propagator,
     mean: &Propagator,
@@ -112,7 +114,8 @@ pub(crate) fn directed(
     Some((moved.p.into_inner().into(), moved.error + rounding, rounding))
 }
 
-/// `motion` at each span, with the largest error. `motion` returns a value, its error, and the part from rounding the start.
+/// `motion` at each span, with the largest error. `motion` returns a value, its error, and the part from rounding the
+/// start.
 fn at_each<T: Send>(
     scene: &Scene,
     spans: &[Span],
@@ -142,7 +145,8 @@ fn unknown(scene: &Scene, error: f64, of_start: f64) -> Invalid {
         scene.time.unit.duration_key(),
         scene.time.duration,
         format!(
-            "a time after which directions are known to {MAX_ERROR_RAD:e} rad: of rods of r_e = {} in this flow they are \
+            "a time after which directions are known to {MAX_ERROR_RAD:e} rad: of rods of r_e = {} in this flow they \
+                are \
              known to {error:.1e} rad only, as {cause}; give a shorter time, another start or other rods",
             scene.particles.aspect_ratio
         ),
@@ -158,15 +162,13 @@ fn cause(error: f64, of_start: f64) -> &'static str {
     }
 }
 
-/// The message for a rod of aspect ratio `r` whose direction has the error bound `error` in rad, `of_start` of it from rounding the
-/// start.
+/// The message for a rod of aspect ratio `r` whose direction has the error bound `error` in rad, `of_start` of it from
+/// rounding the start.
 pub(crate) fn refused_direction(r: f64, error: f64, of_start: f64) -> String {
-    let bound = match error.is_finite() {
-        true => format!("{error:.2e} rad"),
-        false => "infinite".into(),
-    };
+    let bound = if error.is_finite() { format!("{error:.2e} rad") } else { "infinite".into() };
     format!(
-        "the bound on the error of its direction is {bound}, more than the {MAX_ERROR_RAD:e} rad allowed, at r_e = {r}: {}; \
+        "the bound on the error of its direction is {bound}, more than the {MAX_ERROR_RAD:e} rad allowed, at r_e = \
+            {r}: {}; \
          give a shorter time, another start or other rods",
         cause(error, of_start)
     )

@@ -1,7 +1,7 @@
 //! The plan of a scene: which stages run, which are dropped, and why.
 //!
-//! [`Plan::new`] is the one judge of a scene. It may use `scene` and the wings before it. To add a check, add a function to
-//! `check`; to add a stage, a variant of [`Stage`] with the reason for which a scene needs it.
+//! [`Plan::new`] is the one judge of a scene. It may use `scene` and the wings before it. To add a check, add a
+//! function to `check`; to add a stage, a variant of [`Stage`] with the reason for which a scene needs it.
 
 mod check;
 mod elapsed;
@@ -63,9 +63,10 @@ impl Plan {
         }
         check::rods::check_rods_are_read(scene).map_err(one)?;
         let flow = check::gradient(scene).map_err(one)?;
-        let free = match check::closed_form(scene, &flow) || no_interaction(scene).is_none() {
-            true => None,
-            false => Some(Arc::new(FreeMotion::new(scene, &flow).map_err(one)?)),
+        let free = if check::closed_form(scene, &flow) || no_interaction(scene).is_none() {
+            None
+        } else {
+            Some(Arc::new(FreeMotion::new(scene, &flow).map_err(one)?))
         };
         let timing = Timing::of(scene, &flow);
         Ok(Self { scene: scene.clone(), flow, timing, free, entries: entries(scene) })
@@ -78,27 +79,27 @@ impl Plan {
     /// [`Error::Text`] with every mistake that can be found at once, each with its line.
     ///
     /// ```
-    /// let text = "title = 't'\nflow = { shear_rate_per_s = 1 }\ntime = { periods = 1e9 }\n[particles]\ncount = 10\nlength_mm = 1\n\
+    /// let text = "title = 't'\nflow = { shear_rate_per_s = 1 }\ntime = { periods = 1e9 }\n\
+    ///     [particles]\ncount = 10\nlength_mm = 1\n\
     ///     aspect_ratio = 5\norientation = 'isotropic'\n";
     /// let error = shearbed::Plan::parse("s.toml", text).unwrap_err().to_string();
-    /// assert!(error.starts_with("s.toml:3: time.periods = 1e9 is not allowed: at most 1e6 outputs in all"), "{error}");
+    /// assert!(error.starts_with("s.toml:3: time.periods = 1e9 \
+    ///     is not allowed: at most 1e6 outputs in all"), "{error}");
     /// ```
     pub fn parse(file: &str, text: &str) -> Result<Self, Error> {
         let document = Document::parse(file, text)?;
         Self::new(&of_document(&document)?).map_err(|error| document.located(error))
     }
 
-    /// The same plan with `stage`, and the stages that it needs, run although the scene does not need them: to test that dropping
-    /// it changes nothing, and to measure its cost. `None` if the scene has nothing for the stage to work on: no `[interaction]` table,
-    /// or free rods in any but plane Couette flow by periods.
+    /// The same plan with `stage`, and the stages that it needs, run although the scene does not need them: to test
+    /// that dropping it changes nothing, and to measure its cost. `None` if the scene has nothing for the stage to work
+    /// on: no `[interaction]` table, or free rods in any but plane Couette flow by periods.
     pub fn with_stage(&self, stage: Stage) -> Option<Self> {
         let needs: &[Stage] = match stage {
             Stage::Translation => &[Stage::Positions],
             Stage::Neighbours => &[Stage::Translation, Stage::Positions],
             Stage::CollisionDraws => &[Stage::Translation, Stage::Positions],
-            Stage::Contacts => {
-                &[Stage::CollisionDraws, Stage::Neighbours, Stage::Translation, Stage::Positions]
-            }
+            Stage::Contacts => &[Stage::CollisionDraws, Stage::Neighbours, Stage::Translation, Stage::Positions],
             _ => &[],
         };
         let in_volume = stage == Stage::Positions || !needs.is_empty();
@@ -148,8 +149,8 @@ impl Plan {
         &self.flow
     }
 
-    /// The bound on the error of free rods' directions in rad; `None` for the closed form of plane Couette flow. For random
-    /// directions it is the error of the map that moves them, relative to its size.
+    /// The bound on the error of free rods' directions in rad; `None` for the closed form of plane Couette flow. For
+    /// random directions it is the error of the map that moves them, relative to its size.
     pub fn error_rad(&self) -> Option<f64> {
         self.free.as_ref().map(|free| free.error_rad)
     }
@@ -235,11 +236,7 @@ impl Plan {
 
     /// Steps between outputs; 1 if no steps are taken.
     pub(crate) fn ticks_per_output(&self) -> u64 {
-        if self.runs(Stage::Translation) {
-            self.scene.steps_per_unit() / self.scene.outputs_per_unit()
-        } else {
-            1
-        }
+        if self.runs(Stage::Translation) { self.scene.steps_per_unit() / self.scene.outputs_per_unit() } else { 1 }
     }
 }
 

@@ -148,9 +148,7 @@ pub(super) fn entries(scene: &Scene) -> Vec<Entry> {
 /// The stage of standard errors over rods, which are used for a single replica.
 pub(super) fn rod_errors(scene: &Scene) -> Entry {
     let kept = scene.ensemble.replicas == 1;
-    let reason = match kept {
-        true => "one replica: standard errors come from the rods",
-        false => "standard errors come from the replicas",
-    };
+    let reason =
+        if kept { "one replica: standard errors come from the rods" } else { "standard errors come from the replicas" };
     Entry { stage: Stage::RodErrors, kept, reason: reason.to_owned() }
 }

@@ -4,16 +4,17 @@ use super::{Plan, Stage};
 use crate::observable::Observable;
 use crate::scene::{Orientation, Update, resolved_strain};
 
-/// The aspect ratio below which the slender limit of the rods' stress triggers a warning. A rule of thumb: the terms that the limit
-/// leaves out fall slowly with r_e, and vanish at no r_e.
+/// The aspect ratio below which the slender limit of the rods' stress triggers a warning. A rule of thumb: the terms
+/// that the limit leaves out fall slowly with r_e, and vanish at no r_e.
 const SLENDER: f64 = 30.0;
 
-/// The aspect ratio below which colliding rods trigger a warning. The paper asks for r_e ≫ 1 and states no bound. Its contact
-/// rule joins the rods' axes, so it ignores their diameter, which is more than a tenth of the length here; and the paper compares
-/// no rods below r_e = 11.6 with measurements.
+/// The aspect ratio below which colliding rods trigger a warning. The paper asks for r_e ≫ 1 and states no bound. Its
+/// contact rule joins the rods' axes, so it ignores their diameter, which is more than a tenth of the length here; and
+/// the paper compares no rods below r_e = 11.6 with measurements.
 const RULE_OF_LINES: f64 = 10.0;
 
-/// Largest relative difference between the mean r_e of a file and the scene's without a warning: three standard errors of a few rods.
+/// Largest relative difference between the mean r_e of a file and the scene's without a warning: three standard errors
+/// of a few rods.
 const OWN_MEAN: f64 = 0.1;
 
 impl Plan {
@@ -43,9 +44,10 @@ impl Plan {
         let resolved = resolved_strain(self.scene.particles.mean_aspect_ratio());
         (self.steps() > 0 && motion > resolved).then(|| {
             // In shear both are equal, to round-off.
-            let what = match motion > 1.5 * self.elapsed(1.0).strain / steps as f64 {
-                true => "twice the angle by which the liquid turns in a step",
-                false => "the strain per step",
+            let what = if motion > 1.5 * self.elapsed(1.0).strain / steps as f64 {
+                "twice the angle by which the liquid turns in a step"
+            } else {
+                "the strain per step"
             };
             format!(
                 "{} = {steps} does not resolve the motion: {what} is {motion:.3}, above {resolved:.3}; {} \
@@ -57,7 +59,8 @@ impl Plan {
         })
     }
 
-    /// Warns about a number of steps in a scene without collisions; one of which these are switched off may keep its steps.
+    /// Warns about a number of steps in a scene without collisions; one of which these are switched off may keep its
+    /// steps.
     fn steps_for_nothing(&self) -> Option<String> {
         let given = self.scene.time.steps_per_unit.is_some() && self.scene.interaction.is_none();
         given.then(|| format!("{} has no effect: free rods take no steps", self.scene.time.unit.steps_key()))
@@ -74,7 +77,8 @@ impl Plan {
         let update = self.scene.interaction.as_ref()?.update;
         let turns = self.flow.shear_rate_per_s().is_none() && self.flow.turn_per_s() > 0.0;
         (self.runs(Stage::Contacts) && turns && update != Update::Kick).then(|| {
-            "interaction.update turns colliding rods straight through a step, where free rods follow the liquid: an error ∝ Δt that \
+            "interaction.update turns colliding rods straight through a step, where free rods follow the liquid: an \
+                error ∝ Δt that \
              adds up with time in flows that turn; \"kick\" has none"
                 .to_owned()
         })
@@ -88,8 +92,7 @@ impl Plan {
             ("aspect_ratio", own.aspect_ratio.is_none(), particles.aspect_ratio_sd_percent),
             ("length", own.length_mm.is_none(), particles.length_sd_percent),
         ];
-        let (name, _, sd) =
-            (drawn.into_iter()).find(|(_, lacks, sd)| own.p.is_some() && *lacks && *sd > 0.0)?;
+        let (name, _, sd) = (drawn.into_iter()).find(|(_, lacks, sd)| own.p.is_some() && *lacks && *sd > 0.0)?;
         Some(format!(
             "particles.{name}_sd_percent = {sd} draws each rod's {} anew, unrelated to its direction in {file}: to \
              continue a suspension of unequal rods, give the file that column too, as rods.csv has it",
@@ -103,16 +106,15 @@ impl Plan {
         let (file, own) = (&particles.rods.as_ref()?.file, particles.own()?);
         let replicas = self.scene.ensemble.replicas;
         let drawn = particles.aspect_ratio_sd_percent > 0.0 && own.aspect_ratio.is_none();
-        (own.p.is_some() && replicas > 1).then(|| match self.runs(Stage::Contacts) || drawn {
-            true => format!(
-                "{replicas} replicas start with the directions in {file}: standard errors over replicas leave out the scatter of these \
-                 rods, which those of one replica have"
-            ),
-            false => format!(
-                "the {replicas} replicas are alike: free rods start with the directions in {file}, and nothing is drawn that turns \
-                 them; one replica says as much, with standard errors over its rods"
-            ),
-        })
+        (own.p.is_some() && replicas > 1).then(|| if self.runs(Stage::Contacts) || drawn { format!(
+            "{replicas} replicas start with the directions in {file}: standard errors over replicas leave out the \
+                scatter of these \
+             rods, which those of one replica have"
+        ) } else { format!(
+            "the {replicas} replicas are alike: free rods start with the directions in {file}, and nothing is \
+                drawn that turns \
+             them; one replica says as much, with standard errors over its rods"
+        ) })
     }
 
     /// Warns if the mean r_e of the rods in a file is far from the scene's.
@@ -122,7 +124,8 @@ impl Plan {
         let near = (mean / particles.aspect_ratio - 1.0).abs() <= OWN_MEAN;
         (!near).then(|| {
             format!(
-                "particles.aspect_ratio = {} sets only the period T and the output times: the rods in particles.rods have a mean of \
+                "particles.aspect_ratio = {} sets only the period T and the output times: the rods in particles.rods \
+                    have a mean of \
                  {mean:.4}",
                 particles.aspect_ratio
             )
@@ -135,10 +138,7 @@ impl Plan {
         let own = particles.own()?;
         let unused = [
             ("orientation", own.p.is_some() && particles.orientation != Orientation::default()),
-            (
-                "aspect_ratio_sd_percent",
-                own.aspect_ratio.is_some() && particles.aspect_ratio_sd_percent > 0.0,
-            ),
+            ("aspect_ratio_sd_percent", own.aspect_ratio.is_some() && particles.aspect_ratio_sd_percent > 0.0),
             ("length_sd_percent", own.length_mm.is_some() && particles.length_sd_percent > 0.0),
         ];
         let unused = unused.into_iter().filter(|(_, is)| *is);
@@ -156,10 +156,10 @@ impl Plan {
         // The probability that n uniform places all lie within this share of a side; below 1e-6 it is no accident.
         let rods = places[0].len() as f64;
         let by_chance = |share: f64| libm::pow(share, rods) < 1e-6;
-        let (axis, (farthest, side)) =
-            (short.enumerate()).find(|(_, (farthest, side))| by_chance(farthest / side))?;
+        let (axis, (farthest, side)) = (short.enumerate()).find(|(_, (farthest, side))| by_chance(farthest / side))?;
         Some(format!(
-            "the places in particles.rods reach only {farthest} of {side} mm along axis {}: check that they belong to this control volume",
+            "the places in particles.rods reach only {farthest} of {side} mm along axis {}: check that they belong to \
+                this control volume",
             axis + 1
         ))
     }
@@ -169,8 +169,10 @@ impl Plan {
         let mean = self.scene.particles.mean_aspect_ratio();
         (self.runs(Stage::Contacts) && mean < RULE_OF_LINES).then(|| {
             format!(
-                "{}: the collision rule is for slender rods, r_e ≫ 1. Below {RULE_OF_LINES} it leaves out a diameter of more than a \
-                 tenth of a rod's length. Lee & Springer leave out Okagawa & Mason's points of r_e = 3.96, and name a lack of \
+                "{}: the collision rule is for slender rods, r_e ≫ 1. Below {RULE_OF_LINES} it leaves out a diameter \
+                    of more than a \
+                 tenth of a rod's length. Lee & Springer leave out Okagawa & Mason's points of r_e = 3.96, and name a \
+                 lack of \
                  slenderness as one possible reason (Results, after Fig. 5)",
                 self.mean_and_its_key()
             )
@@ -180,9 +182,10 @@ impl Plan {
     /// The mean r_e, with the key that gives it.
     fn mean_and_its_key(&self) -> String {
         let particles = &self.scene.particles;
-        match particles.own().is_some_and(|own| own.aspect_ratio.is_some()) {
-            true => format!("particles.rods has a mean r_e of {:.4}", particles.mean_aspect_ratio()),
-            false => format!("particles.aspect_ratio = {}", particles.aspect_ratio),
+        if particles.own().is_some_and(|own| own.aspect_ratio.is_some()) {
+            format!("particles.rods has a mean r_e of {:.4}", particles.mean_aspect_ratio())
+        } else {
+            format!("particles.aspect_ratio = {}", particles.aspect_ratio)
         }
     }
 
@@ -191,7 +194,8 @@ impl Plan {
         let r = self.scene.particles.mean_aspect_ratio();
         (self.runs(Stage::Observe(Observable::ParticleStress)) && r < SLENDER).then(|| {
             format!(
-                "{}: particle_stress is the limit of slender rods, r_e ≫ 1. Below {SLENDER} the terms that it leaves out are not \
+                "{}: particle_stress is the limit of slender rods, r_e ≫ 1. Below {SLENDER} the terms that it leaves \
+                    out are not \
                  small; the observable \"stress\" has them (docs/src/theory/coefficients.md)",
                 self.mean_and_its_key()
             )

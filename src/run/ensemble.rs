@@ -28,8 +28,8 @@ pub struct Column {
     pub name: String,
     /// The mean over rods and replicas, per output.
     pub mean: Vec<f64>,
-    /// The standard error of the mean: over replicas, or over the rods of a single replica. NaN for a single rod of a single
-    /// replica.
+    /// The standard error of the mean: over replicas, or over the rods of a single replica. NaN for a single rod of a
+    /// single replica.
     pub se: Vec<f64>,
 }
 
@@ -82,8 +82,8 @@ impl Results {
     }
 }
 
-/// Runs every replica of the plan on the threads of the current rayon pool. The results are the same bits for any number of threads. To
-/// show progress, or to run replicas elsewhere, use [`fold`] and [`replicas_of`].
+/// Runs every replica of the plan on the threads of the current rayon pool. The results are the same bits for any
+/// number of threads. To show progress, or to run replicas elsewhere, use [`fold`] and [`replicas_of`].
 ///
 /// # Errors
 ///
@@ -98,11 +98,7 @@ pub fn run(plan: &Plan) -> Result<Results, Error> {
 /// # Errors
 ///
 /// As [`run()`].
-pub fn replicas_of(
-    plan: &Plan,
-    replicas: Range<u64>,
-    finished: &(impl Fn() + Sync),
-) -> Result<Vec<Replica>, Error> {
+pub fn replicas_of(plan: &Plan, replicas: Range<u64>, finished: &(impl Fn() + Sync)) -> Result<Vec<Replica>, Error> {
     let one = |replica| {
         let result = run_replica(plan, replica);
         finished();
@@ -111,23 +107,20 @@ pub fn replicas_of(
     replicas.into_par_iter().map(one).collect()
 }
 
-/// The results of a plan. `run` runs a range of replicas, on any machine, and returns them in order; the results' bits do not depend
-/// on where.
+/// The results of a plan. `run` runs a range of replicas, on any machine, and returns them in order; the results' bits
+/// do not depend on where.
 ///
 /// # Errors
 ///
 /// The first error of `run`.
-pub fn fold<E>(
-    plan: &Plan,
-    mut run: impl FnMut(Range<u64>) -> Result<Vec<Replica>, E>,
-) -> Result<Results, E> {
+pub fn fold<E>(plan: &Plan, mut run: impl FnMut(Range<u64>) -> Result<Vec<Replica>, E>) -> Result<Results, E> {
     let mut tally = Tally::new(plan);
     extend(plan, &mut tally, 0..plan.scene().ensemble.replicas, &mut run)?;
     Ok(tally.results(plan))
 }
 
-/// Adds the next replicas of a plan to `tally`, as [`fold`] does from the first on. The bits are the same as if all replicas had been
-/// added at once.
+/// Adds the next replicas of a plan to `tally`, as [`fold`] does from the first on. The bits are the same as if all
+/// replicas had been added at once.
 ///
 /// ```
 /// use shearbed::run::ensemble::{Tally, extend, replicas_of, run};
@@ -278,16 +271,9 @@ impl Tally {
         Some(self.column_of(plan, &*channel.observable, channel.name(), place, width(plan)).se)
     }
 
-    /// [`Self::column`] of an observable, in its unit. Of rods that count by their cubed lengths a mean is a quotient of two sums, whose error one
-    /// replica cannot give.
-    pub(crate) fn column_of(
-        &self,
-        plan: &Plan,
-        of: &dyn Observe,
-        name: String,
-        place: usize,
-        width: usize,
-    ) -> Column {
+    /// [`Self::column`] of an observable, in its unit. Of rods that count by their cubed lengths a mean is a quotient
+    /// of two sums, whose error one replica cannot give.
+    pub(crate) fn column_of(&self, plan: &Plan, of: &dyn Observe, name: String, place: usize, width: usize) -> Column {
         let mut column = self.column(name, place, width);
         // Only here, as squares of very small and large numbers are 0 and infinite.
         let unit = plan.scene().unit(of);
@@ -301,11 +287,7 @@ impl Tally {
 
     fn se(&self, k: usize) -> f64 {
         let replicas = self.replicas as f64;
-        if self.replicas > 1 {
-            (self.deviation[k] / (replicas - 1.0) / replicas).sqrt()
-        } else {
-            self.over_rods[k]
-        }
+        if self.replicas > 1 { (self.deviation[k] / (replicas - 1.0) / replicas).sqrt() } else { self.over_rods[k] }
     }
 
     /// The column at index `place` of the `width` sums of each output.
@@ -321,9 +303,8 @@ impl Tally {
         let series = (plan.observables().into_iter())
             .map(|observable| {
                 let channels = observable.channels().enumerate();
-                let columns = channels.map(|(place, channel)| {
-                    self.column_of(plan, &*observable, channel.name(), start + place, width)
-                });
+                let columns = channels
+                    .map(|(place, channel)| self.column_of(plan, &*observable, channel.name(), start + place, width));
                 let columns = columns.collect();
                 start += observable.width();
                 Series { observable, columns }

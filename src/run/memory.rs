@@ -14,9 +14,9 @@ use std::f64::consts::PI;
 
 /// About the largest number of bytes that a run of `plan` holds, with `at_once` replicas at a time.
 ///
-/// Bytes per rod of an interacting scene of many rods: direction (24) and the step it dates from (4), position (24), aspect ratio (8)
-/// if they differ, and in the search its copy in spatial order (20) and its share of the cells (3). Lists of collisions come on top. Up
-/// to 65 536 rods, R (8) and the unsorted copy (22) are kept too.
+/// Bytes per rod of an interacting scene of many rods: direction (24) and the step it dates from (4), position (24),
+/// aspect ratio (8) if they differ, and in the search its copy in spatial order (20) and its share of the cells (3).
+/// Lists of collisions come on top. Up to 65 536 rods, R (8) and the unsorted copy (22) are kept too.
 pub fn bytes(plan: &Plan, at_once: u64) -> u64 {
     let scene = plan.scene();
     let count = scene.particles.count;
@@ -42,8 +42,8 @@ pub fn bytes(plan: &Plan, at_once: u64) -> u64 {
     let width = width(plan);
     let per_output = width * size_of::<Sum>();
     let waiting = scene.ensemble.replicas.min(batch(plan, width));
-    // Candidates share collisions where each is the other's nearest neighbour. Measured, of 1000 rods: 103 collisions of 121 candidates,
-    // 334 of 663.
+    // Candidates share collisions where each is the other's nearest neighbour. Measured, of 1000 rods: 103 collisions
+    // of 121 candidates, 334 of 663.
     let candidates = candidates(plan);
     let lists = bytes_of_lists(candidates, candidates / (1.0 + 1.4 * candidates)) * count as f64;
     let phases = plan.outputs() * rods::bytes_per_output(plan);
@@ -56,8 +56,8 @@ pub fn bytes(plan: &Plan, at_once: u64) -> u64 {
     (rods + sums).saturating_add(plan.rods_out().saturating_mul(of_rod))
 }
 
-/// The expected share of rods that become candidates in a step: ∫ 1 − exp(−4π n s*(R)³/3) dR, the probability that the nearest of
-/// randomly placed rods is closer than s*.
+/// The expected share of rods that become candidates in a step: ∫ 1 − exp(−4π n s*(R)³/3) dR, the probability that the
+/// nearest of randomly placed rods is closer than s*.
 fn candidates(plan: &Plan) -> f64 {
     const POINTS: usize = 64;
     let scene = plan.scene();

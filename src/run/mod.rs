@@ -1,8 +1,8 @@
 //! Runs replicas, from a plan to means and standard errors.
 //!
-//! [`run_replica`] runs one; [`ensemble`] runs all over threads and adds them up in order, so that results do not depend on the
-//! threads; [`own`] takes an observable of the caller; [`resume`] goes on with a stopped replica; [`memory`] foretells bytes.
-//! It may use every other wing, and none uses it.
+//! [`run_replica`] runs one; [`ensemble`] runs all over threads and adds them up in order, so that results do not
+//! depend on the threads; [`own`] takes an observable of the caller; [`resume`] goes on with a stopped replica;
+//! [`memory`] foretells bytes. It may use every other wing, and none uses it.
 
 pub mod ensemble;
 pub mod memory;
@@ -90,8 +90,8 @@ pub fn run_replica(plan: &Plan, replica: u64) -> Result<Replica, Error> {
     go_on(plan, replica, None, |_| ())
 }
 
-/// Runs one replica from its start, or from the state `from`. Calls `look` between steps (for free rods, between outputs) with a
-/// function that returns the current state. The bits are those of [`run_replica`].
+/// Runs one replica from its start, or from the state `from`. Calls `look` between steps (for free rods, between
+/// outputs) with a function that returns the current state. The bits are those of [`run_replica`].
 ///
 /// # Errors
 ///
@@ -142,15 +142,13 @@ fn straight(
     let (rods, counters) = Rods::draw(plan, replica);
     for first in (recorder.done..plan.outputs()).step_by(OUTPUTS) {
         let outputs = first..plan.outputs().min(first + OUTPUTS);
-        recorder
-            .record(outputs, &rods, |first, output, selected| rods.orient(first, output as u64, selected))?;
+        recorder.record(outputs, &rods, |first, output, selected| rods.orient(first, output as u64, selected))?;
         look(&|| recorder.halfway(None));
     }
     let asked = plan.rods_outputs().into_iter();
     recorder.snapshots = asked
         .map(|output| {
-            Snapshot::of_free(&rods, replica, output)
-                .map_err(|fault| refused(plan, replica, 0, output, fault))
+            Snapshot::of_free(&rods, replica, output).map_err(|fault| refused(plan, replica, 0, output, fault))
         })
         .collect::<Result<_, _>>()?;
     Ok(counters)
@@ -222,15 +220,12 @@ impl<'a> Recorder<'a> {
 
     /// The state so far, with `rods` if they interact.
     fn halfway(&self, rods: Option<Placed>) -> Halfway {
-        Halfway {
-            sums: self.sums[..self.done * self.width].to_vec(),
-            snapshots: self.snapshots.clone(),
-            rods,
-        }
+        Halfway { sums: self.sums[..self.done * self.width].to_vec(), snapshots: self.snapshots.clone(), rods }
     }
 
-    /// Sums the observables of all rods at `outputs`. `orient(first, output, selected)` gives the selected rods, those from `first` on,
-    /// their directions, or returns the rod whose direction is unknown. Large runs sum over chunks, and then add these sums in order.
+    /// Sums the observables of all rods at `outputs`. `orient(first, output, selected)` gives the selected rods, those
+    /// from `first` on, their directions, or returns the rod whose direction is unknown. Large runs sum over chunks,
+    /// and then add these sums in order.
     fn record(
         &mut self,
         outputs: Range<usize>,
@@ -255,8 +250,7 @@ impl<'a> Recorder<'a> {
         }
         for (output, sums) in outputs.zip(own.chunks(self.width)) {
             for (observable, start) in &self.observables {
-                fault::trace(&**observable, &sums[*start..], count)
-                    .map_err(|fault| self.refused(0, output, fault))?;
+                fault::trace(&**observable, &sums[*start..], count).map_err(|fault| self.refused(0, output, fault))?;
             }
         }
         self.sums = sums;
@@ -308,7 +302,8 @@ pub(crate) fn refused(plan: &Plan, replica: u64, first: usize, output: usize, fa
     }
 }
 
-/// Calls `look(output, first, block)` for all rods of a replica at all outputs, in blocks; `first` is the index of the block's first rod.
+/// Calls `look(output, first, block)` for all rods of a replica at all outputs, in blocks; `first` is the index of the
+/// block's first rod.
 pub(crate) fn each_block(
     plan: &Plan,
     replica: u64,

@@ -10,8 +10,8 @@ use crate::run::{each_block, refused};
 use crate::scene::Error;
 use rayon::prelude::*;
 
-/// Runs every replica of the plan, as [`crate::run::ensemble::run`] does, and returns the columns of your own observable `own`, with a
-/// value for each of [`Plan::times`]. The bits are the same for any number of threads.
+/// Runs every replica of the plan, as [`crate::run::ensemble::run`] does, and returns the columns of your own
+/// observable `own`, with a value for each of [`Plan::times`]. The bits are the same for any number of threads.
 ///
 /// # Errors
 ///

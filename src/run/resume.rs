@@ -1,7 +1,8 @@
 //! Saves a replica in the middle of its work and resumes it, with the same bits as if it had not stopped.
 //!
-//! The saved state is what the plan, the seed and the replica's number do not determine: the sums so far and, for interacting rods,
-//! directions, positions and counts of work. Random streams are not saved: the counts contain how many numbers were drawn.
+//! The saved state is what the plan, the seed and the replica's number do not determine: the sums so far and, for
+//! interacting rods, directions, positions and counts of work. Random streams are not saved: the counts contain how
+//! many numbers were drawn.
 
 use crate::model::random::{Purpose, ahead, stream};
 use crate::model::work::Counters;
@@ -51,9 +52,10 @@ impl Halfway {
     pub fn bytes(plan: &Plan) -> u64 {
         let sums = plan.outputs() * width(&plan.observables()) * size_of::<Sum>();
         // For free rods it holds neither directions nor snapshots.
-        let of_rod = match plan.runs(Stage::Translation) {
-            true => 48 + 4 + plan.rods_outputs().len() * Snapshot::bytes_per_rod(plan),
-            false => 0,
+        let of_rod = if plan.runs(Stage::Translation) {
+            48 + 4 + plan.rods_outputs().len() * Snapshot::bytes_per_rod(plan)
+        } else {
+            0
         };
         (sums + plan.scene().particles.count * of_rod) as u64
     }

@@ -108,8 +108,8 @@ fn free_rods_turn_by_the_exact_motion_with_either_sign_of_the_shear() {
     }
 }
 
-/// A mean over rods that count by their cubed lengths is a quotient of sums: parallel rods of several lengths scatter in no
-/// replica, and one replica cannot say so.
+/// A mean over rods that count by their cubed lengths is a quotient of sums: parallel rods of several lengths scatter
+/// in no replica, and one replica cannot say so.
 #[test]
 fn one_replica_gives_no_error_of_a_weighted_mean() {
     let errors = |replicas: u64, sd_percent: f64| {

@@ -1,4 +1,5 @@
-//! A TOML text as a tree of values with their line numbers, so that errors can name the line; single values can be replaced.
+//! A TOML text as a tree of values with their line numbers, so that errors can name the line; single values can be
+//! replaced.
 //!
 //! ```
 //! use shearbed::scene::document::Document;
@@ -110,7 +111,8 @@ impl Document {
         Ok(())
     }
 
-    /// Adds the line of each key to an error of the scene that was read from this document; returns other errors unchanged.
+    /// Adds the line of each key to an error of the scene that was read from this document; returns other errors
+    /// unchanged.
     pub fn located(&self, error: Error) -> Error {
         let Error::Scene(invalid) = error else {
             return error;
@@ -131,10 +133,8 @@ impl Document {
     /// The error with these messages, sorted by line; each comes with the byte offset of its line.
     pub(super) fn refused(&self, mut found: Vec<(Option<usize>, String)>) -> Error {
         found.sort();
-        let problem = |(at, message): (Option<usize>, String)| SceneProblem {
-            line: at.map(|at| self.lines.number(at)),
-            message,
-        };
+        let problem =
+            |(at, message): (Option<usize>, String)| SceneProblem { line: at.map(|at| self.lines.number(at)), message };
         Error::Text { file: self.file.clone(), problems: found.into_iter().map(problem).collect() }
     }
 
@@ -165,7 +165,8 @@ impl<'a> Table<'a> {
         self.entries.contains_key(key)
     }
 
-    /// The value of `key` if it has the type `T`, else `None`. Read sequences of a fixed length as `Vec`: an array accepts longer ones too.
+    /// The value of `key` if it has the type `T`, else `None`. Read sequences of a fixed length as `Vec`: an array
+    /// accepts longer ones too.
     pub fn read<T: DeserializeOwned>(&self, key: &str) -> Option<T> {
         self.value(key)?.try_into().ok()
     }
@@ -188,9 +189,7 @@ impl<'a> Table<'a> {
     /// The array of tables at `key`; `None` if there is none, or if it is empty.
     pub fn tables(&self, key: &str) -> Option<Vec<Table<'a>>> {
         match &self.entries.get(key)?.content {
-            Content::Array(nodes) if !nodes.is_empty() => {
-                nodes.iter().map(|node| self.inner(key, node)).collect()
-            }
+            Content::Array(nodes) if !nodes.is_empty() => nodes.iter().map(|node| self.inner(key, node)).collect(),
             _ => None,
         }
     }
@@ -301,9 +300,10 @@ fn nearest(digits: &str, radix: u32) -> f64 {
 
 /// A number, with a power of ten where it would have many zeros.
 pub(crate) fn decimal(number: f64) -> String {
-    match number == 0.0 || !number.is_finite() || (1e-5..1e16).contains(&number.abs()) {
-        true => number.to_string(),
-        false => format!("{number:e}"),
+    if number == 0.0 || !number.is_finite() || (1e-5..1e16).contains(&number.abs()) {
+        number.to_string()
+    } else {
+        format!("{number:e}")
     }
 }
 

@@ -69,7 +69,8 @@ impl FlowStep {
         Self { gradient_per_s: [[0.0; 3], [shear_rate_per_s, 0.0, 0.0], [0.0; 3]], strain }
     }
 
-    /// Reads a step from its keys in a scene file, with one of the two rates; the error is the wrong key, and what is allowed.
+    /// Reads a step from its keys in a scene file, with one of the two rates; the error is the wrong key, and what is
+    /// allowed.
     fn of_keys(mut keys: toml::Table) -> Result<Self, (String, &'static str)> {
         const RATES: [&str; 2] = ["shear_rate_per_s", "gradient_per_s"];
         let wrong = |key: &str, allowed| (key.to_owned(), allowed);
@@ -169,9 +170,7 @@ impl Flow {
     pub(crate) fn gradient(&self) -> Option<VelocityGradient> {
         match self {
             Self::Shear { shear_rate_per_s } => VelocityGradient::plane_couette(*shear_rate_per_s),
-            Self::Gradient { gradient_per_s } => {
-                VelocityGradient::new(Matrix3::from_fn(|i, j| gradient_per_s[i][j]))
-            }
+            Self::Gradient { gradient_per_s } => VelocityGradient::new(Matrix3::from_fn(|i, j| gradient_per_s[i][j])),
             Self::Steps { steps } => steps.first()?.gradient(),
         }
     }
@@ -185,9 +184,7 @@ impl Flow {
             return None;
         }
         match FlowKeys::read_keys(reader)? {
-            FlowKeys { shear_rate_per_s: Some(shear_rate_per_s), .. } => {
-                Some(Self::Shear { shear_rate_per_s })
-            }
+            FlowKeys { shear_rate_per_s: Some(shear_rate_per_s), .. } => Some(Self::Shear { shear_rate_per_s }),
             FlowKeys { gradient_per_s: Some(gradient_per_s), .. } => Some(Self::Gradient { gradient_per_s }),
             FlowKeys { steps, .. } => Some(Self::Steps { steps: steps? }),
         }

@@ -1,4 +1,5 @@
-//! The keys of a scene: meaning, unit, allowed values and default. Their rows are in `table!` blocks, one for each table.
+//! The keys of a scene: meaning, unit, allowed values and default. Their rows are in `table!` blocks, one for each
+//! table.
 
 mod field;
 
@@ -128,12 +129,14 @@ impl std::fmt::Display for Holds {
             Self::Gradient => f.write_str("three rows of three finite numbers"),
             Self::Steps => write!(
                 f,
-                "1 to {MAX_FLOW_STEPS} tables [[flow.steps]], each with strain (a finite number > 0) and shear_rate_per_s (a finite \
+                "1 to {MAX_FLOW_STEPS} tables [[flow.steps]], each with strain (a finite number > 0) and \
+                    shear_rate_per_s (a finite \
                  number other than 0) or gradient_per_s (three rows of three finite numbers, with a rate of strain)"
             ),
             Self::Sides => f.write_str("[H1, H2, H3], three finite numbers > 0"),
             Self::Orientation => f.write_str(
-                "\"isotropic\" or { phi_deg = a finite number, theta_deg = a number from 0 to 180 }; rods of a file are \
+                "\"isotropic\" or { phi_deg = a finite number, theta_deg = a number from 0 to 180 }; rods of a file \
+                    are \
                  given by rods = { file = a text }",
             ),
             Self::Rods => f.write_str("{ file = a text }, of which crc32 may be given too"),
@@ -172,9 +175,10 @@ pub(super) const fn whole(least: u64, most: u64) -> Holds {
 /// Steps or outputs per unit of time.
 pub(super) const PER_UNIT: Holds = whole(1, MAX_PER_UNIT);
 
-/// Declares a table of a scene, with a row for each key: field, type, value in `Default`, then unit, allowed values, value if a scene file
-/// lacks the key, and meaning. Makes the struct, its `KEYS`, its reader (`read`), its check (`check`) and its `Serialize`. Keys of type
-/// `Option` are written if they are `Some`; `unwritten if` says when another key is left out.
+/// Declares a table of a scene, with a row for each key: field, type, value in `Default`, then unit, allowed values,
+/// value if a scene file lacks the key, and meaning. Makes the struct, its `KEYS`, its reader (`read`), its check
+/// (`check`) and its `Serialize`. Keys of type `Option` are written if they are `Some`; `unwritten if` says when
+/// another key is left out.
 macro_rules! table {
     (
         $(#[$meta:meta])*
@@ -268,10 +272,13 @@ pub(super) const TITLE: Key = Key {
 /// The tables of a scene.
 #[rustfmt::skip]
 pub const TABLES: [Table; 7] = [
-    of("flow", "the imposed velocity gradient", "a table [flow] with shear_rate_per_s, gradient_per_s or steps", Required, FlowKeys::KEYS),
+    of("flow", "the imposed velocity gradient", "a table [flow] with shear_rate_per_s, gradient_per_s or \
+        steps", Required, FlowKeys::KEYS),
     of("liquid", "the liquid", "a table [liquid]", Other("its keys' defaults"), Liquid::KEYS),
-    of("particles", "the rods", "a table [particles] with count, length_mm, aspect_ratio and orientation", Required, Particles::KEYS),
-    of("interaction", "how rods meet", "a table [interaction] with concentration_per_cm3 or box_mm, and alpha, or none for free rods", Other("free rods"), Interaction::KEYS),
+    of("particles", "the rods", "a table [particles] with count, length_mm, aspect_ratio and \
+        orientation", Required, Particles::KEYS),
+    of("interaction", "how rods meet", "a table [interaction] with concentration_per_cm3 or box_mm, and alpha, or \
+        none for free rods", Other("free rods"), Interaction::KEYS),
     of("time", "how long, and how finely", "a table [time] with periods or strain", Required, TimeKeys::KEYS),
     of("ensemble", "replicas and seed", "a table [ensemble]", Other("its keys' defaults"), Ensemble::KEYS),
     of("output", "what is observed", "a table [output]", Other("its keys' defaults"), Output::KEYS),

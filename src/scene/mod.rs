@@ -1,8 +1,9 @@
 //! A scene: the content of a scene file; names of keys contain the units.
 //!
-//! One row of a `table!` makes a key: its field, unit, range, default and meaning. Reader, schema, `--keys`, the page of keys and
-//! Python's keywords follow from it. To add a key, add its row to the table it belongs to, and use the field. A
-//! [`document::Document`] keeps the line of every value, for errors. Scenes may use `observable` and the wings before it.
+//! One row of a `table!` makes a key: its field, unit, range, default and meaning. Reader, schema, `--keys`, the page
+//! of keys and Python's keywords follow from it. To add a key, add its row to the table it belongs to, and use the
+//! field. A [`document::Document`] keeps the line of every value, for errors. Scenes may use `observable` and the wings
+//! before it.
 
 use crate::model::volume::ControlVolume;
 use crate::observable::{Observable, Observe};
@@ -34,8 +35,8 @@ pub(crate) use steps::step_maps;
 use time::TimeKeys;
 pub use time::{Time, TimeUnit};
 
-/// A whole scene. Tables and keys are those of the scene file ([`keys()`]). In code, start from the default and change what
-/// differs; [`crate::Plan::new`] checks the scene.
+/// A whole scene. Tables and keys are those of the scene file ([`keys()`]). In code, start from the default and change
+/// what differs; [`crate::Plan::new`] checks the scene.
 ///
 /// ```
 /// use shearbed::scene::{Interaction, Particles, Scene};
@@ -100,7 +101,8 @@ impl Liquid {
 }
 
 table! {
-    /// `[interaction]`: with `concentration_per_cm3` or `box_mm`. By default 50 rods per cm³, with the paper's α = 0.5 and m = 3.
+    /// `[interaction]`: with `concentration_per_cm3` or `box_mm`. By default 50 rods per cm³, with the paper's α = 0.5
+    /// and m = 3.
     ///
     /// ```
     /// use shearbed::scene::Interaction;
@@ -111,13 +113,15 @@ table! {
         concentration_per_cm3: Option<f64> = Some(50.0), "1/cm³", Holds::Positive, Other("box_mm"),
             "n, rods per volume";
         box_mm: Option<[f64; 3]> = None, "mm", Holds::Sides, Other("a cube"),
-            "sides of the control volume along the axes (eqs 12, 14): count and box give n; where it is given too, it agrees to 1e-3";
+            "sides of the control volume along the axes (eqs 12, 14): count and box give n; where it is given too, it \
+                agrees to 1e-3";
         alpha: f64 = 0.5, "", Holds::NotNegative, Required,
             "α of P_c = (α/(s/a + α))^m (eq. 7); 0: no rods collide";
         m: f64 = 3.0, "", Holds::Positive, Otherwise("3"),
             "m of eq. 7";
         update: Update = Update::Kick, "", Holds::OneOf(&["rotation", "angles", "kick"]), Otherwise("\"kick\""),
-            "how a colliding rod takes its step; kick: as a free rod, then the change; rotation: a straight turn; angles: A.14 to the letter";
+            "how a colliding rod takes its step; kick: as a free rod, then the change; rotation: a straight turn; \
+                angles: A.14 to the letter";
         min_contact_arm: f64 = 0.0, "lengths of its own rod", Holds::NotNegative, Otherwise("0"),
             "a shorter contact arm is no contact";
     }
@@ -138,7 +142,8 @@ pub enum Update {
     Rotation,
     /// A.14 taken literally, in φ and θ.
     Angles,
-    /// Jeffery's exact step, then a turn about p × (ṗ′ − ṗ) by |ṗ′ − ṗ|Δt: a collision without a change of rate adds no turn.
+    /// Jeffery's exact step, then a turn about p × (ṗ′ − ṗ) by |ṗ′ − ṗ|Δt: a collision without a change of rate adds no
+    /// turn.
     #[default]
     Kick,
 }
@@ -168,7 +173,8 @@ table! {
     /// assert!(output.rods_at.is_empty());
     /// ```
     pub struct Output in "output" {
-        observables: Vec<Observable> = vec![Observable::Projections], "", Holds::Observables, Otherwise("[\"projections\"]"),
+        observables: Vec<Observable> = vec![Observable::Projections], "", Holds::Observables,
+            Otherwise("[\"projections\"]"),
             "what is observed: each has a file of its own";
         rods_at: Vec<f64> = Vec::new(), "T or strain", Holds::Times, Otherwise("[]"),
             "when rods.csv has every rod: t/T, or strain where the time is one",
@@ -244,7 +250,8 @@ impl Scene {
         self.particles.count = count;
     }
 
-    /// The unit of the rods' stresses, μ G n⟨a³⟩ in Pa, in plane Couette flow; `None` without a viscosity or a concentration.
+    /// The unit of the rods' stresses, μ G n⟨a³⟩ in Pa, in plane Couette flow; `None` without a viscosity or a
+    /// concentration.
     pub(crate) fn stress_pa(&self) -> Option<f64> {
         let cubes = self.concentration()? * self.particles.mean_cube();
         Some(self.liquid.viscosity_pa_s? * self.flow.gradient()?.shear_rate_per_s()? * cubes)
@@ -274,8 +281,8 @@ impl Scene {
         }
     }
 
-    /// Outputs per unit of time, given or by default: 50 a period or 10 a unit of strain; if rods interact, the largest divisor
-    /// of the steps up to that.
+    /// Outputs per unit of time, given or by default: 50 a period or 10 a unit of strain; if rods interact, the largest
+    /// divisor of the steps up to that.
     pub fn outputs_per_unit(&self) -> u64 {
         self.time.outputs_per_unit.unwrap_or_else(|| {
             let most = self.time.unit.default_outputs();

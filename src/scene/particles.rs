@@ -28,13 +28,16 @@ table! {
         aspect_ratio: f64 = 11.6, "", Holds::Between { least: 1e-100, most: 1e100 }, Other("physical_aspect_ratio"),
             "r_e, or its mean; below 1 a disc; interacting rods need more than 1",
             unwritten if |particles: &Particles| particles.physical_aspect_ratio.is_some();
-        physical_aspect_ratio: Option<f64> = None, "", Holds::Between { least: ALLOWED.0, most: ALLOWED.1 }, Other("aspect_ratio"),
+        physical_aspect_ratio: Option<f64> = None, "", Holds::Between { least: ALLOWED.0, most: ALLOWED.1 },
+            Other("aspect_ratio"),
             "length over diameter of a cylinder, of which shape_correlation makes r_e";
-        shape_correlation: Option<Correlation> = None, "", Holds::OneOf(&Correlation::NAMES), Other("goes with physical_aspect_ratio"),
+        shape_correlation: Option<Correlation> = None, "", Holds::OneOf(&Correlation::NAMES), Other("goes with \
+            physical_aspect_ratio"),
             "the formula for r_e of a cylinder";
         aspect_ratio_sd_percent: f64 = 0.0, "%", Holds::NotNegative, Otherwise("0"),
             "σ of a Gaussian r_e, in percent of its mean (eq. 11)";
-        orientation: Orientation = Orientation::default(), "degrees", Holds::Orientation, Other("\"isotropic\" with rods, else it must be given"),
+        orientation: Orientation = Orientation::default(), "degrees", Holds::Orientation, Other("\"isotropic\" with \
+            rods, else it must be given"),
             "the directions at t = 0; φ from axis 1 to axis 2, θ from axis 3; used where a file of rods has none";
         rods: Option<RodsFile> = None, "", Holds::Rods, Other("all is drawn"),
             "a CSV file beside the scene with a row for each rod, with columns of rods.csv; missing ones are drawn";
@@ -42,7 +45,8 @@ table! {
 }
 
 impl Particles {
-    /// Reads the table: r_e is given once, directly or by a cylinder and a formula; and directions or a file of rods are given.
+    /// Reads the table: r_e is given once, directly or by a cylinder and a formula; and directions or a file of rods
+    /// are given.
     pub(super) fn read(reader: &mut Reader<'_>) -> Option<Self> {
         let r_e = "particles.aspect_ratio";
         let allowed = |key| find(key).map_or_else(String::new, Key::expected);
@@ -87,14 +91,13 @@ impl Particles {
         }
     }
 
-    /// The smallest r_e, the scene's and the largest; for Gaussian r_e the extremes are three standard deviations from the mean.
+    /// The smallest r_e, the scene's and the largest; for Gaussian r_e the extremes are three standard deviations from
+    /// the mean.
     pub(crate) fn extreme_aspect_ratios(&self) -> [f64; 3] {
         let r = self.aspect_ratio;
         let [least, most] = match self.own_aspect_ratios() {
             Some(own) => (own.iter()).fold([r; 2], |[least, most], r| [r.min(least), r.max(most)]),
-            None => {
-                [-3.0, 3.0].map(|deviations| r * (1.0 + deviations * self.aspect_ratio_sd_percent / 100.0))
-            }
+            None => [-3.0, 3.0].map(|deviations| r * (1.0 + deviations * self.aspect_ratio_sd_percent / 100.0)),
         };
         [least, r, most]
     }

@@ -10,8 +10,8 @@ use super::{Absent, Ensemble, Error, Flow, Interaction, Liquid, Output, Particle
 /// A byte offset in the text, and a message.
 type Mistake = (Option<usize>, String);
 
-/// Reads a scene; `file` names the text in errors. Every value is checked by itself; [`crate::Plan::new`] checks consistency, and
-/// [`Document::located`] adds the lines to its error.
+/// Reads a scene; `file` names the text in errors. Every value is checked by itself; [`crate::Plan::new`] checks
+/// consistency, and [`Document::located`] adds the lines to its error.
 ///
 /// # Errors
 ///
@@ -24,7 +24,8 @@ pub fn parse(file: &str, text: &str) -> Result<Scene, Error> {
 ///
 /// ```
 /// use shearbed::scene::{document::Document, of_document};
-/// let text = "title = 't'\nflow = { shear_rate_per_s = 1 }\ntime = { periods = 1 }\n[particles]\ncount = 10\nlength_mm = 1\n\
+/// let text = "title = 't'\nflow = { shear_rate_per_s = 1 }\ntime = { periods = 1 }\n\
+///     [particles]\ncount = 10\nlength_mm = 1\n\
 ///     aspect_ratio = 5\norientation = 'isotropic'\n";
 /// let mut document = Document::parse("s.toml", text)?;
 /// document.set("particles.count", 20.into())?;
@@ -94,11 +95,7 @@ impl Reader<'_> {
         None
     }
 
-    fn table<T: Default>(
-        &mut self,
-        path: &'static str,
-        read: impl Fn(&mut Reader<'_>) -> Option<T>,
-    ) -> Option<T> {
+    fn table<T: Default>(&mut self, path: &'static str, read: impl Fn(&mut Reader<'_>) -> Option<T>) -> Option<T> {
         let key = find(path)?;
         match self.table.table(path) {
             Some(table) => read(&mut Reader { table, meant: self.meant, wrong: self.wrong }),
@@ -112,7 +109,8 @@ impl Reader<'_> {
         }
     }
 
-    /// The key of `keys` that is given, if it is the only one. Reports two at the first of them, and none with the message `missing`.
+    /// The key of `keys` that is given, if it is the only one. Reports two at the first of them, and none with the
+    /// message `missing`.
     pub fn one_of<const N: usize>(&mut self, keys: [&'static str; N], missing: &str) -> Option<&'static str> {
         let given: Vec<_> = keys.into_iter().filter(|key| self.has(key)).collect();
         match given.as_slice() {
@@ -126,7 +124,8 @@ impl Reader<'_> {
         None
     }
 
-    /// Reports the first table in the array `path` for which `wrong_key` returns a key, at its line; true if there is one.
+    /// Reports the first table in the array `path` for which `wrong_key` returns a key, at its line; true if there is
+    /// one.
     pub fn refuses_table<'t>(
         &mut self,
         path: &str,
@@ -158,11 +157,7 @@ impl Reader<'_> {
 const MOST_UNKNOWN: usize = 20;
 
 /// Reports unknown tables and keys; returns the known ones of which they may be misspellings.
-fn unknown_keys(
-    document: &Document,
-    root: &document::Table<'_>,
-    wrong: &mut Vec<Mistake>,
-) -> Vec<&'static str> {
+fn unknown_keys(document: &Document, root: &document::Table<'_>, wrong: &mut Vec<Mistake>) -> Vec<&'static str> {
     let mut unknown: Vec<(Option<usize>, String)> = Vec::new();
     let mut look = |table: &document::Table<'_>, above: &str, known: &dyn Fn(&str) -> bool| {
         let names = table.keys().filter(|name| !known(name));
@@ -171,9 +166,7 @@ fn unknown_keys(
     look(root, "", &|name| name == TITLE.path || TABLES.iter().any(|table| table.key.path == name));
     for of in &TABLES {
         if let Some(table) = root.table(of.key.path) {
-            look(&table, &format!("{}.", of.key.path), &|name| {
-                of.keys.iter().any(|key| last(key.path) == name)
-            });
+            look(&table, &format!("{}.", of.key.path), &|name| of.keys.iter().any(|key| last(key.path) == name));
         }
     }
     unknown.sort();

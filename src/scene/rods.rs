@@ -26,12 +26,12 @@ pub struct Misfit {
 const OWN_LENGTHS: std::ops::RangeInclusive<f64> = 1e-50..=1e50;
 
 impl Scene {
-    /// The first rod of a file that this scene does not allow, or `None`. The columns must be as long as `particles.count`.
+    /// The first rod of a file that this scene does not allow, or `None`. The columns must be as long as
+    /// `particles.count`.
     pub fn misfit(&self, own: &OwnRods) -> Option<Misfit> {
         let key = |path| find(path).map(|key| key.holds);
         let shape = key("particles.aspect_ratio");
-        let r_e =
-            |r: f64| shape.is_some_and(|holds| holds.allows(r)) && (self.interaction.is_none() || r > 1.0);
+        let r_e = |r: f64| shape.is_some_and(|holds| holds.allows(r)) && (self.interaction.is_none() || r > 1.0);
         let r_e_allowed = match self.interaction {
             Some(_) => "a number > 1, up to 1e100, for interacting rods".to_owned(),
             None => shape.map_or_else(String::new, |holds| holds.to_string()),
@@ -45,8 +45,7 @@ impl Scene {
             Some(Misfit { rod, column, value, allowed })
         };
         let directions = own.p.as_ref().and_then(|[p1, p2, p3]| {
-            let squares: Vec<f64> =
-                p1.iter().zip(p2).zip(p3).map(|((a, b), c)| a * a + b * b + c * c).collect();
+            let squares: Vec<f64> = p1.iter().zip(p2).zip(p3).map(|((a, b), c)| a * a + b * b + c * c).collect();
             // NaN fails this comparison too.
             let is_unit = |square: f64| (square - 1.0).abs() <= 16.0 * f64::EPSILON;
             first(&squares, &is_unit, "p1² + p2² + p3²", "1")

@@ -35,14 +35,14 @@ impl Scene {
         self.time.steps_per_unit.unwrap_or_else(|| self.resolving_steps())
     }
 
-    /// The strain of one step, or twice the angle in rad by which the liquid rotates in it if that is larger; GΔt in plane Couette
-    /// flow.
+    /// The strain of one step, or twice the angle in rad by which the liquid rotates in it if that is larger; GΔt in
+    /// plane Couette flow.
     pub fn motion_per_step(&self) -> f64 {
         self.motion_per_unit() / self.steps_per_unit() as f64
     }
 
-    /// The smallest number of steps (a multiple of the outputs, if given, and of 50 for periods) with a strain per step of at most
-    /// [`resolved_strain`] of the rods' mean r_e: 200 a period at r_e = 11.6. `u64::MAX` if there is none.
+    /// The smallest number of steps (a multiple of the outputs, if given, and of 50 for periods) with a strain per step
+    /// of at most [`resolved_strain`] of the rods' mean r_e: 200 a period at r_e = 11.6. `u64::MAX` if there is none.
     pub fn resolving_steps(&self) -> u64 {
         let outputs = self.time.outputs_per_unit;
         let unit = match self.time.unit {
@@ -57,19 +57,15 @@ impl Scene {
         let multiples = (motion / (resolved * unit as f64)).ceil().max(1.0) as u64;
         let steps = multiples.saturating_mul(unit);
         // The rounded quotient may be an integer that is just too small.
-        match motion / steps as f64 <= resolved {
-            true => steps,
-            false => steps.saturating_add(unit),
-        }
+        if motion / steps as f64 <= resolved { steps } else { steps.saturating_add(unit) }
     }
 
-    /// Seconds per unit of the scene's time: a period of the mean aspect ratio or a unit of strain. NaN if there is no period.
+    /// Seconds per unit of the scene's time: a period of the mean aspect ratio or a unit of strain. NaN if there is no
+    /// period.
     pub(crate) fn seconds_per_unit(&self, flow: &VelocityGradient) -> f64 {
         match self.time.unit {
             TimeUnit::Strain => 1.0 / flow.magnitude_per_s(),
-            TimeUnit::Period => {
-                (Propagator::new(flow, self.particles.aspect_ratio).period_s()).unwrap_or(f64::NAN)
-            }
+            TimeUnit::Period => (Propagator::new(flow, self.particles.aspect_ratio).period_s()).unwrap_or(f64::NAN),
         }
     }
 
@@ -90,8 +86,8 @@ impl Scene {
     }
 }
 
-/// For each aspect ratio, the map q = M p of one step of the scene's rods, and a bound on its relative error; `None` for steps of a
-/// period if the flow has none.
+/// For each aspect ratio, the map q = M p of one step of the scene's rods, and a bound on its relative error; `None`
+/// for steps of a period if the flow has none.
 pub(crate) fn step_maps<'a>(
     scene: &Scene,
     flow: &'a VelocityGradient,

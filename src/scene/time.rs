@@ -19,7 +19,8 @@ pub struct Time {
     pub unit: TimeUnit,
     /// The duration in that unit: the key `periods` or `strain`.
     pub duration: f64,
-    /// Steps of interacting rods per unit (`steps_per_period`, `steps_per_strain`); by default as many as resolve the motion.
+    /// Steps of interacting rods per unit (`steps_per_period`, `steps_per_strain`); by default as many as resolve the
+    /// motion.
     pub steps_per_unit: Option<u64>,
     /// Outputs per unit (`outputs_per_period`, `outputs_per_strain`); by default 50 a period or 10 a unit of strain.
     pub outputs_per_unit: Option<u64>,

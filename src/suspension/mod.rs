@@ -1,7 +1,7 @@
 //! Interacting rods in the control volume, step by step (the paper's method of solution).
 //!
-//! A [`Suspension`] is one replica: places, directions since the last collision, and its random streams. It may use `plan` and the
-//! wings before it. A rod's state is added in `rods` and, so that a checkpoint keeps it, in `state`.
+//! A [`Suspension`] is one replica: places, directions since the last collision, and its random streams. It may use
+//! `plan` and the wings before it. A rod's state is added in `rods` and, so that a checkpoint keeps it, in `state`.
 
 mod liquid;
 pub(crate) mod rods;
@@ -103,8 +103,8 @@ struct Effect {
     arms: [f64; 2],
 }
 
-/// The most bytes of the lists of a step, for these numbers of candidates and collisions: pairs as found and as candidates, effects, and
-/// collisions. A list may have twice the capacity that it needs.
+/// The most bytes of the lists of a step, for these numbers of candidates and collisions: pairs as found and as
+/// candidates, effects, and collisions. A list may have twice the capacity that it needs.
 pub(crate) fn bytes_of_lists(candidates: f64, collisions: f64) -> f64 {
     let candidate = 2 * size_of::<Nearest>() + 2 * size_of::<Candidate>() + size_of::<Option<Effect>>();
     candidate as f64 * candidates + (2 * size_of::<Collision>()) as f64 * collisions
@@ -153,8 +153,9 @@ impl Suspension {
         })
     }
 
-    /// Moves the rods to `places` in the control volume (three arrays of coordinates, in mean rod lengths) and along `directions`.
-    /// Returns `None` and changes nothing if a count is not that of the rods, or a place is outside the volume.
+    /// Moves the rods to `places` in the control volume (three arrays of coordinates, in mean rod lengths) and along
+    /// `directions`. Returns `None` and changes nothing if a count is not that of the rods, or a place is outside the
+    /// volume.
     pub fn place(&mut self, places: [Vec<f64>; 3], directions: &[UnitVector3<f64>]) -> Option<()> {
         let count = self.rods.count();
         let inside = |(axis, side): (&Vec<f64>, &f64)| axis.iter().all(|x| (0.0..=*side).contains(x));
@@ -182,8 +183,7 @@ impl Suspension {
         self.rods.advance(self.tick);
         self.tick += 1;
         self.counters.steps += 1;
-        self.counters.replacements +=
-            (self.liquid).carry(&mut self.positions, self.rule.step, &mut self.replacements);
+        self.counters.replacements += (self.liquid).carry(&mut self.positions, self.rule.step, &mut self.replacements);
         Ok(&self.collisions)
     }
 

@@ -1,5 +1,5 @@
-//! The rods' directions: each rod stores its direction after its last collision, and the exact motion gives the direction
-//! at any later time. A free rod takes no steps.
+//! The rods' directions: each rod stores its direction after its last collision, and the exact motion gives the
+//! direction at any later time. A free rod takes no steps.
 
 mod draw;
 
@@ -49,7 +49,8 @@ enum Motion {
     InPhase(Vec<Phase>),
     /// Any other flow with interacting rods: the map q = M p of one step, one per rod or one for all.
     Steps(Vec<Matrix3<f64>>),
-    /// Free rods in any other flow: the plan's motion, with a propagator per rod, or one for all, where it moves each rod by itself.
+    /// Free rods in any other flow: the plan's motion, with a propagator per rod, or one for all, where it moves each
+    /// rod by itself.
     Free { motion: Arc<FreeMotion>, propagators: Vec<Propagator> },
 }
 
@@ -72,8 +73,7 @@ impl Rods {
         let (shapes, aspect_ratios_redrawn) = draw_shapes(plan, replica);
         let (lengths, lengths_redrawn) = draw_lengths(plan, replica);
         let motion = choose_motion(plan, &shapes);
-        let since =
-            if plan.runs(Stage::Contacts) { vec![0; plan.scene().particles.count] } else { Vec::new() };
+        let since = if plan.runs(Stage::Contacts) { vec![0; plan.scene().particles.count] } else { Vec::new() };
         let rods = Self {
             p: draw_directions(plan, replica),
             since,
@@ -172,8 +172,8 @@ impl Rods {
         });
     }
 
-    /// Selects the rods from `first` on, at most [`BLOCK`]: their aspect ratios, weights, stress and turns. Directions are those of the
-    /// block before.
+    /// Selects the rods from `first` on, at most [`BLOCK`]: their aspect ratios, weights, stress and turns. Directions
+    /// are those of the block before.
     pub fn select(&self, first: usize, Selected { block, turns }: &mut Selected) {
         block.len = BLOCK.min(self.count() - first);
         block.body = self.body;
@@ -195,8 +195,8 @@ impl Rods {
         }
     }
 
-    /// Gives the block of `selected`, which are the rods from `first` on, their directions at `tick` (in flows other than plane Couette
-    /// flow, `tick` is the output).
+    /// Gives the block of `selected`, which are the rods from `first` on, their directions at `tick` (in flows other
+    /// than plane Couette flow, `tick` is the output).
     ///
     /// # Errors
     ///
@@ -293,8 +293,8 @@ struct Ticks {
 }
 
 impl Ticks {
-    /// Turns of a rod of aspect ratio `r`, with the sign of G, in one period of the mean rod; `each` is true if rods differ
-    /// in aspect ratio.
+    /// Turns of a rod of aspect ratio `r`, with the sign of G, in one period of the mean rod; `each` is true if rods
+    /// differ in aspect ratio.
     #[inline(always)]
     fn periods(&self, each: bool, r: f64) -> f64 {
         if each { self.strain_per_period / strain_per_period(r) } else { self.sign }
@@ -333,7 +333,8 @@ fn mapped(map: &Matrix3<f64>, p: [f64; 3]) -> [f64; 3] {
     (map * Vector3::from(p)).normalize().into()
 }
 
-/// True if all rods have the same phase at an output: rods of one aspect ratio that take no steps, in plane Couette flow by periods.
+/// True if all rods have the same phase at an output: rods of one aspect ratio that take no steps, in plane Couette
+/// flow by periods.
 fn in_phase(plan: &Plan) -> bool {
     let periods = matches!(plan.clock(), Clock::Periods { .. });
     plan.flow().shear_rate_per_s().is_some()
@@ -351,8 +352,7 @@ fn choose_motion(plan: &Plan, shapes: &Shapes) -> Motion {
     let flow = plan.flow();
     if let (Some(g), Clock::Periods { ticks }) = (flow.shear_rate_per_s(), plan.clock()) {
         let strain = strain_per_period(plan.scene().particles.aspect_ratio);
-        let clock =
-            Ticks { per_period: ticks as f64, strain_per_period: strain * g.signum(), sign: g.signum() };
+        let clock = Ticks { per_period: ticks as f64, strain_per_period: strain * g.signum(), sign: g.signum() };
         if !in_phase(plan) {
             return Motion::Couette(clock);
         }

@@ -33,7 +33,8 @@ pub struct Snapshot {
     pub aspect_ratio: Vec<f64>,
     /// Lengths over the mean; `None` if all are equal.
     pub length: Option<Vec<f64>>,
-    /// Coordinates of the rods' centres in the control volume, in mean rod lengths; `None` for free rods, which have no position.
+    /// Coordinates of the rods' centres in the control volume, in mean rod lengths; `None` for free rods, which have no
+    /// position.
     pub place_in_lengths: Option<[Vec<f64>; 3]>,
     /// True if the rod collided in the step that ended at this output; free rods never do.
     pub collided: Vec<bool>,
@@ -53,8 +54,8 @@ impl Snapshot {
         Some(std::array::from_fn(place))
     }
 
-    /// Bytes per rod of a snapshot of the plan: direction, aspect ratio and whether it collided; its position if rods interact; its
-    /// length if lengths differ.
+    /// Bytes per rod of a snapshot of the plan: direction, aspect ratio and whether it collided; its position if rods
+    /// interact; its length if lengths differ.
     pub(crate) fn bytes_per_rod(plan: &Plan) -> usize {
         let placed = if plan.runs(Stage::Translation) { 3 } else { 0 };
         let numbers = 4 + placed + usize::from(plan.runs(Stage::Lengths));

@@ -77,11 +77,7 @@ fn a_collision_gives_both_contact_points_the_mean_velocity_along_the_line() {
         general,
     ] {
         let mut scene = Scene {
-            interaction: Some(Interaction {
-                concentration_per_cm3: Some(1.0),
-                alpha: 1e12,
-                ..Interaction::default()
-            }),
+            interaction: Some(Interaction { concentration_per_cm3: Some(1.0), alpha: 1e12, ..Interaction::default() }),
             ..Scene::default()
         };
         scene.flow = crate::scene::Flow::Gradient { gradient_per_s: gradient };
@@ -92,15 +88,13 @@ fn a_collision_gives_both_contact_points_the_mean_velocity_along_the_line() {
         let [side, ..] = suspension.sides_in_lengths();
         let centres = [[0.4, 0.5, 0.5], [0.55, 0.45, 0.6]].map(|x| x.map(|x| x * side));
         let places = [0, 1, 2].map(|axis| vec![centres[0][axis], centres[1][axis]]);
-        let start =
-            [(0.3, 1.0), (2.0, 0.7)].map(|(phi, theta)| crate::model::orientation::from_angles(phi, theta));
+        let start = [(0.3, 1.0), (2.0, 0.7)].map(|(phi, theta)| crate::model::orientation::from_angles(phi, theta));
         suspension.place(places, &start).unwrap();
         assert_eq!(suspension.step().unwrap().len(), 1);
 
         // As the paper words it, in units of strain: u at each rod's centre plus r ṗ, along the contact line.
         let per_strain = plan.flow().per_s() / plan.flow().magnitude_per_s();
-        let (strain, spin) =
-            (0.5 * (per_strain + per_strain.transpose()), 0.5 * (per_strain - per_strain.transpose()));
+        let (strain, spin) = (0.5 * (per_strain + per_strain.transpose()), 0.5 * (per_strain - per_strain.transpose()));
         let [a, b] = centres.map(Vector3::from);
         let met = contact(&(b - a), &start[0], &start[1], [0.0; 2]).unwrap();
         let free = start.map(|p| {

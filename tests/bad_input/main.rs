@@ -97,7 +97,8 @@ const KEYS: &[(&str, &str, &[&str])] = &[
     ("particles.aspect_ratio", "expected a number from 1e-100 to 1e100", &["1e-101", "1e101"]),
     ("particles.aspect_ratio", "interacting rods need a number > 1", &["1", "1.0", "0.5"]),
     ("particles.aspect_ratio_sd_percent", "expected a finite number ≥ 0", NEGATIVE),
-    ("particles.aspect_ratio_sd_percent", "expected a number below 30.4598 with a mean of 11.6: with more, r_e ≤ 1", &["30.5", "100", "1e300"]),
+    ("particles.aspect_ratio_sd_percent", "expected a number below 30.4598 with a mean of 11.6: with more, r_e ≤ \
+        1", &["30.5", "100", "1e300"]),
     ("particles.orientation", "expected \"isotropic\" or { phi_deg = a finite number, theta_deg = ", NOT_A_DIRECTION),
     ("interaction.concentration_per_cm3", "expected a finite number > 0", NOT_POSITIVE),
     ("interaction.alpha", "expected a finite number ≥ 0", NEGATIVE),
@@ -116,7 +117,8 @@ const KEYS: &[(&str, &str, &[&str])] = &[
     ("ensemble.replicas", "expected a whole number from 1 to 10000000", &["10000001"]),
     ("ensemble.seed", "expected a whole number from 0 to 9223372036854775807", &["-1", "1.0", "\"1\""]),
     ("ensemble.seed", "expected a whole number from 0 to 9223372036854775807", &["9223372036854775808"]),
-    ("output.rods_at", "expected a list of finite numbers ≥ 0 that grow", &["0.1", "[-1]", "[nan]", "[0.2, 0.1]", "[\"0\"]", "{ }"]),
+    ("output.rods_at", "expected a list of finite numbers ≥ 0 that grow", &["0.1", "[-1]", "[nan]", "[0.2, \
+        0.1]", "[\"0\"]", "{ }"]),
     ("output.rods_at", "different output times, k/10 up to 1", &["[0.15]", "[1.1]", "[0, 1e300]"]),
     ("output.observables", "expected a list of one or more of \"projections\", \"planar", NOT_OBSERVABLES),
 ];
@@ -195,7 +197,8 @@ const OTHER_MISTAKES: &[(&str, &str, &str, &str)] = &[
     // A table or a key that is missing.
     (INTERACTING, "title = \"t\"\n", "", "1: title is missing: expected a text in quotes"),
     (INTERACTING, "[flow]\nshear_rate_per_s = 0.5\n", "", "1: flow is missing: expected a table [flow] with "),
-    (INTERACTING, "shear_rate_per_s = 0.5", "", "2: flow.shear_rate_per_s is missing: shear_rate_per_s, gradient_per_s or steps"),
+    (INTERACTING, "shear_rate_per_s = 0.5", "", "2: flow.shear_rate_per_s is missing: shear_rate_per_s, \
+        gradient_per_s or steps"),
     (INTERACTING, "count = 10\n", "", "4: particles.count is missing: expected a whole number from 1 to 100000000"),
     (INTERACTING, "alpha = 0.5\n", "", "10: interaction.alpha is missing: expected a finite number ≥ 0"),
     (INTERACTING, "periods = 1\n", "", "16: time.periods is missing: periods or strain must be given"),
@@ -211,7 +214,8 @@ const OTHER_MISTAKES: &[(&str, &str, &str, &str)] = &[
     (INTERACTING, "observables", "observable",
      "24: observable = [\"projections\"]: unknown key `observable`, expected"),
     // Something else where a table should be.
-    (EXTENSION, "title = \"t\"\n", "title = \"t\"\noutput = 3\n", "2: output = 3 is not allowed: expected a table [output]"),
+    (EXTENSION, "title = \"t\"\n", "title = \"t\"\noutput = 3\n", "2: output = 3 is not allowed: expected a table \
+        [output]"),
     (EXTENSION, "[time]", "[[time]]", "9: time = "),
     // What does not go together.
     (INTERACTING, "shear_rate", "gradient_per_s = [[0,0,0],[1,0,0],[0,0,0]]\nshear_rate",
@@ -223,7 +227,8 @@ const OTHER_MISTAKES: &[(&str, &str, &str, &str)] = &[
     (EXTENSION, "[[-0.5, 0, 0], [0, 1, 0], [0, 0, -0.5]]", "[[1e308, 0, 0], [0, -1e308, 0], [0, 0, 0]]",
      "3: flow.gradient_per_s = [[1e308, 0, 0], [0, -1e308, 0], [0, 0, 0]] is not allowed: such that the run"),
     (INTERACTING, "shear_rate_per_s = 0.5", "gradient_per_s = [\n  [1, 0, 0],\n  [0, -1, 0], [0, 0, 0.1]]",
-     "3: flow.gradient_per_s = [ [1, 0, 0], [0, -1, 0], [0, 0, 0.1]] is not allowed: where rods interact, a gradient with ∂u_1/∂x_1 + "),
+     "3: flow.gradient_per_s = [ [1, 0, 0], [0, -1, 0], [0, 0, 0.1]] is not allowed: where rods interact, a gradient \
+         with ∂u_1/∂x_1 + "),
     (INTERACTING, "periods = 1", "periods = 1\nstrain = 1",
      "17: time.periods = 1 is not allowed: either periods or strain, not both"),
     (INTERACTING, "periods = 1\nsteps_per_period = 20", "periods = 101\nsteps_per_period = 10000000",
@@ -251,17 +256,23 @@ const OTHER_MISTAKES: &[(&str, &str, &str, &str)] = &[
     (EXTENSION, "outputs_per_strain = 10", "outputs_per_strain = 10\n[output]\nobservables = [\"orbit_constant\"]",
      "13: output.observables = [\"orbit_constant\"] is not allowed: orbit_constant needs plane Couette flow"),
     // The same shear in other axes, in which eq. 13 holds no more.
-    (EXTENSION, "[[-0.5, 0, 0], [0, 1, 0], [0, 0, -0.5]]", "[[0, 1, 0], [0, 0, 0], [0, 0, 0]]\n[output]\nobservables = [\"orbit_constant\"]",
+    (EXTENSION, "[[-0.5, 0, 0], [0, 1, 0], [0, 0, -0.5]]", "[[0, 1, 0], [0, 0, 0], [0, 0, 0]]\n[output]\nobservables \
+        = [\"orbit_constant\"]",
      "5: output.observables = [\"orbit_constant\"] is not allowed: orbit_constant needs plane Couette flow"),
     // Flows one after another.
     (REVERSED, "strain = 3, ", "", "3: flow.steps.strain is missing: expected a finite number > 0"),
     (REVERSED, "strain = 3", "strain = -3", "3: flow.steps.strain = -3 is not allowed: expected a finite number > 0"),
-    (REVERSED, "rate_per_s = 1", "rate_per_s = 0", "3: flow.steps.shear_rate_per_s = 0 is not allowed: expected a finite number other"),
-    (REVERSED, "strain = 3, ", "strain = 3, shear_rate_per_s = 1, ", "3: flow.steps.shear_rate_per_s = 1 is not allowed: either it or"),
-    (REVERSED, "[-1, 0, 0]", "[-1, 0]", "3: flow.steps.gradient_per_s = [[0, 0, 0], [-1, 0], [0, 0, 0]] is not allowed: expected three"),
-    (REVERSED, "[-1, 0, 0]", "[0, 0, 0]", "3: flow.steps.gradient_per_s = [[0, 0, 0], [0, 0, 0], [0, 0, 0]] is not allowed: expected three"),
+    (REVERSED, "rate_per_s = 1", "rate_per_s = 0", "3: flow.steps.shear_rate_per_s = 0 is not allowed: expected a \
+        finite number other"),
+    (REVERSED, "strain = 3, ", "strain = 3, shear_rate_per_s = 1, ", "3: flow.steps.shear_rate_per_s = 1 is not \
+        allowed: either it or"),
+    (REVERSED, "[-1, 0, 0]", "[-1, 0]", "3: flow.steps.gradient_per_s = [[0, 0, 0], [-1, 0], [0, 0, 0]] is not \
+        allowed: expected three"),
+    (REVERSED, "[-1, 0, 0]", "[0, 0, 0]", "3: flow.steps.gradient_per_s = [[0, 0, 0], [0, 0, 0], [0, 0, 0]] is not \
+        allowed: expected three"),
     (REVERSED, "strain = 3", "strain = 3, periods = 1", "3: flow.steps.periods = 1 is not allowed: strain, shear_rate"),
-    (REVERSED, "strain = 5", "strain = 6", "10: time.strain = 6 is not allowed: at most 5, the strain of all flow.steps"),
+    (REVERSED, "strain = 5", "strain = 6", "10: time.strain = 6 is not allowed: at most 5, the strain of all \
+        flow.steps"),
     (REVERSED, "strain = 5", "periods = 1", "10: time.periods = 1 is not allowed: no periods where one flow follows"),
     (REVERSED, "rate_per_s = 1", "rate_per_s = 1e-310", "3: flow.steps = [{ shear_rate_per_s = 1e-310, strain = 2 }, "),
     (REVERSED, "[time]", "[interaction]\nalpha = 1\nconcentration_per_cm3 = 1\n[time]", "3: flow.steps = "),

@@ -22,13 +22,18 @@ fn an_empty_file_lacks_all_that_must_be_there() {
 /// One mistake of each kind, in the order of lines; the last column is the line.
 #[rustfmt::skip]
 const MANY: &[(&str, &str, &str)] = &[
-    ("shear_rate_per_s = 0.5", "shear_rate_per_s = -0.5", "3: flow.shear_rate_per_s = -0.5 is not allowed: expected a finite number > 0"),
+    ("shear_rate_per_s = 0.5", "shear_rate_per_s = -0.5", "3: flow.shear_rate_per_s = -0.5 is not allowed: expected a \
+        finite number > 0"),
     ("length_mm = 0.72", "lenght_mm = 0.72", "6: lenght_mm = 0.72: unknown key `lenght_mm`, expected one of"),
-    ("aspect_ratio = 11.6", "aspect_ratio = \"long\"", "7: particles.aspect_ratio = \"long\" is not allowed: expected a number from"),
+    ("aspect_ratio = 11.6", "aspect_ratio = \"long\"", "7: particles.aspect_ratio = \"long\" is not allowed: expected \
+        a number from"),
     ("alpha = 0.5\n", "", "10: interaction.alpha is missing: expected a finite number ≥ 0"),
-    ("update = \"rotation\"", "update = \"turn\"", "13: interaction.update = \"turn\" is not allowed: expected \"rotation\", \"angles\" or \"kick\""),
-    ("[ensemble]\nreplicas = 2", "[ensemble]\nreplicas = 0", "20: ensemble.replicas = 0 is not allowed: expected a whole number from 1 to"),
-    ("[\"projections\"]", "[\"projection\"]", "23: output.observables = [\"projection\"] is not allowed: expected a list of"),
+    ("update = \"rotation\"", "update = \"turn\"", "13: interaction.update = \"turn\" is not allowed: expected \
+        \"rotation\", \"angles\" or \"kick\""),
+    ("[ensemble]\nreplicas = 2", "[ensemble]\nreplicas = 0", "20: ensemble.replicas = 0 is not allowed: expected a \
+        whole number from 1 to"),
+    ("[\"projections\"]", "[\"projection\"]", "23: output.observables = [\"projection\"] is not allowed: expected a \
+        list of"),
 ];
 
 #[test]
@@ -51,8 +56,7 @@ fn all_problems_are_told_at_once() {
         assert!(line.starts_with(&format!("dir/s.toml:{message}")), "{message}\n{line}");
     }
     // What does not go together, in two tables.
-    let text =
-        INTERACTING.replace("= 3.6", "= 40").replace("outputs_per_period = 10", "outputs_per_period = 7");
+    let text = INTERACTING.replace("= 3.6", "= 40").replace("outputs_per_period = 10", "outputs_per_period = 7");
     let refusal = refusal(&text);
     assert_eq!(refusal.lines().count(), 2, "{refusal}");
     assert!(
@@ -140,8 +144,7 @@ fn what_is_nested_too_deep_is_refused_with_its_line() {
         for before in ["", "title = \"a.b.c\"\n[flow]\n", INTERACTING] {
             for after in ["", "\n", "\n[particles]\ncount = 0\n"] {
                 let text = format!("{before}\n{deep}{after}");
-                let line =
-                    1 + text.lines().position(|line| line.contains(&deep[deep.len() / 2..][..20])).unwrap();
+                let line = 1 + text.lines().position(|line| line.contains(&deep[deep.len() / 2..][..20])).unwrap();
                 let refusal = refusal(&text);
                 assert!(refusal.starts_with(&format!("dir/s.toml:{line}: ")), "{line}: {refusal}");
                 assert_eq!(refusal.lines().count(), 1);
@@ -153,11 +156,10 @@ fn what_is_nested_too_deep_is_refused_with_its_line() {
 #[test]
 fn r_e_is_given_once_and_a_misspelt_one_is_told_once() {
     let told = |old: &str, new: &str| refusal(&EXTENSION.replace(old, new));
-    let both = told(
-        "aspect_ratio = 11.6",
-        "aspect_ratio = 11.6\nphysical_aspect_ratio = 20\nshape_correlation = \"cox\"",
-    );
-    let not_both = "particles.aspect_ratio = 11.6 is not allowed: either aspect_ratio or physical_aspect_ratio, not both";
+    let both =
+        told("aspect_ratio = 11.6", "aspect_ratio = 11.6\nphysical_aspect_ratio = 20\nshape_correlation = \"cox\"");
+    let not_both =
+        "particles.aspect_ratio = 11.6 is not allowed: either aspect_ratio or physical_aspect_ratio, not both";
     assert_eq!(both, format!("dir/s.toml:7: {not_both}"));
     let misspelt = told("aspect_ratio", "aspect_ration");
     assert!(misspelt.contains("did you mean particles.aspect_ratio?"), "{misspelt}");

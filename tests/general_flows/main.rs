@@ -15,7 +15,8 @@ use std::cell::Cell;
 
 fn scene(rows: [[f64; 3]; 3], r: f64, sd: f64, orientation: &str, time: &str) -> String {
     format!(
-        "title = \"t\"\n[flow]\ngradient_per_s = {rows:?}\n[particles]\ncount = 3\nlength_mm = 1\naspect_ratio = {r:e}\n\
+        "title = \"t\"\n[flow]\ngradient_per_s = {rows:?}\n[particles]\ncount = 3\nlength_mm = 1\naspect_ratio = \
+            {r:e}\n\
          aspect_ratio_sd_percent = {sd}\norientation = {orientation}\n[time]\n{time}\n[output]\n\
          observables = [\"projections\", \"orientation_tensor\"]\n"
     )
@@ -87,10 +88,10 @@ fn scenes(component: impl Strategy<Value = f64>) -> impl Strategy<Value = String
     })
 }
 
-/// Runs 500 scenes with such components. A tenth at least must end with numbers: where all are refused, nothing was tried.
+/// Runs 500 scenes with such components. A tenth at least must end with numbers: where all are refused, nothing was
+/// tried.
 fn end_or_are_refused(component: impl Strategy<Value = f64>) {
-    let config =
-        Config { rng_seed: RngSeed::Fixed(1982), failure_persistence: None, cases: 500, ..Config::default() };
+    let config = Config { rng_seed: RngSeed::Fixed(1982), failure_persistence: None, cases: 500, ..Config::default() };
     let ended = Cell::new(0);
     TestRunner::new(config)
         .run(&scenes(component), |scene| {
@@ -111,8 +112,8 @@ fn any_gradient_of_mixed_sizes_ends_or_is_refused() {
     end_or_are_refused(component());
 }
 
-/// Stretched along (1, 1, 0), a rod that starts at a right angle to it is on one side of the dividing plane or on the other by a
-/// rounding.
+/// Stretched along (1, 1, 0), a rod that starts at a right angle to it is on one side of the dividing plane or on the
+/// other by a rounding.
 #[test]
 fn a_start_on_a_dividing_plane_is_refused_however_it_is_given() {
     let rows = [[0.25, 0.75, 0.0], [0.75, 0.25, 0.0], [0.0, 0.0, -0.5]];
@@ -180,8 +181,7 @@ fn three_real_rates_have_no_period() {
 fn a_rounded_rotation_of_couette_flow_has_a_period_for_as_long_as_it_has() {
     // Flow along (1, 2, 3), gradient along (4, 1, −2), to 16 digits: neither det L nor tr L² is quite 0.
     let (along, across) = ([1.0, 2.0, 3.0], [4.0, 1.0, -2.0]);
-    let rows =
-        along.map(|flow: f64| across.map(|gradient: f64| flow / 14f64.sqrt() * (gradient / 21f64.sqrt())));
+    let rows = along.map(|flow: f64| across.map(|gradient: f64| flow / 14f64.sqrt() * (gradient / 21f64.sqrt())));
     let parsed = |r: f64, time: &str| Plan::parse("s.toml", &scene(rows, r, 0.0, "\"isotropic\"", time));
     assert!(parsed(11.6, "periods = 10").is_ok(), "{:?}", parsed(11.6, "periods = 10"));
     let error = parsed(1e8, "periods = 10").unwrap_err().to_string();
@@ -192,8 +192,7 @@ fn a_rounded_rotation_of_couette_flow_has_a_period_for_as_long_as_it_has() {
 #[test]
 fn a_nearly_parabolic_flow_is_not_taken_as_planar() {
     let flow =
-        VelocityGradient::new(nalgebra::Matrix3::new(1.5e-7, 0.0, 0.0, 1.0, 1.5e-7, 0.0, 0.0, 0.0, -3e-7))
-            .unwrap();
+        VelocityGradient::new(nalgebra::Matrix3::new(1.5e-7, 0.0, 0.0, 1.0, 1.5e-7, 0.0, 0.0, 0.0, -3e-7)).unwrap();
     let moved = Propagator::new(&flow, 1e4).moved(&from_degrees(90.0, 45.0), Span::Strain(1e6, 1.0)).unwrap();
     assert!((moved.p.y.abs() - 0.804).abs() < 5e-4 && (moved.p.z - 0.595).abs() < 5e-4, "{moved:?}");
     assert!(moved.error < 1e-12, "{moved:?}");
@@ -204,8 +203,7 @@ fn a_nearly_parabolic_flow_is_not_taken_as_planar() {
 fn a_rod_on_an_axis_of_the_flow_stays_there() {
     for theta_deg in [0.0, 180.0] {
         let flow =
-            VelocityGradient::new(nalgebra::Matrix3::new(1.0, 0.3, 0.0, -0.2, -0.5, 0.0, 0.0, 0.0, -0.5))
-                .unwrap();
+            VelocityGradient::new(nalgebra::Matrix3::new(1.0, 0.3, 0.0, -0.2, -0.5, 0.0, 0.0, 0.0, -0.5)).unwrap();
         let start = from_degrees(37.0, theta_deg);
         let moved = Propagator::new(&flow, 11.6).moved(&start, Span::Strain(1e6, 1.0)).unwrap();
         // Else e^{−5·10⁵} beside e^{10⁶} is no direction at all.

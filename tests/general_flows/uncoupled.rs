@@ -12,9 +12,10 @@ type Answered = ([[f64; 3]; 3], f64, [f64; 3], f64, [f64; 3]);
 /// The double next to 1.
 const NEXT: f64 = 1.0 + f64::EPSILON;
 
-/// Starts of which little lies in the coordinates that the flow draws out, where N couples these with no others, so that no digit of
-/// the end is lost. The ends are exp(At)p/|exp(At)p| of the doubles given, in arithmetic of 1400 digits (mpmath 1.3: Taylor's series,
-/// scaled and squared; at a strain of 3e16 the exponentials of the diagonal), rounded to doubles.
+/// Starts of which little lies in the coordinates that the flow draws out, where N couples these with no others, so
+/// that no digit of the end is lost. The ends are exp(At)p/|exp(At)p| of the doubles given, in arithmetic of 1400
+/// digits (mpmath 1.3: Taylor's series, scaled and squared; at a strain of 3e16 the exponentials of the diagonal),
+/// rounded to doubles.
 const UNCOUPLED: [Answered; 13] = [
     // Nearly equal rates, equal ones, and other orders of the axes.
     (
@@ -76,7 +77,8 @@ const UNCOUPLED: [Answered; 13] = [
         1475.0,
         [0.9955530888533654, 0.0, 0.09420216172956544],
     ),
-    // A slow rotation of two axes that grows against the third, on other axes, of a disc; and as fast as the third to a rounding.
+    // A slow rotation of two axes that grows against the third, on other axes, of a disc; and as fast as the third to a
+    // rounding.
     (
         [[0.5, -0.001, 0.0], [0.001, 0.5, 0.0], [0.0, 0.0, -1.0]],
         11.6,
@@ -123,7 +125,8 @@ fn coordinates_that_are_not_coupled_keep_their_digits() {
         let start = nalgebra::UnitVector3::new_unchecked(p.into());
         let moved = Propagator::new(&flow, r).moved(&start, Span::Strain(strain, 1.0)).unwrap();
         let off = (moved.p.into_inner() - nalgebra::Vector3::from(expected)).norm();
-        // The end is rounded to 4 ε; 106 bits of the largest exponent, 3e16, leave 1e-14. Terms of one block may cancel a little.
+        // The end is rounded to 4 ε; 106 bits of the largest exponent, 3e16, leave 1e-14. Terms of one block may cancel
+        // a little.
         if !(off <= moved.error && moved.error < 1e-13 && moved.condition < 1.5) {
             lost.push((rows, r, p, strain, off, moved));
         }
@@ -164,11 +167,8 @@ fn a_refused_rod_is_named_with_its_bound_and_the_time() {
     let error = ensemble::run(&Plan::new(&scene).unwrap()).unwrap_err().to_string();
     // The start's rounding, 4 ε, grows by e^{1.5Λ strain/√3}, which is 1e-6/4 ε = 1.1e9 at a strain of 24.4.
     assert!(error.starts_with("rod 1, output 25 (strain = 25) of replica 0, seed "), "{error}");
-    for part in [
-        " rad, more than the 1e-6 rad allowed",
-        "r_e = 11.6",
-        "this flow amplifies the rounding of the start",
-    ] {
+    for part in [" rad, more than the 1e-6 rad allowed", "r_e = 11.6", "this flow amplifies the rounding of the start"]
+    {
         assert!(error.contains(part), "{part}: {error}");
     }
     assert!(!error.contains("NaN"), "{error}");

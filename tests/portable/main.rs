@@ -5,15 +5,19 @@ use shearbed::run::ensemble;
 use shearbed::scene;
 use shearbed::{Plan, Results};
 
-/// Scenes that use every function of `libm` that the core does, and the digest of their means: the same on every machine, so one
-/// that differs is a mistake of that machine's build, or a change of the model that has to be said.
+/// Scenes that use every function of `libm` that the core does, and the digest of their means: the same on every
+/// machine, so one that differs is a mistake of that machine's build, or a change of the model that has to be said.
 const SCENES: [(&str, u64, &str); 8] = [
     (
         "kicks",
         0x1ae6_99bd_1c37_a312,
         r#"
         flow = { shear_rate_per_s = 0.5 }
-        particles = { count = 100, length_mm = 0.72, aspect_ratio = 11.6, aspect_ratio_sd_percent = 3.6, orientation = "isotropic" }
+        particles.count = 100
+        particles.length_mm = 0.72
+        particles.aspect_ratio = 11.6
+        particles.aspect_ratio_sd_percent = 3.6
+        particles.orientation = "isotropic"
         interaction = { concentration_per_cm3 = 50, alpha = 0.5 }
         time = { periods = 1, outputs_per_period = 10 }
         ensemble = { replicas = 10 }
@@ -25,7 +29,11 @@ const SCENES: [(&str, u64, &str); 8] = [
         0x125f_da1f_a124_4adc,
         r#"
         flow = { shear_rate_per_s = 0.5 }
-        particles = { count = 100, length_mm = 0.72, aspect_ratio = 11.6, aspect_ratio_sd_percent = 3.6, orientation = "isotropic" }
+        particles.count = 100
+        particles.length_mm = 0.72
+        particles.aspect_ratio = 11.6
+        particles.aspect_ratio_sd_percent = 3.6
+        particles.orientation = "isotropic"
         interaction = { concentration_per_cm3 = 50, alpha = 0.5, update = "rotation" }
         time = { periods = 1, outputs_per_period = 10 }
         ensemble = { replicas = 10 }
@@ -37,7 +45,11 @@ const SCENES: [(&str, u64, &str); 8] = [
         0x3e8a_a383_9ab0_c1ff,
         r#"
         flow = { shear_rate_per_s = 0.5 }
-        particles = { count = 100, length_mm = 0.72, physical_aspect_ratio = 20, shape_correlation = "cox", orientation = { phi_deg = 10, theta_deg = 80 } }
+        particles.count = 100
+        particles.length_mm = 0.72
+        particles.physical_aspect_ratio = 20
+        particles.shape_correlation = "cox"
+        particles.orientation = { phi_deg = 10, theta_deg = 80 }
         interaction = { concentration_per_cm3 = 50, alpha = 0.5, m = 2.5, update = "angles" }
         time = { periods = 1, outputs_per_period = 10 }
         ensemble = { replicas = 10 }
@@ -49,7 +61,11 @@ const SCENES: [(&str, u64, &str); 8] = [
         0xff9d_cc2c_154a_4064,
         r#"
         flow = { shear_rate_per_s = 2 }
-        particles = { count = 3000, length_mm = 0.72, physical_aspect_ratio = 20, shape_correlation = "harris-pittman", orientation = "isotropic" }
+        particles.count = 3000
+        particles.length_mm = 0.72
+        particles.physical_aspect_ratio = 20
+        particles.shape_correlation = "harris-pittman"
+        particles.orientation = "isotropic"
         interaction = { concentration_per_cm3 = 500, alpha = 0.5, update = "rotation" }
         time = { periods = 0.1, outputs_per_period = 50 }
         "#,
@@ -60,7 +76,11 @@ const SCENES: [(&str, u64, &str); 8] = [
         0xf74a_64b4_9f1f_e7c1,
         r#"
         flow = { shear_rate_per_s = 1 }
-        particles = { count = 70000, length_mm = 1, aspect_ratio = 5, aspect_ratio_sd_percent = 7.2, orientation = "isotropic" }
+        particles.count = 70000
+        particles.length_mm = 1
+        particles.aspect_ratio = 5
+        particles.aspect_ratio_sd_percent = 7.2
+        particles.orientation = "isotropic"
         time = { periods = 1, outputs_per_period = 4 }
         "#,
     ),
@@ -69,7 +89,11 @@ const SCENES: [(&str, u64, &str); 8] = [
         0x8409_5374_c301_2bad,
         r#"
         flow = { gradient_per_s = [[0.1, -1, 0.3], [2, -0.3, 0], [0.2, 0, 0.2]] }
-        particles = { count = 300, length_mm = 1, aspect_ratio = 3, aspect_ratio_sd_percent = 10, orientation = "isotropic" }
+        particles.count = 300
+        particles.length_mm = 1
+        particles.aspect_ratio = 3
+        particles.aspect_ratio_sd_percent = 10
+        particles.orientation = "isotropic"
         time = { strain = 20 }
         "#,
     ),
@@ -78,7 +102,11 @@ const SCENES: [(&str, u64, &str); 8] = [
         0x512f_f4de_ca3a_c9f1,
         r#"
         flow = { gradient_per_s = [[1, 0.5, 0], [0.2, -0.7, 0.1], [0, 0, -0.3]] }
-        particles = { count = 300, length_mm = 1, aspect_ratio = 30, aspect_ratio_sd_percent = 10, orientation = "isotropic" }
+        particles.count = 300
+        particles.length_mm = 1
+        particles.aspect_ratio = 30
+        particles.aspect_ratio_sd_percent = 10
+        particles.orientation = "isotropic"
         time = { strain = 20 }
         "#,
     ),

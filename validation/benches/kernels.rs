@@ -1,4 +1,5 @@
-//! Throughput of the core's kernels, of whole steps beside the naive reference, and of whole scenes: `cargo bench -p shearbed-benches`.
+//! Throughput of the core's kernels, of whole steps beside the naive reference, and of whole scenes: `cargo bench -p
+//! shearbed-benches`.
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use nalgebra::{UnitVector3, Vector3};

@@ -23,12 +23,7 @@ fn main() {
         println!("order {:?}: {:?}", study.judged, study.found);
     }
     for point in curve(&mine, 11.6, Budget::QUICK).points {
-        println!(
-            "{:<14} {:.1e} rad in {:.1e} s",
-            point.setting.to_string(),
-            point.error_rad(),
-            point.seconds.least
-        );
+        println!("{:<14} {:.1e} rad in {:.1e} s", point.setting.to_string(), point.error_rad(), point.seconds.least);
     }
 }
 

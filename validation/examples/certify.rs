@@ -1,6 +1,8 @@
-//! Writes the certified answers of problems to standard output: a table is the same on every machine. `unequal-rods` takes minutes.
+//! Writes the certified answers of problems to standard output: a table is the same on every machine. `unequal-rods`
+//! takes minutes.
 //!
-//!     cargo run --release -p shearbed-validation --example certify -- folgar-tucker > validation/src/serve/problems/data/folgar-tucker.csv
+//!     cargo run --release -p shearbed-validation --example certify -- folgar-tucker >
+//!     validation/src/serve/problems/data/folgar-tucker.csv
 
 use shearbed_validation::oracle::reference::big::digits;
 use shearbed_validation::oracle::reference::unequal::means_to_22_digits;

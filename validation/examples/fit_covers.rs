@@ -1,7 +1,8 @@
-//! Repeats whole fits of synthetic points of two thin suspensions, each with a seed and noise of its own, and counts how often the
-//! intervals hold the planted values:
+//! Repeats whole fits of synthetic points of two thin suspensions, each with a seed and noise of its own, and counts
+//! how often the intervals hold the planted values:
 //!
-//!     cargo run --release -p shearbed-validation --example fit_covers -- 200 interaction.alpha=0.2:3 interaction.m=1.2:6
+//!     cargo run --release -p shearbed-validation --example fit_covers -- 200 interaction.alpha=0.2:3
+//!     interaction.m=1.2:6
 //!
 //! `100..200` goes on where 100 repeats have ended.
 //! Keys are `interaction.alpha`, `interaction.m`, `particles.aspect_ratio`, `particles.aspect_ratio_sd_percent` and
@@ -117,8 +118,7 @@ fn main() -> Result<(), String> {
     }
     let behind: Vec<f64> = over.iter().map(planted).collect::<Result<_, _>>()?;
     let model = scenes(1, &over)?.model(&points(|_| f64::NAN), AS_WRITTEN, &behind)?;
-    let rows: Vec<_> =
-        (0..TRUTH).into_par_iter().map(|replica| model.run(replica)).collect::<Result<_, _>>()?;
+    let rows: Vec<_> = (0..TRUTH).into_par_iter().map(|replica| model.run(replica)).collect::<Result<_, _>>()?;
     let truth: Vec<f64> =
         (0..rows[0].len()).map(|k| rows.iter().map(|row| row[k][0]).sum::<f64>() / TRUTH as f64).collect();
     let freedom = (truth.len() - over.len()) as f64;
@@ -126,11 +126,13 @@ fn main() -> Result<(), String> {
 
     let mut inside = vec![[0_u32; 2]; over.len()];
     let (mut answered, mut low_p, mut high_p, mut chi_square) = (0, 0, 0, 0.0);
-    // By how much χ² differs from that of the noise alone: due is one less for each parameter: paired, it scatters far less.
+    // By how much χ² differs from that of the noise alone: due is one less for each parameter: paired, it scatters far
+    // less.
     let mut differences: Vec<f64> = Vec::new();
     let mut refused: BTreeMap<String, u32> = BTreeMap::new();
     println!(
-        "repeat,chi2,p,replicas,runs,share_of_replicas,share_of_emulator,feigned,key,estimate,low_68,high_68,low_95,high_95"
+        "repeat,chi2,p,replicas,runs,share_of_replicas,share_of_emulator,\
+        feigned,key,estimate,low_68,high_68,low_95,high_95"
     );
     for k in repeats.clone() {
         let fit = match whole_fit(k, &truth, &over) {

@@ -1,8 +1,10 @@
-//! Whole fits of experiments by another simulator: how often the intervals hold the planted α, and whether p-values are uniform.
+//! Whole fits of experiments by another simulator: how often the intervals hold the planted α, and whether p-values are
+//! uniform.
 //!
 //!     cargo run --release -p shearbed-validation --example fit_experiments -- 300 rods 300
 //!
-//! Each of 300 experiments is one suspension of 300 rods by the naive reference, with a reading error of 0.003. The model has as many rods.
+//! Each of 300 experiments is one suspension of 300 rods by the naive reference, with a reading error of 0.003. The
+//! model has as many rods.
 //!
 //! | second argument | the points' u | the fit |
 //! | --- | --- | --- |
@@ -82,9 +84,7 @@ fn main() -> Result<(), String> {
         "within" => Rods { over_measured, in_u: true },
         "within-independent" | "infinite" => Rods::none(1),
         _ => {
-            return Err(format!(
-                "{way}: rods, within, within-unsaid, within-independent and infinite are allowed"
-            ));
+            return Err(format!("{way}: rods, within, within-unsaid, within-independent and infinite are allowed"));
         }
     };
     let one = |k: u64| -> Result<_, String> {
@@ -137,13 +137,11 @@ fn main() -> Result<(), String> {
     println!("# p < 0.05 in {}", share(fits.iter().filter(|fit| fit.2 < 0.05).count()));
     let mut p: Vec<f64> = fits.iter().map(|fit| fit.2).collect();
     p.sort_by(f64::total_cmp);
-    let distance = (p.iter().enumerate())
-        .map(|(k, p)| (p - k as f64 / n).max((k as f64 + 1.0) / n - p))
-        .fold(0.0, f64::max);
+    let distance =
+        (p.iter().enumerate()).map(|(k, p)| (p - k as f64 / n).max((k as f64 + 1.0) / n - p)).fold(0.0, f64::max);
     // Kolmogorov's law with Stephens' correction for small samples.
     let x = distance * (n.sqrt() + 0.12 + 0.11 / n.sqrt());
-    let tail =
-        (1..50).map(|k| 2.0 * (-1f64).powi(k - 1) * (-2.0 * f64::from(k * k) * x * x).exp()).sum::<f64>();
+    let tail = (1..50).map(|k| 2.0 * (-1f64).powi(k - 1) * (-2.0 * f64::from(k * k) * x * x).exp()).sum::<f64>();
     println!("# p uniform: Kolmogorov–Smirnov distance {distance:.3}, probability {:.2e}", tail.min(1.0));
     Ok(())
 }

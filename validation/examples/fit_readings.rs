@@ -1,6 +1,6 @@
-//! What α would be under each open reading of the paper, and what points of two suspensions tell of the readings, as Markdown
-//! tables. `cargo run --release -p shearbed-validation --example fit_readings -- 50` gives each value of α up to 50 replicas in the
-//! first; in the second points and model have 10 000.
+//! What α would be under each open reading of the paper, and what points of two suspensions tell of the readings, as
+//! Markdown tables. `cargo run --release -p shearbed-validation --example fit_readings -- 50` gives each value of α up
+//! to 50 replicas in the first; in the second points and model have 10 000.
 
 use rand::SeedableRng;
 use rand_distr::{Distribution, StandardNormal};
@@ -63,10 +63,8 @@ fn two_suspensions() -> Result<(), String> {
 
 fn main() -> Result<(), String> {
     two_suspensions()?;
-    let most: u64 =
-        std::env::args().nth(1).map_or(Ok(50), |text| text.parse()).map_err(|error| format!("{error}"))?;
-    let rows: Vec<_> =
-        (0..TRUTH).into_par_iter().map(|replica| curve(|_| (), PLANTED, 99, replica)).collect();
+    let most: u64 = std::env::args().nth(1).map_or(Ok(50), |text| text.parse()).map_err(|error| format!("{error}"))?;
+    let rows: Vec<_> = (0..TRUTH).into_par_iter().map(|replica| curve(|_| (), PLANTED, 99, replica)).collect();
     let mut rng = Pcg64Dxsm::seed_from_u64(7);
     let point = |k: usize| {
         let noise: f64 = StandardNormal.sample(&mut rng);

@@ -1,4 +1,5 @@
-//! Prints what other interpretations of the paper change as a Markdown table; with `-- full`, from as many replicas as `--full`.
+//! Prints what other interpretations of the paper change as a Markdown table; with `-- full`, from as many replicas as
+//! `--full`.
 
 use shearbed_validation::judge::case::{Effort, GATE_SEED};
 use shearbed_validation::studies::readings::{measure, table};

@@ -1,7 +1,7 @@
 //! Prints the table of docs/src/theory/time-step.md that says which steps resolve the motion, as Markdown.
 //!
-//! `cargo run --release -p shearbed-validation --example resolution -- REPLICAS [R_E...]`: 50 replicas, and the aspect ratios of the
-//! table, where nothing else is asked for.
+//! `cargo run --release -p shearbed-validation --example resolution -- REPLICAS [R_E...]`: 50 replicas, and the aspect
+//! ratios of the table, where nothing else is asked for.
 
 use shearbed_validation::cases::resolution::{change, scene, steps, x1};
 use shearbed_validation::judge::case::Effort;
@@ -12,8 +12,7 @@ const FINE: f64 = 0.023;
 const STRAINS: [f64; 7] = [0.092, 0.184, 0.37, 0.45, 0.55, 0.74, 1.5];
 
 /// r_e and σ in percent.
-const RODS: [(f64, f64); 6] =
-    [(3.96, 0.0), (11.6, 0.0), (17.0, 0.0), (50.0, 0.0), (100.0, 0.0), (11.6, 30.0)];
+const RODS: [(f64, f64); 6] = [(3.96, 0.0), (11.6, 0.0), (17.0, 0.0), (50.0, 0.0), (100.0, 0.0), (11.6, 30.0)];
 
 fn main() {
     let numbers = std::env::args().skip(1).map(|word| word.parse::<f64>());
@@ -22,10 +21,7 @@ fn main() {
         Some((replicas, asked)) => (*replicas as u64, asked),
         None => (50, &[][..]),
     };
-    println!(
-        "| r_e | σ | n per cm³ | X̄₁ at GΔt = {FINE} | {} |",
-        STRAINS.map(|s| format!("{s}")).join(" | ")
-    );
+    println!("| r_e | σ | n per cm³ | X̄₁ at GΔt = {FINE} | {} |", STRAINS.map(|s| format!("{s}")).join(" | "));
     println!("|{}", " --- |".repeat(4 + STRAINS.len()));
     let rods = match asked {
         [] => RODS.to_vec(),

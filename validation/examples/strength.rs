@@ -1,8 +1,9 @@
 //! Tries the probabilities that the gate promises: the cases at many seeds, and how often each turned red, and why.
 //!
 //! `cargo run --release -p shearbed-validation --example strength -- SEEDS [full] [CASE...]` prints the tables of
-//! `docs/src/verification/error-rates.md`, after every 20 seeds those until then. SEEDS is the last one, or the first and the last as `61..200`. A
-//! case whose evidence is the same at the first five seeds draws nothing, and is not run again.
+//! `docs/src/verification/error-rates.md`, after every 20 seeds those until then. SEEDS is the last one, or the first
+//! and the last as `61..200`. A case whose evidence is the same at the first five seeds draws nothing, and is not run
+//! again.
 
 use shearbed_validation::cases;
 use shearbed_validation::judge::accept::{Rule, Verdict};
@@ -55,7 +56,8 @@ fn print(records: &BTreeMap<&str, Record>, scores: &mut [f64]) {
         );
     }
     println!(
-        "\n| case | judges | seeds | red | why | false alarm ≤ | s | controls: the least margin, its mean and deviation, miss |"
+        "\n| case | judges | seeds | red | why | false alarm ≤ | s | controls: the least margin, its mean and \
+            deviation, miss |"
     );
     println!("| --- | --- | ---: | ---: | --- | ---: | ---: | --- |");
     for (name, record) in records.iter().filter(|(_, record)| record.draws()) {

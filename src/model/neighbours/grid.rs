@@ -24,8 +24,8 @@ struct Entry {
 
 /// Rods sorted into the cells of a volume [0, H₁) × [0, H₂) × [0, H₃), for one step, each with its reach.
 ///
-/// Cells, and so the rods in memory, follow one another along axis 3, then 2, then 1, so that a search reads neighbouring memory.
-/// The buffers are reused in every step.
+/// Cells, and so the rods in memory, follow one another along axis 3, then 2, then 1, so that a search reads
+/// neighbouring memory. The buffers are reused in every step.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Grid {
     /// The longest side, the unit of length of all that follows.
@@ -48,8 +48,8 @@ pub(super) struct Grid {
 /// Rods per cell, about: with fewer the search looks at more cells, with more at more rods.
 const RODS_PER_CELL: f64 = 1.4;
 
-/// An upper bound of the error of a distance in single precision, in longest sides: two coordinates are rounded, and so are their
-/// difference and its square.
+/// An upper bound of the error of a distance in single precision, in longest sides: two coordinates are rounded, and so
+/// are their difference and its square.
 const SLACK: f32 = 1e-6;
 
 impl Grid {
@@ -193,12 +193,7 @@ impl Grid {
     }
 
     /// The nearest other rod closer than the reach of `entry`, with the square of its distance.
-    fn nearest_within(
-        &self,
-        positions: &[Vec<f64>; 3],
-        entry: &Entry,
-        work: &mut Counters,
-    ) -> Option<(u32, f64)> {
+    fn nearest_within(&self, positions: &[Vec<f64>; 3], entry: &Entry, work: &mut Counters) -> Option<(u32, f64)> {
         let reach = entry.reach.min(2.0);
         let widest = self.width.into_iter().fold(0.0, greater);
         let mut radius = reach.min(widest);
@@ -236,8 +231,7 @@ impl Grid {
                         continue;
                     }
                     work.distances += 1;
-                    let [own, place] =
-                        [entry.rod, other.rod].map(|rod| positions.each_ref().map(|x| x[rod as usize]));
+                    let [own, place] = [entry.rod, other.rod].map(|rod| positions.each_ref().map(|x| x[rod as usize]));
                     let square = (0..3).map(|k| (place[k] - own[k]).powi(2)).sum::<f64>();
                     let closer = square < best_square;
                     let tie = square == best_square && best.is_some_and(|b| other.rod < b);
@@ -265,8 +259,8 @@ impl Grid {
         ((at(0) * rows + at(1)) * columns + at(2)) as u32
     }
 
-    /// [`Self::index`] of a coordinate in the volume, as a number with a fraction of 0: this vectorises. Of a single coordinate a cast is
-    /// faster.
+    /// [`Self::index`] of a coordinate in the volume, as a number with a fraction of 0: this vectorises. Of a single
+    /// coordinate a cast is faster.
     #[inline(always)]
     fn cell_at(&self, axis: usize, x: f32) -> f32 {
         let (cells, last) = (x * self.per_length[axis], self.along[axis] as f32 - 1.0);
@@ -282,14 +276,13 @@ const ROUNDS: f32 = 12_582_912.0;
 /// The largest number of cells along a side.
 const MOST_ALONG: usize = 256;
 
-/// Numbers of cells along each side for about `count` rods, as cubic as possible. A side thinner than a cube gets one cell; the others
-/// share the rest.
+/// Numbers of cells along each side for about `count` rods, as cubic as possible. A side thinner than a cube gets one
+/// cell; the others share the rest.
 fn cells_along(sides: [f64; 3], count: usize) -> [usize; 3] {
     let count = count as f64 / RODS_PER_CELL;
     let ratio = |axis: usize, other: usize| sides[axis] / sides[other];
-    let cubic: [f64; 3] = std::array::from_fn(|axis| {
-        libm::cbrt(count * ratio(axis, (axis + 1) % 3) * ratio(axis, (axis + 2) % 3))
-    });
+    let cubic: [f64; 3] =
+        std::array::from_fn(|axis| libm::cbrt(count * ratio(axis, (axis + 1) % 3) * ratio(axis, (axis + 2) % 3)));
     let thin: Vec<usize> = (0..3).filter(|axis| cubic[*axis] < 1.0).collect();
     let along: [f64; 3] = match thin[..] {
         [] => cubic,

@@ -5,7 +5,8 @@ use super::branchless::nearest_u32;
 use crate::model::widest::widest;
 use crate::model::work::Counters;
 
-/// Separates the rods that have a near neighbour from those that have none, over all pairs, in integers of a small unit.
+/// Separates the rods that have a near neighbour from those that have none, over all pairs, in integers of a small
+/// unit.
 ///
 /// The buffers are reused in every step.
 #[derive(Clone, Debug)]

@@ -1,4 +1,5 @@
-//! Moves rods through the control volume in any flow of constant volume, and replaces rods that leave by inflowing ones.
+//! Moves rods through the control volume in any flow of constant volume, and replaces rods that leave by inflowing
+//! ones.
 
 #[cfg(test)]
 mod tests;
@@ -15,13 +16,13 @@ pub const MAX_STEP: f64 = 8.0;
 /// Random numbers reserved for one rod. A try takes five; on average fewer than ten are needed.
 pub const NUMBERS: u128 = 1 << 20;
 
-/// One step of rods in a control volume whose liquid has any gradient L of trace 0 (eqs 2 and 3, with x measured from the volume's
-/// corner).
+/// One step of rods in a control volume whose liquid has any gradient L of trace 0 (eqs 2 and 3, with x measured from
+/// the volume's corner).
 ///
-/// A rod that leaves returns uniformly distributed over the liquid that came in during the step: through a point of a face, with a
-/// density ∝ the inflow there, at a time uniform in the step. Uniformly distributed rods therefore stay so, except in liquid that came
-/// in twice during the step, a part ∝ Δt³ of the volume. Plane Couette flow u_2 = G x_1 uses eq. 14 instead
-/// ([`ControlVolume::advance`]).
+/// A rod that leaves returns uniformly distributed over the liquid that came in during the step: through a point of a
+/// face, with a density ∝ the inflow there, at a time uniform in the step. Uniformly distributed rods therefore stay
+/// so, except in liquid that came in twice during the step, a part ∝ Δt³ of the volume. Plane Couette flow u_2 = G x_1
+/// uses eq. 14 instead ([`ControlVolume::advance`]).
 #[derive(Clone, Debug)]
 pub struct Inflow {
     sides: [f64; 3],

@@ -60,7 +60,8 @@ proptest! {
 
     /// Products are tested down to the smallest doubles.
     #[test]
-    fn sums_and_products_hold_the_exact_ones(a in ball(), b in ball(), s in share(), t in share(), power in prop_oneof![Just(0i32), -900i32..0]) {
+    fn sums_and_products_hold_the_exact_ones(a in ball(), b in ball(), s in share(), t in share(),
+        power in prop_oneof![Just(0i32), -900i32..0]) {
         let small = b.scaled(libm::scalbn(1.0, power));
         prop_assert!(off(a * small, &(within(a, s) * within(small, t))) <= ONE, "{a:?} * {small:?}");
         let (x, y) = (within(a, s), within(b, t));
@@ -77,7 +78,8 @@ proptest! {
 
     /// Quotients are tested down to the smallest doubles.
     #[test]
-    fn quotients_hold_the_exact_ones(a in ball(), b in ball(), s in share(), t in share(), power in prop_oneof![Just(0i32), 0i32..900]) {
+    fn quotients_hold_the_exact_ones(a in ball(), b in ball(), s in share(), t in share(),
+        power in prop_oneof![Just(0i32), 0i32..900]) {
         let b = b.scaled(libm::scalbn(1.0, power));
         prop_assume!(b.least() > 0.0);
         prop_assert!(off(a.over(b), &(within(a, s) / within(b, t))) <= ONE, "{a:?} / {b:?}");
@@ -139,7 +141,8 @@ proptest! {
 
     #[test]
     fn an_error_is_no_wider_than_it_must_be(a in ball(), b in ball()) {
-        // A thousand roundings of 106 bits beside the operands' errors: a bound as wide as double precision's would fail.
+        // A thousand roundings of 106 bits beside the operands' errors: a bound as wide as double precision's would
+        // fail.
         let rounding = 1e3 * 2f64.powi(-106);
         let (x, y) = (a.error / a.hi.abs(), b.error / b.hi.abs());
         prop_assert!((a * b).error <= (1.01 * (x + y) + x * y + rounding) * (a.hi * b.hi).abs());

@@ -96,20 +96,14 @@ fn rods_that_cannot_be_are_refused_by_number() {
             with(&|own| own.aspect_ratio = Some(vec![2.0, 1.0])),
             "rod 1 has aspect_ratio = 1.0; allowed: a number > 1, up to 1e100, for interacting rods",
         ),
-        (
-            with(&|own| own.aspect_ratio = Some(vec![f64::NAN, 2.0])),
-            "rod 0 has aspect_ratio = NaN; allowed: ",
-        ),
+        (with(&|own| own.aspect_ratio = Some(vec![f64::NAN, 2.0])), "rod 0 has aspect_ratio = NaN; allowed: "),
         (
             with(&|own| own.length_mm = Some(vec![1.0, 0.0])),
             "rod 1 has length_mm = 0.0; allowed: a number between 1e-50 and 1e50 times the scene's length_mm",
         ),
         (with(&|own| own.length_mm = Some(vec![f64::INFINITY, 1.0])), "rod 0 has length_mm = inf; allowed: "),
         (with(&|own| own.length_mm = Some(vec![1.0; 3])), "it has 3, and particles.count is 2"),
-        (
-            with(&|own| own.place_mm.as_mut().unwrap()[1][0] = 12.7),
-            "rod 0 has x2_mm = 12.7; allowed: 0 to 12.599",
-        ),
+        (with(&|own| own.place_mm.as_mut().unwrap()[1][0] = 12.7), "rod 0 has x2_mm = 12.7; allowed: 0 to 12.599"),
         (with(&|own| own.place_mm.as_mut().unwrap()[2][1] = -1e-9), "; allowed: 0 to 12.599"),
         (with(&|own| own.place_mm.as_mut().unwrap()[0][1] = f64::NAN), "; allowed: 0 to 12.599"),
     ] {
@@ -124,8 +118,7 @@ fn a_start_has_length_1_to_a_few_roundings() {
     let start = |length: f64| -> Result<(), Error> {
         let mut scene = Scene::default();
         scene.particles.count = 2;
-        let own =
-            OwnRods { p: Some([vec![1.0, 0.0], vec![0.0, length], vec![0.0; 2]]), ..OwnRods::default() };
+        let own = OwnRods { p: Some([vec![1.0, 0.0], vec![0.0, length], vec![0.0; 2]]), ..OwnRods::default() };
         scene.particles.rods = Some(RodsFile::with("two.csv", own));
         crate::Plan::new(&scene).map(|_| ())
     };

@@ -80,26 +80,22 @@ pub(super) fn check_steps(scene: &Scene, flow: &VelocityGradient) -> Result<(), 
     let crossings = scene.volume().map_or(0.0, |volume| volume.crossings(&gradient)) * duration;
     if other_flow && (crossings.is_nan() || crossings > MAX_CROSSINGS * steps as f64) {
         return refused(format!(
-            "at least {:.0}: in a step the liquid may cross the control volume {MAX_CROSSINGS} times at most; or a box_mm whose \
+            "at least {:.0}: in a step the liquid may cross the control volume {MAX_CROSSINGS} times at most; or a \
+                box_mm whose \
              sides differ less",
             (crossings / MAX_CROSSINGS).ceil()
         ));
     }
-    let error =
-        step_maps(scene, flow, &scene.particles.extreme_aspect_ratios()).fold(0.0, |worst: f64, map| {
-            map.map_or(
-                f64::INFINITY,
-                |(_, error)| {
-                    if error > worst || error.is_nan() { error } else { worst }
-                },
-            )
-        });
+    let error = step_maps(scene, flow, &scene.particles.extreme_aspect_ratios()).fold(0.0, |worst: f64, map| {
+        map.map_or(f64::INFINITY, |(_, error)| if error > worst || error.is_nan() { error } else { worst })
+    });
     let all = error * steps as f64 * scene.time.duration;
     if all <= MAX_ERROR_RAD {
         return Ok(());
     }
     refused(format!(
-        "the error of a step's map, {error:.1e}, adds up to {all:.1e} rad at the end, more than {MAX_ERROR_RAD:e}: give a shorter \
+        "the error of a step's map, {error:.1e}, adds up to {all:.1e} rad at the end, more than {MAX_ERROR_RAD:e}: \
+            give a shorter \
          time or other rods"
     ))
 }

@@ -52,7 +52,8 @@ fn what_the_core_observes_too_is_the_same() {
                     assert_relative_eq!(column.se[k], expected.se[k], max_relative = 1e-9);
                 }
             }
-            // The mean of 300 rods with a deviation of 3.6 % is within 5 standard errors of 11.6, and it does not change.
+            // The mean of 300 rods with a deviation of 3.6 % is within 5 standard errors of 11.6, and it does not
+            // change.
             let r_e = &own[3].mean;
             assert!((r_e[0] / 11.6 - 1.0).abs() < 5.0 * 0.036 / 300f64.sqrt(), "{r_e:?}");
             assert!(r_e.iter().all(|r| r == &r_e[0]));
@@ -86,8 +87,7 @@ fn a_value_that_is_no_number_is_told_with_its_rod() {
     let refused = observe(&Plan::new(&Scene::default()).unwrap(), &Broken).unwrap_err();
     let text = refused.to_string();
     assert!(
-        text.starts_with("rod 0, output 0 (t_over_T = 0) of replica 0")
-            && text.contains("its inverse came out as inf"),
+        text.starts_with("rod 0, output 0 (t_over_T = 0) of replica 0") && text.contains("its inverse came out as inf"),
         "{text}"
     );
 }

@@ -2,8 +2,8 @@
 
 use toml::de::DeTable;
 
-/// The byte at which the TOML parser stopped. The parser gives no place for a key with too many parts; then this is the start of the
-/// first line up to which the text has that error.
+/// The byte at which the TOML parser stopped. The parser gives no place for a key with too many parts; then this is the
+/// start of the first line up to which the text has that error.
 pub(super) fn stopped_at(text: &str, error: &toml::de::Error) -> usize {
     let placeless = |end: usize| {
         let (_, errors) = DeTable::parse_recoverable(&text[..end]);

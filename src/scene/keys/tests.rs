@@ -11,12 +11,7 @@ fn text(path: &str, value: &str) -> String {
         let mut own: Vec<(&str, &str)> = match of.path {
             "flow" => vec![("shear_rate_per_s", "1")],
             "particles" => {
-                vec![
-                    ("count", "10"),
-                    ("length_mm", "1"),
-                    ("aspect_ratio", "5"),
-                    ("orientation", "\"isotropic\""),
-                ]
+                vec![("count", "10"), ("length_mm", "1"), ("aspect_ratio", "5"), ("orientation", "\"isotropic\"")]
             }
             "interaction" => vec![("concentration_per_cm3", "1"), ("alpha", "1")],
             "time" => vec![("periods", "1")],

@@ -43,7 +43,8 @@ pub(super) fn draw_lengths(plan: &Plan, replica: u64) -> (Vec<f64>, u64) {
     draw_gaussian(rng, particles.count, [1.0, deviation], |length| length > 0.0)
 }
 
-/// `count` Gaussian numbers with this `mean` and `deviation`, redrawn until `allowed`, and the number of repeated draws.
+/// `count` Gaussian numbers with this `mean` and `deviation`, redrawn until `allowed`, and the number of repeated
+/// draws.
 fn draw_gaussian(
     mut rng: Pcg64Dxsm,
     count: usize,
@@ -71,9 +72,8 @@ pub(super) fn draw_directions(plan: &Plan, replica: u64) -> [Vec<f64>; 3] {
     }
     let count = particles.count;
     let mut p = [(); 3].map(|()| vec![0.0; count]);
-    let rng = plan
-        .runs(Stage::Orientations)
-        .then(|| stream(plan.scene().ensemble.seed, replica, Purpose::Orientations));
+    let rng =
+        plan.runs(Stage::Orientations).then(|| stream(plan.scene().ensemble.seed, replica, Purpose::Orientations));
     over_chunks(&mut p, |chunk, [p1, p2, p3]| {
         let mut rng = rng.as_ref().map(|rng| ahead(rng, 2 * (chunk * CHUNK) as u64));
         for ((p1, p2), p3) in p1.iter_mut().zip(p2).zip(p3) {

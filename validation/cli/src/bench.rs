@@ -28,8 +28,8 @@ pub(super) struct Args {
     writing: Writing,
 }
 
-/// Measures errors against run times, one bench after the other: for a rod on one core, and for suspensions by runs on all
-/// cores with the time of one. Measures the speed of the core, too.
+/// Measures errors against run times, one bench after the other: for a rod on one core, and for suspensions by runs on
+/// all cores with the time of one. Measures the speed of the core, too.
 pub(super) fn bench(args: &Args) -> Result<(), Failure> {
     check(&args.cases)?;
     let wanted = |name: &str| args.cases.is_empty() || args.cases.iter().any(|case| case == name);
@@ -37,8 +37,7 @@ pub(super) fn bench(args: &Args) -> Result<(), Failure> {
     let path = args.checkpoint.as_deref();
     let path = path.map(|path| checkpoint::check(path, &args.out)).transpose()?;
     let folder = result_folder(&args.out, origin, 0, &[""; 0])?;
-    let open =
-        |path: &PathBuf| Finished::open(path, "bench", json!({ "cases": args.cases }), args.writing.quiet);
+    let open = |path: &PathBuf| Finished::open(path, "bench", json!({ "cases": args.cases }), args.writing.quiet);
     let finished = path.as_ref().map(open).transpose()?;
     let effort = Effort { full: true, ..Effort::gate() };
     let (mut files, mut tables) = (Vec::new(), String::new());
@@ -53,9 +52,8 @@ pub(super) fn bench(args: &Args) -> Result<(), Failure> {
             Some((found, _)) => found,
             None => {
                 let start = Instant::now();
-                let found = on_threads(None, || {
-                    study.found(&Request { effort: &effort, wanted: &wanted, finished: &|| () })
-                })?;
+                let found =
+                    on_threads(None, || study.found(&Request { effort: &effort, wanted: &wanted, finished: &|| () }))?;
                 let Some(found) = found.map_err(Failure::Failed)? else {
                     continue;
                 };
@@ -86,10 +84,9 @@ pub(super) fn bench(args: &Args) -> Result<(), Failure> {
 fn check(names: &[String]) -> Result<(), Failure> {
     let known: Vec<_> = studies::ALL.iter().flat_map(|study| study.parts).copied().collect();
     match names.iter().find(|name| !known.contains(&name.as_str())) {
-        Some(unknown) => Err(Failure::Input(format!(
-            "--case {unknown}: no bench has this name; there are {}",
-            known.join(", ")
-        ))),
+        Some(unknown) => {
+            Err(Failure::Input(format!("--case {unknown}: no bench has this name; there are {}", known.join(", "))))
+        }
         None => Ok(()),
     }
 }

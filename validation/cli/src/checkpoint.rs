@@ -9,7 +9,8 @@ use std::path::{Component, Path, PathBuf};
 /// The extensions of result files.
 const ENDINGS: [&str; 9] = ["csv", "svg", "json", "pvd", "vtp", "html", "md", "xml", "png"];
 
-/// Checks a checkpoint's path and resolves its links; from then on the message after a signal says that the file is kept.
+/// Checks a checkpoint's path and resolves its links; from then on the message after a signal says that the file is
+/// kept.
 ///
 /// # Errors
 ///
@@ -23,15 +24,13 @@ pub(super) fn check(checkpoint: &Path, out: &Path) -> Result<PathBuf, Failure> {
     let path = output::followed(checkpoint);
     let (file, folder) = (resolved(&path), resolved(out));
     if folder.starts_with(&file) {
-        return Err(refused(&format!(
-            "is --out {}, or a folder above it; another name is allowed",
-            out.shown()
-        )));
+        return Err(refused(&format!("is --out {}, or a folder above it; another name is allowed", out.shown())));
     }
     let of_results = ENDINGS.iter().any(|end| file.extension().is_some_and(|own| own == *end));
     if of_results && file.starts_with(&folder) {
         return Err(refused(
-            "a result may have that name; choose a checkpoint outside the output folder, or a name without .csv, .svg, .json or \
+            "a result may have that name; choose a checkpoint outside the output folder, or a name without .csv, \
+                .svg, .json or \
              the like at its end",
         ));
     }

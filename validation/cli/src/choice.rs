@@ -56,10 +56,7 @@ pub(super) fn list(cases: &[Case]) -> String {
         format!("{:<28} [{}]\n    {}\n", about.name, about.tags().join(" "), about.claim)
     };
     let cases_by_line: String = cases.iter().map(line).collect();
-    format!(
-        "{cases_by_line}\n{} cases. Tags: what a case judges, and the equations that it tests.\n",
-        cases.len()
-    )
+    format!("{cases_by_line}\n{} cases. Tags: what a case judges, and the equations that it tests.\n", cases.len())
 }
 
 #[cfg(test)]

@@ -172,9 +172,10 @@ fn verdicts(a: &Report, b: &Report) -> String {
     }
     let new = b.cases.iter().filter(|case| !a.cases.iter().any(|other| other.name == case.name));
     lines.extend(new.map(|case| format!("{}: not in A → {}", case.name, case.verdict)));
-    match lines.is_empty() {
-        true => format!("Verdicts: none of {} changed.\n", a.cases.len()),
-        false => format!("Verdicts that changed:\n  {}\n", lines.join("\n  ")),
+    if lines.is_empty() {
+        format!("Verdicts: none of {} changed.\n", a.cases.len())
+    } else {
+        format!("Verdicts that changed:\n  {}\n", lines.join("\n  "))
     }
 }
 
@@ -199,8 +200,7 @@ fn judged_otherwise(a: &Report, b: &Report) -> String {
     for (before, after) in of_both(a, b) {
         let name = &before.name;
         for (one, other, report) in [(before, after, "A"), (after, before, "B")] {
-            let evidence =
-                one.evidence.iter().map(|line| &line.what).filter(|what| other.line(what).is_none());
+            let evidence = one.evidence.iter().map(|line| &line.what).filter(|what| other.line(what).is_none());
             let controls = one.controls.iter().map(|control| &control.mistake);
             let alone = evidence.chain(controls.filter(|mistake| other.control(mistake).is_none()));
             lines.extend(alone.map(|what| format!("{name}: {what}: in {report} alone")));
@@ -220,10 +220,7 @@ fn judged_otherwise(a: &Report, b: &Report) -> String {
             }
         }
     }
-    match lines.is_empty() {
-        true => String::new(),
-        false => format!("Judged otherwise:\n  {}\n", lines.join("\n  ")),
-    }
+    if lines.is_empty() { String::new() } else { format!("Judged otherwise:\n  {}\n", lines.join("\n  ")) }
 }
 
 fn moved<'a>(a: &'a Report, b: &'a Report) -> Vec<Moved<'a>> {
@@ -256,10 +253,7 @@ fn by(a: &Line, b: &Line) -> Option<String> {
             let tolerance = a.tolerance.unwrap_or(0.0).abs();
             let change = after.abs() - before.abs();
             let beyond = if tolerance > 0.0 { change.abs() > PART * tolerance } else { change != 0.0 };
-            beyond.then(|| match before == 0.0 {
-                true => "from 0".into(),
-                false => format!("× {:.3}", after.abs() / before.abs()),
-            })
+            beyond.then(|| if before == 0.0 { "from 0".into() } else { format!("× {:.3}", after.abs() / before.abs()) })
         }
         (None, None) => None,
         _ => Some("to or from no number".into()),
@@ -271,7 +265,8 @@ fn moved_table(moved: Vec<Moved>) -> ReportTable {
     ReportTable::new(
         ["moved", "Errors that moved"],
         format!(
-            "Means by more than {NOISE} standard errors of the two; other errors by more than {PART} of their tolerance."
+            "Means by more than {NOISE} standard errors of the two; other errors by more than {PART} of their \
+                tolerance."
         ),
         moved,
         vec![
@@ -306,9 +301,7 @@ fn speeds(a: &Report, b: &Report) -> ReportTable {
     rows.insert(0, ("all that both have", total.0, total.1));
     ReportTable::new(
         ["speeds", "Times"],
-        format!(
-            "All together, then what is 1.5 times as slow or as fast and takes more than {LEAST_SECONDS} s."
-        ),
+        format!("All together, then what is 1.5 times as slow or as fast and takes more than {LEAST_SECONDS} s."),
         rows,
         vec![
             words("what", |row: &Row| row.0),

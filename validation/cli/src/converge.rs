@@ -43,7 +43,8 @@ pub(super) struct Args {
     writing: Writing,
 }
 
-/// Studies a scene: an interacting one by the law of its mean and directions, a free one by every fixed-step integrator.
+/// Studies a scene: an interacting one by the law of its mean and directions, a free one by every fixed-step
+/// integrator.
 pub(super) fn converge(args: &Args) -> Result<(), Failure> {
     let named = args.chosen.load(&Ensemble::default(), &[])?;
     let at = |message: String| format!("{}: {message}", named.source);
@@ -51,7 +52,8 @@ pub(super) fn converge(args: &Args) -> Result<(), Failure> {
     if plan.runs(Stage::Contacts) && !law::judges(&plan) {
         let (key, steps) = (named.scene.time.unit.steps_key(), named.scene.steps_per_unit());
         return Err(Failure::Input(at(format!(
-            "converge of interacting rods needs plane Couette flow, only ∂u_2/∂x_1 other than 0, time.periods and no particles.rods; \
+            "converge of interacting rods needs plane Couette flow, only ∂u_2/∂x_1 other than 0, time.periods and no \
+                particles.rods; \
              else halve the time step and compare: sweep --over {key}={steps},{},{}",
             2 * steps,
             4 * steps
@@ -108,12 +110,12 @@ fn done(tables: Vec<ReportTable>, files: Vec<(&str, Result<String, String>)>) ->
     Ok(Done { tables, files: files.map_err(Failure::Failed)?, wrong: None })
 }
 
-/// Studies every fixed-step integrator on one rod of the scene's mean aspect ratio, from its start, for its number of periods.
+/// Studies every fixed-step integrator on one rod of the scene's mean aspect ratio, from its start, for its number of
+/// periods.
 fn free(scene: &Scene) -> Result<Done, Failure> {
     if scene.flow.shear_rate_per_s().is_none() {
         return Err(Failure::Input(
-            "flow: converge compares integrators of free rods in plane Couette flow; give shear_rate_per_s"
-                .into(),
+            "flow: converge compares integrators of free rods in plane Couette flow; give shear_rate_per_s".into(),
         ));
     }
     let orders = order::of_scene(scene).ok_or_else(|| {
@@ -125,17 +127,17 @@ fn free(scene: &Scene) -> Result<Done, Failure> {
         .map(|study| study.subject.as_str())
         .collect();
     let files = vec![("converge.csv", csv), ("converge.json", json)];
-    Ok(Done {
-        wrong: (!wrong.is_empty()).then(|| wrong.join(", ")),
-        ..done(vec![orders_table(&orders)], files)?
-    })
+    Ok(Done { wrong: (!wrong.is_empty()).then(|| wrong.join(", ")), ..done(vec![orders_table(&orders)], files)? })
 }
 
 /// A sentence where the scene ends at another time than the study's runs.
 fn other_end(scene: &Scene) -> Vec<String> {
     let periods = scene.time.duration;
     let other = (periods != 1.0).then(|| {
-        format!("time.periods = {periods} is not used: every run of this study ends after one period, whose means it compares")
+        format!(
+            "time.periods = {periods} is not used: every run of this study ends after one period, whose means it \
+            compares"
+        )
     });
     other.into_iter().collect()
 }
@@ -148,7 +150,8 @@ fn coarse(scene: &Scene) -> String {
     let coarse = steps.iter().filter(|(_, coarse)| *coarse).count();
     let (first, last) = (law::STEPS_PER_PERIOD[0], law::STEPS_PER_PERIOD[coarse.max(1) - 1]);
     format!(
-        "{first} to {last} steps a period (strain per step {:.3} to {:.3}) are coarser than the default step (strain per step at \
+        "{first} to {last} steps a period (strain per step {:.3} to {:.3}) are coarser than the default step (strain \
+            per step at \
          most {resolved:.3}): they are run on purpose, to show what a coarse step changes",
         strain(first),
         strain(last),
@@ -164,14 +167,9 @@ struct Written {
     splits: Vec<Split>,
 }
 
-/// Studies X̄₁ and the directions of an interacting scene against steps, rods and replicas, and derives the cost of accuracy;
-/// `None` except on the root.
-fn interacting(
-    scene: &Scene,
-    replicas: Replicas,
-    warnings: Vec<String>,
-    args: &Args,
-) -> Result<Option<Done>, Failure> {
+/// Studies X̄₁ and the directions of an interacting scene against steps, rods and replicas, and derives the cost of
+/// accuracy; `None` except on the root.
+fn interacting(scene: &Scene, replicas: Replicas, warnings: Vec<String>, args: &Args) -> Result<Option<Done>, Failure> {
     let jobs = law::jobs(scene, replicas);
     memory::check_jobs(&jobs, args.threads.given)?;
     if !args.writing.quiet && cluster::is_root() {

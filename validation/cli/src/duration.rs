@@ -31,22 +31,25 @@ pub(super) fn of_jobs(jobs: &[Job]) -> String {
     text(jobs.iter().map(|job| job.rod_steps() as f64).sum())
 }
 
-/// The cost of a run and of a study of an interacting scene, as text; of a run of free rods where it takes a second or more.
+/// The cost of a run and of a study of an interacting scene, as text; of a run of free rods where it takes a second or
+/// more.
 pub(super) fn of_scene(plan: &Plan) -> String {
     let scene = plan.scene();
     if !plan.runs(Stage::Contacts) {
         let rods = scene.particles.count as f64 * scene.ensemble.replicas as f64;
         let outputs = plan.outputs() as f64;
         let seconds = rods * (SECONDS_PER_DRAW + outputs * SECONDS_PER_OUTPUT);
-        return match seconds < 1.0 {
-            true => String::new(),
-            false => format!("run: {:.1e} rods × outputs, {} of one core\n", rods * outputs, about(seconds)),
+        return if seconds < 1.0 {
+            String::new()
+        } else {
+            format!("run: {:.1e} rods × outputs, {} of one core\n", rods * outputs, about(seconds))
         };
     }
     let own = scene.particles.count as f64 * scene.ensemble.replicas as f64 * plan.steps() as f64;
-    let study = match law::judges(plan) {
-        true => of_jobs(&law::jobs(scene, Replicas::CONVERGE)),
-        false => "only plane Couette flow by periods, and no particles.rods".to_owned(),
+    let study = if law::judges(plan) {
+        of_jobs(&law::jobs(scene, Replicas::CONVERGE))
+    } else {
+        "only plane Couette flow by periods, and no particles.rods".to_owned()
     };
     format!("run: {}\nconverge: {study}\n", text(own))
 }

@@ -53,8 +53,7 @@ impl Facts {
         let period_s = plan.elapsed(1.0).seconds;
         Self {
             period_s: (plan.time_name() != "strain" && period_s.is_finite()).then_some(period_s),
-            strain_per_step: (plan.steps() > 0)
-                .then(|| plan.elapsed(1.0).strain / scene.steps_per_unit() as f64),
+            strain_per_step: (plan.steps() > 0).then(|| plan.elapsed(1.0).strain / scene.steps_per_unit() as f64),
             // r² would be infinite for long rods, so numerator and denominator are divided by r.
             shape_factor: (r - 1.0 / r) / (r + 1.0 / r),
             n_a3,
@@ -92,8 +91,8 @@ impl Facts {
     }
 }
 
-/// The regime by Doi & Edwards: rods turn freely below one rod in the cube of a rod's length; above, they hinder each other, and
-/// from a volume fraction of about 1/r_e, which is n a³ = r_e, they do so everywhere.
+/// The regime by Doi & Edwards: rods turn freely below one rod in the cube of a rod's length; above, they hinder each
+/// other, and from a volume fraction of about 1/r_e, which is n a³ = r_e, they do so everywhere.
 fn regime(n_a3: f64, aspect_ratio: f64) -> &'static str {
     match n_a3 {
         n_a3 if n_a3 < 1.0 => "dilute",
@@ -108,10 +107,7 @@ pub(super) fn warnings(plan: &Plan) -> Vec<String> {
     warnings.extend(cut_short(plan));
     let facts = Facts::of(plan);
     if let Some((n_a3, regime)) = facts.n_a3.zip(facts.regime).filter(|(n_a3, _)| *n_a3 >= 1.0) {
-        let shown = match n_a3 < 1e4 {
-            true => format!("{n_a3:.3}"),
-            false => format!("{n_a3:.3e}"),
-        };
+        let shown = if n_a3 < 1e4 { format!("{n_a3:.3}") } else { format!("{n_a3:.3e}") };
         let scene = plan.scene();
         let volume = match scene.box_mm() {
             Some(_) => "box_mm",
@@ -134,7 +130,8 @@ fn thin_box(plan: &Plan) -> Option<String> {
     let thinnest = sides.into_iter().fold(f64::INFINITY, f64::min);
     (thinnest < length).then(|| {
         format!(
-            "interaction.box_mm = {sides:?}: {thinnest} mm is less than a rod's length, {length} mm; rods near a face lack neighbours, and \
+            "interaction.box_mm = {sides:?}: {thinnest} mm is less than a rod's length, {length} mm; rods near a face \
+                lack neighbours, and \
              here all are near one"
         )
     })
@@ -149,7 +146,8 @@ fn cut_short(plan: &Plan) -> Option<String> {
     // An end that differs from an output by rounding is not between outputs.
     (last < end * (1.0 - 1e-12)).then(|| {
         format!(
-            "{key} = {end} ends between two outputs: the last one is at {last}; choose an output interval that divides {end}"
+            "{key} = {end} ends between two outputs: the last one is at {last}; choose an output interval that \
+                divides {end}"
         )
     })
 }
@@ -163,9 +161,7 @@ mod tests {
     fn a_scene_that_ends_between_outputs_says_so() {
         let mut scene = scenes::find("fig4-n50").unwrap().scene().unwrap();
         let told = |scene: &shearbed::Scene| cut_short(&Plan::new(scene).unwrap());
-        for (periods, last) in
-            [(6.0, None), (0.3, None), (0.0, None), (0.35, Some("0.34")), (0.005, Some("at 0;"))]
-        {
+        for (periods, last) in [(6.0, None), (0.3, None), (0.0, None), (0.35, Some("0.34")), (0.005, Some("at 0;"))] {
             scene.time.duration = periods;
             let told = told(&scene);
             assert_eq!(told.is_some(), last.is_some(), "{periods}: {told:?}");

@@ -34,12 +34,7 @@ pub(super) struct Finished {
 
 impl Finished {
     /// Opens or creates the checkpoint. A checkpoint of other input or of another build is an error.
-    pub(super) fn open(
-        path: &Path,
-        command: &'static str,
-        input: Value,
-        quiet: bool,
-    ) -> Result<Self, Failure> {
+    pub(super) fn open(path: &Path, command: &'static str, input: Value, quiet: bool) -> Result<Self, Failure> {
         let file = Checkpoint::open(path, command, input)?;
         let state: State = file.read()?.unwrap_or_default();
         file.write(&state)?;

@@ -4,8 +4,7 @@ mod input;
 mod shifts;
 
 use super::{
-    Failure, Threads, Writing, on_threads, print, progress, restart, result_folder, scene, spares_inputs,
-    whole,
+    Failure, Threads, Writing, on_threads, print, progress, restart, result_folder, scene, spares_inputs, whole,
 };
 use input::{Input, input};
 use serde_json::{Value, json};
@@ -43,18 +42,20 @@ Examples:
 pub(super) struct Args {
     /// A scene file, or the name of a built-in scene
     scene: OsString,
-    /// Measured points of SCENE; SCENE2=FILE.csv: points of another scene, fitted with the same parameters, but for those of one set
+    /// Measured points of SCENE; SCENE2=FILE.csv: points of another scene, fitted with the same parameters, but for
+    /// those of one set
     #[arg(long, value_name = "FILE.csv", required = true)]
     data: Vec<OsString>,
-    /// A key of the scene to fit, and the range to look in; up to three times. SET:KEY=FROM:TO: a value of its own for the scene
-    /// of the first, second, … --data
+    /// A key of the scene to fit, and the range to look in; up to three times. SET:KEY=FROM:TO: a value of its own for
+    /// the scene of the first, second, … --data
     #[arg(long, value_name = "[SET:]KEY=FROM:TO", required = true, value_parser = Range::parse)]
     over: Vec<Range>,
     /// The folder for fit.json, tables and pictures [default: out/fit-<scene>]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// The most replicas at each value, 20 or more; fewer run where the model's error is small
-    #[arg(long, value_name = "N", default_value_t = MOST_REPLICAS, value_parser = whole(20, MAX_REPLICAS), allow_negative_numbers = true)]
+    #[arg(long, value_name = "N", default_value_t = MOST_REPLICAS, value_parser = whole(20, MAX_REPLICAS),
+        allow_negative_numbers = true)]
     replicas: u64,
     /// The seed of all random numbers, in place of the scene's own
     #[arg(long, value_name = "S", value_parser = whole(0, MAX_SEED), allow_negative_numbers = true)]
@@ -65,8 +66,8 @@ pub(super) struct Args {
     /// What u contains [default: reading]
     #[arg(long, value_name = "WHAT", requires_if("rods", "rods"))]
     u_contains: Option<Contents>,
-    /// Test a value of a fitted key, or whether it has the same value in two sets (1:interaction.alpha=2:interaction.alpha);
-    /// can be given more than once
+    /// Test a value of a fitted key, or whether it has the same value in two sets
+    /// (1:interaction.alpha=2:interaction.alpha); can be given more than once
     #[arg(long, value_name = "[SET:]KEY=VALUE", value_parser = Hypothesis::parse)]
     test: Vec<Hypothesis>,
     /// A key of every scene and the value to give it; can be given more than once
@@ -74,7 +75,8 @@ pub(super) struct Args {
     settings: Vec<KeyValue>,
     #[command(flatten)]
     threads: Threads,
-    /// List further points, at all times and at half and twice the concentration, with the uncertainties that each would leave
+    /// List further points, at all times and at half and twice the concentration, with the uncertainties that each
+    /// would leave
     #[arg(long)]
     design: bool,
     #[command(flatten)]
@@ -104,11 +106,8 @@ pub(super) fn fit(args: &Args) -> Result<(), Failure> {
     spares_inputs(&out, &names, input.files.iter().cloned().chain(scenes))?;
     let folder = result_folder(&out, ("fit", asked.clone(), args.writing.force), 0, &names)?;
     let bar = progress(0, "runs", args.writing.quiet);
-    let watch = Watch {
-        stage: &|name| restart(&bar, name),
-        planned: &|runs| bar.inc_length(runs),
-        done: &|| bar.inc(1),
-    };
+    let watch =
+        Watch { stage: &|name| restart(&bar, name), planned: &|runs| bar.inc_length(runs), done: &|| bar.inc(1) };
     let done = on_threads(args.threads.given, || work(args, &input, &watch))?;
     bar.finish_and_clear();
     let done = done?;
@@ -135,8 +134,8 @@ pub(super) fn fit(args: &Args) -> Result<(), Failure> {
     if args.writing.quiet {
         return Ok(());
     }
-    let design = (done.report.design.as_ref())
-        .map_or(String::new(), |steps| terminal::design(&done.fit, steps, &times) + "\n");
+    let design =
+        (done.report.design.as_ref()).map_or(String::new(), |steps| terminal::design(&done.fit, steps, &times) + "\n");
     print(&format!(
         "{}\n{}\n{}\n{design}in {}: {names}\n",
         terminal::sentence(&done.fit, &done.report),

@@ -12,9 +12,7 @@ use shearbed_validation::files::output::{self, RECORD, Record, ResultFolder};
 use shearbed_validation::files::text::Shown;
 use shearbed_validation::present::plot;
 use shearbed_validation::serve::grade::live::{self, Mode, Program, Protocol};
-use shearbed_validation::serve::grade::{
-    self, Claim, DumpOptions, FileOptions, Graded, LineEnds, Options, Report,
-};
+use shearbed_validation::serve::grade::{self, Claim, DumpOptions, FileOptions, Graded, LineEnds, Options, Report};
 use shearbed_validation::serve::problems::{self, Kind, LoadedProblem};
 use std::io;
 use std::path::Path;
@@ -48,12 +46,7 @@ pub(super) fn grade(args: &Args) -> Result<(), Failure> {
     let pictures = pictures(&report, &wanted).map_err(Failure::Failed)?;
     let inside: Vec<_> = pictures.iter().map(|(_, svg)| svg.as_str()).collect();
     let html = grade::html(&report, report.passes(), &inside).map_err(Failure::Failed)?;
-    let pages = [
-        grade::json(&report).map_err(Failure::Failed)?,
-        html,
-        grade::markdown(&report),
-        grade::junit(&report),
-    ];
+    let pages = [grade::json(&report).map_err(Failure::Failed)?, html, grade::markdown(&report), grade::junit(&report)];
     let mut files: Vec<_> = PAGES.map(str::to_owned).into_iter().zip(pages).collect();
     files.extend(pictures);
     ResultFolder::new(&args.out, "grade", inputs, args.writing.force).write(files)?;
@@ -61,9 +54,10 @@ pub(super) fn grade(args: &Args) -> Result<(), Failure> {
         let place = args.out.join("grade.html");
         print(&format!("{}\nreport: {}\n", grade::terminal(&report), place.shown()))?;
     }
-    match report.passes() {
-        true => Ok(()),
-        false => Err(Failure::Failed(format!("not every problem passed: {}", report.counts()))),
+    if report.passes() {
+        Ok(())
+    } else {
+        Err(Failure::Failed(format!("not every problem passed: {}", report.counts())))
     }
 }
 
@@ -85,10 +79,7 @@ fn options(args: &Args) -> Options {
             columns: args.columns.clone(),
             foreign: args.layout,
             axes: args.axes,
-            ends: match args.windows_text {
-                true => LineEnds::Windows,
-                false => LineEnds::Unix,
-            },
+            ends: if args.windows_text { LineEnds::Windows } else { LineEnds::Unix },
         },
         dump: DumpOptions { timestep_s: args.timestep_s, rod_axis: args.rod_axis },
         claim: Claim { order: args.order },
@@ -117,9 +108,10 @@ fn chosen(args: &Args, mut all: Vec<LoadedProblem>) -> Result<Vec<LoadedProblem>
         let of_kind = args.kind.is_none_or(|kind| kind == loaded.problem.kind);
         of_kind && asked_for(args, &loaded.problem.name)
     });
-    match all.is_empty() {
-        true => Err(Failure::Input("--kind and --problem leave no problem to grade".to_owned())),
-        false => Ok(all),
+    if all.is_empty() {
+        Err(Failure::Input("--kind and --problem leave no problem to grade".to_owned()))
+    } else {
+        Ok(all)
     }
 }
 
@@ -136,10 +128,7 @@ fn files(args: &Args, reference: &Path, mine: &Path) -> Result<Done, Failure> {
     check_names(args, &names)?;
     let wanted = tolerances::with(&args.tolerances, chosen(args, all)?)?;
     if !mine.is_dir() {
-        return Err(Failure::Input(format!(
-            "{}: no such folder; answers are asked for in MINE/NAME",
-            mine.shown()
-        )));
+        return Err(Failure::Input(format!("{}: no such folder; answers are asked for in MINE/NAME", mine.shown())));
     }
     output::probe(&args.out, 0)?;
     let problems = grade::grade(&wanted, mine, &options(args)).map_err(|errors| {
@@ -175,12 +164,7 @@ fn not_read(mine: &Path, names: &[String]) -> Vec<String> {
     remarks
 }
 
-fn report(
-    args: &Args,
-    [reference, answers]: [String; 2],
-    problems: Vec<Graded>,
-    remarks: Vec<String>,
-) -> Report {
+fn report(args: &Args, [reference, answers]: [String; 2], problems: Vec<Graded>, remarks: Vec<String>) -> Report {
     Report {
         all: args.all,
         format: 1,
@@ -194,7 +178,8 @@ fn report(
     }
 }
 
-/// Refuses other problems than those about rods: for a running program such a name is a wrong request, not an unknown name.
+/// Refuses other problems than those about rods: for a running program such a name is a wrong request, not an unknown
+/// name.
 fn check_rods_alone(args: &Args) -> Result<(), Failure> {
     const INSTEAD: &str =
         "a program that runs is asked about single rods only; other answers go into files (grade REF MINE)";
@@ -231,19 +216,15 @@ fn program(args: &Args, command: &str, reference: Option<&Path>) -> Result<Done,
     let origin = ("grade", inputs.clone(), args.writing.force);
     result_folder(&args.out, origin, 0, &[&PAGES[..], &PICTURES].concat())?;
     let timeout = Duration::from_secs_f64(args.timeout);
-    let program =
-        Program::start(command, args.protocol, timeout).map_err(Failure::Input)?.with_axes(args.axes);
+    let program = Program::start(command, args.protocol, timeout).map_err(Failure::Input)?.with_axes(args.axes);
     let mode = live::mode(&program);
     let claim = Claim { order: args.order };
-    let mut problems: Vec<_> =
-        wanted.iter().map(|problem| live::grade(&program, problem, mode, claim)).collect();
+    let mut problems: Vec<_> = wanted.iter().map(|problem| live::grade(&program, problem, mode, claim)).collect();
     grade::settle(&wanted, &mut problems, claim.order);
     let observed = problems.iter().filter(|graded| graded.verdict == grade::Verdict::Pass);
-    let theory =
-        live::theory(mode == Mode::Tolerance, observed.filter_map(|graded| graded.observed_order).next());
+    let theory = live::theory(mode == Mode::Tolerance, observed.filter_map(|graded| graded.observed_order).next());
     let program = program.with_theory(theory);
-    let studies =
-        (!args.brief && program.given_up().is_none()).then(|| live::studies(&program, &echo(args.protocol)));
+    let studies = (!args.brief && program.given_up().is_none()).then(|| live::studies(&program, &echo(args.protocol)));
     let mut remarks: Vec<_> = studies.iter().flat_map(live::Studies::left_out).collect();
     remarks.extend(grade::remark(&problems, claim.order));
     remarks.extend(program.breaches());

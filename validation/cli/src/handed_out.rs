@@ -1,4 +1,5 @@
-//! `shearbed completions` and `shearbed man`: scripts for shells and manual pages, made from the parser of the command line.
+//! `shearbed completions` and `shearbed man`: scripts for shells and manual pages, made from the parser of the command
+//! line.
 
 use super::{Cli, Failure, Writing, print};
 use clap::CommandFactory;
@@ -42,10 +43,7 @@ pub(super) fn man(args: &Man) -> Result<(), Failure> {
     let names: Vec<_> = pages.iter().map(|(name, _)| name.clone()).collect();
     let folder = ResultFolder::new(&args.dir, "man", json!({}), args.writing.force).as_argument();
     folder.write(pages)?;
-    match args.writing.quiet {
-        true => Ok(()),
-        false => print(&format!("in {}: {}\n", args.dir.shown(), names.join(", "))),
-    }
+    if args.writing.quiet { Ok(()) } else { print(&format!("in {}: {}\n", args.dir.shown(), names.join(", "))) }
 }
 
 /// Adds the page of a command, then those of its subcommands.
@@ -54,10 +52,7 @@ fn add_pages(command: &clap::Command, pages: &mut Vec<Output>) -> std::io::Resul
     let mut text = Vec::new();
     page.render(&mut text)?;
     pages.push((page.get_filename(), String::from_utf8_lossy(&text).into_owned()));
-    command
-        .get_subcommands()
-        .filter(|below| !below.is_hide_set())
-        .try_for_each(|below| add_pages(below, pages))
+    command.get_subcommands().filter(|below| !below.is_hide_set()).try_for_each(|below| add_pages(below, pages))
 }
 
 #[cfg(test)]
@@ -70,10 +65,7 @@ mod tests {
         let root = Cli::command();
         let of = |command: &clap::Command| {
             let help = command.get_after_help().map(ToString::to_string).unwrap_or_default();
-            let lines = help
-                .lines()
-                .filter(|line| line.starts_with("  shearbed "))
-                .map(|line| line.trim().to_owned());
+            let lines = help.lines().filter(|line| line.starts_with("  shearbed ")).map(|line| line.trim().to_owned());
             (command.get_name().to_owned(), lines.collect())
         };
         root.get_subcommands().map(of).collect()
@@ -110,12 +102,10 @@ mod tests {
         for command in Cli::command().get_subcommands() {
             let name = command.get_name();
             let page =
-                shearbed_validation::files::bounded::text(&out.join(format!("shearbed-{name}.1")), 1 << 20)
-                    .unwrap();
+                shearbed_validation::files::bounded::text(&out.join(format!("shearbed-{name}.1")), 1 << 20).unwrap();
             assert!(page.contains("Example"), "{name}: {page}");
             assert!(
-                script.contains(&format!("shearbed__subcmd__{name}"))
-                    || script.contains(&format!("shearbed__{name}")),
+                script.contains(&format!("shearbed__subcmd__{name}")) || script.contains(&format!("shearbed__{name}")),
                 "{name}"
             );
         }

@@ -35,7 +35,8 @@ pub(super) fn watch() {
     let _ = std::thread::Builder::new().spawn(wait);
 }
 
-/// Makes a limit on the size of files (`ulimit -f`) an error of the write that meets it; the system would end the program.
+/// Makes a limit on the size of files (`ulimit -f`) an error of the write that meets it; the system would end the
+/// program.
 #[cfg(unix)]
 pub(super) fn outlive_limits() {
     // If this fails, the system ends the program.

@@ -1,10 +1,10 @@
 //! The commands of the program `shearbed`.
 //!
-//! A command is a file: its arguments, with the texts of `--help`, and a function that calls the wings above, writes through
-//! `files::output` and prints. Shared arguments are in `choice`, `scene` and `threads`; errors are `Failure`s.
+//! A command is a file: its arguments, with the texts of `--help`, and a function that calls the wings above, writes
+//! through `files::output` and prints. Shared arguments are in `choice`, `scene` and `threads`; errors are `Failure`s.
 //!
-//! It may use every wing. To add a command, write its file, declare it, and add its variant and its call below. Help, manual pages,
-//! completions and the page of commands follow (`UPDATE_DOCS=1 cargo test -p shearbed-cli --test docs`).
+//! It may use every wing. To add a command, write its file, declare it, and add its variant and its call below. Help,
+//! manual pages, completions and the page of commands follow (`UPDATE_DOCS=1 cargo test -p shearbed-cli --test docs`).
 
 mod bench;
 mod checkpoint;
@@ -60,7 +60,8 @@ use threads::{Threads, on_threads};
 #[derive(Parser)]
 #[command(name = "shearbed", version, arg_required_else_help = true)]
 #[command(
-    after_help = "Exit codes: 0 all well, 1 a case failed or a target was not reached, 2 bad input or usage, or a run that stopped."
+    after_help = "Exit codes: 0 all well, 1 a case failed or a target was not reached, 2 bad input or usage, or a run \
+        that stopped."
 )]
 struct Cli {
     #[command(subcommand)]
@@ -151,8 +152,8 @@ pub fn main() -> ExitCode {
     }
 }
 
-/// The same inside another program's process, and without ranks: `program` are the words that start that program, `arguments`
-/// those that follow. Returns the exit code.
+/// The same inside another program's process, and without ranks: `program` are the words that start that program,
+/// `arguments` those that follow. Returns the exit code.
 pub fn main_of(program: Vec<OsString>, arguments: Vec<OsString>) -> u8 {
     words::give(program, arguments.clone());
     let cli = match Cli::try_parse_from(with_name(arguments)) {
@@ -170,11 +171,11 @@ pub fn main_of(program: Vec<OsString>, arguments: Vec<OsString>) -> u8 {
     }
 }
 
-/// Runs a command, without its name as the first word, inside another program: no signal is watched for. An error has the
-/// program's message and its exit code.
+/// Runs a command, without its name as the first word, inside another program: no signal is watched for. An error has
+/// the program's message and its exit code.
 pub fn call(arguments: Vec<OsString>) -> Result<(), (String, u8)> {
-    let cli = Cli::try_parse_from(with_name(arguments))
-        .map_err(|error| (error.to_string(), error.exit_code() as u8))?;
+    let cli =
+        Cli::try_parse_from(with_name(arguments)).map_err(|error| (error.to_string(), error.exit_code() as u8))?;
     let ended = command(cli.command).map_err(Failure::message_and_code);
     ended.map_err(|(message, code)| (text::message(&message), code))
 }
@@ -205,13 +206,12 @@ fn on_one_line(error: &clap::Error, message: String) -> String {
 /// Prints what is wrong with the arguments, or the help; returns the exit code.
 fn print_usage(error: &clap::Error) -> u8 {
     let (message, code) = (error.to_string(), error.exit_code());
-    match error.use_stderr() {
-        true => complain(&text::message(&on_one_line(error, message))),
-        false => {
-            if let Err((message, code)) = print(&message).map_err(Failure::message_and_code) {
-                cluster::failed(&message, code);
-                return code;
-            }
+    if error.use_stderr() {
+        complain(&text::message(&on_one_line(error, message)))
+    } else {
+        if let Err((message, code)) = print(&message).map_err(Failure::message_and_code) {
+            cluster::failed(&message, code);
+            return code;
         }
     }
     code as u8
@@ -233,12 +233,7 @@ impl Command {
         self.is_shared() && !matches!(self, Self::Validate(_))
             || matches!(
                 self,
-                Self::Plan(_)
-                    | Self::Fit(_)
-                    | Self::Scenes(_)
-                    | Self::Cite
-                    | Self::Completions(_)
-                    | Self::Man(_)
+                Self::Plan(_) | Self::Fit(_) | Self::Scenes(_) | Self::Cite | Self::Completions(_) | Self::Man(_)
             )
     }
 
@@ -294,8 +289,8 @@ struct Writing {
     quiet: bool,
 }
 
-/// The folder for a command's results. Before the work the root checks that `bytes` bytes and a little more can be written,
-/// and that no other file has one of these names.
+/// The folder for a command's results. Before the work the root checks that `bytes` bytes and a little more can be
+/// written, and that no other file has one of these names.
 fn result_folder<N: AsRef<str>>(
     dir: &Path,
     (command, inputs, force): (&str, Value, bool),
@@ -310,8 +305,8 @@ fn result_folder<N: AsRef<str>>(
     Ok(folder)
 }
 
-/// Refuses a folder in which the results would replace or remove a file that the command reads, also with --force: one of these names,
-/// the record, or a file of earlier results that it lists.
+/// Refuses a folder in which the results would replace or remove a file that the command reads, also with --force: one
+/// of these names, the record, or a file of earlier results that it lists.
 fn spares_inputs(
     dir: &Path,
     names: &[impl AsRef<Path>],
@@ -345,10 +340,7 @@ fn spares(
 fn probe(dir: &Path, bytes: u64) -> Result<(), Failure> {
     /// Additional bytes for pictures and records.
     const MORE: u64 = 1 << 20;
-    match cluster::is_root() {
-        true => Ok(output::probe(dir, bytes + MORE)?),
-        false => Ok(()),
-    }
+    if cluster::is_root() { Ok(output::probe(dir, bytes + MORE)?) } else { Ok(()) }
 }
 
 /// Refuses ranks whose inputs differ from the root's, before anything runs.
@@ -359,9 +351,10 @@ fn agree(command: &str, input: Value) -> Result<(), Failure> {
 /// A path whose name has one of these endings, which are `said` in the error.
 fn ending_in(endings: &[&str], said: &str, text: &str) -> Result<PathBuf, String> {
     let path = PathBuf::from(text);
-    match path.extension().is_some_and(|own| endings.iter().any(|ending| own == *ending)) {
-        true => Ok(path),
-        false => Err(format!("a name that ends in {said} is allowed; no other format is written")),
+    if path.extension().is_some_and(|own| endings.iter().any(|ending| own == *ending)) {
+        Ok(path)
+    } else {
+        Err(format!("a name that ends in {said} is allowed; no other format is written"))
     }
 }
 

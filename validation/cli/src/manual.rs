@@ -8,8 +8,7 @@ pub fn commands() -> String {
     let mut program = super::Cli::command().disable_help_subcommand(true);
     program.build();
     let mut page =
-        "# Commands\n\nMade from the program's own parser: `shearbed COMMAND --help` prints the same.\n"
-            .to_owned();
+        "# Commands\n\nMade from the program's own parser: `shearbed COMMAND --help` prints the same.\n".to_owned();
     for command in program.get_subcommands().filter(|command| !command.is_hide_set()) {
         add(&mut page, command, "shearbed");
     }
@@ -22,12 +21,8 @@ fn add(page: &mut String, command: &Command, above: &str) {
     let usage = command.clone().render_usage().to_string();
     let usage = usage.split_whitespace().skip(1).collect::<Vec<_>>().join(" ");
     let about = command.get_about().map(ToString::to_string).unwrap_or_default();
-    let _ = write!(
-        page,
-        "\n## {}\n\n{}.\n\n```text\n{usage}\n```\n",
-        name.trim_start_matches("shearbed "),
-        plain(&about)
-    );
+    let _ =
+        write!(page, "\n## {}\n\n{}.\n\n```text\n{usage}\n```\n", name.trim_start_matches("shearbed "), plain(&about));
     let shown = |arg: &&Arg| !arg.is_hide_set() && arg.get_id() != "help" && arg.get_id() != "version";
     let mut rows = command.get_arguments().filter(shown).peekable();
     if rows.peek().is_some() {

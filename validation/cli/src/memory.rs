@@ -14,8 +14,8 @@ const PROGRAM: u64 = 32 << 20;
 /// Bytes that a thread needs in addition to its replica: its stack.
 const THREAD: u64 = 2 << 20;
 
-/// Refuses a command where a limit of the shell leaves less than it needs for itself: later the system would end it without a message.
-/// Of the address space most is only reserved, by the C library for each thread.
+/// Refuses a command where a limit of the shell leaves less than it needs for itself: later the system would end it
+/// without a message. Of the address space most is only reserved, by the C library for each thread.
 pub(super) fn check_start(on_threads: bool) -> Result<(), Failure> {
     const LEAST: u64 = 16 << 20;
     const WITH_THREADS: u64 = 208 << 20;
@@ -61,8 +61,7 @@ pub(super) fn check_each<'a>(
         return Ok(());
     };
     plans.into_iter().try_for_each(|(plan, source)| {
-        fits(plan, threads, vtk, free, beside)
-            .map_err(|message| Failure::Input(format!("{source}: {message}")))
+        fits(plan, threads, vtk, free, beside).map_err(|message| Failure::Input(format!("{source}: {message}")))
     })
 }
 
@@ -99,8 +98,8 @@ fn left_by(job: &Job) -> u64 {
     looks + job.followed.min(job.replicas) * 24 * job.scene.particles.count as u64
 }
 
-/// The bytes that a run of a plan needs, with its results and their tables and pictures at its end, and `beside` bytes for
-/// each replica.
+/// The bytes that a run of a plan needs, with its results and their tables and pictures at its end, and `beside` bytes
+/// for each replica.
 fn needed(plan: &Plan, threads: u64, vtk: bool, beside: u64) -> u64 {
     // A growing text may reserve twice its length.
     let rods = rods::most_bytes(plan, vtk).saturating_mul(2);
@@ -142,12 +141,14 @@ fn fits(plan: &Plan, threads: u64, vtk: bool, free: u64, beside: u64) -> Result<
     rods_fit(plan, threads, vtk, free)?;
     let replicas = threads.min(plan.scene().ensemble.replicas);
     let least = needed(plan, 1, vtk, beside);
-    let allowed = match least <= free {
-        true => format!("fewer --threads: {} with one", size(least)),
-        false => format!("fewer: one replica needs {}", size(least)),
+    let allowed = if least <= free {
+        format!("fewer --threads: {} with one", size(least))
+    } else {
+        format!("fewer: one replica needs {}", size(least))
     };
     Err(format!(
-        "particles.count = {}: {replicas} at a time of {} replicas, with {} outputs each, need {} of memory, and {} are \
+        "particles.count = {}: {replicas} at a time of {} replicas, with {} outputs each, need {} of memory, and {} \
+            are \
          free; allowed: {allowed}",
         plan.scene().particles.count,
         plan.scene().ensemble.replicas,

@@ -8,10 +8,7 @@ use shearbed_validation::present::plot::{Curve, Figure};
 /// The stems of the names of an observable's pictures.
 pub(super) fn stems(observable: Observable) -> Vec<String> {
     let stem = observable.name().to_owned();
-    match observable.is_density() {
-        true => vec![stem.clone(), format!("{stem}_density")],
-        false => vec![stem],
-    }
+    if observable.is_density() { vec![stem.clone(), format!("{stem}_density")] } else { vec![stem] }
 }
 
 /// The pictures of an observable, each with the stem of its file's name.
@@ -46,17 +43,14 @@ pub(super) fn figures(scene: &Scene, results: &Results, series: &Series) -> Vec<
                     .map(|factor| density.iter().map(|channel| factor * channel.se[output]).collect()),
             });
             let density = figure("C_b = C/(1 + C)", "density", curves.into());
-            vec![
-                (stem.to_owned(), against_time(std::slice::from_ref(mean))),
-                (format!("{stem}_density"), density),
-            ]
+            vec![(stem.to_owned(), against_time(std::slice::from_ref(mean))), (format!("{stem}_density"), density)]
         }
         _ => vec![(stem.to_owned(), against_time(&series.columns))],
     }
 }
 
-/// Half the width of a 95 % band in standard errors: Student's t for the number of replicas, or of rods for a single replica.
-/// `None` if there is only one value, which has no standard error.
+/// Half the width of a 95 % band in standard errors: Student's t for the number of replicas, or of rods for a single
+/// replica. `None` if there is only one value, which has no standard error.
 pub(super) fn half_widths(scene: &Scene) -> Option<f64> {
     let samples = match scene.ensemble.replicas {
         1 => scene.particles.count as u64,

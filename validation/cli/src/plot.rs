@@ -1,4 +1,5 @@
-//! `shearbed plot`: one picture of a channel from several runs or the points of a sweep, or a picture of a fit or a report.
+//! `shearbed plot`: one picture of a channel from several runs or the points of a sweep, or a picture of a fit or a
+//! report.
 
 mod against;
 mod folders;
@@ -22,10 +23,12 @@ use table::MOST_ROWS;
 #[derive(clap::Args)]
 #[command(after_help = "Example:\n  shearbed plot first second --y x1 --out both.svg")]
 pub(super) struct Args {
-    /// Folders of `shearbed run`, or of `shearbed sweep`, whose points are all drawn; or one of `shearbed fit` or `validate`
+    /// Folders of `shearbed run`, or of `shearbed sweep`, whose points are all drawn; or one of `shearbed fit` or
+    /// `validate`
     #[arg(required = true, value_name = "DIR")]
     dirs: Vec<PathBuf>,
-    /// The column to draw, as x1, phi or a12 [default: the first of the first table]; of a fit or a report, the picture's name
+    /// The column to draw, as x1, phi or a12 [default: the first of the first table]; of a fit or a report, the
+    /// picture's name
     #[arg(long = "y", value_name = "CHANNEL")]
     channel: Option<String>,
     /// A key of a sweep to draw its channel against, at the last output
@@ -177,16 +180,13 @@ fn write(out: &Path, figure: &Figure, force: bool) -> Result<(), Failure> {
     let drawn = match out.extension().and_then(|extension| extension.to_str()) {
         Some("png") => plot::png(figure),
         Some("pdf") => plot::pdf(figure),
-        _ => {
-            plot::svg(figure).map(|text| plot::Drawing { bytes: text.into_bytes(), missing: BTreeSet::new() })
-        }
+        _ => plot::svg(figure).map(|text| plot::Drawing { bytes: text.into_bytes(), missing: BTreeSet::new() }),
     };
     let plot::Drawing { bytes, missing } = drawn.map_err(Failure::Failed)?;
     if !missing.is_empty() {
         let missing = String::from_iter(missing);
-        let lacking = format!(
-            "PNG and PDF pictures have no letters for {missing:?}; boxes stand for them, SVG has them"
-        );
+        let lacking =
+            format!("PNG and PDF pictures have no letters for {missing:?}; boxes stand for them, SVG has them");
         scene::warn(&out.shown(), &[lacking]);
     }
     Ok(output::write_one(out, &bytes, force)?)

@@ -21,10 +21,12 @@ pub(super) struct Args {
     #[arg(long, value_name = "R|inf", value_parser = aspect_ratio, allow_negative_numbers = true)]
     aspect_ratio: f64,
     /// Where rods point at t = 0: `isotropic`, or one rod's angles φ,θ in degrees
-    #[arg(long, value_name = "isotropic|PHI_DEG,THETA_DEG", default_value = "isotropic", value_parser = start, allow_hyphen_values = true)]
+    #[arg(long, value_name = "isotropic|PHI_DEG,THETA_DEG", default_value = "isotropic", value_parser = start,
+        allow_hyphen_values = true)]
     start: From,
     /// COUNT evenly spaced times with both ends (COUNT = 1: the time FROM), or rising times with commas between
-    #[arg(long, value_name = "FROM:TO:COUNT|T1,T2,…", value_parser = times, allow_hyphen_values = true, required_unless_present_any = ["constants", "explain", "steady"])]
+    #[arg(long, value_name = "FROM:TO:COUNT|T1,T2,…", value_parser = times, allow_hyphen_values = true,
+        required_unless_present_any = ["constants", "explain", "steady"])]
     times: Option<Times>,
     /// What times count: periods of (mean) r_e, strain, or seconds; period unless given, and strain for r_e = inf
     #[arg(long, value_name = "period|strain|s", value_parser = unit)]
@@ -33,12 +35,14 @@ pub(super) struct Args {
     #[arg(long, value_name = "G", default_value = "1", value_parser = rate, allow_negative_numbers = true)]
     shear_rate_per_s: f64,
     /// Another steady flow: nine numbers ∂u_i/∂x_j, row by row, in 1/s
-    #[arg(long, value_name = "L11,L12,…,L33", value_parser = gradient, conflicts_with = "shear_rate_per_s", allow_hyphen_values = true)]
+    #[arg(long, value_name = "L11,L12,…,L33", value_parser = gradient, conflicts_with = "shear_rate_per_s",
+        allow_hyphen_values = true)]
     gradient_per_s: Option<[[f64; 3]; 3]>,
     /// Standard deviation of a Gaussian r_e in percent of the mean, for isotropic starts
     #[arg(long, value_name = "PERCENT", default_value = "0", value_parser = deviation, allow_negative_numbers = true)]
     aspect_ratio_sd_percent: f64,
-    /// C_I: rods of an isotropic start with rotary diffusion D_r = C_I γ̇, γ̇ = (2D:D)^½; `inf` for all directions alike
+    /// C_I: rods of an isotropic start with rotary diffusion D_r = C_I γ̇, γ̇ = (2D:D)^½; `inf` for all directions
+    /// alike
     #[arg(long, value_name = "C", value_parser = c_i, allow_negative_numbers = true)]
     c_i: Option<f64>,
     /// The steady distribution of rods with diffusion, in a last row at the time inf
@@ -82,8 +86,7 @@ struct Times(Vec<f64>);
 pub(super) fn reference(args: &Args) -> Result<(), Failure> {
     let rate = args.shear_rate_per_s;
     let couette = [[0.0; 3], [rate, 0.0, 0.0], [0.0; 3]];
-    let motion =
-        Motion { gradient_per_s: args.gradient_per_s.unwrap_or(couette), aspect_ratio: args.aspect_ratio };
+    let motion = Motion { gradient_per_s: args.gradient_per_s.unwrap_or(couette), aspect_ratio: args.aspect_ratio };
     let direction = match args.start {
         From::Isotropic => None,
         From::Angles { phi_deg, theta_deg } => Some(Direction::Angles { phi_deg, theta_deg }),
@@ -93,9 +96,10 @@ pub(super) fn reference(args: &Args) -> Result<(), Failure> {
         constants_csv(&constants)
     } else {
         let asked = asked(args, &motion, direction)?;
-        match args.explain {
-            true => explained(&asked),
-            false => csv(&values(args, &motion, &asked).map_err(|why| refused(args, why))?),
+        if args.explain {
+            explained(&asked)
+        } else {
+            csv(&values(args, &motion, &asked).map_err(|why| refused(args, why))?)
         }
     };
     match &args.out {
@@ -155,8 +159,7 @@ fn csv(table: &Table) -> String {
     let header: Vec<_> = names.collect();
     let mut text = header.join(",") + "\n";
     for row in &table.rows {
-        let fields: Vec<_> =
-            row.iter().map(|value| value.map_or(String::new(), |x| format!("{x:?}"))).collect();
+        let fields: Vec<_> = row.iter().map(|value| value.map_or(String::new(), |x| format!("{x:?}"))).collect();
         text += &(fields.join(",") + "\n");
     }
     text
@@ -175,18 +178,20 @@ fn explained(asked: &Asked) -> String {
     let (columns, digits) = match asked {
         Asked::Free(start) => (
             table::columns(*start),
-            "Values are correctly rounded doubles at exactly the time in the unit of --unit; the other times are rounded. With \
+            "Values are correctly rounded doubles at exactly the time in the unit of --unit; the other times are \
+                rounded. With \
              --aspect-ratio-sd-percent they are rounded to eleven decimals.",
         ),
         Asked::Diffusing(rods) => (
             rods.columns(),
-            "The density is that of rods with rotary diffusion C_I γ̇ (Folgar & Tucker 1984), without a closure. Values are rounded \
-             to the decimals that two solutions of different degree, order and step agree on, eleven at most. The last row of \
+            "The density is that of rods with rotary diffusion C_I γ̇ (Folgar & Tucker 1984), without a closure. \
+                Values are rounded \
+             to the decimals that two solutions of different degree, order and step agree on, eleven at most. The \
+             last row of \
              --steady has the time inf.",
         ),
     };
-    let line =
-        |column: &table::Column| format!("{:<10} {:<4} {}\n", column.name, column.unit, column.equation);
+    let line = |column: &table::Column| format!("{:<10} {:<4} {}\n", column.name, column.unit, column.equation);
     let text: String = columns.iter().map(line).collect();
     format!("{text}Numbers before words are equations of Lee & Springer (1982). {digits}\n")
 }
@@ -200,7 +205,8 @@ fn write(path: &Path, text: String, force: bool) -> Result<(), Failure> {
 
 fn no_couette(flag: &str) -> Failure {
     Failure::Input(format!(
-        "{flag}: this flow has none; plane Couette flow (--shear-rate-per-s G or a gradient with L21 alone) and a finite \
+        "{flag}: this flow has none; plane Couette flow (--shear-rate-per-s G or a gradient with L21 alone) and a \
+            finite \
          --aspect-ratio are allowed"
     ))
 }
@@ -211,37 +217,40 @@ fn isotropic_only(flag: &str) -> Failure {
 
 fn refused(args: &Args, why: NoValue) -> Failure {
     Failure::Input(match why {
-        NoValue::Past => {
-            "--times: rods with diffusion have no past; times from 0 are allowed with --c-i".into()
-        }
+        NoValue::Past => "--times: rods with diffusion have no past; times from 0 are allowed with --c-i".into(),
         NoValue::Steady(NoAnswer::Unsettled) => format!(
             "--steady: nothing settles with --c-i {:?} in this flow; a C_I above 0 and a flow that strains are allowed",
             args.c_i.unwrap_or_default()
         ),
         NoValue::Steady(why) => format!(
-            "--steady with --c-i {:?}: {why}; a larger C_I is allowed (in plane Couette flow from 1e-5 on, in any flow from \
+            "--steady with --c-i {:?}: {why}; a larger C_I is allowed (in plane Couette flow from 1e-5 on, in any \
+                flow from \
              about 1e-4 on)",
             args.c_i.unwrap_or_default()
         ),
         NoValue::Diffusion(why) => format!(
-            "--times with --c-i {:?}: {why}; a larger C_I or shorter --times are allowed (from C_I = 1e-4 on, a strain of 100; at 1e-5, of 10), and \
+            "--times with --c-i {:?}: {why}; a larger C_I or shorter --times are allowed (from C_I = 1e-4 on, a \
+                strain of 100; at 1e-5, of 10), and \
              --steady",
             args.c_i.unwrap_or_default()
         ),
         NoValue::Unit => format!(
-            "--unit{}: this flow has no such unit of time; s is allowed, strain where it stretches, and period in plane Couette flow \
+            "--unit{}: this flow has no such unit of time; s is allowed, strain where it stretches, and period in \
+                plane Couette flow \
              (--shear-rate-per-s G) of rods with a finite r_e",
             if args.unit.is_none() { " is missing, and periods are its default" } else { "" }
         ),
         NoValue::Strain => format!(
-            "--times: |L|t is above {LARGEST_STRAIN}, the most that is allowed where rods have no period: in flows other than plane Couette flow, or \
+            "--times: |L|t is above {LARGEST_STRAIN}, the most that is allowed where rods have no period: in flows \
+                other than plane Couette flow, or \
              at an infinite aspect ratio"
         ),
         NoValue::Time => {
             "--times: a time in s, strain or periods is no finite double; smaller times are allowed".into()
         }
         NoValue::Unequal => format!(
-            "--aspect-ratio-sd-percent {}: is allowed in plane Couette flow, up to {LONGEST_TURNS} periods, without --fourth, for \
+            "--aspect-ratio-sd-percent {}: is allowed in plane Couette flow, up to {LONGEST_TURNS} periods, without \
+                --fourth, for \
              r_e from 1e-4 to 1e4 of which eight standard deviations do not reach 1 or 0",
             args.aspect_ratio_sd_percent
         ),
@@ -282,8 +291,7 @@ fn unit(text: &str) -> Result<Unit, String> {
 }
 
 fn start(text: &str) -> Result<From, String> {
-    let words =
-        "`isotropic`, or φ,θ in degrees with θ from 0 to 180 (each 0 or of a size from 5e-324 to 1.8e308)";
+    let words = "`isotropic`, or φ,θ in degrees with θ from 0 to 180 (each 0 or of a size from 5e-324 to 1.8e308)";
     match text.split_once(',') {
         None if text == "isotropic" => Ok(From::Isotropic),
         None => Err(format!("{words} is allowed")),
@@ -311,7 +319,8 @@ const MOST: u64 = 100_000;
 fn times(text: &str) -> Result<Times, String> {
     let refuse = || {
         format!(
-            "FROM:TO:COUNT with finite FROM ≤ TO and a COUNT from 1 to {MOST}, or at most as many rising times T1,T2,…, are allowed; a time is \
+            "FROM:TO:COUNT with finite FROM ≤ TO and a COUNT from 1 to {MOST}, or at most as many rising times \
+                T1,T2,…, are allowed; a time is \
              0 or of a size from 5e-324 to 1.8e308"
         )
     };

@@ -8,14 +8,14 @@ use shearbed_validation::files::output::Output;
 use std::fmt::Write;
 
 /// The columns of `rods.csv`.
-const COLUMNS: &str =
-    "replica,rod,time_s,strain,aspect_ratio,length_mm,x1_mm,x2_mm,x3_mm,p1,p2,p3,collided\n";
+const COLUMNS: &str = "replica,rod,time_s,strain,aspect_ratio,length_mm,x1_mm,x2_mm,x3_mm,p1,p2,p3,collided\n";
 
-/// The largest number of bytes of a row: ten numbers of 24 letters with their comma, replica and rod of 8 and 9 and a digit.
+/// The largest number of bytes of a row: ten numbers of 24 letters with their comma, replica and rod of 8 and 9 and a
+/// digit.
 const ROW: u64 = 10 * 24 + 9 + 10 + 2;
 
-/// The largest number of bytes of a rod in a `.vtp` file: three vectors of three numbers (two ends and a direction), its r_e and
-/// length, whether it collided, its replica, and the four places at which its line's ends are counted.
+/// The largest number of bytes of a rod in a `.vtp` file: three vectors of three numbers (two ends and a direction),
+/// its r_e and length, whether it collided, its replica, and the four places at which its line's ends are counted.
 const LINE: u64 = 11 * 24 + 2 + 9 + 4 * 11;
 
 /// The largest number of bytes of the files with every rod.
@@ -24,7 +24,8 @@ pub(super) fn most_bytes(plan: &Plan, vtk: bool) -> u64 {
     plan.rods_out().saturating_mul(of_rod)
 }
 
-/// `rods.csv`, and with `vtk` also `rods.pvd` and the file of each time that it names. Empty if the scene requests no rods.
+/// `rods.csv`, and with `vtk` also `rods.pvd` and the file of each time that it names. Empty if the scene requests no
+/// rods.
 pub(super) fn files(plan: &Plan, results: &Results, vtk: bool) -> Vec<Output> {
     let outputs = plan.rods_outputs();
     if outputs.is_empty() {
@@ -81,8 +82,8 @@ fn direction(snapshot: &Snapshot, rod: usize) -> Vector3<f64> {
     Vector3::from_fn(|axis, _| snapshot.p[axis][rod])
 }
 
-/// The rods of one replica at one time as VTK's XML PolyData: a line for each rod from end to end, in mm. Free rods cross at
-/// the origin.
+/// The rods of one replica at one time as VTK's XML PolyData: a line for each rod from end to end, in mm. Free rods
+/// cross at the origin.
 fn polydata(snapshot: &Snapshot, scene: &Scene) -> String {
     let count = snapshot.aspect_ratio.len();
     let array = |kind: &str, name: &str, components: usize, values: String| {

@@ -6,8 +6,8 @@ use super::record::Seconds;
 use super::scene::{Chosen, Ensemble, Named};
 use super::until::{self, LEAST, Until};
 use super::{
-    Failure, Threads, Writing, agree, checkpoint, facts, memory, number, on_threads, pictures, print, probe,
-    progress, record, rods, scene, spares_inputs, tables, threads,
+    Failure, Threads, Writing, agree, checkpoint, facts, memory, number, on_threads, pictures, print, probe, progress,
+    record, rods, scene, spares_inputs, tables, threads,
 };
 use serde_json::{Value, json};
 use shearbed::Error;
@@ -38,13 +38,16 @@ pub(super) struct Args {
     out: Option<PathBuf>,
     #[command(flatten)]
     threads: Threads,
-    /// Write the rods of output.rods_at and rods_every for ParaView too: rods.pvd, and a .vtp file for each time and replica
+    /// Write the rods of output.rods_at and rods_every for ParaView too: rods.pvd, and a .vtp file for each time and
+    /// replica
     #[arg(long)]
     vtk: bool,
     #[command(flatten)]
     until: Until,
-    /// With --until-se: begin no replica after this time, as 90s, 10min or 1.5h; the results of those that have begun are written
-    #[arg(long, value_name = "TIME", value_parser = until::time_limit, requires = "rules", allow_negative_numbers = true)]
+    /// With --until-se: begin no replica after this time, as 90s, 10min or 1.5h; the results of those that have begun
+    /// are written
+    #[arg(long, value_name = "TIME", value_parser = until::time_limit, requires = "rules",
+        allow_negative_numbers = true)]
     time_limit: Option<Duration>,
     /// Keep the run in this file while it runs, and go on from there where the file exists, with more --replicas too
     #[arg(long, value_name = "FILE")]
@@ -71,7 +74,8 @@ fn planned(args: &Args, named: &Named) -> Result<Plan, Failure> {
     }
     if named.settings.iter().any(|setting| setting.key == "ensemble.replicas") {
         return Err(Failure::Input(format!(
-            "{}: --until-se and a number of replicas (--replicas, or --set ensemble.replicas): --until-se finds the number; one of the \
+            "{}: --until-se and a number of replicas (--replicas, or --set ensemble.replicas): --until-se finds the \
+                number; one of the \
              two is allowed",
             named.source
         )));
@@ -104,9 +108,10 @@ fn begin(args: &Args, replicas: &Replicas) -> Result<(), Failure> {
         return Ok(());
     }
     let Progress { done, halfway, .. } = progress;
-    let progress = match args.until.is_empty() {
-        true => progress.to_string(),
-        false => format!("{done} replicas are done, {halfway} halfway"),
+    let progress = if args.until.is_empty() {
+        progress.to_string()
+    } else {
+        format!("{done} replicas are done, {halfway} halfway")
     };
     print(&format!("goes on from {}: {progress}\n", replicas.path().shown()))
 }
@@ -120,7 +125,8 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let scene = named.scene;
     if args.vtk && plan.rods_outputs().is_empty() {
         return Err(Failure::Input(format!(
-            "{}: --vtk: output.rods_at is missing: the times at which rods are to be written; output.rods_every = 1 takes \
+            "{}: --vtk: output.rods_at is missing: the times at which rods are to be written; output.rods_every = 1 \
+                takes \
              every output",
             named.source
         )));
@@ -172,8 +178,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     files.extend(rods::files(&plan, &results, args.vtk));
     seconds.tables_and_pictures = start.elapsed().as_secs_f64();
     let names = files.iter().map(|(name, _)| name.as_str()).collect();
-    let record =
-        record::json(&plan, &results, threads, seconds, names, until.as_ref()).map_err(Failure::Failed)?;
+    let record = record::json(&plan, &results, threads, seconds, names, until.as_ref()).map_err(Failure::Failed)?;
     files.push((RUN.to_owned(), record));
     let names: Vec<_> = files.iter().map(|(name, _)| name.clone()).collect();
     folder.write(files)?;
@@ -245,7 +250,8 @@ mod tests {
         assert_eq!(code, 2);
         assert_eq!(
             message,
-            "my.toml: rod 7 would become non-finite in step 41 of replica 2, seed 3: a contact arm of 1e-320 rod lengths \
+            "my.toml: rod 7 would become non-finite in step 41 of replica 2, seed 3: a contact arm of 1e-320 rod \
+                lengths \
              turned it by inf rad"
         );
     }

@@ -38,8 +38,7 @@ pub(super) struct Ensemble {
 
 impl Ensemble {
     fn settings(&self) -> impl Iterator<Item = (&'static str, KeyValue)> {
-        let given =
-            [("--replicas", "ensemble.replicas", self.replicas), ("--seed", "ensemble.seed", self.seed)];
+        let given = [("--replicas", "ensemble.replicas", self.replicas), ("--seed", "ensemble.seed", self.seed)];
         given.into_iter().filter_map(|(flag, key, value)| {
             let value = Value::Integer(value? as i64);
             let key = key.to_owned();
@@ -85,8 +84,7 @@ impl Named {
 
     /// The scene's plan; an error names the line of the key, or the keys that were set.
     pub(super) fn plan(&self) -> Result<Plan, Failure> {
-        Plan::new(&self.scene)
-            .map_err(|error| wrong(&self.source, &self.settings, &self.document.located(error)))
+        Plan::new(&self.scene).map_err(|error| wrong(&self.source, &self.settings, &self.document.located(error)))
     }
 }
 
@@ -127,7 +125,8 @@ pub(super) fn load(given: &OsStr, settings: Vec<KeyValue>) -> Result<Named, Fail
     Ok(Named { scene, text, document, settings, source, starts, stem })
 }
 
-/// The stem of a scene file's name as a folder's: without the dots before it, which would hide the folder or lead out of its place.
+/// The stem of a scene file's name as a folder's: without the dots before it, which would hide the folder or lead out
+/// of its place.
 fn stem_of(path: &Path) -> String {
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
     match stem.trim_start_matches('.') {
@@ -146,7 +145,8 @@ pub(super) fn warn<'a>(source: &str, warnings: impl IntoIterator<Item = &'a Stri
     }
 }
 
-/// The largest size of a scene file, in bytes: 200,000 times of outputs. A parsed text takes up to a hundred times its size.
+/// The largest size of a scene file, in bytes: 200,000 times of outputs. A parsed text takes up to a hundred times its
+/// size.
 const MOST_BYTES: u64 = 4_000_000;
 
 fn read(path: &Path) -> Result<String, Failure> {
@@ -159,9 +159,6 @@ fn read(path: &Path) -> Result<String, Failure> {
 
 fn built_in_names(name: &str) -> String {
     let close = scenes::close_to(name);
-    let close = match close.is_empty() {
-        true => String::new(),
-        false => format!(" (close names: {})", close.join(", ")),
-    };
+    let close = if close.is_empty() { String::new() } else { format!(" (close names: {})", close.join(", ")) };
     format!("; nor is it a built-in scene{close}: `shearbed scenes` lists them")
 }

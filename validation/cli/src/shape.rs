@@ -33,7 +33,8 @@ pub(super) fn shape(args: &Args) -> Result<(), Failure> {
             None => "none".into(),
         };
         text += &format!(
-            "{value:>9}  {} ({key}): r_e = {}\n           valid for: {}\n           source: {}\n           quoted from: {}\n",
+            "{value:>9}  {} ({key}): r_e = {}\n           valid for: {}\n           source: {}\n           quoted \
+                from: {}\n",
             formula.name, formula.formula, formula.range, formula.source, formula.read_in
         );
     }

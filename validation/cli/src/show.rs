@@ -67,10 +67,7 @@ pub(super) fn scenes(args: &ScenesArgs) -> Result<(), Failure> {
         None => {
             let names: Vec<_> = scenes::ALL.iter().map(|built_in| built_in.name).collect();
             let names = names.join(", ");
-            Err(Failure::Input(format!(
-                "--show {}: no built-in scene has this name; there are {names}",
-                line(name)
-            )))
+            Err(Failure::Input(format!("--show {}: no built-in scene has this name; there are {names}", line(name))))
         }
     }
 }

@@ -44,10 +44,7 @@ pub(super) fn sweep(args: &Args) -> Result<(), Failure> {
     let named = args.chosen.load(&args.ensemble, &args.over)?;
     check(&args.over)?;
     if let Some(key) = named.scene.output.rods_key() {
-        return Err(Failure::Input(format!(
-            "{}: {key}: a sweep writes no rods; remove this key",
-            named.source
-        )));
+        return Err(Failure::Input(format!("{}: {key}: a sweep writes no rods; remove this key", named.source)));
     }
     let points = sweep::points(&named.text, &named.starts, &named.settings, &args.over)
         .map_err(|error| Failure::Input(format!("{}: {error}", named.source)))?;
@@ -62,8 +59,7 @@ pub(super) fn sweep(args: &Args) -> Result<(), Failure> {
             )));
         }
     }
-    let at =
-        |point: &Point| format!("{}: --over {}", named.source, sweep::described(&args.over, &point.values));
+    let at = |point: &Point| format!("{}: --over {}", named.source, sweep::described(&args.over, &point.values));
     memory::check_each(points.iter().map(|point| (&point.plan, at(point))), args.threads.given, false, 0)?;
     let out = (args.out.clone()).unwrap_or_else(|| Path::new("out").join(format!("sweep-{}", named.stem)));
     let total = points.len();
@@ -116,10 +112,13 @@ pub(super) fn sweep(args: &Args) -> Result<(), Failure> {
             return Ok(());
         };
         match checked {
-            Some(finished) if finished == k => match folder.tables(k)? == *tables {
-                true => Ok(()),
-                false => Err(other_numbers(&folder.point(k))),
-            },
+            Some(finished) if finished == k => {
+                if folder.tables(k)? == *tables {
+                    Ok(())
+                } else {
+                    Err(other_numbers(&folder.point(k)))
+                }
+            }
             _ => {
                 folder.write(k, tables)?;
                 ended += 1;
@@ -203,7 +202,8 @@ fn tables_of(point: &Point) -> Result<Vec<Output>, String> {
 
 fn other_numbers(point: &Path) -> Failure {
     Failure::Input(format!(
-        "{}: run again, this point gives other numbers, so another build of the program wrote the folder; give another --out, \
+        "{}: run again, this point gives other numbers, so another build of the program wrote the folder; give \
+            another --out, \
          or remove the folder; nothing of it was changed",
         point.shown()
     ))
@@ -223,7 +223,6 @@ fn table(rows: &[Vec<String>], swept: usize) -> String {
         Ok(number) if column >= swept => format!("{number:.3e}"),
         _ => text.clone(),
     };
-    let cells: Vec<Vec<_>> =
-        (rows.iter()).map(|row| (0..columns).map(|c| short(c, &row[c])).collect()).collect();
+    let cells: Vec<Vec<_>> = (rows.iter()).map(|row| (0..columns).map(|c| short(c, &row[c])).collect()).collect();
     text::right_aligned(&cells)
 }

@@ -4,8 +4,8 @@ use shearbed::observable::Channel;
 use shearbed::run::ensemble::{Column, Series};
 use shearbed::{Plan, Results};
 
-/// The CSV file of an observable: the time, also in s and as strain, then each channel with its standard error. Every number is
-/// the shortest text that reads back as the same bits.
+/// The CSV file of an observable: the time, also in s and as strain, then each channel with its standard error. Every
+/// number is the shortest text that reads back as the same bits.
 pub(super) fn csv(results: &Results, series: &Series) -> Result<String, String> {
     let mut writer = csv::Writer::from_writer(Vec::new());
     // The scene's own time first.
@@ -28,8 +28,8 @@ pub(super) fn csv(results: &Results, series: &Series) -> Result<String, String> 
 
 /// The largest number of bytes of the table and of the pictures of each observable.
 fn most_of_each(plan: &Plan) -> impl Iterator<Item = (u64, u64)> {
-    // A number is at most 24 letters long with its comma, as -2.2250738585072014e-308; a picture has a curve and the two
-    // sides of its band, each point of two numbers of seven digits.
+    // A number is at most 24 letters long with its comma, as -2.2250738585072014e-308; a picture has a curve and the
+    // two sides of its band, each point of two numbers of seven digits.
     const NUMBER: u64 = 24;
     const POINT: u64 = 3 * 16;
     let rows = plan.outputs() as u64 + 1;
@@ -51,8 +51,8 @@ pub(super) fn most_memory(plan: &Plan) -> u64 {
     // Means and standard errors.
     let channels: usize = plan.observables().iter().map(|o| o.width()).sum();
     let results = plan.outputs() as u64 * 16 * channels as u64;
-    // A growing text may reserve twice its length; a drawn point is stored as numbers, as a place and in a path, about eight
-    // times the length of its text.
+    // A growing text may reserve twice its length; a drawn point is stored as numbers, as a place and in a path, about
+    // eight times the length of its text.
     let (table, picture) = most_of_each(plan).fold((0, 0), |(a, b), (c, d)| (a.max(c), b.max(d)));
     results + most_bytes(plan) + table.max(8 * picture)
 }
@@ -85,10 +85,7 @@ pub(super) fn summary(results: &Results) -> String {
         for channel in shown(series) {
             // Values without bounds have a size of their own.
             let bounded = is_bounded(&channel.name);
-            let number = |x: f64| match bounded {
-                true => format!("{x:.4}"),
-                false => format!("{x:.2e}"),
-            };
+            let number = |x: f64| if bounded { format!("{x:.4}") } else { format!("{x:.2e}") };
             let value = |k: usize| format!("{} ± {}", number(channel.mean[k]), number(channel.se[k]));
             let order = |a: &usize, b: &usize| channel.mean[*a].total_cmp(&channel.mean[*b]);
             let extreme = |k: Option<usize>| {
@@ -155,7 +152,8 @@ mod tests {
 
     #[test]
     fn a_fast_oscillation_looks_like_no_slow_one() {
-        // Each bar represents some 17 of 1200 outputs, and the wave has a period of 16: sampling would make it look slow.
+        // Each bar represents some 17 of 1200 outputs, and the wave has a period of 16: sampling would make it look
+        // slow.
         let wave: Vec<f64> = (0..1200).map(|k| (TAU * f64::from(k) / 16.0).sin()).collect();
         let line: Vec<char> = sparkline(&wave).chars().collect();
         assert_eq!(line.len(), WIDEST);

@@ -34,8 +34,8 @@ pub(super) fn print(text: &str) -> Result<(), Failure> {
     }
 }
 
-/// Refuses to print where nobody can read it: to a standard output that was closed (`>&-`). The runtime opens /dev/null in its place
-/// for reading and writing, before `main`; a shell's `> /dev/null` is opened for writing alone.
+/// Refuses to print where nobody can read it: to a standard output that was closed (`>&-`). The runtime opens /dev/null
+/// in its place for reading and writing, before `main`; a shell's `> /dev/null` is opened for writing alone.
 ///
 /// # Errors
 ///
@@ -46,13 +46,15 @@ pub(super) fn is_open() -> Result<(), Failure> {
     let stdout = io::stdout();
     let null = || Ok::<_, rustix::io::Errno>(fstat(&stdout)?.st_rdev == stat("/dev/null")?.st_rdev);
     let both = fcntl_getfl(&stdout).is_ok_and(|flags| flags & OFlags::RWMODE == OFlags::RDWR);
-    match both && null().unwrap_or(false) {
-        true => Err(Failure::Input(
-            "standard output: cannot be written: it is closed, or /dev/null opened for reading and writing; open it for writing alone \
-             (`> /dev/null`) to discard what this command prints"
+    if both && null().unwrap_or(false) {
+        Err(Failure::Input(
+            "standard output: cannot be written: it is closed, or /dev/null opened for reading and writing; open it \
+            for writing alone \
+         (`> /dev/null`) to discard what this command prints"
                 .to_owned(),
-        )),
-        false => Ok(()),
+        ))
+    } else {
+        Ok(())
     }
 }
 

@@ -52,11 +52,11 @@ pub(super) fn watch() {
     let others = std::panic::take_hook();
     std::panic::set_hook(Box::new(move |panic| {
         let words = panic.to_string();
-        let none_left =
-            ["failed to spawn thread", "global thread pool"].iter().any(|part| words.contains(part));
-        match none_left && !NONE_LEFT.swap(true, Ordering::Relaxed) {
-            true => complain(&format!("error: the system gives no more threads; allowed: {ALLOWED}\n")),
-            false => others(panic),
+        let none_left = ["failed to spawn thread", "global thread pool"].iter().any(|part| words.contains(part));
+        if none_left && !NONE_LEFT.swap(true, Ordering::Relaxed) {
+            complain(&format!("error: the system gives no more threads; allowed: {ALLOWED}\n"))
+        } else {
+            others(panic)
         }
     }));
 }
@@ -70,14 +70,10 @@ pub fn code_of_panic() -> u8 {
 }
 
 /// Calls `work` on this number of threads.
-pub(super) fn on_threads<T: Send>(
-    threads: Option<u64>,
-    work: impl FnOnce() -> T + Send,
-) -> Result<T, Failure> {
+pub(super) fn on_threads<T: Send>(threads: Option<u64>, work: impl FnOnce() -> T + Send) -> Result<T, Failure> {
     let count = count(threads)? as usize;
     let pool = rayon::ThreadPoolBuilder::new().num_threads(count).build();
-    let pool =
-        pool.map_err(|error| Failure::Input(format!("--threads {count}: {error}; allowed: {ALLOWED}")))?;
+    let pool = pool.map_err(|error| Failure::Input(format!("--threads {count}: {error}; allowed: {ALLOWED}")))?;
     Ok(pool.install(work))
 }
 

@@ -1,8 +1,8 @@
 //! `run --until-se`: adds replicas until standard errors are small enough.
 //!
-//! The number of replicas is one of 32, 40, 48, … ([`next`]): the first at which every rule holds. It depends on the scene, the
-//! seed and the rules alone, never on threads, load, or the place where an earlier run of the same rules stopped. A checkpoint of other
-//! rules may have more replicas: then all of them are used.
+//! The number of replicas is one of 32, 40, 48, … ([`next`]): the first at which every rule holds. It depends on the
+//! scene, the seed and the rules alone, never on threads, load, or the place where an earlier run of the same rules
+//! stopped. A checkpoint of other rules may have more replicas: then all of them are used.
 
 use super::Failure;
 use serde::Serialize;
@@ -19,8 +19,8 @@ pub(super) const LEAST: u64 = 32;
 /// Options of `run` and `plan`.
 #[derive(clap::Args)]
 pub(super) struct Until {
-    /// Add replicas until the standard error of this column is at most VALUE at every output, as x1=0.001; can be given more than
-    /// once. At least 32 replicas run
+    /// Add replicas until the standard error of this column is at most VALUE at every output, as x1=0.001; can be given
+    /// more than once. At least 32 replicas run
     #[arg(long = "until-se", value_name = "CHANNEL=VALUE", value_parser = rule)]
     rules: Vec<(String, f64)>,
 }
@@ -37,9 +37,7 @@ fn rule(text: &str) -> Result<(String, f64), String> {
 /// Parses a time limit such as `90s`, `10min` or `1.5h`.
 pub(super) fn time_limit(text: &str) -> Result<Duration, String> {
     let units = [("min", 60.0), ("s", 1.0), ("h", 3600.0)];
-    let value = units
-        .into_iter()
-        .find_map(|(unit, seconds)| Some(finite(text.trim().strip_suffix(unit)?)? * seconds));
+    let value = units.into_iter().find_map(|(unit, seconds)| Some(finite(text.trim().strip_suffix(unit)?)? * seconds));
     match value {
         Some(seconds) if (0.01..=31_536_000.0).contains(&seconds) => Ok(Duration::from_secs_f64(seconds)),
         _ => Err("a time from 0.01s to 8760h is allowed, as 90s, 10min or 1.5h".to_owned()),
@@ -86,7 +84,8 @@ impl Until {
     ///
     /// # Errors
     ///
-    /// A column that the scene does not have, a column that is named twice, or a scene that requests rods of every replica.
+    /// A column that the scene does not have, a column that is named twice, or a scene that requests rods of every
+    /// replica.
     pub(super) fn check(&self, plan: &Plan, source: &str) -> Result<(), Failure> {
         let refused = |what: String| Err(Failure::Input(format!("{source}: --until-se {what}")));
         for (k, (name, value)) in self.rules.iter().enumerate() {
@@ -99,7 +98,8 @@ impl Until {
         }
         match plan.scene().output.rods_key() {
             Some(key) if !self.is_empty() => refused(format!(
-                "and {key}: how many rods rods.csv would list is not known before the run; give --replicas, or leave {key} out"
+                "and {key}: how many rods rods.csv would list is not known before the run; give --replicas, or leave \
+                    {key} out"
             )),
             _ => Ok(()),
         }
@@ -114,13 +114,15 @@ impl Until {
     /// A text on the rules before the run.
     pub(super) fn planned(&self) -> String {
         let rules: Vec<_> = self.rules.iter().map(|(name, value)| format!("{name} ≤ {value}")).collect();
-        match rules.is_empty() {
-            true => String::new(),
-            false => format!(
-                "replicas: {LEAST}, as planned here, and then an eighth more (at least 8) at a time until the standard errors hold: {}; \
-                 how many that takes is not known before\n",
+        if rules.is_empty() {
+            String::new()
+        } else {
+            format!(
+                "replicas: {LEAST}, as planned here, and then an eighth more (at least 8) at a time until the \
+                standard errors hold: {}; \
+             how many that takes is not known before\n",
                 rules.join(", ")
-            ),
+            )
         }
     }
 
@@ -134,8 +136,9 @@ impl Until {
         self.rules.iter().map(|(name, _)| largest(name).unwrap_or(f64::NAN)).collect()
     }
 
-    /// Adds replicas to the existing ones (`has`) until every rule holds, or no more may be added. `add` runs the replicas up
-    /// to a number, or fewer after the deadline, and measures their sum; it must return the same on every rank.
+    /// Adds replicas to the existing ones (`has`) until every rule holds, or no more may be added. `add` runs the
+    /// replicas up to a number, or fewer after the deadline, and measures their sum; it must return the same on every
+    /// rank.
     pub(super) fn grow(
         &self,
         plan: &Plan,
@@ -221,7 +224,8 @@ impl Ended {
             expected => format!("some {expected}"),
         };
         Err(Failure::Failed(format!(
-            "--until-se was not reached: {why}; {} after {} replicas, and {needed} are needed; the results of these replicas are \
+            "--until-se was not reached: {why}; {} after {} replicas, and {needed} are needed; the results of these \
+                replicas are \
              written",
             self.text(),
             self.replicas
@@ -254,8 +258,8 @@ mod tests {
         assert_eq!(next(MAX_REPLICAS), MAX_REPLICAS);
     }
 
-    /// The ratio of the true standard error σ/√N to the allowed one, which `enough` replicas have, if N is found from the noisy one,
-    /// for a single column at a single output, the hardest case: its mean and its 95 % quantile.
+    /// The ratio of the true standard error σ/√N to the allowed one, which `enough` replicas have, if N is found from
+    /// the noisy one, for a single column at a single output, the hardest case: its mean and its 95 % quantile.
     fn excess(least: u64, enough: f64) -> (f64, f64) {
         let mut random = rand_pcg::Pcg64Dxsm::seed_from_u64(82);
         let mut ratios: Vec<f64> = (0..4000)

@@ -1,9 +1,7 @@
 //! `shearbed validate`.
 
 use super::finished::{CaseResult, Finished};
-use super::{
-    Failure, Threads, Writing, agree, checkpoint, choice, on_threads, print, progress, result_folder, whole,
-};
+use super::{Failure, Threads, Writing, agree, checkpoint, choice, on_threads, print, progress, result_folder, whole};
 use serde_json::json;
 use shearbed::scene::MAX_SEED;
 use shearbed_validation::cases::catalogue;
@@ -36,7 +34,8 @@ pub(super) struct Args {
     #[arg(long)]
     full: bool,
     /// The seed from which every case takes its random numbers
-    #[arg(long, value_name = "S", value_parser = whole(0, MAX_SEED), default_value_t = GATE_SEED, allow_negative_numbers = true)]
+    #[arg(long, value_name = "S", value_parser = whole(0, MAX_SEED), default_value_t = GATE_SEED,
+        allow_negative_numbers = true)]
     seed: u64,
     /// Keep finished cases and studies in this file, and skip those that it has
     #[arg(long, value_name = "FILE")]
@@ -92,9 +91,10 @@ pub(super) fn validate(args: Args) -> Result<(), Failure> {
     let effort = Effort { full: args.full, seed: args.seed, data: args.data };
     let (outcomes, sections) = on_threads(args.threads.given, || {
         let outcomes = outcomes(&chosen, &effort, finished.as_ref(), args.writing.quiet)?;
-        let sections = match args.cases.is_empty() && args.tags.is_empty() {
-            true => gather(&effort, finished.as_ref(), args.writing.quiet)?,
-            false => Some(Sections::default()),
+        let sections = if args.cases.is_empty() && args.tags.is_empty() {
+            gather(&effort, finished.as_ref(), args.writing.quiet)?
+        } else {
+            Some(Sections::default())
         };
         Ok::<_, Failure>((outcomes, sections))
     })??;
@@ -133,9 +133,10 @@ fn gather(effort: &Effort, finished: Option<&Finished>, quiet: bool) -> Result<O
             print(&format!("study: {}\n", study.title))?;
         }
         // Only this study reports its pieces of work.
-        let work = match study.name == figures::STUDY.name {
-            true => figures::work(figures::Replicas::of(effort)).map_err(Failure::Failed)?,
-            false => 0,
+        let work = if study.name == figures::STUDY.name {
+            figures::work(figures::Replicas::of(effort)).map_err(Failure::Failed)?
+        } else {
+            0
         };
         let bar = progress(work, "replicas", quiet || work == 0);
         let start = Instant::now();

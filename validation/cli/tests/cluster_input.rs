@@ -1,5 +1,5 @@
-//! Ranks of an MPI job that were given different things: told before anything runs, with the rank and the key. Built with
-//! the feature `mpi` only; needs Open MPI's `mpirun`.
+//! Ranks of an MPI job that were given different things: told before anything runs, with the rank and the key. Built
+//! with the feature `mpi` only; needs Open MPI's `mpirun`.
 
 #![cfg(feature = "mpi")]
 
@@ -43,11 +43,7 @@ fn another_input_is_told_before_anything_runs() {
         ("plan small.toml", run, "command is \"run\" there and \"plan\""),
         (sweep, "sweep small.toml --over interaction.alpha=1,3 --out x", "over.1.values.2 is 3 there"),
         (sweep, "sweep small.toml --over interaction.m=1,2 --out x", "over.1.key is \"interaction.m\" there"),
-        (
-            sweep,
-            "sweep small.toml --over interaction.alpha=1,2 --seed 9 --out x",
-            "scene.ensemble.seed is 9 there",
-        ),
+        (sweep, "sweep small.toml --over interaction.alpha=1,2 --seed 9 --out x", "scene.ensemble.seed is 9 there"),
         (
             "converge small.toml --replicas 4 --out x",
             "converge small.toml --replicas 5 --out x",
@@ -76,8 +72,7 @@ fn another_input_is_told_before_anything_runs() {
 #[test]
 fn what_results_do_not_depend_on_may_differ() {
     let dir = folder();
-    let (code, message) =
-        job(dir.path(), &["run small.toml --out x", "run small.toml --out y --threads 1 --quiet"]);
+    let (code, message) = job(dir.path(), &["run small.toml --out x", "run small.toml --out y --threads 1 --quiet"]);
     assert_eq!(code, Some(0), "{message}");
     assert!(dir.path().join("x/run.json").exists() && !dir.path().join("y").exists());
 }

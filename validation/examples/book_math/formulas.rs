@@ -41,8 +41,9 @@ fn mathml(formula: &str, display_mode: DisplayMode) -> Result<String, String> {
     })
 }
 
-/// The same on one line, with no sign between its tags that Markdown reads: a `*` or `|` of a formula is neither emphasis nor
-/// the end of a cell. Attributes are parted by blanks, which pulldown-latex 0.8 leaves out after `stretchy="true"`.
+/// The same on one line, with no sign between its tags that Markdown reads: a `*` or `|` of a formula is neither
+/// emphasis nor the end of a cell. Attributes are parted by blanks, which pulldown-latex 0.8 leaves out after
+/// `stretchy="true"`.
 fn plain(mathml: &str) -> String {
     let (mut text, mut in_tag, mut in_value) = (String::new(), false, false);
     for sign in mathml.chars() {
@@ -94,8 +95,7 @@ mod tests {
         let row = text.lines().nth(2).unwrap();
         assert_eq!(row.matches('|').count(), 2, "{row}");
         let parsed: Vec<_> = Parser::new_ext(&text, Options::ENABLE_TABLES).collect();
-        let of_markdown =
-            |event: &Event| matches!(event, Event::Start(pulldown_cmark::Tag::Emphasis) | Event::Code(_));
+        let of_markdown = |event: &Event| matches!(event, Event::Start(pulldown_cmark::Tag::Emphasis) | Event::Code(_));
         assert!(!parsed.iter().any(of_markdown));
         // The control: the same formula as the library writes it.
         let raw = format!("<math>{}</math>", "<mi>a</mi><mo>*</mo><mi>b</mi><mo>*</mo>");
@@ -105,8 +105,7 @@ mod tests {
 
     #[test]
     fn tags_are_tags_to_markdown() {
-        let tags =
-            |page: &str| Parser::new(page).filter(|event| matches!(event, Event::InlineHtml(_))).count();
+        let tags = |page: &str| Parser::new(page).filter(|event| matches!(event, Event::InlineHtml(_))).count();
         let text = replaced("a $\\Big[ x > 1 \\Big]$ b").unwrap();
         assert_eq!(tags(&text), text.matches('<').count(), "{text}");
         assert_eq!(text.matches('<').count(), text.matches('>').count(), "{text}");

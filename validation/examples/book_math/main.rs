@@ -1,7 +1,8 @@
-//! The formulas of the book (`docs/src/`) as MathML: a preprocessor of mdBook, so that the pages need no script, font or network.
+//! The formulas of the book (`docs/src/`) as MathML: a preprocessor of mdBook, so that the pages need no script, font
+//! or network.
 //!
-//! mdBook calls it as `docs/book.toml` says: with the words `supports RENDERER` first, then with `[context, book]` as JSON on
-//! standard input. The book comes back on standard output, each `$…$` and `$$…$$` of its pages replaced.
+//! mdBook calls it as `docs/book.toml` says: with the words `supports RENDERER` first, then with `[context, book]` as
+//! JSON on standard input. The book comes back on standard output, each `$…$` and `$$…$$` of its pages replaced.
 //! A formula that cannot be read ends the build with its page.
 
 mod formulas;
@@ -46,8 +47,7 @@ fn book() -> Result<Value, String> {
 fn replace(part: &mut Value) -> Result<(), String> {
     match part {
         Value::Object(entries) => {
-            let path =
-                entries.get("path").and_then(Value::as_str).unwrap_or("a page without a file").to_owned();
+            let path = entries.get("path").and_then(Value::as_str).unwrap_or("a page without a file").to_owned();
             if let Some(Value::String(content)) = entries.get_mut("content") {
                 *content = formulas::replaced(content).map_err(|message| format!("{path}: {message}"))?;
             }

@@ -176,8 +176,8 @@ pub fn wrong() -> Vec<Entry> {
     all
 }
 
-/// Whether a method has its order for all that: a one-stage implicit method of order 1 has it with any a, and of a linear
-/// equation the order is that of the polynomial 1 + Σ bᵀaᵏ⁻¹1 zᵏ, which must be eᶻ up to zᵖ.
+/// Whether a method has its order for all that: a one-stage implicit method of order 1 has it with any a, and of a
+/// linear equation the order is that of the polynomial 1 + Σ bᵀaᵏ⁻¹1 zᵏ, which must be eᶻ up to zᵖ.
 fn still_right(method: &Method, form: Form, order: Option<u32>) -> bool {
     match (method, order) {
         (Method::Implicit { a, b }, Some(1)) => a.len() == 1 && b[0] == 1.0,

@@ -1,6 +1,6 @@
-//! The grader on integrators that are known to be right or wrong: Runge–Kutta methods of order 1 to 8, multistep, implicit and
-//! symplectic, Lie-group, splitting and adaptive ones, in p, normalised or not, in q and in angles; and each of them with one
-//! coefficient wrong. No right one may fail, no wrong one may pass.
+//! The grader on integrators that are known to be right or wrong: Runge–Kutta methods of order 1 to 8, multistep,
+//! implicit and symplectic, Lie-group, splitting and adaptive ones, in p, normalised or not, in q and in angles; and
+//! each of them with one coefficient wrong. No right one may fail, no wrong one may pass.
 //!
 //!     cargo run --example graded_integrators -- --all [--only TEXT] [--timeout S] [--quick]
 //!
@@ -33,9 +33,7 @@ fn main() -> ExitCode {
     let trials = vec![
         Trial::test("a_sample_of_right_integrators_has_no_failure", || sample(catalogue::right(), 9)),
         Trial::test("right_integrators_that_failed_before_have_no_failure", || sample(coarse(), 1)),
-        Trial::test("a_sample_of_integrators_with_a_wrong_coefficient_fails", || {
-            sample(catalogue::wrong(), 23)
-        }),
+        Trial::test("a_sample_of_integrators_with_a_wrong_coefficient_fails", || sample(catalogue::wrong(), 23)),
     ];
     libtest_mimic::run(&Arguments::from_args(), trials).exit_code()
 }
@@ -51,9 +49,7 @@ fn act(name: &str) -> ExitCode {
         let x: Vec<f64> = rest.split(' ').map(|word| word.parse().expect("a number")).collect();
         let gradient = [0, 3, 6].map(|at| [x[at], x[at + 1], x[at + 2]]);
         let setting = if x[11] > 0.0 { Setting::Steps(x[11] as u64) } else { Setting::Tolerance(x[12]) };
-        let end = |p: &[f64]| {
-            advance(&entry.method, entry.form, &gradient, x[9], &[p[0], p[1], p[2]], x[10], setting)
-        };
+        let end = |p: &[f64]| advance(&entry.method, entry.form, &gradient, x[9], &[p[0], p[1], p[2]], x[10], setting);
         let ends: Option<Vec<_>> = x[14..].chunks(3).map(end).collect();
         let answer = match ends {
             Some(ends) => ends.iter().flatten().map(|number| format!(" {number:e}")).collect(),
@@ -72,18 +68,19 @@ fn tolerance(entry: &Entry) -> f64 {
         Some(1) => 1e-2,
         Some(2) => 1e-5,
         Some(3) => 1e-7,
-        // At its smallest tolerance, 1e-14, a pair of order 3 takes millions of steps, and their round-off is above ours.
+        // At its smallest tolerance, 1e-14, a pair of order 3 takes millions of steps, and their round-off is above
+        // ours.
         None if entry.name.starts_with("Bogacki") => 1e-9,
         _ => 0.0,
     }
 }
 
-/// Grades one on those of the problems that it applies to, with its order claimed. A wrong one is done with its first failure.
+/// Grades one on those of the problems that it applies to, with its order claimed. A wrong one is done with its first
+/// failure.
 fn graded(entry: &Entry, problems: &[LoadedProblem], timeout_s: f64) -> Vec<Graded> {
     let own = std::env::current_exe().expect("this program's path");
     let command = format!("'{}' --program '{}'", own.display(), entry.name);
-    let start =
-        || Program::start(&command, Protocol::Text, Duration::from_secs_f64(timeout_s)).expect("it starts");
+    let start = || Program::start(&command, Protocol::Text, Duration::from_secs_f64(timeout_s)).expect("it starts");
     let mode = if entry.order.is_some() { Mode::Steps } else { Mode::Tolerance };
     let claim = Claim { order: entry.order.map(f64::from) };
     let mut program = start();
@@ -123,13 +120,9 @@ fn sample(entries: Vec<Entry>, every: usize) -> Result<(), Failed> {
     const NO_LIMIT_S: f64 = 1e5;
     let problems = live::built_in(|name| QUICK.contains(&name));
     let chosen: Vec<_> = entries.iter().step_by(every).collect();
-    let lines: Vec<String> = (chosen.par_iter())
-        .filter_map(|entry| complaint(entry, &graded(entry, &problems, NO_LIMIT_S)))
-        .collect();
-    match lines.is_empty() {
-        true => Ok(()),
-        false => Err(lines.join("\n").into()),
-    }
+    let lines: Vec<String> =
+        (chosen.par_iter()).filter_map(|entry| complaint(entry, &graded(entry, &problems, NO_LIMIT_S))).collect();
+    if lines.is_empty() { Ok(()) } else { Err(lines.join("\n").into()) }
 }
 
 /// What is wrong with the verdicts on an integrator.

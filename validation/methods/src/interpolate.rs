@@ -1,7 +1,7 @@
 //! Values between the outputs of a run.
 
-/// The value at `at`, counted in outputs, of Lagrange's polynomial through the `order` outputs around it. Before the first output
-/// the curve is constant.
+/// The value at `at`, counted in outputs, of Lagrange's polynomial through the `order` outputs around it. Before the
+/// first output the curve is constant.
 // Not generic, so that it is compiled in this crate, which is optimised, and not in the suite, which is not.
 pub fn interpolate(outputs: usize, at: f64, order: usize, value: &dyn Fn(usize) -> f64) -> f64 {
     let at = at.clamp(0.0, (outputs - 1) as f64);

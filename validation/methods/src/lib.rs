@@ -1,6 +1,6 @@
-//! Numerical methods of the validation suite: integrators of a free rod's motion, closures and models of orientation tensors, rods that
-//! diffuse, and the least squares of fits. Some of them are graded beside other programs. They form a crate of their own because it is
-//! optimised and the suite is not.
+//! Numerical methods of the validation suite: integrators of a free rod's motion, closures and models of orientation
+//! tensors, rods that diffuse, and the least squares of fits. Some of them are graded beside other programs. They form
+//! a crate of their own because it is optimised and the suite is not.
 //!
 //! Nothing here judges the simulator; that is done by the oracles.
 
@@ -26,8 +26,8 @@ pub fn plain_sum(values: &[f64]) -> f64 {
     lanes.iter().sum::<f64>() + values.chunks_exact(8).remainder().iter().sum::<f64>()
 }
 
-/// Σ 1/√x over whole eights, in the widest instructions of the machine: one root and one quotient a number, the least with which a direction
-/// is brought to length 1.
+/// Σ 1/√x over whole eights, in the widest instructions of the machine: one root and one quotient a number, the least
+/// with which a direction is brought to length 1.
 pub fn sum_of_inverse_roots(values: &[f64]) -> f64 {
     #[inline(always)]
     fn sum<S: Simd>(simd: S, values: &[f64]) -> f64 {

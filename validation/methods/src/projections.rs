@@ -2,8 +2,8 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-/// ⟨|p_i|⟩ of directions M p(0)/|M p(0)| for isotropic p(0): (1/π) ∫ (adj N)_ii^½ x^½/det N d(ln x), N = (M Mᵀ)⁻¹ + x with
-/// det M = 1, by the trapezoid rule with an error of e^(−2π²/h).
+/// ⟨|p_i|⟩ of directions M p(0)/|M p(0)| for isotropic p(0): (1/π) ∫ (adj N)_ii^½ x^½/det N d(ln x), N = (M Mᵀ)⁻¹ + x
+/// with det M = 1, by the trapezoid rule with an error of e^(−2π²/h).
 pub fn projections(map: &Matrix3<f64>) -> Option<Vector3<f64>> {
     const STEP: f64 = 0.5;
     let map = map / map.determinant().abs().cbrt();

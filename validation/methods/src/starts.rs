@@ -48,7 +48,8 @@ pub const ALL: [Start; 3] = [
     },
 ];
 
-/// X̄₁ of free rods of Gaussian aspect ratio, from these directions and quantiles, each moved directly to t/T = `turns`.
+/// X̄₁ of free rods of Gaussian aspect ratio, from these directions and quantiles, each moved directly to t/T =
+/// `turns`.
 pub fn mean_x1(rods: &[Rod], aspect_ratio: f64, sd_percent: f64, turns: f64) -> f64 {
     let r = aspect_ratio;
     let sum: f64 = match Normal::new(r, 0.01 * sd_percent * r) {
@@ -88,10 +89,8 @@ fn stratified(count: usize, unequal: bool, rng: &mut Pcg64Dxsm) -> Vec<Rod> {
 /// isotropic; aspect ratios by a further coordinate of Roberts' R₂ sequence, shifted at random.
 fn fibonacci(count: usize, unequal: bool, rng: &mut Pcg64Dxsm) -> Vec<Rod> {
     // 1/g and 1/g² for the root of g^(d+1) = g + 1: the golden ratio, and the plastic number.
-    let [around, along] = match unequal {
-        false => [0.618_033_988_749_894_8, 0.0],
-        true => [0.754_877_666_246_692_8, 0.569_840_290_998_053_2],
-    };
+    let [around, along] =
+        if !unequal { [0.618_033_988_749_894_8, 0.0] } else { [0.754_877_666_246_692_8, 0.569_840_290_998_053_2] };
     let turn = rotation(rng);
     let shift = own(unequal, || rng.random());
     let lay = |k: usize| {

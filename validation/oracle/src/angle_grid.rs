@@ -1,9 +1,10 @@
-//! Rods with rotary diffusion on a grid of the angles (θ, φ): a second method, which shares nothing with [`crate::diffusion`].
+//! Rods with rotary diffusion on a grid of the angles (θ, φ): a second method, which shares nothing with
+//! [`crate::diffusion`].
 //!
-//! The density of directions is a table of values in the laboratory's axes. A meridian and the one opposite make a circle, so that
-//! both angles have Fourier's derivatives (Merilees 1973, Orszag 1974); the rates of all values are one dense matrix, and the
-//! density in time is its exponential. No harmonic, axis of the flow or size is chosen by the program: the caller says how many
-//! rings there are, and harmonics up to a degree just below that are resolved.
+//! The density of directions is a table of values in the laboratory's axes. A meridian and the one opposite make a
+//! circle, so that both angles have Fourier's derivatives (Merilees 1973, Orszag 1974); the rates of all values are one
+//! dense matrix, and the density in time is its exponential. No harmonic, axis of the flow or size is chosen by the
+//! program: the caller says how many rings there are, and harmonics up to a degree just below that are resolved.
 
 use crate::reference::isotropic::{PAIRS, QUADRUPLES};
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
@@ -12,7 +13,8 @@ use std::f64::consts::PI;
 /// Means over a density on the grid.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Means {
-    /// The integral of the density before it is normalised. No step of the method makes it 1: what it misses is an error of the method.
+    /// The integral of the density before it is normalised. No step of the method makes it 1: what it misses is an
+    /// error of the method.
     pub mass: f64,
     /// ⟨|p₃|⟩. Exchange axes for the others.
     pub third_projection: f64,
@@ -130,7 +132,8 @@ impl Grid {
         rates
     }
 
-    /// Fejér's weights of ring `j` for ∫∫ dcos θ dφ and ∫∫ |cos θ| dcos θ dφ; the second has the even harmonics of 2θ alone.
+    /// Fejér's weights of ring `j` for ∫∫ dcos θ dφ and ∫∫ |cos θ| dcos θ dφ; the second has the even harmonics of 2θ
+    /// alone.
     fn weights(&self, j: usize) -> (f64, f64) {
         let twice = 2.0 * self.angles((j, 0)).0;
         let share = |m: usize, below: f64| (m as f64 * twice).cos() / (below * (m * m) as f64 - 1.0);
@@ -173,7 +176,8 @@ fn direction(theta: f64, phi: f64) -> Vector3<f64> {
     Vector3::new(theta.sin() * phi.cos(), theta.sin() * phi.sin(), theta.cos())
 }
 
-/// The entries of the first and second derivative of a periodic function of `count` (even) values, from value `to` to `at`.
+/// The entries of the first and second derivative of a periodic function of `count` (even) values, from value `to` to
+/// `at`.
 fn derivatives(count: usize, at: usize, to: usize) -> (f64, f64) {
     if at == to {
         return (0.0, -((count * count) as f64 + 2.0) / 12.0);

@@ -1,9 +1,9 @@
 //! Jeffery's motion in any velocity gradient to hundreds of bits: exp(Aτ) p by Taylor's series and squaring.
 //!
-//! L, r_e and p are taken as exact, A = (r_e² L − Lᵀ)/(r_e² + 1) less a third of its trace. The answer is computed twice, the second
-//! time with 128 bits more; the bits are doubled until both agree to 90 bits, so that digits lost to cancellation are replaced. The
-//! first computation has enough bits to hold A and A² together with their smallest parts, so that two answers cannot agree because
-//! both lose the same part.
+//! L, r_e and p are taken as exact, A = (r_e² L − Lᵀ)/(r_e² + 1) less a third of its trace. The answer is computed
+//! twice, the second time with 128 bits more; the bits are doubled until both agree to 90 bits, so that digits lost to
+//! cancellation are replaced. The first computation has enough bits to hold A and A² together with their smallest
+//! parts, so that two answers cannot agree because both lose the same part.
 
 #[cfg(test)]
 mod tests;
@@ -20,7 +20,8 @@ pub enum Span {
     Strain(f64),
     /// Seconds.
     Seconds(f64),
-    /// A number of periods 2π(r_e + 1/r_e)/G, as a quotient of whole numbers; the third is the shear rate G of Couette flow in 1/s.
+    /// A number of periods 2π(r_e + 1/r_e)/G, as a quotient of whole numbers; the third is the shear rate G of Couette
+    /// flow in 1/s.
     CouettePeriods(f64, f64, f64),
 }
 
@@ -46,12 +47,11 @@ impl Rod {
     /// # Panics
     /// If 20 000 bits do not settle it.
     pub fn after(&self, span: Span) -> [f64; 3] {
-        (self.settled(span))
-            .unwrap_or_else(|| panic!("{self:?} after {span:?} is not settled by {MOST_BITS} bits"))
+        (self.settled(span)).unwrap_or_else(|| panic!("{self:?} after {span:?} is not settled by {MOST_BITS} bits"))
     }
 
-    /// The direction after `span`, or `None` if 20 000 bits do not settle it: the start is so near a dividing plane of the flow
-    /// that more bits would be needed to see that it leaves.
+    /// The direction after `span`, or `None` if 20 000 bits do not settle it: the start is so near a dividing plane of
+    /// the flow that more bits would be needed to see that it leaves.
     pub fn settled(&self, span: Span) -> Option<[f64; 3]> {
         let mut bits = self.bits_of_the_input();
         while bits < MOST_BITS {

@@ -31,7 +31,8 @@ pub fn mean_projections(aspect_ratio: f64, turns: f64) -> [f64; 3] {
     let half_gap = 0.5 * s * (r - r.recip());
     let lambda = (half_gap + half_gap.hypot(1.0)).powi(2);
     let (s_11, s_22) = (c * c + (s / r).powi(2), c * c + (r * s).powi(2));
-    // The minor axis of S is at β from axis 1, tan 2β = 2|cos ωt|/(|sin ωt|(r + 1/r)), 0 ≤ β ≤ π/4: S₁₁ = λ sin²β + cos²β/λ.
+    // The minor axis of S is at β from axis 1, tan 2β = 2|cos ωt|/(|sin ωt|(r + 1/r)), 0 ≤ β ≤ π/4: S₁₁ = λ sin²β +
+    // cos²β/λ.
     let (x, y) = (s * (r + r.recip()), 2.0 * c);
     let h = x.hypot(y);
     let (sin_squared, cos_squared) = (0.5 * y * y / (h * (h + x)), 0.5 * (1.0 + x / h));
@@ -49,11 +50,7 @@ pub fn mean_projections(aspect_ratio: f64, turns: f64) -> [f64; 3] {
 ///
 /// `turns_of_mean_period` = t/T(mean); a rod of aspect ratio r has made t/T(r) turns.
 /// Measured against a fine trapezoid rule: 2e-12 for means up to 1000, deviations up to 10 % and 30 turns.
-pub fn mean_projections_polydisperse(
-    mean_aspect_ratio: f64,
-    sd_percent: f64,
-    turns_of_mean_period: f64,
-) -> [f64; 3] {
+pub fn mean_projections_polydisperse(mean_aspect_ratio: f64, sd_percent: f64, turns_of_mean_period: f64) -> [f64; 3] {
     if sd_percent == 0.0 {
         return mean_projections(mean_aspect_ratio, turns_of_mean_period);
     }
@@ -62,18 +59,19 @@ pub fn mean_projections_polydisperse(
 
 /// The mean of `f(r, t/T(r))` over aspect ratios r, Gaussian with a standard deviation above 0.
 ///
-/// The Gaussian is cut at ±8 standard deviations and at r = 0, and normalised over the rest; below a deviation of 12.5 % the loss is
-/// nothing (< 1e-14). Panels end where rods have made a whole number of half turns, because X₁ has its peaks there.
+/// The Gaussian is cut at ±8 standard deviations and at r = 0, and normalised over the rest; below a deviation of 12.5
+/// % the loss is nothing (< 1e-14). Panels end where rods have made a whole number of half turns, because X₁ has its
+/// peaks there.
 pub fn mean_over_aspect_ratios<const N: usize>(
     mean_aspect_ratio: f64,
     sd_percent: f64,
     turns_of_mean_period: f64,
     f: impl Fn(f64, f64) -> [f64; N],
 ) -> [f64; N] {
-    let turns_at =
-        |r: f64| turns_of_mean_period * (mean_aspect_ratio + mean_aspect_ratio.recip()) / (r + r.recip());
+    let turns_at = |r: f64| turns_of_mean_period * (mean_aspect_ratio + mean_aspect_ratio.recip()) / (r + r.recip());
     let sd = 0.01 * sd_percent * mean_aspect_ratio;
-    // Deviations from the mean in units of sd: a difference of two r would have no digits where sd is as small as their rounding.
+    // Deviations from the mean in units of sd: a difference of two r would have no digits where sd is as small as their
+    // rounding.
     let gaussian = Normal::standard();
     let (low, high) = ((-mean_aspect_ratio / sd).max(-8.0), 8.0);
 
@@ -140,8 +138,7 @@ mod tests {
             for r in [0.02, 11.6, 100.0] {
                 let start = mean_projections_polydisperse(r, sd_percent, 0.0);
                 assert!(most_apart(start, [0.5; 3]) < 1e-11, "{r} {sd_percent}: {start:?}");
-                let apart =
-                    most_apart(mean_projections_polydisperse(r, sd_percent, 0.3), mean_projections(r, 0.3));
+                let apart = most_apart(mean_projections_polydisperse(r, sd_percent, 0.3), mean_projections(r, 0.3));
                 assert!(apart < 1e-11, "{r} {sd_percent}: {apart}");
             }
         }
@@ -273,8 +270,7 @@ mod tests {
         for (u, _) in spread(30) {
             let r = 1e4f64.powf(1.75 * u - 0.75);
             let knee = r.max(1.0 / r).recip() / TAU;
-            let quarter =
-                |i: usize| integrate(|t| mean_projections(r, t)[i], &[0.0, knee, 0.25], 1e-15).value;
+            let quarter = |i: usize| integrate(|t| mean_projections(r, t)[i], &[0.0, knee, 0.25], 1e-15).value;
             let (plateau, over_time) = (plateau_projections(r), [0, 1, 2].map(|i| 4.0 * quarter(i)));
             // The tolerance is the round-off of about ten panels on either side.
             let error = largest_ratio_error(plateau, over_time);

@@ -2,8 +2,9 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-/// ω in 1/s (A.1 as printed) of a spheroid with the half axes `a` along the unit vector p and `b` across it, in the velocity
-/// gradient L_ij = ∂u_i/∂x_j in 1/s. In the particle's axes, 1 is along the long axis a, 2 and 3 are along the short axes b.
+/// ω in 1/s (A.1 as printed) of a spheroid with the half axes `a` along the unit vector p and `b` across it, in the
+/// velocity gradient L_ij = ∂u_i/∂x_j in 1/s. In the particle's axes, 1 is along the long axis a, 2 and 3 are along the
+/// short axes b.
 pub fn angular_velocity_per_s(l: &Matrix3<f64>, a: f64, b: f64, p: &Vector3<f64>) -> Vector3<f64> {
     let helper = if p.x.abs() < 0.5 { Vector3::x() } else { Vector3::y() };
     let second = p.cross(&helper).normalize();
@@ -68,11 +69,8 @@ mod tests {
                 let rate = direction_rate_per_s(&l, r, &p);
                 let (phi_rate, theta_rate) = angle_rates_per_s(0.5, r, phi, theta);
                 let along_phi = Vector3::new(-phi.sin(), phi.cos(), 0.0);
-                let along_theta =
-                    Vector3::new(theta.cos() * phi.cos(), theta.cos() * phi.sin(), -theta.sin());
-                assert!(
-                    (rate - along_phi * (theta.sin() * phi_rate) - along_theta * theta_rate).norm() < 1e-15
-                );
+                let along_theta = Vector3::new(theta.cos() * phi.cos(), theta.cos() * phi.sin(), -theta.sin());
+                assert!((rate - along_phi * (theta.sin() * phi_rate) - along_theta * theta_rate).norm() < 1e-15);
                 // Half the vorticity 0.5 along axis 3.
                 let spin = angular_velocity_per_s(&l, r, 1.0, &p).dot(&p);
                 assert!((spin - 0.25 * p.z).abs() < 1e-15);

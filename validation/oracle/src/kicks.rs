@@ -44,8 +44,8 @@ pub fn kicks(separation: Vector, directions: [Vector; 2], aspect_ratios: [f64; 2
     arms.map(|r| (0.5 * gap / r).abs())
 }
 
-/// The largest kick over GΔt of the rod `own` against `other`, at the centre distance `distance`, if no arm is shorter than
-/// `min_arm`: ¼[(2 − Λ_other) s/r_min + 2 − Λ_own − Λ_other].
+/// The largest kick over GΔt of the rod `own` against `other`, at the centre distance `distance`, if no arm is shorter
+/// than `min_arm`: ¼[(2 − Λ_other) s/r_min + 2 − Λ_own − Λ_other].
 ///
 /// |h| ≤ s, |ℓ·D·ℓ| and |ℓ·D·p| are ½ at most, and |r_B| ≤ |r_A| + s.
 pub fn largest_kick(distance: f64, min_arm: f64, own: f64, other: f64) -> f64 {
@@ -94,8 +94,8 @@ pub fn tail_of_isotropic(aspect_ratio: f64) -> f64 {
     0.25 * eighth / (0.25 * PI)
 }
 
-/// The probability that a collision of two isotropic threads (Λ = 1) kicks a given one of them by more than `scaled` × GΔt:
-/// 1/(6πY) (1 − 1/(140 Y²) + …), with a relative error of 2·10⁻⁴ for `scaled` ≥ 1.
+/// The probability that a collision of two isotropic threads (Λ = 1) kicks a given one of them by more than `scaled` ×
+/// GΔt: 1/(6πY) (1 − 1/(140 Y²) + …), with a relative error of 2·10⁻⁴ for `scaled` ≥ 1.
 pub fn chance_of_threads(scaled: f64) -> f64 {
     (1.0 - 1.0 / (140.0 * scaled * scaled)) / (6.0 * PI * scaled)
 }
@@ -162,8 +162,7 @@ mod tests {
                 chance += chance_of_pair(a, b, ratio, scaled) / count as f64;
             }
             // At r_e = 2, 1 − Λ = 0.4 is neglected in terms of 1/Y².
-            let allowed =
-                4.5 * (larger / count as f64).sqrt() + if ratio < 3.0 { 0.01 * larger } else { 0.0 };
+            let allowed = 4.5 * (larger / count as f64).sqrt() + if ratio < 3.0 { 0.01 * larger } else { 0.0 };
             assert!((larger - chance).abs() < allowed, "{ratio} {scaled}: {larger} {chance}");
             // The constant of the tail, for Y where the next term of the series is known or below 10⁻³.
             if scaled >= 1.0 {

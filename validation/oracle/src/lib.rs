@@ -1,4 +1,5 @@
-//! The oracles that judge the simulator `shearbed`: closed forms, quadratures, values in any precision and a naive reference.
+//! The oracles that judge the simulator `shearbed`: closed forms, quadratures, values in any precision and a naive
+//! reference.
 //!
 //! Nothing here uses the simulator: the crate does not depend on it, so the compiler enforces this.
 

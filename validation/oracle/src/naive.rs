@@ -25,9 +25,7 @@ pub use random::stream;
 pub use reading::{Images, Length, Lines, Reading, Replacement, Who};
 
 use contact::contact;
-use motion::{
-    axis, jeffery_matrix, matrix, moved_by_angles, rotated, shape_factor, sin_theta, turned, vector,
-};
+use motion::{axis, jeffery_matrix, matrix, moved_by_angles, rotated, shape_factor, sin_theta, turned, vector};
 use nalgebra::Matrix3;
 use neighbour::distance_mm;
 use problem::either;
@@ -83,8 +81,7 @@ impl Naive {
             }
             values
         };
-        let aspect_ratios =
-            gaussian(ASPECT_RATIOS, problem.aspect_ratio, problem.aspect_ratio_sd_percent, 1.0);
+        let aspect_ratios = gaussian(ASPECT_RATIOS, problem.aspect_ratio, problem.aspect_ratio_sd_percent, 1.0);
         let lengths_mm = gaussian(LENGTHS, problem.length_mm, problem.length_sd_percent, 0.0);
         let mut draws = stream_for(ORIENTATIONS);
         let mut orientations = Vec::new();
@@ -244,8 +241,8 @@ impl Naive {
         arms.into_iter().all(reached).then_some(contact)
     }
 
-    /// x_2 grows by G x_1 dt; rods that leave the volume come back by eq. 14 and keep orientation and r_e. In other flows
-    /// x becomes exp(L dt) x, and rods that leave come back with the liquid that came in.
+    /// x_2 grows by G x_1 dt; rods that leave the volume come back by eq. 14 and keep orientation and r_e. In other
+    /// flows x becomes exp(L dt) x, and rods that leave come back with the liquid that came in.
     fn translate(&mut self, dt_s: f64) {
         if self.problem.other_flow.is_some() {
             let (flow, edges_mm) = (self.problem.gradient_per_s(), self.problem.edges_mm());

@@ -1,8 +1,9 @@
 //! The nearest pairs and their probabilities of colliding: the rule's probabilities without its draws.
 //!
-//! Rods draw independently, so the probability of every pair follows from the positions alone (docs/src/theory/time-step.md). A
-//! rod's nearest neighbour is nearer than any rod that has this rod as its nearest neighbour. So a rod is always free when its own
-//! draw is considered, unless the two are each other's nearest; only its neighbour may have collided.
+//! Rods draw independently, so the probability of every pair follows from the positions alone
+//! (docs/src/theory/time-step.md). A rod's nearest neighbour is nearer than any rod that has this rod as its nearest
+//! neighbour. So a rod is always free when its own draw is considered, unless the two are each other's nearest; only
+//! its neighbour may have collided.
 
 /// A nearest pair.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -17,8 +18,8 @@ pub struct Pair {
 
 /// Every nearest pair of rods at `places`, closest first.
 ///
-/// `probability` is P_c as a function of distance; `contact` is true if two rods make a contact, without which there is no
-/// collision and both stay free.
+/// `probability` is P_c as a function of distance; `contact` is true if two rods make a contact, without which there is
+/// no collision and both stay free.
 pub fn nearest_pairs(
     places: &[[f64; 3]],
     probability: impl Fn(f64) -> f64,
@@ -75,17 +76,12 @@ mod tests {
     use rand::RngExt;
 
     /// The probability that each two rods collide, by trying every outcome of the draws with the rule as worded.
-    fn by_enumeration(
-        places: &[[f64; 3]],
-        chance: &[f64],
-        contact: impl Fn(usize, usize) -> bool,
-    ) -> Vec<Vec<f64>> {
+    fn by_enumeration(places: &[[f64; 3]], chance: &[f64], contact: impl Fn(usize, usize) -> bool) -> Vec<Vec<f64>> {
         let count = places.len();
         let mut found = vec![vec![0.0; count]; count];
         for outcome in 0..1usize << count {
             let drawn = |i: usize| outcome >> i & 1 == 1;
-            let weight: f64 =
-                (0..count).map(|i| if drawn(i) { chance[i] } else { 1.0 - chance[i] }).product();
+            let weight: f64 = (0..count).map(|i| if drawn(i) { chance[i] } else { 1.0 - chance[i] }).product();
             let mut candidates: Vec<_> = (0..count)
                 .filter(|i| drawn(*i))
                 .map(|i| (nearest(places, i).unwrap(), i))

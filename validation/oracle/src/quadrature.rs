@@ -12,7 +12,8 @@ use std::f64::consts::TAU;
 pub struct Integral {
     /// The integral.
     pub value: f64,
-    /// Sum over the panels of |panel − its two halves|: of the order of the error of the coarser rule, so an overestimate.
+    /// Sum over the panels of |panel − its two halves|: of the order of the error of the coarser rule, so an
+    /// overestimate.
     pub error_estimate: f64,
 }
 
@@ -103,7 +104,8 @@ pub fn phase_means_by_quadrature(orbit_constant: f64, aspect_ratio: f64) -> [f64
     })
 }
 
-/// `count` points that fill the unit square uniformly (additive recurrence of the plastic number), as parameters of tests.
+/// `count` points that fill the unit square uniformly (additive recurrence of the plastic number), as parameters of
+/// tests.
 pub fn spread(count: u32) -> impl Iterator<Item = (f64, f64)> {
     let g = 1.324_717_957_244_746;
     (1..=count).map(move |i| {
@@ -119,7 +121,8 @@ mod tests {
 
     #[test]
     fn peaks_of_known_area_are_integrated() {
-        // ∫₀¹ w/(w² + x²) dx = atan(1/w): a Lorentz peak of width w at the end of the range, visible only after halving.
+        // ∫₀¹ w/(w² + x²) dx = atan(1/w): a Lorentz peak of width w at the end of the range, visible only after
+        // halving.
         for (u, _) in spread(50) {
             let w = 10f64.powf(-8.0 * u);
             let lorentz = integrate(|x| w / (w * w + x * x), &[0.0, 1.0], 1e-15);

@@ -1,7 +1,8 @@
 //! The stress of dilute spheroids of any aspect ratio r without Brownian motion, after Jeffery (1922):
 //!   σ = 2μφ [A ⟨pppp⟩:D + B (⟨pp⟩·D + D·⟨pp⟩) + C D] + isotropic (Leal & Hinch 1971; Hinch & Leal 1972),
-//! with φ their volume fraction. A, B and C come from the stress in three strains: along p k_X, across p and in its plane k_Y, with the
-//! spheroid free to turn, and in the plane normal to p k_Z. Each is one of Jeffery's integrals over λ, here over u = r/(r² + λ)^½:
+//! with φ their volume fraction. A, B and C come from the stress in three strains: along p k_X, across p and in its
+//! plane k_Y, with the spheroid free to turn, and in the plane normal to p k_Z. Each is one of Jeffery's integrals over
+//! λ, here over u = r/(r² + λ)^½:
 //!   k_X = 2/(3rβ₀″), k_Y = 2/(r(r² + 1)β₀′), k_Z = 1/(rα₀′).
 
 use crate::quadrature::integrate;
@@ -46,8 +47,9 @@ pub fn by_number(r: f64) -> [f64; 3] {
     stress_coefficients(r).map(|k| PI / (3.0 * r * r) * k)
 }
 
-/// Like `by_number`, for blunt cylinders of length over diameter r: along them π/(6 ln 2r) of a slender body times Batchelor's
-/// series in 1/ln 2r (1970b, as quoted by others); across them 4φD of an infinite cylinder, with φ = πna³/(4r²).
+/// Like `by_number`, for blunt cylinders of length over diameter r: along them π/(6 ln 2r) of a slender body times
+/// Batchelor's series in 1/ln 2r (1970b, as quoted by others); across them 4φD of an infinite cylinder, with φ =
+/// πna³/(4r²).
 pub fn of_cylinder(r: f64) -> [f64; 3] {
     let log = r.ln() + 2f64.ln();
     let series = (log + 0.64) / (log - 1.5) + 1.659 / (log * log);

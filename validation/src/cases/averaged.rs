@@ -38,10 +38,7 @@ pub fn cases() -> Vec<Case> {
             .source("A.13, A.14; docs/src/theory/time-step.md")
             .subject((|rates| rates[0]) as Kick)
             .mistake("a kick of the wrong sign", |[kick, _]| -kick)
-            .mistake(
-                "twice the kick: the sum of the contact points' velocities for their mean",
-                |[kick, _]| 2.0 * kick,
-            )
+            .mistake("twice the kick: the sum of the contact points' velocities for their mean", |[kick, _]| 2.0 * kick)
             .mistake("the other rod's kick", |[_, other]| other)
             .check(pushed),
         Case::core("updates-in-the-limit")
@@ -188,10 +185,7 @@ fn pushed(kick: &Kick, _: &Effort) -> Vec<Evidence> {
     for k in 0..400 {
         let k = f64::from(k);
         // Directions, gap and the other arm vary; the arm of A is ARM.
-        let p = [
-            from_angles(2.4 * k, 0.2 + (0.61 * k) % 2.7),
-            from_angles(1.1 + 1.7 * k, 0.3 + (0.37 * k) % 2.5),
-        ];
+        let p = [from_angles(2.4 * k, 0.2 + (0.61 * k) % 2.7), from_angles(1.1 + 1.7 * k, 0.3 + (0.37 * k) % 2.5)];
         let normal = p[0].cross(&p[1]);
         let line = normal.normalize();
         let (gap, other) = (0.5 + (0.29 * k) % 0.5, (0.83 * k) % 2.0 - 1.0);
@@ -200,8 +194,7 @@ fn pushed(kick: &Kick, _: &Effort) -> Vec<Evidence> {
         }
         let separation = ARM * p[0].into_inner() - other * p[1].into_inner() + gap * line;
         let expected = gap * gap * line.x * line.y / (2.0 * ARM * normal.norm_squared());
-        let found = arm_rate(*kick, p.map(UnitVector3::into_inner), &separation, 1e-4 * ARM * ARM)
-            .unwrap_or(f64::NAN);
+        let found = arm_rate(*kick, p.map(UnitVector3::into_inner), &separation, 1e-4 * ARM * ARM).unwrap_or(f64::NAN);
         worst = larger(worst, (found / expected - 1.0).abs());
         wrong += u32::from((found > 0.0) != (line.x * line.y > 0.0));
         opening += u32::from(line.x * line.y > 0.0);

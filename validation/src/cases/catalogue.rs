@@ -13,7 +13,8 @@ pub fn markdown() -> String {
         format!("- **{}**, {}: `{cases}`\n", equation.number, markup::markdown(&equation.says))
     };
     format!(
-        "# Equations and their cases\n\nMade from the registry of {} cases. `shearbed validate --list` prints what each case claims; the \
+        "# Equations and their cases\n\nMade from the registry of {} cases. `shearbed validate --list` prints what \
+            each case claims; the \
          report shows its evidence and the code of each equation.\n\n{}",
         cases::all().len(),
         equations().into_iter().map(equation).collect::<String>(),
@@ -25,8 +26,7 @@ pub fn name_judges(sections: &mut Sections) {
     let about: Vec<_> = cases::all().into_iter().map(|case| case.about).collect();
     for figure in sections.figures_mut().filter(|figure| figure.cases.is_empty()) {
         let shown: Vec<_> = FIGURES.filter(|number| cites_figure(&figure.source, *number)).collect();
-        let judges =
-            about.iter().filter(|about| shown.iter().any(|number| cites_figure(about.source, *number)));
+        let judges = about.iter().filter(|about| shown.iter().any(|number| cites_figure(about.source, *number)));
         figure.cases = judges.map(|about| about.name.into()).collect();
     }
 }

@@ -24,9 +24,12 @@ type Run = fn(&Scene) -> Moved;
 pub fn cases() -> Vec<Case> {
     vec![
         Case::core("changing-flows")
-            .claim("Where one flow follows another, each free rod moves by the product of their exponentials: a reversal takes \
+            .claim(
+                "Where one flow follows another, each free rod moves by the product of their exponentials: a \
+                reversal takes \
                     it back to its start, after an extension that aligns rods to 10⁻⁸ rad too, and \
-                    three flows take it where the oracle has it. The seconds are those of each flow's rate.")
+                    three flows take it where the oracle has it. The seconds are those of each flow's rate.",
+            )
             .source("eqs 2, 3, A.1")
             .subject(run as Run)
             .mistake("the flows in the opposite order", |scene| run(&with(scene, |steps| steps.reverse())))
@@ -120,8 +123,7 @@ fn apart(a: &[f64; 3], b: &[f64; 3]) -> f64 {
 fn changing_flows(run: &Run, effort: &Effort) -> Vec<Evidence> {
     let reversals = [(SHEAR, 30.0), (EXTENSION, 24.0), (MIXED, 10.0)].map(|(gradient, strain)| {
         let moved = run(&scene(effort, reversed(gradient, strain)));
-        let worst =
-            moved.rods.iter().map(|(_, start, end)| apart(start, end)).fold(f64::NEG_INFINITY, larger);
+        let worst = moved.rods.iter().map(|(_, start, end)| apart(start, end)).fold(f64::NEG_INFINITY, larger);
         worst / (moved.error_rad + 4.0 * f64::EPSILON)
     });
     let three = [(SHEAR, 3.0), (MIXED, 1.5), (EXTENSION, 1.0)];
@@ -129,8 +131,7 @@ fn changing_flows(run: &Run, effort: &Effort) -> Vec<Evidence> {
     let moved = run(&scene(effort, steps));
     let off = moved.rods.iter().map(|(aspect_ratio, start, end)| {
         let truth = three.iter().fold(*start, |p, (gradient_per_s, strain)| {
-            Rod { gradient_per_s: *gradient_per_s, aspect_ratio: *aspect_ratio, p }
-                .after(Span::Strain(*strain))
+            Rod { gradient_per_s: *gradient_per_s, aspect_ratio: *aspect_ratio, p }.after(Span::Strain(*strain))
         });
         apart(&truth, end)
     });
@@ -146,7 +147,8 @@ fn changing_flows(run: &Run, effort: &Effort) -> Vec<Evidence> {
             "three flows: largest angle in rad to the oracle's direction",
             off.fold(f64::NEG_INFINITY, larger),
             1e-12,
-            "the oracle's direction is rounded to double between flows; they turn 10⁻¹⁶ rad into 10⁻¹³ at most, a rod's r_e of 13 \
+            "the oracle's direction is rounded to double between flows; they turn 10⁻¹⁶ rad into 10⁻¹³ at most, a \
+                rod's r_e of 13 \
              times e^(½ of the strains)",
         ),
         Evidence::within(

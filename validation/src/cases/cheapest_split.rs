@@ -73,18 +73,14 @@ fn realised(respell: &Respell, effort: &Effort) -> Vec<Evidence> {
     let Ok(found) = run.realise(&scene, repeats, known.reference) else {
         return vec![Evidence::exact("runs that stopped", 1.0)];
     };
-    // The cube root of a ratio of variances is normal to a part in 10³ (Wilson & Hilferty 1931), the ratio itself is not.
+    // The cube root of a ratio of variances is normal to a part in 10³ (Wilson & Hilferty 1931), the ratio itself is
+    // not.
     let ratio = (found.scatter.value / said.scatter).powi(2);
     let [of_repeats, of_study] = [repeats, STUDY.1].map(|count| 2.0 / (9.0 * (count as f64 - 1.0)));
     vec![
         Evidence::new(
             "bias of the steps and replicas that the rule says for an error of 0.02, against 400 steps",
-            Sample {
-                mean: found.bias.value,
-                se: found.bias.se,
-                samples: repeats,
-            }
-            .is(
+            Sample { mean: found.bias.value, se: found.bias.se, samples: repeats }.is(
                 0.0,
                 said.bias + constants.bias(Scope::OwnRods(RODS), 400.0, RODS as f64),
                 0.05,
@@ -93,12 +89,7 @@ fn realised(respell: &Respell, effort: &Effort) -> Vec<Evidence> {
         ),
         Evidence::new(
             "cube root of the variance of repeats over the one that the rule says",
-            Sample {
-                mean: ratio.cbrt(),
-                se: (of_repeats + of_study).sqrt(),
-                samples: repeats,
-            }
-            .is(
+            Sample { mean: ratio.cbrt(), se: (of_repeats + of_study).sqrt(), samples: repeats }.is(
                 1.0 - of_repeats + of_study,
                 0.0,
                 0.5,

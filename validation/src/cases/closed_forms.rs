@@ -74,9 +74,7 @@ pub fn cases() -> Vec<Case> {
             )
             .source("eqs 16, 17")
             .subject((|_| {}) as Change)
-            .mistake("no spread: the phases stay together", |scene| {
-                scene.particles.aspect_ratio_sd_percent = 0.0
-            })
+            .mistake("no spread: the phases stay together", |scene| scene.particles.aspect_ratio_sd_percent = 0.0)
             .mistake("r_e 20 % longer", |scene| scene.particles.aspect_ratio *= 1.2)
             .check(plateau),
         Case::core("spread-damping")
@@ -129,7 +127,8 @@ fn phase_means(motion: &Motion, _: &Effort) -> Vec<Evidence> {
 }
 
 fn orbit_distribution(orbit: &Orbit, effort: &Effort) -> Vec<Evidence> {
-    // The distribution functions of C with and without r_e are 0.20 apart, by the closed form; the check detects half of that.
+    // The distribution functions of C with and without r_e are 0.20 apart, by the closed form; the check detects half
+    // of that.
     let distance = 0.1;
     let mut scene = lab::interacting_scene(effort);
     scene.particles.count = effort.pick(1, 4) * kolmogorov_samples(distance) as usize;

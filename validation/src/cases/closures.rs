@@ -14,7 +14,8 @@ pub fn cases() -> Vec<Case> {
     vec![
         Case::program("closures")
             .claim(
-                "Hybrid, ORE and IBOF leave the steady tensors at rest that others published for them; the natural closure gives \
+                "Hybrid, ORE and IBOF leave the steady tensors at rest that others published for them; the natural \
+                    closure gives \
                  a_ijkl of free rods that started isotropic.",
             )
             .source("Folgar & Tucker 1984; docs/src/theory/diffusion.md; validation/published/tensor-models")

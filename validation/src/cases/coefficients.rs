@@ -15,27 +15,29 @@ pub fn cases() -> Vec<Case> {
     vec![
         Case::core("fourth-moments")
             .claim(
-                "The 15 components of ⟨pppp⟩ of free rods that were isotropic are the closed integral, and in a suspension \
+                "The 15 components of ⟨pppp⟩ of free rods that were isotropic are the closed integral, and in a \
+                    suspension \
                  its trace over two indices is ⟨pp⟩.",
             )
             .source("docs/src/theory/coefficients.md")
             .subject(right)
-            .mistake("components 1222 and 1112 exchanged", Read {
-                place: |k| match k {
-                    1 => 6,
-                    6 => 1,
-                    k => k,
+            .mistake(
+                "components 1222 and 1112 exchanged",
+                Read {
+                    place: |k| match k {
+                        1 => 6,
+                        6 => 1,
+                        k => k,
+                    },
+                    ..right
                 },
-                ..right
-            })
-            .mistake("r_e 20 % longer", Read {
-                change: |scene| scene.particles.aspect_ratio *= 1.2,
-                ..right
-            })
+            )
+            .mistake("r_e 20 % longer", Read { change: |scene| scene.particles.aspect_ratio *= 1.2, ..right })
             .check(fourth_moments),
         Case::core("particle-stress")
             .claim(
-                "The rods' stress over μ_fiber G, of free rods that were isotropic, is that of the closed integral after a \
+                "The rods' stress over μ_fiber G, of free rods that were isotropic, is that of the closed integral \
+                    after a \
                  fifth of a period and in the mean over half a period, where N₁ and N₂ vanish.",
             )
             .source("Batchelor 1970; docs/src/theory/coefficients.md")
@@ -46,21 +48,28 @@ pub fn cases() -> Vec<Case> {
             .check(particle_stress),
         Case::core("stress-in-pascals")
             .claim(
-                "The rods' stress in Pa is that of the same run's ⟨pp⟩ and ⟨pppp⟩, with the coefficients of spheroids of r_e by \
+                "The rods' stress in Pa is that of the same run's ⟨pp⟩ and ⟨pppp⟩, with the coefficients of spheroids \
+                    of r_e by \
                  Jeffery's integrals, or of cylinders of r by Batchelor's series.",
             )
             .source("Jeffery 1922; Leal & Hinch 1971; Batchelor 1970; docs/src/theory/coefficients.md")
             .subject(Pascals { change: |_| {}, stress: |stress| stress })
-            .mistake("viscosity in poise", Pascals {
-                change: |scene| scene.liquid.viscosity_pa_s = scene.liquid.viscosity_pa_s.map(|mu| 10.0 * mu),
-                stress: |stress| stress,
-            })
-            .mistake("cylinders taken for spheroids of their r_e", Pascals {
-                change: |Scene { particles, .. }| {
-                    (particles.physical_aspect_ratio, particles.shape_correlation) = (None, None);
+            .mistake(
+                "viscosity in poise",
+                Pascals {
+                    change: |scene| scene.liquid.viscosity_pa_s = scene.liquid.viscosity_pa_s.map(|mu| 10.0 * mu),
+                    stress: |stress| stress,
                 },
-                stress: |stress| stress,
-            })
+            )
+            .mistake(
+                "cylinders taken for spheroids of their r_e",
+                Pascals {
+                    change: |Scene { particles, .. }| {
+                        (particles.physical_aspect_ratio, particles.shape_correlation) = (None, None);
+                    },
+                    stress: |stress| stress,
+                },
+            )
             .mistake("N₁ as gradient less flow", Pascals { change: |_| {}, stress: |[s12, n1, n2]| [s12, -n1, n2] })
             .mistake("N₁ and N₂ exchanged", Pascals { change: |_| {}, stress: |[s12, n1, n2]| [s12, n2, n1] })
             .check(stress_in_pascals),
@@ -89,8 +98,8 @@ fn a_fifth(observable: Observable, effort: &Effort) -> Scene {
 
 fn fourth_moments(read: &Read, effort: &Effort) -> Vec<Evidence> {
     let channels: Vec<_> = Observable::OrientationTensor4.channels().collect();
-    // A component lies in an interval of 4/3 at most, so the mean of 100 rods scatters by 0.067 at most; exchanged components
-    // are off by 0.046, those of r_e = 3.6 by 0.056 (both from the integral).
+    // A component lies in an interval of 4/3 at most, so the mean of 100 rods scatters by 0.067 at most; exchanged
+    // components are off by 0.046, those of r_e = 3.6 by 0.056 (both from the integral).
     let design = Design::new(0.015, 0.067);
     let mut scene = a_fifth(Observable::OrientationTensor4, effort);
     (read.change)(&mut scene);
@@ -105,12 +114,7 @@ fn fourth_moments(read: &Read, effort: &Effort) -> Vec<Evidence> {
             let expected = moments::fourth(ASPECT_RATIO, 0.2, indices(*channel));
             Evidence::new(
                 format!("{} at t/T = 0.2", channel.name()),
-                Sample::of(&own).is(
-                    expected,
-                    0.0,
-                    design.effect,
-                    "exact; a third of what the mistakes change",
-                ),
+                Sample::of(&own).is(expected, 0.0, design.effect, "exact; a third of what the mistakes change"),
             )
         })
         .collect();
@@ -166,8 +170,8 @@ fn exact_stress(turns: f64) -> [f64; 3] {
 }
 
 fn particle_stress(stress: &Stress, effort: &Effort) -> Vec<Evidence> {
-    // p₁p₂(p₂² − p₁²) is within 1/4, the others within 1/2 in width: 100 rods' means scatter by 0.025 at most. Exchanged, N₁ and N₂
-    // are off by 0.048; twice σ₁₂ is 0.026 off.
+    // p₁p₂(p₂² − p₁²) is within 1/4, the others within 1/2 in width: 100 rods' means scatter by 0.025 at most.
+    // Exchanged, N₁ and N₂ are off by 0.048; twice σ₁₂ is 0.026 off.
     let design = Design::new(0.008, 0.025);
     let channels: Vec<_> = Observable::ParticleStress.channels().collect();
     let read = |mean: &dyn Fn(Channel, usize) -> f64, output: usize| {
@@ -192,12 +196,7 @@ fn particle_stress(stress: &Stress, effort: &Effort) -> Vec<Evidence> {
             let own: Vec<f64> = found.iter().map(|values: &[f64; 3]| values[k]).collect();
             evidence.push(Evidence::new(
                 format!("{} {when}", channel.name()),
-                Sample::of(&own).is(
-                    expected[k],
-                    0.0,
-                    design.effect,
-                    "exact; a third of what the mistakes change",
-                ),
+                Sample::of(&own).is(expected[k], 0.0, design.effect, "exact; a third of what the mistakes change"),
             ));
         }
     }
@@ -230,19 +229,13 @@ fn stress_in_pascals(subject: &Pascals, effort: &Effort) -> Vec<Evidence> {
         (subject.change)(&mut scene);
         let off = lab::per_replica(&scene, 1, |mean| {
             worst((0..=50).map(|output| {
-                let named =
-                    |name: &str| Channel::named(name).map_or(f64::NAN, |channel| mean(channel, output));
+                let named = |name: &str| Channel::named(name).map_or(f64::NAN, |channel| mean(channel, output));
                 let [a, b, c] = k.map(|k| unit * k);
                 let s12 = a * named("a1122") + 0.5 * (b * (named("a11") + named("a22")) + c);
                 let n1 = a * (named("a1222") - named("a1112"));
                 let n2 = a * (named("a1112") - named("a1233")) + b * named("a12");
                 let found = (subject.stress)(["s12_pa", "n1_pa", "n2_pa"].map(named));
-                worst(
-                    [s12, n1, n2]
-                        .into_iter()
-                        .zip(found)
-                        .map(|(expected, found)| (found - expected).abs() / unit),
-                )
+                worst([s12, n1, n2].into_iter().zip(found).map(|(expected, found)| (found - expected).abs() / unit))
             }))
         });
         Evidence::within(

@@ -136,11 +136,9 @@ fn against_turning(rates: &AngleRates, _: &Effort) -> Vec<Evidence> {
             let dt = 1e-4;
             let (ahead, _) = turn(&p, &rate, dt);
             let (behind, _) = turn(&p, &-rate, dt);
-            let ((phi_1, theta_1), (phi_0, theta_0)) =
-                (orientation::angles(&ahead), orientation::angles(&behind));
+            let ((phi_1, theta_1), (phi_0, theta_0)) = (orientation::angles(&ahead), orientation::angles(&behind));
             let (phi_rate, theta_rate) = rates(&p, &rate);
-            let errors =
-                [phi_rate - (phi_1 - phi_0) / (2.0 * dt), theta_rate - (theta_1 - theta_0) / (2.0 * dt)];
+            let errors = [phi_rate - (phi_1 - phi_0) / (2.0 * dt), theta_rate - (theta_1 - theta_0) / (2.0 * dt)];
             for (worst, error) in worst.iter_mut().zip(errors) {
                 *worst = larger(*worst, error.abs());
             }
@@ -166,9 +164,7 @@ pub fn cases() -> Vec<Case> {
             .mistake("the kick with the wrong sign", |pair| scaled_change(pair, -1.0))
             .mistake("arms exchanged", |pair| spoilt(pair, |[a, b]| [b, a]))
             .mistake("arms without their sign", |pair| spoilt(pair, |arms| arms.map(f64::abs)))
-            .mistake("the liquid's velocity left out", |pair| {
-                core_rule(&Pair { u: [Vector3::zeros(); 2], ..*pair })
-            })
+            .mistake("the liquid's velocity left out", |pair| core_rule(&Pair { u: [Vector3::zeros(); 2], ..*pair }))
             .mistake("only A moved", |pair| Some([core_rule(pair)?[0], pair.rate[1]]))
             .check(invariants),
         Case::core("corrected-a13")

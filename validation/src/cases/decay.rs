@@ -1,8 +1,8 @@
 //! The start and the decay of oscillations, in the paper's words.
 //!
 //! The amplitude follows Fig. 7's ordinate as far as the text defines it: peak to trough of X̄₁, taken here as
-//! X̄₁(t) − X̄₁(t + T/4) at t = 0, T/2, T, …, where free rods peak. Effects and deviations come from pilots at seed 99, each
-//! effect three standard errors below its pilot's mean, unless a closed form is named.
+//! X̄₁(t) − X̄₁(t + T/4) at t = 0, T/2, T, …, where free rods peak. Effects and deviations come from pilots at seed 99,
+//! each effect three standard errors below its pilot's mean, unless a closed form is named.
 
 mod dying;
 
@@ -72,20 +72,12 @@ pub fn cases() -> Vec<Case> {
             )
             .source("eq. 4; Results, before Fig. 6; Fig. 6 (top)")
             .subject((|_| {}) as Change)
-            .mistake("nearly round: r_e = 3", |scene| {
-                scene.particles.aspect_ratio = 3.0
-            })
-            .mistake("unequal aspect ratios", |scene| {
-                scene.particles.aspect_ratio_sd_percent = 7.2
-            })
-            .mistake("rods in collision", |scene| {
-                lab::paper_interaction(scene).concentration_per_cm3 = Some(100.0)
-            })
+            .mistake("nearly round: r_e = 3", |scene| scene.particles.aspect_ratio = 3.0)
+            .mistake("unequal aspect ratios", |scene| scene.particles.aspect_ratio_sd_percent = 7.2)
+            .mistake("rods in collision", |scene| lab::paper_interaction(scene).concentration_per_cm3 = Some(100.0))
             .check(free_amplitude),
         Case::statement("faster-with-spread")
-            .claim(
-                "\"The oscillations decay faster … as the differences in the aspect ratios become larger\".",
-            )
+            .claim("\"The oscillations decay faster … as the differences in the aspect ratios become larger\".")
             .source("eq. 4; Results, before Fig. 7; Fig. 9")
             .subject(spread)
             .mistake(
@@ -212,10 +204,7 @@ fn free_amplitude(change: &Change, effort: &Effort) -> Vec<Evidence> {
     let start = Sample::of(&found[0]).is(0.5, 0.05, design.effect, half);
     let constant = "constant: the same phases come back to round-off";
     let change = Sample::of_differences(&found[1], &found[0]).is(0.0, 1e-12, design.effect, constant);
-    vec![
-        Evidence::new("amplitude at t = 0, in rod lengths", start),
-        Evidence::new("its change by t/T = 4", change),
-    ]
+    vec![Evidence::new("amplitude at t = 0, in rod lengths", start), Evidence::new("its change by t/T = 4", change)]
 }
 
 fn faster(order: &Order, effort: &Effort) -> Vec<Evidence> {
@@ -250,8 +239,7 @@ fn collisions_damp(change: &Change, effort: &Effort) -> Vec<Evidence> {
         let with = amplitudes(&interacting, replicas, &[2, 4]);
         for (k, when) in [(0, "1"), (1, "2")] {
             let fall = Sample::of_differences(&without[k], &with[k]);
-            let because =
-                "\"much\" has no number in the paper: two curves as far apart as twice the width of a line";
+            let because = "\"much\" has no number in the paper: two curves as far apart as twice the width of a line";
             evidence.push(Evidence::new(
                 format!("amplitude without less with collisions at t/T = {when}, σ = {sd} %"),
                 fall.exceeds(2.0 * LINE, design.effect, because),

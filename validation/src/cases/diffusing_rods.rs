@@ -20,7 +20,8 @@ pub fn cases() -> Vec<Case> {
     vec![
         Case::oracle("diffusing-rods")
             .claim(
-                "The distribution of rods with rotary diffusion is exp(p·ΛD·p/2D_r) in extension, fulfils the equation of its second \
+                "The distribution of rods with rotary diffusion is exp(p·ΛD·p/2D_r) in extension, fulfils the \
+                    equation of its second \
                  moments in any flow, is that of free rods for C_I = 0, and has the known orbits as C_I → 0.",
             )
             .source("eqs 13, A.1; Folgar & Tucker 1984; Leal & Hinch 1971")
@@ -94,7 +95,8 @@ fn extension(model: Model) -> Result<f64, NoAnswer> {
     Ok(worst)
 }
 
-/// The largest component of W a − a W + Λ(D a + a D − 2 D:a₄) + 2D_r(1 − 3a) of steady densities, computed from the gradient.
+/// The largest component of W a − a W + Λ(D a + a D − 2 D:a₄) + 2D_r(1 − 3a) of steady densities, computed from the
+/// gradient.
 fn standing(model: Model, effort: &Effort) -> Result<f64, NoAnswer> {
     let couette = |rate: f64| [[0.0; 3], [rate, 0.0, 0.0], [0.0; 3]];
     let mut asked = vec![(couette(1.0), 11.6, 1e-3), (couette(-0.5), 0.3, 0.05), (couette(2.0), 4.0, 1.0)];
@@ -123,18 +125,11 @@ fn rate((gradient, r, c_i): Asked, means: &Means) -> Matrix3<f64> {
     let fourth = |i: usize, j: usize, k: usize, l: usize| {
         let mut indices = [i + 1, j + 1, k + 1, l + 1];
         indices.sort_unstable();
-        QUADRUPLES
-            .iter()
-            .zip(means.fourth)
-            .find(|(name, _)| **name == indices)
-            .map_or(f64::NAN, |(_, value)| value)
+        QUADRUPLES.iter().zip(means.fourth).find(|(name, _)| **name == indices).map_or(f64::NAN, |(_, value)| value)
     };
     let a = Matrix3::from_fn(second);
-    let stretched =
-        Matrix3::from_fn(|i, j| (0..9).map(|n| fourth(i, j, n / 3, n % 3) * d[(n / 3, n % 3)]).sum());
-    w * a - a * w
-        + (d * a + a * d - stretched * 2.0) * shape
-        + (Matrix3::identity() - a * 3.0) * (2.0 * diffusivity)
+    let stretched = Matrix3::from_fn(|i, j| (0..9).map(|n| fourth(i, j, n / 3, n % 3) * d[(n / 3, n % 3)]).sum());
+    w * a - a * w + (d * a + a * d - stretched * 2.0) * shape + (Matrix3::identity() - a * 3.0) * (2.0 * diffusivity)
 }
 
 fn without_diffusion(model: Model) -> Result<f64, NoAnswer> {
@@ -148,9 +143,7 @@ fn without_diffusion(model: Model) -> Result<f64, NoAnswer> {
     for means in found {
         let second = means.second.iter().zip(exact.second());
         let fourth = means.fourth.iter().zip(exact.fourth());
-        worst = second
-            .chain(fourth)
-            .fold(worst, |worst, (found, due)| larger(worst, (found - double(&due)).abs()));
+        worst = second.chain(fourth).fold(worst, |worst, (found, due)| larger(worst, (found - double(&due)).abs()));
     }
     Ok(worst)
 }

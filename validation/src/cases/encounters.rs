@@ -74,16 +74,16 @@ fn limits(reach: &Formula, _: &Effort) -> Vec<Evidence> {
 /// uncorrelated, and runs with different seeds are independent. Places do not depend on the draws, so that the ratio of
 /// the two has the mean 1.
 fn frequency(change: &Change, effort: &Effort) -> Vec<Evidence> {
-    // Few rods, for which all pairs are searched, and many rods, which are sorted into cells. The last number is the deviation of
-    // a replica's ratio: 0.172 from 14,000 replicas and 0.122 from 6,180 at seeds 9001 to 9010, plus a sixth.
+    // Few rods, for which all pairs are searched, and many rods, which are sorted into cells. The last number is the
+    // deviation of a replica's ratio: 0.172 from 14,000 replicas and 0.122 from 6,180 at seeds 9001 to 9010, plus a
+    // sixth.
     let settings = [((0.5, 3.0, 50.0), 25, 100, 0.2), ((0.3, 1.7, 400.0), 300, 2, 0.14)];
     let evidence = settings.map(|((alpha, m, concentration), count, steps, sd)| {
         let mut scene = lab::interacting_scene(effort);
         scene.ensemble.seed = effort.seed(count as u64);
         scene.particles.count = count;
         let interaction = lab::interaction(&mut scene);
-        (interaction.alpha, interaction.m, interaction.concentration_per_cm3) =
-            (alpha, m, Some(concentration));
+        (interaction.alpha, interaction.m, interaction.concentration_per_cm3) = (alpha, m, Some(concentration));
         let mut model = scene.clone();
         change(&mut model);
         let design = Design { effect: 0.12, sd };

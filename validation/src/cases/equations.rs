@@ -1,4 +1,5 @@
-//! The paper's equations, and the code that implements them: with the registry of cases this makes the traceability table.
+//! The paper's equations, and the code that implements them: with the registry of cases this makes the traceability
+//! table.
 
 /// One numbered equation of the paper.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -24,11 +25,7 @@ pub const ALL: [Equation; 35] = [
     eq("9", "P_c < R: no collision", &["suspension.rs: find_candidates"]),
     eq("10", "P_c with m = 3", &["collision.rs: reach", "scene.rs: m"]),
     eq("11", "Gaussian aspect ratios", &["rods.rs: draw_shapes"]),
-    eq(
-        "12",
-        "random positions and orientations",
-        &["volume.rs: draw_positions", "orientation.rs: isotropic"],
-    ),
+    eq("12", "random positions and orientations", &["volume.rs: draw_positions", "orientation.rs: isotropic"]),
     eq("13", "orbit constant C", &["orientation.rs: bounded_orbit_constant"]),
     eq("14", "replacement of a rod that left", &["volume.rs: advance"]),
     eq("15", "period T", &["jeffery.rs: strain_per_period"]),
@@ -99,10 +96,7 @@ mod tests {
     fn core(folder: &Path, found: &mut Vec<PathBuf>) {
         for entry in std::fs::read_dir(folder).unwrap() {
             let path = entry.unwrap().path();
-            match path.is_dir() {
-                true => core(&path, found),
-                false => found.push(path),
-            }
+            if path.is_dir() { core(&path, found) } else { found.push(path) }
         }
     }
 

@@ -1,9 +1,7 @@
 //! Experiments (Figs 4 and 5): judged if the measured points are supplied, `NoData` otherwise.
 
 use super::fit_covers::set;
-use crate::input::experiment::{
-    self, ANCZUROWSKI, Comparison, DataError, MeasuredCurve, OKAGAWA_MASON, Runs, Source,
-};
+use crate::input::experiment::{self, ANCZUROWSKI, Comparison, DataError, MeasuredCurve, OKAGAWA_MASON, Runs, Source};
 use crate::judge::accept::Rule;
 use crate::judge::case::{Case, Effort, Evidence};
 use crate::judge::lab::{self, Change};
@@ -42,7 +40,8 @@ pub fn cases() -> Vec<Case> {
             .check(same_alpha),
         Case::statement("in-plane-not-fitted")
             .claim(
-                "Curves of equal rods that start parallel in the shear plane, as the experiment at r_e = 3.96 had them, do not depend on α, \
+                "Curves of equal rods that start parallel in the shear plane, as the experiment at r_e = 3.96 had \
+                    them, do not depend on α, \
                  and a fit of α to points of them is refused: \"not suitable for comparison with the model\".",
             )
             .source("eqs 4, 7; Results, the r_e = 3.96 experiment")
@@ -73,9 +72,8 @@ fn not_fitted(theta_deg: &f64, effort: &Effort) -> Result<Vec<Evidence>, String>
     let apart = worst(weak.iter().zip(&strong).map(|(a, b)| (a - b).abs()));
     let range = Range::parse("interaction.alpha=0.05:5")?;
     let fit = Scenes::new(vec![set(&fitted, effort.seed(0), TimeColumn::Periods)?], vec![range]);
-    let refused = fit.is_err_and(|error| {
-        error.contains("disturb each other in this model only by the error of a time step")
-    });
+    let refused =
+        fit.is_err_and(|error| error.contains("disturb each other in this model only by the error of a time step"));
     Ok(vec![
         Evidence::exact("the largest difference of X̄_i between α = 0.05 and 5", apart),
         Evidence::exact("fits of α to it that are not refused", f64::from(u8::from(!refused))),
@@ -172,7 +170,8 @@ fn fit(comparison: &Comparison, late: usize, source: &Source) -> Evidence {
     Evidence::new(what, rule)
 }
 
-/// The difference of the two best α. The control doubles α in the model at r_e = 14.2, which the estimate does not know.
+/// The difference of the two best α. The control doubles α in the model at r_e = 14.2, which the estimate does not
+/// know.
 fn same_alpha(change: &Change, effort: &Effort) -> Result<Vec<Evidence>, String> {
     let points = |source| judged(source, effort).map_err(|error| error.to_string());
     let ((short, _), (long, _)) = (points(&OKAGAWA_MASON)?, points(&ANCZUROWSKI)?);

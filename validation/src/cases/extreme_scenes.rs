@@ -26,8 +26,7 @@ struct Model {
     meeting: fn(&mut Scene),
 }
 
-const CORE: Model =
-    Model { directions: |suspension| suspension.directions(), pair: step_of_the_core, meeting: |_| {} };
+const CORE: Model = Model { directions: |suspension| suspension.directions(), pair: step_of_the_core, meeting: |_| {} };
 
 /// A function that runs a scene.
 type Program = fn(&Scene) -> Ended;
@@ -35,48 +34,44 @@ type Program = fn(&Scene) -> Ended;
 pub fn cases() -> Vec<Case> {
     vec![
         Case::program("extreme-suspensions")
-            .claim("Interacting rods stay finite and |p| = 1 to 4 ulp: dense and thin, N = 1 and 2, α = 0 and \
+            .claim(
+                "Interacting rods stay finite and |p| = 1 to 4 ulp: dense and thin, N = 1 and 2, α = 0 and \
                     huge, m from 0.1 to 50, σ at its limit, G from 10⁻³⁰ to 10³⁰ 1/s, steps from 10⁻⁷ T to T, \
                     parallel to one ulp, arms to the smallest normal number. A kick that overflows stops the \
-                    run and names rod, step, seed and arm.")
+                    run and names rod, step, seed and arm.",
+            )
             .source("eqs 7, 14, A.13, A.14")
             .subject(CORE)
-            .mistake("the last step by explicit Euler, not rescaled", Model {
-                        directions: stepped_by_euler,
-                        ..CORE
-                    })
-            .mistake("|ṗ| as the root of its squares", Model {
-                        pair: step_with_squares,
-                        ..CORE
-                    })
-            .mistake("a shortest arm of 10⁻³ nobody asked for", Model {
-                        pair: |scene, placed| {
-                            let mut scene = scene.clone();
-                            lab::interaction(&mut scene).min_contact_arm = 1.1e-3;
-                            step_of_the_core(&scene, placed)
-                        },
-                        ..CORE
-                    })
-            .mistake("α without effect", Model {
-                        meeting: |scene| lab::interaction(scene).alpha = 1e-300,
-                        ..CORE
-                    })
+            .mistake("the last step by explicit Euler, not rescaled", Model { directions: stepped_by_euler, ..CORE })
+            .mistake("|ṗ| as the root of its squares", Model { pair: step_with_squares, ..CORE })
+            .mistake(
+                "a shortest arm of 10⁻³ nobody asked for",
+                Model {
+                    pair: |scene, placed| {
+                        let mut scene = scene.clone();
+                        lab::interaction(&mut scene).min_contact_arm = 1.1e-3;
+                        step_of_the_core(&scene, placed)
+                    },
+                    ..CORE
+                },
+            )
+            .mistake("α without effect", Model { meeting: |scene| lab::interaction(scene).alpha = 1e-300, ..CORE })
             .check(extreme_suspensions),
         Case::program("extreme-scenes")
-            .claim("Scenes of free rods end with finite means and tr⟨pp⟩ = 1: G from 10⁻³⁰ to 10³⁰ 1/s, r_e \
+            .claim(
+                "Scenes of free rods end with finite means and tr⟨pp⟩ = 1: G from 10⁻³⁰ to 10³⁰ 1/s, r_e \
                     from 10⁻⁸ to 10⁸, σ at its limit, both poles, the flip, 10⁴ periods, and extension to a \
-                    strain of 10⁴ (10⁵ and 10⁶ in a full run), which aligns every rod.")
+                    strain of 10⁴ (10⁵ and 10⁶ in a full run), which aligns every rod.",
+            )
             .source("eqs 3, 4, 11, 15")
             .subject(whole_run as Program)
             .mistake("a thousandth of the strain", |scene| {
-                    let mut short = scene.clone();
-                    short.time.duration *= 1e-3;
-                    whole_run(&short)
-                })
+                let mut short = scene.clone();
+                short.time.duration *= 1e-3;
+                whole_run(&short)
+            })
             .mistake("the plain exponential", |scene| by_exponential(scene, true))
-            .mistake("the plain exponential, not rescaled", |scene| {
-                    by_exponential(scene, false)
-                })
+            .mistake("the plain exponential, not rescaled", |scene| by_exponential(scene, false))
             .check(extreme_scenes),
     ]
 }

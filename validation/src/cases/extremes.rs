@@ -51,9 +51,7 @@ pub fn cases() -> Vec<Case> {
                  and the start is 5·10⁻¹⁵ rad from the third axis.",
             )
             .source("eqs 3, A.1")
-            .subject(
-                (|flow, r, p, time_s| Propagator::new(flow, r).after(p, time_s).into_inner()) as FlowMotion,
-            )
+            .subject((|flow, r, p, time_s| Propagator::new(flow, r).after(p, time_s).into_inner()) as FlowMotion)
             .mistake("the plain exponential", |flow, r, p, time_s| {
                 let a = flow.vorticity() + shape_factor(r) * flow.strain_rate();
                 ((a * time_s).exp() * p.as_ref()).normalize()
@@ -130,8 +128,7 @@ fn thousand_steps(motion: &Motion) -> (f64, f64) {
         for step in STEPS {
             let start = UnitVector3::new_normalize(Vector3::new(0.3, -0.5, 0.8));
             let bounded = |p: &Vector3<f64>| orientation::bounded_orbit_constant([p.x, p.y, p.z], r);
-            let end = (0..1000)
-                .fold(start.into_inner(), |p, _| motion(r, 0.5, &UnitVector3::new_unchecked(p), step));
+            let end = (0..1000).fold(start.into_inner(), |p, _| motion(r, 0.5, &UnitVector3::new_unchecked(p), step));
             length = larger(length, off_length(&end));
             drift = larger(drift, (bounded(&end) - bounded(&start)).abs());
         }
@@ -188,8 +185,8 @@ fn extreme_flows(motion: &FlowMotion, _: &Effort) -> Vec<Evidence> {
     ]
 }
 
-/// The largest angle to the closed form for uncoupled axes, two of which lengthen equally fast, or nearly so, while the third
-/// shrinks. The start lies almost along the third axis.
+/// The largest angle to the closed form for uncoupled axes, two of which lengthen equally fast, or nearly so, while the
+/// third shrinks. The start lies almost along the third axis.
 fn apart_where_rates_meet(motion: &FlowMotion) -> f64 {
     let next = 1.0 + f64::EPSILON;
     let (near, beside) = (5.4e-15, 7.06e-16);
@@ -207,7 +204,8 @@ fn apart_where_rates_meet(motion: &FlowMotion) -> f64 {
             for r in [1.5, 11.6, 1e8] {
                 for strain in [1e2, 1861.0, 2550.0, 1e6, 1e12] {
                     let time_s = strain / rate;
-                    // Differences of rates that nearly meet are exact, and the component along the third axis tends to 0.
+                    // Differences of rates that nearly meet are exact, and the component along the third axis tends to
+                    // 0.
                     let grown = l.map(|l_ii| (shape_factor(r) * (l_ii - l.max()) * time_s).exp());
                     let expected = start.component_mul(&grown).normalize();
                     let off = motion(&flow, r, &start, time_s).cross(&expected).norm();

@@ -1,5 +1,5 @@
-//! `shearbed fit` on synthetic points: intervals contain the planted α as often as stated, χ² has its distribution, and a model
-//! without the spread of r_e is refused.
+//! `shearbed fit` on synthetic points: intervals contain the planted α as often as stated, χ² has its distribution, and
+//! a model without the spread of r_e is refused.
 //!
 //! The points are made here and are nobody's measurement. Curves are simulated once, at every node of the emulator;
 //! each repeat draws its replicas from these with replacement, and new noise. The curve behind the points is the
@@ -37,7 +37,8 @@ const PLACE: f64 = (PLANTED - 1.0) / 0.6;
 const NOISE: f64 = 0.008;
 /// Number of points, evenly up to t/T = 1.5.
 const POINTS: usize = 22;
-/// Number of replicas that are run, and number that each repeat draws; few rods, so that the replicas' own error counts.
+/// Number of replicas that are run, and number that each repeat draws; few rods, so that the replicas' own error
+/// counts.
 const POOL: u64 = 240;
 const DRAWN: usize = 80;
 const RODS: usize = 25;
@@ -78,9 +79,7 @@ pub fn cases() -> Vec<Case> {
             .mistake("σ = 0 % for points of σ = 3.6 %", Way::NoSpread)
             .check(refuses),
         Case::program("fit-shares-rods")
-            .claim(
-                "Where all points are means over the same rods, χ² of a fit is no larger than due.",
-            )
+            .claim("Where all points are means over the same rods, χ² of a fit is no larger than due.")
             .source("eq. 7; docs/src/theory/fits.md")
             .subject(rods::Treatment::AsItIs)
             .mistake("rods that scatter as polynomials of replicas do", rods::Treatment::OfPolynomials)
@@ -100,11 +99,8 @@ struct Pool {
 }
 
 fn data(values: impl Fn(usize) -> f64) -> Vec<Datum> {
-    let point = |k: usize| Datum {
-        value: values(k),
-        u: NOISE,
-        ..Datum::place(0, "x1", 1.5 * (k + 1) as f64 / POINTS as f64)
-    };
+    let point =
+        |k: usize| Datum { value: values(k), u: NOISE, ..Datum::place(0, "x1", 1.5 * (k + 1) as f64 / POINTS as f64) };
     (0..POINTS).map(point).collect()
 }
 
@@ -158,8 +154,7 @@ fn repeat(pool: &Pool, way: Way, seed: u64, k: u64) -> Result<Fit, String> {
         Way::NoSpread => &pool.without_spread,
         _ => &pool.replicas,
     };
-    let mut drawn: Vec<Coefficients> =
-        (0..DRAWN).map(|_| from[rng.random_range(0..from.len())].clone()).collect();
+    let mut drawn: Vec<Coefficients> = (0..DRAWN).map(|_| from[rng.random_range(0..from.len())].clone()).collect();
     if way == Way::SimulationExact {
         let mean = std::array::from_fn(|which| {
             let first = &drawn[0][which];
@@ -212,20 +207,21 @@ fn repeats(way: Way, effort: &Effort) -> Arc<Result<Vec<Fitted>, String>> {
     })
 }
 
-/// Allowed difference from the stated share, 68 and 95 %: profile intervals are exact if the model is linear in α and the
-/// covariance is known; here the model is curved, and the covariance is estimated from [`DRAWN`] replicas. Some 0.44 of the variance
-/// of α are the replicas' (by the lengths of intervals with and without them), and that part, estimated from 80, has a standard
-/// deviation of 0.44 √(2/80) = 7 % of the whole, 3.5 % of the interval's length; by the density at its ends that is 0.017 and 0.008
-/// of the share, if it never averaged out.
+/// Allowed difference from the stated share, 68 and 95 %: profile intervals are exact if the model is linear in α and
+/// the covariance is known; here the model is curved, and the covariance is estimated from [`DRAWN`] replicas. Some
+/// 0.44 of the variance of α are the replicas' (by the lengths of intervals with and without them), and that part,
+/// estimated from 80, has a standard deviation of 0.44 √(2/80) = 7 % of the whole, 3.5 % of the interval's length; by
+/// the density at its ends that is 0.017 and 0.008 of the share, if it never averaged out.
 const ALLOWANCE: [f64; 2] = [0.017, 0.008];
-/// The effect to detect beyond that. Half the length misses 0.30 and 0.28. A curve taken as exact misses 0.16 and 0.11, with
-/// standard deviations of 0.012 and 0.008 over the replicas that a seed runs (30 seeds); these are less by 3.5 of them.
+/// The effect to detect beyond that. Half the length misses 0.30 and 0.28. A curve taken as exact misses 0.16 and 0.11,
+/// with standard deviations of 0.012 and 0.008 over the replicas that a seed runs (30 seeds); these are less by 3.5 of
+/// them.
 const EFFECT: [f64; 2] = [0.1, 0.07];
 
 const CONFIDENCES: [f64; 2] = [0.68, 0.95];
 
-/// Number of repeats that show [`EFFECT`] in the first share; one of the two shares is enough. A share scatters by 0.5 at most;
-/// that of a mistake by more than the right one.
+/// Number of repeats that show [`EFFECT`] in the first share; one of the two shares is enough. A share scatters by 0.5
+/// at most; that of a mistake by more than the right one.
 fn shares(effort: &Effort) -> u64 {
     effort.samples(Design::new(EFFECT[0], 0.5))
 }
@@ -244,7 +240,8 @@ fn covers(way: &Way, effort: &Effort) -> Result<Vec<Evidence>, String> {
     let rule = |k: usize| {
         let shares: Vec<f64> = found.iter().map(|fit| inside(fit, k)).collect();
         let what = format!("share of {:.0} % intervals that hold the planted α", 100.0 * CONFIDENCES[k]);
-        let because = "the level; the allowance is the error of a covariance estimated from 80 replicas; a curve taken for \
+        let because = "the level; the allowance is the error of a covariance estimated from 80 replicas; a curve \
+            taken for \
                        exact, or half the length, misses more than the effect";
         Evidence::new(what, Sample::of(&shares).is(CONFIDENCES[k], ALLOWANCE[k], EFFECT[k], because))
     };

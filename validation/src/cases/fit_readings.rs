@@ -1,8 +1,9 @@
 //! The information of two suspensions with one α about the interpretations that the paper leaves open.
 //!
-//! The points are made here by the naive reference, and are nobody's measurement. Points of one suspension do not distinguish
-//! interpretations: each describes them with an α of its own. A contact line cut at the rods' ends has less effect where rods are
-//! far apart, so that α would depend on the concentration. Who draws cannot be found in this way: `docs/src/theory/fits.md`.
+//! The points are made here by the naive reference, and are nobody's measurement. Points of one suspension do not
+//! distinguish interpretations: each describes them with an α of its own. A contact line cut at the rods' ends has less
+//! effect where rods are far apart, so that α would depend on the concentration. Who draws cannot be found in this way:
+//! `docs/src/theory/fits.md`.
 
 use super::fit_covers::set;
 use crate::judge::accept::Rule;
@@ -37,16 +38,18 @@ const TIMES: usize = 10;
 const STEPS: usize = 5;
 const STEPS_PER_PERIOD: u64 = 100;
 
-/// Replicas behind the points, and behind each node of the model. In a pilot of other seeds χ² of cut lines exceeds that of
-/// whole ones by 248. For 59 degrees of freedom χ² is above 124 with the probability [`crate::judge::accept::LEVEL`]; with 248 more
-/// it is 307 with a standard deviation of √(2·59 + 4·248) = 33, 5.5 of these above.
+/// Replicas behind the points, and behind each node of the model. In a pilot of other seeds χ² of cut lines exceeds
+/// that of whole ones by 248. For 59 degrees of freedom χ² is above 124 with the probability
+/// [`crate::judge::accept::LEVEL`]; with 248 more it is 307 with a standard deviation of √(2·59 + 4·248) = 33, 5.5 of
+/// these above.
 const REPLICAS: u64 = 600;
 
 pub(super) fn cases() -> Vec<Case> {
     vec![
         Case::program("fit-tells-cut-lines")
             .claim(
-                "χ² of one α for two suspensions accepts points of whole contact lines and refuses points of lines cut at the \
+                "χ² of one α for two suspensions accepts points of whole contact lines and refuses points of lines \
+                    cut at the \
                  rods' ends.",
             )
             .source("eq. 5; docs/src/theory/fits.md")
@@ -87,8 +90,7 @@ fn curve(change: Change, effort: &Effort, replica: u64) -> Vec<f64> {
 
 /// Means over replicas of X̄₁ to X̄₃ of both suspensions, with an interpretation of the paper.
 pub fn points(change: Change, effort: &Effort, replicas: u64) -> Vec<f64> {
-    let rows: Vec<Vec<f64>> =
-        (0..replicas).into_par_iter().map(|replica| curve(change, effort, replica)).collect();
+    let rows: Vec<Vec<f64>> = (0..replicas).into_par_iter().map(|replica| curve(change, effort, replica)).collect();
     let mean = |k: usize| rows.iter().map(|row| row[k]).sum::<f64>() / replicas as f64;
     (0..rows[0].len()).map(mean).collect()
 }
@@ -127,8 +129,7 @@ pub fn model(effort: &Effort, replicas: u64) -> Result<Vec<Coefficients>, String
 pub fn one_alpha(points: &[f64], u: f64, replicas: u64, model: &[Coefficients]) -> Result<Fit, String> {
     let range = range()?;
     let rods = Rods { over_measured: vec![1.0 / replicas as f64; CONCENTRATIONS.len()], in_u: false };
-    let measured =
-        Measured { data: &data(|k| points[k], u), ranges: std::slice::from_ref(&range), rods: &rods };
+    let measured = Measured { data: &data(|k| points[k], u), ranges: std::slice::from_ref(&range), rods: &rods };
     fitted(&measured, &Basis::new(1), &vec![(range.from, range.to)], model)
 }
 
@@ -148,9 +149,8 @@ fn accepted(change: &Change, effort: &Effort) -> Result<Vec<Evidence>, String> {
             samples: replicas,
             enough: REPLICAS,
             distance: None,
-            because:
-                "with these replicas χ² of cut lines is 5.5 of its standard deviations above what is accepted"
-                    .into(),
+            because: "with these replicas χ² of cut lines is 5.5 of its standard deviations above what is accepted"
+                .into(),
         },
     )])
 }

@@ -17,48 +17,49 @@ pub fn cases() -> Vec<Case> {
     vec![
         Case::program("effective-ci")
             .claim(
-                "J, summed over the steps of rods, gives the C_I that was put into synthetic rods (not measured, not of this \
+                "J, summed over the steps of rods, gives the C_I that was put into synthetic rods (not measured, not \
+                    of this \
                  model) with rotary diffusion, and is 0 for the core's free rods.",
             )
             .source("Folgar & Tucker 1984; docs/src/theory/coefficients.md")
             .subject(Estimator { alone: |strain| free(LAMBDA, strain), of: Means::coefficient })
-            .mistake("1 − 3a in place of 2(1 − 3a)", Estimator {
-                alone: |strain| free(LAMBDA, strain),
-                of: |means| 2.0 * means.coefficient(),
-            })
-            .mistake("Jeffery's motion of rods of r_e = 5", Estimator {
-                alone: |strain| free(shape_factor(5.0), strain),
-                of: Means::coefficient,
-            })
-            .mistake("Jeffery's motion left in J", Estimator {
-                alone: |_| Matrix3::identity(),
-                of: Means::coefficient,
-            })
+            .mistake(
+                "1 − 3a in place of 2(1 − 3a)",
+                Estimator { alone: |strain| free(LAMBDA, strain), of: |means| 2.0 * means.coefficient() },
+            )
+            .mistake(
+                "Jeffery's motion of rods of r_e = 5",
+                Estimator { alone: |strain| free(shape_factor(5.0), strain), of: Means::coefficient },
+            )
+            .mistake("Jeffery's motion left in J", Estimator { alone: |_| Matrix3::identity(), of: Means::coefficient })
             .check(effective),
         Case::interpretation("folgar-tucker-seven")
             .claim(
-                "The seven C_I that Folgar & Tucker measured (second-hand; n a³ above 3, not dilute) rise with φ r_p, as the \
+                "The seven C_I that Folgar & Tucker measured (second-hand; n a³ above 3, not dilute) rise with φ r_p, \
+                    as the \
                  model's rises with n a³; at n a³ = 1, where the model ends, it is below a third of the least of them.",
             )
             .source("Folgar & Tucker 1984; docs/src/theory/coefficients.md")
             .subject((|c| c) as fn(f64) -> f64)
-            .mistake("C_I per radian of the phase in place of per unit of strain", |c| {
-                c * (11.6 + 1.0 / 11.6)
-            })
+            .mistake("C_I per radian of the phase in place of per unit of strain", |c| c * (11.6 + 1.0 / 11.6))
             .mistake("J with the other sign", |c| -c)
             .check(seven),
         Case::interpretation("kicks-are-no-diffusion")
             .claim(
-                "At equal C_I, kicks leave far more rods alone than rotary diffusion does over a strain of 1, turn far more of \
+                "At equal C_I, kicks leave far more rods alone than rotary diffusion does over a strain of 1, turn \
+                    far more of \
                  them by more than 0.1 rad, and keep more of them in orbits of C_b > 1/2.",
             )
             .source("Folgar & Tucker 1984; eqs 5 to 10; docs/src/theory/coefficients.md")
             .subject(Turned::ByKicks(|_| {}))
             .mistake("diffusion in place of kicks", Turned::ByDiffusion)
-            .mistake("no contact by arms shorter than five rods", Turned::ByKicks(|scene| {
-                // The largest kick is then about 0.01 rad, and a strain of 1 has five steps.
-                lab::interaction(scene).min_contact_arm = 5.0;
-            }))
+            .mistake(
+                "no contact by arms shorter than five rods",
+                Turned::ByKicks(|scene| {
+                    // The largest kick is then about 0.01 rad, and a strain of 1 has five steps.
+                    lab::interaction(scene).min_contact_arm = 5.0;
+                }),
+            )
             .check(no_diffusion),
     ]
 }
@@ -67,9 +68,9 @@ pub fn cases() -> Vec<Case> {
 static OF_MODEL: Shared<(), [Vec<f64>; 2]> = Shared::new();
 
 fn seven(read: &fn(f64) -> f64, effort: &Effort) -> Vec<Evidence> {
-    // A pilot of 148 replicas from seed 9001: the rise 0.000347 ± 0.000005, scattering by 0.000063; the distance 0.000641 ±
-    // 0.000005, by 0.000059. The designs leave nine standard errors of the rise, more of the distance, and a quarter of each
-    // scatter.
+    // A pilot of 148 replicas from seed 9001: the rise 0.000347 ± 0.000005, scattering by 0.000063; the distance
+    // 0.000641 ± 0.000005, by 0.000059. The designs leave nine standard errors of the rise, more of the distance, and a
+    // quarter of each scatter.
     let (rise, gap) = (Design::new(0.0003, 0.000_079), Design::new(0.0005, 0.000_075));
     let samples = effort.samples(rise).max(effort.samples(gap));
     let model = OF_MODEL.get(effort, (), || {
@@ -99,11 +100,7 @@ fn seven(read: &fn(f64) -> f64, effort: &Effort) -> Vec<Evidence> {
         ),
         Evidence::new(
             "the model's C_I at n a³ = 1 less that at 0.02",
-            Sample::of_differences(&edge, &thin).exceeds(
-                0.0,
-                rise.effect,
-                "a rise, six sevenths of the pilot's",
-            ),
+            Sample::of_differences(&edge, &thin).exceeds(0.0, rise.effect, "a rise, six sevenths of the pilot's"),
         ),
         Evidence::new(
             "a third of the least measured C_I less the model's at n a³ = 1",
@@ -148,8 +145,8 @@ fn effective(estimator: &Estimator, effort: &Effort) -> Vec<Evidence> {
     let mut rods = lab::stepped(&scene, 0);
     let start = rods.directions();
     let mut next = || rods.step().is_ok().then(|| rods.directions());
-    let largest = watched(&(estimator.alone)(strain), strain, start, 200, &mut next)
-        .map_or(f64::NAN, |means| means.gain.amax());
+    let largest =
+        watched(&(estimator.alone)(strain), strain, start, 200, &mut next).map_or(f64::NAN, |means| means.gain.amax());
     vec![
         Evidence::new(
             "C_I of synthetic rods, 0.01 put in",
@@ -157,7 +154,8 @@ fn effective(estimator: &Estimator, effort: &Effort) -> Vec<Evidence> {
                 PLANTED,
                 0.01 * PLANTED,
                 design.effect,
-                "1 %: making a step's length 1 again changes its variance by 3·2C_I·0.05 = 0.3 %, and the split steps by \
+                "1 %: making a step's length 1 again changes its variance by 3·2C_I·0.05 = 0.3 %, and the split steps \
+                    by \
                  0.05² = 0.25 %",
             ),
         ),
@@ -183,10 +181,9 @@ enum Turned {
 static OF_DIFFUSION: Shared<(), (f64, Vec<Shares>)> = Shared::new();
 
 fn no_diffusion(turned: &Turned, effort: &Effort) -> Vec<Evidence> {
-    // A pilot of 112 replicas from seed 9001: 0.0086 more of the rods by more than 0.1 rad, scattering by 0.0016; 0.846 fewer
-    // by more than 0.01 rad, by 0.0083; 0.277 more with C_b above 0.5, by 0.054.
-    let (far, near, orbits) =
-        (Design::new(0.0072, 0.0019), Design::new(0.63, 0.01), Design::new(0.22, 0.062));
+    // A pilot of 112 replicas from seed 9001: 0.0086 more of the rods by more than 0.1 rad, scattering by 0.0016; 0.846
+    // fewer by more than 0.01 rad, by 0.0083; 0.277 more with C_b above 0.5, by 0.054.
+    let (far, near, orbits) = (Design::new(0.0072, 0.0019), Design::new(0.63, 0.01), Design::new(0.22, 0.062));
     let samples = [far, near, orbits].map(|design| effort.samples(design));
     let samples = samples.into_iter().fold(0, u64::max);
     let setting = coefficients::kick(0.5, 11.6, 0.5, 2);

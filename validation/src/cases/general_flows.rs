@@ -19,63 +19,56 @@ type Motion = fn(&FlowProblem) -> Moved;
 pub fn cases() -> Vec<Case> {
     vec![
         Case::core("general-flows")
-            .claim("In any flow, at r_e from 10⁻¹⁰⁰ to 10¹⁰⁰ and strains from 10⁻¹³ to 10⁶, a direction is \
+            .claim(
+                "In any flow, at r_e from 10⁻¹⁰⁰ to 10¹⁰⁰ and strains from 10⁻¹³ to 10⁶, a direction is \
                     off the oracle's, of hundreds of bits, by no more than the bound that comes with it; \
                     where that is above 10⁻⁶ rad, a scene is refused, and none that numbers of 106 bits can \
-                    answer.")
+                    answer.",
+            )
             .source("eqs 2, 3, A.1")
             .subject(core as Motion)
             .mistake("Λ rounded to double before 1 − Λ is formed", |problem| {
-                    let shape = shape_factor(problem.rod.aspect_ratio);
-                    let rounded = ((1.0 + shape) / (1.0 - shape)).sqrt().clamp(1e-100, 1e100);
-                    let mut other = *problem;
-                    other.rod.aspect_ratio = rounded;
-                    core(&other)
-                })
-            .mistake("double for double-double", |problem| {
-                    in_double(problem, squared_exponential)
-                })
+                let shape = shape_factor(problem.rod.aspect_ratio);
+                let rounded = ((1.0 + shape) / (1.0 - shape)).sqrt().clamp(1e-100, 1e100);
+                let mut other = *problem;
+                other.rod.aspect_ratio = rounded;
+                core(&other)
+            })
+            .mistake("double for double-double", |problem| in_double(problem, squared_exponential))
             .mistake("|det A| ≤ 16 ε taken as planar", |problem| {
-                    let (a, _) = rates(problem);
-                    if a.determinant().abs() <= 16.0 * f64::EPSILON {
-                        in_double(problem, planar)
-                    } else {
-                        core(problem)
-                    }
-                })
-            .mistake("no bound, but for the oracle's own rounding", |problem| Moved {
-                    error: 0.0,
-                    ..core(problem)
-                })
+                let (a, _) = rates(problem);
+                if a.determinant().abs() <= 16.0 * f64::EPSILON { in_double(problem, planar) } else { core(problem) }
+            })
+            .mistake("no bound, but for the oracle's own rounding", |problem| Moved { error: 0.0, ..core(problem) })
             .mistake("a bound as wide as double would need", |problem| {
-                    let moved = core(problem);
-                    let wide = moved.condition * problem.strain.max(1.0) * f64::EPSILON;
-                    Moved { error: moved.error.max(wide), ..moved }
-                })
+                let moved = core(problem);
+                let wide = moved.condition * problem.strain.max(1.0) * f64::EPSILON;
+                Moved { error: moved.error.max(wide), ..moved }
+            })
             .check(general_flows),
         Case::core("listed-scenes")
-            .claim("Scenes that were wrong once end where the oracle has them, within the error that their \
+            .claim(
+                "Scenes that were wrong once end where the oracle has them, within the error that their \
                     plan states: slow swirls to a strain of 3000, r_e = 10¹⁰⁰ and 10⁻¹⁰⁰ along an axis, flows \
-                    next to shear, Couette flow turned by 45° at r_e = 10⁸, a strain of 10⁻¹³ of a rotation.")
+                    next to shear, Couette flow turned by 45° at r_e = 10⁸, a strain of 10⁻¹³ of a rotation.",
+            )
             .source("eqs 3, 15, A.1")
             .subject(scenes::program as scenes::Run)
             .mistake("r_e longer by 10⁻⁶ of itself", |scene| {
-                    let mut longer = scene.clone();
-                    longer.particles.aspect_ratio *= 1.0 + 1e-6;
-                    scenes::program(&longer)
-                })
+                let mut longer = scene.clone();
+                longer.particles.aspect_ratio *= 1.0 + 1e-6;
+                scenes::program(&longer)
+            })
             .mistake("nearly plane taken as plane: the flow along axis 3 left out", |scene| {
-                        let mut plane = scene.clone();
-                        if let shearbed::scene::Flow::Gradient { gradient_per_s: rows } = &mut plane.flow
-                            && rows[2][2].abs() < 1e-4
-                        {
-                            let third = rows[2][2];
-                            rows.iter_mut()
-                                .enumerate()
-                                .for_each(|(k, row)| row[k] += if k < 2 { 0.5 * third } else { -third });
-                        }
-                        scenes::program(&plane)
-                    })
+                let mut plane = scene.clone();
+                if let shearbed::scene::Flow::Gradient { gradient_per_s: rows } = &mut plane.flow
+                    && rows[2][2].abs() < 1e-4
+                {
+                    let third = rows[2][2];
+                    rows.iter_mut().enumerate().for_each(|(k, row)| row[k] += if k < 2 { 0.5 * third } else { -third });
+                }
+                scenes::program(&plane)
+            })
             .check(scenes::listed_scenes),
     ]
 }
@@ -141,9 +134,10 @@ fn planar(a: &Matrix3<f64>, time: f64) -> Matrix3<f64> {
     Matrix3::identity() + a * once + a * a * twice
 }
 
-/// Number of hard problems. Of 10 000 at another seed 525 show a bound that is too wide and 585 a missing one, so that at least
-/// 0.047 of all do: none of 300 does with a probability of 0.953³⁰⁰ = 5·10⁻⁷, below [`crate::judge::accept::MISS`]. Of problems of any
-/// kind only 0.005 and 0.009 do, and 400 of these alone missed one or the other at one seed in nine.
+/// Number of hard problems. Of 10 000 at another seed 525 show a bound that is too wide and 585 a missing one, so that
+/// at least 0.047 of all do: none of 300 does with a probability of 0.953³⁰⁰ = 5·10⁻⁷, below
+/// [`crate::judge::accept::MISS`]. Of problems of any kind only 0.005 and 0.009 do, and 400 of these alone missed one
+/// or the other at one seed in nine.
 const HARD: u64 = 300;
 
 /// The problems with their answers, computed once for the check and its controls.
@@ -161,10 +155,10 @@ fn apart(a: &Vector3<f64>, b: &Vector3<f64>) -> f64 {
     (a - b).norm().min((a + b).norm())
 }
 
-/// True if numbers of 106 bits leave at most 10⁻⁶ rad. Where two roots meet, the equation gives their distance only to the root of a
-/// rounding: coefficients of e^{At} have errors of (|L|t)² roundings, and are |L|t times as large as what remains after cancellation:
-/// roundings are those of L, even if little of it remains in A, near spheres. The remaining part of the start's direction is smaller
-/// by the condition number. A thousand roundings are allowed for.
+/// True if numbers of 106 bits leave at most 10⁻⁶ rad. Where two roots meet, the equation gives their distance only to
+/// the root of a rounding: coefficients of e^{At} have errors of (|L|t)² roundings, and are |L|t times as large as what
+/// remains after cancellation: roundings are those of L, even if little of it remains in A, near spheres. The remaining
+/// part of the start's direction is smaller by the condition number. A thousand roundings are allowed for.
 fn answerable(problem: &FlowProblem) -> bool {
     let (l, time) = gradient(problem);
     let turned = (l.norm() * time).max(1.0);
@@ -218,10 +212,7 @@ fn general_flows(motion: &Motion, effort: &Effort) -> Vec<Evidence> {
     for (k, found) in decades.iter().enumerate().filter(|(_, found)| found.answered + found.refused > 0) {
         let Decades { answered, refused, worst, bound } = found;
         evidence.push(Evidence::within(
-            format!(
-                "worst of {answered} answers, condition number up to 10^{}; {refused} refused",
-                2 * (k + 1)
-            ),
+            format!("worst of {answered} answers, condition number up to 10^{}; {refused} refused", 2 * (k + 1)),
             *worst,
             *bound,
             "the largest bound among them",

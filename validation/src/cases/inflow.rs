@@ -65,13 +65,7 @@ fn even(subject: &Subject, effort: &Effort) -> Vec<Evidence> {
 }
 
 /// The rods' final places, in units of the sides.
-fn ends(
-    subject: &Subject,
-    effort: &Effort,
-    count: usize,
-    gradient: Gradient,
-    box_mm: [f64; 3],
-) -> [Vec<f64>; 3] {
+fn ends(subject: &Subject, effort: &Effort, count: usize, gradient: Gradient, box_mm: [f64; 3]) -> [Vec<f64>; 3] {
     let scene = scene(effort, count, gradient, box_mm);
     match subject {
         Subject::Core => {
@@ -104,8 +98,7 @@ fn scene(effort: &Effort, count: usize, gradient: Gradient, box_mm: [f64; 3]) ->
     scene.flow = shearbed::scene::Flow::Gradient { gradient_per_s: gradient };
     let interaction = lab::interaction(&mut scene);
     (interaction.concentration_per_cm3, interaction.box_mm) = (None, Some(box_mm));
-    scene.time =
-        Time { steps_per_unit: Some(STEPS_PER_STRAIN), outputs_per_unit: Some(1), ..Time::strain(1.0) };
+    scene.time = Time { steps_per_unit: Some(STEPS_PER_STRAIN), outputs_per_unit: Some(1), ..Time::strain(1.0) };
     scene
 }
 

@@ -60,9 +60,7 @@ pub fn cases() -> Vec<Case> {
                 let shape = shearbed::model::jeffery::shape_factor(problem.aspect_ratio);
                 problem.rate_slope(p) - p * Vector3::new(shape * p.y, shape * p.x, 0.0).transpose()
             })
-            .mistake("a rod 1 % longer", |problem, p| {
-                RodProblem::new(1.01 * problem.aspect_ratio, 1.0).rate_slope(p)
-            })
+            .mistake("a rod 1 % longer", |problem, p| RodProblem::new(1.01 * problem.aspect_ratio, 1.0).rate_slope(p))
             .check(eigenvalues),
         Case::integrator("who-loses-length")
             .claim("The integrators that do not claim to keep |p| lose it: each by more than round-off.")
@@ -83,7 +81,8 @@ pub fn cases() -> Vec<Case> {
             .check(coarse),
         Case::integrator("grid-convergence-index")
             .claim(
-                "At r_e = 11.6 the grid convergence index bounds the error of every fixed-step integrator on its finest three \
+                "At r_e = 11.6 the grid convergence index bounds the error of every fixed-step integrator on its \
+                    finest three \
                  grids.",
             )
             .source("A.4, A.5")
@@ -135,12 +134,7 @@ fn digits(rate: &Rate, _: &Effort) -> Vec<Evidence> {
     }
     let because = "a square, a sum, a quotient, a root: a dozen roundings";
     vec![
-        Evidence::within(
-            "relative error of r_e read off the right-hand side",
-            worst,
-            12.0 * f64::EPSILON,
-            because,
-        ),
+        Evidence::within("relative error of r_e read off the right-hand side", worst, 12.0 * f64::EPSILON, because),
         Evidence::within("relative error of the period read off it", period, 12.0 * f64::EPSILON, because),
     ]
 }

@@ -1,5 +1,5 @@
-//! Jeffery's equations one by one: the rate of a run's rods against A.1 to A.3 as printed, and the motion of a whole run
-//! against A.4 and A.5.
+//! Jeffery's equations one by one: the rate of a run's rods against A.1 to A.3 as printed, and the motion of a whole
+//! run against A.4 and A.5.
 
 use crate::judge::case::{Case, Effort, Evidence};
 use crate::judge::lab::{self, Change};
@@ -59,9 +59,7 @@ pub fn cases() -> Vec<Case> {
                 scene.particles.aspect_ratio *= 1.0 + 1e-6;
             })
             .mistake("−G for G", |scene| {
-                scene.flow = shearbed::scene::Flow::Gradient {
-                    gradient_per_s: [[0.0; 3], [-0.5, 0.0, 0.0], [0.0; 3]],
-                };
+                scene.flow = shearbed::scene::Flow::Gradient { gradient_per_s: [[0.0; 3], [-0.5, 0.0, 0.0], [0.0; 3]] };
             })
             .mistake("φ from axis 2", |scene| {
                 if let Orientation::Given { phi_deg, .. } = &mut scene.particles.orientation {
@@ -199,11 +197,7 @@ fn run(scene: &Scene) -> Vec<Rod> {
             let a = |i: usize, j: usize| at(&format!("a{}{}", i.min(j) + 1, i.max(j) + 1), output);
             // The row of the largest component of p keeps the digits of the small ones.
             let largest = (0..3).max_by(|&i, &j| a(i, i).total_cmp(&a(j, j))).unwrap_or(0);
-            Rod {
-                direction: Vector3::from_fn(|j, _| a(largest, j)),
-                phi: at("phi", output),
-                c_b: at("c_b", output),
-            }
+            Rod { direction: Vector3::from_fn(|j, _| a(largest, j)), phi: at("phi", output), c_b: at("c_b", output) }
         })
         .collect()
 }

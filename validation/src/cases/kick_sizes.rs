@@ -59,12 +59,7 @@ fn heavy((angles, min_arm): &(Angles, f64), effort: &Effort) -> Vec<Evidence> {
         ),
     ];
     let evidence = hills.map(|(what, hill, because)| {
-        let rule = Sample { mean: hill.alpha, se: hill.se, samples: hill.count }.is(
-            1.0,
-            0.01,
-            design.effect,
-            because,
-        );
+        let rule = Sample { mean: hill.alpha, se: hill.se, samples: hill.count }.is(1.0, 0.01, design.effect, because);
         Evidence::new(format!("Hill's exponent of {what}"), rule)
     });
     evidence.into()

@@ -42,8 +42,8 @@ pub fn cases() -> Vec<Case> {
     ]
 }
 
-/// A function that returns the expected number of kicked rods of one replica, from its pairs, the sum of their chances to collide,
-/// and the chance that a collision kicks a rod by more than some factor times κ.
+/// A function that returns the expected number of kicked rods of one replica, from its pairs, the sum of their chances
+/// to collide, and the chance that a collision kicks a rod by more than some factor times κ.
 type Expected = fn(&Fresh, &dyn Fn(f64) -> f64) -> f64;
 
 /// The results of the first step of one replica.
@@ -84,9 +84,7 @@ fn formula(expected: &Expected, effort: &Effort) -> Vec<Evidence> {
         let chance = |factor: f64| constant * chance_of_threads(factor * scaled);
         let ratios: Vec<_> = (found.iter()).map(|fresh| fresh.kicked / expected(fresh, &chance)).collect();
         Evidence::new(
-            format!(
-                "rods kicked by more than {threshold_rad} rad over those expected, {steps} steps a period"
-            ),
+            format!("rods kicked by more than {threshold_rad} rad over those expected, {steps} steps a period"),
             Sample::of(&ratios).is(
                 1.0,
                 0.003,
@@ -104,11 +102,7 @@ fn first_step(scene: &Scene, replica: u64, threshold_rad: f64) -> Fresh {
     let pairs = pairs(&mut scene.clone(), &suspension);
     let kicks = of_one_step(&mut suspension, kicks_rad);
     let kicked = kicks.iter().filter(|kick| is_above(**kick, threshold_rad)).count();
-    Fresh {
-        pairs: pairs.len() as f64,
-        chances: pairs.iter().map(|pair| pair.chance).sum(),
-        kicked: kicked as f64,
-    }
+    Fresh { pairs: pairs.len() as f64, chances: pairs.iter().map(|pair| pair.chance).sum(), kicked: kicked as f64 }
 }
 
 /// Isotropic rods so close to each other that a third of them collides in a step.
@@ -143,15 +137,13 @@ fn memory(counted: &Counted, effort: &Effort) -> Vec<Evidence> {
         rates(&scene, steps, 0..1, replicas, counted).counts
     };
     // α = 4 for the opening ones: the more often a pair collides, the sooner the dependence on its past shows.
-    // Pilot of 1,200 replicas at seeds 9001 to 9008: a fall of 0.731 ± 0.012 from 1.1, with a deviation of 0.395: 0.5 and
-    // 0.27 of the sum of both rates.
+    // Pilot of 1,200 replicas at seeds 9001 to 9008: a fall of 0.731 ± 0.012 from 1.1, with a deviation of 0.395: 0.5
+    // and 0.27 of the sum of both rates.
     let fall = Design::new(0.37, 0.29);
     let [coarse, fine] = [100, 800].map(|steps| run(4.0, steps, 1, effort.samples(fall), 1));
-    let both =
-        Sample::of(&coarse.iter().chain(&fine).map(|c| 2.0 * c.opening[OVER]).collect::<Vec<_>>()).mean;
-    let falls: Vec<_> = (coarse.iter().zip(&fine))
-        .map(|(coarse, fine)| (coarse.opening[OVER] - fine.opening[OVER]) / both)
-        .collect();
+    let both = Sample::of(&coarse.iter().chain(&fine).map(|c| 2.0 * c.opening[OVER]).collect::<Vec<_>>()).mean;
+    let falls: Vec<_> =
+        (coarse.iter().zip(&fine)).map(|(coarse, fine)| (coarse.opening[OVER] - fine.opening[OVER]) / both).collect();
     let mut evidence = vec![Evidence::new(
         "kicks > 0.1 rad of opening pairs at 100 steps a period, less those at 800, over both; α = \
          4",
@@ -166,8 +158,7 @@ fn memory(counted: &Counted, effort: &Effort) -> Vec<Evidence> {
     for (steps, stream) in [(200, 2), (400, 3)] {
         let counts = run(0.5, steps, stream, effort.samples(off), 50);
         let fresh = Sample::of(&counts.iter().map(|c| c.fresh_closing[OVER]).collect::<Vec<_>>()).mean;
-        let offs: Vec<_> =
-            (counts.iter()).map(|c| (c.closing[OVER] - c.fresh_closing[OVER]) / fresh).collect();
+        let offs: Vec<_> = (counts.iter()).map(|c| (c.closing[OVER] - c.fresh_closing[OVER]) / fresh).collect();
         evidence.push(Evidence::new(
             format!(
                 "kicks > 0.1 rad of closing pairs over the formula's number, less 1; {steps} steps a \

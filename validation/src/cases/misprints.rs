@@ -67,11 +67,7 @@ fn gives_back_velocity(component: &Gradient, _: &Effort) -> Vec<Evidence> {
     let fields: [(&str, Field); 2] = [
         ("plane Couette flow", |x| Vector3::new(0.0, 0.5 * x.x, 0.0)),
         ("all nine components", |x| {
-            Vector3::new(
-                x.x + 2.0 * x.y - x.z,
-                0.5 * x.x - 3.0 * x.y + 4.0 * x.z,
-                -2.0 * x.x + x.y + 2.0 * x.z,
-            )
+            Vector3::new(x.x + 2.0 * x.y - x.z, 0.5 * x.x - 3.0 * x.y + 4.0 * x.z, -2.0 * x.x + x.y + 2.0 * x.z)
         }),
     ];
     let error = |u: Field| {
@@ -92,12 +88,7 @@ fn gives_back_velocity(component: &Gradient, _: &Effort) -> Vec<Evidence> {
     fields
         .iter()
         .map(|(name, u)| {
-            Evidence::within(
-                format!("largest angle between thread and line, {name}"),
-                error(*u),
-                1e-11,
-                because,
-            )
+            Evidence::within(format!("largest angle between thread and line, {name}"), error(*u), 1e-11, because)
         })
         .collect()
 }
@@ -138,12 +129,7 @@ fn shadows(model: &Shadows, _: &Effort) -> Vec<Evidence> {
             worst = larger(worst, (found - expected).abs());
         }
     }
-    vec![Evidence::within(
-        "largest error of a shadow",
-        worst,
-        4.0 * f64::EPSILON,
-        "a few roundings of numbers up to 1",
-    )]
+    vec![Evidence::within("largest error of a shadow", worst, 4.0 * f64::EPSILON, "a few roundings of numbers up to 1")]
 }
 
 /// An interpretation: true if a rod moves by A.7–A.14, given whether it collided.
@@ -190,6 +176,7 @@ fn free_rods_keep_c(reading: &Reading, effort: &Effort) -> Vec<Evidence> {
     ]
 }
 
-/// The bound for C_b ≤ 1, over one evaluation of the exact motion and of C_b before and after. A kick changes C_b by less than 10⁻⁵
-/// once in a hundred (11 of 994), and the share falls as that bound: some 10⁻⁹ of the collisions of a run by chance.
+/// The bound for C_b ≤ 1, over one evaluation of the exact motion and of C_b before and after. A kick changes C_b by
+/// less than 10⁻⁵ once in a hundred (11 of 994), and the share falls as that bound: some 10⁻⁹ of the collisions of a
+/// run by chance.
 const ROUND_OFF: f64 = 16.0 * f64::EPSILON;

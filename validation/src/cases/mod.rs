@@ -1,8 +1,8 @@
 //! The registry: every case, declared once. `cargo test`, the report and the page of equations are made from it.
 //!
 //! A case is a claim, its source, a subject, mistakes as controls, and a check with the reason for each tolerance
-//! ([`judge::case`](crate::judge::case)). Cases may use all wings above. To add one, write an entry in a file of this folder; a new
-//! file is declared here and its `cases()` listed. CONTRIBUTING.md has a whole one.
+//! ([`judge::case`](crate::judge::case)). Cases may use all wings above. To add one, write an entry in a file of this
+//! folder; a new file is declared here and its `cases()` listed. CONTRIBUTING.md has a whole one.
 
 mod averaged;
 mod begun_again;

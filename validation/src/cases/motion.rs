@@ -226,7 +226,8 @@ fn rk4_step(flow: &VelocityGradient, r: f64, p: &UnitVector3<f64>, dt: f64) -> U
 /// A function that returns φ in [0, π/2] for r_e and t/T.
 type Angle = fn(f64, f64) -> f64;
 
-/// The angle in a run: the propagator's map of a rod that starts along axis 1, and the angle that `mean_angle` averages.
+/// The angle in a run: the propagator's map of a rod that starts along axis 1, and the angle that `mean_angle`
+/// averages.
 fn angle_in_a_run(r: f64, turns: f64) -> f64 {
     let [p1, p2, _] = motion::couette([1.0, 0.0, 0.0], r, Phase::of_turns(turns));
     orientation::folded_phi(p1, p2)
@@ -259,12 +260,7 @@ fn mean_angle(angle: &Angle, _: &Effort) -> Vec<Evidence> {
     }
     let because = "the quadrature asks for 10⁻¹⁴ on each panel of a quarter";
     vec![
-        Evidence::within(
-            "difference of ⟨φ⟩ over the quadrature's tolerance, r_e from 1 to 1000",
-            worst,
-            1.0,
-            because,
-        ),
+        Evidence::within("difference of ⟨φ⟩ over the quadrature's tolerance, r_e from 1 to 1000", worst, 1.0, because),
         Evidence::within(
             "difference of π/2 − ⟨φ⟩ and its first term, over that tolerance and the next term, r_e \
              from 10⁵ to 10⁷",

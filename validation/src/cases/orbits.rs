@@ -29,19 +29,20 @@ pub fn cases() -> Vec<Case> {
     vec![
         Case::interpretation("orbits-of-collisions")
             .claim(
-                "Weak rotary diffusion leaves the closed form's 46.1 % of rods of r_e = 11.6 above C_b = ½; collisions leave far \
+                "Weak rotary diffusion leaves the closed form's 46.1 % of rods of r_e = 11.6 above C_b = ½; \
+                    collisions leave far \
                  more there than isotropic directions have, 50.7 %.",
             )
             .source("eq. 13; Leal & Hinch 1971; docs/src/theory/diffusion.md")
             .subject(right)
-            .mistake("the orbits of isotropic directions for those of weak diffusion", Orbits {
-                weak: orbit_constant_cdf,
-                ..right
-            })
-            .mistake("hardly any collisions: α of 10⁻⁶", Orbits {
-                collisions: |scene| lab::interaction(scene).alpha = 1e-6,
-                ..right
-            })
+            .mistake(
+                "the orbits of isotropic directions for those of weak diffusion",
+                Orbits { weak: orbit_constant_cdf, ..right },
+            )
+            .mistake(
+                "hardly any collisions: α of 10⁻⁶",
+                Orbits { collisions: |scene| lab::interaction(scene).alpha = 1e-6, ..right },
+            )
             .check(orbits),
     ]
 }
@@ -53,11 +54,12 @@ fn orbits(subject: &Orbits, effort: &Effort) -> Vec<Evidence> {
     let (weak, high) = (Design::new(0.031, 0.06), Design::new(0.15, 0.06));
     let setting = coefficients::kick(0.5, ASPECT_RATIO, 0.5, 1);
     let scene = coefficients::scene(setting, effort);
-    // C_I times the strain before is 0.07, and A(C)'s r_e²/2 makes that long enough. Diffusing rods turn exactly between coarse steps.
+    // C_I times the strain before is 0.07, and A(C)'s r_e²/2 makes that long enough. Diffusing rods turn exactly
+    // between coarse steps.
     let watch = Watch::new(&scene, 5.0, 1.0);
     let coarse = Watch { steps: 1, strain: strain_per_period(ASPECT_RATIO) / 50.0, before: 250, jumps: 1 };
-    let of_diffusion = OF_DIFFUSION
-        .get(effort, (), || diffused(&scene, C_I, coarse, effort.samples(weak), (effort, 1 << 22)));
+    let of_diffusion =
+        OF_DIFFUSION.get(effort, (), || diffused(&scene, C_I, coarse, effort.samples(weak), (effort, 1 << 22)));
     let suspension = lab::changed(scene.clone(), subject.collisions);
     let of_collisions = kicked(&suspension, watch, effort.samples(high));
     let less = |all: &[Shares], share: f64| {

@@ -5,7 +5,8 @@ use crate::judge::case::{Case, Evidence};
 use shearbed::model::jeffery::strain_per_period;
 use shearbed::model::shape::spread;
 
-/// A function that returns the least and the greatest strain of half a turn of a cylinder of this physical aspect ratio.
+/// A function that returns the least and the greatest strain of half a turn of a cylinder of this physical aspect
+/// ratio.
 type HalfTurn = fn(f64) -> (f64, f64);
 
 pub fn cases() -> Vec<Case> {
@@ -13,7 +14,8 @@ pub fn cases() -> Vec<Case> {
         Case::core("sph-half-turn")
             .claim(
                 "Fibres that others simulated by smoothed particle hydrodynamics (not measured) make their first half \
-                 turn in T/2 of an r_e that published formulas give for their shape; their later damping is outside the \
+                 turn in T/2 of an r_e that published formulas give for their shape; their later damping is outside \
+                 the \
                  model.",
             )
             .source("eq. 15; Meyer et al. 2020; docs/src/validation/published.md")
@@ -30,10 +32,7 @@ pub fn cases() -> Vec<Case> {
                 let mean = found.iter().sum::<f64>() / found.len() as f64;
                 let (least, most) = half_turn(SPH_ASPECT_RATIO);
                 // Without a mean, `outside` is NaN, which fails.
-                let outside = match (least..=most).contains(&mean) {
-                    true => 0.0,
-                    false => (least - mean).max(mean - most),
-                };
+                let outside = if (least..=most).contains(&mean) { 0.0 } else { (least - mean).max(mean - most) };
                 vec![
                     Evidence::exact("runs that turn", found.len() as f64 - 5.0),
                     Evidence::exact(

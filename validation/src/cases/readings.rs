@@ -27,8 +27,8 @@ struct Alternative {
     design: Design,
 }
 
-/// The program that runs an alternative and the default with the same random numbers: Fig. 7's rods at 200 per cm³, up to
-/// the first maximum of X̄₁, t/T = ½, where the least work distinguishes the interpretations.
+/// The program that runs an alternative and the default with the same random numbers: Fig. 7's rods at 200 per cm³, up
+/// to the first maximum of X̄₁, t/T = ½, where the least work distinguishes the interpretations.
 #[derive(Clone, Copy)]
 enum Model {
     /// The core, if it has the option: 100 rods.
@@ -73,9 +73,7 @@ pub fn cases() -> Vec<Case> {
     let instead = |alternative, model| Alternative { model, ..alternative };
     vec![
         Case::interpretation("reading-who-draws")
-            .claim(
-                "With one draw per mutual pair in place of two, rods are damped less: this interpretation matters.",
-            )
+            .claim("With one draw per mutual pair in place of two, rods are damped less: this interpretation matters.")
             .source("eqs 8, 9; whose R decides is left open")
             .subject(who_draws)
             .mistake("index order instead", instead(who_draws, index_order))
@@ -87,13 +85,12 @@ pub fn cases() -> Vec<Case> {
             .mistake("one draw per mutual pair instead", pair_draws)
             .check(does_not_matter),
         Case::interpretation("reading-update")
-            .claim("A.14 to the letter damps a little more than Jeffery's step and the kick: this interpretation matters.")
+            .claim(
+                "A.14 to the letter damps a little more than Jeffery's step and the kick: this interpretation matters.",
+            )
             .source("A.13, A.14; the pole of the angles")
             .subject(angles)
-            .mistake(
-                "no contact at arms below a thousandth of the length instead",
-                instead(angles, hardly_any_arm),
-            )
+            .mistake("no contact at arms below a thousandth of the length instead", instead(angles, hardly_any_arm))
             .check(matters),
         Case::interpretation("reading-shortest-arm")
             .claim(
@@ -144,9 +141,7 @@ fn does_not_matter(model: &Model, effort: &Effort) -> Vec<Evidence> {
 fn changes(model: Model, effort: &Effort, replicas: u64) -> Vec<f64> {
     let (changed, default) = match model {
         Model::Core(change) => (by_core(change, effort, replicas), by_core(|_| (), effort, replicas)),
-        Model::Naive(change) => {
-            (by_reference(change, effort, replicas), by_reference(|_| (), effort, replicas))
-        }
+        Model::Naive(change) => (by_reference(change, effort, replicas), by_reference(|_| (), effort, replicas)),
     };
     changed.iter().zip(&default).map(|(a, b)| a - b).collect()
 }

@@ -47,14 +47,10 @@ pub fn cases() -> Vec<Case> {
             .mistake("r_e = 1 + 10⁻⁶", Limits { aspect_ratio: 1.0 + 1e-6, ..TAKEN })
             .check(reductions),
         Case::program("standard-errors")
-            .claim(
-                "Standard errors are those of independent replicas, or of rods where there is one replica.",
-            )
+            .claim("Standard errors are those of independent replicas, or of rods where there is one replica.")
             .source("the results' own columns")
             .subject((|values| Sample::of(values).se) as StandardError)
-            .mistake("without the root of their number", |values| {
-                Sample::of(values).se * (values.len() as f64).sqrt()
-            })
+            .mistake("without the root of their number", |values| Sample::of(values).se * (values.len() as f64).sqrt())
             .mistake("N for N − 1", |values| {
                 let n = values.len() as f64;
                 Sample::of(values).se * ((n - 1.0) / n).sqrt()
@@ -86,8 +82,7 @@ fn reductions(limits: &Limits, effort: &Effort) -> Vec<Evidence> {
     lab::interaction(&mut interacting);
     let with = |change: &dyn Fn(&mut Scene)| lab::changed(interacting.clone(), change);
     let alpha = with(&|scene| lab::interaction(scene).alpha = limits.alpha);
-    let thin =
-        with(&|scene| lab::interaction(scene).concentration_per_cm3 = Some(limits.concentration_per_cm3));
+    let thin = with(&|scene| lab::interaction(scene).concentration_per_cm3 = Some(limits.concentration_per_cm3));
     let steep = with(&|scene| lab::interaction(scene).m = limits.m);
     let one = with(&|scene| scene.particles.count = limits.count);
     let mut one_free = free.clone();
@@ -156,9 +151,7 @@ fn worst_ratio(results: &Results, expected: impl Fn(usize) -> Option<f64>) -> f6
         return f64::NAN;
     };
     let errors = channel.se.iter().enumerate();
-    errors
-        .filter_map(|(output, se)| expected(output).map(|expected| (se / expected - 1.0).abs()))
-        .fold(0.0, larger)
+    errors.filter_map(|(output, se)| expected(output).map(|expected| (se / expected - 1.0).abs())).fold(0.0, larger)
 }
 
 #[cfg(test)]

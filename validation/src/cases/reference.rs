@@ -127,10 +127,7 @@ fn against_reference(mistake: &Option<Mistake>, effort: &Effort) -> Vec<Evidence
     }
     vec![
         Evidence::exact(
-            format!(
-                "problems in which other rods collided, in {} steps with {} collisions",
-                off.steps, off.collisions
-            ),
+            format!("problems in which other rods collided, in {} steps with {} collisions", off.steps, off.collisions),
             off.pairs as f64,
         ),
         Evidence::within(
@@ -184,7 +181,8 @@ fn compare(scene: &Scene, replica: u64, mistake: Option<Mistake>, off: &mut Off)
     }
 }
 
-/// The factor by which a collision that turns a rod by up to `turn` rad stretches a difference of ε in places and directions.
+/// The factor by which a collision that turns a rod by up to `turn` rad stretches a difference of ε in places and
+/// directions.
 fn condition(before: &State, (i, j): (usize, usize), turn: f64) -> f64 {
     let places = [i, j].map(|rod| Vector3::from(before.places[rod]));
     let (d, farthest) = (places[1] - places[0], places[0].norm().max(places[1].norm()));
@@ -199,9 +197,8 @@ fn condition(before: &State, (i, j): (usize, usize), turn: f64) -> f64 {
 
 /// The largest distance between two lists of vectors, up to the given signs.
 fn apart<const K: usize>(a: &[[f64; 3]], b: &[[f64; 3]], signs: [f64; K]) -> f64 {
-    let distance = |a: &[f64; 3], b: &[f64; 3], sign: f64| {
-        (0..3).map(|k| (a[k] - sign * b[k]).powi(2)).sum::<f64>().sqrt()
-    };
+    let distance =
+        |a: &[f64; 3], b: &[f64; 3], sign: f64| (0..3).map(|k| (a[k] - sign * b[k]).powi(2)).sum::<f64>().sqrt();
     let nearest = |(a, b)| signs.iter().map(|&sign| distance(a, b, sign)).fold(f64::INFINITY, f64::min);
     a.iter().zip(b).map(nearest).fold(0.0, larger)
 }

@@ -73,7 +73,8 @@ struct Places {
 }
 
 /// Eq. 14 draws x_1 independently of the overshoot, which fills the volume unevenly by O(GΔt): 0.02 in the distribution
-/// function at 200 steps per period (docs/src/theory/index.md), so 0.0005 at this many, a hundredth of the effect to detect.
+/// function at 200 steps per period (docs/src/theory/index.md), so 0.0005 at this many, a hundredth of the effect to
+/// detect.
 const STEPS_PER_PERIOD: u64 = 8000;
 /// Number of steps, for a strain of 3.7.
 const STEPS: u64 = 400;

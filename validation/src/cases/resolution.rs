@@ -49,10 +49,10 @@ struct Size {
 /// The width of a drawn line in the paper's figures.
 const LINE: f64 = 0.01;
 
-/// Coarse steps change X̄₁ against the default step by 0.0295 and 0.061 (the table of docs/src/theory/time-step.md, and for the first
-/// the same with these steps). The difference of X̄₁ of 100 rods from the same replica at the default step has a standard deviation
-/// of 0.025 at r_e = 11.6 and of 0.035 at 100 (2000 replicas; a tenth more is used). Twice the default step changes X̄₁ by
-/// 0.003, so that a correct default fails with less than the gate's level.
+/// Coarse steps change X̄₁ against the default step by 0.0295 and 0.061 (the table of docs/src/theory/time-step.md, and
+/// for the first the same with these steps). The difference of X̄₁ of 100 rods from the same replica at the default
+/// step has a standard deviation of 0.025 at r_e = 11.6 and of 0.035 at 100 (2000 replicas; a tenth more is used).
+/// Twice the default step changes X̄₁ by 0.003, so that a correct default fails with less than the gate's level.
 const SIZES: [Size; 2] = [
     Size { aspect_ratio: 11.6, coarse: 4, design: Design::new(0.0195, 0.0275) },
     Size { aspect_ratio: 100.0, coarse: 200, design: Design::new(0.051, 0.0385) },

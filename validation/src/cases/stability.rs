@@ -19,9 +19,7 @@ pub fn cases() -> Vec<Case> {
             .source("eqs 13, A.2–A.5")
             .subject(crate::methods::integrators::own as Integrators)
             .mistake("whole turns are left in the phase", || vec![whole_turns()])
-            .mistake("RK4 in p said to keep |p|", || {
-                in_p(4, true, |problem, p, h| rk4(|y| problem.rate(&y), p, h))
-            })
+            .mistake("RK4 in p said to keep |p|", || in_p(4, true, |problem, p, h| rk4(|y| problem.rate(&y), p, h)))
             .mistake("RK4 in angles with an order 4 that is 1", || {
                 in_angles(4, |problem, y, h| explicit_euler(|y| problem.angle_rates(&y), y, h))
             })
@@ -64,10 +62,7 @@ fn corners(subjects: &Integrators, effort: &Effort) -> Vec<Evidence> {
         }
     }
     vec![
-        Evidence::exact(
-            "cells in which a subject without steps, other than in angles, is not at round-off",
-            exact,
-        ),
+        Evidence::exact("cells in which a subject without steps, other than in angles, is not at round-off", exact),
         Evidence::within(
             "largest angle to the closed form, A.4 and A.5 in angles",
             angles,

@@ -76,15 +76,15 @@ fn period(change: &Change, effort: &Effort) -> Vec<Evidence> {
                 peak_frequency(&series, 50.0)
             });
             Evidence::new(
-            format!("frequency of X̄₁ in 1/T, {name}"),
-            Sample::of(&frequencies).is(
-                2.0,
-                0.04,
-                design.effect,
-                "\"practically unaffected\": 2 %, a maximum at t/T = 2 that is 0.04 off on an axis of six \
+                format!("frequency of X̄₁ in 1/T, {name}"),
+                Sample::of(&frequencies).is(
+                    2.0,
+                    0.04,
+                    design.effect,
+                    "\"practically unaffected\": 2 %, a maximum at t/T = 2 that is 0.04 off on an axis of six \
                  periods; |p_1| has the period T/2",
-            ),
-        )
+                ),
+            )
         })
         .collect()
 }
@@ -121,8 +121,8 @@ fn peak_frequency(series: &[f64], per_unit: f64) -> f64 {
 /// Number of rods in the control volume.
 type Count = usize;
 
-/// X̄₁ with few rods less X̄₁ with 500, at the same concentration. For every run of 500 there are as many small runs as make up
-/// 500 rods, at most a hundred.
+/// X̄₁ with few rods less X̄₁ with 500, at the same concentration. For every run of 500 there are as many small runs as
+/// make up 500 rods, at most a hundred.
 fn enough_rods(count: &Count, effort: &Effort) -> Vec<Evidence> {
     const MANY: usize = 500;
     // Without collisions every rod returns after a whole period: the means scatter less if the start is subtracted.
@@ -132,9 +132,7 @@ fn enough_rods(count: &Count, effort: &Effort) -> Vec<Evidence> {
         scene.particles.count = count;
         scene.time.duration = 2.0;
         scene.time.outputs_per_unit = Some(1);
-        per_replica(&scene, replicas, |mean| {
-            [1, 2].map(|output| mean(Channel::X[0], output) - mean(Channel::X[0], 0))
-        })
+        per_replica(&scene, replicas, |mean| [1, 2].map(|output| mean(Channel::X[0], output) - mean(Channel::X[0], 0)))
     };
     // A pilot of 200 by `rotation`: two rods are off by 0.041 and 0.061, differences scatter by 0.015 at most.
     let design = Design::new(0.048, 0.018);
@@ -168,14 +166,13 @@ fn stays_put(from: &Periods, effort: &Effort) -> Vec<Evidence> {
     scene.time.duration = from + 2.0;
     scene.time.outputs_per_unit = Some(10);
     let start = (*from as usize) * 10;
-    // From the start X̄_2 and X̄_3 drift by 0.044 and 0.056 in a pilot of 100 replicas; the steady state scattered by 0.005,
-    // 0.008 and 0.011.
+    // From the start X̄_2 and X̄_3 drift by 0.044 and 0.056 in a pilot of 100 replicas; the steady state scattered by
+    // 0.005, 0.008 and 0.011.
     let designs = [(0.02, 0.006), (0.03, 0.0095), (0.04, 0.0135)].map(|(effect, sd)| Design { effect, sd });
     let replicas = designs.map(|design| effort.samples(design)).into_iter().max();
     let drifts = per_replica(&scene, replicas.unwrap_or(0), |mean| {
         // A whole period, after which free rods are back.
-        let over_ten =
-            |channel, first| (first..first + 10).map(|output| mean(channel, output)).sum::<f64>() / 10.0;
+        let over_ten = |channel, first| (first..first + 10).map(|output| mean(channel, output)).sum::<f64>() / 10.0;
         Channel::X.map(|axis| over_ten(axis, start + 10) - over_ten(axis, start))
     });
     (0..3)
@@ -223,7 +220,8 @@ fn in_plane(theta_deg: &ThetaDeg, effort: &Effort) -> Vec<Evidence> {
         let apart: f64 = with.iter().zip(&without).map(|(a, b)| a.cross(b).norm()).sum();
         (out_of_plane, apart / with.len() as f64)
     };
-    // A pilot of 40 replicas by `rotation`: 0.01607 and 0.00333 on average, which leaves 0.0047 ± 0.0008 (mean and deviation).
+    // A pilot of 40 replicas by `rotation`: 0.01607 and 0.00333 on average, which leaves 0.0047 ± 0.0008 (mean and
+    // deviation).
     let design = Design::new(0.0043, 0.001);
     let found: Vec<_> = (0..effort.samples(design))
         .into_par_iter()
@@ -235,7 +233,8 @@ fn in_plane(theta_deg: &ThetaDeg, effort: &Effort) -> Vec<Evidence> {
     let most = found.iter().flatten().map(|(out_of_plane, _)| *out_of_plane).fold(0.0, larger);
     let kicked = found.iter().map(|[kick, ..]| kick.1).fold(0.0, larger);
     let fall: Vec<f64> = found.iter().map(|[_, coarse, fine]| 0.5 * coarse.1 - fine.1).collect();
-    let round_off = "cos 90° is 6·10⁻¹⁷, which kicks ∝ 1/r grow: 60-fold at most in ten times these steps, and x times that with a \
+    let round_off = "cos 90° is 6·10⁻¹⁷, which kicks ∝ 1/r grow: 60-fold at most in ten times these steps, and x \
+        times that with a \
                      probability ∝ 1/x";
     vec![
         Evidence::within("largest |p_3| within one period", most, 1e-9, round_off),
@@ -266,9 +265,7 @@ mod tests {
         for frequency in [1.9, 2.0, 2.11] {
             let series: Vec<f64> = (0..=200)
                 .map(|k| f64::from(k) / 50.0)
-                .map(|t| {
-                    0.3 - 0.02 * t + 0.2 * (-0.4 * t).exp() * (std::f64::consts::TAU * frequency * t).cos()
-                })
+                .map(|t| 0.3 - 0.02 * t + 0.2 * (-0.4 * t).exp() * (std::f64::consts::TAU * frequency * t).cos())
                 .collect();
             let found = peak_frequency(&series, 50.0);
             assert!((found - frequency).abs() < 0.01, "{found} for {frequency}");

@@ -22,7 +22,8 @@ pub fn cases() -> Vec<Case> {
 /// φ̄ over the last two of six periods, for each replica. The suspension is ten times denser than Fig. 4's, so
 /// that four periods reach the steady state; the steady value does not depend on n as long as rods are mostly free.
 fn steady_angle(change: &Change, effort: &Effort) -> Vec<Evidence> {
-    // ⟨φ⟩ of the control is off by 0.037 for r_e = 5 (eq. 19). A pilot of 40 replicas of 100 rods scattered by 0.0018 there.
+    // ⟨φ⟩ of the control is off by 0.037 for r_e = 5 (eq. 19). A pilot of 40 replicas of 100 rods scattered by 0.0018
+    // there.
     let design = Design::new(0.02, 0.003);
     let mut evidence = Vec::new();
     for r in [5.0, 11.6, 30.0] {

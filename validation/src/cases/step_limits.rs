@@ -17,11 +17,13 @@ struct Claimed {
     subjects: Integrators,
     property: Property,
     theory: fn(f64) -> f64,
-    /// The error of the longest step, which is found too long, in δ², δ = π/1024: one of the 512 rods is that close to the extreme one.
+    /// The error of the longest step, which is found too long, in δ², δ = π/1024: one of the 512 rods is that close to
+    /// the extreme one.
     found_late: f64,
 }
 
-/// The extreme rods of explicit Euler are those with the largest Λ sin 2φ or Λ cos 2φ: the nearest rod has 1 − 2δ² of it.
+/// The extreme rods of explicit Euler are those with the largest Λ sin 2φ or Λ cos 2φ: the nearest rod has 1 − 2δ² of
+/// it.
 const OF_EULER: f64 = 3.0;
 /// The Lie-group midpoint rule evaluates the rate half a step ahead, where rods are up to 1 + π/2 times as far apart:
 /// (1 + π/2)²δ² of the largest rate.
@@ -75,8 +77,10 @@ pub fn cases() -> Vec<Case> {
     let folded = |subjects, theory| Claimed { property: Property::Order, ..side(subjects, theory) };
     vec![
         Case::integrator("euler-step-limit")
-            .claim("Explicit Euler's step on A.2 lets one rod overtake another where GΔt > 1/Λ, and never \
-                    below.")
+            .claim(
+                "Explicit Euler's step on A.2 lets one rod overtake another where GΔt > 1/Λ, and never \
+                    below.",
+            )
             .source("A.2; A.14 is such a step")
             .subject(order(euler))
             .mistake("half of the rate", order(half_euler))
@@ -84,22 +88,21 @@ pub fn cases() -> Vec<Case> {
             .mistake("the exact propagator", order(|| vec![exact_propagator()]))
             .check(agrees),
         Case::integrator("step-limit-turning")
-            .claim("Explicit Euler and the Lie-group midpoint rule turn every rod in the plane of shear by \
-                    less than half a turn a step up to GΔt = π(1 + 1/r_e²), and not beyond.")
+            .claim(
+                "Explicit Euler and the Lie-group midpoint rule turn every rod in the plane of shear by \
+                    less than half a turn a step up to GΔt = π(1 + 1/r_e²), and not beyond.",
+            )
             .source("A.2; A.14 is such a step")
-            .subject(turning(|| {
-                [euler(), own("Lie-group midpoint")]
-                    .into_iter()
-                    .flatten()
-                    .collect()
-            }))
+            .subject(turning(|| [euler(), own("Lie-group midpoint")].into_iter().flatten().collect()))
             .mistake("half of the rate", turning(half_euler))
             .mistake("RK4", turning(rk4_in_angles))
             .mistake("the exact propagator", turning(|| vec![exact_propagator()]))
             .check(agrees),
         Case::integrator("rods-come-to-rest")
-            .claim("Just above GΔt = π(1 + 1/r_e²) explicit Euler brings every rod in the plane of shear to \
-                    rest where there is no rest; just below it none stops.")
+            .claim(
+                "Just above GΔt = π(1 + 1/r_e²) explicit Euler brings every rod in the plane of shear to \
+                    rest where there is no rest; just below it none stops.",
+            )
             .source("A.2; A.14 is such a step")
             .subject(euler as Integrators)
             .mistake("half of the rate", half_euler as Integrators)
@@ -108,25 +111,32 @@ pub fn cases() -> Vec<Case> {
         Case::integrator("step-limit-side")
             .claim("Explicit Euler lets no rod cross the plane of shear up to GΔt = 2/Λ, and not beyond.")
             .source("A.3; A.14 is such a step")
-            .subject(Claimed {
-                found_late: OF_EULER,
-                ..side(euler, theory::euler_side)
-            })
+            .subject(Claimed { found_late: OF_EULER, ..side(euler, theory::euler_side) })
             .mistake("half of the rate", side(half_euler, theory::euler_side))
             .mistake("RK4", side(rk4_in_angles, theory::euler_side))
             .check(agrees),
         Case::integrator("implicit-midpoint-order")
-            .claim("The implicit midpoint rule keeps the order of rods in the plane of shear at every step \
-                    for r_e < 1 + √2, and for longer rods up to GΔt = 2/(Λ(1 − u²)^{3/2}), 2u³ − 3u + 1/Λ = 0.")
+            .claim(
+                "The implicit midpoint rule keeps the order of rods in the plane of shear at every step \
+                    for r_e < 1 + √2, and for longer rods up to GΔt = 2/(Λ(1 − u²)^{3/2}), 2u³ − 3u + 1/Λ = 0.",
+            )
             .source("A.2; A.14 is such a step")
             .subject(folded(implicit_midpoint, theory::implicit_midpoint_order))
-            .mistake("no limit, as an A-stable method on a linear equation", folded(implicit_midpoint, |_| f64::INFINITY))
-            .mistake("the explicit midpoint rule", folded(|| own("Lie-group midpoint"), theory::implicit_midpoint_order))
+            .mistake(
+                "no limit, as an A-stable method on a linear equation",
+                folded(implicit_midpoint, |_| f64::INFINITY),
+            )
+            .mistake(
+                "the explicit midpoint rule",
+                folded(|| own("Lie-group midpoint"), theory::implicit_midpoint_order),
+            )
             .mistake("Newton's method after two changes", folded(two_changes, theory::implicit_midpoint_order))
             .check(agrees),
         Case::integrator("implicit-midpoint-side")
-            .claim("The implicit midpoint rule lets no rod cross the plane of shear up to GΔt = 4/Λ or up to \
-                    where its order is lost, whichever is less, and not beyond.")
+            .claim(
+                "The implicit midpoint rule lets no rod cross the plane of shear up to GΔt = 4/Λ or up to \
+                    where its order is lost, whichever is less, and not beyond.",
+            )
             .source("A.3; A.14 is such a step")
             .subject(side(implicit_midpoint, theory::implicit_midpoint_one_solution))
             .mistake("4/Λ at every r_e", side(implicit_midpoint, theory::implicit_midpoint_side))
@@ -134,56 +144,54 @@ pub fn cases() -> Vec<Case> {
             .mistake("explicit Euler", side(euler, theory::implicit_midpoint_one_solution))
             .check(agrees),
         Case::integrator("step-limit-at-least")
-            .claim("Explicit methods of order p in angles keep the order of rods at least up to GΔtΛ = x, x + \
-                    … + xᵖ/p! = 1; in the plane of shear the Lie-group RKMK4 is RK4 in angles.")
+            .claim(
+                "Explicit methods of order p in angles keep the order of rods at least up to GΔtΛ = x, x + \
+                    … + xᵖ/p! = 1; in the plane of shear the Lie-group RKMK4 is RK4 in angles.",
+            )
             .source("A.2; A.14 is such a step")
-            .subject((|| {
-                [
-                    "explicit Euler in angles",
-                    "RK4 in angles",
-                    "Lie-group midpoint",
-                    "Lie-group RKMK4",
-                ]
-                .into_iter()
-                .flat_map(own)
-                .collect()
-            }) as Integrators)
-            .mistake("RK4 in steps of three times the length", || {
-                    in_angles(4, |problem, y, h| rk4(|y| problem.angle_rates(&y), y, 3.0 * h))
-                })
-            .mistake("RK4 in p in place of RKMK4", || {
-                    vec![rk4_in_angles(), own("RK4 in p")]
+            .subject(
+                (|| {
+                    ["explicit Euler in angles", "RK4 in angles", "Lie-group midpoint", "Lie-group RKMK4"]
                         .into_iter()
-                        .flatten()
+                        .flat_map(own)
                         .collect()
-                })
+                }) as Integrators,
+            )
+            .mistake("RK4 in steps of three times the length", || {
+                in_angles(4, |problem, y, h| rk4(|y| problem.angle_rates(&y), y, 3.0 * h))
+            })
+            .mistake("RK4 in p in place of RKMK4", || {
+                vec![rk4_in_angles(), own("RK4 in p")].into_iter().flatten().collect()
+            })
             .check(at_least),
         Case::integrator("rk4-near-a-sphere")
-            .claim("As r_e → 1, RK4 in p turns every rod up to GΔt = 2√6 and its length is bounded up to 4√2, \
-                    its limit on the imaginary axis.")
+            .claim(
+                "As r_e → 1, RK4 in p turns every rod up to GΔt = 2√6 and its length is bounded up to 4√2, \
+                    its limit on the imaginary axis.",
+            )
             .source("A.1; A.14 is such a step")
             .subject((|| own("RK4 in p")) as Integrators)
             .mistake("RK4 in angles", rk4_in_angles as Integrators)
-            .mistake("explicit Euler in p", || {
-                    in_p(1, false, |problem, p, h| p + h * problem.rate(&p))
-                })
+            .mistake("explicit Euler in p", || in_p(1, false, |problem, p, h| p + h * problem.rate(&p)))
             .mistake("the linear equation with half its rate", || {
-                    in_p(4, false, |problem, p, h| rk4(|y| problem.rate(&y), p, 0.5 * h))
-                })
+                in_p(4, false, |problem, p, h| rk4(|y| problem.rate(&y), p, 0.5 * h))
+            })
             .check(near_a_sphere),
         Case::integrator("frozen-limit")
-            .claim("RK4 in p loses its length before the limit that frozen coefficients give on the real \
-                    axis, GΔt = 2.785/Λ, for r_e from 1.5 to 100.")
+            .claim(
+                "RK4 in p loses its length before the limit that frozen coefficients give on the real \
+                    axis, GΔt = 2.785/Λ, for r_e from 1.5 to 100.",
+            )
             .source("A.1; A.14 is such a step")
             .subject((|| own("RK4 in p")) as Integrators)
             .mistake("projected", || own("projected RK4 in p"))
             .mistake("in angles", rk4_in_angles as Integrators)
             .mistake("steps of half the length", || {
-                    in_p(4, false, |problem, p, h| {
-                        let f = |y| problem.rate(&y);
-                        rk4(f, rk4(f, p, 0.5 * h), 0.5 * h)
-                    })
+                in_p(4, false, |problem, p, h| {
+                    let f = |y| problem.rate(&y);
+                    rk4(f, rk4(f, p, 0.5 * h), 0.5 * h)
                 })
+            })
             .check(frozen),
     ]
 }

@@ -45,9 +45,7 @@ pub fn cases() -> Vec<Case> {
             .claim("Integrators that are said to keep |p| = 1 keep it to round-off at any step.")
             .source("A.1; p·ṗ = 0")
             .subject(crate::methods::integrators::own as Integrators)
-            .mistake("RK4 in p, not projected", || {
-                in_p(4, true, |problem, p, h| rk4(|y| problem.rate(&y), p, h))
-            })
+            .mistake("RK4 in p, not projected", || in_p(4, true, |problem, p, h| rk4(|y| problem.rate(&y), p, h)))
             .mistake("the implicit midpoint rule after two sweeps", || {
                 in_p(2, true, |problem, p, h| {
                     let sweep = |m: Vector3<f64>| p + 0.5 * h * problem.tangent_rate(&m);
@@ -153,7 +151,8 @@ fn round_off(subjects: &Integrators, _: &Effort) -> Vec<Evidence> {
     )]
 }
 
-/// r_e, and the steps that Dormand–Prince and Radau take at a tolerance of 10⁻¹¹ (52, 78, 122 and 327, 458, 689), rounded up.
+/// r_e, and the steps that Dormand–Prince and Radau take at a tolerance of 10⁻¹¹ (52, 78, 122 and 327, 458, 689),
+/// rounded up.
 const STEPS: [(f64, [f64; 2]); 3] = [(1.5, [60.0, 330.0]), (3.0, [80.0, 460.0]), (11.6, [130.0, 700.0])];
 
 fn adaptive(subjects: &Integrators, _: &Effort) -> Vec<Evidence> {
@@ -164,7 +163,11 @@ fn adaptive(subjects: &Integrators, _: &Effort) -> Vec<Evidence> {
             let (problem, start) = RodProblem::mid_flip(r);
             let error = grade(&subject, &problem, &start, Setting::Tolerance(1e-11));
             evidence.push(Evidence::within(
-                format!("angle to the closed form at a tolerance of 10⁻¹¹, r_e = {r}, {}", subject.name), // A subject that gives up is off by as much as can be.
+                format!(
+                    "angle to the closed form at a tolerance of 10⁻¹¹, r_e = {r}, \
+                    {}",
+                    subject.name
+                ), // A subject that gives up is off by as much as can be.
                 error.map_or(std::f64::consts::FRAC_PI_2, |errors| errors.orientation_rad),
                 steps * 1e-11 * r,
                 "each step is off by the tolerance, in a direction of its own; their sum is a phase, which \

@@ -48,19 +48,10 @@ pub fn cases() -> Vec<Case> {
             )
             .source("eq. 4")
             .subject(SYMMETRIC)
-            .mistake(
-                "places in another order, directions not",
-                Mapping { directions_too: false, ..SYMMETRIC },
-            )
+            .mistake("places in another order, directions not", Mapping { directions_too: false, ..SYMMETRIC })
             .mistake("rods per area in place of volume", Mapping { per_volume: 64.0, ..SYMMETRIC })
-            .mistake(
-                "a time step that is no share of the period",
-                Mapping { steps_per_period: 250, ..SYMMETRIC },
-            )
-            .mistake(
-                "turned round axis 3, not head to tail",
-                Mapping { tail_deg: [205.0, 70.0], ..SYMMETRIC },
-            )
+            .mistake("a time step that is no share of the period", Mapping { steps_per_period: 250, ..SYMMETRIC })
+            .mistake("turned round axis 3, not head to tail", Mapping { tail_deg: [205.0, 70.0], ..SYMMETRIC })
             .mistake("the flow mirrored, the rods not", Mapping { mirrored_phi_deg: 25.0, ..SYMMETRIC })
             .check(symmetries),
         Case::core("mirrored-flow")
@@ -163,13 +154,12 @@ fn mirrored(mirror: &Mirror, effort: &Effort) -> Vec<Evidence> {
     let mut straight = lab::interacting_scene(effort);
     straight.time.outputs_per_unit = Some(1);
     let mut mirrored = straight.clone();
-    mirrored.flow = shearbed::scene::Flow::Gradient {
-        gradient_per_s: [[0.0; 3], [mirror.shear_rate_per_s, 0.0, 0.0], [0.0; 3]],
-    };
+    mirrored.flow =
+        shearbed::scene::Flow::Gradient { gradient_per_s: [[0.0; 3], [mirror.shear_rate_per_s, 0.0, 0.0], [0.0; 3]] };
     mirrored.ensemble.seed = effort.seed(2);
     lab::interaction(&mut mirrored).concentration_per_cm3 = Some(mirror.concentration_per_cm3);
-    // Pilots at seed 99 of 600 replicas: changes over a period of −0.089, 0.140 and −0.089, which scatter by 0.022, 0.034
-    // and 0.022, differences by √2 as much; half the concentration already takes off 0.027, 0.040 and 0.027.
+    // Pilots at seed 99 of 600 replicas: changes over a period of −0.089, 0.140 and −0.089, which scatter by 0.022,
+    // 0.034 and 0.022, differences by √2 as much; half the concentration already takes off 0.027, 0.040 and 0.027.
     let designs = [(0.035, 0.036), (0.055, 0.055), (0.035, 0.036)].map(|(effect, sd)| Design { effect, sd });
     let replicas = designs.map(|design| effort.samples(design)).into_iter().max();
     // Without collisions every rod returns after a whole period: the means scatter less if the start is subtracted.
@@ -182,12 +172,7 @@ fn mirrored(mirror: &Mirror, effort: &Effort) -> Vec<Evidence> {
             let apart: Vec<f64> = here.iter().zip(&there).map(|(a, b)| a[axis] - b[axis]).collect();
             Evidence::new(
                 format!("change of X̄_{} over a period, flow less mirrored flow", axis + 1),
-                Sample::of(&apart).is(
-                    0.0,
-                    0.0,
-                    designs[axis].effect,
-                    "a symmetry of the model; independent seeds",
-                ),
+                Sample::of(&apart).is(0.0, 0.0, designs[axis].effect, "a symmetry of the model; independent seeds"),
             )
         })
         .collect()

@@ -20,8 +20,10 @@ pub fn cases() -> Vec<Case> {
     vec![
         Case::core("times-of-a-run")
             .claim(
-                "The seconds and the strain beside each t/T of a run are those of T = 2π(r_e + 1/r_e)/|G| in plane Couette \
-                 flow, of 2π/ω in other flows in a plane that turn rods at ω, and of (2D:D)^½ where times are given in strain.",
+                "The seconds and the strain beside each t/T of a run are those of T = 2π(r_e + 1/r_e)/|G| in plane \
+                    Couette \
+                 flow, of 2π/ω in other flows in a plane that turn rods at ω, and of (2D:D)^½ where times are given \
+                 in strain.",
             )
             .source("eqs 15, A.6")
             .subject(unit as UnitOf)
@@ -61,10 +63,7 @@ fn units(unit: &UnitOf, effort: &Effort) -> Vec<Evidence> {
     let because = "sums, products and a root, each rounded: eight roundings on both sides";
     let within = |what, scenes| Evidence::within(what, worst(scenes), 8.0 * f64::EPSILON, because);
     vec![
-        within(
-            "relative error in plane Couette flow, both directions, r_e from 10⁻³ to 10⁶",
-            couette(effort),
-        ),
+        within("relative error in plane Couette flow, both directions, r_e from 10⁻³ to 10⁶", couette(effort)),
         within("relative error in flows in a plane that turn rods along ellipses", elliptic(effort)),
         within("relative error of seconds per strain in extension and shear", strained(effort)),
     ]
@@ -74,11 +73,10 @@ fn couette(effort: &Effort) -> Vec<Expected> {
     let each = |shear_rate_per_s: f64, r: f64| {
         let scene = changed(free_scene(effort), |scene| {
             // A scene's shear rate is positive; the opposite one is a gradient.
-            scene.flow = match shear_rate_per_s > 0.0 {
-                true => Flow::Shear { shear_rate_per_s },
-                false => {
-                    Flow::Gradient { gradient_per_s: [[0.0; 3], [shear_rate_per_s, 0.0, 0.0], [0.0; 3]] }
-                }
+            scene.flow = if shear_rate_per_s > 0.0 {
+                Flow::Shear { shear_rate_per_s }
+            } else {
+                Flow::Gradient { gradient_per_s: [[0.0; 3], [shear_rate_per_s, 0.0, 0.0], [0.0; 3]] }
             };
             scene.particles.aspect_ratio = r;
         });
@@ -94,8 +92,7 @@ fn couette(effort: &Effort) -> Vec<Expected> {
 fn elliptic(effort: &Effort) -> Vec<Expected> {
     let each = |[a, b]: [f64; 2], r: f64| {
         let scene = changed(free_scene(effort), |scene| {
-            scene.flow =
-                shearbed::scene::Flow::Gradient { gradient_per_s: [[0.0, -a, 0.0], [b, 0.0, 0.0], [0.0; 3]] };
+            scene.flow = shearbed::scene::Flow::Gradient { gradient_per_s: [[0.0, -a, 0.0], [b, 0.0, 0.0], [0.0; 3]] };
             scene.particles.aspect_ratio = r;
         });
         let (spin, shear) = (0.5 * (a + b), 0.5 * (b - a));

@@ -1,7 +1,8 @@
-//! What is called certified, exact or closed: each number by a second method that shares nothing with the first but what is said.
+//! What is called certified, exact or closed: each number by a second method that shares nothing with the first but
+//! what is said.
 //!
-//! The first values are those that are shipped, or that the program prints. `bash docs/numbers.sh` writes the table of the verification
-//! guide from the evidence of this case.
+//! The first values are those that are shipped, or that the program prints. `bash docs/numbers.sh` writes the table of
+//! the verification guide from the evidence of this case.
 
 use crate::judge::case::{Case, Effort, Evidence};
 use crate::judge::statistics::{larger, worst};
@@ -46,7 +47,10 @@ const STRESS: &str = "coefficients of the stress: integrals over u, and over ln 
 
 pub fn cases() -> Vec<Case> {
     let mut case = Case::oracle("two-methods")
-        .claim("Every number that is called certified is found by two methods that share nothing but what is said, to its last digit.")
+        .claim(
+            "Every number that is called certified is found by two methods that share nothing but what is said, to \
+            its last digit.",
+        )
         .source("eqs 4, 11, 12, A.1–A.12; Jeffery 1922; Folgar & Tucker 1984")
         .subject((|_, shipped| shipped.clone()) as Certified);
     macro_rules! wrong {
@@ -113,17 +117,10 @@ fn row(built: &Built, at: usize) -> Vec<Big> {
 }
 
 fn rods(full: bool) -> Vec<(Big, Big)> {
-    let names: &[_] = match full {
-        false => &["mid-flip-2", "spiral"],
-        true => &[
-            "mid-flip-2",
-            "mid-flip-11.6",
-            "disc-0.1",
-            "sphere",
-            "planar-extension",
-            "couette-turned",
-            "spiral",
-        ],
+    let names: &[_] = if !full {
+        &["mid-flip-2", "spiral"]
+    } else {
+        &["mid-flip-2", "mid-flip-11.6", "disc-0.1", "sphere", "planar-extension", "couette-turned", "spiral"]
     };
     let mut pairs = Vec::new();
     for built in names.iter().map(|name| named(name)) {
@@ -133,12 +130,7 @@ fn rods(full: bool) -> Vec<(Big, Big)> {
             let size = length(&start);
             let start = start.map(|x| x / &size);
             for (time, time_s) in problem.times_s.iter().enumerate() {
-                let p = second::direction(
-                    &problem.gradient_per_s,
-                    problem.aspect_ratio,
-                    &start,
-                    &BITS.of(*time_s),
-                );
+                let p = second::direction(&problem.gradient_per_s, problem.aspect_ratio, &start, &BITS.of(*time_s));
                 pairs.extend(row(built, time * built.start.len() + at).into_iter().zip(p));
             }
         }
@@ -168,20 +160,16 @@ fn isotropic(full: bool) -> Vec<(Big, Big)> {
 fn unequal() -> Vec<(Big, Big)> {
     let built = named("unequal-rods");
     let (r, sd) = (built.problem.aspect_ratio, built.problem.aspect_ratio_sd_percent);
-    let turns =
-        |time_s: &f64| time_s * built.problem.gradient_per_s[1][0] / (std::f64::consts::TAU * (r + 1.0 / r));
-    let means =
-        built.problem.times_s.iter().map(|time_s| mean_projections_polydisperse(r, sd, turns(time_s)));
-    let pairs =
-        means.enumerate().flat_map(|(at, means)| row(built, at).into_iter().zip(means.map(|x| BITS.of(x))));
+    let turns = |time_s: &f64| time_s * built.problem.gradient_per_s[1][0] / (std::f64::consts::TAU * (r + 1.0 / r));
+    let means = built.problem.times_s.iter().map(|time_s| mean_projections_polydisperse(r, sd, turns(time_s)));
+    let pairs = means.enumerate().flat_map(|(at, means)| row(built, at).into_iter().zip(means.map(|x| BITS.of(x))));
     pairs.collect()
 }
 
 fn fine() -> Vec<(Big, Big)> {
     let problem = &named("unequal-rods").problem;
     let rate = problem.gradient_per_s[1][0];
-    let means =
-        second::unequal(rate, problem.aspect_ratio, problem.aspect_ratio_sd_percent, problem.times_s[0], 96);
+    let means = second::unequal(rate, problem.aspect_ratio, problem.aspect_ratio_sd_percent, problem.times_s[0], 96);
     row(named("unequal-rods"), 0).into_iter().zip(means).collect()
 }
 
@@ -221,10 +209,7 @@ fn diffusing(full: bool, columns: usize) -> Vec<(Big, Big)> {
             let of = |second: &[f64], fourth: &[f64]| bigs(if columns == 6 { second } else { fourth });
             let due = of(&grid.second, &grid.fourth);
             pairs.extend(
-                row(built, at)
-                    .into_iter()
-                    .chain(of(&now.second, &now.fourth))
-                    .zip(due.iter().chain(&due).cloned()),
+                row(built, at).into_iter().chain(of(&now.second, &now.fourth)).zip(due.iter().chain(&due).cloned()),
             );
         }
     }
@@ -241,9 +226,10 @@ fn bigs(values: &[f64]) -> Vec<Big> {
 }
 
 fn steady(full: bool) -> Vec<(Big, Big)> {
-    let asked: &[_] = match full {
-        false => &[("folgar-tucker-steady-mixed", 40)],
-        true => &[("folgar-tucker-steady-mixed", 48), ("folgar-tucker-steady-shear-0.01", 64)],
+    let asked: &[_] = if !full {
+        &[("folgar-tucker-steady-mixed", 40)]
+    } else {
+        &[("folgar-tucker-steady-mixed", 48), ("folgar-tucker-steady-shear-0.01", 64)]
     };
     let pairs = asked.iter().flat_map(|(name, rings)| {
         let due = bigs(&on_grid(named(name), *rings, f64::INFINITY).second);
@@ -292,17 +278,12 @@ fn stress() -> Vec<(Big, Big)> {
         let stretched = over(&|x| x / ((1.0 + x).powi(2) * (square + x).powf(1.5)));
         let across = over(&|x| 1.0 / ((1.0 + x).powi(2) * (square + x).powf(1.5)));
         let normal = over(&|x| 1.0 / ((1.0 + x).powi(3) * (square + x).sqrt()));
-        let (k_x, k_y, k_z) =
-            (2.0 / (3.0 * r * stretched), 2.0 / (r * (square + 1.0) * across), 1.0 / (r * normal));
+        let (k_x, k_y, k_z) = (2.0 / (3.0 * r * stretched), 2.0 / (r * (square + 1.0) * across), 1.0 / (r * normal));
         let due = [1.5 * k_x - 2.0 * k_y + 0.5 * k_z, k_y - k_z, k_z];
         let scale = worst(due.map(f64::abs));
         let scaled = |x: f64| BITS.of(x / scale);
-        pairs.extend(
-            stress_coefficients(r)
-                .into_iter()
-                .zip(due)
-                .map(|(first, second)| (scaled(first), scaled(second))),
-        );
+        pairs
+            .extend(stress_coefficients(r).into_iter().zip(due).map(|(first, second)| (scaled(first), scaled(second))));
     }
     pairs
 }

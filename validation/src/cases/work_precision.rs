@@ -1,4 +1,5 @@
-//! The error of a suspension's mean against the rods, as claimed by `docs/src/verification/integrators.md`. Nothing is timed.
+//! The error of a suspension's mean against the rods, as claimed by `docs/src/verification/integrators.md`. Nothing is
+//! timed.
 
 use crate::judge::accept::Design;
 use crate::judge::case::{Case, Effort, Evidence};

@@ -43,10 +43,7 @@ pub fn cases() -> Vec<Case> {
             .source("eqs 4, 7")
             .subject(same)
             .mistake("free rods of another seed", Beside { free: |scene| scene.ensemble.seed += 1, ..same })
-            .mistake(
-                "the other α at another seed",
-                Beside { other: |scene| scene.ensemble.seed += 1, ..same },
-            )
+            .mistake("the other α at another seed", Beside { other: |scene| scene.ensemble.seed += 1, ..same })
             .mistake(
                 "the closed form of rods a tenth longer",
                 Beside { mean: |scene| scene.particles.aspect_ratio *= 1.1, ..same },
@@ -97,8 +94,8 @@ pub(super) fn first(values: Result<Vec<Vec<f64>>, String>, mark: usize) -> Vec<f
     at(&values.unwrap_or_default(), mark)
 }
 
-/// One value for each pair, whose mean is the correlation r and whose scatter is that of r: r plus its influence function,
-/// xy − r(x² + y²)/2 in standard units.
+/// One value for each pair, whose mean is the correlation r and whose scatter is that of r: r plus its influence
+/// function, xy − r(x² + y²)/2 in standard units.
 fn correlations(a: &[f64], b: &[f64]) -> Vec<f64> {
     let standard = |values: &[f64]| {
         let (mean, deviation) = (values.mean(), values.population_std_dev());
@@ -114,8 +111,9 @@ fn shared(beside: &Beside, effort: &Effort) -> Vec<Evidence> {
     let mut scene = lab::interacting_scene(effort);
     scene.particles.count = 25;
     let changed = |change: Change| lab::changed(scene.clone(), change);
-    // Pilot of 17,106 replicas at seeds 9001 to 9006: 0.219 with a deviation of 0.89, of 1.2 where the free rods are others;
-    // ρ = 0.870, whose influence has 0.59, 2.4 in artanh; it has a long tail and came out 2.8 at 2 of 35 seeds; 0.0175 with 0.0076.
+    // Pilot of 17,106 replicas at seeds 9001 to 9006: 0.219 with a deviation of 0.89, of 1.2 where the free rods are
+    // others; ρ = 0.870, whose influence has 0.59, 2.4 in artanh; it has a long tail and came out 2.8 at 2 of 35 seeds;
+    // 0.0175 with 0.0076.
     let more = Design::new(0.19, 1.4);
     let common = Design::new(0.33, 3.1);
     let mean = Design::new(0.0016, 0.0085);
@@ -138,9 +136,8 @@ fn shared(beside: &Beside, effort: &Effort) -> Vec<Evidence> {
     let own = &runs.own[..other.len()];
     let rho = correlation(own, &other);
     // Fisher's transform, whose scatter does not depend on ρ.
-    let fisher: Vec<_> = (correlations(own, &other).iter())
-        .map(|value| rho.atanh() + (value - rho) / (1.0 - rho * rho))
-        .collect();
+    let fisher: Vec<_> =
+        (correlations(own, &other).iter()).map(|value| rho.atanh() + (value - rho) / (1.0 - rho * rho)).collect();
     vec![
         Evidence::new(
             "share of the variance that free rods explain, less the share that half the step does",

@@ -1,8 +1,8 @@
 //! The only way in which files are read: regular files alone, without waiting, and up to a size limit.
 //!
-//! A file may be a link to an endless device or a pipe without a writer, may grow while it is read, and may have been written by
-//! a stranger or edited since this program wrote it. Nothing else in this crate opens a file for reading (a folder is
-//! opened once, to be synchronised): clippy forbids it (`clippy.toml`).
+//! A file may be a link to an endless device or a pipe without a writer, may grow while it is read, and may have been
+//! written by a stranger or edited since this program wrote it. Nothing else in this crate opens a file for reading (a
+//! folder is opened once, to be synchronised): clippy forbids it (`clippy.toml`).
 
 use cap_std::fs::Dir;
 use std::fs::{File, FileType, OpenOptions};
@@ -13,8 +13,8 @@ use std::path::Path;
 ///
 /// # Errors
 ///
-/// Those of the system, and `InvalidInput` if the file is not a regular one; the message names its kind: a pipe, a device, a socket
-/// or a folder.
+/// Those of the system, and `InvalidInput` if the file is not a regular one; the message names its kind: a pipe, a
+/// device, a socket or a folder.
 pub fn open(path: &Path) -> io::Result<File> {
     open_with(path, OpenOptions::new().read(true))
 }
@@ -61,10 +61,7 @@ pub fn open_in(dir: &Dir, name: &Path) -> io::Result<File> {
 /// `InvalidInput`, with the kind of the file.
 pub fn regular(file: &File) -> io::Result<()> {
     let kind = file.metadata()?.file_type();
-    match kind.is_file() {
-        true => Ok(()),
-        false => Err(not_regular(kind)),
-    }
+    if kind.is_file() { Ok(()) } else { Err(not_regular(kind)) }
 }
 
 fn not_regular(kind: FileType) -> io::Error {
@@ -81,10 +78,7 @@ pub fn bytes(path: &Path, most: u64) -> io::Result<Vec<u8>> {
     let mut file = open(path)?.take(most.saturating_add(1));
     let mut bytes = Vec::new();
     file.read_to_end(&mut bytes)?;
-    match bytes.len() as u64 <= most {
-        true => Ok(bytes),
-        false => Err(too_long(most)),
-    }
+    if bytes.len() as u64 <= most { Ok(bytes) } else { Err(too_long(most)) }
 }
 
 fn too_long(most: u64) -> io::Error {

@@ -14,9 +14,8 @@ fn at(path: &str, one: &Value, other: &Value) -> Option<(String, Value, Value)> 
         path => format!("{path}.{key}"),
     };
     match (one, other) {
-        (Value::Object(a), Value::Object(b)) => (a.keys().chain(b.keys())).find_map(|key| {
-            at(&below(key), a.get(key).unwrap_or(&Value::Null), b.get(key).unwrap_or(&Value::Null))
-        }),
+        (Value::Object(a), Value::Object(b)) => (a.keys().chain(b.keys()))
+            .find_map(|key| at(&below(key), a.get(key).unwrap_or(&Value::Null), b.get(key).unwrap_or(&Value::Null))),
         (Value::Array(a), Value::Array(b)) if a.len() == b.len() => {
             (0..a.len()).find_map(|k| at(&below(&(k + 1).to_string()), &a[k], &b[k]))
         }

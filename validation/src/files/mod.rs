@@ -4,8 +4,8 @@
 //! - [`output`]: files that appear whole, `shearbed.json` in every folder of results, and the rule for overwriting.
 //! - [`checkpoint`]: runs that go on after an interruption; [`cluster`]: the ranks of an MPI job.
 //!
-//! This wing may use the core's scenes and results, and no other wing. To add a file format, write a module that reads through
-//! `bounded` and writes through `output`, and add its name to the fuzzing (`examples/fuzz`).
+//! This wing may use the core's scenes and results, and no other wing. To add a file format, write a module that reads
+//! through `bounded` and writes through `output`, and add its name to the fuzzing (`examples/fuzz`).
 
 pub mod bounded;
 pub mod build;

@@ -1,4 +1,5 @@
-//! Writes sets of files such that a set appears as a whole or not at all, and that two processes do not mix their files.
+//! Writes sets of files such that a set appears as a whole or not at all, and that two processes do not mix their
+//! files.
 
 mod claim;
 mod folder;
@@ -46,7 +47,8 @@ impl std::fmt::Display for OutputError {
 
 impl std::error::Error for OutputError {}
 
-/// The reason why a file or folder was left unchanged: its name, its contents or why it cannot be written, and what to do.
+/// The reason why a file or folder was left unchanged: its name, its contents or why it cannot be written, and what to
+/// do.
 #[derive(Debug)]
 pub struct Refused(pub String);
 
@@ -67,8 +69,9 @@ fn at(path: &Path) -> impl FnOnce(io::Error) -> OutputError {
     |reason| OutputError { path, reason }
 }
 
-/// Checks, for commands that work long before they write, that a folder can be made and filled in `dir`, or if it does not exist in the
-/// folder above it, and that there is room for `bytes` bytes. Fails if another process is writing in the folder.
+/// Checks, for commands that work long before they write, that a folder can be made and filled in `dir`, or if it does
+/// not exist in the folder above it, and that there is room for `bytes` bytes. Fails if another process is writing in
+/// the folder.
 pub fn probe(dir: &Path, bytes: u64) -> Result<(), OutputError> {
     Claim::open(dir, PATIENCE)?;
     let (above, _) = claim::existing(dir);
@@ -83,8 +86,8 @@ pub fn probe(dir: &Path, bytes: u64) -> Result<(), OutputError> {
     })
 }
 
-/// Allocates `bytes` bytes for an unnamed file, of which nothing remains, even after a kill; compares them with the free space where
-/// the file system cannot allocate.
+/// Allocates `bytes` bytes for an unnamed file, of which nothing remains, even after a kill; compares them with the
+/// free space where the file system cannot allocate.
 fn has_room(dir: &Path, bytes: u64) -> io::Result<()> {
     let file = tempfile::tempfile_in(dir)?;
     #[cfg(target_os = "linux")]
@@ -103,8 +106,8 @@ fn has_room(dir: &Path, bytes: u64) -> io::Result<()> {
     Ok(())
 }
 
-/// Writes one file, as a whole or not at all, following links of this name. An existing file with other contents is replaced only with
-/// `force`; a file with the same contents is left.
+/// Writes one file, as a whole or not at all, following links of this name. An existing file with other contents is
+/// replaced only with `force`; a file with the same contents is left.
 ///
 /// # Errors
 ///
@@ -120,9 +123,10 @@ pub fn write_one(path: &Path, contents: &[u8], force: bool) -> Result<(), Refuse
     may_write(path, contents, force)?;
     loop {
         if let Some(claim) = Claim::open(folder, PATIENCE).map_err(at_file)? {
-            return match may_write(path, contents, force)? {
-                true => Ok(claim.write_file(name, contents).map_err(at_file)?),
-                false => Ok(()),
+            return if may_write(path, contents, force)? {
+                Ok(claim.write_file(name, contents).map_err(at_file)?)
+            } else {
+                Ok(())
             };
         }
         if Claim::appear(folder, &[(name.to_owned(), contents)]).map_err(at_file)?.is_some() {

@@ -5,20 +5,21 @@ use std::ffi::OsStr;
 use std::io::Write;
 use std::path::Path;
 
-/// True if a character controls a terminal, changes the direction of writing, is invisible, or is not allowed in HTML and SVG. Line feeds
-/// and tabulators are allowed.
+/// True if a character controls a terminal, changes the direction of writing, is invisible, or is not allowed in HTML
+/// and SVG. Line feeds and tabulators are allowed.
 fn commands(c: char) -> bool {
     (c.is_control() && !matches!(c, '\n' | '\t'))
         || matches!(c, '\u{2028}' | '\u{2029}' | '\u{fff9}'..='\u{fffb}' | '\u{fffe}' | '\u{ffff}')
         || invisible(c)
 }
 
-/// True if fonts should draw nothing for a character (Unicode's Default_Ignorable_Code_Point), such as the zero-width space and
-/// those that change the direction of writing: names that differ only by such a character look the same.
+/// True if fonts should draw nothing for a character (Unicode's Default_Ignorable_Code_Point), such as the zero-width
+/// space and those that change the direction of writing: names that differ only by such a character look the same.
 fn invisible(c: char) -> bool {
     matches!(c,
         '\u{ad}' | '\u{34f}' | '\u{61c}' | '\u{115f}' | '\u{1160}' | '\u{17b4}' | '\u{17b5}' | '\u{180b}'..='\u{180f}'
-        | '\u{200b}'..='\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2060}'..='\u{206f}' | '\u{3164}' | '\u{fe00}'..='\u{fe0f}'
+        | '\u{200b}'..='\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2060}'..='\u{206f}' | '\u{3164}'
+        | '\u{fe00}'..='\u{fe0f}'
         | '\u{feff}' | '\u{ffa0}' | '\u{fff0}'..='\u{fff8}' | '\u{1bca0}'..='\u{1bca3}' | '\u{1d173}'..='\u{1d17a}'
         | '\u{e0000}'..='\u{e0fff}')
 }
@@ -28,10 +29,7 @@ pub fn readable(text: &str) -> Cow<'_, str> {
     if !text.contains(commands) {
         return Cow::Borrowed(text);
     }
-    let written = |text: &mut String, c: char| match commands(c) {
-        true => text.extend(c.escape_unicode()),
-        false => text.push(c),
-    };
+    let written = |text: &mut String, c: char| if commands(c) { text.extend(c.escape_unicode()) } else { text.push(c) };
     let mut all = String::new();
     text.chars().for_each(|c| written(&mut all, c));
     Cow::Owned(all)
@@ -39,17 +37,21 @@ pub fn readable(text: &str) -> Cow<'_, str> {
 
 /// JSON in which the characters that [`readable`] writes out are escaped too; it has the same values.
 pub(crate) fn json(text: &str) -> String {
-    let written = |text: &mut String, c: char| match commands(c) {
-        true => c.encode_utf16(&mut [0; 2]).iter().for_each(|unit| *text += &format!("\\u{unit:04x}")),
-        false => text.push(c),
+    let written = |text: &mut String, c: char| {
+        if commands(c) {
+            c.encode_utf16(&mut [0; 2]).iter().for_each(|unit| *text += &format!("\\u{unit:04x}"))
+        } else {
+            text.push(c)
+        }
     };
     let mut all = String::new();
     text.chars().for_each(|c| written(&mut all, c));
     all
 }
 
-/// Writes a text to standard error in one call: a reader of several processes' output joins the pieces as they arrive, possibly
-/// with another process's in between. Errors are ignored: then only the exit code and the files show the failure.
+/// Writes a text to standard error in one call: a reader of several processes' output joins the pieces as they arrive,
+/// possibly with another process's in between. Errors are ignored: then only the exit code and the files show the
+/// failure.
 pub fn complain(text: &str) {
     let _ = std::io::stderr().write_all(text.as_bytes());
 }
@@ -99,8 +101,8 @@ pub fn snippet(value: &str) -> String {
     format!("\"{}{more}\"", line(&start).replace('"', "\\\""))
 }
 
-/// The text, with the middle left out if it is too long: the error is at the start of a message, and what is allowed at the
-/// end.
+/// The text, with the middle left out if it is too long: the error is at the start of a message, and what is allowed at
+/// the end.
 pub(crate) fn shortened(text: &str) -> Cow<'_, str> {
     let length = text.chars().count();
     if length <= MOST {
@@ -112,8 +114,8 @@ pub(crate) fn shortened(text: &str) -> Cow<'_, str> {
     Cow::Owned(format!("{head} … ({left_out} characters are left out here) … {tail}"))
 }
 
-/// A message for the terminal: what commands one is written out, a number of many digits is a power of ten, the system's numbers of
-/// errors go, and the middle of a long text is left out.
+/// A message for the terminal: what commands one is written out, a number of many digits is a power of ten, the
+/// system's numbers of errors go, and the middle of a long text is left out.
 pub fn message(text: &str) -> String {
     readable(&shortened(&with_short_numbers(&without_codes(text)))).into_owned()
 }
@@ -158,10 +160,7 @@ fn with_short_numbers(text: &str) -> String {
 
 /// A number with four decimals, or as a power of ten where it would have hundreds of digits.
 pub fn four_decimals(x: f64) -> String {
-    match x.abs() < 1e12 {
-        true => format!("{x:.4}"),
-        false => format!("{x:.4e}"),
-    }
+    if x.abs() < 1e12 { format!("{x:.4}") } else { format!("{x:.4e}") }
 }
 
 /// Rows of cells as lines of columns that are aligned on the left.
@@ -188,8 +187,8 @@ fn aligned(rows: &[Vec<String>], pad: impl Fn(&str, usize) -> String) -> String 
     rows.iter().map(line).collect()
 }
 
-/// A CSV cell that no spreadsheet treats as a formula: a text that begins like a formula gets an apostrophe before it. Numbers are
-/// unchanged.
+/// A CSV cell that no spreadsheet treats as a formula: a text that begins like a formula gets an apostrophe before it.
+/// Numbers are unchanged.
 pub(crate) fn cell(text: &str) -> String {
     // Full-width forms too, which East Asian spreadsheets treat like the others.
     let formula = text.starts_with(['=', '+', '-', '@', '\t', '\r', '\n', '|', '%', '＝', '＋', '－', '＠']);
@@ -198,8 +197,8 @@ pub(crate) fn cell(text: &str) -> String {
     format!("{mark}{}", readable(text))
 }
 
-/// A command line that a POSIX shell splits into these words; a word that is not valid text is quoted in the form of bash and
-/// zsh.
+/// A command line that a POSIX shell splits into these words; a word that is not valid text is quoted in the form of
+/// bash and zsh.
 pub fn command<W: AsRef<OsStr>>(words: impl IntoIterator<Item = W>) -> String {
     let words: Vec<_> = words.into_iter().map(|word| quoted(word.as_ref())).collect();
     words.join(" ")

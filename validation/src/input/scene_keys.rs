@@ -36,8 +36,7 @@ pub fn markdown() -> String {
 /// A JSON Schema of whole scenes.
 pub fn schema() -> Value {
     let title = keys().take_while(|key| !key.path.contains('.'));
-    let tables =
-        TABLES.iter().map(|table| (&table.key, Some(object(table.keys.iter().map(|key| (key, None))))));
+    let tables = TABLES.iter().map(|table| (&table.key, Some(object(table.keys.iter().map(|key| (key, None))))));
     let mut whole = object(title.map(|key| (key, None)).chain(tables));
     whole["$schema"] = "https://json-schema.org/draft/2020-12/schema".into();
     whole["title"] = "A scene of shearbed".into();
@@ -86,8 +85,7 @@ fn holds(holds: &Holds) -> Value {
                     "additionalProperties": false
                 })
             };
-            let steps =
-                [step("shear_rate_per_s", json!({ "type": "number" })), step("gradient_per_s", gradient())];
+            let steps = [step("shear_rate_per_s", json!({ "type": "number" })), step("gradient_per_s", gradient())];
             json!({ "type": "array", "minItems": 1, "maxItems": MAX_FLOW_STEPS, "items": { "oneOf": steps } })
         }
         Holds::Orientation => json!({ "oneOf": [

@@ -102,8 +102,7 @@ mod tests {
         let text = crate::input::scenes::find(name).unwrap().text;
         let mut scene = shearbed::scene::parse("s", text).unwrap();
         scene.particles.count = count;
-        scene.particles.rods =
-            Some(RodsFile { own: None, ..RodsFile::with("start.csv", OwnRods::default()) });
+        scene.particles.rods = Some(RodsFile { own: None, ..RodsFile::with("start.csv", OwnRods::default()) });
         scene
     }
 
@@ -136,12 +135,10 @@ mod tests {
             ("length_mm\n1\n1\n1\n", "start.csv: has 3 rows"),
             (
                 "aspect_ratio\n2\n1\n",
-                "start.csv:3: aspect_ratio = 1.0 is not allowed: expected a number > 1, up to 1e100, for interacting rods",
+                "start.csv:3: aspect_ratio = 1.0 is not allowed: expected a number > 1, up to 1e100, for interacting \
+                    rods",
             ),
-            (
-                "x1_mm,x2_mm,x3_mm\n1,2,3\n3,4,1\n",
-                "start.csv:3: x2_mm = 4.0 is not allowed: expected 0 to 3.41",
-            ),
+            ("x1_mm,x2_mm,x3_mm\n1,2,3\n3,4,1\n", "start.csv:3: x2_mm = 4.0 is not allowed: expected 0 to 3.41"),
             ("x1_mm,x2_mm,x3_mm\n1,2,-3\n3,1,1\n", "start.csv:2: x3_mm = -3.0 is not allowed"),
         ] {
             let refused = fill(text, true).unwrap_err();

@@ -141,8 +141,8 @@ impl Case {
         Draft::new(name, Judges::Statement)
     }
 
-    /// A case that validates the model by measured points. If these are too few to catch a control, it is not the code's fault, and the
-    /// case is underpowered.
+    /// A case that validates the model by measured points. If these are too few to catch a control, it is not the
+    /// code's fault, and the case is underpowered.
     pub fn measurement(name: &'static str) -> Draft {
         Draft::new(name, Judges::Measurement)
     }

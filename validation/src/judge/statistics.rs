@@ -18,11 +18,7 @@ pub struct Sample {
 impl Sample {
     /// The sample of `values`.
     pub fn of(values: &[f64]) -> Self {
-        Self {
-            mean: values.mean(),
-            se: values.std_dev() / (values.len() as f64).sqrt(),
-            samples: values.len() as u64,
-        }
+        Self { mean: values.mean(), se: values.std_dev() / (values.len() as f64).sqrt(), samples: values.len() as u64 }
     }
 
     /// The sample of the differences a − b, pair by pair.
@@ -57,8 +53,8 @@ impl Estimate {
         Self { value: mean, se }
     }
 
-    /// A statistic with the standard error of the delete-one jackknife, se² = (n−1)/n Σ(s_k − s̄)², where s_k is the statistic
-    /// without the k-th value (Efron & Stein 1981).
+    /// A statistic with the standard error of the delete-one jackknife, se² = (n−1)/n Σ(s_k − s̄)², where s_k is the
+    /// statistic without the k-th value (Efron & Stein 1981).
     pub fn jackknife(value: f64, without: &[f64]) -> Self {
         let n = without.len() as f64;
         let mean = without.mean();
@@ -113,8 +109,8 @@ pub fn student(level: f64, samples: u64) -> f64 {
     z + terms.iter().rev().fold(0.0, |sum, term| (sum + term) / freedom)
 }
 
-/// Degrees of freedom from which Student's t is computed by a series in their inverse around the normal (Abramowitz & Stegun 26.7.5):
-/// three terms leave an error of 10⁻⁸ in a critical value of 6, and of 10⁻¹² in one of 2.
+/// Degrees of freedom from which Student's t is computed by a series in their inverse around the normal (Abramowitz &
+/// Stegun 26.7.5): three terms leave an error of 10⁻⁸ in a critical value of 6, and of 10⁻¹² in one of 2.
 const MANY: f64 = 1000.0;
 
 /// The degrees of freedom of the standard deviation of `samples` values.
@@ -139,7 +135,8 @@ mod tests {
         for (samples, expected) in [(2, 12.706), (11, 2.228), (101, 1.984), (1001, 1.962)] {
             assert!((student(0.05, samples) - expected).abs() < 6e-4, "{samples}");
         }
-        // Both methods where they meet; the value for 1000 degrees of freedom, to 16 digits; the limit, which is the normal's.
+        // Both methods where they meet; the value for 1000 degrees of freedom, to 16 digits; the limit, which is the
+        // normal's.
         let [below, above] = [1000, 1001].map(|samples| student(0.05, samples));
         // The slope is 2.4 over the square of 1000.
         assert!((below - above - 2.37e-6).abs() < 2e-8, "{below} {above}");

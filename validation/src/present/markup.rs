@@ -102,17 +102,15 @@ pub(crate) fn cites_figure(text: &str, figure: u32) -> bool {
                 }
                 (last, through) = (number, false);
             }
-            Piece::Text(text) => {
-                through = matches!(text.trim(), "–" | "to") || (through && text.trim().is_empty())
-            }
+            Piece::Text(text) => through = matches!(text.trim(), "–" | "to") || (through && text.trim().is_empty()),
             _ => {}
         }
     }
     false
 }
 
-/// Splits a text into parts on the line and subscripts (true), such as the 1 of x_1: an underscore after a single letter, followed
-/// by a number or a short word. Names in code have longer words before the underscore.
+/// Splits a text into parts on the line and subscripts (true), such as the 1 of x_1: an underscore after a single
+/// letter, followed by a number or a short word. Names in code have longer words before the underscore.
 pub(crate) fn subscripts(text: &str) -> Vec<(bool, &str)> {
     let mut parts = Vec::new();
     let mut start = 0;

@@ -1,9 +1,9 @@
 //! The contract of a study: records, a table whose columns are declared once, a picture declared as data.
 //!
 //! A study is a module with a `STUDY` ([`Study`]): its `run` measures records, and returns [`Findings`]. The tables are
-//! [`ReportTable`]s over the records, the pictures [`ReportFigure`]s of [`Curve`]s and [`Points`] over the same records, and the
-//! exported rows are written by [`columns_csv`](crate::present::table::columns_csv) from columns, or by
-//! [`rows_csv`](crate::present::table::rows_csv) from what the records serialize to.
+//! [`ReportTable`]s over the records, the pictures [`ReportFigure`]s of [`Curve`]s and [`Points`] over the same
+//! records, and the exported rows are written by [`columns_csv`](crate::present::table::columns_csv) from columns, or
+//! by [`rows_csv`](crate::present::table::rows_csv) from what the records serialize to.
 
 use crate::files::cluster;
 use crate::files::output::Output;
@@ -24,7 +24,8 @@ pub struct Study {
     pub cases: &'static [&'static str],
     /// The command that repeats the study.
     pub command: &'static str,
-    /// Names of its parts for `shearbed bench --case`, in the order of a run. A study without parts appears only in the report.
+    /// Names of its parts for `shearbed bench --case`, in the order of a run. A study without parts appears only in the
+    /// report.
     pub parts: &'static [&'static str],
     /// True if ranks share its work; otherwise only the root runs it.
     pub shared: bool,
@@ -36,10 +37,7 @@ impl Study {
     /// Runs the study on the ranks that share it. `None` if no part is requested, and on all ranks but the root.
     pub fn found(&self, request: &Request) -> Result<Option<Findings>, String> {
         let wanted = self.parts.is_empty() || self.parts.iter().any(|part| (request.wanted)(part));
-        match wanted && (self.shared || cluster::is_root()) {
-            true => (self.run)(request),
-            false => Ok(None),
-        }
+        if wanted && (self.shared || cluster::is_root()) { (self.run)(request) } else { Ok(None) }
     }
 }
 
@@ -122,8 +120,8 @@ pub struct ReportFigure {
 }
 
 impl ReportFigure {
-    /// A picture from its name and title, its caption, and the names of its axes with units. A name that starts with `log ` makes
-    /// the axis logarithmic; this word is not shown.
+    /// A picture from its name and title, its caption, and the names of its axes with units. A name that starts with
+    /// `log ` makes the axis logarithmic; this word is not shown.
     pub fn new([name, title]: [&str; 2], caption: impl Into<String>, [x, y]: [&str; 2]) -> Self {
         let axis = |name: &str| match name.strip_prefix("log ") {
             Some(name) => (name.to_owned(), true),

@@ -207,8 +207,9 @@ pub fn columns_csv<R>(
     ReportTable::new(["", ""], "", records, columns).csv()
 }
 
-/// Records as CSV by their own fields, where these are the columns; the heads are the fields' names, even without records. Every number is the shortest text that reads back as the
-/// same bits; missing values are empty, and a text that a spreadsheet would treat as a formula has an apostrophe before it.
+/// Records as CSV by their own fields, where these are the columns; the heads are the fields' names, even without
+/// records. Every number is the shortest text that reads back as the same bits; missing values are empty, and a text
+/// that a spreadsheet would treat as a formula has an apostrophe before it.
 pub fn rows_csv<R: Serialize + Default>(records: impl IntoIterator<Item = R>) -> Result<String, String> {
     let mut plain = csv::Writer::from_writer(Vec::new());
     // The heads are written with the first record, which is dropped again.
@@ -283,9 +284,8 @@ impl ReportTable {
         /// Width at which a sentence is wrapped.
         const SENTENCE: usize = 24;
         let word = |text: &str| text.split(' ').map(|word| word.chars().count()).max().unwrap_or(0);
-        let cell = |text: &String| match text.contains('±') {
-            true => text.chars().count(),
-            false => text.chars().count().min(SENTENCE).max(word(text)),
+        let cell = |text: &String| {
+            if text.contains('±') { text.chars().count() } else { text.chars().count().min(SENTENCE).max(word(text)) }
         };
         let column = |k: usize| {
             let cells = self.rows.iter().map(|row| cell(&row[k]));
@@ -294,17 +294,15 @@ impl ReportTable {
         (0..self.columns.len()).map(column).sum()
     }
 
-    /// The data as CSV. Every number is the shortest text that reads back as the same bits; missing values are empty, and a text
-    /// that a spreadsheet would treat as a formula has an apostrophe before it.
+    /// The data as CSV. Every number is the shortest text that reads back as the same bits; missing values are empty,
+    /// and a text that a spreadsheet would treat as a formula has an apostrophe before it.
     pub fn csv(&self) -> Result<String, String> {
         let safe = |datum: &Datum| match datum {
             Datum::Text(text) => Datum::Text(cell(text)),
             other => other.clone(),
         };
         let mut writer = csv::Writer::from_writer(Vec::new());
-        writer
-            .write_record(self.heads.iter().map(|head| cell(head).to_string()))
-            .map_err(|error| error.to_string())?;
+        writer.write_record(self.heads.iter().map(|head| cell(head).to_string())).map_err(|error| error.to_string())?;
         for row in &self.data {
             let row: Vec<_> = row.iter().map(safe).collect();
             writer.serialize(row).map_err(|error| error.to_string())?;
@@ -363,8 +361,8 @@ impl ReportTable {
 /// The largest number of characters of a line on a terminal.
 const WIDTH: usize = 80;
 
-/// Breaks lines that are too long between words and indents their continuation; rows of tables, whose cells are separated by
-/// two blanks, stay as they are.
+/// Breaks lines that are too long between words and indents their continuation; rows of tables, whose cells are
+/// separated by two blanks, stay as they are.
 pub(crate) fn wrapped(text: &str) -> String {
     let mut all = String::new();
     for line in text.lines() {

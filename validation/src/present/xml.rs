@@ -31,16 +31,9 @@ pub(crate) fn is_well_formed(xml: &str) -> bool {
 #[test]
 fn broken_documents_are_seen() {
     assert!(is_well_formed("<!doctype html><a b=\"c\"><d/>x &lt; y</a>"));
-    for broken in [
-        "<a>",
-        "<a><b></a></b>",
-        "<a>x & y</a>",
-        "<a>x > y</a>",
-        "</a>",
-        "<a",
-        "<a>\u{1b}</a>",
-        "<a>\u{fffe}</a>",
-    ] {
+    for broken in
+        ["<a>", "<a><b></a></b>", "<a>x & y</a>", "<a>x > y</a>", "</a>", "<a", "<a>\u{1b}</a>", "<a>\u{fffe}</a>"]
+    {
         assert!(!is_well_formed(broken), "{broken}");
     }
 }

@@ -1,10 +1,11 @@
 //! Tools for users.
 //!
-//! - [`problems`]: reference problems with certified answers. [`grade`]: grades the answers of other programs, from files or live.
+//! - [`problems`]: reference problems with certified answers. [`grade`]: grades the answers of other programs, from
+//!   files or live.
 //! - [`fit`]: parameters from measured points. [`sweep`]: a scene over values of its keys.
 //!
-//! They may use `studies` and all wings above; commands only parse arguments and call them. To add a problem, write an entry in a
-//! file of `problems`; to add a known mistake, an entry in `grade::mistakes`.
+//! They may use `studies` and all wings above; commands only parse arguments and call them. To add a problem, write an
+//! entry in a file of `problems`; to add a known mistake, an entry in `grade::mistakes`.
 
 pub mod fit;
 pub mod grade;

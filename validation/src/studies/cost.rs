@@ -1,5 +1,5 @@
-//! The cost of an answer: seconds to a stated error of X̄₁ at two periods, for this program, for the naive reference, and for a
-//! NumPy code as a researcher would write it.
+//! The cost of an answer: seconds to a stated error of X̄₁ at two periods, for this program, for the naive reference,
+//! and for a NumPy code as a researcher would write it.
 
 use crate::files::build;
 use crate::judge::lab;
@@ -88,7 +88,8 @@ fn run(request: &Request) -> Result<Option<Findings>, String> {
     let table = ReportTable::new(
         [STUDY.name, "Run time to a stated error of X̄₁ at two periods"],
         format!(
-            "One core. The error is that of the step and one standard error over replicas, in quadrature. Replicas are independent: the \
+            "One core. The error is that of the step and one standard error over replicas, in quadrature. Replicas \
+                are independent: the \
              time is theirs times that of one, measured with {USUAL} steps a period where it is not this program's. {}",
             agreement(&steps, &measured)
         ),
@@ -108,7 +109,8 @@ fn run(request: &Request) -> Result<Option<Findings>, String> {
     let by_step = ReportTable::new(
         ["cost-of-accuracy-steps", "The error of the time step"],
         format!(
-            "X̄₁ at two periods over {replicas} replicas of 100 rods, by the update `kick`. The error is at most the difference from 800 steps and two of its standard errors."
+            "X̄₁ at two periods over {replicas} replicas of 100 rods, by the update `kick`. The error is at most the \
+                difference from 800 steps and two of its standard errors."
         ),
         steps.iter().copied(),
         vec![
@@ -143,8 +145,7 @@ fn costs(error: f64, steps: &[Step], others: &[Measured]) -> Vec<Cost> {
             seconds: replicas * seconds,
         })
     };
-    let cheapest =
-        |costs: &mut dyn Iterator<Item = Cost>| costs.min_by(|a, b| a.seconds.total_cmp(&b.seconds));
+    let cheapest = |costs: &mut dyn Iterator<Item = Cost>| costs.min_by(|a, b| a.seconds.total_cmp(&b.seconds));
     let own = cheapest(&mut steps.iter().filter_map(|step| cost(OWN, step, step.sd, step.seconds)));
     let others = others.iter().filter_map(|other| {
         // Their steps all take the same time, whatever the length.
@@ -198,19 +199,14 @@ fn steps(replicas: u64) -> Result<Vec<Step>, String> {
 fn naive(replicas: u64) -> Measured {
     let start = Instant::now();
     let x1 = (0..replicas).map(|replica| {
-        let problem =
-            NaiveProblem { update: NaiveUpdate::ExactStepAndKick, ..NaiveProblem::paper(1, replica) };
+        let problem = NaiveProblem { update: NaiveUpdate::ExactStepAndKick, ..NaiveProblem::paper(1, replica) };
         let steps = 2 * problem.steps_per_period;
         let mut naive = Naive::new(problem);
         (0..steps).for_each(|_| naive.step());
         mean_projections(&naive.orientations)[0]
     });
     let x1 = Sample::of(&x1.collect::<Vec<_>>());
-    Measured {
-        program: "naive reference, compiled",
-        x1,
-        seconds: start.elapsed().as_secs_f64() / replicas as f64,
-    }
+    Measured { program: "naive reference, compiled", x1, seconds: start.elapsed().as_secs_f64() / replicas as f64 }
 }
 
 /// The NumPy code in `peers/`; `None` without a python3 with NumPy.
@@ -249,8 +245,7 @@ fn agreement(steps: &[Step], others: &[Measured]) -> String {
 }
 
 fn answer(costs: &[Cost]) -> String {
-    let smallest =
-        costs.iter().filter(|cost| cost.program == OWN).map(|cost| cost.error).fold(f64::INFINITY, f64::min);
+    let smallest = costs.iter().filter(|cost| cost.program == OWN).map(|cost| cost.error).fold(f64::INFINITY, f64::min);
     let at: Vec<_> = (costs.iter().filter(|cost| cost.error == smallest))
         .map(|cost| format!("{} {:.2} s", cost.program, cost.seconds))
         .collect();

@@ -1,5 +1,5 @@
-//! The integrators that studies compare. Register your own here: it appears in every table of `bench`, `converge` and the report
-//! with the project's own, and no case judges it, so that it cannot fail the gate.
+//! The integrators that studies compare. Register your own here: it appears in every table of `bench`, `converge` and
+//! the report with the project's own, and no case judges it, so that it cannot fail the gate.
 
 use crate::methods::integrators::{Integrator, own};
 

@@ -1,8 +1,8 @@
 //! The effect of other interpretations of the paper: the naive reference runs each alternative alone and the
 //! interpretation that the project uses, with the same random numbers.
 //!
-//! The scene is that of Fig. 7 at 50 per cm³. Seeds are shared, and places do not depend on directions: with the same time step
-//! and replacement, two interpretations have the same rods at the same places with the same draws, and
+//! The scene is that of Fig. 7 at 50 per cm³. Seeds are shared, and places do not depend on directions: with the same
+//! time step and replacement, two interpretations have the same rods at the same places with the same draws, and
 //! differ only in the effect of collisions. The errors of the differences rely on that.
 
 #[cfg(test)]
@@ -11,9 +11,7 @@ mod tests;
 use crate::files::cluster;
 use crate::judge::case::Effort;
 use crate::judge::statistics::Estimate;
-use crate::oracle::naive::{
-    Images, Length, Lines, Naive, NaiveProblem, Replacement, Update, Who, mean_projections,
-};
+use crate::oracle::naive::{Images, Length, Lines, Naive, NaiveProblem, Replacement, Update, Who, mean_projections};
 use crate::present::study::{Findings, Request, Study};
 use crate::present::table::{ReportTable, difference, estimate, words};
 use rayon::prelude::*;
@@ -54,21 +52,20 @@ fn run(request: &Request) -> Result<Option<Findings>, String> {
 /// A row for each interpretation; for each quantity a column of its value and one of its change.
 pub fn table(rows: &[ReadingRow]) -> ReportTable {
     let replicas = rows.iter().map(|row| row.replicas).min().unwrap_or(0);
-    let mut columns = vec![
-        words("left open", |row: &ReadingRow| row.open),
-        words("read as", |row: &ReadingRow| row.reading),
-    ];
+    let mut columns =
+        vec![words("left open", |row: &ReadingRow| row.open), words("read as", |row: &ReadingRow| row.reading)];
     for (k, (name, _)) in QUANTITIES.iter().enumerate() {
         columns.push(estimate(*name, move |row: &ReadingRow| row.values[k]));
-        columns.push(difference("change", move |row: &ReadingRow| {
-            row.changes.as_ref().map(|changes| changes[k].into())
-        }));
+        columns
+            .push(difference("change", move |row: &ReadingRow| row.changes.as_ref().map(|changes| changes[k].into())));
     }
     ReportTable::new(
         ["readings", "What the alternatives change"],
         format!(
-            "The rods of Fig. 7 at 50 per cm³ (N = 100, σ = 0, r_e = 11.6, α = 0.5, 200 steps a period): each alternative \
-             alone against this project's interpretation, then two of them with half the step. Mean ± standard error of \
+            "The rods of Fig. 7 at 50 per cm³ (N = 100, σ = 0, r_e = 11.6, α = 0.5, 200 steps a period): each \
+                alternative \
+             alone against this project's interpretation, then two of them with half the step. Mean ± standard error \
+             of \
              {replicas} replicas, seed {SEED}, by the naive reference. A change is from pairs of replicas with the \
              same random numbers. The damping rate is minus the slope, by least squares over four half periods, of \
              ln A; A is the mean of two neighbouring maxima of X̄₁ (t/T = 0, ½, 1, 1½, 2) less the minimum between."
@@ -116,8 +113,8 @@ pub const QUANTITIES: [(&str, Quantity); 4] = [
 /// A change of the problem.
 pub type Change = fn(&mut NaiveProblem);
 
-/// The alternatives: the open choice, the interpretation, and the change of the default for it. The effect of the last two
-/// depends on the time step.
+/// The alternatives: the open choice, the interpretation, and the change of the default for it. The effect of the last
+/// two depends on the time step.
 #[rustfmt::skip]
 const ALTERNATIVES: [(&str, &str, Change); 17] = [
     ("who collides", "one draw per mutual pair", |p| p.reading.who = Who::PairDraws),
@@ -131,7 +128,8 @@ const ALTERNATIVES: [(&str, &str, Change); 17] = [
     ("replacement", "overshoot times x_1(new)/x_1(old)", |p| p.reading.replacement = Replacement::ScaledOvershoot),
     ("lengths", "scatter by 30 %", |p| p.length_sd_percent = 30.0),
     ("lengths", "30 %, P_c by the partner's", |p| (p.length_sd_percent, p.reading.length) = (30.0, Length::Partners)),
-    ("lengths", "30 %, P_c by the mean of both", |p| (p.length_sd_percent, p.reading.length) = (30.0, Length::MeanOfBoth)),
+    ("lengths", "30 %, P_c by the mean of \
+        both", |p| (p.length_sd_percent, p.reading.length) = (30.0, Length::MeanOfBoth)),
     ("box", "4 : ½ : ½ of the cube's sides", |p| p.box_mm = Some([4.0, 0.5, 0.5].map(|side| side * p.edges_mm()[0]))),
     ("time step", "halved: 400 steps a period", |p| p.steps_per_period *= 2),
     ("time step", "doubled: 100 steps a period", |p| p.steps_per_period /= 2),
@@ -199,8 +197,7 @@ fn trace(problem: NaiveProblem) -> Trace {
 pub fn damping_rate(x1: &Trace) -> f64 {
     let ln_a = [1, 3, 5, 7].map(|k| (0.5 * (x1[k - 1] + x1[k + 1]) - x1[k]).ln());
     let t: [f64; 4] = [-0.75, -0.25, 0.25, 0.75];
-    let slope =
-        |t: &[f64; 4]| (0..4).map(|k| t[k] * ln_a[k]).sum::<f64>() / t.map(|t| t * t).iter().sum::<f64>();
+    let slope = |t: &[f64; 4]| (0..4).map(|k| t[k] * ln_a[k]).sum::<f64>() / t.map(|t| t * t).iter().sum::<f64>();
     -slope(&t)
 }
 

@@ -44,7 +44,8 @@ fn table(speed: &Speed) -> ReportTable {
         ["speed", "Speed: targets and what was measured"],
         format!(
             "The least of repeated measurements, side by side in one run on a machine with {} cores, which others may \
-             have used too. No case of the gate is timed: its counters of work are. `shearbed bench --case speed` measures longer.",
+             have used too. No case of the gate is timed: its counters of work are. `shearbed bench --case speed` \
+             measures longer.",
             speed.threads
         ),
         &speed.checks,
@@ -61,9 +62,7 @@ fn table(speed: &Speed) -> ReportTable {
 
 /// The time of a step against the number of rods and against their concentration.
 fn figures(speed: &Speed) -> [ReportFigure; 2] {
-    let rods = |time: fn(&Step) -> Option<f64>| {
-        move |step: &Step| (step.rods as f64, time(step).unwrap_or(f64::NAN))
-    };
+    let rods = |time: fn(&Step) -> Option<f64>| move |step: &Step| (step.rods as f64, time(step).unwrap_or(f64::NAN));
     let axes = |x| [x, "log time per rod and step (ns)"];
     let by_rods = ReportFigure::new(
         ["speed-rods", "Time of a step against the number of rods, 50 per cm³"],
@@ -76,7 +75,8 @@ fn figures(speed: &Speed) -> [ReportFigure; 2] {
     ]);
     let by_concentration = ReportFigure::new(
         ["speed-concentration", "Time of a step against the concentration, 1000 rods"],
-        "One core. In dilute suspensions few rods are near each other; in dense ones most rods have a candidate, and contacts \
+        "One core. In dilute suspensions few rods are near each other; in dense ones most rods have a candidate, and \
+            contacts \
          take the time.",
         axes("log n (per cm³)"),
     )

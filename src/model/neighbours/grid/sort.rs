@@ -11,11 +11,12 @@ use std::slice::IterMut;
 /// The rods of a bucket before they are sorted, and their cells, counted from the bucket's first.
 pub(super) type Unsorted = (Vec<Entry>, Vec<u16>);
 
-/// Cells per bucket. The rods of more than a chunk are first dealt out to buckets, then sorted within: a bucket's rods fit the cache.
+/// Cells per bucket. The rods of more than a chunk are first dealt out to buckets, then sorted within: a bucket's rods
+/// fit the cache.
 const BUCKET: usize = 1 << 12;
 
-/// The most bytes that `count` rods take in a search: the entries, the starts of cells, and the entries of every bucket that may be sorted
-/// at once.
+/// The most bytes that `count` rods take in a search: the entries, the starts of cells, and the entries of every bucket
+/// that may be sorted at once.
 pub(crate) fn bytes(count: usize) -> usize {
     let unsorted = size_of::<Entry>() + size_of::<u16>();
     let at_once = if count <= CHUNK { 1.0 } else { BUCKET as f64 / CHUNK as f64 };
@@ -142,7 +143,8 @@ impl Grid {
         }
     }
 
-    /// Sorts the `entries` of the cells from `first` on, of which there are `before` others, and sets the `ends` of these cells.
+    /// Sorts the `entries` of the cells from `first` on, of which there are `before` others, and sets the `ends` of
+    /// these cells.
     fn sort_bucket(
         &self,
         first: u32,

@@ -2,7 +2,8 @@ use super::*;
 use crate::model::chunks::CHUNK;
 use crate::model::random::{Purpose, stream};
 
-/// Velocity gradients and sides of volumes: shear along other axes and oblique, extension of either sign, a rotation, all components.
+/// Velocity gradients and sides of volumes: shear along other axes and oblique, extension of either sign, a rotation,
+/// all components.
 fn flows() -> Vec<(Matrix3<f64>, [f64; 3])> {
     let of = |rows: [f64; 9]| Matrix3::from_row_slice(&rows);
     vec![
@@ -16,7 +17,8 @@ fn flows() -> Vec<(Matrix3<f64>, [f64; 3])> {
     ]
 }
 
-/// Deviation of the counts of points in 4 × 4 × 4 cells from the expected ones: χ² over its mean, less one, in standard deviations.
+/// Deviation of the counts of points in 4 × 4 × 4 cells from the expected ones: χ² over its mean, less one, in standard
+/// deviations.
 fn off(points: &[Vector3<f64>], expected: &[f64], sides: [f64; 3]) -> f64 {
     let mut found = vec![0.0; 64];
     points.iter().for_each(|x| found[cell(x, sides)] += 1.0);
@@ -36,7 +38,8 @@ fn points(positions: &[Vec<f64>; 3]) -> Vec<Vector3<f64>> {
     (0..x1.len()).map(|rod| Vector3::new(x1[rod], x2[rod], x3[rod])).collect()
 }
 
-/// Rods that come in have the distribution of those points of the volume that were outside a step ago, found by sampling.
+/// Rods that come in have the distribution of those points of the volume that were outside a step ago, found by
+/// sampling.
 #[test]
 fn what_comes_in_is_evenly_distributed_over_what_was_outside() {
     for (gradient, sides) in flows() {
@@ -80,7 +83,8 @@ fn an_even_suspension_stays_even() {
     }
 }
 
-/// Rods that come in were outside when the step began, in a flow that takes liquid out and back in through a face within a long step.
+/// Rods that come in were outside when the step began, in a flow that takes liquid out and back in through a face
+/// within a long step.
 #[test]
 fn what_comes_in_was_outside() {
     let (gradient, sides) = flows().pop().unwrap();

@@ -43,7 +43,8 @@ struct Kept {
     halfway: BTreeMap<u64, Halfway>,
 }
 
-/// Checkpoints of a run, half of them with a checksum that is right: what they say is then to be refused, or gone on from.
+/// Checkpoints of a run, half of them with a checksum that is right: what they say is then to be refused, or gone on
+/// from.
 pub fn checkpoint() -> Target {
     let scene = scene::parse("rods", RODS).expect("it is a scene");
     let plan = Plan::new(&scene).expect("it can be run");

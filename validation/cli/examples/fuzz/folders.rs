@@ -88,15 +88,16 @@ fn scatter(random: &mut Pcg64Dxsm, out: &Path) {
 fn record(random: &mut Pcg64Dxsm, command: &str) -> String {
     let mut names: Vec<_> = NAMES.into_iter().filter(|_| random.random_bool(0.7)).collect();
     names.extend(
-        ["sub/keys", "../home/keys", "/etc/hostname", "link/keys"]
-            .into_iter()
-            .filter(|_| random.random_bool(0.3)),
+        ["sub/keys", "../home/keys", "/etc/hostname", "link/keys"].into_iter().filter(|_| random.random_bool(0.3)),
     );
     let files: Vec<_> = names
         .into_iter()
-        .map(|name| match name.ends_with("keys") {
-            true => (name.to_owned(), "mine".to_owned()),
-            false => (name.to_owned(), format!("old {name}")),
+        .map(|name| {
+            if name.ends_with("keys") {
+                (name.to_owned(), "mine".to_owned())
+            } else {
+                (name.to_owned(), format!("old {name}"))
+            }
         })
         .collect();
     let origin = ResultFolder::new(Path::new("."), command, json!({}), false).origin().clone();
@@ -155,10 +156,7 @@ fn tried(case: &Path, random: &mut Pcg64Dxsm, mutated: &str) -> Result<Taken, St
             });
             (done, None)
         }
-        _ => (
-            ResultFolder::new(&out, "run", json!({}), force).write(files.clone()).map_err(refused),
-            Some(files),
-        ),
+        _ => (ResultFolder::new(&out, "run", json!({}), force).write(files.clone()).map_err(refused), Some(files)),
     };
     let after = tree(case);
     judged(&before, &after, &done, written.as_deref(), force)?;
@@ -185,11 +183,7 @@ fn judged(
         // One file, also where a link of its name leads: no other is changed.
         let changed = before.iter().filter(|(name, bytes)| after.get(*name) != Some(bytes)).count();
         let made = after.keys().filter(|name| !before.contains_key(*name) && !name.ends_with('/')).count();
-        return if changed + made <= 1 {
-            Ok(())
-        } else {
-            Err(format!("{changed} files changed, {made} made"))
-        };
+        return if changed + made <= 1 { Ok(()) } else { Err(format!("{changed} files changed, {made} made")) };
     };
     for (name, bytes) in before {
         let inside = name.strip_prefix("out/").or(name.strip_prefix("real/"));

@@ -1,11 +1,12 @@
-//! Feeds the program's readers what people and machines might: mutated and generated scene files, folders of measured points,
-//! arguments of `sweep`, problems, answers, points to fit, folders of results, checkpoints, folders to write to. None may panic, hang, take memory without bound or let a number pass
-//! that is not finite, and whoever is refused is told where and why.
+//! Feeds the program's readers what people and machines might: mutated and generated scene files, folders of measured
+//! points, arguments of `sweep`, problems, answers, points to fit, folders of results, checkpoints, folders to write
+//! to. None may panic, hang, take memory without bound or let a number pass that is not finite, and whoever is refused
+//! is told where and why.
 //!
 //!     cargo run --release -p shearbed-cli --example fuzz -- TARGET COUNT [SEED]
 //!
-//! prints how many inputs were taken and refused; the first one at fault ends it with the input in `fuzz-fault/`. The small part
-//! that the gate runs is the test below.
+//! prints how many inputs were taken and refused; the first one at fault ends it with the input in `fuzz-fault/`. The
+//! small part that the gate runs is the test below.
 
 mod checkpoints;
 mod folders;
@@ -27,8 +28,8 @@ use std::time::{Duration, Instant};
 #[global_allocator]
 static ALLOCATOR: PeakAlloc = PeakAlloc;
 
-/// Seconds of the process's own time after which one input is a hang, whatever else the machine does: a thousand times what the
-/// slowest takes.
+/// Seconds of the process's own time after which one input is a hang, whatever else the machine does: a thousand times
+/// what the slowest takes.
 const HANG_S: i64 = 60;
 /// Seconds by the clock after which one input waits for what does not come.
 const WAIT_S: u64 = 3600;
@@ -77,7 +78,8 @@ fn targets() -> Vec<Target> {
     ]
 }
 
-/// Feeds a target `count` inputs of this seed. How many were accepted, and the first words of reasons with their number.
+/// Feeds a target `count` inputs of this seed. How many were accepted, and the first words of reasons with their
+/// number.
 fn feed(target: &Target, count: u64, seed: u64) -> Result<(u64, BTreeMap<String, u64>), String> {
     let folder = tempfile::tempdir().map_err(|error| error.to_string())?;
     let mut mutator = Mutator::new(seed);
@@ -185,8 +187,8 @@ fn main() {
     }
 }
 
-/// The gate's part, in one test: memory is counted for all threads. Of every target some inputs are accepted and some refused:
-/// else nothing would be tried.
+/// The gate's part, in one test: memory is counted for all threads. Of every target some inputs are accepted and some
+/// refused: else nothing would be tried.
 #[test]
 fn no_input_breaks_a_reader_and_one_that_breaks_is_seen() {
     faults_are_seen();
@@ -211,8 +213,7 @@ fn faults_are_seen() {
         Ok(Taken::Accepted)
     });
     assert!(feed(&held, 1, 1).unwrap_err().contains("bytes held"));
-    let passes =
-        of(|files| if files[0].1.contains(&b'e') { Err("not finite".into()) } else { Ok(Taken::Accepted) });
+    let passes = of(|files| if files[0].1.contains(&b'e') { Err("not finite".into()) } else { Ok(Taken::Accepted) });
     assert!(feed(&passes, 1000, 1).unwrap_err().contains("not finite"));
     // What the first at fault left.
     std::fs::remove_dir_all("fuzz-fault").unwrap();

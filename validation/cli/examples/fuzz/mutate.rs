@@ -1,4 +1,5 @@
-//! Inputs from a small corpus: bytes, numbers, words and lines of one file put wrong, or exchanged with those of another.
+//! Inputs from a small corpus: bytes, numbers, words and lines of one file put wrong, or exchanged with those of
+//! another.
 
 use rand::{Rng, RngExt, SeedableRng};
 use rand_pcg::Pcg64Dxsm;
@@ -166,9 +167,8 @@ impl Mutator {
 
     /// A line goes, comes twice, moves, or comes from the other text.
     fn lines(&mut self, bytes: &mut Vec<u8>, other: &[u8]) {
-        let split = |bytes: &[u8]| -> Vec<Vec<u8>> {
-            bytes.split_inclusive(|b| *b == b'\n').map(<[u8]>::to_vec).collect()
-        };
+        let split =
+            |bytes: &[u8]| -> Vec<Vec<u8>> { bytes.split_inclusive(|b| *b == b'\n').map(<[u8]>::to_vec).collect() };
         let (mut lines, others) = (split(bytes), split(other));
         if lines.is_empty() || others.is_empty() {
             return;

@@ -70,10 +70,7 @@ pub fn data() -> Target {
                 "n = 50,\nX,Y\n0.1, 0.5\n0.2, 0.4\n",
             ),
             with(
-                |text| {
-                    text.replace("\"t_over_T\"", "\"t_s\"\nshear_rate_per_s = 0.5")
-                        .replace("[0, 3]", "[0, 400]")
-                },
+                |text| text.replace("\"t_over_T\"", "\"t_s\"\nshear_rate_per_s = 0.5").replace("[0, 3]", "[0, 400]"),
                 "t_s,x1\n0,0.5\n80,0.4\n",
             ),
         ],
@@ -82,8 +79,8 @@ pub fn data() -> Target {
             if let Err(error) = experiment::check(folder) {
                 return named(&error.message, error.line, files, &error.file);
             }
-            let curves = experiment::read(folder, &SOURCES[0])
-                .map_err(|error| format!("checked, and then: {error}"))?;
+            let curves =
+                experiment::read(folder, &SOURCES[0]).map_err(|error| format!("checked, and then: {error}"))?;
             let all = curves.iter().flat_map(|curve| &curve.points);
             let mut numbers = all.flat_map(|point| [point.x, point.y, point.u_x, point.u_y]);
             Taken::if_finite(numbers.all(f64::is_finite), "a point")
@@ -170,23 +167,16 @@ pub fn answers() -> Target {
             });
             let (name, answer) = &files[0];
             put(&folder.join(name), &[("answer.csv", answer.clone())])?;
-            let asked: Vec<_> =
-                loaded.iter().filter(|loaded| loaded.problem.name == *name).cloned().collect();
+            let asked: Vec<_> = loaded.iter().filter(|loaded| loaded.problem.name == *name).cloned().collect();
             let options = Options {
-                file: FileOptions {
-                    columns: None,
-                    foreign: None,
-                    axes: Axes::default(),
-                    ends: LineEnds::default(),
-                },
+                file: FileOptions { columns: None, foreign: None, axes: Axes::default(), ends: LineEnds::default() },
                 dump: DumpOptions { timestep_s: None, rod_axis: None },
                 claim: Claim::default(),
             };
             match grade::grade(&asked, folder, &options) {
                 Ok(graded) => {
-                    let numbers = graded
-                        .iter()
-                        .flat_map(|graded| [graded.error, graded.length_drift, graded.orbit_drift]);
+                    let numbers =
+                        graded.iter().flat_map(|graded| [graded.error, graded.length_drift, graded.orbit_drift]);
                     Taken::if_finite(numbers.flatten().all(f64::is_finite), "a number")
                 }
                 Err(errors) => {

@@ -40,13 +40,7 @@ fn folder_of_a_run() -> Vec<(&'static str, Vec<u8>)> {
     let scene = dir.path().join("s.toml");
     fs::write(&scene, RODS).expect("the harness writes");
     let out = dir.path().join("out");
-    let words = [
-        "run".into(),
-        scene.into_os_string(),
-        "--quiet".into(),
-        "--out".into(),
-        out.clone().into_os_string(),
-    ];
+    let words = ["run".into(), scene.into_os_string(), "--quiet".into(), "--out".into(), out.clone().into_os_string()];
     shearbed_cli::call(words.to_vec()).expect("it runs");
     let read = |name| (name, fs::read(out.join(name)).expect("it is written"));
     WRITTEN.map(read).to_vec()
@@ -87,10 +81,13 @@ pub fn plots() -> Target {
                     let mut numbers = figure.curves.iter().flat_map(|curve| curve.x.iter().chain(&curve.y));
                     Taken::if_finite(numbers.all(|number| number.is_finite()), "a curve")
                 }
-                Err(why) => match why.contains(&folder.display().to_string()) {
-                    true => Ok(Taken::Refused(why)),
-                    false => Err(format!("refused without its place: {why}")),
-                },
+                Err(why) => {
+                    if why.contains(&folder.display().to_string()) {
+                        Ok(Taken::Refused(why))
+                    } else {
+                        Err(format!("refused without its place: {why}"))
+                    }
+                }
             }
         }),
     }

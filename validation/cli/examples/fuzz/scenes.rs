@@ -34,8 +34,10 @@ fn corpus() -> Vec<String> {
     ] {
         for time in ["periods = 1\noutputs_per_period = 8", "strain = 3\noutputs_per_strain = 4"] {
             all.push(format!(
-                "title = \"t\"\n[flow]\ngradient_per_s = {gradient}\n[particles]\ncount = 9\nlength_mm = 0.7\naspect_ratio = 2\n\
-                 aspect_ratio_sd_percent = 1\norientation = {{ phi_deg = 10, theta_deg = 80 }}\n[time]\n{time}\n[output]\n\
+                "title = \"t\"\n[flow]\ngradient_per_s = {gradient}\n[particles]\ncount = 9\nlength_mm = \
+                    0.7\naspect_ratio = 2\n\
+                 aspect_ratio_sd_percent = 1\norientation = {{ phi_deg = 10, theta_deg = 80 \
+                 }}\n[time]\n{time}\n[output]\n\
                  observables = [\"projections\", {orbits}\"orientation_tensor\", \"mean_angle\"]\n"
             ));
         }
@@ -66,9 +68,10 @@ pub fn scene() -> Target {
                         names(&problem.message)?;
                     }
                     let told = error.to_string();
-                    match told.starts_with("scene.toml:") {
-                        true => Ok(Taken::Refused(told)),
-                        false => Err(format!("the file is not named: {told}")),
+                    if told.starts_with("scene.toml:") {
+                        Ok(Taken::Refused(told))
+                    } else {
+                        Err(format!("the file is not named: {told}"))
                     }
                 }
                 Ok(plan) => run(&plan),
@@ -81,9 +84,10 @@ pub fn scene() -> Target {
 fn names(message: &str) -> Result<(), String> {
     let value = message.contains("is not allowed");
     let allowed = message.split_once("is not allowed").is_none_or(|(_, rest)| rest.len() > 4);
-    match !message.is_empty() && (!value || message.contains(" = ")) && allowed {
-        true => Ok(()),
-        false => Err(format!("no key, value or what is allowed: {message:?}")),
+    if !message.is_empty() && (!value || message.contains(" = ")) && allowed {
+        Ok(())
+    } else {
+        Err(format!("no key, value or what is allowed: {message:?}"))
     }
 }
 
@@ -146,12 +150,8 @@ pub fn sweep() -> Target {
             if axis.values.len() > 64 {
                 return Ok(Taken::Accepted);
             }
-            match points(
-                text,
-                &shearbed_validation::input::start::Starts::default(),
-                &[],
-                std::slice::from_ref(&axis),
-            ) {
+            match points(text, &shearbed_validation::input::start::Starts::default(), &[], std::slice::from_ref(&axis))
+            {
                 Ok(found) if found.len() != axis.values.len() => Err(format!("{} points", found.len())),
                 Ok(found) if found.len() == 1 && set.as_ref().ok() != Some(found[0].plan.scene()) => {
                     Err(format!("--set and --over make different scenes: {set:?}"))

@@ -13,7 +13,10 @@ fn another_format_is_refused() {
 #[test]
 fn other_evidence_tolerances_and_controls_are_listed() {
     let report = |what: &str, tolerance: f64, caught: bool| {
-        let line = |what: &str| serde_json::json!({ "what": what, "error": 0.0, "tolerance": tolerance, "judged_by": { "rule": "within" } });
+        let line = |what: &str| {
+            serde_json::json!({ "what": what, "error": 0.0, "tolerance": tolerance,
+            "judged_by": { "rule": "within" } })
+        };
         let report = serde_json::json!({
             "format": FORMAT, "summary": { "full": false, "seed": 1 },
             "cases": [{ "name": "case", "verdict": "pass", "seconds": 0.1, "evidence": [line("both"), line(what)],
@@ -26,7 +29,8 @@ fn other_evidence_tolerances_and_controls_are_listed() {
     assert_eq!(judged_otherwise(&before, &report("one", 1e-3, true)), "");
     assert_eq!(
         judged_otherwise(&before, &report("two", 1.0, false)),
-        "Judged otherwise:\n  case: one: in A alone\n  case: two: in B alone\n  case: both: tolerance 1.000e-3 → 1.000e0\n  \
+        "Judged otherwise:\n  case: one: in A alone\n  case: two: in B alone\n  case: both: tolerance 1.000e-3 → \
+            1.000e0\n  \
          case: sign: caught → not caught\n"
     );
 }

@@ -61,7 +61,8 @@ pub(super) fn input(args: &Args) -> Result<Input, Failure> {
         let key = &range.key;
         if let Some(table) = NOT_FITTED.iter().find(|table| key.split('.').next() == Some(table)) {
             return Err(Failure::Input(format!(
-                "--over {key}: points do not determine keys of {table}; keys of flow, particles and interaction are allowed"
+                "--over {key}: points do not determine keys of {table}; keys of flow, particles and interaction are \
+                    allowed"
             )));
         }
     }
@@ -102,8 +103,7 @@ pub(super) fn input(args: &Args) -> Result<Input, Failure> {
         )));
     }
     if data.len() <= args.over.len() {
-        let counted =
-            |count: usize, what: &str| format!("{count} {what}{}", if count == 1 { "" } else { "s" });
+        let counted = |count: usize, what: &str| format!("{count} {what}{}", if count == 1 { "" } else { "s" });
         return Err(Failure::Input(format!(
             "--data {}: {} for {}; more points than parameters are needed",
             files.iter().map(|file| file.shown()).collect::<Vec<_>>().join(" --data "),
@@ -120,7 +120,8 @@ pub(super) fn input(args: &Args) -> Result<Input, Failure> {
         };
         if let Some(first) = data[..k].iter().find(same) {
             return Err(Failure::Input(format!(
-                "{}:{}: {} = {} at {} is in {}:{} already: leave one out, or put all points of one scene into one file if two experiments \
+                "{}:{}: {} = {} at {} is in {}:{} already: leave one out, or put all points of one scene into one \
+                    file if two experiments \
                  gave it",
                 files[point.set].shown(),
                 point.line,
@@ -152,7 +153,8 @@ fn one_owner(args: &Args, set: usize) -> Result<(), Failure> {
     sweep::one_owner(&owners).map_err(Failure::Input)
 }
 
-/// `FILE` belongs to the scene of the command, `SCENE2=FILE` to another. A name with `=` that exists as a file is that file.
+/// `FILE` belongs to the scene of the command, `SCENE2=FILE` to another. A name with `=` that exists as a file is that
+/// file.
 fn scene_and_file<'a>(scene: &'a OsStr, given: &'a OsStr) -> (&'a OsStr, &'a Path) {
     match given.to_str().and_then(|text| text.split_once('=')) {
         Some((other, file)) if !Path::new(given).exists() => (OsStr::new(other), Path::new(file)),

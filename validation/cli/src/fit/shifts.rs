@@ -15,16 +15,10 @@ const SPREAD: &str = "particles.aspect_ratio_sd_percent";
 const ONE_ASPECT_RATIO: &str = "rods of one r_e";
 
 /// The shifts by half the step, twice the rods, and rods of one r_e; empty if no rods interact.
-pub(super) fn shifts(
-    input: &Input,
-    fit: &Fit,
-    own: &Model<'_>,
-    watch: &Watch<'_>,
-) -> Result<Vec<Shift>, String> {
+pub(super) fn shifts(input: &Input, fit: &Fit, own: &Model<'_>, watch: &Watch<'_>) -> Result<Vec<Shift>, String> {
     let values = fit.values(&fit.best.place);
     let scenes = &input.scenes;
-    let best: Vec<Scene> =
-        (0..scenes.sets.len()).map(|set| scenes.scene(set, &values)).collect::<Result<_, _>>()?;
+    let best: Vec<Scene> = (0..scenes.sets.len()).map(|set| scenes.scene(set, &values)).collect::<Result<_, _>>()?;
     if best.iter().all(|scene| scene.interaction.is_none()) {
         return Ok(Vec::new());
     }
@@ -47,8 +41,8 @@ pub(super) fn shifts(
     variants.map(shift).collect()
 }
 
-/// Warnings that the assumed spread of r_e affects a parameter as much as the points do: if the spread is wrong, a fitted key
-/// compensates for it, and χ² hardly shows the error.
+/// Warnings that the assumed spread of r_e affects a parameter as much as the points do: if the spread is wrong, a
+/// fitted key compensates for it, and χ² hardly shows the error.
 pub(super) fn taken_as_known(report: &Report) -> Vec<String> {
     let without = (report.shifts.iter()).filter(|shift| shift.change == ONE_ASPECT_RATIO);
     let large = |shift: &Shift| {
@@ -57,7 +51,8 @@ pub(super) fn taken_as_known(report: &Report) -> Vec<String> {
             let (moved, se) = (shift.shift[k], shift.se[k]);
             (moved.abs() > own && moved.abs() > CERTAIN * se).then(|| {
                 format!(
-                    "{key}: with rods of one r_e it would be about {:.1} of its standard uncertainty {}, and χ² tells little of that: \
+                    "{key}: with rods of one r_e it would be about {:.1} of its standard uncertainty {}, and χ² tells \
+                        little of that: \
                      --over {SPREAD}=0:10 beside it lets the points say how far r_e scatters",
                     moved.abs() / own,
                     if moved > 0.0 { "larger" } else { "smaller" },

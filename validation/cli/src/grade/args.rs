@@ -53,11 +53,12 @@ pub(crate) struct Args {
     /// Accept CR LF at line ends and a byte order mark; without this flag they are refused
     #[arg(long, conflicts_with = "command")]
     pub(super) windows_text: bool,
-    /// The largest error that passes, where the problems' own is smaller: a production code's target. NAME=X for one problem;
-    /// can be given more than once
+    /// The largest error that passes, where the problems' own is smaller: a production code's target. NAME=X for one
+    /// problem; can be given more than once
     #[arg(long = "tolerance", value_name = "X|NAME=X", allow_hyphen_values = true)]
     pub(super) tolerances: Vec<Tolerance>,
-    /// The order of accuracy that the program claims; an observed order that is lower by whole orders fails, or higher on all problems
+    /// The order of accuracy that the program claims; an observed order that is lower by whole orders fails, or higher
+    /// on all problems
     #[arg(long, value_name = "P", value_parser = positive, allow_negative_numbers = true)]
     pub(super) order: Option<f64>,
     /// LAMMPS dumps: the length of a time step in s, where the dump has no ITEM: TIME
@@ -84,8 +85,7 @@ pub(crate) struct Args {
 }
 
 fn kind(text: &str) -> Result<Kind, String> {
-    serde_json::from_value(text.into())
-        .map_err(|_| "rods, tensor, contact and ensemble are allowed".to_owned())
+    serde_json::from_value(text.into()).map_err(|_| "rods, tensor, contact and ensemble are allowed".to_owned())
 }
 
 fn positive(text: &str) -> Result<f64, String> {

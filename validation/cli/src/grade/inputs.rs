@@ -15,23 +15,14 @@ use std::path::Path;
 const MOST_BYTES: u64 = 1 << 36;
 
 /// The input of a grading of files.
-pub(super) fn of_files(
-    args: &Args,
-    reference: &Path,
-    mine: &Path,
-    wanted: &[LoadedProblem],
-) -> Result<Value, Failure> {
+pub(super) fn of_files(args: &Args, reference: &Path, mine: &Path, wanted: &[LoadedProblem]) -> Result<Value, Failure> {
     let mut inputs = of_program(args, Some(reference), wanted)?;
     inputs["answers_crc32"] = json!(checksums(mine, wanted)?);
     Ok(inputs)
 }
 
 /// The input of a grading of a program, whose answers may differ from one run to the next.
-pub(super) fn of_program(
-    args: &Args,
-    reference: Option<&Path>,
-    wanted: &[LoadedProblem],
-) -> Result<Value, Failure> {
+pub(super) fn of_program(args: &Args, reference: Option<&Path>, wanted: &[LoadedProblem]) -> Result<Value, Failure> {
     let reference = reference.map(|dir| checksums(dir, wanted)).transpose()?;
     let problems: Vec<_> = wanted.iter().map(|loaded| &loaded.problem.name).collect();
     Ok(json!({

@@ -26,12 +26,11 @@ impl FromStr for Tolerance {
     }
 }
 
-/// The problems with the user's tolerances; one for a named problem has priority over one for all. A tolerance for all does not
-/// apply to ensembles, which count standard errors, and never lowers a problem's own.
+/// The problems with the user's tolerances; one for a named problem has priority over one for all. A tolerance for all
+/// does not apply to ensembles, which count standard errors, and never lowers a problem's own.
 pub(super) fn with(given: &[Tolerance], problems: Vec<LoadedProblem>) -> Result<Vec<LoadedProblem>, Failure> {
     let known = |name: &String| problems.iter().any(|loaded| loaded.problem.name == *name);
-    if let Some(name) = given.iter().filter_map(|tolerance| tolerance.name.as_ref()).find(|name| !known(name))
-    {
+    if let Some(name) = given.iter().filter_map(|tolerance| tolerance.name.as_ref()).find(|name| !known(name)) {
         return Err(Failure::Input(format!("--tolerance {name}=...: no problem of this name is graded")));
     }
     problems.into_iter().map(|loaded| one(given, loaded)).collect()

@@ -3,8 +3,8 @@
 use shearbed_validation::files::bounded;
 use std::path::Path;
 
-/// Bytes still available: the least of the machine's, of those of the process's control groups, and of those within a shell's
-/// `ulimit -v` and `-d`. `None` if the system does not report them.
+/// Bytes still available: the least of the machine's, of those of the process's control groups, and of those within a
+/// shell's `ulimit -v` and `-d`. `None` if the system does not report them.
 pub(super) fn available() -> Option<u64> {
     let read = |file: &str| text(Path::new(file)).unwrap_or_default();
     let machine = number_of(&read("/proc/meminfo"), "MemAvailable:")?;
@@ -43,8 +43,8 @@ fn of_limits(limits: &str, status: &str) -> Option<u64> {
     space.into_iter().chain(left("Max data size", "VmData:")).min()
 }
 
-/// Bytes left within the control groups: each limits all groups below it. `groups` is the text of `/proc/self/cgroup`, with
-/// lines such as `0::/a/b` (version 2) or `4:memory:/a/b` (version 1).
+/// Bytes left within the control groups: each limits all groups below it. `groups` is the text of `/proc/self/cgroup`,
+/// with lines such as `0::/a/b` (version 2) or `4:memory:/a/b` (version 1).
 fn of_groups(root: &Path, groups: &str) -> Option<u64> {
     let mut least = None;
     for line in groups.lines() {
@@ -54,12 +54,9 @@ fn of_groups(root: &Path, groups: &str) -> Option<u64> {
         };
         let (top, most, used, reclaimable) = match controllers {
             "" => (root.to_owned(), "memory.max", "memory.current", "inactive_file "),
-            names if names.split(',').any(|name| name == "memory") => (
-                root.join("memory"),
-                "memory.limit_in_bytes",
-                "memory.usage_in_bytes",
-                "total_inactive_file ",
-            ),
+            names if names.split(',').any(|name| name == "memory") => {
+                (root.join("memory"), "memory.limit_in_bytes", "memory.usage_in_bytes", "total_inactive_file ")
+            }
             _ => continue,
         };
         // In a container the path is often that of the host, and only the top folder exists.

@@ -7,8 +7,8 @@ use shearbed_validation::oracle::reference::big::finite;
 use shearbed_validation::present::plot::{Curve, Figure, names};
 use shearbed_validation::serve::sweep::Pairs;
 
-/// The picture of a sweep with the values of `key` across: the channel at the time `at`, by default that of the last output. There is
-/// one curve for each combination of the other keys.
+/// The picture of a sweep with the values of `key` across: the channel at the time `at`, by default that of the last
+/// output. There is one curve for each combination of the other keys.
 pub(super) fn against(drawn: Drawn, key: &str, at: Option<f64>) -> Result<Figure, Failure> {
     let refused = |what: String| Failure::Input(format!("--x {key}: {what}"));
     let Drawn { figure, runs, .. } = drawn;
@@ -88,7 +88,8 @@ mod tests {
         assert_eq!(of("interaction.alpha"), Ok((0.5, vec![orientation.clone(), count])));
         assert_eq!(of("particles.count"), Ok((20.0, vec![alpha, orientation])));
         assert!(of("particles.orientation").unwrap_err().starts_with("its values are no numbers"));
-        let keys = "the sweep goes over interaction.alpha, particles.orientation, particles.count, of which one is allowed";
+        let keys =
+            "the sweep goes over interaction.alpha, particles.orientation, particles.count, of which one is allowed";
         assert_eq!(of("alpha").unwrap_err(), keys);
     }
 }

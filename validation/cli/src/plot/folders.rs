@@ -29,14 +29,14 @@ pub(super) fn runs_in(dir: &Path) -> Result<Vec<Run>, Failure> {
     let refused = |path: &Path, what: &str| Failure::Input(format!("{}: {what}", path.shown()));
     let is_there = |name: &str| dir.join(name).symlink_metadata().is_ok();
     if !["run.json", "sweep.json", RECORD].into_iter().any(is_there) {
-        let what =
-            "is no folder of results; one that `shearbed run`, `sweep`, `fit` or `validate` wrote is allowed";
+        let what = "is no folder of results; one that `shearbed run`, `sweep`, `fit` or `validate` wrote is allowed";
         return Err(refused(dir, what));
     }
     let path = dir.join(RECORD);
     let record = Record::read(dir).map_err(|why| refused(&path, &why))?;
     let record = record.ok_or_else(|| {
-        let what = "is missing: it has the checksums of the folder's files; run the command that wrote the folder again";
+        let what =
+            "is missing: it has the checksums of the folder's files; run the command that wrote the folder again";
         refused(&path, what)
     })?;
     match record.origin.command.as_str() {
@@ -53,9 +53,7 @@ pub(super) fn runs_in(dir: &Path) -> Result<Vec<Run>, Failure> {
         "sweep" => points(dir, &record),
         other @ ("fit" | "validate") => Err(refused(
             &path,
-            &format!(
-                "is of `shearbed {other}`, whose pictures are drawn from its folder alone; give no other folder"
-            ),
+            &format!("is of `shearbed {other}`, whose pictures are drawn from its folder alone; give no other folder"),
         )),
         other => Err(refused(
             &path,
@@ -64,7 +62,8 @@ pub(super) fn runs_in(dir: &Path) -> Result<Vec<Run>, Failure> {
     }
 }
 
-/// The pictures that a folder of `shearbed fit` or `shearbed validate` keeps as data, with their names; none for a folder of runs.
+/// The pictures that a folder of `shearbed fit` or `shearbed validate` keeps as data, with their names; none for a
+/// folder of runs.
 pub(super) fn kept(dir: &Path) -> Result<Option<Vec<(String, Figure)>>, Failure> {
     let Ok(Some(record)) = Record::read(dir) else {
         // `runs_in` reports what is wrong with the record.
@@ -124,8 +123,7 @@ fn points(dir: &Path, record: &Record) -> Result<Vec<Run>, Failure> {
         .map_err(|error| refused("sweep.json", format!("over: is no grid of this version: {error}")))?;
     let count = sweep::count(&axes).ok_or_else(|| refused("sweep.json", "has too many points".into()))?;
     // Their numbers have as many digits, so that they are in order.
-    let names: BTreeSet<_> =
-        (0..count).map(|k| format!("{}/{RECORD}", sweep::point_name(k, count))).collect();
+    let names: BTreeSet<_> = (0..count).map(|k| format!("{}/{RECORD}", sweep::point_name(k, count))).collect();
     if let Some(name) = names.iter().find(|name| !record.files.contains_key(*name)) {
         return Err(refused(RECORD, format!("{name} is not listed")));
     }

@@ -36,7 +36,8 @@ pub(super) struct Look {
     #[arg(long)]
     log_y: bool,
     /// Dark ink on white, or light ink on a dark ground
-    #[arg(long, value_name = "THEME", default_value = "light", value_parser = PossibleValuesParser::new(["light", "dark"]))]
+    #[arg(long, value_name = "THEME", default_value = "light",
+        value_parser = PossibleValuesParser::new(["light", "dark"]))]
     theme: String,
 }
 
@@ -46,15 +47,14 @@ fn range(text: &str) -> Result<(f64, f64), String> {
         .ok_or_else(|| "FROM:TO is allowed, two finite numbers of which the second is larger".to_owned())
 }
 
-/// The range of a side in pixels: the axes with letters of 16 pixels need the least, and a page is no larger than the most.
+/// The range of a side in pixels: the axes with letters of 16 pixels need the least, and a page is no larger than the
+/// most.
 const SIZES: std::ops::RangeInclusive<u32> = 240..=4000;
 
 fn size(text: &str) -> Result<(u32, u32), String> {
     let sides = text.split_once('x').and_then(|(w, h)| Some((w.parse().ok()?, h.parse().ok()?)));
     let inside = sides.filter(|(width, height)| SIZES.contains(width) && SIZES.contains(height));
-    inside.ok_or_else(|| {
-        format!("WIDTHxHEIGHT is allowed, as 800x500, each from {} to {}", SIZES.start(), SIZES.end())
-    })
+    inside.ok_or_else(|| format!("WIDTHxHEIGHT is allowed, as 800x500, each from {} to {}", SIZES.start(), SIZES.end()))
 }
 
 /// The coordinates of all curves and points, along and up.
@@ -68,8 +68,7 @@ fn values(figure: &Figure) -> [Vec<f64>; 2] {
 /// Refuses a range that no curve and no point reaches.
 fn reached(flag: &str, range: Option<(f64, f64)>, all: &[f64]) -> Result<(), Failure> {
     let finite = all.iter().copied().filter(|value| value.is_finite());
-    let (least, most) =
-        finite.fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), v| (v.min(least), v.max(most)));
+    let (least, most) = finite.fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), v| (v.min(least), v.max(most)));
     match range {
         Some((from, to)) if least <= most && (to < least || most < from) => Err(Failure::Input(format!(
             "{flag} {from}:{to}: nothing lies there; the picture goes from {least} to {most}"
@@ -94,15 +93,14 @@ impl Look {
 
     /// Applies the flags to a figure.
     pub(super) fn apply(&self, figure: &mut Figure) -> Result<(), Failure> {
-        let set =
-            |text: &mut String, asked: &Option<String>| asked.iter().for_each(|asked| text.clone_from(asked));
+        let set = |text: &mut String, asked: &Option<String>| asked.iter().for_each(|asked| text.clone_from(asked));
         set(&mut figure.title, &self.title);
         set(&mut figure.x_name, &self.x_label);
         set(&mut figure.y_name, &self.y_label);
-        if figure.grid.is_some() && (self.size.is_some() || self.x_range.is_some() || self.y_range.is_some())
-        {
+        if figure.grid.is_some() && (self.size.is_some() || self.x_range.is_some() || self.y_range.is_some()) {
             return Err(Failure::Input(
-                "--size, --x-range, --y-range: this picture is a map, whose cells say how large it is; --title and --theme are allowed"
+                "--size, --x-range, --y-range: this picture is a map, whose cells say how large it is; --title and \
+                    --theme are allowed"
                     .into(),
             ));
         }
@@ -123,8 +121,7 @@ impl Look {
         }
         figure.x_log |= self.log_x;
         figure.y_log |= self.log_y;
-        for (flag, range, log) in
-            [("--x-range", self.x_range, figure.x_log), ("--y-range", self.y_range, figure.y_log)]
+        for (flag, range, log) in [("--x-range", self.x_range, figure.x_log), ("--y-range", self.y_range, figure.y_log)]
         {
             if let Some((from, to)) = range.filter(|(from, _)| log && *from <= 0.0) {
                 return Err(Failure::Input(format!(

@@ -8,7 +8,8 @@ use shearbed_validation::present::plot::{MEASURED, Points, names};
 use shearbed_validation::serve::fit::data;
 use std::path::Path;
 
-/// The points of a channel, with times in the unit of the runs, of which there is at least one, and with bars of one standard uncertainty.
+/// The points of a channel, with times in the unit of the runs, of which there is at least one, and with bars of one
+/// standard uncertainty.
 pub(super) fn points(path: &Path, runs: &[Run], channel: &str) -> Result<Points, Failure> {
     let at = |what: String| Failure::Input(format!("--data {}: {what}", path.shown()));
     let read = data::read(path, 0).map_err(|error| Failure::Input(error.to_string()))?;
@@ -23,7 +24,8 @@ pub(super) fn points(path: &Path, runs: &[Run], channel: &str) -> Result<Points,
     // Every run has the same axis, in its own unit of time.
     if let Some(k) = units.iter().position(|other| (other / unit - 1.0).abs() > 1e-9) {
         return Err(at(format!(
-            "a point at one {} stands at different places of the curves: a unit of their axis is {unit} in {} and {} in {}; draw \
+            "a point at one {} stands at different places of the curves: a unit of their axis is {unit} in {} and {} \
+                in {}; draw \
              them one by one, or give the points' times in the unit of the axis",
             read.time.name(),
             runs[0].label,
@@ -35,10 +37,7 @@ pub(super) fn points(path: &Path, runs: &[Run], channel: &str) -> Result<Points,
     if own.is_empty() {
         let mut columns: Vec<_> = read.points.iter().map(|point| point.column.as_str()).collect();
         columns.dedup();
-        return Err(at(format!(
-            "has no points of {channel}; it has {}, which --y takes",
-            columns.join(", ")
-        )));
+        return Err(at(format!("has no points of {channel}; it has {}, which --y takes", columns.join(", "))));
     }
     let each = |value: &dyn Fn(&shearbed_validation::methods::least_squares::Datum) -> f64| {
         own.iter().map(|point| value(point)).collect::<Vec<f64>>()

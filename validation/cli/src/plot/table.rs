@@ -10,7 +10,8 @@ use shearbed_validation::files::text::snippet;
 use shearbed_validation::present::plot::Curve;
 use std::io::{self, Read};
 
-/// The largest number of rows of all curves of a picture: a page has some thousand points across, and each row takes some 400 bytes.
+/// The largest number of rows of all curves of a picture: a page has some thousand points across, and each row takes
+/// some 400 bytes.
 pub(super) const MOST_ROWS: usize = 200_000;
 
 /// A channel of a run against time.
@@ -20,7 +21,8 @@ pub(super) struct Found {
     pub(super) curve: Curve,
 }
 
-/// The column `wanted` of the run's tables, by default the first of the first table. `left` counts down the rows that may be read.
+/// The column `wanted` of the run's tables, by default the first of the first table. `left` counts down the rows that
+/// may be read.
 pub(super) fn channel(run: &Run, wanted: Option<&str>, left: &mut usize) -> Result<Found, Failure> {
     let mut known = Vec::new();
     for observable in &run.scene.output.observables {
@@ -97,7 +99,8 @@ impl<R: Read> Table<R> {
         channels.map(str::to_owned).collect()
     }
 
-    /// The times, and the means and standard errors of a channel, each checked. `left` counts down the rows that may be read.
+    /// The times, and the means and standard errors of a channel, each checked. `left` counts down the rows that may be
+    /// read.
     fn columns(&mut self, channel: &str, left: &mut usize) -> Result<[Vec<f64>; 3], String> {
         let place = |name: &str| self.header.iter().position(|head| head == name).unwrap_or(0);
         let places = [0, place(channel), place(&format!("{channel}_se"))];
@@ -124,17 +127,15 @@ impl<R: Read> Table<R> {
             }
             *left = left.checked_sub(1).ok_or_else(|| {
                 format!(
-                    ":{line}: more than {MOST_ROWS} rows for one picture; fewer runs, or a smaller time.outputs_per_period, are allowed"
+                    ":{line}: more than {MOST_ROWS} rows for one picture; fewer runs, or a smaller \
+                        time.outputs_per_period, are allowed"
                 )
             })?;
             for (column, value) in columns.iter_mut().zip([time, mean, se]) {
                 column.push(value);
             }
         }
-        match columns[0].is_empty() {
-            true => Err(":1: has a header alone; rows are needed".into()),
-            false => Ok(columns),
-        }
+        if columns[0].is_empty() { Err(":1: has a header alone; rows are needed".into()) } else { Ok(columns) }
     }
 
     /// The size and checksum of what was read.
@@ -194,11 +195,7 @@ mod tests {
             (format!("{head}0,1,inf\n"), 9, ":2: x1_se = \"inf\""),
             (format!("{head}0,1,-1\n"), 9, ":2: x1_se = \"-1\""),
             (format!("{head}nan,1,0\n"), 9, ":2: t_over_T = \"nan\""),
-            (
-                format!("{head}1,1,0\n1,1,0\n"),
-                9,
-                ":3: t_over_T = \"1\" is not allowed: expected a finite number above",
-            ),
+            (format!("{head}1,1,0\n1,1,0\n"), 9, ":3: t_over_T = \"1\" is not allowed: expected a finite number above"),
             (format!("{head}0,one,0\n"), 9, ":2: x1 = \"one\" is not allowed: expected a number"),
             (format!("{head}0,1\n"), 9, ":2: 2 cells; the header has 3"),
             (format!("{head}0,1,0\n1,1,0\n"), 1, &format!(":3: {more}")),

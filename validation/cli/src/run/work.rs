@@ -49,8 +49,8 @@ impl Work<'_> {
         Ok(cluster::is_root().then(|| (tally.results(plan), Some(ended))))
     }
 
-    /// The total of replicas to reach before the clock is checked again: the target if there is no time limit, and no more than `done`
-    /// after the deadline. Two replicas run in any case.
+    /// The total of replicas to reach before the clock is checked again: the target if there is no time limit, and no
+    /// more than `done` after the deadline. Two replicas run in any case.
     fn end_of_part(&self, done: u64, target: u64, deadline: Option<Instant>) -> u64 {
         match deadline {
             None => target,
@@ -84,9 +84,7 @@ impl Work<'_> {
 
     fn saved(&self, replicas: &Replicas, saved: Result<Progress, OutputError>) {
         match saved {
-            Ok(progress) => {
-                log(&format!("kept in {}: {progress}", replicas.path().shown()), self.args.writing.quiet)
-            }
+            Ok(progress) => log(&format!("kept in {}: {progress}", replicas.path().shown()), self.args.writing.quiet),
             Err(error) => {
                 let lost = format!("{error}; the run goes on, and what comes is not kept");
                 scene::warn("--checkpoint", [&lost]);

@@ -6,12 +6,9 @@ use common::running::Running;
 #[test]
 fn bad_input_on_one_rank_ends_the_job() {
     let dir = folder();
-    for command in ["run long.toml", "converge long.toml", "sweep long.toml --over interaction.alpha=1,2,3,4"]
-    {
+    for command in ["run long.toml", "converge long.toml", "sweep long.toml --over interaction.alpha=1,2,3,4"] {
         let other = command.replace("long.toml", "missing.toml");
-        let job = format!(
-            "-n 3 shearbed {command} --out x --threads 1 : -n 1 shearbed {other} --out x --threads 1"
-        );
+        let job = format!("-n 3 shearbed {command} --out x --threads 1 : -n 1 shearbed {other} --out x --threads 1");
         let (code, message) = shearbed(dir.path(), &job);
         assert_eq!(code, Some(2), "{message}");
         assert!(message.contains("error: rank 3 of 4: missing.toml: cannot be read"), "{message}");

@@ -75,8 +75,7 @@ fn both(dir: &Path, ranks: usize, arguments: &str) -> [BTreeMap<String, Vec<u8>>
     // Only the root prints. Cases are printed as they end.
     let lines = |output: &Output| {
         let printed = text(&output.stdout).replace("shared", "alone");
-        let mut lines: Vec<_> =
-            printed.lines().filter(|line| !line.ends_with(" s")).map(str::to_owned).collect();
+        let mut lines: Vec<_> = printed.lines().filter(|line| !line.ends_with(" s")).map(str::to_owned).collect();
         lines.sort();
         lines
     };
@@ -104,17 +103,13 @@ fn strip(value: &mut Value, without: &[&str]) {
 
 #[test]
 fn a_run_has_the_bytes_of_one_process() {
-    for (scene, ranks) in
-        [("small.toml", 4), ("small.toml", 3), ("small.toml --replicas 2", 4), ("one.toml", 2)]
-    {
+    for (scene, ranks) in [("small.toml", 4), ("small.toml", 3), ("small.toml --replicas 2", 4), ("one.toml", 2)] {
         let dir = folder();
         let [mut alone, mut shared] = both(dir.path(), ranks, &format!("run {scene}"));
         let without = ["seconds", "threads", "ranks", "command"];
         assert_eq!(record(&mut shared, "run.json", &without), record(&mut alone, "run.json", &without));
         // It has the checksum of run.json.
-        assert!(
-            [&mut alone, &mut shared].map(|files| files.remove("shearbed.json")).iter().all(Option::is_some)
-        );
+        assert!([&mut alone, &mut shared].map(|files| files.remove("shearbed.json")).iter().all(Option::is_some));
         assert!(alone.len() >= 2, "{:?}", alone.keys());
         assert_eq!(shared, alone, "{scene} on {ranks} ranks");
     }
@@ -123,8 +118,7 @@ fn a_run_has_the_bytes_of_one_process() {
 #[test]
 fn a_sweep_has_the_bytes_of_one_process() {
     let dir = folder();
-    let over =
-        "sweep small.toml --over interaction.alpha=0.1:0.3:3 --over interaction.update=rotation,angles";
+    let over = "sweep small.toml --over interaction.alpha=0.1:0.3:3 --over interaction.update=rotation,angles";
     let [alone, shared] = both(dir.path(), 4, over);
     assert!(alone.contains_key("points/6/orbit_constant.csv"));
     assert_eq!(shared, alone);
@@ -188,21 +182,16 @@ fn converge_has_the_bytes_of_one_process() {
 }
 
 /// Tables and figures of the report that hold times.
-const TIMED: [&str; 6] = [
-    "work-precision",
-    "exact-against-adaptive",
-    "speed",
-    "suspension-starts",
-    "suspension-splits",
-    "cost-of-accuracy",
-];
+const TIMED: [&str; 6] =
+    ["work-precision", "exact-against-adaptive", "speed", "suspension-starts", "suspension-splits", "cost-of-accuracy"];
 
 /// All of the report but times, and what is measured in times.
 #[test]
 fn validate_has_the_numbers_of_one_process() {
     let without = ["seconds", "origin", "command", "crc32"];
     let dir = folder();
-    let cases = "validate --case jeffery-period --case contact-rule --case collision-frequency --case okagawa-mason-1973 \
+    let cases = "validate --case jeffery-period --case contact-rule --case collision-frequency --case \
+        okagawa-mason-1973 \
                  --case free-amplitude";
     let [mut alone, mut shared] = both(dir.path(), 4, cases);
     assert_eq!(record(&mut shared, "report.json", &without), record(&mut alone, "report.json", &without));

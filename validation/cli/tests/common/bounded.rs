@@ -1,4 +1,5 @@
-//! Child processes of tests. None is waited for without a bound: at it the process is ended, and the test fails and says which it was.
+//! Child processes of tests. None is waited for without a bound: at it the process is ended, and the test fails and
+//! says which it was.
 
 #![allow(dead_code)] // Each test uses a part.
 
@@ -7,8 +8,8 @@ use std::sync::mpsc::channel;
 use std::thread::spawn;
 use std::time::Duration;
 
-/// How long a test waits for a process. It is no measure of the program: a machine that needs longer is at fault, and the
-/// message says so.
+/// How long a test waits for a process. It is no measure of the program: a machine that needs longer is at fault, and
+/// the message says so.
 pub const PATIENCE: Duration = Duration::from_secs(600);
 
 /// `--timeout` of a graded program that answers within milliseconds: two answers in vain end within [`PATIENCE`].
@@ -53,14 +54,9 @@ fn within(patience: Duration, name: &str, child: Child) -> Output {
 
 #[test]
 fn a_process_that_hangs_is_named_and_ended() {
-    let child = Command::new("sh")
-        .args(["-c", "echo begun; exec sleep 1000"])
-        .stdout(Stdio::piped())
-        .spawn()
-        .unwrap();
+    let child = Command::new("sh").args(["-c", "echo begun; exec sleep 1000"]).stdout(Stdio::piped()).spawn().unwrap();
     let id = child.id();
-    let hung =
-        std::panic::catch_unwind(|| within(Duration::from_millis(500), "a sleeper", child)).unwrap_err();
+    let hung = std::panic::catch_unwind(|| within(Duration::from_millis(500), "a sleeper", child)).unwrap_err();
     let words = hung.downcast_ref::<String>().unwrap();
     assert!(words.contains("a sleeper within 500ms, or it hangs; it wrote: begun"), "{words}");
     let sent = Command::new("kill").args(["-0", &id.to_string()]).stderr(Stdio::null()).ended();

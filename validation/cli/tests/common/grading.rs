@@ -12,10 +12,8 @@ use tempfile::TempDir;
 /// The exported problems, once for all tests of a program.
 pub static REFERENCE: LazyLock<TempDir> = LazyLock::new(|| {
     let dir = tempfile::tempdir().unwrap();
-    let exported = Command::new(env!("CARGO_BIN_EXE_shearbed"))
-        .args(["problems", "export", "--force"])
-        .arg(dir.path())
-        .ended();
+    let exported =
+        Command::new(env!("CARGO_BIN_EXE_shearbed")).args(["problems", "export", "--force"]).arg(dir.path()).ended();
     assert!(exported.status.success());
     dir
 });
@@ -51,8 +49,8 @@ pub fn graded(arguments: &[&str]) -> Graded {
     }
 }
 
-/// Answers in a folder against the exported problems that it answers or `more` names. All of them would take twenty times as long to
-/// read.
+/// Answers in a folder against the exported problems that it answers or `more` names. All of them would take twenty
+/// times as long to read.
 pub fn answers(mine: &Path, more: &[&str]) -> Graded {
     let entries = fs::read_dir(mine).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap());
     let asked = more.windows(2).filter(|pair| pair[0] == "--problem").map(|pair| pair[1].to_owned());

@@ -20,12 +20,8 @@ pub fn python(module: &str) -> Option<String> {
 
 /// Whether a program can be run, and ends well.
 pub fn runs(program: &str, arguments: &[&str]) -> bool {
-    let quiet = Command::new(program)
-        .args(arguments)
-        .stdin(Stdio::null())
-        .stdout(Stdio::null())
-        .stderr(Stdio::null())
-        .spawn();
+    let quiet =
+        Command::new(program).args(arguments).stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null()).spawn();
     quiet.is_ok_and(|child| end(program, child).status.success())
 }
 
@@ -38,7 +34,8 @@ pub fn run(program: &str, arguments: &[&Path]) {
     assert!(output.status.success(), "{program} {arguments:?}: {}", String::from_utf8_lossy(&output.stderr));
 }
 
-/// Says in one line what was not run, and why. Fails if that names a tool of `SHEARBED_TOOLS`, which CI sets to those that it has.
+/// Says in one line what was not run, and why. Fails if that names a tool of `SHEARBED_TOOLS`, which CI sets to those
+/// that it has.
 pub fn skipped(name: &str, reason: &str) {
     let tools = std::env::var("SHEARBED_TOOLS").unwrap_or_default();
     let found = tools.split_whitespace().find(|tool| reason.split([' ', ',', ':']).any(|word| word == *tool));

@@ -26,7 +26,8 @@ impl Running {
         Self::with(command, Captured::open())
     }
 
-    /// Starts a program that waits, for as long as the test likes, where it first writes to standard error: nobody reads there.
+    /// Starts a program that waits, for as long as the test likes, where it first writes to standard error: nobody
+    /// reads there.
     pub fn held_at_its_first_message(command: Command) -> Self {
         Self::with(command, Captured::full())
     }

@@ -1,6 +1,6 @@
-//! Shell blocks of the user guide, run in order, each page in an empty folder. A block is marked `sh`; `sh,slow`, which runs
-//! where DOCS_SLOW is set, as in `.ci/run`; or `sh,no-run`, for what needs a network or another machine. A block `text` right
-//! after it is what it prints; `…` stands for anything.
+//! Shell blocks of the user guide, run in order, each page in an empty folder. A block is marked `sh`; `sh,slow`, which
+//! runs where DOCS_SLOW is set, as in `.ci/run`; or `sh,no-run`, for what needs a network or another machine. A block
+//! `text` right after it is what it prints; `…` stands for anything.
 
 use crate::bounded::Bounded;
 use crate::pages::{blocks, under};
@@ -99,8 +99,7 @@ fn same(shown: &[&str], found: &[&str]) -> bool {
         return false;
     };
     let number = |word: &str| word.parse::<f64>().is_ok();
-    let time =
-        rest.first().is_some_and(|unit| ["s", "ms", "min"].contains(unit)) && number(first) && number(word);
+    let time = rest.first().is_some_and(|unit| ["s", "ms", "min"].contains(unit)) && number(first) && number(word);
     let part = first.split_once('…').is_some_and(|(start, end)| {
         word.len() >= start.len() + end.len() && word.starts_with(start) && word.ends_with(end)
     });
@@ -120,9 +119,7 @@ fn the_shell_blocks_of_the_user_guide_run() {
 
 #[test]
 fn a_block_that_fails_or_prints_something_else_is_seen() {
-    let page = |commands: &str, shown: &str| {
-        format!("# A\n\n```sh\n{commands}\n```\n\nSo:\n\n```text\n{shown}\n```\n")
-    };
+    let page = |commands: &str, shown: &str| format!("# A\n\n```sh\n{commands}\n```\n\nSo:\n\n```text\n{shown}\n```\n");
     let version = format!("shearbed {}", env!("CARGO_PKG_VERSION"));
     assert_eq!(run(&page("shearbed --version", &version), false), Ok(1));
     assert_eq!(run(&page("echo 'a 1.5 b 3.2 s c'; echo d", "a … b 7.9 s c\n…\nd"), false), Ok(1));

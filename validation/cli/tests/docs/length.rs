@@ -5,10 +5,7 @@ use crate::pages::{readmes, under};
 /// Words of a part of the book. Lines of tables and marks of numbers do not count.
 fn words(part: &str) -> usize {
     let word = |word: &&str| word.contains(char::is_alphanumeric) && !word.starts_with("<!--");
-    under(&format!("docs/src/{part}"))
-        .iter()
-        .map(|page| page.text.split_whitespace().filter(word).count())
-        .sum()
+    under(&format!("docs/src/{part}")).iter().map(|page| page.text.split_whitespace().filter(word).count()).sum()
 }
 
 #[test]

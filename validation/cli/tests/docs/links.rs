@@ -6,12 +6,12 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Component, Path, PathBuf};
 
-/// What is wrong with the links of a page. A page of the book may lead to other files of the book only: the rest is not built.
+/// What is wrong with the links of a page. A page of the book may lead to other files of the book only: the rest is not
+/// built.
 fn broken(page: &Page) -> Vec<String> {
     let mut wrong = Vec::new();
     for event in events(&page.text) {
-        let (Event::Start(Tag::Link { dest_url, .. }) | Event::Start(Tag::Image { dest_url, .. })) = event
-        else {
+        let (Event::Start(Tag::Link { dest_url, .. }) | Event::Start(Tag::Image { dest_url, .. })) = event else {
             continue;
         };
         if dest_url.contains("://") || dest_url.starts_with("mailto:") {
@@ -62,14 +62,9 @@ fn a_link_that_leads_nowhere_is_seen() {
         number(book, "[a](axes.md) [b](axes.md#axes-and-units) [c](../README.md) [d](https://example.org/x)"),
         0
     );
-    for text in [
-        "[a](no.md)",
-        "![a](no.svg)",
-        "[a](axes.md#no)",
-        "[a](#no)",
-        "[a]\n\n[a]: no.md",
-        "[a](../../../README.md)",
-    ] {
+    for text in
+        ["[a](no.md)", "![a](no.svg)", "[a](axes.md#no)", "[a](#no)", "[a]\n\n[a]: no.md", "[a](../../../README.md)"]
+    {
         assert_eq!(number(book, text), 1, "{text}");
     }
     assert_eq!(number("README.md", "[a](docs/src/README.md)"), 0);
@@ -80,8 +75,7 @@ fn a_link_that_leads_nowhere_is_seen() {
 #[test]
 fn the_table_of_contents_has_every_page_once() {
     let pages = under("docs/src");
-    let (summary, pages): (Vec<_>, Vec<_>) =
-        pages.into_iter().partition(|page| page.path == "docs/src/SUMMARY.md");
+    let (summary, pages): (Vec<_>, Vec<_>) = pages.into_iter().partition(|page| page.path == "docs/src/SUMMARY.md");
     let mut listed: Vec<_> = (events(&summary[0].text))
         .filter_map(|event| match event {
             Event::Start(Tag::Link { dest_url, .. }) => Some(format!("docs/src/{dest_url}")),
@@ -111,21 +105,17 @@ fn every_picture_of_the_book_is_shown() {
 fn named(text: &str) -> impl Iterator<Item = &str> {
     text.match_indices("docs/").filter_map(|(start, _)| {
         let rest = &text[start..];
-        let end = rest
-            .find(|sign: char| !(sign.is_ascii_alphanumeric() || "/._-".contains(sign)))
-            .unwrap_or(rest.len());
+        let end =
+            rest.find(|sign: char| !(sign.is_ascii_alphanumeric() || "/._-".contains(sign))).unwrap_or(rest.len());
         let path = rest[..end].trim_end_matches('.');
-        path.rsplit_once('.')
-            .filter(|(_, kind)| ["md", "svg", "sh", "tsv", "py"].contains(kind))
-            .map(|_| path)
+        path.rsplit_once('.').filter(|(_, kind)| ["md", "svg", "sh", "tsv", "py"].contains(kind)).map(|_| path)
     })
 }
 
 #[test]
 fn pages_named_in_the_sources_are_there() {
     let (mut wrong, mut number) = (Vec::new(), 0);
-    let mut folders =
-        ["src", "tests", "validation", ".ci", ".cargo"].map(|folder| root().join(folder)).to_vec();
+    let mut folders = ["src", "tests", "validation", ".ci", ".cargo"].map(|folder| root().join(folder)).to_vec();
     while let Some(folder) = folders.pop() {
         for entry in fs::read_dir(folder).unwrap() {
             let path = entry.unwrap().path();

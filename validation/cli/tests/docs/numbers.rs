@@ -1,5 +1,5 @@
-//! Numbers of the text: `0.326<!--=fig4.x1-->` is the value of `fig4.x1` in docs/numbers.tsv, which has the command that prints it.
-//! `docs/numbers.sh` makes the table afresh.
+//! Numbers of the text: `0.326<!--=fig4.x1-->` is the value of `fig4.x1` in docs/numbers.tsv, which has the command
+//! that prints it. `docs/numbers.sh` makes the table afresh.
 
 use crate::bounded::Bounded;
 use crate::pages::{Page, places, readmes, root, under};
@@ -65,9 +65,7 @@ fn a_number_that_is_not_the_table_s_is_seen() {
     let table = BTreeMap::from([("a.b".to_owned(), number("0.326"))]);
     let wrong = |text: &str| marked(&Page { path: "p".into(), text: text.into() }, &table).1.len();
     assert_eq!(wrong("x = 0.326<!--=a.b--> and 0.326<!--=a.b-->, in code `0.327<!--=a.b-->`"), 0);
-    for text in
-        ["x = 0.327<!--=a.b-->", "x = 10.326<!--=a.b-->", "x = 0.326<!--=a.c-->", "x = 0.326 <!--=a.b-->"]
-    {
+    for text in ["x = 0.327<!--=a.b-->", "x = 10.326<!--=a.b-->", "x = 0.326<!--=a.c-->", "x = 0.326 <!--=a.b-->"] {
         assert_eq!(wrong(text), 1, "{text}");
     }
 }
@@ -101,8 +99,7 @@ fn scripts_print_the_rows_of_tables() {
     let mut named = BTreeSet::new();
     for script in fs::read_dir(root().join("docs/numbers/tables")).unwrap() {
         let script = script.unwrap().path();
-        let [name, when, "sh"] =
-            script.file_name().unwrap().to_str().unwrap().split('.').collect::<Vec<_>>()[..]
+        let [name, when, "sh"] = script.file_name().unwrap().to_str().unwrap().split('.').collect::<Vec<_>>()[..]
         else {
             panic!("{script:?} is not NAME.test.sh or NAME.release.sh");
         };
@@ -116,10 +113,7 @@ fn scripts_print_the_rows_of_tables() {
         }
         named.insert(name.to_owned());
     }
-    assert!(
-        marked.iter().all(|name| named.contains(*name)) && named.len() == marked.len(),
-        "{marked:?} {named:?}"
-    );
+    assert!(marked.iter().all(|name| named.contains(*name)) && named.len() == marked.len(), "{marked:?} {named:?}");
     let other = "| a |\n| --- |\n| 1 |\ntext\n<!--table:a-->";
     assert_eq!(
         (rows_before("| a |\n| --- |\n| 1 |\n<!--table:a-->", "a"), rows_before(other, "a")),

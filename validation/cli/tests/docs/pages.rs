@@ -59,8 +59,7 @@ pub fn events(text: &str) -> impl Iterator<Item = Event<'_>> {
 
 /// The same, each with its place in `text`.
 pub fn places(text: &str) -> impl Iterator<Item = (Event<'_>, Range<usize>)> {
-    Parser::new_ext(text, Options::ENABLE_TABLES | Options::ENABLE_MATH | Options::ENABLE_FOOTNOTES)
-        .into_offset_iter()
+    Parser::new_ext(text, Options::ENABLE_TABLES | Options::ENABLE_MATH | Options::ENABLE_FOOTNOTES).into_offset_iter()
 }
 
 /// The fenced code blocks of a page: what follows the fence, and the text.
@@ -106,9 +105,7 @@ pub fn anchors(text: &str) -> Vec<String> {
 
 fn anchor(heading: &str) -> String {
     let sign = |sign: char| match sign {
-        _ if sign.is_alphanumeric() || sign == '_' || sign == '-' => {
-            Some(sign.to_lowercase().next().unwrap())
-        }
+        _ if sign.is_alphanumeric() || sign == '_' || sign == '-' => Some(sign.to_lowercase().next().unwrap()),
         _ if sign.is_whitespace() => Some('-'),
         _ => None,
     };

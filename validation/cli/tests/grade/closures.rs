@@ -43,9 +43,7 @@ fn answer(name: &str, c_i: f64, closure: fn(&M) -> f64) -> Vec<Vec<String>> {
     let (_, mut rows) = problem(name);
     let mut a: M = std::array::from_fn(|i| std::array::from_fn(|j| if i == j { 1.0 / 3.0 } else { 0.0 }));
     let mut now = 0.0;
-    let add = |a: &M, k: &M, h: f64| -> M {
-        std::array::from_fn(|i| std::array::from_fn(|j| a[i][j] + h * k[i][j]))
-    };
+    let add = |a: &M, k: &M, h: f64| -> M { std::array::from_fn(|i| std::array::from_fn(|j| a[i][j] + h * k[i][j])) };
     for row in rows.iter_mut().skip(1) {
         let time: f64 = row[0].parse::<f64>().unwrap().min(1200.0);
         let steps = ((time - now) * G / 0.01).ceil();
@@ -84,10 +82,7 @@ fn the_closure_of_a_program_is_named_with_its_cost() {
     ] {
         assert_eq!(ended.verdict(name), "FAIL");
         let said = ended.diagnosis(name);
-        assert!(
-            said.starts_with(&format!("this is the curve of {closure}")) && said.contains(cost),
-            "{said}"
-        );
+        assert!(said.starts_with(&format!("this is the curve of {closure}")) && said.contains(cost), "{said}");
         assert!(!said.contains(" or of "), "{said}");
     }
     let overall = "one mistake explains 2 of 3 that do not pass: the quadratic closure";
@@ -118,10 +113,7 @@ fn a_right_tensor_code_passes_its_closed_problem_and_another_closure_fails_by_na
     assert_eq!((ended.verdict(own), ended.verdict(other)), ("PASS", "FAIL"), "{}", ended.words);
     assert!(ended.error(own) < 1e-10);
     let said = ended.diagnosis(other);
-    assert!(
-        said.starts_with("this is the curve of the quadratic closure, to ") && !said.contains("costs"),
-        "{said}"
-    );
+    assert!(said.starts_with("this is the curve of the quadratic closure, to ") && !said.contains("costs"), "{said}");
     // The distribution itself, as the exact problem has it at the same times.
     let (_, mut exact) = problem("folgar-tucker-shear-0.01");
     exact[0] = problem(other).1[0].clone();

@@ -110,31 +110,13 @@ fn a_problem_of_another_name_is_foreign_in_every_report() {
 
 /// Values that a key may be given by mistake or on purpose.
 fn values() -> Vec<Value> {
-    let texts = [
-        "",
-        "rods",
-        "tensor",
-        "contact",
-        "ensemble",
-        "angle",
-        "absolute",
-        "relative",
-        "standard-errors",
-        "../x",
-    ];
+    let texts =
+        ["", "rods", "tensor", "contact", "ensemble", "angle", "absolute", "relative", "standard-errors", "../x"];
     let numbers = [0.0, -1.0, 0.5, 1.0, 1e-300, 1e308, -1e308];
     let columns = ["time_s", "rod", "snapshot", "p1", "a11", "x1", "x1_se", "a_pdot1_per_s", "b_phi_rad"];
     let mut all: Vec<Value> = texts.map(Value::from).into();
     all.extend(numbers.map(Value::from));
-    all.extend([
-        Value::Null,
-        json!(true),
-        json!([]),
-        json!({}),
-        json!([0.0]),
-        json!([1.0, 0.5]),
-        json!([1.0, 2.0]),
-    ]);
+    all.extend([Value::Null, json!(true), json!([]), json!({}), json!([0.0]), json!([1.0, 0.5]), json!([1.0, 2.0])]);
     all.extend([json!(columns), json!(columns[..2]), json!(["time_s", "p1", "p2", "p3"])]);
     let small = [[1e-300, 0.0, 0.0], [0.0; 3], [0.0; 3]];
     all.extend([[[0.0; 3]; 3], [[1e308; 3]; 3], small].map(|matrix| json!(matrix)));
@@ -186,16 +168,14 @@ fn no_value_of_any_key_panics_or_is_taken_silently() {
     std::panic::set_hook(Box::new(|_| {}));
     let mut wrong = Vec::new();
     let (mut refused, mut foreign) = (0, 0);
-    // Problems of a form differ in their numbers alone: one in shear and one in another flow stand for single rods and for isotropic ones,
-    // unequal rods for ensembles, and mixed flows for diffusing rods. Of every other form there is one.
+    // Problems of a form differ in their numbers alone: one in shear and one in another flow stand for single rods and
+    // for isotropic ones, unequal rods for ensembles, and mixed flows for diffusing rods. Of every other form there is
+    // one.
     let one_of_a_form = |name: &String| match name.as_str() {
         "mid-flip-2" | "spiral" | "isotropic-3" | "isotropic-extension" | "lee-springer-unequal" => true,
-        name if ["folgar-tucker", "closed"].iter().any(|kind| name.starts_with(kind)) => {
-            name.ends_with("-mixed")
-        }
+        name if ["folgar-tucker", "closed"].iter().any(|kind| name.starts_with(kind)) => name.ends_with("-mixed"),
         name => {
-            !["rods", "ensemble"].contains(&problem(name).0["kind"].as_str().unwrap())
-                && !name.starts_with("isotropic")
+            !["rods", "ensemble"].contains(&problem(name).0["kind"].as_str().unwrap()) && !name.starts_with("isotropic")
         }
     };
     for name in names().into_iter().filter(one_of_a_form) {
@@ -217,12 +197,9 @@ fn no_value_of_any_key_panics_or_is_taken_silently() {
                     let mut spoilt = told.clone();
                     spoilt[&key] = value.clone();
                     fs::write(&path, spoilt.to_string()).unwrap();
-                    let mut fault =
-                        |what: String| wrong.push(format!("{called} ({name}), {key} = {value}: {what}"));
+                    let mut fault = |what: String| wrong.push(format!("{called} ({name}), {key} = {value}: {what}"));
                     match problems::read(&reference) {
-                        Err(error) if error.path.starts_with(&reference) && !error.message.is_empty() => {
-                            refused += 1
-                        }
+                        Err(error) if error.path.starts_with(&reference) && !error.message.is_empty() => refused += 1,
                         Err(error) => fault(error.to_string()),
                         // An optional key that is not there is the default.
                         Ok(_) if !own && value.is_null() && told[&key].is_null() => {}

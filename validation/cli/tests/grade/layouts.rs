@@ -28,13 +28,9 @@ fn separators_heads_and_digits_of_labels_change_nothing() {
     }
     let with_start = text(&with_start);
     let columns = ["--columns", "p3,rod,p1,p2,time_s"];
-    for (text, more) in [
-        (text(&rows), &[][..]),
-        (windows, &["--windows-text"]),
-        (blanks, &[]),
-        (with_start, &[]),
-        (headless, &columns),
-    ] {
+    for (text, more) in
+        [(text(&rows), &[][..]), (windows, &["--windows-text"]), (blanks, &[]), (with_start, &[]), (headless, &columns)]
+    {
         write(dir.path(), "shear-plane", "answer.csv", text);
         let only = [more, &["--problem", "shear-plane", "--problem", "mid-flip-2"]].concat();
         let ended = answers(dir.path(), &only);
@@ -102,9 +98,7 @@ fn layouts_of_other_programs_answer_closed_equations_too() {
         let line = |row: &Vec<String>| order.iter().map(|k| row[*k].as_str()).collect::<Vec<_>>().join(" ");
         rows[1..].iter().map(line).collect::<Vec<_>>().join("\n") + "\n"
     };
-    for (layout, order) in
-        [("fiberoripy", &[0, 1, 4, 5, 4, 2, 6, 5, 6, 3][..]), ("openfoam", &[0, 1, 4, 5, 2, 6, 3])]
-    {
+    for (layout, order) in [("fiberoripy", &[0, 1, 4, 5, 4, 2, 6, 5, 6, 3][..]), ("openfoam", &[0, 1, 4, 5, 2, 6, 3])] {
         let dir = tempfile::tempdir().unwrap();
         write(dir.path(), name, "answer.csv", in_order(order));
         let found = answers(dir.path(), &["--layout", layout]);
@@ -146,11 +140,7 @@ fn whole_series_and_files_of_probes_are_read() {
     assert!(words.contains("time_s = 2.5 is not asked for; the nearest that is asked for is 2"), "{words}");
     let two = probes(&rows[1..]).replace(")\n", ") (0.2 0 0 0.3 0 0.5)\n");
     let two = answered(name, "answer.csv", two);
-    assert!(
-        two.code == Some(2) && two.words.contains("13 fields where 7 columns are named"),
-        "{}",
-        two.words
-    );
+    assert!(two.code == Some(2) && two.words.contains("13 fields where 7 columns are named"), "{}", two.words);
     // Of a steady state the last row counts, whatever its time.
     let name = "folgar-tucker-steady-shear-0.01";
     let (_, rows) = problem(name);
@@ -189,27 +179,21 @@ fn a_dump_without_times_and_shapes_is_told_what_it_does_not_say() {
         .map(|line| if line.split(' ').count() == 5 { format!("{line} 2 1 1") } else { line.to_owned() })
         .collect();
     write(dir.path(), "shear-plane", "answer.dump", whole.join("\n") + "\n");
-    for (axis, reason) in
-        [("x", None), ("y", Some("--rod-axis y, but by shapex shapey shapez the rod lies along x"))]
-    {
+    for (axis, reason) in [("x", None), ("y", Some("--rod-axis y, but by shapex shapey shapez the rod lies along x"))] {
         let told = ["--timestep-s", "1e-5", "--rod-axis", axis];
         let ended = answers(dir.path(), &[&only[..], &told].concat());
         let said = reason.is_none_or(|reason| ended.words.contains(reason));
         assert!(ended.code == Some(reason.map_or(0, |_| 2)) && said, "{}", ended.words);
     }
     let timed: Vec<_> = (whole.iter())
-        .flat_map(
-            |line| if line == "ITEM: TIMESTEP" { vec!["ITEM: TIME", "1", line] } else { vec![line.as_str()] },
-        )
+        .flat_map(|line| if line == "ITEM: TIMESTEP" { vec!["ITEM: TIME", "1", line] } else { vec![line.as_str()] })
         .collect();
     write(dir.path(), "shear-plane", "answer.dump", timed.join("\n") + "\n");
     let ended = answers(dir.path(), &[&only[..], &["--timestep-s", "1e-5"]].concat());
     let reason = "ITEM: TIME is 1, by --timestep-s it is ";
     assert!(ended.code == Some(2) && ended.words.contains(reason), "{}", ended.words);
     write(dir.path(), "shear-plane", "answer.dump", dump);
-    for (more, reason) in
-        [(&["--rod-axis", "x"][..], "--timestep-s"), (&["--timestep-s", "1e-5"], "--rod-axis")]
-    {
+    for (more, reason) in [(&["--rod-axis", "x"][..], "--timestep-s"), (&["--timestep-s", "1e-5"], "--rod-axis")] {
         let ended = answers(dir.path(), &[&only[..], more].concat());
         assert!(ended.code == Some(2) && ended.words.contains(reason), "{}", ended.words);
     }
@@ -218,8 +202,8 @@ fn a_dump_without_times_and_shapes_is_told_what_it_does_not_say() {
     assert_eq!(ended.verdict("shear-plane"), "PASS", "{}", ended.words);
 }
 
-/// fiberpy's a23 and a13 are 0 in the recorded sample: here the program's axes are the vorticity, the gradient and the flow,
-/// and its a23 is the problem's a12.
+/// fiberpy's a23 and a13 are 0 in the recorded sample: here the program's axes are the vorticity, the gradient and the
+/// flow, and its a23 is the problem's a12.
 #[test]
 fn fiberpy_has_23_before_13() {
     let (_, rows) = problem("isotropic-3");

@@ -1,5 +1,5 @@
-//! `shearbed grade REF MINE` and `shearbed grade --command` as a user meets them, on answers made from the certified ones and
-//! on programs in other languages. The problems are exported once.
+//! `shearbed grade REF MINE` and `shearbed grade --command` as a user meets them, on answers made from the certified
+//! ones and on programs in other languages. The problems are exported once.
 
 #[path = "../common/bounded.rs"]
 mod bounded;

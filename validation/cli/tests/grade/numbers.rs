@@ -6,8 +6,8 @@ use std::fs;
 
 const NAME: &str = "mid-flip-2";
 
-/// The answer of a program whose rods turn `factor` times as fast, otherwise exact (A.4, A.5): q₁ = p₁ cos ωt − (p₂/r_e) sin ωt,
-/// q₂ = r_e p₁ sin ωt + p₂ cos ωt, q₃ = p₃.
+/// The answer of a program whose rods turn `factor` times as fast, otherwise exact (A.4, A.5): q₁ = p₁ cos ωt −
+/// (p₂/r_e) sin ωt, q₂ = r_e p₁ sin ωt + p₂ cos ωt, q₃ = p₃.
 fn turning(factor: f64) -> Vec<Vec<String>> {
     turning_of(NAME, factor)
 }
@@ -18,8 +18,7 @@ fn turning_of(name: &str, factor: f64) -> Vec<Vec<String>> {
     let r = told["aspect_ratio"].as_f64().unwrap();
     let rate = told["gradient_per_s"][1][0].as_f64().unwrap() / (r + 1.0 / r);
     let start = fs::read_to_string(REFERENCE.path().join(name).join("start.csv")).unwrap();
-    let start: Vec<Vec<f64>> =
-        (start.lines().skip(1)).map(|line| line.split(',').map(number).collect()).collect();
+    let start: Vec<Vec<f64>> = (start.lines().skip(1)).map(|line| line.split(',').map(number).collect()).collect();
     for row in rows.iter_mut().skip(1) {
         let p = &start[row[1].parse::<usize>().unwrap()];
         let (s, c) = (factor * rate * number(&row[0])).sin_cos();
@@ -74,7 +73,8 @@ fn a_diagnosis_is_given_on_a_curve_and_not_near_it() {
         let said = found.diagnosis(NAME);
         assert!(said.contains(expected) && said.is_empty() == expected.is_empty(), "{factor}: {said}");
     }
-    // Of a tensor one column alone lies on the curve of half the shear rate, a₁₁ at half the time; the others are right.
+    // Of a tensor one column alone lies on the curve of half the shear rate, a₁₁ at half the time; the others are
+    // right.
     let (told, mut rows) = problem("isotropic-3");
     let r = told["aspect_ratio"].as_f64().unwrap();
     let period_s = TAU * (r + 1.0 / r) / told["gradient_per_s"][1][0].as_f64().unwrap();
@@ -119,9 +119,7 @@ fn several_problems_say_together_what_is_wrong_and_none_at_rest_says_anything() 
     let names = ["mid-flip-2", "mid-flip-11.6", "disc-0.1", "poles"];
     let said = |factor: f64, more: &[(&str, Vec<Vec<String>>)]| {
         let dir = tempfile::tempdir().unwrap();
-        names
-            .iter()
-            .for_each(|name| drop(write(dir.path(), name, "answer.csv", text(&turning_of(name, factor)))));
+        names.iter().for_each(|name| drop(write(dir.path(), name, "answer.csv", text(&turning_of(name, factor)))));
         more.iter().for_each(|(name, rows)| drop(write(dir.path(), name, "answer.csv", text(rows))));
         let found = answers(dir.path(), &[]);
         let said = found.grade.as_ref().unwrap()["diagnosis"].as_array().unwrap().clone();
@@ -130,8 +128,7 @@ fn several_problems_say_together_what_is_wrong_and_none_at_rest_says_anything() 
     let (half, found) = said(0.5, &[]);
     assert_eq!(half.len(), 1, "{}", found.words);
     assert!(
-        half[0]
-            .starts_with("one mistake explains all 4 that do not pass: half the shear rate; its curve fits "),
+        half[0].starts_with("one mistake explains all 4 that do not pass: half the shear rate; its curve fits "),
         "{half:?}"
     );
     let (slow, found) = said(0.8333, &[]);
@@ -144,12 +141,7 @@ fn several_problems_say_together_what_is_wrong_and_none_at_rest_says_anything() 
     let (rest, found) = said(0.0, &[]);
     assert_eq!(rest, [""; 0], "{}", found.words);
     for name in names {
-        assert_eq!(
-            found.diagnosis(name),
-            "every rod is where it started: nothing has moved",
-            "{}",
-            found.words
-        );
+        assert_eq!(found.diagnosis(name), "every rod is where it started: nothing has moved", "{}", found.words);
     }
     assert_eq!(said(1.0, &[]).0, [""; 0]);
 }

@@ -1,5 +1,5 @@
-//! Programs that nobody here wrote, and small ones in other languages, graded as a user would. What cannot run here is skipped
-//! by name and reason in one line, and recorded answers (`validation/peers/recorded`) are graded in its place.
+//! Programs that nobody here wrote, and small ones in other languages, graded as a user would. What cannot run here is
+//! skipped by name and reason in one line, and recorded answers (`validation/peers/recorded`) are graded in its place.
 
 use crate::bounded::{ANSWER_S, Bounded};
 use crate::grading::{Graded, REFERENCE, files, graded, names, some};
@@ -29,9 +29,7 @@ fn numpy_rk4_passes_with_order_4_and_euler_fails_with_order_1() {
     }
     let Some(python) = python("numpy") else { return };
     // Rods that collide or diffuse are not its subject.
-    let others = |name: &&String| {
-        ["lee-springer", "folgar-tucker", "closed"].iter().any(|kind| name.starts_with(kind))
-    };
+    let others = |name: &&String| ["lee-springer", "folgar-tucker", "closed"].iter().any(|kind| name.starts_with(kind));
     for name in &names() {
         let expected = if others(&name) { "MISSING" } else { "PASS" };
         assert_eq!(rk4.verdict(name), expected, "{name}: {}", rk4.words);
@@ -49,7 +47,8 @@ fn numpy_rk4_passes_with_order_4_and_euler_fails_with_order_1() {
         // It steps over every flip of these.
         let diverges = ["mid-flip-10000", "ten-thousand-periods"].contains(&name.as_str());
         if expected == "FAIL" && !diverges {
-            // With half the steps it is off by twice as much: above 0.1 rad it does not follow the motion, and no order is read.
+            // With half the steps it is off by twice as much: above 0.1 rad it does not follow the motion, and no order
+            // is read.
             let follows = 2.0 * euler.of(name)["error"].as_f64().unwrap() < 0.1;
             let order = euler.order(name);
             let right = if follows { (order - 1.0).abs() < 0.2 } else { order.is_nan() };
@@ -61,8 +60,8 @@ fn numpy_rk4_passes_with_order_4_and_euler_fails_with_order_1() {
     assert_eq!(live.code, Some(0), "{}", live.words);
 }
 
-/// The suspension that `bench --case cost-of-accuracy` times, held to the core's: 40 replicas of 100 rods know X̄₁ to 0.006, and a
-/// right one is 4.5 standard errors off at one seed in 10⁵; without collisions X̄₁ is ½.
+/// The suspension that `bench --case cost-of-accuracy` times, held to the core's: 40 replicas of 100 rods know X̄₁ to
+/// 0.006, and a right one is 4.5 standard errors off at one seed in 10⁵; without collisions X̄₁ is ½.
 #[test]
 fn a_suspension_in_numpy_has_the_mean_of_the_core() {
     use shearbed_validation::judge::statistics::Sample;
@@ -80,10 +79,8 @@ fn a_suspension_in_numpy_has_the_mean_of_the_core() {
         let x1: Vec<_> = answer["x1"].as_array().unwrap().iter().map(|x| x.as_f64().unwrap()).collect();
         Sample::of(&x1)
     };
-    let mut scene = shearbed::Scene {
-        interaction: Some(shearbed::scene::Interaction::default()),
-        ..shearbed::Scene::default()
-    };
+    let mut scene =
+        shearbed::Scene { interaction: Some(shearbed::scene::Interaction::default()), ..shearbed::Scene::default() };
     scene.time.duration = 2.0;
     scene.time.outputs_per_unit = Some(1);
     scene.time.steps_per_unit = Some(50);
@@ -123,15 +120,10 @@ fn c_compiled_with_cc_passes_with_order_4() {
     for title in ["Error against steps, mid-flip-11.6", "Error against run time, one rod"] {
         assert!(found.html.as_ref().unwrap().contains(title), "{title}");
     }
-    assert!(
-        live["work_precision"]["pipe_s"].as_f64().is_some_and(|seconds| seconds > 0.0),
-        "{}",
-        found.words
-    );
+    assert!(live["work_precision"]["pipe_s"].as_f64().is_some_and(|seconds| seconds > 0.0), "{}", found.words);
     // As the project's own RK4 in p: the longest step with which every rod of r_e = 11.6 turns.
     let limits = live["limits"].as_array().unwrap();
-    let turning =
-        limits.iter().find(|limit| limit["property"] == "turning" && limit["aspect_ratio"] == 11.6).unwrap();
+    let turning = limits.iter().find(|limit| limit["property"] == "turning" && limit["aspect_ratio"] == 11.6).unwrap();
     let own = own_turning_limit();
     assert!((turning["strain"]["at"].as_f64().unwrap() / own - 1.0).abs() < 1e-3, "{turning} {own}");
 }
@@ -156,9 +148,7 @@ fn javascript_has_order_2() {
     let script = peers().join("midpoint.js");
     let command = format!("node '{}'", script.display());
     let of = ["--problem", "mid-flip-2", "--problem", "mid-flip-11.6", "--problem", "spiral"];
-    let found = graded(
-        &[&["--command", &command, "--brief", "--order", "2", "--timeout", ANSWER_S][..], &of].concat(),
-    );
+    let found = graded(&[&["--command", &command, "--brief", "--order", "2", "--timeout", ANSWER_S][..], &of].concat());
     for name in ["mid-flip-2", "mid-flip-11.6", "spiral"] {
         assert!((found.order(name) - 2.0).abs() < 0.2, "{name}: {}", found.words);
         assert!(found.of(name)["length_drift"].as_f64().unwrap() < 1e-14);
@@ -168,12 +158,7 @@ fn javascript_has_order_2() {
     let mine = dir.path().join("mine");
     run("node", &[&script, &reference, &mine]);
     let found = files(&reference, &mine, &[]);
-    assert_eq!(
-        (found.verdict("log-rolling"), found.verdict("mid-flip-10000")),
-        ("PASS", "FAIL"),
-        "{}",
-        found.words
-    );
+    assert_eq!((found.verdict("log-rolling"), found.verdict("mid-flip-10000")), ("PASS", "FAIL"), "{}", found.words);
 }
 
 /// fiberoripy 1.4.0 with SciPy's DOP853 at 10⁻¹² and its closures.

@@ -16,15 +16,12 @@ const PLANTED: &[(&str, &str, &str, &str)] = &[
         "Λ without its sign or of Λ with the wrong sign (1/r_e for r_e)",
     ),
     ("(r_e**2 * L - L.T) / (r_e**2 + 1)", "L", "mid-flip-11.6", "no 1/r_e"),
-    (
-        "return q / np",
-        "q[:, [0, 1]] = q[:, [1, 0]]\n    return q / np",
-        "mid-flip-11.6",
-        "p_1 and p_2 exchanged",
-    ),
+    ("return q / np", "q[:, [0, 1]] = q[:, [1, 0]]\n    return q / np", "mid-flip-11.6", "p_1 and p_2 exchanged"),
     (
         "    q = start @",
-        "    phi, theta = np.degrees(np.arctan2(start[:, 1], start[:, 0])), np.degrees(np.arccos(start[:, 2]))\n    start = np.column_stack([np.sin(theta) * np.cos(phi), np.sin(theta) * np.sin(phi), np.cos(theta)])\n    q = start @",
+        "    phi, theta = np.degrees(np.arctan2(start[:, 1], start[:, 0])), np.degrees(np.arccos(start[:, 2]))\n    \
+            start = np.column_stack([np.sin(theta) * np.cos(phi), np.sin(theta) * np.sin(phi), np.cos(theta)])\n    q \
+            = start @",
         "mid-flip-11.6",
         "degrees for radians in the start",
     ),
@@ -47,23 +44,15 @@ const PLANTED: &[(&str, &str, &str, &str)] = &[
         "the flow reversed (L with the wrong sign, or time backwards)",
     ),
     ("    A, start =", "    time *= (r_e + 1 / r_e) / r_e\n    A, start =", "mid-flip-2", "T without 1/r_e"),
-    (
-        "return q / np",
-        "q[:, 2] *= -1\n    return q / np",
-        "mid-flip-11.6",
-        "axis 3 reversed (a left-handed frame)",
-    ),
-    (
-        "return q / np.linalg.norm(q, axis=1, keepdims=True)",
-        "return q",
-        "mid-flip-11.6",
-        "p that is not normalised",
-    ),
+    ("return q / np", "q[:, 2] *= -1\n    return q / np", "mid-flip-11.6", "axis 3 reversed (a left-handed frame)"),
+    ("return q / np.linalg.norm(q, axis=1, keepdims=True)", "return q", "mid-flip-11.6", "p that is not normalised"),
     ("line * ((mean - v) / s)", "line * ((v - mean) / s)", "contact-rule", "a kick with the wrong sign"),
     (") / math.sin(theta)\n", ")\n", "contact-angles", ""),
     (
-        "/ math.sin(theta)\n    theta_rate = (rate[0] * math.cos(phi) + rate[1] * math.sin(phi)) * math.cos(theta) - rate[2] * math.sin(theta)",
-        "\n    theta_rate = (rate[0] * math.cos(phi) + rate[1] * math.sin(phi)) * math.sin(theta) - rate[2] * math.cos(theta)",
+        "/ math.sin(theta)\n    theta_rate = (rate[0] * math.cos(phi) + rate[1] * math.sin(phi)) * math.cos(theta) - \
+            rate[2] * math.sin(theta)",
+        "\n    theta_rate = (rate[0] * math.cos(phi) + rate[1] * math.sin(phi)) * math.sin(theta) - rate[2] * \
+            math.cos(theta)",
         "contact-angles",
         "A.13 as in the text",
     ),
@@ -71,18 +60,8 @@ const PLANTED: &[(&str, &str, &str, &str)] = &[
 
 /// The means of isotropic rods, of equal and of unequal r_e, show mistakes of the flow too.
 const PLANTED_IN_MEANS: &[(&str, &str, &str, &str)] = &[
-    (
-        "np.array(gradient, dtype=float)",
-        "0.5 * np.array(gradient, dtype=float)",
-        "isotropic-3",
-        "half the shear rate",
-    ),
-    (
-        "np.array(gradient, dtype=float)",
-        "0.5 * np.array(gradient, dtype=float)",
-        "unequal-rods",
-        "half the shear rate",
-    ),
+    ("np.array(gradient, dtype=float)", "0.5 * np.array(gradient, dtype=float)", "isotropic-3", "half the shear rate"),
+    ("np.array(gradient, dtype=float)", "0.5 * np.array(gradient, dtype=float)", "unequal-rods", "half the shear rate"),
     // Their means |p_i| are the same.
     (
         "(r_e**2 * L - L.T)",
@@ -90,12 +69,7 @@ const PLANTED_IN_MEANS: &[(&str, &str, &str, &str)] = &[
         "unequal-rods",
         "p_1 and p_2 exchanged or of a transposed gradient or of Λ with the wrong sign (1/r_e for r_e)",
     ),
-    (
-        "np.linspace(-8, 8, 801) if sd else np.zeros(1)",
-        "np.zeros(1)",
-        "unequal-rods",
-        "rods of one r_e, the mean",
-    ),
+    ("np.linspace(-8, 8, 801) if sd else np.zeros(1)", "np.zeros(1)", "unequal-rods", "rods of one r_e, the mean"),
 ];
 
 /// Runs scripts in one interpreter, each on the problems of its folder: importing NumPy takes longer than most of them.

@@ -72,11 +72,7 @@ fn bad_answers_are_refused_with_file_line_and_column() {
         let ended = answers(dir.path(), &[]);
         assert_eq!(ended.code, Some(2), "{reason}: {}", ended.words);
         let place = format!("{}{place}: ", file.display());
-        assert!(
-            ended.words.contains(&place) && ended.words.contains(reason),
-            "{place}{reason}: {}",
-            ended.words
-        );
+        assert!(ended.words.contains(&place) && ended.words.contains(reason), "{place}{reason}: {}", ended.words);
         assert!(ended.grade.is_none(), "nothing is written");
     }
 }

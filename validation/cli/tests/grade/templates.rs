@@ -59,11 +59,7 @@ fn compiled_templates_pass_and_with_a_wrong_coefficient_fail() {
         }
         // (1 + 1.8 + 2 + 1)/6 of each step.
         let said = &wrong.grade.as_ref().unwrap()["diagnosis"][0];
-        assert!(
-            said.as_str().is_some_and(|said| said.starts_with("your time runs at 0.967")),
-            "{}",
-            wrong.words
-        );
+        assert!(said.as_str().is_some_and(|said| said.starts_with("your time runs at 0.967")), "{}", wrong.words);
     }
 }
 
@@ -94,7 +90,8 @@ fn missing(tools: [&str; 2]) -> String {
     format!("no {}", missing.unwrap_or("reason"))
 }
 
-/// The studies of a program that runs speak the text protocol too, and so does the echo that the pipe's cost is taken from.
+/// The studies of a program that runs speak the text protocol too, and so does the echo that the pipe's cost is taken
+/// from.
 #[test]
 fn the_studies_speak_the_text_protocol() {
     if !runs("cc", &["--version"]) {
@@ -104,14 +101,9 @@ fn the_studies_speak_the_text_protocol() {
     let found = judged(&compiled("cc", "my_code.c", dir.path(), None), &[]);
     assert_eq!(found.code, Some(0), "{}", found.words);
     let live = &found.grade.as_ref().unwrap()["live"];
-    assert!(
-        live["work_precision"]["pipe_s"].as_f64().is_some_and(|seconds| seconds > 0.0),
-        "{}",
-        found.words
-    );
+    assert!(live["work_precision"]["pipe_s"].as_f64().is_some_and(|seconds| seconds > 0.0), "{}", found.words);
     assert!(live["map"].is_array(), "{}", found.words);
-    let longest =
-        found.words.lines().filter(|line| !line.starts_with("report:")).map(|line| line.chars().count());
+    let longest = found.words.lines().filter(|line| !line.starts_with("report:")).map(|line| line.chars().count());
     assert!(longest.max().unwrap() <= 80, "{}", found.words);
     let other = graded(&["--protocol", "xml", "--command", "true"]);
     assert!(other.code == Some(2) && other.words.contains("json and text are allowed"), "{}", other.words);
@@ -122,17 +114,12 @@ fn the_studies_speak_the_text_protocol() {
 fn build_systems_hold_a_program_to_the_problems() {
     let program = Path::new(env!("CARGO_BIN_EXE_shearbed"));
     let path = std::env::var_os("PATH").unwrap_or_default();
-    let all = std::env::join_paths(
-        program.parent().map(Path::to_path_buf).into_iter().chain(std::env::split_paths(&path)),
-    );
+    let all =
+        std::env::join_paths(program.parent().map(Path::to_path_buf).into_iter().chain(std::env::split_paths(&path)));
     let all = all.unwrap();
     let dir = tempfile::tempdir().unwrap();
     let ends = |tool: &str, arguments: &[&str]| {
-        let output = std::process::Command::new(tool)
-            .args(arguments)
-            .current_dir(dir.path())
-            .env("PATH", &all)
-            .ended();
+        let output = std::process::Command::new(tool).args(arguments).current_dir(dir.path()).env("PATH", &all).ended();
         (
             output.status.success(),
             format!("{}{}", String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr)),
@@ -158,17 +145,15 @@ fn build_systems_hold_a_program_to_the_problems() {
             }
             let (passed, words) = ends("ctest", &["--test-dir", "build", "--output-on-failure"]);
             assert_eq!(passed, change.is_none(), "{words}");
-            assert!(
-                words.contains(if passed { "100% tests passed" } else { "FAIL mid-flip-2: " }),
-                "{words}"
-            );
+            assert!(words.contains(if passed { "100% tests passed" } else { "FAIL mid-flip-2: " }), "{words}");
         }
     } else {
         skipped("cmake", &missing(["cmake", "c++"]));
     }
     if runs("fpm", &["--version"]) && runs("gfortran", &["--version"]) {
         put("fpm/fpm.toml", "fpm.toml", None);
-        let grader = "shearbed grade --problem mid-flip-2 --protocol text --order 4 --timeout 600 --brief --force --command";
+        let grader =
+            "shearbed grade --problem mid-flip-2 --protocol text --order 4 --timeout 600 --brief --force --command";
         for change in [None, Some(("2*k2", "1.8d0*k2"))] {
             put("templates/my_code.f90", "test/my_code.f90", change);
             let (passed, words) = ends("fpm", &["test", "--runner", grader]);

@@ -118,8 +118,7 @@ fn one_wild_answer_between_right_ones_fails() {
     let dir = tempfile::tempdir().unwrap();
     ladder(dir.path(), "mid-flip-100", &[(100, 4096.0), (200, 256.0), (400, 1e6), (800, 0.9)]);
     let ended = answers(dir.path(), &[]);
-    let (found, note) =
-        (ended.of("mid-flip-100"), ended.of("mid-flip-100")["note"].as_str().unwrap_or_default());
+    let (found, note) = (ended.of("mid-flip-100"), ended.of("mid-flip-100")["note"].as_str().unwrap_or_default());
     assert_eq!((ended.code, &found["verdict"]), (Some(1), &"FAIL".into()));
     assert!(note.starts_with("off by ") && note.contains(" with 400 steps, by "), "{note}");
 }
@@ -170,12 +169,7 @@ fn what_is_missing_has_one_line_and_the_table_80_columns() {
     write(dir.path(), "mid-flip-2", "answer.csv", text(&off_by("mid-flip-2", 0.5)));
     write(dir.path(), "sphere", "answer.csv", text(&off_by("sphere", 2.0)));
     let ended = files(REFERENCE.path(), dir.path(), &[]);
-    assert_eq!(
-        ended.words.matches("MISSING").count(),
-        2 + usize::from(ended.code == Some(1)),
-        "{}",
-        ended.words
-    );
+    assert_eq!(ended.words.matches("MISSING").count(), 2 + usize::from(ended.code == Some(1)), "{}", ended.words);
     assert!(ended.words.contains(&format!("{} MISSING, no answer: ", names().len() - 2)), "{}", ended.words);
     let table = ended.words.split("\nreport:").next().unwrap();
     let longest = table.lines().map(|line| line.chars().count()).max().unwrap();

@@ -8,7 +8,8 @@ use std::io::{BufRead, Write};
 use std::process::{Command, ExitCode, Stdio};
 use std::time::Duration;
 
-/// Acts as a program that is to be graded. Where its name does not say when, it does what that says from its third answer on.
+/// Acts as a program that is to be graded. Where its name does not say when, it does what that says from its third
+/// answer on.
 pub fn program(name: &str, pids: Option<&str>) -> ExitCode {
     let note = |pid: u32| {
         let file = fs::OpenOptions::new().create(true).append(true).open(pids.unwrap());
@@ -30,10 +31,9 @@ pub fn program(name: &str, pids: Option<&str>) -> ExitCode {
         }
         #[cfg(target_os = "linux")]
         "hangs_with_daemons" => {
-            for session in [
-                "setsid sleep 1000 >/dev/null &",
-                "trap '' TERM HUP; env -i setsid sh -c 'sleep 1000; :' >/dev/null &",
-            ] {
+            for session in
+                ["setsid sleep 1000 >/dev/null &", "trap '' TERM HUP; env -i setsid sh -c 'sleep 1000; :' >/dev/null &"]
+            {
                 let script = format!("exec 2>/dev/null; {session} echo $!");
                 let daemon = Command::new("sh").args(["-c", &script]).output().unwrap().stdout;
                 note(String::from_utf8(daemon).unwrap().trim().parse().unwrap());
@@ -42,8 +42,7 @@ pub fn program(name: &str, pids: Option<&str>) -> ExitCode {
         }
         #[cfg(target_os = "linux")]
         "leaves_a_daemon" => {
-            let daemon =
-                Command::new("sh").args(["-c", "setsid sleep 1000 >/dev/null 2>&1 & echo $!"]).output();
+            let daemon = Command::new("sh").args(["-c", "setsid sleep 1000 >/dev/null 2>&1 & echo $!"]).output();
             note(String::from_utf8(daemon.unwrap().stdout).unwrap().trim().parse().unwrap());
         }
         _ => {}

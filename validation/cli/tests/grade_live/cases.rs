@@ -26,11 +26,7 @@ pub const CASES: &[Case] = &[
     Case { program: "rk_8_normalised", verdict: "PASS", words: &[] },
     Case { program: "rk_1_normalised", verdict: "NOT REACHED", words: &[] },
     Case { program: "is_right_on_one_line_of_stderr_each", verdict: "PASS", words: &[] },
-    Case {
-        program: "ends_after_a_right_answer",
-        verdict: "FAIL",
-        words: &["the program ended: exit status: 4"],
-    },
+    Case { program: "ends_after_a_right_answer", verdict: "FAIL", words: &["the program ended: exit status: 4"] },
     Case { program: "is_off_by_1e-8", verdict: "FAIL", words: &["it is off by 1.0e-8"] },
     Case { program: "floods_stderr", verdict: "PASS", words: &[] },
     Case { program: "stays", verdict: "PASS", words: &["did not end within 5 s of the end of its input"] },
@@ -42,11 +38,7 @@ pub const CASES: &[Case] = &[
         words: &["with 255 steps it is off by", "with 256 by"],
     },
     Case { program: "answers_the_next_in_advance", verdict: "FAIL", words: &["line 4 of standard output"] },
-    Case {
-        program: "has_an_id_twice",
-        verdict: "FAIL",
-        words: &["line 3 of standard output", "duplicate field `id`"],
-    },
+    Case { program: "has_an_id_twice", verdict: "FAIL", words: &["line 3 of standard output", "duplicate field `id`"] },
     Case { program: "rk_1", verdict: "NOT REACHED", words: &[] },
     // On a busy machine time runs out before it hangs.
     Case { program: "hangs", verdict: "NOT REACHED", words: &[] },
@@ -58,11 +50,7 @@ pub const CASES: &[Case] = &[
     Case { program: "never_reads", verdict: "NOT REACHED", words: &["no answer within 1 s"] },
     Case { program: "hangs_with_a_child", verdict: "NOT REACHED", words: &["no answer within 1 s"] },
     #[cfg(target_os = "linux")]
-    Case {
-        program: "hangs_in_the_group_of_shearbed",
-        verdict: "NOT REACHED",
-        words: &["no answer within 1 s"],
-    },
+    Case { program: "hangs_in_the_group_of_shearbed", verdict: "NOT REACHED", words: &["no answer within 1 s"] },
     #[cfg(target_os = "linux")]
     Case { program: "hangs_with_daemons", verdict: "NOT REACHED", words: &["no answer within 1 s"] },
     #[cfg(target_os = "linux")]
@@ -73,30 +61,14 @@ pub const CASES: &[Case] = &[
         words: &["the program ended: exit status: 3", "last words", "out of ideas"],
     },
     Case { program: "aborts", verdict: "FAIL", words: &["the program ended: signal"] },
-    Case {
-        program: "closes_its_output",
-        verdict: "FAIL",
-        words: &["closed its standard output and went on"],
-    },
-    Case {
-        program: "prints_junk",
-        verdict: "FAIL",
-        words: &["line 3 of standard output: not JSON", "`step 1 of 10`"],
-    },
+    Case { program: "closes_its_output", verdict: "FAIL", words: &["closed its standard output and went on"] },
+    Case { program: "prints_junk", verdict: "FAIL", words: &["line 3 of standard output: not JSON", "`step 1 of 10`"] },
     Case { program: "answers_nan", verdict: "FAIL", words: &["not finite"] },
     Case { program: "forgets_a_rod", verdict: "FAIL", words: &["rods where"] },
-    Case {
-        program: "answers_out_of_order",
-        verdict: "FAIL",
-        words: &["line 3 of standard output: it answers id"],
-    },
+    Case { program: "answers_out_of_order", verdict: "FAIL", words: &["line 3 of standard output: it answers id"] },
     Case { program: "answers_twice", verdict: "FAIL", words: &["line 2 of standard output"] },
     Case { program: "floods_stdout_with_lines", verdict: "FAIL", words: &["line 2 of standard output"] },
-    Case {
-        program: "floods_stdout_without_lines",
-        verdict: "FAIL",
-        words: &["is longer than 1048576 bytes"],
-    },
+    Case { program: "floods_stdout_without_lines", verdict: "FAIL", words: &["is longer than 1048576 bytes"] },
     Case { program: "only_has_errors", verdict: "FAIL", words: &["steps the program says: not today"] },
     Case {
         program: "transposes",

@@ -20,9 +20,8 @@ fn main() -> ExitCode {
     if let Some(at) = words.iter().position(|word| word == "--program") {
         return acting::program(&words[at + 1], words.get(at + 2).map(String::as_str));
     }
-    let mut trials: Vec<_> = (CASES.iter())
-        .map(|case| Trial::test(format!("program_that_{}", case.program), || judge(case)))
-        .collect();
+    let mut trials: Vec<_> =
+        (CASES.iter()).map(|case| Trial::test(format!("program_that_{}", case.program), || judge(case))).collect();
     trials.push(Trial::test("program_that_cannot_be_started", cannot_be_started));
     trials.push(Trial::test("program_with_axes_of_its_own", axes_of_its_own));
     trials.push(Trial::test("program_ends_with_shearbed", ends_with_shearbed));
@@ -72,17 +71,16 @@ fn judge(case: &Case) -> Result<(), Failed> {
     let (code, words) = shearbed(&command, dir.path(), timeout_s, problems);
     let grade: Value = serde_json::from_str(&fs::read_to_string(dir.path().join("grade.json"))?)?;
     let found = &grade["problems"][0];
-    let check = |holds: bool, what: &str| match holds {
-        true => Ok(()),
-        false => Err(Failed::from(format!("{what}: {grade:#}\n{words}"))),
-    };
+    let check =
+        |holds: bool, what: &str| if holds { Ok(()) } else { Err(Failed::from(format!("{what}: {grade:#}\n{words}"))) };
     check(found["name"] == "mid-flip-2", "the name")?;
     check(found["verdict"] == case.verdict, "the verdict")?;
     check(code == Some(i32::from(case.verdict != "PASS")), "the exit code")?;
     if case.verdict == "PASS" {
         for found in grade["problems"].as_array().unwrap() {
             check(found["verdict"] == "PASS", "every problem")?;
-            // Two in a row within the tolerance, or one after errors that fall at one order: the error may cross zero by chance.
+            // Two in a row within the tolerance, or one after errors that fall at one order: the error may cross zero
+            // by chance.
             let errors = found["errors"].as_array().unwrap().iter().rev().take(4);
             let errors: Vec<_> = errors.map(|error| error[1].as_f64().unwrap()).collect();
             let within = |k: usize| errors[k] <= found["tolerance"].as_f64().unwrap();
@@ -163,8 +161,7 @@ fn cannot_be_started() -> Result<(), Failed> {
 fn ends_with_shearbed() -> Result<(), Failed> {
     let dir = tempfile::tempdir()?;
     let pids = dir.path().join("pids");
-    let command =
-        format!("'{}' --program hangs_with_a_child '{}'", std::env::current_exe()?.display(), pids.display());
+    let command = format!("'{}' --program hangs_with_a_child '{}'", std::env::current_exe()?.display(), pids.display());
     let mut shearbed = Command::new(env!("CARGO_BIN_EXE_shearbed"))
         .args(["grade", "--timeout", "1000", "--quiet", "--command", &command, "--out"])
         .arg(dir.path().join("out"))
@@ -226,8 +223,9 @@ fn another_user_s_is_named() -> Result<(), Failed> {
         return Err(format!("it was started again: {pids} {words}").into());
     };
     let named = format!("process {id} (sleep, user id 0) cannot be stopped: Operation not permitted");
-    match output.status.code() == Some(1) && words.contains(&named) {
-        true => Ok(()),
-        false => Err(format!("{}: {words}", output.status).into()),
+    if output.status.code() == Some(1) && words.contains(&named) {
+        Ok(())
+    } else {
+        Err(format!("{}: {words}", output.status).into())
     }
 }

@@ -88,7 +88,8 @@ fn a_right_code_in_doubles_passes_and_wrong_ones_fail() {
         let problem = &loaded.problem;
         let (name, l, tolerance) = (problem.name.as_str(), problem.gradient_per_s, problem.tolerance);
         assert_eq!(problem.metric, Metric::Angle);
-        // RK4 errs by (ωh)⁴/120 of the phase, times what a flip stretches; where the tolerance is loose, fewer steps do.
+        // RK4 errs by (ωh)⁴/120 of the phase, times what a flip stretches; where the tolerance is loose, fewer steps
+        // do.
         let steps_per_strain = match name {
             "mid-flip-10000" => 50.0,
             "ten-thousand-periods" => 80.0,

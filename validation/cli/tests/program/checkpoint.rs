@@ -11,9 +11,7 @@ use std::path::Path;
 
 /// About a second: of many replicas, of one, and of free rods.
 fn scenes(dir: &Path) -> [&'static str; 3] {
-    let long = SMALL
-        .replace("count = 20", "count = 300")
-        .replace("outputs_per_period = 4", "outputs_per_period = 1");
+    let long = SMALL.replace("count = 20", "count = 300").replace("outputs_per_period = 4", "outputs_per_period = 1");
     let write = |name: &str, text: String| fs::write(dir.join(format!("{name}.toml")), text).unwrap();
     write("many", SMALL.replace("replicas = 3", "replicas = 700"));
     let one = long.replace("replicas = 3", "replicas = 1");
@@ -40,8 +38,9 @@ fn results(dir: &Path) -> (BTreeMap<String, Vec<u8>>, serde_json::Value) {
     (all, serde_json::json!([record["counters"], record["scene"], record["seed"], record["files"]]))
 }
 
-/// Kills a run again and again and lets it end then: the same files. Each life is held where it first says that more of the run is
-/// kept, at its end at the latest: it cannot end before it is killed, however fast or loaded the machine is, unless all was kept before.
+/// Kills a run again and again and lets it end then: the same files. Each life is held where it first says that more of
+/// the run is kept, at its end at the latest: it cannot end before it is killed, however fast or loaded the machine is,
+/// unless all was kept before.
 #[test]
 fn a_run_that_is_killed_goes_on_to_the_same_bits() {
     const LIVES: usize = 6;
@@ -57,7 +56,8 @@ fn a_run_that_is_killed_goes_on_to_the_same_bits() {
             let life_of = format!("{run} --every {every} --threads {}", 1 + life % 3);
             let before = fs::read(&file).ok();
             let mut running = Running::held_at_its_first_message(command(dir.path(), &life_of));
-            // The first life is killed before anything is done. In each other one the file changes when more of the run is kept.
+            // The first life is killed before anything is done. In each other one the file changes when more of the run
+            // is kept.
             let held = running.reaches("more of the run is kept", || {
                 fs::read(&file).is_ok_and(|found| before.as_ref() != Some(&found))
             });
@@ -71,7 +71,8 @@ fn a_run_that_is_killed_goes_on_to_the_same_bits() {
             assert!(!out.exists(), "{name}: it has ended before it was let go");
             let signal = ["-KILL", "-KILL", "-TERM"][life % 3];
             running.signal(signal);
-            // Let go, a run that was done but for its results may write them before the signal ends it: the whole set or none.
+            // Let go, a run that was done but for its results may write them before the signal ends it: the whole set
+            // or none.
             let ended = running.end();
             match ended.code {
                 None if signal == "-KILL" => assert!(!out.exists()),
@@ -91,28 +92,17 @@ fn a_run_that_is_killed_goes_on_to_the_same_bits() {
         let last = shearbed(dir.path(), &run);
         assert_eq!(last.code, Some(0), "{name}: {}", last.stderr);
         assert!(last.stdout.starts_with(&goes_on), "{}", last.stdout);
-        assert_eq!(
-            results(&dir.path().join(name)),
-            results(&dir.path().join(format!("{name}-whole"))),
-            "{name}"
-        );
+        assert_eq!(results(&dir.path().join(name)), results(&dir.path().join(format!("{name}-whole"))), "{name}");
         // What is done is kept: it need not run again.
         let again = shearbed(dir.path(), &format!("{run} --force"));
         let replicas = ["700 of 700", "1 of 1", "2 of 2"];
         assert!(
-            replicas
-                .iter()
-                .any(|done| again.stdout.contains(&format!("{done} replicas are done, 0 halfway"))),
+            replicas.iter().any(|done| again.stdout.contains(&format!("{done} replicas are done, 0 halfway"))),
             "{}",
             again.stdout
         );
-        assert_eq!(
-            results(&dir.path().join(name)),
-            results(&dir.path().join(format!("{name}-whole"))),
-            "{name}"
-        );
-        let beside: Vec<_> =
-            files(&dir.path().join("kept")).into_keys().filter(|file| file.contains('.')).collect();
+        assert_eq!(results(&dir.path().join(name)), results(&dir.path().join(format!("{name}-whole"))), "{name}");
+        let beside: Vec<_> = files(&dir.path().join("kept")).into_keys().filter(|file| file.contains('.')).collect();
         assert_eq!(beside, [""; 0], "nothing is left beside it");
     }
 }

@@ -43,7 +43,8 @@ shear_rate_per_s = 0.5
 periods = 1.5
 outputs_per_period = 12
 [output]
-observables = ["projections", "planar_projections", "mean_angle", "cos_2phi", "orbit_constant", "orientation_tensor", "orientation_tensor_4", "particle_stress"]
+observables = ["projections", "planar_projections", "mean_angle", "cos_2phi",
+    "orbit_constant", "orientation_tensor", "orientation_tensor_4", "particle_stress"]
 rods_at = [0.25, 1]
 "#,
         tables: 9,
@@ -181,10 +182,7 @@ impl Run {
                 }
                 let expected = expected(heading, &state).unwrap_or_else(|| panic!("{heading}: unknown"));
                 let off = (cell.parse::<f64>().unwrap() - expected).abs();
-                let allowed = match heading.ends_with("_se") {
-                    true => 0.0,
-                    false => ALLOWED * expected.abs().max(1.0),
-                };
+                let allowed = if heading.ends_with("_se") { 0.0 } else { ALLOWED * expected.abs().max(1.0) };
                 numbers += 1;
                 // A number that is none is off.
                 if off.is_nan() || off > allowed {

@@ -1,5 +1,5 @@
-//! The examples in CONTRIBUTING.md: a case that passes and whose mistake is caught, a study that finds something, an observable
-//! of the core.
+//! The examples in CONTRIBUTING.md: a case that passes and whose mistake is caught, a study that finds something, an
+//! observable of the core.
 
 use super::example_case::cases;
 use super::example_study::STUDY;
@@ -23,17 +23,14 @@ fn the_example_of_a_case_is_one() {
 
 #[test]
 fn the_example_of_a_study_is_one() {
-    assert!(
-        include_str!("../../../../CONTRIBUTING.md")
-            .contains("(validation/cli/tests/program/example_study.rs)")
-    );
+    assert!(include_str!("../../../../CONTRIBUTING.md").contains("(validation/cli/tests/program/example_study.rs)"));
     let request = Request { effort: &Effort::gate(), wanted: &|name| name == STUDY.name, finished: &|| () };
     let found = STUDY.found(&request).unwrap().unwrap();
     let table = found.exhibits[0].table.as_ref().unwrap();
     assert_eq!(table.rows.len(), 3);
     assert!(found.files[0].1.starts_with("rods,sd\n10,0."), "{:?}", found.files);
-    // X̄₁ of isotropic rods has a variance of 1/12: 0.289; 400 replicas know a standard deviation to 3.5 %, and correct code is
-    // outside six of these at one seed in 10⁹.
+    // X̄₁ of isotropic rods has a variance of 1/12: 0.289; 400 replicas know a standard deviation to 3.5 %, and correct
+    // code is outside six of these at one seed in 10⁹.
     for row in &table.data {
         let Datum::Number(scaled) = row[2] else { panic!("{row:?}") };
         assert!((scaled * 12f64.sqrt() - 1.0).abs() < 0.21, "{row:?}");
@@ -61,9 +58,8 @@ fn explained_mutants_are_of_functions_that_exist() {
         let mut of_file = texts.iter().filter(|(_, path)| path.ends_with(file));
         of_file.any(|(text, _)| function.is_none_or(|name| text.contains(&format!("fn {name}"))))
     };
-    let patterns = include_str!("../../../../.cargo/mutants.toml")
-        .lines()
-        .filter_map(|line| line.trim().strip_prefix('\''));
+    let patterns =
+        include_str!("../../../../.cargo/mutants.toml").lines().filter_map(|line| line.trim().strip_prefix('\''));
     let gone: Vec<_> = patterns
         .clone()
         .filter(|pattern| {

@@ -6,7 +6,8 @@ use shearbed_validation::serve::problems;
 const DEGREE: usize = 36;
 const STEP_S: f64 = 0.005;
 
-/// A code that follows the mean powers ⟨p₁^a p₂^b⟩ in plane flow by RK4; those beyond the largest are as in isotropic rods.
+/// A code that follows the mean powers ⟨p₁^a p₂^b⟩ in plane flow by RK4; those beyond the largest are as in isotropic
+/// rods.
 struct Powers {
     powers: Vec<(usize, usize)>,
     rates: Vec<Vec<(usize, f64)>>,
@@ -17,9 +18,10 @@ struct Powers {
 /// ⟨p₁^a p₂^b⟩ of isotropic rods: (a − 1)!!(b − 1)!!/(a + b + 1)!! for even a and b.
 fn isotropic((a, b): (usize, usize)) -> f64 {
     let odd = |n: usize| (1..=n).step_by(2).map(|k| k as f64).product::<f64>();
-    match a.is_multiple_of(2) && b.is_multiple_of(2) {
-        true => odd(a.saturating_sub(1)) * odd(b.saturating_sub(1)) / odd(a + b + 1),
-        false => 0.0,
+    if a.is_multiple_of(2) && b.is_multiple_of(2) {
+        odd(a.saturating_sub(1)) * odd(b.saturating_sub(1)) / odd(a + b + 1)
+    } else {
+        0.0
     }
 }
 
@@ -67,9 +69,8 @@ impl Powers {
         let steps = (time_s / STEP_S).ceil();
         let h = time_s / steps;
         for _ in 0..steps as u64 {
-            let ahead = |k: &[f64], h: f64| -> Vec<f64> {
-                self.means.iter().zip(k).map(|(mean, k)| mean + h * k).collect()
-            };
+            let ahead =
+                |k: &[f64], h: f64| -> Vec<f64> { self.means.iter().zip(k).map(|(mean, k)| mean + h * k).collect() };
             let first = self.rate(&self.means);
             let second = self.rate(&ahead(&first, 0.5 * h));
             let third = self.rate(&ahead(&second, 0.5 * h));

@@ -20,8 +20,7 @@ fn long(dir: &Path) {
 fn a_signal_ends_a_run_with_a_message_and_leaves_nothing() {
     let dir = folder();
     long(dir.path());
-    for (signal, code, name) in [("-INT", 130, "SIGINT"), ("-TERM", 143, "SIGTERM"), ("-HUP", 129, "SIGHUP")]
-    {
+    for (signal, code, name) in [("-INT", 130, "SIGINT"), ("-TERM", 143, "SIGTERM"), ("-HUP", 129, "SIGHUP")] {
         let mut running = Running::start(command(dir.path(), "run long.toml --threads 1 --out x"));
         let first = running.message();
         assert!(first.starts_with("warning: long.toml: "), "{first}");
@@ -31,8 +30,7 @@ fn a_signal_ends_a_run_with_a_message_and_leaves_nothing() {
         assert_eq!(ended.code, Some(code), "{message}");
         assert!(message.starts_with(&format!("error: stopped by {name}:")), "{message}");
         assert!(message.ends_with("`shearbed run` keeps nothing before it ends\n"), "{message}");
-        let names: Vec<_> =
-            fs::read_dir(dir.path()).unwrap().map(|entry| entry.unwrap().file_name()).collect();
+        let names: Vec<_> = fs::read_dir(dir.path()).unwrap().map(|entry| entry.unwrap().file_name()).collect();
         assert_eq!(names.len(), 2, "{names:?}");
     }
 }
@@ -90,8 +88,7 @@ fn what_cannot_be_written_is_told() {
         "help run",
     ] {
         // What only `clap` prints is looked for by programs that discard it.
-        let closed =
-            if arguments.contains("help") || arguments.contains("version") { None } else { Some(">&-") };
+        let closed = if arguments.contains("help") || arguments.contains("version") { None } else { Some(">&-") };
         for closed in closed.into_iter().chain(["> /dev/full"]) {
             let ended = limited(dir.path(), &format!("exec {closed}"), arguments);
             assert_eq!(ended.code, Some(2), "{arguments} {closed}: {}", ended.stderr);
@@ -104,8 +101,7 @@ fn what_cannot_be_written_is_told() {
     let run = limited(dir.path(), "exec >&-", "run small.toml --out closed");
     assert_eq!((run.code, run.stderr.as_str()), (Some(0), ""));
     // Nobody, not even root, makes files there.
-    for arguments in ["run small.toml", "sweep small.toml --over interaction.alpha=1,2", "validate", "bench"]
-    {
+    for arguments in ["run small.toml", "sweep small.toml --over interaction.alpha=1,2", "validate", "bench"] {
         for out in ["/proc", "/proc/x"] {
             let run = shearbed(dir.path(), &format!("{arguments} --out {out}"));
             assert_eq!(run.code, Some(2), "{}", run.stderr);

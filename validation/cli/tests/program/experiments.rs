@@ -1,5 +1,5 @@
-//! Experiments without points, and with synthetic ones: made here from the model itself with another seed, read off with
-//! noise of known size, and written where only these tests look.
+//! Experiments without points, and with synthetic ones: made here from the model itself with another seed, read off
+//! with noise of known size, and written where only these tests look.
 
 use crate::common::bounded::Bounded;
 use rand::SeedableRng;
@@ -50,9 +50,9 @@ fn synthesise(data: &Path, folder: &str, scene_name: &str, observables: &[&str],
         });
         lines.push(cells.collect::<Vec<_>>().join(","));
     }
-    let curves = observables.iter().map(|name| {
-        format!("[[curve]]\nscene = \"{scene_name}\"\nobservable = \"{name}\"\ndataset = \"{name}\"\n")
-    });
+    let curves = observables
+        .iter()
+        .map(|name| format!("[[curve]]\nscene = \"{scene_name}\"\nobservable = \"{name}\"\ndataset = \"{name}\"\n"));
     let provenance = format!(
         r#"paper = "synthetic: no experiment, made by a test from the model with alpha = {alpha}"
 figure = "synthetic"
@@ -197,15 +197,17 @@ fn what_is_shipped_has_no_points() {
     }
 }
 
-/// The paper leaves out its points of r_e = 3.96: "not suitable for comparison with the model". The points are made up here and
-/// nobody's.
+/// The paper leaves out its points of r_e = 3.96: "not suitable for comparison with the model". The points are made up
+/// here and nobody's.
 #[test]
 fn points_of_rods_in_the_shear_plane_are_not_fitted() {
     let dir = tempfile::tempdir().unwrap();
     let scene = |orientation: &str, interaction: &str| {
         format!(
-            "title = \"r_e = 3.96\"\n[flow]\nshear_rate_per_s = 0.5\n[particles]\ncount = 20\nlength_mm = 0.72\naspect_ratio = 3.96\n\
-             aspect_ratio_sd_percent = 3\norientation = {orientation}\n{interaction}[time]\nperiods = 1\nsteps_per_period = 40\n"
+            "title = \"r_e = 3.96\"\n[flow]\nshear_rate_per_s = 0.5\n[particles]\ncount = 20\nlength_mm = \
+                0.72\naspect_ratio = 3.96\n\
+             aspect_ratio_sd_percent = 3\norientation = {orientation}\n{interaction}[time]\nperiods = \
+             1\nsteps_per_period = 40\n"
         )
     };
     let interaction = "[interaction]\nconcentration_per_cm3 = 500\nalpha = 0.5\n";

@@ -10,8 +10,8 @@ use shearbed_validation::oracle::closed_form::{angles_at, period_s};
 use std::fs;
 use std::path::Path;
 
-/// The mean curve of `small.toml` with this key, another seed than the fit's, with noise of 0.01 that is fixed: each point is
-/// off by a Gaussian quantile, in an order without a pattern.
+/// The mean curve of `small.toml` with this key, another seed than the fit's, with noise of 0.01 that is fixed: each
+/// point is off by a Gaussian quantile, in an order without a pattern.
 fn points_of(dir: &Path, set: &str, file: &str) {
     let run = shearbed(
         dir,
@@ -21,10 +21,8 @@ fn points_of(dir: &Path, set: &str, file: &str) {
     );
     assert_eq!(run.code, Some(0), "{}", run.stderr);
     let mut csv = csv::Reader::from_path(dir.join(format!("truth-{file}/projections.csv"))).unwrap();
-    let quantiles = [
-        -1.6, -1.1, -0.8, -0.6, -0.5, -0.3, -0.2, -0.1, 0.1, 0.2, 0.3, 0.5, 0.6, 0.8, 1.1, 1.6, 0.0, 0.4,
-        -0.4, 0.7,
-    ];
+    let quantiles =
+        [-1.6, -1.1, -0.8, -0.6, -0.5, -0.3, -0.2, -0.1, 0.1, 0.2, 0.3, 0.5, 0.6, 0.8, 1.1, 1.6, 0.0, 0.4, -0.4, 0.7];
     let mut text = "t_over_T,x1,x1_u\n".to_owned();
     for (k, row) in csv.records().skip(1).enumerate() {
         let row = row.unwrap();
@@ -51,9 +49,7 @@ fn the_planted_alpha_is_found_and_everything_is_written() {
     assert_eq!(done.code, Some(0), "{}", done.stderr);
     let first = done.stdout.lines().next().unwrap();
     assert!(
-        first.starts_with("alpha = ")
-            && first.contains(", 95 % from ")
-            && first.contains("for 19 degrees of freedom"),
+        first.starts_with("alpha = ") && first.contains(", 95 % from ") && first.contains("for 19 degrees of freedom"),
         "{first}"
     );
 
@@ -94,8 +90,7 @@ fn the_planted_alpha_is_found_and_everything_is_written() {
         ]
     );
     // Letters and units, error bars with caps, and what is drawn about the zero of the residuals.
-    let [points, zero] =
-        ["points.svg", "residuals.svg"].map(|name| String::from_utf8(written[name].clone()).unwrap());
+    let [points, zero] = ["points.svg", "residuals.svg"].map(|name| String::from_utf8(written[name].clone()).unwrap());
     for text in ["X̄₁, best fit", "X̄₁, measured ± u", ">\nt/T\n<", "95 % band"] {
         assert!(points.contains(text), "{text}");
     }
@@ -145,8 +140,8 @@ fn what_the_points_do_not_say_is_warned_of() {
     assert!(record["warnings"].to_string().contains("upper end"));
 }
 
-/// Projections hardly depend on how much lengths differ (docs/src/theory/index.md): the fit says so, finds α beside it, and asks for no
-/// lengths that a scene may not have.
+/// Projections hardly depend on how much lengths differ (docs/src/theory/index.md): the fit says so, finds α beside it,
+/// and asks for no lengths that a scene may not have.
 #[test]
 fn a_spread_of_lengths_is_fitted_and_found_to_be_untold() {
     let dir = folder();
@@ -157,7 +152,8 @@ fn a_spread_of_lengths_is_fitted_and_found_to_be_untold() {
     assert_eq!(done.code, Some(0), "{}", done.stderr);
     assert!(
         done.stderr.contains(
-            "particles.length_sd_percent: its 95 % interval is its whole range, 10 to 30: the points say nothing of it there"
+            "particles.length_sd_percent: its 95 % interval is its whole range, 10 to 30: the points say nothing of \
+                it there"
         ),
         "{}",
         done.stderr
@@ -180,7 +176,8 @@ fn two_sets_share_their_parameters() {
     let dir = folder();
     points(dir.path());
     points_of(dir.path(), "interaction.alpha=0.9", "others.csv");
-    let args = "fit small.toml --data points.csv --data small.toml=others.csv --over interaction.alpha=0.2:2 --replicas 50 --out both";
+    let args = "fit small.toml --data points.csv --data small.toml=others.csv --over interaction.alpha=0.2:2 \
+        --replicas 50 --out both";
     let done = shearbed(dir.path(), args);
     assert_eq!(done.code, Some(0), "{}", done.stderr);
     let record = json(&dir.path().join("both/fit.json"));
@@ -209,7 +206,8 @@ fn two_sets_have_values_of_their_own() {
     points(dir.path());
     points_of(dir.path(), "interaction.alpha=2.4", "more.csv");
     let args = "fit small.toml --data points.csv --data small.toml=more.csv --over 1:interaction.alpha=0.4:1.4 \
-                --over 2:interaction.alpha=1.2:4.8 --replicas 20 --out own --test 1:interaction.alpha=2:interaction.alpha \
+                --over 2:interaction.alpha=1.2:4.8 --replicas 20 --out own --test \
+                1:interaction.alpha=2:interaction.alpha \
                 --test 1:interaction.alpha=0.8";
     let done = shearbed(dir.path(), args);
     assert_eq!(done.code, Some(0), "{}", done.stderr);
@@ -217,7 +215,8 @@ fn two_sets_have_values_of_their_own() {
     let record = json(&dir.path().join("own/fit.json"));
     assert_eq!(record["degrees_of_freedom"], 38);
     for (key, planted) in [("1:interaction.alpha", 0.8), ("2:interaction.alpha", 2.4)] {
-        // Correct code has χ² 16 above its least there at one seed in 16 000. (α = 2.4 is known badly upwards: no Gaussian.)
+        // Correct code has χ² 16 above its least there at one seed in 16 000. (α = 2.4 is known badly upwards: no
+        // Gaussian.)
         let rise = rise_at(&dir.path().join("own/profiles.csv"), key, planted);
         assert!(rise < 16.0, "{key}: {rise}, {}", record["parameters"][key]);
     }
@@ -229,11 +228,7 @@ fn two_sets_have_values_of_their_own() {
     assert!(p_value(0) < 1e-3 && p_value(1) > 6e-5, "{}", record["tests"]);
     let difference = &record["tests"][0]["difference"];
     assert!(difference["high_95"].as_f64() < Some(0.0), "{difference}");
-    assert!(
-        done.stdout.contains("\n1:interaction.alpha=2:interaction.alpha: χ² rises by "),
-        "{}",
-        done.stdout
-    );
+    assert!(done.stdout.contains("\n1:interaction.alpha=2:interaction.alpha: χ² rises by "), "{}", done.stdout);
     assert!(done.stdout.contains("\n    difference -"), "{}", done.stdout);
     for file in ["profile_alpha_1.svg", "profile_alpha_2.svg", "points_2.svg", "region_alpha_1_alpha_2.svg"] {
         assert!(dir.path().join("own").join(file).is_file(), "{file}");
@@ -246,7 +241,8 @@ fn a_second_minimum_of_the_range_is_no_answer() {
     let dir = folder();
     fs::write(
         dir.path().join("free.toml"),
-        "title = \"free\"\n[flow]\nshear_rate_per_s = 0.5\n[particles]\ncount = 100\nlength_mm = 0.72\naspect_ratio = 11.6\n\
+        "title = \"free\"\n[flow]\nshear_rate_per_s = 0.5\n[particles]\ncount = 100\nlength_mm = 0.72\naspect_ratio = \
+            11.6\n\
          orientation = \"isotropic\"\n[time]\nperiods = 12\n",
     )
     .unwrap();
@@ -256,11 +252,9 @@ fn a_second_minimum_of_the_range_is_no_answer() {
          125.7,0.3413,0.02\n",
     )
     .unwrap();
-    fs::write(dir.path().join("three.csv"), "t_s,x1,x1_u\n14,0.2,0.02\n70,0.45,0.02\n146,0.35,0.02\n")
-        .unwrap();
+    fs::write(dir.path().join("three.csv"), "t_s,x1,x1_u\n14,0.2,0.02\n70,0.45,0.02\n146,0.35,0.02\n").unwrap();
     let fit = |data: &str, over: &str| {
-        let arguments =
-            format!("fit free.toml --data {data}.csv --over particles.{over} --out out --quiet --force");
+        let arguments = format!("fit free.toml --data {data}.csv --over particles.{over} --out out --quiet --force");
         shearbed(dir.path(), &arguments)
     };
     let ended = fit("two", "aspect_ratio=2:20");
@@ -292,7 +286,8 @@ fn rods_that_start_alike_are_fitted_through_the_kinks_of_their_projections() {
     let dir = folder();
     fs::write(
         dir.path().join("alike.toml"),
-        "title = \"alike\"\n[flow]\nshear_rate_per_s = 0.5\n[particles]\ncount = 1\nlength_mm = 0.72\naspect_ratio = 1.1\n\
+        "title = \"alike\"\n[flow]\nshear_rate_per_s = 0.5\n[particles]\ncount = 1\nlength_mm = 0.72\naspect_ratio = \
+            1.1\n\
          orientation = { phi_deg = 20, theta_deg = 60 }\n[time]\nperiods = 4\n",
     )
     .unwrap();
@@ -320,30 +315,21 @@ fn rods_that_start_alike_are_fitted_through_the_kinks_of_their_projections() {
 fn bad_input_ends_with_two_and_leaves_nothing() {
     let dir = folder();
     fs::write(dir.path().join("copy.csv"), "t_over_T,x1,x1_u\n0.1,0.4,0.01\n0.5,0.3,0.01\n").unwrap();
-    fs::write(
-        dir.path().join("vague.csv"),
-        "t_over_T,t_over_T_u,x1,x1_u\n0.2,0.1,0.3,0.01\n0.5,0.3,0.3,0.01\n",
-    )
-    .unwrap();
-    fs::write(dir.path().join("good.csv"), "t_over_T,x1,x1_u\n0.2,0.3,0.01\n0.5,0.3,0.01\n0.8,0.3,0.01\n")
+    fs::write(dir.path().join("vague.csv"), "t_over_T,t_over_T_u,x1,x1_u\n0.2,0.1,0.3,0.01\n0.5,0.3,0.3,0.01\n")
         .unwrap();
+    fs::write(dir.path().join("good.csv"), "t_over_T,x1,x1_u\n0.2,0.3,0.01\n0.5,0.3,0.01\n0.8,0.3,0.01\n").unwrap();
     fs::write(dir.path().join("bad.csv"), "t_over_T,x1,x1_u\n0.2,0.3,0.01\n0.5,zero,0.01\n").unwrap();
     fs::write(dir.path().join("late.csv"), "t_over_T,x1,x1_u\n0.2,0.3,0.01\n1.5,0.3,0.01\n").unwrap();
     fs::write(dir.path().join("one.csv"), "t_over_T,x1,x1_u\n0.2,0.3,0.01\n").unwrap();
     let good = "--data good.csv";
     for (arguments, named) in [
         ("--data none.csv --over interaction.alpha=0.1:1".to_owned(), "none.csv: cannot be read"),
-        (
-            "--data bad.csv --over interaction.alpha=0.1:1".into(),
-            "bad.csv:3: column x1: `zero` is not allowed",
-        ),
-        (
-            "--data late.csv --over interaction.alpha=0.1:1".into(),
-            "late.csv:3: column t_over_T: `1.5` is not allowed",
-        ),
+        ("--data bad.csv --over interaction.alpha=0.1:1".into(), "bad.csv:3: column x1: `zero` is not allowed"),
+        ("--data late.csv --over interaction.alpha=0.1:1".into(), "late.csv:3: column t_over_T: `1.5` is not allowed"),
         (
             "--data vague.csv --over interaction.alpha=0.1:1".into(),
-            "vague.csv:3: column t_over_T_u: `0.3` is not allowed: expected one standard deviation of at most a quarter of a period, 0.25",
+            "vague.csv:3: column t_over_T_u: `0.3` is not allowed: expected one standard deviation of at most a \
+                quarter of a period, 0.25",
         ),
         (
             format!("{good} --data small.toml=./good.csv --over interaction.alpha=0.1:1"),
@@ -379,14 +365,8 @@ fn bad_input_ends_with_two_and_leaves_nothing() {
         (format!("{good} --over interaction.alpha=0.1:1 --over 1:interaction.alpha=0.1:2"), "both set it"),
         (format!("{good} --over 2:interaction.alpha=0.1:1"), "there is no set 2; --data is given 1 times"),
         (format!("{good} --over interaction.alpha=0.1:1 --test interaction.alpha"), "KEY=VALUE is allowed"),
-        (
-            format!("{good} --over interaction.alpha=0.1:1 --test interaction.m=1"),
-            "interaction.m is not fitted",
-        ),
-        (
-            format!("{good} --over interaction.alpha=0.1:1 --test interaction.alpha=2"),
-            "outside the range of --over",
-        ),
+        (format!("{good} --over interaction.alpha=0.1:1 --test interaction.m=1"), "interaction.m is not fitted"),
+        (format!("{good} --over interaction.alpha=0.1:1 --test interaction.alpha=2"), "outside the range of --over"),
         (good.into(), "--over"),
     ] {
         let done = shearbed(dir.path(), &format!("fit small.toml {arguments} --out out"));

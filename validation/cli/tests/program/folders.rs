@@ -115,9 +115,8 @@ fn two_sweeps_started_together_do_not_mix() {
 #[test]
 fn two_runs_into_one_folder_do_not_mix_their_files() {
     let dir = folder();
-    let of_seed = |seed: u32, out: &str| {
-        format!("run small.toml --quiet --force --threads 1 --seed {seed} --out {out}")
-    };
+    let of_seed =
+        |seed: u32, out: &str| format!("run small.toml --quiet --force --threads 1 --seed {seed} --out {out}");
     let tables = |out: &str| {
         let mut all = files(&dir.path().join(out));
         all.retain(|name, _| name.ends_with(".csv"));
@@ -147,12 +146,10 @@ fn two_runs_into_one_folder_do_not_mix_their_files() {
 fn every_key_has_one_owner() {
     let dir = folder();
     for (arguments, named) in [
+        ("--over ensemble={replicas=5} --replicas 3", "--replicas and --over ensemble: both set ensemble.replicas"),
         (
-            "--over ensemble={replicas=5} --replicas 3",
-            "--replicas and --over ensemble: both set ensemble.replicas",
-        ),
-        (
-            "--over particles.count=1,2 --over particles={count=7,length_mm=0.72,aspect_ratio=5,orientation=\"isotropic\"}",
+            "--over particles.count=1,2 --over \
+                particles={count=7,length_mm=0.72,aspect_ratio=5,orientation=\"isotropic\"}",
             "--over particles and --over particles.count: both set particles.count",
         ),
         ("--over ensemble={seed=5} --seed 3", "both set ensemble.seed"),
@@ -201,28 +198,13 @@ fn runs_and_fits_leave_each_others_folders_alone() {
         "run/shearbed.json: results of `shearbed run` are kept here",
     );
     let sweep = "sweep small.toml --over interaction.alpha=0.1,0.2 --quiet --out";
-    unchanged(
-        dir.path(),
-        &format!("{sweep} run"),
-        "run",
-        "run/shearbed.json: results of `shearbed run` are kept here",
-    );
-    unchanged(
-        dir.path(),
-        &format!("{sweep} fit"),
-        "fit",
-        "fit/shearbed.json: results of `shearbed fit` are kept here",
-    );
+    unchanged(dir.path(), &format!("{sweep} run"), "run", "run/shearbed.json: results of `shearbed run` are kept here");
+    unchanged(dir.path(), &format!("{sweep} fit"), "fit", "fit/shearbed.json: results of `shearbed fit` are kept here");
     // The same fit again is no other one; another one is.
     assert_eq!(shearbed(dir.path(), &format!("{fit} --out fit")).code, Some(0));
     let another = "fit/shearbed.json: results of `shearbed fit` from other input are kept here: ";
     let wider = fit.replace("0.05:5", "0.05:6");
-    unchanged(
-        dir.path(),
-        &format!("{wider} --out fit"),
-        "fit",
-        &format!("{another}over.1.to was 5.0 and is 6.0 now"),
-    );
+    unchanged(dir.path(), &format!("{wider} --out fit"), "fit", &format!("{another}over.1.to was 5.0 and is 6.0 now"));
     fs::write(dir.path().join("points.csv"), points.replace("0.5,0.3", "0.5,0.31")).unwrap();
     unchanged(dir.path(), &format!("{fit} --out fit"), "fit", &format!("{another}data.1.crc32 was"));
 

@@ -9,8 +9,7 @@ const TITLE: &str = r#"\u001B]0;owned\u0007\u009B2J</text><script>alert(1)</scri
 
 /// What no terminal may get: controls but for line feeds, turns of the direction of writing, and what is not seen.
 fn commands_a_terminal(text: &str) -> bool {
-    text.chars()
-        .any(|c| (c.is_control() && c != '\n') || ('\u{202a}'..='\u{202e}').contains(&c) || c == '\u{200b}')
+    text.chars().any(|c| (c.is_control() && c != '\n') || ('\u{202a}'..='\u{202e}').contains(&c) || c == '\u{200b}')
 }
 
 #[test]
@@ -39,10 +38,7 @@ fn titles_and_file_names_command_nothing() {
         let output = command(dir.path(), "").args(arguments).ended();
         let told = String::from_utf8(output.stdout).unwrap() + &String::from_utf8(output.stderr).unwrap();
         assert_eq!(output.status.code(), Some(code), "{arguments:?}: {told:?}");
-        assert!(
-            !told.is_empty() && !commands_a_terminal(&told) && !told.contains("\nFAKE"),
-            "{arguments:?}: {told:?}"
-        );
+        assert!(!told.is_empty() && !commands_a_terminal(&told) && !told.contains("\nFAKE"), "{arguments:?}: {told:?}");
     }
     for (name, bytes) in files(&dir.path().join("x")) {
         let text = String::from_utf8(bytes).unwrap();
@@ -66,7 +62,8 @@ fn no_cell_of_a_table_is_a_formula() {
     let expected = ["'=cmd|' /C calc'!A0", "'@SUM(A1)", "'+1+2", "'-3-4", r"plain\u{1b}"];
     assert_eq!(titles, expected);
     // A negative number is a number.
-    let over = "sweep extension --over particles.orientation={phi_deg=-30,theta_deg=60} --over ensemble.seed=1,2 --out y";
+    let over =
+        "sweep extension --over particles.orientation={phi_deg=-30,theta_deg=60} --over ensemble.seed=1,2 --out y";
     assert_eq!(shearbed(dir.path(), over).code, Some(0));
 }
 
@@ -74,10 +71,9 @@ fn no_cell_of_a_table_is_a_formula() {
 fn a_long_line_is_not_echoed_whole() {
     let dir = folder();
     let long = format!("\"{}\"", "x".repeat(3_000_000));
-    for (old, scene) in [
-        ("count = 20", format!("count = {long}")),
-        ("[flow]", format!("[flow]\n{} = 1", "y".repeat(3_000_000))),
-    ] {
+    for (old, scene) in
+        [("count = 20", format!("count = {long}")), ("[flow]", format!("[flow]\n{} = 1", "y".repeat(3_000_000)))]
+    {
         fs::write(dir.path().join("long.toml"), SMALL.replace(old, &scene)).unwrap();
         let run = shearbed(dir.path(), "run long.toml");
         assert_eq!(run.code, Some(2));
@@ -109,8 +105,7 @@ fn a_number_of_threads_that_is_none_is_refused() {
         let output = command(dir.path(), "run small.toml").env("RAYON_NUM_THREADS", text).ended();
         let message = String::from_utf8(output.stderr).unwrap();
         assert_eq!(output.status.code(), Some(2), "{text}: {message}");
-        let expected =
-            format!("RAYON_NUM_THREADS = {text} is not allowed: expected a whole number from 1 to 1024");
+        let expected = format!("RAYON_NUM_THREADS = {text} is not allowed: expected a whole number from 1 to 1024");
         assert!(message.contains(&expected), "{message}");
     }
 }

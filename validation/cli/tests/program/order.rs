@@ -8,20 +8,25 @@ fn declared(lib: &str) -> Vec<&str> {
     lib.lines().filter_map(|line| line.strip_prefix("pub mod ")?.strip_suffix(';')).collect()
 }
 
-/// Rust files below a folder that are not of tests alone.
-pub fn sources(folder: &Path) -> Vec<PathBuf> {
-    let mut found = Vec::new();
+/// Rust files below a folder.
+fn all_sources(folder: &Path) -> Vec<PathBuf> {
+    let mut files = Vec::new();
     for entry in fs::read_dir(folder).unwrap() {
         let path = entry.unwrap().path();
-        let stem = path.file_stem().unwrap().to_string_lossy().into_owned();
-        match path.is_dir() {
-            _ if stem == "tests" => {}
-            true => found.extend(sources(&path)),
-            false if path.extension().is_some_and(|of| of == "rs") => found.push(path),
-            false => {}
+        if path.is_dir() {
+            files.extend(all_sources(&path));
+        } else if path.extension().is_some_and(|ending| ending == "rs") {
+            files.push(path);
         }
     }
-    found
+    files
+}
+
+/// Those that are not of tests alone.
+pub fn sources(folder: &Path) -> Vec<PathBuf> {
+    let mut files = all_sources(folder);
+    files.retain(|path| !path.strip_prefix(folder).unwrap().with_extension("").iter().any(|name| name == "tests"));
+    files
 }
 
 /// The modules that a source names as `crate::module`, out of its tests and comments.
@@ -70,12 +75,21 @@ fn no_test_waits_for_a_process_without_a_bound() {
         let text = fs::read_to_string(&path).unwrap();
         for call in [".output()", ".status()", ".wait()", ".wait_with_output()"] {
             let found = text.lines().position(|line| line.contains(call));
-            assert_eq!(
-                found,
-                None,
-                "{call} in {}: use `ended` or `end` of common/bounded.rs",
-                path.display()
-            );
+            assert_eq!(found, None, "{call} in {}: use `ended` or `end` of common/bounded.rs", path.display());
         }
     }
+}
+
+/// rustfmt leaves comments, texts and the arguments of macros as they are.
+#[test]
+fn no_line_of_a_source_is_longer_than_120_columns() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let is_long = |line: &&str| line.chars().count() > 120;
+    for folder in ["src", "tests", "validation"] {
+        for path in all_sources(&root.join(folder)) {
+            let text = fs::read_to_string(&path).unwrap();
+            assert_eq!(text.lines().find(is_long), None, "{}", path.display());
+        }
+    }
+    assert!(is_long(&"é".repeat(121).as_str()) && !is_long(&"é".repeat(120).as_str()));
 }

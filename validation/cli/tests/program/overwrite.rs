@@ -18,8 +18,7 @@ fn a_run_that_ends_badly_leaves_what_was_complete() {
     assert_eq!(shearbed(dir.path(), "run small.toml --quiet --out a").code, Some(0));
     let before: Vec<_> =
         names(&dir.path().join("a")).iter().map(|name| read(&dir.path().join("a").join(name))).collect();
-    fs::write(dir.path().join("small.toml"), UNEQUAL.replace("aspect_ratio = 11.6", "aspect_ratio = 1e200"))
-        .unwrap();
+    fs::write(dir.path().join("small.toml"), UNEQUAL.replace("aspect_ratio = 11.6", "aspect_ratio = 1e200")).unwrap();
     let ended = shearbed(dir.path(), "run small.toml --quiet --out a");
     assert_eq!(ended.code, Some(2));
     assert!(ended.stderr.contains("particles.aspect_ratio = 1e200 is not allowed"), "{}", ended.stderr);
@@ -53,15 +52,11 @@ fn no_command_replaces_a_file_that_it_reads() {
     grade_keeps_its_references(dir.path());
     a_scene_and_rods_of_earlier_results_stay(dir.path());
     for (arguments, read_file) in [
-        (
-            "fit fig4-n50 --data f/residuals.csv --over interaction.alpha=0.1:1 --out f --force",
-            "f/residuals.csv",
-        ),
+        ("fit fig4-n50 --data f/residuals.csv --over interaction.alpha=0.1:1 --out f --force", "f/residuals.csv"),
         ("plot a --data points.svg --out points.svg --force", "points.svg"),
     ] {
         let ended = shearbed(dir.path(), arguments);
-        let said =
-            format!("a result would replace {read_file}, which this command reads: choose another --out");
+        let said = format!("a result would replace {read_file}, which this command reads: choose another --out");
         assert!(ended.code == Some(2) && ended.stderr.contains(&said), "{arguments}: {}", ended.stderr);
         assert_eq!(read(&dir.path().join(read_file)), points);
     }
@@ -89,10 +84,9 @@ fn a_scene_and_rods_of_earlier_results_stay(dir: &Path) {
     fs::write(dir.join("from.toml"), from_rods).unwrap();
     fs::create_dir(dir.join("s")).unwrap();
     fs::write(dir.join("s/run.json"), &small).unwrap();
-    for (arguments, file) in [
-        ("run from.toml --replicas 1 --out r --force", "r/rods.csv"),
-        ("run s/run.json --out s --force", "s/run.json"),
-    ] {
+    for (arguments, file) in
+        [("run from.toml --replicas 1 --out r --force", "r/rods.csv"), ("run s/run.json --out s --force", "s/run.json")]
+    {
         let before = read(&dir.join(file));
         let ended = shearbed(dir, arguments);
         let said = format!("would replace {file}, which this command reads");
@@ -237,9 +231,7 @@ fn a_study_spares_what_it_did_not_write_and_a_run() {
     let converge = |scene: &str, out: &str| {
         shearbed(
             dir.path(),
-            &format!(
-                "converge {scene} --set particles.aspect_ratio=1 --set time.periods=2 --quiet --out {out}"
-            ),
+            &format!("converge {scene} --set particles.aspect_ratio=1 --set time.periods=2 --quiet --out {out}"),
         )
     };
     fs::create_dir(&out).unwrap();
@@ -254,11 +246,7 @@ fn a_study_spares_what_it_did_not_write_and_a_run() {
     let before = names(&dir.path().join("b"));
     let ended = converge("fig6-uniform", "b");
     assert_eq!(ended.code, Some(2));
-    assert!(
-        ended.stderr.contains("b/shearbed.json: results of `shearbed run` are kept here"),
-        "{}",
-        ended.stderr
-    );
+    assert!(ended.stderr.contains("b/shearbed.json: results of `shearbed run` are kept here"), "{}", ended.stderr);
     assert_eq!(names(&dir.path().join("b")), before);
 }
 
@@ -273,16 +261,14 @@ fn a_point_of_a_sweep_and_a_checkpoint_are_no_place_for_a_run() {
     let before = read(&dir.path().join("w/points/1/projections.csv"));
     let (code, said) = ended("run small.toml --quiet --out w/points/1 --seed 77");
     assert!(
-        code == Some(2)
-            && said.contains("w/points/1/shearbed.json: results of `shearbed sweep` are kept here"),
+        code == Some(2) && said.contains("w/points/1/shearbed.json: results of `shearbed sweep` are kept here"),
         "{said}"
     );
     assert_eq!(read(&dir.path().join("w/points/1/projections.csv")), before);
     fs::create_dir(dir.path().join("d")).unwrap();
     let (code, said) = ended("run small.toml --quiet --out d --checkpoint d/projections.csv");
     assert!(
-        code == Some(2)
-            && said.contains("a result may have that name; choose a checkpoint outside the output folder"),
+        code == Some(2) && said.contains("a result may have that name; choose a checkpoint outside the output folder"),
         "{said}"
     );
     assert_eq!(ended("run small.toml --quiet --out d --checkpoint d/kept").0, Some(0));

@@ -65,8 +65,7 @@ fn one_picture_is_drawn_from_several_runs_and_from_a_sweep() {
 
 /// The columns of `sweep.csv` as curves, in the order of the values, of which there are more than nine.
 fn against_a_swept_key(dir: &Path) {
-    let sweep =
-        "sweep small.toml --over interaction.alpha=0.1:0.5:5 --over particles.count=20,30 --quiet --out k";
+    let sweep = "sweep small.toml --over interaction.alpha=0.1:0.5:5 --over particles.count=20,30 --quiet --out k";
     assert_eq!(shearbed(dir, sweep).code, Some(0));
     let plot = |arguments: &str| shearbed(dir, &format!("plot k --y x2 --x interaction.alpha {arguments}"));
     let ended = plot("--out x.svg");
@@ -91,10 +90,7 @@ fn against_a_swept_key(dir: &Path) {
             ),
             ("plot k --x particles.count --at inf", "'inf' for '--at <TIME>': a finite number"),
             ("plot k --x particles.count --at 1e400", "'1e400' for '--at <TIME>': a finite number"),
-            (
-                "plot k --x particles.count --at 1e-12",
-                "--at 0.000000000001: k/points/01 has no output at this time",
-            ),
+            ("plot k --x particles.count --at 1e-12", "--at 0.000000000001: k/points/01 has no output at this time"),
             (
                 "plot k --x particles.count --at 77",
                 "--at 77: k/points/01 has no output at this time; the nearest is at t/T = ",
@@ -116,10 +112,7 @@ fn points_are_drawn_over_curves_and_flags_change_the_look() {
         read(&dir.path().join("p.svg"))
     };
     write("seconds.csv", "t_s,x1,x1_u\n5,0.4,0.05\n");
-    assert_eq!(
-        shearbed(dir.path(), "run small.toml --quiet --out b --set particles.aspect_ratio=9").code,
-        Some(0)
-    );
+    assert_eq!(shearbed(dir.path(), "run small.toml --quiet --out b --set particles.aspect_ratio=9").code, Some(0));
     let bare = plot("");
     let over = plot("--data points.csv");
     assert!(over.contains("X̄₁, measured ± u") && !bare.contains("measured"));
@@ -127,14 +120,9 @@ fn points_are_drawn_over_curves_and_flags_change_the_look() {
         "--data points.csv --title Damped --x-label turns --y-label share --legend model --legend ours \
          --x-range 0.05:0.4 --y-range 0.1:1 --log-y --size 700x500 --theme dark",
     );
-    for text in [
-        ">\nDamped\n<",
-        ">\nturns\n<",
-        ">\nshare\n<",
-        ">\nmodel\n<",
-        ">\nours\n<",
-        "width=\"700\" height=\"500\"",
-    ] {
+    for text in
+        [">\nDamped\n<", ">\nturns\n<", ">\nshare\n<", ">\nmodel\n<", ">\nours\n<", "width=\"700\" height=\"500\""]
+    {
         assert!(all.contains(text) && !over.contains(text), "{text}");
     }
     assert!(!over.contains("#181818") && all.contains("fill=\"#181818\""));
@@ -219,7 +207,8 @@ fn a_table_too_long_to_draw_is_refused_in_bounded_memory() {
     assert!(ended.stderr.contains("a/projections.csv"), "{}", ended.stderr);
 
     let mut record: serde_json::Value = serde_json::from_str(&read(&at("shearbed.json"))).unwrap();
-    record["files"]["projections.csv"] = serde_json::json!({ "bytes": table.len(), "crc32": format!("{:08x}", crc32fast::hash(table.as_bytes())) });
+    record["files"]["projections.csv"] =
+        serde_json::json!({ "bytes": table.len(), "crc32": format!("{:08x}", crc32fast::hash(table.as_bytes())) });
     std::fs::write(at("shearbed.json"), record.to_string()).unwrap();
     let ended = plot();
     assert_eq!(ended.code, Some(2), "{}", ended.stderr);
@@ -236,7 +225,10 @@ fn a_sweep_is_drawn_with_all_its_points_and_no_other() {
     let at = |name: &str| dir.path().join("s").join(name);
     let (record, grid) = (read(&at("shearbed.json")), read(&at("sweep.json")));
     let put = |name: &str, json: &serde_json::Value| std::fs::write(at(name), json.to_string()).unwrap();
-    let sum = |text: &str| serde_json::json!({ "bytes": text.len(), "crc32": format!("{:08x}", crc32fast::hash(text.as_bytes())) });
+    let sum = |text: &str| {
+        serde_json::json!({ "bytes": text.len(), "crc32": format!("{:08x}",
+        crc32fast::hash(text.as_bytes())) })
+    };
     let edited = |edit: &dyn Fn(&mut serde_json::Value)| {
         let mut edited = serde_json::from_str(&record).unwrap();
         edit(&mut edited);
@@ -245,19 +237,13 @@ fn a_sweep_is_drawn_with_all_its_points_and_no_other() {
     let files = |json: &mut serde_json::Value| json["files"].as_object_mut().unwrap().clone();
     // A point is taken out of the record, or a copy of one is added.
     edited(&|json| drop(json["files"].as_object_mut().unwrap().remove("points/2/shearbed.json")));
-    refused(
-        dir.path(),
-        &[("plot s --x interaction.alpha", "s/shearbed.json: points/2/shearbed.json is not listed")],
-    );
+    refused(dir.path(), &[("plot s --x interaction.alpha", "s/shearbed.json: points/2/shearbed.json is not listed")]);
     std::fs::create_dir(at("points/4")).unwrap();
     for name in ["projections.csv", "shearbed.json"] {
         std::fs::copy(at(&format!("points/1/{name}")), at(&format!("points/4/{name}"))).unwrap();
     }
     edited(&|json| json["files"]["points/4/shearbed.json"] = files(json)["points/1/shearbed.json"].clone());
-    refused(
-        dir.path(),
-        &[("plot s", "s/shearbed.json: points/4/shearbed.json is listed, and the sweep has 3 points")],
-    );
+    refused(dir.path(), &[("plot s", "s/shearbed.json: points/4/shearbed.json is listed, and the sweep has 3 points")]);
     // A point in place of another.
     let (first, second) = (read(&at("points/1/shearbed.json")), read(&at("points/2/shearbed.json")));
     std::fs::write(at("points/2/shearbed.json"), &first).unwrap();
@@ -273,12 +259,7 @@ fn a_sweep_is_drawn_with_all_its_points_and_no_other() {
     std::fs::write(at("sweep.json"), grid).unwrap();
     std::fs::write(at("shearbed.json"), record).unwrap();
     let ended = shearbed(dir.path(), "plot s --x interaction.alpha");
-    assert_eq!(
-        (ended.code, ended.stdout.as_str()),
-        (Some(0), "x1 of 3 points in out/plot.svg\n"),
-        "{}",
-        ended.stderr
-    );
+    assert_eq!((ended.code, ended.stdout.as_str()), (Some(0), "x1 of 3 points in out/plot.svg\n"), "{}", ended.stderr);
 }
 
 /// A text that looks like a key and its value is a text.
@@ -292,10 +273,7 @@ fn no_key_is_read_out_of_a_swept_text() {
     refused(
         dir.path(),
         &[
-            (
-                "plot s --x interaction.alpha",
-                "--x interaction.alpha: the sweep goes over title, of which one",
-            ),
+            ("plot s --x interaction.alpha", "--x interaction.alpha: the sweep goes over title, of which one"),
             ("plot s --x title", "--x title: its values are no numbers"),
         ],
     );

@@ -34,8 +34,7 @@ fn an_export_is_what_is_read_and_is_not_written_over_what_it_did_not_write() {
     for name in ["mid-flip-2", "mid-flip-11.6", "mid-flip-100", "mid-flip-10000"] {
         assert!(names.contains(&name));
     }
-    let expected: BTreeMap<_, _> =
-        FILES.iter().map(|(name, text)| (name.clone(), text.clone().into_bytes())).collect();
+    let expected: BTreeMap<_, _> = FILES.iter().map(|(name, text)| (name.clone(), text.clone().into_bytes())).collect();
     let mut found = files(&reference);
     let record: Value = serde_json::from_slice(&found.remove("shearbed.json").unwrap()).unwrap();
     assert_eq!(record["command"], "problems export");
@@ -109,9 +108,7 @@ fn an_answer_that_has_been_corrected_since_is_said_to_have_been_wrong() {
         fs::write(folder.join(file), text.replace("  \"version\": 2,\n", "")).unwrap();
     }
     let error = problems::read(dir.path()).unwrap_err().to_string();
-    for words in
-        ["problem.json: version = 1: ", "certified a_ij were wrong by up to 1.8e-4", "problems export"]
-    {
+    for words in ["problem.json: version = 1: ", "certified a_ij were wrong by up to 1.8e-4", "problems export"] {
         assert!(error.contains(words), "{error}");
     }
     fs::write(folder.join("problem.json"), &FILES["folgar-tucker-planar-extension/problem.json"]).unwrap();

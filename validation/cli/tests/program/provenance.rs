@@ -141,8 +141,7 @@ fn a_record_says_which_stages_ran_and_why_as_the_plan_does() {
         assert!(kept("translation") && kept("neighbours") && kept("contacts"), "{text}");
         // One line each, as `shearbed plan` prints it.
         let lines = record["plan_text"].as_str().unwrap().lines();
-        let lines: Vec<_> =
-            lines.filter(|line| line.starts_with("keep ") || line.starts_with("drop ")).collect();
+        let lines: Vec<_> = lines.filter(|line| line.starts_with("keep ") || line.starts_with("drop ")).collect();
         for (stage, line) in stages.iter().zip(&lines) {
             let reason = stage["reason"].as_str().unwrap();
             let word = if stage["kept"] == true { "keep " } else { "drop " };

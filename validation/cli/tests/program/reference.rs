@@ -6,10 +6,8 @@ use std::process::Command;
 
 /// Exit code, standard output and standard error.
 fn reference(arguments: &str) -> (Option<i32>, String, String) {
-    let output = Command::new(env!("CARGO_BIN_EXE_shearbed"))
-        .arg("reference")
-        .args(arguments.split_whitespace())
-        .ended();
+    let output =
+        Command::new(env!("CARGO_BIN_EXE_shearbed")).arg("reference").args(arguments.split_whitespace()).ended();
     let text = |bytes| String::from_utf8(bytes).unwrap();
     (output.status.code(), text(output.stdout), text(output.stderr))
 }
@@ -51,8 +49,7 @@ fn units_of_time_give_the_same_rows_and_a_grid_is_decimal() {
     let strain = rows("--aspect-ratio 7 --start 10,50 --times 0:6:31 --unit strain --shear-rate-per-s 2");
     assert_eq!(seconds, strain);
     assert_eq!((seconds[4][0].as_str(), seconds[4][2].as_str()), ("0.3", "0.6"));
-    let general =
-        rows("--aspect-ratio 7 --start 10,50 --times 0:3:31 --unit s --gradient-per-s 0,0,0,2,0,0,0,0,0");
+    let general = rows("--aspect-ratio 7 --start 10,50 --times 0:3:31 --unit s --gradient-per-s 0,0,0,2,0,0,0,0,0");
     assert_eq!(seconds, general);
     let listed = rows("--aspect-ratio 7 --start 10,50 --times 0.3,1e0,3 --unit s --shear-rate-per-s 2");
     assert_eq!(listed, [0, 4, 11, 31].map(|row| seconds[row].clone()));
@@ -91,10 +88,7 @@ fn diffusing_rods_have_the_columns_of_isotropic_starts_and_known_limits() {
     assert_eq!(rows(arguments)[0].join(","), header);
     let found = numbers(arguments);
     // No period; strain unless asked otherwise; the steady row comes last.
-    assert_eq!(
-        (found[0][..3].to_vec(), found[1][..3].to_vec()),
-        (vec![0.0, -1.0, 0.0], vec![1.0, -1.0, 1.0])
-    );
+    assert_eq!((found[0][..3].to_vec(), found[1][..3].to_vec()), (vec![0.0, -1.0, 0.0], vec![1.0, -1.0, 1.0]));
     assert_eq!(rows(arguments)[3][..3], ["inf", "", "inf"].map(String::from));
     let third = 1.0 / 3.0;
     assert!(apart(&found[0][3..], &[0.5, 0.5, 0.5, third, third, third, 0.0, 0.0, 0.0]) < 1e-11);
@@ -156,19 +150,13 @@ fn bad_input_is_refused_with_key_value_and_what_is_allowed() {
         ("--aspect-ratio 3 --times 0:1:2 --start up", ["'up'", "--start", "isotropic"]),
         ("--aspect-ratio 3 --times 0:1:2 --shear-rate-per-s 0", ["'0'", "--shear-rate", "1e-100"]),
         ("--aspect-ratio 3 --times 0:1:2 --gradient-per-s 1,2", ["'1,2'", "--gradient", "nine"]),
-        (
-            "--aspect-ratio 3 --times 0:1:2 --gradient-per-s 1,0,0,0,-1,0,0,0,0",
-            ["--unit", "period", "allowed"],
-        ),
+        ("--aspect-ratio 3 --times 0:1:2 --gradient-per-s 1,0,0,0,-1,0,0,0,0", ["--unit", "period", "allowed"]),
         (
             "--aspect-ratio 3 --times 0:1e9:2 --unit s --gradient-per-s 1,0,0,0,-1,0,0,0,0",
             ["--times", "5000", "allowed"],
         ),
         ("--aspect-ratio 3 --times 0:1:2 --start 0,9 --fourth", ["--fourth", "isotropic", "allowed"]),
-        (
-            "--aspect-ratio 1.1 --times 0:1:2 --aspect-ratio-sd-percent 2",
-            ["sd-percent 2", "eight", "allowed"],
-        ),
+        ("--aspect-ratio 1.1 --times 0:1:2 --aspect-ratio-sd-percent 2", ["sd-percent 2", "eight", "allowed"]),
         ("--aspect-ratio 3 --times 0:1e308:2 --shear-rate-per-s 1e-9", ["--times", "finite", "allowed"]),
         ("--aspect-ratio inf --times 0:1:2 --unit period", ["--unit", "finite r_e", "allowed"]),
         ("--aspect-ratio inf --constants", ["--constants", "finite", "allowed"]),
@@ -177,20 +165,14 @@ fn bad_input_is_refused_with_key_value_and_what_is_allowed() {
         ("--aspect-ratio 3 --times 0:1:2 --c-i nan", ["'nan'", "--c-i", "allowed"]),
         ("--aspect-ratio 3 --times -1:1:2 --c-i 0.1", ["--times", "from 0", "allowed"]),
         ("--aspect-ratio 3 --times 0:1:2 --c-i 0.1 --start 0,9", ["--c-i 0.1", "isotropic", "allowed"]),
-        (
-            "--aspect-ratio 3 --times 0:1:2 --c-i 0.1 --aspect-ratio-sd-percent 2",
-            ["percent 2", "--c-i", "allowed"],
-        ),
+        ("--aspect-ratio 3 --times 0:1:2 --c-i 0.1 --aspect-ratio-sd-percent 2", ["percent 2", "--c-i", "allowed"]),
         ("--aspect-ratio 3 --c-i 0.1", ["--times", "required", "FROM:TO:COUNT"]),
         ("--aspect-ratio 3 --steady", ["--c-i", "required", "--steady"]),
         (
             "--aspect-ratio 5 --c-i 0.01 --times 0:1e6:2 --steady",
             ["--times with --c-i 0.01: this takes too much work", "shorter --times", "allowed"],
         ),
-        (
-            "--aspect-ratio 5 --c-i 1e-9 --steady",
-            ["--steady with --c-i 1e-9: this takes too much", "1e-5", "allowed"],
-        ),
+        ("--aspect-ratio 5 --c-i 1e-9 --steady", ["--steady with --c-i 1e-9: this takes too much", "1e-5", "allowed"]),
         ("--aspect-ratio 3 --steady --c-i 0", ["--steady", "--c-i 0", "allowed"]),
         (
             "--aspect-ratio 3 --steady --c-i 0.1 --gradient-per-s 0,1,0,-1,0,0,0,0,0",

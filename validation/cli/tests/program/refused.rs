@@ -13,7 +13,8 @@ const REJECTED: &[(&str, &str)] = &[
     ("rnu small.toml", "unrecognized subcommand 'rnu'"),
     ("run", "<SCENE>"),
     ("run no.toml", "no.toml: cannot be read: No such file or directory; nor is it a built-in scene"),
-    ("fit small.toml --data no.csv --over interaction.alpha=0.1:1", "no.csv: cannot be read: No such file or directory\n"),
+    ("fit small.toml --data no.csv --over interaction.alpha=0.1:1", "no.csv: cannot be read: No such file or \
+        directory\n"),
     ("run fig4n50", "close names: fig4-n50"),
     ("plan .", ".: cannot be read: it is a folder; a regular file is needed"),
     ("plan latin.toml", "latin.toml: cannot be read: it is not UTF-8 text (line 2)"),
@@ -32,7 +33,8 @@ const REJECTED: &[(&str, &str)] = &[
     ("run small.toml --out file/below", "file/below: cannot be written: "),
     ("run small.toml --fast", "unexpected argument '--fast'"),
     ("scenes --show fig13", "--show fig13: no built-in scene has this name; there are fig4-n20, fig4-n50"),
-    ("reference --aspect-ratio 5 --times 1e-1000000", "'1e-1000000' for '--times <FROM:TO:COUNT|T1,T2,…>': FROM:TO:COUNT"),
+    ("reference --aspect-ratio 5 --times 1e-1000000", "'1e-1000000' for '--times <FROM:TO:COUNT|T1,T2,…>': \
+        FROM:TO:COUNT"),
     ("reference --aspect-ratio 5 --times 0:1e-1000000:2", "0 or of a size from 5e-324 to 1.8e308"),
     ("reference --times 1 --aspect-ratio=1e-1000000", "a number from 1e-100 to 1e100, or inf, is allowed"),
     ("reference --times 1 --aspect-ratio 5 --c-i=-1e-1000000", "0 (free rods), a number from 1e-9 to 1e9"),
@@ -42,8 +44,10 @@ const REJECTED: &[(&str, &str)] = &[
     ("sweep small.toml --over interaction.alpha=1e-1000000:1:3", "\"1e-1000000\" is no end of a range"),
     ("run small.toml --until-se x1=1e400", "a column and a number above 0 are allowed"),
     ("validate --case no-such-case", "--case no-such-case: no case has this name. `shearbed validate --list` has all"),
-    ("validate --case jefery-period", "--case jefery-period: no case has this name; did you mean jeffery-period? Others"),
-    ("validate --case foo", "--case foo: no case has this name; did you mean fourth-moments? `shearbed validate --list` has all\n"),
+    ("validate --case jefery-period", "--case jefery-period: no case has this name; did you mean jeffery-period? \
+        Others"),
+    ("validate --case foo", "--case foo: no case has this name; did you mean fourth-moments? `shearbed validate \
+        --list` has all\n"),
     ("validate --data no-such-folder", "'no-such-folder' for '--data <DIR>': No such file or directory"),
     ("validate --data file", "'file' for '--data <DIR>': it is no folder; an existing folder is allowed"),
     ("validate --out file", "file: cannot be written: "),
@@ -53,7 +57,8 @@ const REJECTED: &[(&str, &str)] = &[
     ("grade --command x --rod-axis x", "cannot be used with '--rod-axis <x|y|z>'"),
 ];
 
-/// Ranks of a job write to one pipe, and what `mpirun` says may come between two writes: each line is one write, which a datagram keeps.
+/// Ranks of a job write to one pipe, and what `mpirun` says may come between two writes: each line is one write, which
+/// a datagram keeps.
 #[cfg(unix)]
 #[test]
 fn a_message_is_written_in_one_piece() {
@@ -130,14 +135,13 @@ fn a_scene_that_does_not_fit_in_memory_is_refused_before_it_starts() {
     assert_eq!(names(dir.path()), ["huge.toml", "small.toml"]);
 }
 
-/// The law that interacting rods are studied by is of periods and of plane Couette flow; what else there is to do is said.
+/// The law that interacting rods are studied by is of periods and of plane Couette flow; what else there is to do is
+/// said.
 #[test]
 fn a_study_of_rods_that_meet_needs_shear_by_periods() {
     let dir = unequal();
-    let by_strain = UNEQUAL.replace(
-        "periods = 1\nsteps_per_period = 200\noutputs_per_period = 4",
-        "strain = 2\nsteps_per_strain = 10",
-    );
+    let by_strain = UNEQUAL
+        .replace("periods = 1\nsteps_per_period = 200\noutputs_per_period = 4", "strain = 2\nsteps_per_strain = 10");
     let elliptic = UNEQUAL
         .replace("shear_rate_per_s = 0.5", "gradient_per_s = [[0, -0.2, 0], [0.5, 0, 0], [0, 0, 0]]")
         .replace("\"orbit_constant\", ", "");
@@ -156,11 +160,7 @@ fn a_study_of_rods_that_meet_needs_shear_by_periods() {
         let before = names(dir.path());
         let ended = shearbed(dir.path(), &format!("converge {name}"));
         assert_eq!(ended.code, Some(2), "{}", ended.stderr);
-        assert!(
-            ended.stderr.contains(&format!("{name}: converge of interacting rods needs")),
-            "{}",
-            ended.stderr
-        );
+        assert!(ended.stderr.contains(&format!("{name}: converge of interacting rods needs")), "{}", ended.stderr);
         assert!(ended.stderr.contains(advice), "{}", ended.stderr);
         assert_eq!(names(dir.path()), before);
         // The advice can be followed.

@@ -41,9 +41,7 @@ fn a_picture_of_a_report_is_drawn_anew() {
     assert!(svg.contains("Mine") && svg.contains("aspect ratio"), "{svg}");
     let other = shearbed(dir.path(), "plot report --y fig13 --out g.svg");
     assert_eq!(other.code, Some(2));
-    assert!(
-        other.stderr.contains("has no such picture") && other.stderr.contains("fig4, fig4-differences, fig5")
-    );
+    assert!(other.stderr.contains("has no such picture") && other.stderr.contains("fig4, fig4-differences, fig5"));
     let done = shearbed(dir.path(), "validate --case jeffery-period --quiet --out one");
     assert_eq!(done.code, Some(0), "{}", done.stderr);
     let none = shearbed(dir.path(), "plot one --out g.svg");

@@ -1,4 +1,5 @@
-//! What the program says where there is too little memory, no thread, too long an input, or a launcher of ranks that it cannot use.
+//! What the program says where there is too little memory, no thread, too long an input, or a launcher of ranks that it
+//! cannot use.
 
 use crate::common::{SMALL, folder, limited, shearbed};
 use std::fs;
@@ -20,11 +21,7 @@ fn a_request_without_an_end_is_refused() {
         let limits = "ulimit -v 1000000; exec </dev/zero";
         let echo = limited(folder().path(), limits, &format!("grade --echo --protocol {protocol}"));
         assert_eq!(echo.code, Some(2), "{}", echo.stderr);
-        assert!(
-            echo.stderr.starts_with("error: --echo: a line is longer than 1048576 bytes"),
-            "{}",
-            echo.stderr
-        );
+        assert!(echo.stderr.starts_with("error: --echo: a line is longer than 1048576 bytes"), "{}", echo.stderr);
     }
 }
 
@@ -41,8 +38,7 @@ fn a_command_with_little_memory_does_its_work_or_is_refused() {
         "run small.toml --out y",
     ] {
         for limit in [80_000, 130_000, 200_000] {
-            let ended =
-                limited(dir.path(), &format!("export RAYON_NUM_THREADS=2; ulimit -v {limit}"), arguments);
+            let ended = limited(dir.path(), &format!("export RAYON_NUM_THREADS=2; ulimit -v {limit}"), arguments);
             // Some need less.
             let runs = ended.code == Some(0);
             let refused = ended.code == Some(2) && ended.stderr.starts_with("error: ");

@@ -25,8 +25,7 @@ fn asked() -> String {
 }
 
 fn free(text: &str) -> String {
-    text.replace("[interaction]\nconcentration_per_cm3 = 50\nalpha = 0.5\n", "")
-        .replace("steps_per_period = 200\n", "")
+    text.replace("[interaction]\nconcentration_per_cm3 = 50\nalpha = 0.5\n", "").replace("steps_per_period = 200\n", "")
 }
 
 #[test]
@@ -104,8 +103,7 @@ fn lines_for_paraview_are_the_rows_of_the_table() {
         let name = format!("rods_{time:04}_replica_{replica}.vtp");
         let own = |k: &usize| k / 20 % 3 == time && k / 60 == replica;
         let own: Vec<_> = (0..180).filter(own).map(|k| &rows[k]).collect();
-        let listed =
-            format!("<DataSet timestep=\"{}\" part=\"{replica}\" file=\"{name}\"/>", own[0]["time_s"]);
+        let listed = format!("<DataSet timestep=\"{}\" part=\"{replica}\" file=\"{name}\"/>", own[0]["time_s"]);
         assert!(collection.contains(&listed), "{collection}");
         let text = read(&name);
         assert!(text.contains("NumberOfPoints=\"40\"") && text.contains("NumberOfLines=\"20\""));
@@ -115,8 +113,7 @@ fn lines_for_paraview_are_the_rows_of_the_table() {
         assert_eq!(array(&text, "connectivity"), counting);
         assert_eq!(array(&text, "offsets"), (1..=20).map(|k| 2.0 * f64::from(k)).collect::<Vec<_>>());
         for (k, row) in own.iter().enumerate() {
-            for (axis, (x, p_name)) in [("x1_mm", "p1"), ("x2_mm", "p2"), ("x3_mm", "p3")].iter().enumerate()
-            {
+            for (axis, (x, p_name)) in [("x1_mm", "p1"), ("x2_mm", "p2"), ("x3_mm", "p3")].iter().enumerate() {
                 let (tail, head) = (ends[6 * k + axis], ends[6 * k + 3 + axis]);
                 assert!((0.5 * (tail + head) - number(row, x)).abs() < 1e-14 * 10.0);
                 assert!((head - tail - 0.72 * number(row, p_name)).abs() < 1e-14 * 10.0);
@@ -141,8 +138,7 @@ fn lines_for_paraview_are_the_rows_of_the_table() {
 fn every_kth_output_is_the_list_of_their_times() {
     let dir = folder();
     let table = |keys: &str| {
-        fs::write(dir.path().join("s.toml"), SMALL.replace("[output]", &format!("[output]\n{keys}")))
-            .unwrap();
+        fs::write(dir.path().join("s.toml"), SMALL.replace("[output]", &format!("[output]\n{keys}"))).unwrap();
         let done = shearbed(dir.path(), "run s.toml --out a --quiet --force");
         assert_eq!(done.code, Some(0), "{}", done.stderr);
         fs::read(dir.path().join("a/rods.csv")).unwrap()
@@ -173,17 +169,9 @@ fn what_cannot_be_written_is_refused_by_its_key() {
         "sweep s.toml --over particles.count=2,3",
         "s.toml: output.rods_every: a sweep writes no rods",
     );
-    refused(
-        &asked(),
-        "sweep s.toml --over particles.count=2,3",
-        "s.toml: output.rods_at: a sweep writes no rods",
-    );
+    refused(&asked(), "sweep s.toml --over particles.count=2,3", "s.toml: output.rods_at: a sweep writes no rods");
     let many = asked().replace("count = 20", "count = 100000").replace("replicas = 3", "replicas = 10000000");
-    refused(
-        &many,
-        "run s.toml",
-        "output.rods_at = [0.0, 0.5, 1.0]: 3 times of 100000 rods in each of 10000000",
-    );
+    refused(&many, "run s.toml", "output.rods_at = [0.0, 0.5, 1.0]: 3 times of 100000 rods in each of 10000000");
     refused(&many, "plan s.toml", "output.rods_at = ");
     assert!(!dir.path().join("out").exists());
 }

@@ -9,9 +9,7 @@ fn without_means(text: &str) -> String {
     let bars = |line: &str| line.trim_start().starts_with(|c| ('▁'..='█').contains(&c));
     let lines = text.lines().map(|line| match line {
         line if bars(line) => "       bars",
-        line if line.contains(" ± ") && !line.starts_with("Means") => {
-            line.get(..7).unwrap_or(line).trim_end()
-        }
+        line if line.contains(" ± ") && !line.starts_with("Means") => line.get(..7).unwrap_or(line).trim_end(),
         line => line.trim_end(),
     });
     lines.collect::<Vec<_>>().join("\n")
@@ -26,15 +24,17 @@ fn a_run_writes_a_table_and_a_picture_of_each_observable_and_a_record() {
     let out = dir.path().join("out/small");
     let columns: Vec<_> = names(&out)
         .into_iter()
-        .map(|name| match name.ends_with(".csv") {
-            true => format!("{name}: {}\n", read(&out.join(&name)).lines().next().unwrap()),
-            false => name + "\n",
+        .map(|name| {
+            if name.ends_with(".csv") {
+                format!("{name}: {}\n", read(&out.join(&name)).lines().next().unwrap())
+            } else {
+                name + "\n"
+            }
         })
         .collect();
     insta::assert_snapshot!(columns.concat());
     let record: Value = serde_json::from_str(&read(&out.join("run.json"))).unwrap();
-    let files: Vec<_> =
-        record["files"].as_array().unwrap().iter().map(|name| name.as_str().unwrap()).collect();
+    let files: Vec<_> = record["files"].as_array().unwrap().iter().map(|name| name.as_str().unwrap()).collect();
     assert!(files.iter().all(|name| out.join(name).is_file()));
     // And run.json and shearbed.json.
     assert_eq!(files.len() + 2, names(&out).len());
@@ -45,8 +45,7 @@ fn what_a_run_prints_is_in_its_tables() {
     let dir = unequal();
     let printed = shearbed(dir.path(), "run small.toml").stdout;
     let table = read(&dir.path().join("out/small/projections.csv"));
-    let x1: Vec<f64> =
-        (table.lines().skip(1)).map(|line| line.split(',').nth(3).unwrap().parse().unwrap()).collect();
+    let x1: Vec<f64> = (table.lines().skip(1)).map(|line| line.split(',').nth(3).unwrap().parse().unwrap()).collect();
     let line = printed.lines().find(|line| line.starts_with("x1 ")).unwrap();
     let least = x1.iter().copied().fold(f64::INFINITY, f64::min);
     for number in [x1[0], x1[4], least] {
@@ -61,10 +60,7 @@ fn what_a_run_prints_is_in_its_tables() {
 #[test]
 fn the_scene_in_run_json_gives_the_same_bits() {
     let dir = unequal();
-    assert_eq!(
-        shearbed(dir.path(), "run small.toml --replicas 4 --seed 7 --threads 2 --out a").code,
-        Some(0)
-    );
+    assert_eq!(shearbed(dir.path(), "run small.toml --replicas 4 --seed 7 --threads 2 --out a").code, Some(0));
     let record: Value = serde_json::from_str(&read(&dir.path().join("a/run.json"))).unwrap();
     assert_eq!((&record["seed"], &record["threads"]), (&7.into(), &2.into()));
     let scene: shearbed::Scene = serde_json::from_value(record["scene"].clone()).unwrap();

@@ -15,14 +15,10 @@ fn keys_are_set_on_the_command_line_as_a_file_would() {
         .replace("alpha = 0.5", "alpha = 0.25\nupdate = \"angles\"")
         .replace("count = 20", "count = 7")
         .replace("replicas = 3", "replicas = 3\nseed = 9");
-    let text =
-        text.split("[output]").next().unwrap().to_owned() + "[output]\nobservables = [\"mean_angle\"]\n";
+    let text = text.split("[output]").next().unwrap().to_owned() + "[output]\nobservables = [\"mean_angle\"]\n";
     fs::write(dir.path().join("other.toml"), text).unwrap();
     assert_eq!(shearbed(dir.path(), "run other.toml --quiet --out b").code, Some(0));
-    assert_eq!(
-        names(&dir.path().join("a")),
-        ["mean_angle.csv", "mean_angle.svg", "run.json", "shearbed.json"]
-    );
+    assert_eq!(names(&dir.path().join("a")), ["mean_angle.csv", "mean_angle.svg", "run.json", "shearbed.json"]);
     assert_eq!(read(&dir.path().join("a/mean_angle.csv")), read(&dir.path().join("b/mean_angle.csv")));
     assert!(shearbed(dir.path(), "plan small.toml --set particles.count=7").stdout.contains("\n7 rods, "));
 
@@ -30,13 +26,11 @@ fn keys_are_set_on_the_command_line_as_a_file_would() {
         ("--set alpha=1", "small.toml --set alpha=1: alpha = 1: unknown key `alpha`, expected one of"),
         ("--set alpha=1", "; did you mean interaction.alpha?"),
         ("--set particles.count=0", "particles.count = 0 is not allowed: expected a whole number from 1 to"),
-        (
-            "--set particles.count=20.0",
-            "particles.count = 20.0 is not allowed: expected a whole number from 1 to",
-        ),
+        ("--set particles.count=20.0", "particles.count = 20.0 is not allowed: expected a whole number from 1 to"),
         (
             "--set ensemble.seed=9223372036854775808",
-            "ensemble.seed = 9.223372036854776e18 is not allowed: expected a whole number from 0 to 9223372036854775807",
+            "ensemble.seed = 9.223372036854776e18 is not allowed: expected a whole number from 0 to \
+                9223372036854775807",
         ),
         ("--set particles.count=1,2", "\"1,2\" is no value"),
         ("--set particles.count=1:3:3", "\"1:3:3\" is no value"),
@@ -97,8 +91,7 @@ fn a_sweep_and_a_study_set_keys_as_a_run_does() {
     // Spheres and two periods need few steps.
     succeeds("converge fig6-uniform --set particles.aspect_ratio=1 --set time.periods=2 --quiet --out e");
     let own = shearbed_validation::input::scenes::find("fig6-uniform").unwrap().text;
-    let spheres =
-        own.replace("aspect_ratio = 11.6", "aspect_ratio = 1").replace("periods = 6", "periods = 2");
+    let spheres = own.replace("aspect_ratio = 11.6", "aspect_ratio = 1").replace("periods = 6", "periods = 2");
     assert_ne!(spheres, own);
     fs::write(dir.path().join("spheres.toml"), spheres).unwrap();
     succeeds("converge spheres.toml --quiet --out f");
@@ -150,8 +143,7 @@ fn a_long_integer_is_the_number_that_it_is() {
 #[test]
 fn a_scene_of_dots_has_a_folder_below_out() {
     let dir = unequal();
-    for (name, out) in
-        [("..toml", "out/scene"), ("...toml", "out/scene"), (".a.toml", "out/a"), ("a..toml", "out/a.")]
+    for (name, out) in [("..toml", "out/scene"), ("...toml", "out/scene"), (".a.toml", "out/a"), ("a..toml", "out/a.")]
     {
         fs::copy(dir.path().join("small.toml"), dir.path().join(name)).unwrap();
         let ended = shearbed(dir.path(), &format!("run {name} --force"));

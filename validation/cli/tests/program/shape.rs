@@ -10,14 +10,9 @@ fn every_formula_is_listed_with_its_value_and_source_the_spread_first() {
     assert_eq!(done.code, Some(0), "{}", done.stderr);
     let first = done.stdout.lines().next().unwrap();
     assert_eq!(first, "a cylinder of r = 20: r_e from 14.096 to 14.328, a spread of 1.6 %");
-    for text in [
-        "14.160  Goldsmith",
-        "14.328  Cox",
-        "Harris & Pittman",
-        "UNCHECKED",
-        "14.096  Zhang",
-        "J. Fluid Mech. 45",
-    ] {
+    for text in
+        ["14.160  Goldsmith", "14.328  Cox", "Harris & Pittman", "UNCHECKED", "14.096  Zhang", "J. Fluid Mech. 45"]
+    {
         assert!(done.stdout.contains(text), "no {text} in {}", done.stdout);
     }
 }
@@ -26,24 +21,14 @@ fn every_formula_is_listed_with_its_value_and_source_the_spread_first() {
 fn a_formula_without_a_meaning_gives_no_number() {
     let done = shearbed(Path::new("."), "shape --physical 500");
     assert_eq!(done.code, Some(0));
-    assert!(
-        done.stdout.contains("none  Goldsmith") && done.stdout.contains("none  Zhang"),
-        "{}",
-        done.stdout
-    );
+    assert!(done.stdout.contains("none  Goldsmith") && done.stdout.contains("none  Zhang"), "{}", done.stdout);
 }
 
 #[test]
 fn bad_input_says_what_is_allowed() {
-    for bad in [
-        "--physical 1",
-        "--physical -3",
-        "--physical nan",
-        "--physical inf",
-        "--physical 1001",
-        "--physical x",
-        "",
-    ] {
+    for bad in
+        ["--physical 1", "--physical -3", "--physical nan", "--physical inf", "--physical 1001", "--physical x", ""]
+    {
         let done = shearbed(Path::new("."), &format!("shape {bad}"));
         assert_eq!(done.code, Some(2), "{bad}");
         let named = if bad.is_empty() { "--physical" } else { "a number from 2 to 1000 is allowed" };
@@ -77,10 +62,7 @@ fn a_cylinder_is_given_by_its_own_aspect_ratio_and_a_formula() {
     let again: shearbed::Scene = serde_json::from_value(record["scene"].clone()).unwrap();
     assert_eq!(again.particles.aspect_ratio, found);
     for (change, said) in [
-        (
-            format!("aspect_ratio = 3\n{cylinder}"),
-            "c.toml:7: particles.aspect_ratio = 3 is not allowed: either",
-        ),
+        (format!("aspect_ratio = 3\n{cylinder}"), "c.toml:7: particles.aspect_ratio = 3 is not allowed: either"),
         (String::new(), "c.toml:4: particles.aspect_ratio is missing: expected a number from"),
         (
             "physical_aspect_ratio = 20".into(),
@@ -91,10 +73,7 @@ fn a_cylinder_is_given_by_its_own_aspect_ratio_and_a_formula() {
             "aspect_ratio = 3\nshape_correlation = \"cox\"".into(),
             "particles.shape_correlation = \"cox\" is not allowed: it goes with",
         ),
-        (
-            cylinder.replace("20", "1.5"),
-            "particles.physical_aspect_ratio = 1.5 is not allowed: expected a number from",
-        ),
+        (cylinder.replace("20", "1.5"), "particles.physical_aspect_ratio = 1.5 is not allowed: expected a number from"),
         (
             cylinder.replace("20", "3"),
             "particles.physical_aspect_ratio = 3 is not allowed: Cox 1971 (1.24 r/√(ln r)) gives no",

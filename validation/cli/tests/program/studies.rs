@@ -62,17 +62,13 @@ fn a_free_scene_starts_where_it_says() {
     assert_eq!(code, Some(0), "{error}");
     assert!(text.lines().all(|line| line.chars().count() <= 80), "{text}");
     let text = text.replace("\n  ", " ");
-    for words in ["r_e = 3 from φ = 0.1745 and θ = 1.0472 rad (the scene's own start) over 2.", "as theory"]
-    {
+    for words in ["r_e = 3 from φ = 0.1745 and θ = 1.0472 rad (the scene's own start) over 2.", "as theory"] {
         assert!(text.contains(words), "{text}");
     }
     std::fs::write(dir.path().join("strain.toml"), scene("strain = 2")).unwrap();
     let Ended { code, stderr: error, .. } = shearbed(dir.path(), "converge strain.toml");
     assert_eq!(code, Some(2));
-    assert!(
-        error.contains("time: converge compares integrators of free rods over periods; give periods"),
-        "{error}"
-    );
+    assert!(error.contains("time: converge compares integrators of free rods over periods; give periods"), "{error}");
 }
 
 #[test]
@@ -86,8 +82,7 @@ fn a_free_scene_in_another_flow_is_refused() {
 #[test]
 fn an_interacting_scene_shows_steps_rods_and_replicas() {
     let dir = tempfile::tempdir().unwrap();
-    let Ended { code, stdout: text, stderr: error } =
-        shearbed(dir.path(), "converge fig4-n50 --replicas 4 --out here");
+    let Ended { code, stdout: text, stderr: error } = shearbed(dir.path(), "converge fig4-n50 --replicas 4 --out here");
     assert_eq!(code, Some(0), "{error}");
     for head in ["steps per period", "rods", "Paths do not converge", "not readable"] {
         assert!(text.contains(head), "{text}");
@@ -98,9 +93,7 @@ fn an_interacting_scene_shows_steps_rods_and_replicas() {
     let here = dir.path().join("here");
     let csv = std::fs::read_to_string(here.join("converge.csv")).unwrap();
     assert!(
-        csv.starts_with(
-            "against,steps_per_period,rods,replicas,x1,x1_se,x1_less_next,x1_less_next_se,correlation,"
-        ),
+        csv.starts_with("against,steps_per_period,rods,replicas,x1,x1_se,x1_less_next,x1_less_next_se,correlation,"),
         "{csv}"
     );
     // Ten numbers of steps, and six of rods of which the scene's own is run once and listed in both.

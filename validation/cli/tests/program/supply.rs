@@ -1,5 +1,5 @@
-//! docs/src/developer/dependencies.md is true, and the oracles ask for nothing of what they judge. Licences and sources are cargo-deny's:
-//! validation/deny.toml.
+//! docs/src/developer/dependencies.md is true, and the oracles ask for nothing of what they judge. Licences and sources
+//! are cargo-deny's: validation/deny.toml.
 
 use crate::common::bounded::Bounded;
 use std::collections::{BTreeMap, BTreeSet};
@@ -37,8 +37,8 @@ fn crates() -> BTreeSet<[String; 2]> {
     tree(&["shearbed-cli"], "normal,build").into_iter().map(|[name, version, _]| [name, version]).collect()
 }
 
-/// `cargo test` uses what `cargo run -- validate` has built: a package of the tests that asks for another feature of a crate of the
-/// program would have nearly everything built a second time.
+/// `cargo test` uses what `cargo run -- validate` has built: a package of the tests that asks for another feature of a
+/// crate of the program would have nearly everything built a second time.
 #[test]
 fn the_tests_ask_for_no_other_features_than_the_program() {
     let packages = ["shearbed-cli", "shearbed-validation", "shearbed", "shearbed-oracle"];
@@ -101,8 +101,7 @@ fn what_is_built_in_several_versions_is_said() {
     for [name, version] in crates() {
         versions.entry(name).or_default().insert(version);
     }
-    let several: Vec<_> =
-        versions.iter().filter(|(_, all)| all.len() > 1).map(|(name, _)| name.as_str()).collect();
+    let several: Vec<_> = versions.iter().filter(|(_, all)| all.len() > 1).map(|(name, _)| name.as_str()).collect();
     let document = text("../docs/src/developer/dependencies.md");
     let (_, said) = document.split_once("Built in more than one version: ").unwrap();
     let (said, _) = said.split_once('.').unwrap();
@@ -115,9 +114,6 @@ fn the_oracles_ask_for_nothing_of_what_they_judge() {
     let oracle = manifest("oracle/Cargo.toml");
     for (table, least) in [("dependencies", 6), ("dev-dependencies", 1)] {
         let asked_for = oracle[table].as_table().unwrap();
-        assert!(
-            asked_for.len() >= least && !asked_for.keys().any(|name| name.starts_with("shearbed")),
-            "{table}"
-        );
+        assert!(asked_for.len() >= least && !asked_for.keys().any(|name| name.starts_with("shearbed")), "{table}");
     }
 }

@@ -147,10 +147,7 @@ fn another_sweep_in_the_folder_is_refused_and_left_as_it_is() {
     for name in ["shearbed.json", "sweep.json", "sweep.csv"] {
         fs::remove_file(here.join(name)).unwrap();
         let message = refused(dir.path(), &first);
-        assert!(
-            message.contains("is here already, and no shearbed.json says that this command wrote it"),
-            "{message}"
-        );
+        assert!(message.contains("is here already, and no shearbed.json says that this command wrote it"), "{message}");
     }
     // By force all is new, and nothing of before is left.
     succeeds(dir.path(), &format!("{first} --force"));
@@ -161,16 +158,18 @@ fn another_sweep_in_the_folder_is_refused_and_left_as_it_is() {
     succeeds(dir.path(), &format!("{first} --force"));
     assert_eq!(files(&here), kept_before);
 
-    // A file that is gone is written again; what is of another sweep goes by force, what somebody put beside it does not.
+    // A file that is gone is written again; what is of another sweep goes by force, what somebody put beside it does
+    // not.
     fs::remove_file(here.join("sweep.json")).unwrap();
     succeeds(dir.path(), &first);
     assert_eq!(files(&here), kept_before);
     let other = first.replace("small.toml", "other.toml");
     fs::write(dir.path().join("other.toml"), SMALL.replace("count = 20", "count = 21")).unwrap();
     for mine in ["points/1/notes.txt", "points/2/mine"] {
-        match mine.ends_with(".txt") {
-            true => fs::write(here.join(mine), "notes").unwrap(),
-            false => fs::create_dir(here.join(mine)).unwrap(),
+        if mine.ends_with(".txt") {
+            fs::write(here.join(mine), "notes").unwrap()
+        } else {
+            fs::create_dir(here.join(mine)).unwrap()
         }
         let kept = files(&here);
         let message = refused(dir.path(), &format!("{other} --force"));
@@ -213,7 +212,8 @@ fn bad_input_is_refused_before_anything_runs() {
         ),
         (
             "particles.count=10:20:4",
-            "small.toml: --over particles.count=13.333333333333334 (point 2 of 4): particles.count = 13.333333333333334 is not allowed: expected a whole number from 1 to 100000000",
+            "small.toml: --over particles.count=13.333333333333334 (point 2 of 4): particles.count = \
+                13.333333333333334 is not allowed: expected a whole number from 1 to 100000000",
         ),
         (
             "interaction.alpha=0.5:-0.5:3",
@@ -221,7 +221,8 @@ fn bad_input_is_refused_before_anything_runs() {
         ),
         (
             "interaction.update=rotation,angels",
-            "(point 2 of 2): interaction.update = \"angels\" is not allowed: expected \"rotation\", \"angles\" or \"kick\"",
+            "(point 2 of 2): interaction.update = \"angels\" is not allowed: expected \"rotation\", \"angles\" or \
+                \"kick\"",
         ),
         ("interaction.alpa=1,2", "unknown key `alpa`, expected one of"),
         ("alpha=1,2", "unknown key `alpha`, expected one of"),
@@ -237,10 +238,7 @@ fn bad_input_is_refused_before_anything_runs() {
         ("output.observables=[\"projections\"],[\"mean_angle\"]", "all points have the same columns"),
         ("interaction.alpha=1,2 --over interaction.alpha=3", "both set it; one of the two is allowed"),
         ("ensemble.seed=1,2 --seed 3", "--seed and --over ensemble.seed: both set ensemble.seed"),
-        (
-            "ensemble.replicas=1,2 --replicas 3",
-            "--replicas and --over ensemble.replicas: both set ensemble.replicas",
-        ),
+        ("ensemble.replicas=1,2 --replicas 3", "--replicas and --over ensemble.replicas: both set ensemble.replicas"),
         ("interaction.alpha=0:1:1000 --over interaction.m=1:2:1000", "more than 100000 points"),
     ] {
         let message = refused(dir.path(), &format!("sweep small.toml --over {over}"));

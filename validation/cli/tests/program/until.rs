@@ -25,7 +25,8 @@ fn run(dir: &Path, arguments: &str) -> String {
     ended.stdout
 }
 
-/// Replicas are added to a finished run with a checkpoint, a part of it or none; the folder's earlier results are replaced.
+/// Replicas are added to a finished run with a checkpoint, a part of it or none; the folder's earlier results are
+/// replaced.
 #[test]
 fn more_replicas_of_an_old_run_are_one_run() {
     let dir = folder();
@@ -39,9 +40,8 @@ fn more_replicas_of_an_old_run_are_one_run() {
         for (threads, numbers) in [(1, [1, 4, 11]), (2, [1, 2, 11]), (2, [3, 3, 11])] {
             let name = format!("{threads}-{}-{}-{scene}", numbers[0], numbers[1]);
             for replicas in numbers {
-                let command = format!(
-                    "{scene} --threads {threads} --replicas {replicas} --checkpoint k-{name} --out {name}"
-                );
+                let command =
+                    format!("{scene} --threads {threads} --replicas {replicas} --checkpoint k-{name} --out {name}");
                 run(dir, &command);
                 let whole = format!("whole-{replicas}-{scene}");
                 run(dir, &format!("{scene} --replicas {replicas} --out {whole}"));
@@ -92,14 +92,13 @@ fn record(dir: &Path) -> Value {
     serde_json::from_str(&read(&dir.join("run.json"))).unwrap()
 }
 
-/// With 1 and 2 threads, with a checkpoint and without, at once and after a larger value: the number of replicas at which the
-/// standard error is small enough, and the bits of a run of that number.
+/// With 1 and 2 threads, with a checkpoint and without, at once and after a larger value: the number of replicas at
+/// which the standard error is small enough, and the bits of a run of that number.
 #[test]
 fn replicas_are_added_until_the_standard_error_holds() {
     let dir = folder();
     let dir = dir.path();
-    for (k, options) in ["--threads 1", "--threads 2", "--threads 2 --checkpoint at-once"].iter().enumerate()
-    {
+    for (k, options) in ["--threads 1", "--threads 2", "--threads 2 --checkpoint at-once"].iter().enumerate() {
         run(dir, &format!("small.toml --until-se x1=0.008 {options} --out until-{k}"));
     }
     run(dir, "small.toml --until-se x1=0.01 --checkpoint grows --out until-3 --threads 1");
@@ -140,26 +139,19 @@ fn a_time_limit_keeps_what_there_is_and_says_what_was_reached() {
         let command = format!("run small.toml --until-se x1=1e-9 --time-limit 0.3s --out limit-{k}{options}");
         let ended = shearbed(dir, &command);
         assert_eq!(ended.code, Some(1), "{}", ended.stderr);
-        let said = "error: --until-se was not reached: the time limit of 0.3 s came first; largest standard error of x1: ";
+        let said =
+            "error: --until-se was not reached: the time limit of 0.3 s came first; largest standard error of x1: ";
         assert!(ended.stderr.contains(said), "{}", ended.stderr);
         let found = record(&dir.join(format!("limit-{k}")));
         let replicas = found["scene"]["ensemble"]["replicas"].as_u64().unwrap();
-        assert!(
-            replicas >= 2 && ended.stderr.contains(&format!(" after {replicas} replicas")),
-            "{}",
-            ended.stderr
-        );
-        assert_eq!(
-            (&found["until_se"]["holds"], &found["until_se"]["time_limit_s"]),
-            (&false.into(), &0.3.into())
-        );
+        assert!(replicas >= 2 && ended.stderr.contains(&format!(" after {replicas} replicas")), "{}", ended.stderr);
+        assert_eq!((&found["until_se"]["holds"], &found["until_se"]["time_limit_s"]), (&false.into(), &0.3.into()));
         run(dir, &format!("small.toml --replicas {replicas} --out whole-{k}"));
         assert!(results(&dir.join(format!("limit-{k}"))) == results(&dir.join(format!("whole-{k}"))));
     }
     // What the limit left goes on to the same end as a run without it.
     run(dir, "small.toml --until-se x1=0.02 --out whole");
-    let ended =
-        shearbed(dir, "run small.toml --until-se x1=0.02 --time-limit 0.01s --checkpoint short --out a");
+    let ended = shearbed(dir, "run small.toml --until-se x1=0.02 --time-limit 0.01s --checkpoint short --out a");
     assert!(matches!(ended.code, Some(0 | 1)), "{}", ended.stderr);
     run(dir, "small.toml --until-se x1=0.02 --checkpoint short --out a");
     assert!(results(&dir.join("a")) == results(&dir.join("whole")));
@@ -179,10 +171,7 @@ fn messages_name_what_is_allowed() {
         ("small.toml --until-se x1=NaN", "a column and a number above 0 are allowed"),
         ("small.toml --until-se x1=inf", "a column and a number above 0 are allowed"),
         ("small.toml --until-se x1=0.1 --until-se x1=0.2", "the column is named twice; once is allowed"),
-        (
-            "small.toml --until-se x1=0.1 --replicas 9",
-            "--until-se finds the number; one of the two is allowed",
-        ),
+        ("small.toml --until-se x1=0.1 --replicas 9", "--until-se finds the number; one of the two is allowed"),
         ("small.toml --until-se x1=0.1 --set ensemble.replicas=9", "one of the two is allowed"),
         ("small.toml --until-se x1=0.1 --time-limit 10", "as 90s, 10min or 1.5h"),
         ("small.toml --until-se x1=0.1 --time-limit=-1s", "a time from 0.01s to 8760h is allowed"),

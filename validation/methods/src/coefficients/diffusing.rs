@@ -1,5 +1,5 @@
-//! Synthetic rods that turn by Jeffery's equation and by rotary diffusion: Folgar & Tucker's model itself, rod by rod, sharing no
-//! code with the core.
+//! Synthetic rods that turn by Jeffery's equation and by rotary diffusion: Folgar & Tucker's model itself, rod by rod,
+//! sharing no code with the core.
 
 use super::{Means, watched};
 use nalgebra::{Matrix3, Vector3};
@@ -60,9 +60,9 @@ impl Diffusing {
         }
     }
 
-    /// Half a step of Jeffery's equation, a step of diffusion, half a step of Jeffery's equation. The diffusion is that of
-    /// ∇·(C·∇ψ) on the sphere (Phelps & Tucker 2009): a random step in space, made a direction again, and a drift −C·p, which an
-    /// isotropic C does not have across p.
+    /// Half a step of Jeffery's equation, a step of diffusion, half a step of Jeffery's equation. The diffusion is that
+    /// of ∇·(C·∇ψ) on the sphere (Phelps & Tucker 2009): a random step in space, made a direction again, and a drift
+    /// −C·p, which an isotropic C does not have across p.
     pub fn step(&mut self) {
         let drift = self.diffusion.diffusivity * self.diffusion.strain;
         for p in &mut self.rods {
@@ -72,7 +72,8 @@ impl Diffusing {
         }
     }
 
-    /// The means over `steps` steps, with J as what is beyond a motion `alone` ([`free`] of the rods' own Λ and strain of a step).
+    /// The means over `steps` steps, with J as what is beyond a motion `alone` ([`free`] of the rods' own Λ and strain
+    /// of a step).
     pub fn means(&mut self, alone: &Matrix3<f64>, steps: usize) -> Means {
         let (strain, start) = (self.diffusion.strain, self.rods.clone());
         let mut next = || {

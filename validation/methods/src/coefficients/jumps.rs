@@ -1,4 +1,5 @@
-//! How far the rods of one replica deviate from Jeffery's motion after a fixed strain, a jump, and their orbits and phases there.
+//! How far the rods of one replica deviate from Jeffery's motion after a fixed strain, a jump, and their orbits and
+//! phases there.
 
 use super::free;
 use nalgebra::Vector3;
@@ -97,7 +98,8 @@ pub struct Watch {
 }
 
 impl Watch {
-    /// Jumps over a strain of about 1, in the steps of the scene: `before` periods without counting, then `periods` with it.
+    /// Jumps over a strain of about 1, in the steps of the scene: `before` periods without counting, then `periods`
+    /// with it.
     pub fn new(scene: &Scene, before: f64, periods: f64) -> Self {
         let period = strain_per_period(scene.particles.aspect_ratio);
         let strain = period / scene.steps_per_unit() as f64;
@@ -114,11 +116,7 @@ impl Watch {
 
 /// The shares of rods that `next` takes through one jump after the other; NaN if it stops.
 // Not generic, so that it is compiled in this crate, which is optimised, and not in the suite, which is not.
-pub fn observed(
-    aspect_ratio: f64,
-    watch: Watch,
-    next: &mut dyn FnMut() -> Option<Vec<Vector3<f64>>>,
-) -> Shares {
+pub fn observed(aspect_ratio: f64, watch: Watch, next: &mut dyn FnMut() -> Option<Vec<Vector3<f64>>>) -> Shares {
     let carry = free(shape_factor(aspect_ratio), watch.length());
     let mut values: [Vec<f64>; 4] = Default::default();
     let mut last: Vec<Vector3<f64>> = Vec::new();
@@ -178,8 +176,7 @@ mod tests {
             let [angle, change, orbit, phase] = seen(RATIO, &from, &(carry * from), &to);
             assert!(angle < 1e-15 && change < 1e-15, "{angle} {change}");
             // C of eq. 13, and A.4: tan φ = r_e tan(phase) with the phase growing by γ/(r_e + 1/r_e).
-            let c = 1.1_f64.tan() * (RATIO.powi(2) * 0.3_f64.cos().powi(2) + 0.3_f64.sin().powi(2)).sqrt()
-                / RATIO;
+            let c = 1.1_f64.tan() * (RATIO.powi(2) * 0.3_f64.cos().powi(2) + 0.3_f64.sin().powi(2)).sqrt() / RATIO;
             assert!((orbit - c / (1.0 + c)).abs() < 1e-14);
             let after = (0.3_f64.tan() / RATIO).atan() + 1.0 / (RATIO + 1.0 / RATIO);
             assert!((phase - after / FRAC_PI_2).abs() < 1e-14);
@@ -216,8 +213,7 @@ mod tests {
 
     #[test]
     fn only_samples_that_differ_are_told_apart() {
-        let p =
-            |mean: f64, seed: u64| apart(&made(0.0, seed), &made(mean, 1000 + seed), Quantity::Orbit, seed).p;
+        let p = |mean: f64, seed: u64| apart(&made(0.0, seed), &made(mean, 1000 + seed), Quantity::Orbit, seed).p;
         let trials = 200;
         let low = (0..trials).filter(|seed| p(0.0, *seed) <= 0.1).count() as f64;
         // A p-value is at most 0.1 in a tenth of the trials, to five standard errors of a share of 200: 0.106.

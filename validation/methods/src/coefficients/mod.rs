@@ -1,11 +1,12 @@
-//! The effect of collisions on ⟨pp⟩ in the terms of fibre-orientation codes: Folgar & Tucker's coefficient C_I, with ⟨pppp⟩ measured
-//! instead of closed.
+//! The effect of collisions on ⟨pp⟩ in the terms of fibre-orientation codes: Folgar & Tucker's coefficient C_I, with
+//! ⟨pppp⟩ measured instead of closed.
 //!
 //! In plane Couette flow, per unit of strain,
 //!   da/dγ = W·a − a·W + Λ(D·a + a·D − 2 ⟨pp p₁p₂⟩) + J,
-//! which is exact for free rods with J = 0. J = Σ(p′p′ − pp)/(rods × strain) over the steps of all rods, from the direction p that
-//! Jeffery's motion alone would have given to the direction p′ that came. Folgar & Tucker (1984) put J = 2 C_I (1 − 3a); C_I is the
-//! best factor by least squares over all nine components. Koch (1995) has an anisotropic diffusivity.
+//! which is exact for free rods with J = 0. J = Σ(p′p′ − pp)/(rods × strain) over the steps of all rods, from the
+//! direction p that Jeffery's motion alone would have given to the direction p′ that came. Folgar & Tucker (1984) put J
+//! = 2 C_I (1 − 3a); C_I is the best factor by least squares over all nine components. Koch (1995) has an anisotropic
+//! diffusivity.
 
 mod diffusing;
 pub mod jumps;
@@ -85,8 +86,8 @@ impl Means {
         [Matrix3::identity() * self.sixth.trace(), self.sixth]
     }
 
-    /// β₁ and β₂ of C = β₁ (D:⟨pppp⟩:D) δ/G² + β₂ D:⟨pppppp⟩:D/G² (Koch 1995) by least squares over the nine components of J, and
-    /// the relative residual.
+    /// β₁ and β₂ of C = β₁ (D:⟨pppp⟩:D) δ/G² + β₂ D:⟨pppppp⟩:D/G² (Koch 1995) by least squares over the nine components
+    /// of J, and the relative residual.
     pub fn koch(&self) -> ([f64; 2], f64) {
         let parts = self.diffusivities_of_koch().map(|c| self.diffused(&c));
         let normal = Matrix2::from_fn(|i, j| parts[i].dot(&parts[j]));

@@ -7,8 +7,9 @@ use nalgebra::{Matrix3, Vector3, Vector6};
 /// Moments change little in a step: every tenth step's are taken.
 const EVERY: usize = 10;
 
-/// The means over `steps` steps of the rods of one replica, each of the given strain, over which Jeffery's motion is `free`
-/// ([`super::free`]): from the directions at the `start` through those that `next` returns after each step. `None` if `next` stops.
+/// The means over `steps` steps of the rods of one replica, each of the given strain, over which Jeffery's motion is
+/// `free` ([`super::free`]): from the directions at the `start` through those that `next` returns after each step.
+/// `None` if `next` stops.
 // Not generic, so that it is compiled in this crate, which is optimised, and not in the suite, which is not.
 pub fn watched(
     free: &Matrix3<f64>,
@@ -89,7 +90,8 @@ mod tests {
         let means = found(2000, 4000, diffusivity);
         let due = means.diffused(&diffusivity);
         let off = |due: Matrix3<f64>| (means.gain - due).amax() / due.norm();
-        // A step of pδ + δp with δ of variance 2C·0.01 scatters by 0.018: 0.74 % of |J| in the mean of 8·10⁶, five of which are allowed.
+        // A step of pδ + δp with δ of variance 2C·0.01 scatters by 0.018: 0.74 % of |J| in the mean of 8·10⁶, five of
+        // which are allowed.
         assert!(off(due) < 0.037, "{} {} {due}", off(due), means.gain);
         // One C_I says something else, and so does the operator without the drift.
         assert!(means.misfit() > 0.1, "{}", means.misfit());

@@ -49,8 +49,7 @@ pub fn radau() -> Integrator {
     Integrator::new("Radau IIA 5", Theory::Adaptive, |problem, start, setting| {
         let (tolerance, end) = (setting.tolerance()?, problem.strain());
         // One tolerance per component: version 0.7 rescales a single tolerance once per component.
-        let method =
-            ImplicitRungeKutta::radau5().rtol([tolerance; 3]).atol([tolerance; 3]).max_steps(MOST_STEPS);
+        let method = ImplicitRungeKutta::radau5().rtol([tolerance; 3]).atol([tolerance; 3]).max_steps(MOST_STEPS);
         let solution = IVP::ode(problem, 0.0, end, start.into_inner().into())
             .method(method)
             .solve()

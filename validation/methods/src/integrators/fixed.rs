@@ -30,13 +30,9 @@ pub(super) fn all() -> [Integrator; 4] {
         Integrator::in_angles("explicit Euler in angles", 1, |problem, angles, h| {
             explicit_euler(|y| problem.angle_rates(&y), angles, h)
         }),
-        Integrator::in_angles("RK4 in angles", 4, |problem, angles, h| {
-            rk4(|y| problem.angle_rates(&y), angles, h)
-        }),
+        Integrator::in_angles("RK4 in angles", 4, |problem, angles, h| rk4(|y| problem.angle_rates(&y), angles, h)),
         Integrator::in_p("RK4 in p", 4, |problem, p, h| rk4(|y| problem.rate(&y), p, h)),
-        Integrator::in_p("projected RK4 in p", 4, |problem, p, h| {
-            rk4(|y| problem.rate(&y), p, h).normalize()
-        })
-        .keeping_length(),
+        Integrator::in_p("projected RK4 in p", 4, |problem, p, h| rk4(|y| problem.rate(&y), p, h).normalize())
+            .keeping_length(),
     ]
 }

@@ -4,8 +4,7 @@ use super::{Failure, RodProblem, Setting, Theory};
 use nalgebra::{SVector, UnitVector3, Vector2, Vector3};
 
 type Advance = dyn Fn(&RodProblem, &UnitVector3<f64>, Setting) -> Result<Vector3<f64>, Failure> + Send + Sync;
-type AdvanceAll =
-    dyn Fn(&RodProblem, &[UnitVector3<f64>], Setting) -> Result<Vec<Vector3<f64>>, Failure> + Send + Sync;
+type AdvanceAll = dyn Fn(&RodProblem, &[UnitVector3<f64>], Setting) -> Result<Vec<Vector3<f64>>, Failure> + Send + Sync;
 
 /// A method that turns a free rod.
 pub struct Integrator {
@@ -20,21 +19,18 @@ pub struct Integrator {
 }
 
 impl Integrator {
-    /// An integrator from `advance`, which returns the direction at the end of a problem for a start. It does not claim to keep |p| = 1.
-    pub fn new(
-        name: impl Into<String>,
-        theory: Theory,
-        advance: impl Fn(&RodProblem, &UnitVector3<f64>, Setting) -> Result<Vector3<f64>, Failure>
-        + Send
-        + Sync
-        + 'static,
-    ) -> Self {
+    /// An integrator from `advance`, which returns the direction at the end of a problem for a start. It does not claim
+    /// to keep |p| = 1.
+    pub fn new<F>(name: impl Into<String>, theory: Theory, advance: F) -> Self
+    where
+        F: Fn(&RodProblem, &UnitVector3<f64>, Setting) -> Result<Vector3<f64>, Failure> + Send + Sync + 'static,
+    {
         let name = name.into();
         Self { name, theory, keeps_length: false, advance: Box::new(advance), advance_all: None }
     }
 
-    /// An integrator of order `order` that steps p with equal steps: `step` returns p after a step of length h in 1/G, or NaN if the step
-    /// fails.
+    /// An integrator of order `order` that steps p with equal steps: `step` returns p after a step of length h in 1/G,
+    /// or NaN if the step fails.
     pub fn in_p(
         name: &str,
         order: u32,
@@ -45,7 +41,8 @@ impl Integrator {
         })
     }
 
-    /// An integrator of order `order` that steps (φ, θ) in rad with equal steps of length h in 1/G. Angles have no length to lose.
+    /// An integrator of order `order` that steps (φ, θ) in rad with equal steps of length h in 1/G. Angles have no
+    /// length to lose.
     pub fn in_angles(
         name: &str,
         order: u32,

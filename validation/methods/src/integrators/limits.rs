@@ -65,8 +65,8 @@ const RODS: u32 = 512;
 /// Number of rods that are stepped at once.
 const PART: u32 = 64;
 
-/// The longest step up to which `holds` is true on the ladder, refined by bisection between the last rung where it is true
-/// and the first where it is false.
+/// The longest step up to which `holds` is true on the ladder, refined by bisection between the last rung where it is
+/// true and the first where it is false.
 pub fn bisect(ladder: Ladder, holds: impl Fn(f64) -> bool) -> Limit {
     let mut good = ladder.least;
     if !holds(good) {
@@ -81,10 +81,7 @@ pub fn bisect(ladder: Ladder, holds: impl Fn(f64) -> bool) -> Limit {
             let (mut low, mut high) = (good, next);
             while high - low > 1e-7 * low {
                 let middle = 0.5 * (low + high);
-                match holds(middle) {
-                    true => low = middle,
-                    false => high = middle,
-                }
+                if holds(middle) { low = middle } else { high = middle }
             }
             return Limit::At(low);
         }
@@ -103,9 +100,7 @@ pub fn holds(subject: &Integrator, property: Property, aspect_ratio: f64, strain
             let mut pairs = rods.windows(2);
             pairs.all(|pair| forward(&pair[0].1, &pair[1].1))
         }),
-        Property::Turning => {
-            stepped(0.0, 0).all(|rods| rods.iter().all(|(before, after)| forward(before, after)))
-        }
+        Property::Turning => stepped(0.0, 0).all(|rods| rods.iter().all(|(before, after)| forward(before, after))),
         Property::Side => stepped(NEAR_PLANE, 0).all(|rods| rods.iter().all(|(_, after)| after.z > 0.0)),
         Property::Length => {
             let p = UnitVector3::new_normalize(Vector3::new(1.0, 0.0, 0.0));
@@ -118,10 +113,7 @@ pub fn holds(subject: &Integrator, property: Property, aspect_ratio: f64, strain
         }
         Property::Solvable => (0..=64).all(|i| {
             (0..=16).all(|j| {
-                let p = shearbed::model::orientation::from_angles(
-                    PI * f64::from(i) / 64.0,
-                    PI * f64::from(j) / 16.0,
-                );
+                let p = shearbed::model::orientation::from_angles(PI * f64::from(i) / 64.0, PI * f64::from(j) / 16.0);
                 let end = subject.advance(&one_step(aspect_ratio, strain), &p, one(subject));
                 end.is_ok_and(|p| p.iter().all(|component| component.is_finite()))
             })

@@ -102,9 +102,10 @@ pub fn grade(
     setting: Setting,
 ) -> Result<Errors, Failure> {
     let end = subject.advance(problem, start, setting)?;
-    match end.iter().all(|component| component.is_finite()) {
-        true => Ok(Errors::of(&end, problem, start)),
-        false => Err(Failure::NotFinite),
+    if end.iter().all(|component| component.is_finite()) {
+        Ok(Errors::of(&end, problem, start))
+    } else {
+        Err(Failure::NotFinite)
     }
 }
 
@@ -123,14 +124,11 @@ mod tests {
 
     #[test]
     fn a_setting_says_what_it_is_and_none_is_zero() {
-        let said =
-            [Setting::Once, Setting::Steps(20), Setting::Tolerance(1e-8)].map(|setting| setting.to_string());
+        let said = [Setting::Once, Setting::Steps(20), Setting::Tolerance(1e-8)].map(|setting| setting.to_string());
         assert_eq!(said, ["–", "20 steps", "tolerance 1e-8"]);
         assert_eq!(Setting::Steps(1).steps(), Ok(1));
         assert_eq!(Setting::Tolerance(1e-300).tolerance(), Ok(1e-300));
-        for setting in
-            [Setting::Once, Setting::Steps(0), Setting::Tolerance(0.0), Setting::Tolerance(f64::NAN)]
-        {
+        for setting in [Setting::Once, Setting::Steps(0), Setting::Tolerance(0.0), Setting::Tolerance(f64::NAN)] {
             assert_eq!(setting.steps(), Err(Failure::Setting));
             assert_eq!(setting.tolerance(), Err(Failure::Setting));
         }

@@ -26,8 +26,8 @@ impl RodProblem {
         Self { aspect_ratio, turns, long: 1.0 / (1.0 + 1.0 / square), short: 1.0 / (1.0 + square) }
     }
 
-    /// From φ = 0.2, θ = 1 through a whole period, two flips, into the third to φ = 2π + 1: errors in phase or orbit are visible
-    /// there, but not where long rods lie along the flow, whatever they did before.
+    /// From φ = 0.2, θ = 1 through a whole period, two flips, into the third to φ = 2π + 1: errors in phase or orbit
+    /// are visible there, but not where long rods lie along the flow, whatever they did before.
     pub fn mid_flip(aspect_ratio: f64) -> (Self, UnitVector3<f64>) {
         Self::into_flip(aspect_ratio, 0.2, 1.0, 1.0)
     }

@@ -13,8 +13,8 @@ const MOST_ITERATIONS: usize = 500;
 /// Largest number of halvings of one Newton step.
 const MOST_HALVINGS: usize = 20;
 
-/// The implicit midpoint rule p′ = p + h f(m), m = ½(p + p′): as f(m) ⊥ m, |p′| = |p|. Newton's method, with each step halved
-/// until the residual falls: plain Newton cycles at long steps that have a solution.
+/// The implicit midpoint rule p′ = p + h f(m), m = ½(p + p′): as f(m) ⊥ m, |p′| = |p|. Newton's method, with each step
+/// halved until the residual falls: plain Newton cycles at long steps that have a solution.
 fn implicit_midpoint(problem: &RodProblem, p: Vector3<f64>, h: f64) -> Vector3<f64> {
     let half = 0.5 * h;
     let miss_at = |m: &Vector3<f64>| m - p - problem.tangent_rate(m) * half;

@@ -5,8 +5,8 @@ use nalgebra::{DMatrix, DVector};
 /// The largest number of parameters that can be fitted at once: the number of runs grows as a power of it.
 pub const MOST_PARAMETERS: usize = 3;
 
-/// Chebyshev–Lobatto nodes along each axis, and the total degree of the polynomials, by the number of parameters. There are fewer
-/// coefficients than nodes, so that the polynomials smooth the noise of the runs instead of following it.
+/// Chebyshev–Lobatto nodes along each axis, and the total degree of the polynomials, by the number of parameters. There
+/// are fewer coefficients than nodes, so that the polynomials smooth the noise of the runs instead of following it.
 const DESIGNS: [(usize, usize); MOST_PARAMETERS] = [(7, 4), (7, 6), (7, 6)];
 
 /// The degree of a term in each parameter, 0 beyond the last one.
@@ -22,8 +22,8 @@ pub struct Basis {
     pub inner: Vec<usize>,
     /// Maps values at the nodes to coefficients: a row for each coefficient, a column for each node.
     pub project: DMatrix<f64>,
-    /// Maps coefficients to those of the residual that polynomials of one degree less leave at the nodes: terms × terms. It
-    /// measures how good the polynomials are.
+    /// Maps coefficients to those of the residual that polynomials of one degree less leave at the nodes: terms ×
+    /// terms. It measures how good the polynomials are.
     pub missed: DMatrix<f64>,
 }
 
@@ -32,9 +32,8 @@ impl Basis {
     pub fn new(parameters: usize) -> Self {
         let (along, degree) = DESIGNS[parameters.clamp(1, MOST_PARAMETERS) - 1];
         let place = |k: usize| -(std::f64::consts::PI * k as f64 / (along - 1) as f64).cos();
-        let nodes: Vec<Vec<f64>> = (grid(parameters, along).into_iter())
-            .map(|index| index.into_iter().map(place).collect())
-            .collect();
+        let nodes: Vec<Vec<f64>> =
+            (grid(parameters, along).into_iter()).map(|index| index.into_iter().map(place).collect()).collect();
         let degrees: Vec<Degrees> = (grid(parameters, degree + 1).into_iter())
             .filter(|degrees| degrees.iter().sum::<usize>() <= degree)
             .map(|degrees| std::array::from_fn(|k| degrees.get(k).copied().unwrap_or(0)))
@@ -42,7 +41,8 @@ impl Basis {
         let project = projection(&degrees, &nodes);
         let highest = |degrees: &Degrees| degrees.iter().sum::<usize>() == degree;
         let lower: Vec<_> = degrees.iter().filter(|d| !highest(d)).copied().collect();
-        // Terms below the highest degree leave no residual; from each of the others, the best fit by lower terms is subtracted.
+        // Terms below the highest degree leave no residual; from each of the others, the best fit by lower terms is
+        // subtracted.
         let nearest = projection(&lower, &nodes) * design(&degrees, &nodes);
         let mut missed = DMatrix::identity(degrees.len(), degrees.len());
         let kept = (0..degrees.len()).filter(|k| !highest(&degrees[*k]));
@@ -69,10 +69,8 @@ impl Basis {
     pub fn slopes(&self, place: &[f64], axes: &[usize]) -> DMatrix<f64> {
         let values = values(place);
         DMatrix::from_fn(self.degrees.len(), axes.len(), |term, by| {
-            let factor = |(k, degree): (usize, &usize)| match k == axes[by] {
-                true => values[k][*degree].1,
-                false => values[k][*degree].0,
-            };
+            let factor =
+                |(k, degree): (usize, &usize)| if k == axes[by] { values[k][*degree].1 } else { values[k][*degree].0 };
             self.degrees[term].iter().enumerate().map(factor).product()
         })
     }
@@ -146,8 +144,7 @@ mod tests {
     fn a_cubic_is_met_with_its_slopes_in_one_to_three_parameters() {
         for parameters in 1..=MOST_PARAMETERS {
             let basis = Basis::new(parameters);
-            let values =
-                DVector::from_iterator(basis.nodes.len(), basis.nodes.iter().map(|node| cubic(node).0));
+            let values = DVector::from_iterator(basis.nodes.len(), basis.nodes.iter().map(|node| cubic(node).0));
             let coefficients = &basis.project * values;
             for place in [[0.3, -0.7, 0.1], [-1.0, 1.0, 1.0], [0.0, 0.0, 0.0]] {
                 let place = &place[..parameters];

@@ -8,7 +8,8 @@ use super::scarce::{added, scatter_of_covariance};
 use nalgebra::{DMatrix, DVector};
 use statrs::distribution::{ChiSquared, ContinuousCDF, FisherSnedecor};
 
-/// The best-fitting place in a box, by generalised least squares. V is taken at the best place; the two are found by iteration.
+/// The best-fitting place in a box, by generalised least squares. V is taken at the best place; the two are found by
+/// iteration.
 #[derive(Clone, Debug)]
 pub struct Best {
     /// The coordinates in the box, from −1 to 1.
@@ -19,8 +20,8 @@ pub struct Best {
     pub surface: ChiSquare,
     /// V by its causes.
     pub causes: Causes,
-    /// The covariance of the parameters by cause, on the box's scale: A V_cause Aᵀ, A = (JᵀV⁻¹J)⁻¹JᵀV⁻¹, with the replicas' noise
-    /// subtracted in JᵀV⁻¹J. The last one is added for the finite number of replicas behind V.
+    /// The covariance of the parameters by cause, on the box's scale: A V_cause Aᵀ, A = (JᵀV⁻¹J)⁻¹JᵀV⁻¹, with the
+    /// replicas' noise subtracted in JᵀV⁻¹J. The last one is added for the finite number of replicas behind V.
     pub spread: Vec<DMatrix<f64>>,
     /// χ² of the points and its law.
     pub goodness: Goodness,
@@ -41,7 +42,8 @@ impl Best {
         Self { place, chi_square, surface, ..self.clone() }
     }
 
-    /// The largest share of a cause in the variance of any parameter. For replicas it includes their part in the mean curve and in V.
+    /// The largest share of a cause in the variance of any parameter. For replicas it includes their part in the mean
+    /// curve and in V.
     pub fn share(&self, cause: usize) -> f64 {
         let all = self.covariance().diagonal();
         let share = |cause: usize| self.spread[cause].diagonal().component_div(&all);
@@ -76,8 +78,9 @@ impl Goodness {
         self.chi_square * (1.0 - self.excess)
     }
 
-    /// The probability of a larger χ² if the model is right. With a covariance of n replicas χ² follows Hotelling's law, as F of q and
-    /// n − q degrees of freedom, q = points − parameters; n is that number from which V alone would give this excess, (q + 1)/(n − 1).
+    /// The probability of a larger χ² if the model is right. With a covariance of n replicas χ² follows Hotelling's
+    /// law, as F of q and n − q degrees of freedom, q = points − parameters; n is that number from which V alone would
+    /// give this excess, (q + 1)/(n − 1).
     pub fn p_value(&self) -> f64 {
         let q = self.freedom as f64;
         let rest = (q + 1.0) / self.excess - q + 1.0;
@@ -91,7 +94,8 @@ impl Goodness {
 /// Degrees of freedom beyond which F is χ² to all digits that are printed.
 const EXACT: f64 = 1e6;
 
-/// Added variance over the present one, if the replicas are too few to estimate it; the result is a request for more replicas.
+/// Added variance over the present one, if the replicas are too few to estimate it; the result is a request for more
+/// replicas.
 const UNKNOWN: f64 = 99.0;
 
 /// The largest number of iterations of V and best place, and the move in half boxes below which they end.
@@ -104,8 +108,9 @@ const PARTS: u32 = 20;
 /// A part is possible if −2 ln L is at most this much above its least: 95 % of χ² of one degree of freedom.
 const POSSIBLE: f64 = 3.84;
 
-/// The rods of the most likely scatter and of the largest possible one, if the points' uncertainties contain it, by the restricted
-/// likelihood at a place, in which the parameters are free (D. A. Harville, J. Am. Stat. Assoc. 72 (1977) 320).
+/// The rods of the most likely scatter and of the largest possible one, if the points' uncertainties contain it, by the
+/// restricted likelihood at a place, in which the parameters are free (D. A. Harville, J. Am. Stat. Assoc. 72 (1977)
+/// 320).
 pub fn within(data: &[Datum], emulator: &Emulator, place: &[f64]) -> Option<[Rods; 2]> {
     let of_replica = emulator.covariance_of_replica(place);
     let sets = data.iter().map(|datum| datum.set + 1).max().unwrap_or(0);
@@ -160,8 +165,7 @@ pub fn best(data: &[Datum], emulator: &Emulator, rods: &Rods) -> Option<Best> {
     let own = (&told - surface.noise(&place)).cholesky();
     let solver = own.or_else(|| told.cholesky())?;
     let influence = solver.solve(&weighted.transpose());
-    let mut spread: Vec<_> =
-        (causes.iter()).map(|cause| &influence * cause * influence.transpose()).collect();
+    let mut spread: Vec<_> = (causes.iter()).map(|cause| &influence * cause * influence.transpose()).collect();
     let of_replica = emulator.covariance_of_replica(&place);
     let scatter = scatter_of_covariance(data, emulator, &of_replica, &rods.over_measured, &projector);
     let linear = sum(&spread);

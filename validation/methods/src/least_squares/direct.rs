@@ -16,7 +16,8 @@ pub struct Direct {
 }
 
 impl Direct {
-    /// From the predictions of at least two replicas, a row for each; `None` if the covariance is not positive definite.
+    /// From the predictions of at least two replicas, a row for each; `None` if the covariance is not positive
+    /// definite.
     pub fn of(data: &[Datum], rows: &[Vec<Prediction>], rods: &Rods) -> Option<Self> {
         let (points, n) = (data.len(), rows.len() as f64);
         let mean = |which: usize| {

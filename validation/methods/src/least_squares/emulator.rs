@@ -5,7 +5,8 @@ use nalgebra::{DMatrix, DVector, RowDVector};
 use rayon::prelude::*;
 use std::collections::HashMap;
 
-/// The model's prediction of a measured point: at its time, and at √3 standard deviations of that time before and after.
+/// The model's prediction of a measured point: at its time, and at √3 standard deviations of that time before and
+/// after.
 pub type Prediction = [f64; 3];
 
 /// Predictions of some points, each with the point's index among all points.
@@ -74,14 +75,15 @@ const CERTAIN: f64 = 2.0;
 /// Number of replicas in one product of matrices.
 const TOGETHER: usize = 32;
 
-/// The runs of a model at every node of a box. Polynomials are linear in the values at the nodes, so each replica has its own
-/// polynomials: their mean is the model, their scatter its error, and noise that replicas share between parameter values
-/// cancels as it should.
+/// The runs of a model at every node of a box. Polynomials are linear in the values at the nodes, so each replica has
+/// its own polynomials: their mean is the model, their scatter its error, and noise that replicas share between
+/// parameter values cancels as it should.
 #[derive(Clone, Debug)]
 pub struct Emulator {
     /// The polynomials and their nodes.
     pub basis: Basis,
-    /// Means over replicas of the coefficients, at a point's time, before and after: a row for each coefficient, a column for each point.
+    /// Means over replicas of the coefficients, at a point's time, before and after: a row for each coefficient, a
+    /// column for each point.
     mean: [DMatrix<f64>; 3],
     /// Deviations of each replica's coefficients from the mean, at a point's time.
     deviations: Vec<DMatrix<f64>>,
@@ -92,8 +94,8 @@ pub struct Emulator {
 /// The coefficients of one replica: at a point's time, before and after; then its values at the inner nodes.
 pub type Coefficients = [DMatrix<f64>; 4];
 
-/// Runs `replicas` at every node of a box, in parallel, and returns their coefficients in order; `value` converts a node's coordinates to
-/// parameters. Parts with the same dependencies at several nodes run once per replica.
+/// Runs `replicas` at every node of a box, in parallel, and returns their coefficients in order; `value` converts a
+/// node's coordinates to parameters. Parts with the same dependencies at several nodes run once per replica.
 // Not generic, so that it is compiled in this crate, which is optimised, and not in the suite, which is not.
 pub fn coefficients(
     basis: &Basis,
@@ -110,9 +112,7 @@ pub fn coefficients(
             rows.push(node.run_beside(replica, &mut known)?);
             done();
         }
-        let of = |which: usize| {
-            DMatrix::from_fn(rows.len(), rows[0].len(), |node, point| rows[node][point][which])
-        };
+        let of = |which: usize| DMatrix::from_fn(rows.len(), rows[0].len(), |node, point| rows[node][point][which]);
         let [at, before, after] = [0, 1, 2].map(of);
         let inner = at.select_rows(&basis.inner);
         Ok([&basis.project * at, &basis.project * before, &basis.project * after, inner])
@@ -156,16 +156,16 @@ impl Emulator {
         self.mean[0].tr_mul(&self.basis.terms(place))
     }
 
-    /// The variance of each point due to its uncertain time: the mean of (S(t + ε) − S(t))² over a Gaussian ε by Gauss–Hermite's
-    /// rule of three nodes. It is right at a peak too, where the slope alone would give 0.
+    /// The variance of each point due to its uncertain time: the mean of (S(t + ε) − S(t))² over a Gaussian ε by
+    /// Gauss–Hermite's rule of three nodes. It is right at a peak too, where the slope alone would give 0.
     pub fn time_variance(&self, place: &[f64]) -> DVector<f64> {
         let terms = self.basis.terms(place);
         let [at, before, after] = [0, 1, 2].map(|which| self.mean[which].tr_mul(&terms));
         ((before - &at).map(|d| d * d) + (after - &at).map(|d| d * d)) / 6.0
     }
 
-    /// The difference between these polynomials and those of one degree less, without the contribution of the replicas' noise to its
-    /// square, which is part of [`Emulator::covariance_of_mean`].
+    /// The difference between these polynomials and those of one degree less, without the contribution of the replicas'
+    /// noise to its square, which is part of [`Emulator::covariance_of_mean`].
     pub fn lack_of_fit(&self, place: &[f64]) -> DVector<f64> {
         let terms = self.basis.missed.tr_mul(&self.basis.terms(place));
         let n = self.replicas() as f64;
@@ -178,8 +178,8 @@ impl Emulator {
         self.mean().tr_mul(&terms).zip_map(&squares, own)
     }
 
-    /// The average contribution of the replicas' noise to C V⁻¹ Cᵀ, terms × terms, where C are the mean's coefficients (a row for each
-    /// term) and `inverse` is V⁻¹.
+    /// The average contribution of the replicas' noise to C V⁻¹ Cᵀ, terms × terms, where C are the mean's coefficients
+    /// (a row for each term) and `inverse` is V⁻¹.
     pub fn noise(&self, inverse: &DMatrix<f64>) -> DMatrix<f64> {
         let n = self.replicas() as f64;
         let terms = self.mean().nrows();
@@ -205,12 +205,10 @@ impl Emulator {
         covariance(&rows.collect::<Vec<_>>()) / self.replicas() as f64
     }
 
-    /// The covariance of one replica's predictions, points × points, at the inner node nearest to `place`. A replica's polynomial scatters
-    /// less: it averages over nodes, between which collisions differ.
+    /// The covariance of one replica's predictions, points × points, at the inner node nearest to `place`. A replica's
+    /// polynomial scatters less: it averages over nodes, between which collisions differ.
     pub fn covariance_of_replica(&self, place: &[f64]) -> DMatrix<f64> {
-        let far = |node: usize| -> f64 {
-            self.basis.nodes[node].iter().zip(place).map(|(a, b)| (a - b).powi(2)).sum()
-        };
+        let far = |node: usize| -> f64 { self.basis.nodes[node].iter().zip(place).map(|(a, b)| (a - b).powi(2)).sum() };
         let inner = &self.basis.inner;
         let nearest = (0..inner.len()).min_by(|a, b| far(inner[*a]).total_cmp(&far(inner[*b]))).unwrap_or(0);
         let rows = self.inner.iter().map(|one| one.row(nearest).into_owned());
@@ -234,7 +232,8 @@ mod tests {
     use super::*;
     use std::sync::atomic::{AtomicUsize, Ordering};
 
-    /// Two suspensions with one parameter each: each runs once per value of its own, and the result is as if all had run.
+    /// Two suspensions with one parameter each: each runs once per value of its own, and the result is as if all had
+    /// run.
     #[test]
     fn a_part_runs_once_for_each_of_its_own_values() {
         static RUNS: AtomicUsize = AtomicUsize::new(0);

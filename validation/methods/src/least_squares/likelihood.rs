@@ -6,13 +6,8 @@ use super::emulator::Emulator;
 use nalgebra::{DMatrix, DVector};
 
 /// The causes of differences between model and measurement, in the order of [`Causes`]; for tables.
-pub const CAUSES: [&str; 5] = [
-    "reading off in y",
-    "reading off in time",
-    "rods that were measured",
-    "replicas of the model",
-    "emulator",
-];
+pub const CAUSES: [&str; 5] =
+    ["reading off in y", "reading off in time", "rods that were measured", "replicas of the model", "emulator"];
 
 /// The covariance of the points by cause, at one place of the box.
 pub type Causes = [DMatrix<f64>; CAUSES.len()];
@@ -27,7 +22,8 @@ pub const EMULATOR: usize = 4;
 /// The rods that were measured.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rods {
-    /// For each data set: the number of rods of a replica over the number of rods averaged in a point, 0 if the points share no rods.
+    /// For each data set: the number of rods of a replica over the number of rods averaged in a point, 0 if the points
+    /// share no rods.
     pub over_measured: Vec<f64>,
     /// True if the points' uncertainties contain the scatter of these rods.
     pub in_u: bool,
@@ -51,9 +47,8 @@ impl Rods {
 
     /// The covariances of the points by reading and by rods. Different data sets have different rods.
     pub fn covariances(&self, data: &[Datum], of_replica: &DMatrix<f64>) -> [DMatrix<f64>; 2] {
-        let rods = DMatrix::from_fn(data.len(), data.len(), |i, j| match data[i].set == data[j].set {
-            true => self.over_measured[data[i].set] * of_replica[(i, j)],
-            false => 0.0,
+        let rods = DMatrix::from_fn(data.len(), data.len(), |i, j| {
+            if data[i].set == data[j].set { self.over_measured[data[i].set] * of_replica[(i, j)] } else { 0.0 }
         });
         let contained = if self.in_u { 1.0 } else { 0.0 };
         let reading = |k: usize| (data[k].u.powi(2) - contained * rods[(k, k)]).max(0.0);
@@ -76,11 +71,12 @@ pub fn causes(data: &[Datum], emulator: &Emulator, place: &[f64], rods: &Rods) -
     ]
 }
 
-/// χ² over the box at a fixed covariance V, as a form in the polynomials' terms, so that its cost does not grow with the points.
+/// χ² over the box at a fixed covariance V, as a form in the polynomials' terms, so that its cost does not grow with
+/// the points.
 ///
-/// The replicas' noise adds to the differences between curves of different parameters, and so lets χ² rise where the points contain
-/// no information. Its average contribution is subtracted (the correction of a regression whose regressors are noisy: W. A. Fuller,
-/// Measurement Error Models, 1987, ch. 2).
+/// The replicas' noise adds to the differences between curves of different parameters, and so lets χ² rise where the
+/// points contain no information. Its average contribution is subtracted (the correction of a regression whose
+/// regressors are noisy: W. A. Fuller, Measurement Error Models, 1987, ch. 2).
 #[derive(Clone, Debug)]
 pub struct ChiSquare {
     basis: Basis,
@@ -97,7 +93,8 @@ pub struct ChiSquare {
 }
 
 impl ChiSquare {
-    /// χ² of the data with this covariance, expanded about the parameters `near`; `None` if the covariance is not positive definite.
+    /// χ² of the data with this covariance, expanded about the parameters `near`; `None` if the covariance is not
+    /// positive definite.
     pub fn new(data: &[Datum], emulator: &Emulator, covariance: &DMatrix<f64>, near: &[f64]) -> Option<Self> {
         let terms = emulator.mean();
         let measured = DVector::from_iterator(data.len(), data.iter().map(|datum| datum.value));
@@ -124,8 +121,8 @@ impl ChiSquare {
         self.constant - 2.0 * self.linear.dot(&away) + away.dot(&self.reduced.tr_mul(&away))
     }
 
-    /// Half the gradient by the parameters `free`, and half the second derivatives without those of the model (Gauss–Newton) but with
-    /// the noise.
+    /// Half the gradient by the parameters `free`, and half the second derivatives without those of the model
+    /// (Gauss–Newton) but with the noise.
     pub fn slopes(&self, place: &[f64], free: &[usize]) -> (DVector<f64>, DMatrix<f64>) {
         let (away, slopes) = (self.basis.terms(place) - &self.origin, self.basis.slopes(place, free));
         let gradient = slopes.tr_mul(&(self.reduced.tr_mul(&away) - &self.linear));

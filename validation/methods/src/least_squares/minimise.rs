@@ -9,8 +9,8 @@ const STARTS: [usize; 4] = [1, 33, 13, 9];
 /// Largest number of Levenberg–Marquardt steps: a few suffice, except in flat valleys.
 const STEPS: usize = 100;
 
-/// The place with the smallest χ² in the box [−1, 1]^p, and that χ². Parameters with a value in `fixed` keep it. The search descends
-/// from the best point of a grid and from each of `starts`, to find the deepest of several valleys.
+/// The place with the smallest χ² in the box [−1, 1]^p, and that χ². Parameters with a value in `fixed` keep it. The
+/// search descends from the best point of a grid and from each of `starts`, to find the deepest of several valleys.
 pub fn minimise(surface: &ChiSquare, fixed: &[Option<f64>], starts: &[&[f64]]) -> (Vec<f64>, f64) {
     let free = free(fixed);
     let mut best = descend(surface, fixed, best_of_grid(surface, fixed, &free));

@@ -1,5 +1,5 @@
-//! The least squares of fits: polynomials fitted to the model at the nodes of a box of parameters, the covariance of points, estimates
-//! and profiles. The formulas are in `docs/src/theory/fits.md`.
+//! The least squares of fits: polynomials fitted to the model at the nodes of a box of parameters, the covariance of
+//! points, estimates and profiles. The formulas are in `docs/src/theory/fits.md`.
 
 pub mod basis;
 pub mod best;

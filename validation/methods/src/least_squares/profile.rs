@@ -68,11 +68,7 @@ impl Rise {
 
     /// The rise from the best place to another one with this χ².
     fn of(best: &Best, (at, chi_square): (Vec<f64>, f64)) -> Self {
-        Self {
-            own: (chi_square - best.chi_square).max(0.0),
-            noise: best.surface.noise_between(&at, &best.place),
-            at,
-        }
+        Self { own: (chi_square - best.chi_square).max(0.0), noise: best.surface.noise_between(&at, &best.place), at }
     }
 
     /// The rise with the parameter `axis` fixed at `place`.
@@ -85,13 +81,10 @@ impl Rise {
         Self::of(best, descend(&best.surface, &fixed(best, axis, place), start.to_vec()))
     }
 
-    /// The rise that counts for an interval. Noise in the slopes makes the variance of an estimate larger than the curvature of χ² shows,
-    /// by the factor (own + noise) / own: χ² has to rise that much further.
+    /// The rise that counts for an interval. Noise in the slopes makes the variance of an estimate larger than the
+    /// curvature of χ² shows, by the factor (own + noise) / own: χ² has to rise that much further.
     fn beside_noise(&self) -> f64 {
-        match self.own > 0.0 {
-            true => self.own * (self.own / (self.own + self.noise)),
-            false => 0.0,
-        }
+        if self.own > 0.0 { self.own * (self.own / (self.own + self.noise)) } else { 0.0 }
     }
 }
 
@@ -102,14 +95,13 @@ fn fixed(best: &Best, axis: usize, place: f64) -> Vec<Option<f64>> {
     fixed
 }
 
-/// The profile of one parameter over the box, with its best place among the places. The inner minima are searched from a grid,
-/// from the best place, and from the minima of the neighbours on both sides.
+/// The profile of one parameter over the box, with its best place among the places. The inner minima are searched from
+/// a grid, from the best place, and from the minima of the neighbours on both sides.
 pub fn profile(best: &Best, axis: usize) -> Profile {
     let even = (0..PLACES).map(|k| -1.0 + 2.0 * k as f64 / (PLACES - 1) as f64);
     let mut place: Vec<f64> = even.chain([best.place[axis]]).collect();
     place.sort_by(f64::total_cmp);
-    let mut found: Vec<Rise> =
-        (place.iter()).map(|place| Rise::along(best, axis, *place, &[&best.place])).collect();
+    let mut found: Vec<Rise> = (place.iter()).map(|place| Rise::along(best, axis, *place, &[&best.place])).collect();
     let last = place.len() - 1;
     let pairs = (0..last).map(|k| (k, k + 1)).chain((0..last).rev().map(|k| (k + 1, k)));
     for (from, to) in pairs.filter(|_| best.place.len() > 1) {
@@ -129,8 +121,8 @@ pub fn profile(best: &Best, axis: usize) -> Profile {
 }
 
 impl Profile {
-    /// The larger share of the replicas' noise in the rise at the two ends of an interval; 0 if the profile does not reach
-    /// `level`.
+    /// The larger share of the replicas' noise in the rise at the two ends of an interval; 0 if the profile does not
+    /// reach `level`.
     pub fn feigned(&self, level: f64) -> f64 {
         let outside = |k: &usize| self.rise[*k] > level;
         let inside: Vec<usize> = (0..self.place.len()).filter(|k| !outside(k)).collect();
@@ -148,11 +140,12 @@ impl Profile {
     }
 }
 
-/// If the profile does not jump at an end, which is found to 3e-8 of half a box, χ² on its two sides differs by less than this:
-/// else it would rise by 1e5 over half a box, where four standard deviations, 16, reach the edge of a box.
+/// If the profile does not jump at an end, which is found to 3e-8 of half a box, χ² on its two sides differs by less
+/// than this: else it would rise by 1e5 over half a box, where four standard deviations, 16, reach the edge of a box.
 const JUMP: f64 = 0.01;
 
-/// The interval in which a profile is below `level`, between the outermost crossings, so that a second valley is included.
+/// The interval in which a profile is below `level`, between the outermost crossings, so that a second valley is
+/// included.
 pub fn interval(best: &Best, axis: usize, profile: &Profile, level: f64) -> Interval {
     let inside: Vec<usize> = (0..profile.place.len()).filter(|k| profile.rise[*k] <= level).collect();
     let last = profile.place.len() - 1;
@@ -168,22 +161,13 @@ pub fn interval(best: &Best, axis: usize, profile: &Profile, level: f64) -> Inte
         for _ in 0..HALVINGS {
             let middle = 0.5 * (inner + outer);
             let found = profile.shown * Rise::along(best, axis, middle, &starts).beside_noise();
-            match found <= level {
-                true => (inner, rises[0]) = (middle, found),
-                false => (outer, rises[1]) = (middle, found),
-            }
+            if found <= level { (inner, rises[0]) = (middle, found) } else { (outer, rises[1]) = (middle, found) }
         }
         (0.5 * (inner + outer), rises[1] - rises[0] > JUMP)
     };
     let open = [first_in == 0, last_in == last];
-    let (low, low_jumps) = match open[0] {
-        true => (-1.0, false),
-        false => crossing(first_in, first_in - 1),
-    };
-    let (high, high_jumps) = match open[1] {
-        true => (1.0, false),
-        false => crossing(last_in, last_in + 1),
-    };
+    let (low, low_jumps) = if open[0] { (-1.0, false) } else { crossing(first_in, first_in - 1) };
+    let (high, high_jumps) = if open[1] { (1.0, false) } else { crossing(last_in, last_in + 1) };
     Interval { low, high, open, jumps: [low_jumps, high_jumps] }
 }
 
@@ -196,9 +180,10 @@ pub fn rise_to(best: &Best, fixed: &[Option<f64>]) -> f64 {
 /// Columns of a joint region.
 const COLUMNS: usize = 72;
 
-/// The outlines of the joint region of the parameters `a` and `b`: a closed curve for each of its islands, cut at the edges of the box.
-/// Other parameters are at their best. `profile` is that of `a`. The region is cut into columns of equal `a`, which lie close at its
-/// two ends; a column reaches on both sides of its deepest place to where χ² has risen to `level`, so a bent valley is followed.
+/// The outlines of the joint region of the parameters `a` and `b`: a closed curve for each of its islands, cut at the
+/// edges of the box. Other parameters are at their best. `profile` is that of `a`. The region is cut into columns of
+/// equal `a`, which lie close at its two ends; a column reaches on both sides of its deepest place to where χ² has
+/// risen to `level`, so a bent valley is followed.
 pub fn region(best: &Best, profile: &Profile, [a, b]: [usize; 2], level: f64) -> Vec<Vec<[f64; 2]>> {
     let shown = best.shown(&[a, b]);
     let ends = interval(best, a, profile, level * profile.shown / shown);
@@ -216,9 +201,10 @@ pub fn region(best: &Best, profile: &Profile, [a, b]: [usize; 2], level: f64) ->
         for _ in 0..HALVINGS {
             let between = 0.5 * (beyond + within);
             let found = deepest_at(between);
-            match is_beyond(&found) {
-                true => beyond = between,
-                false => (within, b_there) = (between, found.at[b]),
+            if is_beyond(&found) {
+                beyond = between
+            } else {
+                (within, b_there) = (between, found.at[b]);
             }
         }
         [within, b_there, b_there]
@@ -268,7 +254,8 @@ pub fn region(best: &Best, profile: &Profile, [a, b]: [usize; 2], level: f64) ->
     islands.into_iter().map(outline).collect()
 }
 
-/// Where the inside ends on one side of `centre`, −1 or 1: at the edge of the box at the latest. It is looked for in growing steps.
+/// Where the inside ends on one side of `centre`, −1 or 1: at the edge of the box at the latest. It is looked for in
+/// growing steps.
 fn end(centre: f64, side: f64, first_step: f64, is_inside: impl Fn(f64) -> bool) -> f64 {
     let (mut inner, mut step) = (centre, first_step);
     let mut outer = loop {

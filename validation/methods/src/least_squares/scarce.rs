@@ -1,11 +1,12 @@
 //! The effect on a fit of the finite number of replicas behind the covariance of the points.
 //!
-//! V is V₀ + K∘Ĉ, where Ĉ is the covariance of a replica as estimated from n replicas. Its noise δV gives the points wrong weights in
-//! generalised least squares. To first order in 1/n, A E[δV P δV] Aᵀ adds to the scatter of the estimates, the covariance (JᵀV⁻¹J)⁻¹ is
-//! too small by as much, and χ² is too large by tr(P E[δV P δV]), with A the influence of the points and P = V⁻¹ − V⁻¹JA. For Gaussian
-//! replicas E[δC Q δC] = (C Qᵀ C + C tr(QC))/(n − 1). If V comes only from replicas, the corrections below are exact in the number of
-//! replicas except for terms ∝ 1/n (J. Hartlap, P. Simon & P. Schneider, Astron. Astrophys. 464 (2007) 399, for the inverse;
-//! S. Dodelson & M. D. Schneider, Phys. Rev. D 88 (2013) 063537, for the estimates).
+//! V is V₀ + K∘Ĉ, where Ĉ is the covariance of a replica as estimated from n replicas. Its noise δV gives the points
+//! wrong weights in generalised least squares. To first order in 1/n, A E[δV P δV] Aᵀ adds to the scatter of the
+//! estimates, the covariance (JᵀV⁻¹J)⁻¹ is too small by as much, and χ² is too large by tr(P E[δV P δV]), with A the
+//! influence of the points and P = V⁻¹ − V⁻¹JA. For Gaussian replicas E[δC Q δC] = (C Qᵀ C + C tr(QC))/(n − 1). If V
+//! comes only from replicas, the corrections below are exact in the number of replicas except for terms ∝ 1/n (J.
+//! Hartlap, P. Simon & P. Schneider, Astron. Astrophys. 464 (2007) 399, for the inverse; S. Dodelson & M. D. Schneider,
+//! Phys. Rev. D 88 (2013) 063537, for the estimates).
 
 use super::Datum;
 use super::emulator::Emulator;
@@ -27,21 +28,20 @@ pub fn scatter_of_covariance(
     let mut sum = DMatrix::zeros(data.len(), data.len());
     for (weight, rows) in parts.iter().filter(|(weight, _)| *weight > 0.0) {
         for (other, columns) in parts.iter().filter(|(other, _)| *other > 0.0) {
-            let between = projector
-                .map_with_location(|i, j, p| if within(*rows, i) && within(*columns, j) { p } else { 0.0 });
+            let between =
+                projector.map_with_location(|i, j, p| if within(*rows, i) && within(*columns, j) { p } else { 0.0 });
             let trace = (&between * of_replica).trace();
             let scatter = (of_replica * between.transpose() * of_replica + of_replica * trace) / (n - 1.0);
-            sum += scatter.map_with_location(|i, j, s| match within(*rows, i) && within(*columns, j) {
-                true => weight * other * s,
-                false => 0.0,
+            sum += scatter.map_with_location(|i, j, s| {
+                if within(*rows, i) && within(*columns, j) { weight * other * s } else { 0.0 }
             });
         }
     }
     sum
 }
 
-/// The covariance to add to a covariance of the parameters that is too small by `scatter`, while the estimates scatter more by as much:
-/// C(C − X)⁻¹C(C − X)⁻¹C − C. `None` if there are too few replicas.
+/// The covariance to add to a covariance of the parameters that is too small by `scatter`, while the estimates scatter
+/// more by as much: C(C − X)⁻¹C(C − X)⁻¹C − C. `None` if there are too few replicas.
 pub fn added(covariance: &DMatrix<f64>, scatter: &DMatrix<f64>) -> Option<DMatrix<f64>> {
     let rest = (covariance - scatter).cholesky()?;
     let ratio = rest.solve(covariance);

@@ -32,12 +32,11 @@ impl Fourth {
         Matrix3::from_fn(|i, j| product[place(i, j)])
     }
 
-    /// a_ijkl of an orthotropic distribution: the columns of `axes` are its axes, `mixed` is a_2233, a_3311, a_1122 in them, `values` is
-    /// a_11, a_22, a_33. a_iiii follows from a_iikk = a_ii.
+    /// a_ijkl of an orthotropic distribution: the columns of `axes` are its axes, `mixed` is a_2233, a_3311, a_1122 in
+    /// them, `values` is a_11, a_22, a_33. a_iiii follows from a_iikk = a_ii.
     pub(super) fn orthotropic(axes: &Matrix3<f64>, values: &Vector3<f64>, mixed: &Vector3<f64>) -> Self {
-        let all = Matrix3::from_fn(|i, j| match i == j {
-            true => values[i] - mixed[(i + 1) % 3] - mixed[(i + 2) % 3],
-            false => mixed[3 - i - j],
+        let all = Matrix3::from_fn(|i, j| {
+            if i == j { values[i] - mixed[(i + 1) % 3] - mixed[(i + 2) % 3] } else { mixed[3 - i - j] }
         });
         let principal = Self::from_fn(|i, j, k, l| match (i == j && k == l, i == k && j == l) {
             (true, _) => all[(i, k)],
@@ -81,7 +80,8 @@ pub enum Closure {
     Quadratic,
     /// The linear and the quadratic closure, mixed by f = 1 − 27 det a (Advani & Tucker 1990).
     Hybrid,
-    /// Exact for rods without diffusion that were isotropic at first (Verleye & Dupret 1993; Montgomery-Smith et al. 2011).
+    /// Exact for rods without diffusion that were isotropic at first (Verleye & Dupret 1993; Montgomery-Smith et al.
+    /// 2011).
     Natural,
     /// A fit of the natural closure by polynomials of degree 4 (Verweyst 1998).
     Ore,
@@ -113,15 +113,15 @@ impl Closure {
     pub fn source(self) -> &'static str {
         match self {
             Self::Linear => "the linear closure: Advani & Tucker 1987, J. Rheol. 31, 751",
-            Self::Quadratic => {
-                "the quadratic closure a_ijkl = a_ij a_kl: Advani & Tucker 1987, J. Rheol. 31, 751"
-            }
+            Self::Quadratic => "the quadratic closure a_ijkl = a_ij a_kl: Advani & Tucker 1987, J. Rheol. 31, 751",
             Self::Hybrid => {
-                "the hybrid closure, f = 1 − 27 det a times the quadratic plus 1 − f times the linear one: Advani & Tucker 1990, \
+                "the hybrid closure, f = 1 − 27 det a times the quadratic plus 1 − f times the linear one: Advani & \
+                    Tucker 1990, \
                  J. Rheol. 34, 367"
             }
             Self::Natural => {
-                "the natural closure, exact: Verleye & Dupret 1993; Montgomery-Smith, He, Jack & Smith 2011, J. Fluid Mech. 680, 321"
+                "the natural closure, exact: Verleye & Dupret 1993; Montgomery-Smith, He, Jack & Smith 2011, J. Fluid \
+                    Mech. 680, 321"
             }
             Self::Ore => "the closure ORE, 45 coefficients: Verweyst 1998, thesis, University of Illinois",
             Self::Orw => "the closure ORW, 18 coefficients: Chung & Kwon 2001, Polym. Compos. 22, 636",

@@ -1,8 +1,9 @@
 //! The invariant-based optimal fitting closure (Chung & Kwon 2002, J. Rheol. 46, 169).
 //!
-//! a_ijkl = β₁S(δδ) + β₂S(δa) + β₃S(aa) + β₄S(δaa) + β₅S(a aa) + β₆S(aa aa), S the symmetric part. β₃, β₄, β₆ are polynomials of
-//! degree 5 in the invariants; the other three follow from a_ijkk = a_ij. The 63 coefficients were read in `closeA4.m` of
-//! charlestucker3/Fiber-Orientation-Tools, commit 266a6ee (MIT), and are the same in fiberoripy, commit 08d401d (MIT).
+//! a_ijkl = β₁S(δδ) + β₂S(δa) + β₃S(aa) + β₄S(δaa) + β₅S(a aa) + β₆S(aa aa), S the symmetric part. β₃, β₄, β₆ are
+//! polynomials of degree 5 in the invariants; the other three follow from a_ijkk = a_ij. The 63 coefficients were read
+//! in `closeA4.m` of charlestucker3/Fiber-Orientation-Tools, commit 266a6ee (MIT), and are the same in fiberoripy,
+//! commit 08d401d (MIT).
 
 use super::closures::Fourth;
 use nalgebra::Matrix3;
@@ -10,7 +11,8 @@ use nalgebra::Matrix3;
 /// The exponents (of II, of III) of each row of `COEFFICIENTS`.
 #[rustfmt::skip]
 pub const POWERS: [(i32, i32); 21] = [
-    (0, 0), (1, 0), (2, 0), (0, 1), (0, 2), (1, 1), (2, 1), (1, 2), (3, 0), (0, 3), (3, 1), (2, 2), (1, 3), (4, 0), (0, 4), (4, 1),
+    (0, 0), (1, 0), (2, 0), (0, 1), (0, 2), (1, 1), (2, 1), (1, 2), (3, 0), (0, 3), (3, 1), (2, 2), (1, 3), (4,
+        0), (0, 4), (4, 1),
     (3, 2), (2, 3), (1, 4), (5, 0), (0, 5),
 ];
 
@@ -60,14 +62,8 @@ pub(super) fn fourth(a: &Matrix3<f64>) -> Fourth {
             - b6 * (-0.2 + 2.0 / 3.0 * third + 0.8 * second - 1.6 * second * second));
     let b5 = -0.8 * b3 - 1.4 * b4 - 1.2 * b6 * (1.0 - 4.0 / 3.0 * second);
     let one = Matrix3::identity();
-    let parts = [
-        (b1, one, one),
-        (b2, one, *a),
-        (b3, *a, *a),
-        (b4, one, square),
-        (b5, *a, square),
-        (b6, square, square),
-    ];
+    let parts =
+        [(b1, one, one), (b2, one, *a), (b3, *a, *a), (b4, one, square), (b5, *a, square), (b6, square, square)];
     Fourth::from_fn(|i, j, k, l| {
         let part = |(beta, p, q): &(f64, Matrix3<f64>, Matrix3<f64>)| {
             let pairs = [[(i, j), (k, l)], [(i, k), (j, l)], [(i, l), (j, k)]];

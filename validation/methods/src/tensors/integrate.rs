@@ -23,25 +23,20 @@ fn matrix(a: &Vector6<f64>) -> Matrix3<f64> {
     Matrix3::new(a[0], a[3], a[4], a[3], a[1], a[5], a[4], a[5], a[2])
 }
 
-/// a_ij at `times_s` ≥ 0 in ascending order, from `start`, by Dormand & Prince's method of order 8 with `tolerance` as relative and
-/// absolute tolerance of a step. `None` if the method gives up or a is not finite.
-pub fn at(
-    equation: &Equation,
-    start: &Matrix3<f64>,
-    times_s: &[f64],
-    tolerance: f64,
-) -> Option<Vec<Matrix3<f64>>> {
+/// a_ij at `times_s` ≥ 0 in ascending order, from `start`, by Dormand & Prince's method of order 8 with `tolerance` as
+/// relative and absolute tolerance of a step. `None` if the method gives up or a is not finite.
+pub fn at(equation: &Equation, start: &Matrix3<f64>, times_s: &[f64], tolerance: f64) -> Option<Vec<Matrix3<f64>>> {
     let mut now = 0.0;
     let mut a = Vector6::from_fn(|n, _| start[PAIRS[n]]);
     let mut all = Vec::new();
     for time in times_s {
         if *time > now {
             let span = time - now;
-            // The library's defaults, except for the number of steps: at kinks of a closure the method may not get through.
+            // The library's defaults, except for the number of steps: at kinks of a closure the method may not get
+            // through.
             let (rate, out) = (Rate(equation), OutputType::Sparse);
             let mut solver = Dop853::from_param(
-                rate, 0.0, span, span, a, tolerance, tolerance, 0.9, 0.0, 0.333, 6.0, span, 0.0, MOST_STEPS,
-                1000, out,
+                rate, 0.0, span, span, a, tolerance, tolerance, 0.9, 0.0, 0.333, 6.0, span, 0.0, MOST_STEPS, 1000, out,
             );
             solver.integrate().ok()?;
             a = *solver.y_out().last()?;
@@ -55,11 +50,12 @@ pub fn at(
 /// The longest strain after which a steady state is looked for, about.
 const MOST_STRAIN: f64 = 10_000.0;
 
-/// The tolerance of the way to a steady state where polynomials of high degree, as IBOF's near alignment, are known no better; and how
-/// far the result may be off a state of rods.
+/// The tolerance of the way to a steady state where polynomials of high degree, as IBOF's near alignment, are known no
+/// better; and how far the result may be off a state of rods.
 const ROUGH: f64 = 1e-6;
 
-/// A steady a_ij: that to which Newton's method leads from where a is after some strain, close by. `None` where a comes near none.
+/// A steady a_ij: that to which Newton's method leads from where a is after some strain, close by. `None` where a comes
+/// near none.
 pub fn steady(equation: &Equation, start: &Matrix3<f64>) -> Option<Matrix3<f64>> {
     let norm = equation.gradient_per_s.norm();
     // Short stretches: a step at the edge of stability is no stiffness.
@@ -82,7 +78,8 @@ pub fn steady(equation: &Equation, start: &Matrix3<f64>) -> Option<Matrix3<f64>>
     None
 }
 
-/// The steady a_ij to which Newton's method leads from `settled`; `None` where it leads farther than 0.05, or to no state of rods.
+/// The steady a_ij to which Newton's method leads from `settled`; `None` where it leads farther than 0.05, or to no
+/// state of rods.
 fn newton(equation: &Equation, settled: &Matrix3<f64>) -> Option<Matrix3<f64>> {
     let norm = equation.gradient_per_s.norm();
     let rate = |a: &Matrix3<f64>| {

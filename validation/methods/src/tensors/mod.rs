@@ -1,4 +1,5 @@
-//! Orientation tensors as the field computes them: closures of the fourth moments, models of a_ij's rate, and their integration.
+//! Orientation tensors as the field computes them: closures of the fourth moments, models of a_ij's rate, and their
+//! integration.
 //!
 //! This code is graded, by published values and by the exact distribution; no oracle uses it.
 //! a is symmetric with trace 1; axes are as everywhere in this project, 1 = gradient, 2 = flow in shear.

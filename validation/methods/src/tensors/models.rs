@@ -1,7 +1,7 @@
 //! Models of the rate of a_ij, for a closure of a_ijkl.
 //!
-//! ȧ = Wa − aW + Λ(Da + aD − 2𝔸:D) + γ̇[2C − 2 tr(C) a − 5(Ca + aC) + 10𝔸:C] with a diffusivity C (1) of the model, γ̇ = (2D:D)^½
-//! (Phelps & Tucker 2009, J. Non-Newton. Fluid Mech. 156, 165). C = C_I δ is Folgar & Tucker's.
+//! ȧ = Wa − aW + Λ(Da + aD − 2𝔸:D) + γ̇[2C − 2 tr(C) a − 5(Ca + aC) + 10𝔸:C] with a diffusivity C (1) of the model, γ̇
+//! = (2D:D)^½ (Phelps & Tucker 2009, J. Non-Newton. Fluid Mech. 156, 165). C = C_I δ is Folgar & Tucker's.
 
 use super::closures::{Closure, Fourth, principal};
 use nalgebra::{Matrix3, Vector3};
@@ -37,7 +37,8 @@ pub enum Model {
         /// The coefficient C_M.
         c_m: f64,
     },
-    /// C = C_I diag(1, Ω, 1 − Ω) in the axes of a, from the largest eigenvalue (Tseng, Chang & Hsu 2018, J. Rheol. 62, 313).
+    /// C = C_I diag(1, Ω, 1 − Ω) in the axes of a, from the largest eigenvalue (Tseng, Chang & Hsu 2018, J. Rheol. 62,
+    /// 313).
     Pard {
         /// The coefficient C_I.
         c_i: f64,
@@ -70,25 +71,30 @@ impl Model {
     pub fn source(self) -> &'static str {
         match self {
             Self::FolgarTucker { .. } => {
-                "da/dt = Wa − aW + Λ(Da + aD − 2 a_ijkl D_kl) + 2 C_I γ̇ (δ − 3a), γ̇ = (2D:D)^½: Folgar & Tucker 1984; Advani & \
+                "da/dt = Wa − aW + Λ(Da + aD − 2 a_ijkl D_kl) + 2 C_I γ̇ (δ − 3a), γ̇ = (2D:D)^½: Folgar & Tucker \
+                    1984; Advani & \
                  Tucker 1987"
             }
             Self::Rsc { .. } => {
-                "Folgar & Tucker's equation with the rates of a's eigenvalues times κ: Wang, O'Gara & Tucker 2008, J. Rheol. 52, 1179"
+                "Folgar & Tucker's equation with the rates of a's eigenvalues times κ: Wang, O'Gara & Tucker 2008, J. \
+                    Rheol. 52, 1179"
             }
             Self::PhelpsTucker { .. } => {
-                "anisotropic diffusion, C = b1 δ + b2 a + b3 a² + b4 D/γ̇ + b5 D²/γ̇²: Phelps & Tucker 2009, J. Non-Newton. Fluid \
+                "anisotropic diffusion, C = b1 δ + b2 a + b3 a² + b4 D/γ̇ + b5 D²/γ̇²: Phelps & Tucker 2009, J. \
+                    Non-Newton. Fluid \
                  Mech. 156, 165"
             }
             Self::Iard { .. } => {
                 "anisotropic diffusion, C = C_I (δ − 4 C_M D²/γ̇²): Tseng, Chang & Hsu 2016, J. Rheol. 60, 215"
             }
             Self::Pard { .. } => {
-                "anisotropic diffusion, C = C_I diag(1, Ω, 1 − Ω) in the axes of a from its largest eigenvalue: Tseng, Chang & Hsu \
+                "anisotropic diffusion, C = C_I diag(1, Ω, 1 − Ω) in the axes of a from its largest eigenvalue: \
+                    Tseng, Chang & Hsu \
                  2018, J. Rheol. 62, 313"
             }
             Self::Mrd { .. } => {
-                "anisotropic diffusion, C = C_I diag(D1, D2, D3) in the axes of a from its largest eigenvalue: Bakharev, Yu, Speight \
+                "anisotropic diffusion, C = C_I diag(D1, D2, D3) in the axes of a from its largest eigenvalue: \
+                    Bakharev, Yu, Speight \
                  & Wang 2018, ANTEC"
             }
         }
@@ -162,15 +168,13 @@ impl Equation {
         }
         let c = self.model.diffusivity(a, &d, rate);
         let kappa = self.model.slowness();
-        let (fourth, source) = match kappa == 1.0 {
-            true => (*fourth, c),
-            false => slowed(kappa, a, fourth, &c),
-        };
+        let (fourth, source) = if kappa == 1.0 { (*fourth, c) } else { slowed(kappa, a, fourth, &c) };
         let turned = w * a - a * w;
         let stretched = d * a + a * d - fourth.contract(&d) * 2.0;
         let diffused = diffusion(a, &fourth, &c) + (source - c) * 2.0 + a * (2.0 * (1.0 - kappa) * c.trace());
         let all = turned + stretched * self.shape_factor + diffused * rate;
-        // tr a = 1 stays by the closure's own trace. Where a closure is not linear, as 𝔸 = aa, rounding would grow: 𝔸:δ = a tr a.
+        // tr a = 1 stays by the closure's own trace. Where a closure is not linear, as 𝔸 = aa, rounding would grow: 𝔸:δ
+        // = a tr a.
         all - Matrix3::identity() * (all.trace() / 3.0)
     }
 }
@@ -185,12 +189,13 @@ fn slowed(kappa: f64, a: &Matrix3<f64>, fourth: &Fourth, c: &Matrix3<f64>) -> (F
     let (values, axes) = principal(a);
     let own = fourth.turned(&axes.transpose());
     // In the axes of a, 𝕄 selects the rows of eeee.
-    let slow = Fourth::from_fn(|i, j, k, l| match i == j {
-        true => {
+    let slow = Fourth::from_fn(|i, j, k, l| {
+        if i == j {
             let target = if k == i && l == i { values[i] } else { 0.0 };
             own.at(i, i, k, l) + (1.0 - kappa) * (target - own.at(i, i, k, l))
+        } else {
+            own.at(i, j, k, l)
         }
-        false => own.at(i, j, k, l),
     });
     let inner = axes.transpose() * c * axes;
     let kept = axes * Matrix3::from_diagonal(&inner.diagonal()) * axes.transpose();

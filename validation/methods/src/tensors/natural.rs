@@ -1,9 +1,10 @@
 //! The exact natural closure: a_ijkl of the directions M p/|M p| for isotropic p that have this a_ij.
 //!
 //! In the axes of a, with z_i the logarithms of the eigenvalues of M Mᵀ and b_i = e^(−z_i), Σz = 0:
-//! a_i = ½∫ds/((b_i + s)R) and a_iijj = ¼∫s ds/((b_i + s)(b_j + s)R), R = ((b_1 + s)(b_2 + s)(b_3 + s))^½ (Verleye & Dupret 1993;
-//! Montgomery-Smith, He, Jack & Smith 2011). a is the gradient of the convex function ⟨ln Σ e^(z_i) p_i²⟩ of z, with the derivatives
-//! ∂a_i/∂z_j = a_i δ_ij − a_iijj: Newton's method finds z from a with only the fourth moments.
+//! a_i = ½∫ds/((b_i + s)R) and a_iijj = ¼∫s ds/((b_i + s)(b_j + s)R), R = ((b_1 + s)(b_2 + s)(b_3 + s))^½ (Verleye &
+//! Dupret 1993; Montgomery-Smith, He, Jack & Smith 2011). a is the gradient of the convex function ⟨ln Σ e^(z_i) p_i²⟩
+//! of z, with the derivatives ∂a_i/∂z_j = a_i δ_ij − a_iijj: Newton's method finds z from a with only the fourth
+//! moments.
 
 use super::closures::{Fourth, principal};
 use nalgebra::{Matrix3, Vector3};
@@ -22,8 +23,7 @@ pub(super) fn fourth(a: &Matrix3<f64>) -> Fourth {
     for _ in 0..60 {
         let residual = values - now.0;
         // Where a is none of rods, or nearly, a whole step would lead to exponents of millions.
-        let step =
-            slope(&now.1).lu().solve(&residual).unwrap_or_default().map(|step| step.clamp(-MOST, MOST));
+        let step = slope(&now.1).lu().solve(&residual).unwrap_or_default().map(|step| step.clamp(-MOST, MOST));
         let mut part = 1.0;
         let mut next = (z + step, now);
         while part > 1e-3 {
@@ -65,8 +65,5 @@ fn moments(z: &mut Vector3<f64>) -> (Vector3<f64>, Vector3<f64>) {
 
 /// The matrix ∂a_i/∂z_j, made regular in the direction in which a does not change.
 fn slope(mixed: &Vector3<f64>) -> Matrix3<f64> {
-    Matrix3::from_fn(|i, j| match i == j {
-        true => mixed[(i + 1) % 3] + mixed[(i + 2) % 3] + 1.0,
-        false => 1.0 - mixed[3 - i - j],
-    })
+    Matrix3::from_fn(|i, j| if i == j { mixed[(i + 1) % 3] + mixed[(i + 2) % 3] + 1.0 } else { 1.0 - mixed[3 - i - j] })
 }

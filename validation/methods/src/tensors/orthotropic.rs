@@ -1,8 +1,8 @@
-//! Orthotropic closures with fitted coefficients: a_1111, a_2222, a_3333 in the axes of a as polynomials of its two largest
-//! eigenvalues; the other components follow from a_iikk = a_ii (Cintra & Tucker 1995).
+//! Orthotropic closures with fitted coefficients: a_1111, a_2222, a_3333 in the axes of a as polynomials of its two
+//! largest eigenvalues; the other components follow from a_iikk = a_ii (Cintra & Tucker 1995).
 //!
-//! The coefficients were read in `closeA4.m` of charlestucker3/Fiber-Orientation-Tools, commit 266a6ee (MIT); they are checked by
-//! results that others published with them (`published/tensor-models`).
+//! The coefficients were read in `closeA4.m` of charlestucker3/Fiber-Orientation-Tools, commit 266a6ee (MIT); they are
+//! checked by results that others published with them (`published/tensor-models`).
 
 use super::closures::{Fourth, principal};
 use nalgebra::{Matrix3, Vector3};

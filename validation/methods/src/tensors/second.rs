@@ -70,9 +70,7 @@ fn rate(equation: &Equation, a: &M) -> M {
             let size = (0.5 * (square * square).trace()).sqrt();
             ((M::identity() - square * (c_m / size)) * c_i, 1.0)
         }
-        Model::Pard { c_i, omega } => {
-            (M::from_diagonal(&Vector3::new(c_i, c_i * omega, c_i - c_i * omega)), 1.0)
-        }
+        Model::Pard { c_i, omega } => (M::from_diagonal(&Vector3::new(c_i, c_i * omega, c_i - c_i * omega)), 1.0),
         Model::Mrd { c_i, d } => (M::from_diagonal(&(Vector3::from(d) * c_i)), 1.0),
     };
     // One contraction for flow and diffusion: ȧ = Wa − aW + ga + ag − 2𝔸:g + 2γ̇(C − tr C a) with g = ΛD − 5γ̇C.
@@ -89,9 +87,7 @@ fn rate(equation: &Equation, a: &M) -> M {
 fn contracted(closure: Closure, axes: &M, values: &Vector3<f64>, m: &M) -> M {
     let a = M::from_diagonal(values);
     let one = M::identity();
-    let linear = || {
-        (a * m.trace() + (a * m + m * a) * 2.0 + one * a.dot(m)) / 7.0 - (one * m.trace() + m * 2.0) / 35.0
-    };
+    let linear = || (a * m.trace() + (a * m + m * a) * 2.0 + one * a.dot(m)) / 7.0 - (one * m.trace() + m * 2.0) / 35.0;
     let quadratic = || a * a.dot(m);
     match closure {
         Closure::Linear => linear(),
@@ -129,15 +125,15 @@ fn fitted(values: &Vector3<f64>, m: &M, of: impl Fn(usize, f64, f64) -> f64) -> 
     M::from_fn(|i, j| if i == j { diagonal[i] } else { 2.0 * pairs[(i, j)] * m[(i, j)] })
 }
 
-/// β₅, β₂ and β₁ from a_ijkk = a_ij: its parts in a², a and δ by Cayley & Hamilton, in agreement with the printed formulas.
+/// β₅, β₂ and β₁ from a_ijkk = a_ij: its parts in a², a and δ by Cayley & Hamilton, in agreement with the printed
+/// formulas.
 fn ibof(values: &Vector3<f64>, m: &M) -> M {
     let second = values.x * values.y + values.y * values.z + values.z * values.x;
     let third = values.product();
     let squares = values.norm_squared();
     let beta = |k: usize| {
         let each = COEFFICIENTS.iter().zip(POWERS).map(|(c, (i, j))| {
-            let powers =
-                std::iter::repeat_n(second, i as usize).chain(std::iter::repeat_n(third, j as usize));
+            let powers = std::iter::repeat_n(second, i as usize).chain(std::iter::repeat_n(third, j as usize));
             powers.fold(c[k], |product, factor| product * factor)
         });
         each.rev().sum::<f64>()

@@ -67,13 +67,12 @@ fn apart(fourth: &Fourth, of: impl Fn([usize; 4]) -> f64) -> f64 {
     off.fold(0.0, f64::max)
 }
 
-/// Random: a_ijkl = (δδ + δδ + δδ)/15. Aligned: p_i p_j p_k p_l. Random in a plane: the same with 1/8 and δ of the plane.
+/// Random: a_ijkl = (δδ + δδ + δδ)/15. Aligned: p_i p_j p_k p_l. Random in a plane: the same with 1/8 and δ of the
+/// plane.
 #[test]
 fn closures_are_exact_in_the_limits_that_they_claim() {
     let random = |d: Matrix3<f64>, share: f64| {
-        move |[i, j, k, l]: [usize; 4]| {
-            share * (d[(i, j)] * d[(k, l)] + d[(i, k)] * d[(j, l)] + d[(i, l)] * d[(j, k)])
-        }
+        move |[i, j, k, l]: [usize; 4]| share * (d[(i, j)] * d[(k, l)] + d[(i, k)] * d[(j, l)] + d[(i, l)] * d[(j, k)])
     };
     let axes = Rotation3::from_euler_angles(0.3, -0.8, 1.9);
     let p = axes * Vector3::x();
@@ -94,7 +93,8 @@ fn closures_are_exact_in_the_limits_that_they_claim() {
             Closure::Hybrid => [1e-15, 1e-15, 1.0],
             // Eigenvalues below 10⁻¹² are replaced by it; a_1122 is not above a_22.
             Closure::Natural => [1e-14, 1e-11, 1e-11],
-            // ORE's 15 digits are constrained to the limits; the others are fitted to C_I of 10⁻⁴ to 10⁻¹, to about 1 %.
+            // ORE's 15 digits are constrained to the limits; the others are fitted to C_I of 10⁻⁴ to 10⁻¹, to about 1
+            // %.
             Closure::Ore => [1e-12; 3],
             Closure::Orw | Closure::Ibof => [1e-2; 3],
         };
@@ -125,8 +125,7 @@ fn the_natural_closure_is_exact_for_free_rods_that_started_isotropic() {
         for strain in [0.001, 0.5, 2.0, 6.0] {
             let (a, exact) = free(&motion, strain);
             let off = |closure: Closure, a: &Matrix3<f64>| {
-                let at =
-                    |q: [usize; 4]| exact[QUADRUPLES.iter().position(|r| r.map(|i| i - 1) == q).unwrap()];
+                let at = |q: [usize; 4]| exact[QUADRUPLES.iter().position(|r| r.map(|i| i - 1) == q).unwrap()];
                 apart(&closure.fourth(a), at)
             };
             let error = off(Closure::Natural, &a);
@@ -202,8 +201,7 @@ fn start() -> Matrix3<f64> {
 #[test]
 fn richer_models_reduce_to_folgar_and_tuckers() {
     let c_i = 0.02;
-    let flow =
-        Equation { gradient_per_s: matrix(ASKEW), ..in_shear(Closure::Orw, Model::FolgarTucker { c_i }) };
+    let flow = Equation { gradient_per_s: matrix(ASKEW), ..in_shear(Closure::Orw, Model::FolgarTucker { c_i }) };
     let plain = flow.rate(&start());
     let off = |model| (Equation { model, ..flow }.rate(&start()) - plain).amax();
     for (same, other) in [
@@ -236,8 +234,8 @@ fn richer_models_reduce_to_folgar_and_tuckers() {
     }
 }
 
-/// RSC slows the eigenvalues' rates by κ and leaves the axes' (Wang, O'Gara & Tucker 2008, eqs 14, 15): so in the axes of a the diagonal
-/// of ȧ is κ times Folgar & Tucker's, and the rest is the same. Its steady state is theirs.
+/// RSC slows the eigenvalues' rates by κ and leaves the axes' (Wang, O'Gara & Tucker 2008, eqs 14, 15): so in the axes
+/// of a the diagonal of ȧ is κ times Folgar & Tucker's, and the rest is the same. Its steady state is theirs.
 #[test]
 fn rsc_slows_eigenvalues_alone() {
     let (c_i, kappa) = (0.01, 0.1);
@@ -252,7 +250,8 @@ fn rsc_slows_eigenvalues_alone() {
     assert!(off < 1e-10, "{off:e}");
 }
 
-/// Against an outsider's code (implicit steps in Python, 2026-11): the trace does not drift, slow states are waited for.
+/// Against an outsider's code (implicit steps in Python, 2026-11): the trace does not drift, slow states are waited
+/// for.
 #[test]
 fn steady_states_are_found_where_they_settle_slowly_or_their_trace_would_drift() {
     let flows = [
@@ -283,11 +282,6 @@ fn steady_states_are_found_where_they_settle_slowly_or_their_trace_would_drift()
         };
         let found = steady(&equation, &start());
         let found = found.unwrap_or_else(|| panic!("{} {name} {c_i}", closure.name()));
-        assert!(
-            (found[(1, 1)] - a22).abs() < 1e-4,
-            "{} {name} {c_i}: {} {a22}",
-            closure.name(),
-            found[(1, 1)]
-        );
+        assert!((found[(1, 1)] - a22).abs() < 1e-4, "{} {name} {c_i}: {} {a22}", closure.name(), found[(1, 1)]);
     }
 }

@@ -13,8 +13,9 @@ pub fn rk4_in_p(a: &Matrix3<f64>, p: Vector3<f64>, h: f64, steps: u64) -> Vector
     (0..steps).fold(p, |p, _| rk4(|p| jeffery_rate(a, p), p, h))
 }
 
-/// p after `steps` steps of `h` s of an extrapolated method: Euler's with 1, 2, … substeps (Aitken & Neville; Hairer, Nørsett & Wanner,
-/// Solving Ordinary Differential Equations I, II.9), of order `order`. If `normalised`, |p| is reset to 1 after each step.
+/// p after `steps` steps of `h` s of an extrapolated method: Euler's with 1, 2, … substeps (Aitken & Neville; Hairer,
+/// Nørsett & Wanner, Solving Ordinary Differential Equations I, II.9), of order `order`. If `normalised`, |p| is reset
+/// to 1 after each step.
 pub fn extrapolated(
     order: usize,
     normalised: bool,

@@ -1,4 +1,5 @@
-//! Methods for ṗ = Ap − p(p·Ap) in double precision, by which the grader's rules are tested. They share no code with the grader.
+//! Methods for ṗ = Ap − p(p·Ap) in double precision, by which the grader's rules are tested. They share no code with
+//! the grader.
 
 pub mod extrapolated;
 pub mod tableaus;
@@ -267,12 +268,8 @@ fn fixed(method: &Method, motion: &Motion, mut x: Vector, end_s: f64, steps: u64
             }
         }
         Method::Splitting { turning, stretching } => {
-            let part = |sign: f64| {
-                [0, 1, 2].map(|i| [0, 1, 2].map(|j| 0.5 * (motion.a[i][j] + sign * motion.a[j][i])))
-            };
-            let maps = |m: Matrix, lengths: &[f64]| {
-                lengths.iter().map(|c| exponential(&m, c * h)).collect::<Vec<_>>()
-            };
+            let part = |sign: f64| [0, 1, 2].map(|i| [0, 1, 2].map(|j| 0.5 * (motion.a[i][j] + sign * motion.a[j][i])));
+            let maps = |m: Matrix, lengths: &[f64]| lengths.iter().map(|c| exponential(&m, c * h)).collect::<Vec<_>>();
             let (turns, stretches) = (maps(part(-1.0), turning), maps(part(1.0), stretching));
             for _ in 0..steps {
                 for (turn, stretch) in turns.iter().zip(&stretches) {
@@ -293,11 +290,8 @@ fn implicit(motion: &Motion, a: &[Vec<f64>], b: &[f64], x: &Vector, h: f64) -> V
     let mut before = f64::INFINITY;
     for _ in 0..100 {
         let next: Vec<Vector> = a.iter().map(|row| motion.rate(&sum(x, h, row, &k))).collect();
-        let change = k
-            .iter()
-            .zip(&next)
-            .map(|(old, new)| dot(&plus(new, -1.0, old), &plus(new, -1.0, old)))
-            .sum::<f64>();
+        let change =
+            k.iter().zip(&next).map(|(old, new)| dot(&plus(new, -1.0, old), &plus(new, -1.0, old))).sum::<f64>();
         k = next;
         if change == 0.0 || (change >= before && change < 1e-24) || change.is_nan() {
             break;
@@ -310,9 +304,10 @@ fn implicit(motion: &Motion, a: &[Vec<f64>], b: &[f64], x: &Vector, h: f64) -> V
 /// The rotation of `p` by the rotation vector `about`, by Rodrigues's formula.
 fn turned(about: &Vector, p: &Vector) -> Vector {
     let angle = dot(about, about).sqrt();
-    let (s, c) = match angle < 1e-4 {
-        true => (1.0 - angle * angle / 6.0, 0.5 - angle * angle / 24.0),
-        false => (angle.sin() / angle, (1.0 - angle.cos()) / (angle * angle)),
+    let (s, c) = if angle < 1e-4 {
+        (1.0 - angle * angle / 6.0, 0.5 - angle * angle / 24.0)
+    } else {
+        (angle.sin() / angle, (1.0 - angle.cos()) / (angle * angle))
     };
     let once = cross(about, p);
     let twice = cross(about, &once);
@@ -326,12 +321,11 @@ fn lie(motion: &Motion, tableau: &Tableau, rkmk: bool, p: &Vector, h: f64) -> Ve
         let v = sum(&[0.0; 3], h, row, &k);
         let w = omega(&turned(&v, p));
         // dexp⁻¹ to the second commutator.
-        k.push(match rkmk {
-            true => {
-                let once = cross(&v, &w);
-                plus(&plus(&w, -0.5, &once), 1.0 / 12.0, &cross(&v, &once))
-            }
-            false => w,
+        k.push(if rkmk {
+            let once = cross(&v, &w);
+            plus(&plus(&w, -0.5, &once), 1.0 / 12.0, &cross(&v, &once))
+        } else {
+            w
         });
     }
     turned(&sum(&[0.0; 3], h, &tableau.b, &k), p)
@@ -342,9 +336,8 @@ fn exponential(m: &Matrix, t: f64) -> Matrix {
     let norm = m.iter().flatten().map(|x| (x * t).abs()).sum::<f64>();
     let halvings = norm.max(1e-300).log2().ceil().max(0.0) as i32 + 3;
     let small = m.map(|row| row.map(|x| x * t / 2f64.powi(halvings)));
-    let product = |a: &Matrix, b: &Matrix| {
-        [0, 1, 2].map(|i| [0, 1, 2].map(|j| (0..3).map(|k| a[i][k] * b[k][j]).sum()))
-    };
+    let product =
+        |a: &Matrix, b: &Matrix| [0, 1, 2].map(|i| [0, 1, 2].map(|j| (0..3).map(|k| a[i][k] * b[k][j]).sum()));
     let one = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
     let (mut term, mut all) = (one, one);
     for k in 1..18 {
@@ -358,14 +351,7 @@ fn exponential(m: &Matrix, t: f64) -> Matrix {
 /// Number of steps, accepted or rejected, after which an adaptive method gives up.
 const MOST_STEPS: u64 = 2_000_000;
 
-fn adaptive(
-    motion: &Motion,
-    tableau: &Tableau,
-    other: &[f64],
-    mut x: Vector,
-    end_s: f64,
-    tolerance: f64,
-) -> Vector {
+fn adaptive(motion: &Motion, tableau: &Tableau, other: &[f64], mut x: Vector, end_s: f64, tolerance: f64) -> Vector {
     let (mut t, mut h) = (0.0, end_s / 1e4);
     let order = f64::from(tableau.order);
     let mut k = Vec::new();

@@ -1,7 +1,8 @@
 //! The axes of the harmonics, chosen such that few harmonics are needed.
 //!
-//! Rods gather about one axis. If it is the pole, they need many degrees l, but orders m only for the shape of the peak. If the
-//! flow has a plane of reflection through that axis, the azimuth is counted from the plane and ψ has only cosines.
+//! Rods gather about one axis. If it is the pole, they need many degrees l, but orders m only for the shape of the
+//! peak. If the flow has a plane of reflection through that axis, the azimuth is counted from the plane and ψ has only
+//! cosines.
 
 use super::operator::Motion;
 use nalgebra::{Matrix3, SymmetricEigen, Vector3};

@@ -38,19 +38,14 @@ impl Basis {
     pub fn unknowns(&self) -> impl Iterator<Item = (usize, usize, bool)> {
         let basis = *self;
         (0..=basis.degree).step_by(2).flat_map(move |l| {
-            (0..basis.width(l)).map(move |k| match basis.even {
-                true => (l, k, false),
-                false => (l, k.div_ceil(2), k > 0 && k % 2 == 0),
-            })
+            (0..basis.width(l))
+                .map(move |k| if basis.even { (l, k, false) } else { (l, k.div_ceil(2), k > 0 && k % 2 == 0) })
         })
     }
 
     /// Index of an unknown within its degree.
     pub fn place(&self, m: usize, imaginary: bool) -> usize {
-        match self.even {
-            true => m,
-            false => (2 * m + usize::from(imaginary)).saturating_sub(1),
-        }
+        if self.even { m } else { (2 * m + usize::from(imaginary)).saturating_sub(1) }
     }
 
     /// Converts the unknowns of the basis `from` to this one; those that `from` lacks are 0.

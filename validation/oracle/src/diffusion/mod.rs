@@ -1,10 +1,10 @@
 //! Rods with rotary diffusion: the exact distribution of directions of infinitely many rods in any steady flow.
 //!
-//! ∂ψ/∂t = −∇·(ṗψ) + D_r∇²ψ on the sphere with Jeffery's ṗ = ω × p + Λ(D·p − p p·Dp) and D_r = C_I γ̇, γ̇ = (2D:D)^½ (Folgar &
-//! Tucker 1984; no closure). Galerkin's method on even spherical harmonics: the operator couples |l' − l| ≤ 2 and |m' − m| ≤ 2,
-//! and a smooth ψ needs harmonics up to about the inverse width of its peak. A steady ψ is found by elimination from the highest
-//! degree down ([`steady`]), ψ in time by Taylor's series of exp(At) ([`at`]). Each answer is computed at least twice, with
-//! other harmonics and other steps; the difference is its stated error.
+//! ∂ψ/∂t = −∇·(ṗψ) + D_r∇²ψ on the sphere with Jeffery's ṗ = ω × p + Λ(D·p − p p·Dp) and D_r = C_I γ̇, γ̇ = (2D:D)^½
+//! (Folgar & Tucker 1984; no closure). Galerkin's method on even spherical harmonics: the operator couples |l' − l| ≤ 2
+//! and |m' − m| ≤ 2, and a smooth ψ needs harmonics up to about the inverse width of its peak. A steady ψ is found by
+//! elimination from the highest degree down ([`steady`]), ψ in time by Taylor's series of exp(At) ([`at`]). Each answer
+//! is computed at least twice, with other harmonics and other steps; the difference is its stated error.
 
 mod frame;
 mod harmonics;
@@ -55,9 +55,9 @@ const WANTED: f64 = 4e-12;
 
 /// Means over the rods at `times_s` ≥ 0, in ascending order.
 ///
-/// Their stated error is the largest difference between two solutions; the second has a ten times smaller tail of harmonics and
-/// shorter steps. It is an upper estimate of the error of the second, which is returned. If it is above 4·10⁻¹², a third solution
-/// follows, unless that takes too much work.
+/// Their stated error is the largest difference between two solutions; the second has a ten times smaller tail of
+/// harmonics and shorter steps. It is an upper estimate of the error of the second, which is returned. If it is above
+/// 4·10⁻¹², a third solution follows, unless that takes too much work.
 ///
 /// # Errors
 ///
@@ -68,9 +68,7 @@ pub fn at(motion: &Motion, start: Start, times_s: &[f64]) -> Result<Vec<Means>, 
     let (first, second) = rayon::join(|| of(1e-9, 8.0), || of(1e-10, 6.0));
     let (first, second) = (first?, second?);
     let all = |means: &[[f64; MEANS]], error| means.iter().map(|means| Means::new(means, error)).collect();
-    let differ = |a: &[[f64; MEANS]], b: &[[f64; MEANS]]| {
-        a.iter().zip(b).map(|(a, b)| apart(a, b)).fold(0.0, f64::max)
-    };
+    let differ = |a: &[[f64; MEANS]], b: &[[f64; MEANS]]| a.iter().zip(b).map(|(a, b)| apart(a, b)).fold(0.0, f64::max);
     let error = differ(&first, &second);
     if error <= WANTED {
         return Ok(all(&second, error));
@@ -83,12 +81,7 @@ pub fn at(motion: &Motion, start: Start, times_s: &[f64]) -> Result<Vec<Means>, 
 }
 
 /// One solution.
-fn solution(
-    frame: &Frame,
-    start: Start,
-    times_s: &[f64],
-    accuracy: Accuracy,
-) -> Result<Vec<[f64; MEANS]>, NoAnswer> {
+fn solution(frame: &Frame, start: Start, times_s: &[f64], accuracy: Accuracy) -> Result<Vec<[f64; MEANS]>, NoAnswer> {
     let (basis, unknowns) = start.unknowns(frame)?;
     let mut density = Density::new(frame, accuracy, basis, unknowns);
     let mut now = 0.0;
@@ -108,8 +101,8 @@ fn solution(
 
 /// Means over the rods in the steady distribution.
 ///
-/// Degrees and orders are raised until neither changes a mean by more than 4·10⁻¹²; the larger of the last changes is the
-/// stated error.
+/// Degrees and orders are raised until neither changes a mean by more than 4·10⁻¹²; the larger of the last changes is
+/// the stated error.
 ///
 /// # Errors
 ///

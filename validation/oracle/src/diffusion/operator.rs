@@ -1,8 +1,8 @@
 //! The Fokker–Planck operator −∇·(ṗψ) + D_r∇²ψ as a sparse matrix between spherical harmonics.
 //!
 //! ṗ = ω × p + ∇V with V = ½Λ p·Dp, D traceless (a trace turns no rod). V is a harmonic of degree 2, so
-//! −∇·(ψ∇V) = ½[−∇²(Vψ) + V∇²ψ + 6Vψ]: between degrees l and l' this is ½(l'(l'+1) − l(l+1) + 6) times the matrix of V, which
-//! couples |l' − l| ≤ 2 and |m' − m| ≤ 2. −(ω × p)·∇ψ = −i ω·Lψ conserves l, and ∇²ψ = −l(l+1)ψ.
+//! −∇·(ψ∇V) = ½[−∇²(Vψ) + V∇²ψ + 6Vψ]: between degrees l and l' this is ½(l'(l'+1) − l(l+1) + 6) times the matrix of V,
+//! which couples |l' − l| ≤ 2 and |m' − m| ≤ 2. −(ω × p)·∇ψ = −i ω·Lψ conserves l, and ∇²ψ = −l(l+1)ψ.
 
 use super::harmonics::{Basis, quadratic};
 use nalgebra::{Complex, Matrix3, SymmetricEigen, Vector3};
@@ -132,9 +132,7 @@ impl Operator {
             row.sort_by_key(|(at, _)| *at);
             for (at, entry) in row.drain(..) {
                 match operator.columns.last() {
-                    Some(last)
-                        if *last == at && operator.columns.len() > operator.ends[operator.ends.len() - 1] =>
-                    {
+                    Some(last) if *last == at && operator.columns.len() > operator.ends[operator.ends.len() - 1] => {
                         let last = operator.entries.len() - 1;
                         operator.entries[last] += entry;
                     }

@@ -1,8 +1,8 @@
 //! The steady distribution over orbits of rods with weak rotary diffusion in plane Couette flow.
 //!
-//! A free rod keeps its orbit constant C (eq. 13). Diffusion that is weak against the rotation, D_r → 0, changes C slowly: averaged
-//! over an orbit, uniform in its phase τ, its drift is D_r B and its diffusivity D_r A with B = ⟨∇²C⟩ and A = ⟨|∇C|²⟩ on the
-//! sphere. The steady flux is 0: (A p)′ = B p (Leal & Hinch 1971, J. Fluid Mech. 46, 685). With
+//! A free rod keeps its orbit constant C (eq. 13). Diffusion that is weak against the rotation, D_r → 0, changes C
+//! slowly: averaged over an orbit, uniform in its phase τ, its drift is D_r B and its diffusivity D_r A with B = ⟨∇²C⟩
+//! and A = ⟨|∇C|²⟩ on the sphere. The steady flux is 0: (A p)′ = B p (Leal & Hinch 1971, J. Fluid Mech. 46, 685). With
 //! p ∝ (C cos τ, r C sin τ, 1), u = C² and s = r² + r⁻² the averages are polynomials in u, and
 //!   p(C) ∝ C A^(−3/4) exp(−(3/32)(s − 2) ∫_u^∞ dv/A(v)),
 //!   A = ½(1 + r⁻²) + (7/4 + s/8) u + ½(1 + r²) u².
@@ -67,14 +67,15 @@ pub fn second_moments_of_orbit(c: f64, aspect_ratio: f64) -> [f64; 3] {
     [c * c / (long * sum), (aspect_ratio * c).powi(2) / (wide * sum), 1.0 / (long * wide)]
 }
 
-/// ⟨p₁²p₂²⟩ of rods in orbit C, uniform in phase: their σ₁₂ over μ_fiber G. With A = 1 + C² and B = 1 + r²C² it is r²C⁴ times
-/// ⟨cos²τ sin²τ/(A cos²τ + B sin²τ)²⟩, which is −∂²/∂A∂B of 2 ln(½(√A + √B)).
+/// ⟨p₁²p₂²⟩ of rods in orbit C, uniform in phase: their σ₁₂ over μ_fiber G. With A = 1 + C² and B = 1 + r²C² it is r²C⁴
+/// times ⟨cos²τ sin²τ/(A cos²τ + B sin²τ)²⟩, which is −∂²/∂A∂B of 2 ln(½(√A + √B)).
 pub fn shear_stress_of_orbit(c: f64, aspect_ratio: f64) -> f64 {
     let (long, wide) = ((1.0 + c * c).sqrt(), (aspect_ratio * c).hypot(1.0));
     (aspect_ratio * c * c / (long + wide)).powi(2) / (2.0 * long * wide)
 }
 
-/// σ₁₂ over μ_fiber G of rods in the orbits of isotropic directions, uniform in phase: the mean over a period of initially isotropic rods.
+/// σ₁₂ over μ_fiber G of rods in the orbits of isotropic directions, uniform in phase: the mean over a period of
+/// initially isotropic rods.
 pub fn shear_stress_of_isotropic(aspect_ratio: f64) -> f64 {
     let of_c = |c_b: f64| {
         let c = c_b / (1.0 - c_b).max(f64::EPSILON);

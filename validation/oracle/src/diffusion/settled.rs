@@ -82,8 +82,8 @@ fn isotropic() -> [f64; MEANS] {
 
 /// Means over the steady density with these harmonics; `None` if there is none: rods without diffusion.
 ///
-/// With S_L = A_LL and S_{l−2} = A_{l−2,l−2} − A_{l−2,l} K_l, K_l = S_l⁻¹ A_{l,l−2}: u_l = −K_l u_{l−2}. A row g of a mean
-/// is reduced along with it, g_{l−2} ← g_{l−2} − g_l K_l, so that no K of a high degree is stored.
+/// With S_L = A_LL and S_{l−2} = A_{l−2,l−2} − A_{l−2,l} K_l, K_l = S_l⁻¹ A_{l,l−2}: u_l = −K_l u_{l−2}. A row g of a
+/// mean is reduced along with it, g_{l−2} ← g_{l−2} − g_l K_l, so that no K of a high degree is stored.
 pub(super) fn steady(frame: &Frame, basis: Basis) -> Option<[f64; MEANS]> {
     let operator = Operator::new(&frame.motion, basis);
     let functionals = Functionals::new(frame, &basis);

@@ -41,11 +41,8 @@ fn couette_flow_comes_back_at_any_aspect_ratio() {
 
 #[test]
 fn a_rotation_turns_by_half_the_vorticity() {
-    let rod = Rod {
-        gradient_per_s: [[0.0, -0.5, 0.0], [0.5, 0.0, 0.0], [0.0; 3]],
-        aspect_ratio: 7.0,
-        p: [1.0, 0.0, 1.0],
-    };
+    let rod =
+        Rod { gradient_per_s: [[0.0, -0.5, 0.0], [0.5, 0.0, 0.0], [0.0; 3]], aspect_ratio: 7.0, p: [1.0, 0.0, 1.0] };
     near(rod.after(Span::Seconds(PI)), [0.0, 1.0, 1.0], 2.0 * f64::EPSILON);
     // The time of 10⁶ turns is a double; the phase follows from its rounding.
     let time_s = 1e6 * 2.0 * TAU;
@@ -76,11 +73,8 @@ fn an_extension_stretches_each_axis_and_does_not_mind_its_trace() {
 #[test]
 fn a_chain_of_shears_is_a_polynomial() {
     // r_e = 10¹⁰⁰ in u_1 = x_2, u_2 = x_3: exp is 1 + Lt + L²t²/2.
-    let rod = Rod {
-        gradient_per_s: [[0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [0.0; 3]],
-        aspect_ratio: 1e100,
-        p: [0.0, 0.0, 1.0],
-    };
+    let rod =
+        Rod { gradient_per_s: [[0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [0.0; 3]], aspect_ratio: 1e100, p: [0.0, 0.0, 1.0] };
     near(rod.after(Span::Seconds(3.0)), [4.5, 3.0, 1.0], 2.0 * f64::EPSILON);
 }
 

@@ -69,8 +69,7 @@ mod tests {
             assert_eq!(free.positions_mm, averaged.positions_mm);
             turned += collided.collisions;
             for rod in 0..2 {
-                let [free, collided, averaged] =
-                    [&free, &collided, &averaged].map(|run| vector(run.orientations[rod]));
+                let [free, collided, averaged] = [&free, &collided, &averaged].map(|run| vector(run.orientations[rod]));
                 let expected = free + (collided - free) * (1.0 - missed * missed);
                 // GΔt = 7·10⁻⁴, kicks are about ten times that: the neglected terms are of second order.
                 assert!((averaged - expected).norm() < 1e-4 * (collided - free).norm() + 1e-6, "{replica}");

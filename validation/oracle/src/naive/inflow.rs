@@ -79,9 +79,9 @@ pub fn carry(
     }
 }
 
-/// The position at which rod number `rod` of all that have left comes back, uniform in the liquid that came in during the step:
-/// it enters through a face drawn by largest inflow and area, at a point accepted by the inflow there, at a drawn time. It is
-/// drawn again if the rod would have left, or was inside when the step began.
+/// The position at which rod number `rod` of all that have left comes back, uniform in the liquid that came in during
+/// the step: it enters through a face drawn by largest inflow and area, at a point accepted by the inflow there, at a
+/// drawn time. It is drawn again if the rod would have left, or was inside when the step began.
 pub(super) fn come_in(
     gradient: Matrix3<f64>,
     edges_mm: [f64; 3],

@@ -142,7 +142,8 @@ pub struct NaiveProblem {
 }
 
 impl NaiveProblem {
-    /// Fig. 7 at 50 per cm^3 with rods of one size, in the project's interpretation of the paper, with the update `rotation`.
+    /// Fig. 7 at 50 per cm^3 with rods of one size, in the project's interpretation of the paper, with the update
+    /// `rotation`.
     pub fn paper(seed: u64, replica: u64) -> Self {
         Self {
             count: 100,

@@ -41,9 +41,9 @@ pub enum Lines {
 
 /// Periodic images of the volume: every rod counts at its nearest image.
 ///
-/// A rod's own images are never its neighbours. The liquid moves an image with the velocity at its position, so an image across
-/// the faces of x_1 is faster or slower by G H. Images across x_1 are not shifted along x_2 with time (Lees and Edwards), because
-/// no rod keeps its position along x_2 for long: it leaves and comes back elsewhere.
+/// A rod's own images are never its neighbours. The liquid moves an image with the velocity at its position, so an
+/// image across the faces of x_1 is faster or slower by G H. Images across x_1 are not shifted along x_2 with time
+/// (Lees and Edwards), because no rod keeps its position along x_2 for long: it leaves and comes back elsewhere.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Images {
     /// No images: rods near a face have fewer neighbours.

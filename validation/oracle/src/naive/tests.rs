@@ -192,9 +192,7 @@ fn a_rod_draws_by_its_own_length() {
         naive.last_collisions
     };
     let (least, most) = (1.0 - 1e-9, 1.0 + 1e-9);
-    for (factors, taken) in
-        [([most, least], vec![(0, 1)]), ([least, most], vec![(1, 0)]), ([least, least], vec![])]
-    {
+    for (factors, taken) in [([most, least], vec![(0, 1)]), ([least, most], vec![(1, 0)]), ([least, least], vec![])] {
         let [a, b] = [0, 1].map(|rod| factors[rod] * needed[rod]);
         assert_eq!(reached(Length::Own, [a, b]), taken);
         assert_eq!(reached(Length::Partners, [b, a]), taken);
@@ -300,10 +298,8 @@ fn replaced([h1, h2, h3]: [f64; 3], box_mm: Option<[f64; 3]>) {
 fn every_mistake_changes_a_run() {
     // rods of unequal length; a concentration given by a cube or a box; and another flow
     let state = |mistake| {
-        let flow = OtherFlow {
-            gradient_per_s: [[0.3, -0.5, 0.1], [0.8, 0.1, -0.2], [0.4, 0.6, -0.4]],
-            steps_per_strain: 10,
-        };
+        let flow =
+            OtherFlow { gradient_per_s: [[0.3, -0.5, 0.1], [0.8, 0.1, -0.2], [0.4, 0.6, -0.4]], steps_per_strain: 10 };
         [(None, None), (Some([20.0, 5.0, 10.0]), None), (None, Some(flow))].map(|(box_mm, other_flow)| {
             let change = |p: &mut NaiveProblem| {
                 (p.update, p.mistake) = (Update::Angles, mistake);

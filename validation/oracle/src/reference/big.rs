@@ -39,10 +39,7 @@ impl Bits {
 
 /// |log₂|x|| rounded up, the distance of |x| from 1 in powers of two; 0 for 0.
 pub fn magnitude(x: f64) -> usize {
-    match x == 0.0 {
-        true => 0,
-        false => x.abs().log2().abs().ceil() as usize,
-    }
+    if x == 0.0 { 0 } else { x.abs().log2().abs().ceil() as usize }
 }
 
 /// The nearest double.
@@ -55,7 +52,8 @@ pub fn number(x: &Big) -> f64 {
     double(x) + 0.0
 }
 
-/// The double nearest to a decimal number; `None` if there is none: if a number other than 0 would become 0 or infinite.
+/// The double nearest to a decimal number; `None` if there is none: if a number other than 0 would become 0 or
+/// infinite.
 pub fn finite(text: &str) -> Option<f64> {
     let text = text.trim();
     let x = text.parse::<f64>().ok().filter(|x| x.is_finite())?;
@@ -63,8 +61,8 @@ pub fn finite(text: &str) -> Option<f64> {
     (x != 0.0 || !digits.contains(|c: char| ('1'..='9').contains(&c))).then_some(x)
 }
 
-/// A decimal number as written, exact to 400 bits; `None` where [`finite`] has none: the time and memory of a power of ten grow with its
-/// exponent.
+/// A decimal number as written, exact to 400 bits; `None` where [`finite`] has none: the time and memory of a power of
+/// ten grow with its exponent.
 pub fn decimal(text: &str) -> Option<Big> {
     if finite(text)? == 0.0 {
         return Some(Bits(400).of(0.0));
@@ -78,7 +76,8 @@ pub fn digits(x: &Big, digits: usize) -> String {
     if *x == Big::ZERO {
         return "0".into();
     }
-    // Powers of ten are rounded, so it takes more bits than the digits hold. (The crate's change of base takes half a millisecond.)
+    // Powers of ten are rounded, so it takes more bits than the digits hold. (The crate's change of base takes half a
+    // millisecond.)
     let bits = Bits(4 * digits + 80);
     let size = bits.round(x.sqr().sqrt());
     let mut exponent = (f64::from(size.log2_est()) * std::f64::consts::LOG10_2).floor() as i64;
@@ -109,7 +108,8 @@ pub fn length([x, y, z]: &[Big; 3]) -> Big {
     (x.sqr() + y.sqr() + z.sqr()).sqrt()
 }
 
-/// Calls `each` with the powers of `base` from 0 to `right`, then from −1 to −`left`: the nodes of the trapezoid rule in ln x.
+/// Calls `each` with the powers of `base` from 0 to `right`, then from −1 to −`left`: the nodes of the trapezoid rule
+/// in ln x.
 pub(super) fn each_power(one: &Big, base: &Big, left: usize, right: usize, mut each: impl FnMut(&Big)) {
     let inverse = one / base;
     let mut x = one.clone();

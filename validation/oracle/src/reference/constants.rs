@@ -23,7 +23,8 @@ fn constant(quantity: &'static str, value: Big, unit: &'static str, equation: &'
     Constant { quantity, value, unit, equation }
 }
 
-/// The constants of plane Couette flow for one r_e; `start` is that of a single rod, or `None` for rods isotropic at t = 0.
+/// The constants of plane Couette flow for one r_e; `start` is that of a single rod, or `None` for rods isotropic at t
+/// = 0.
 ///
 /// `None` in any other flow.
 pub fn constants(motion: &Motion, start: Option<Direction>) -> Option<Vec<Constant>> {
@@ -58,13 +59,12 @@ pub fn constants(motion: &Motion, start: Option<Direction>) -> Option<Vec<Consta
 }
 
 const PHASE_MEANS: [&str; 6] = ["mean_x1", "mean_x2", "mean_x3", "mean_a11", "mean_a22", "mean_a33"];
-const PLATEAUS: [&str; 6] =
-    ["plateau_x1", "plateau_x2", "plateau_x3", "plateau_a11", "plateau_a22", "plateau_a33"];
+const PLATEAUS: [&str; 6] = ["plateau_x1", "plateau_x2", "plateau_x3", "plateau_a11", "plateau_a22", "plateau_a33"];
 
 /// ⟨φ⟩ of eq. 19, rad: (2/π)[π²/8 + ∫₁^{r_e} ln x/(x² − 1) dx] = π/4 + (2/π) χ₂((r_e − 1)/(r_e + 1)).
 ///
-/// Legendre's χ₂(x) = Σ x^{2k+1}/(2k+1)², by its series for x² ≤ 0.2, and beyond by χ₂(x) + χ₂(k) = π²/8 + ln k artanh k with
-/// k = (1 − x)/(1 + x) (Lewin, Polylogarithms, 1.67).
+/// Legendre's χ₂(x) = Σ x^{2k+1}/(2k+1)², by its series for x² ≤ 0.2, and beyond by χ₂(x) + χ₂(k) = π²/8 + ln k artanh
+/// k with k = (1 − x)/(1 + x) (Lewin, Polylogarithms, 1.67).
 fn mean_angle(r: &Big) -> Big {
     let one = BITS.of(1.0);
     let (pi, half) = (BITS.pi(), BITS.of(0.5));
@@ -101,9 +101,9 @@ fn inclination(p: &[Big; 3], r: &Big) -> [Big; 2] {
 
 /// Means over a period of |p₁|, |p₂|, |p₃|, p₁², p₂², p₃² of a rod in the orbit C = tan β.
 ///
-/// From φ = 0 the rod is p ∝ (sin β cos ωt, r_e sin β sin ωt, cos β). With s² = r_e² − 1 the quarter-period integrals of |p_i|
-/// are asinh(s sin β)/s, (r_e/s) atan(s sin β) and cos β K; for r_e < 1, s is imaginary. With |q| = w at ωt = π/2, those of
-/// p_i² are sin²β/(1 + w), r_e² sin²β/(w(1 + w)) and cos²β/w.
+/// From φ = 0 the rod is p ∝ (sin β cos ωt, r_e sin β sin ωt, cos β). With s² = r_e² − 1 the quarter-period integrals
+/// of |p_i| are asinh(s sin β)/s, (r_e/s) atan(s sin β) and cos β K; for r_e < 1, s is imaginary. With |q| = w at ωt =
+/// π/2, those of p_i² are sin²β/(1 + w), r_e² sin²β/(w(1 + w)) and cos²β/w.
 fn phase_means(sine: &Big, cosine: &Big, r: &Big) -> [Big; 6] {
     let one = BITS.of(1.0);
     let far = (cosine.sqr() + (r * sine).sqr()).sqrt();
@@ -132,9 +132,10 @@ fn phase_means(sine: &Big, cosine: &Big, r: &Big) -> [Big; 6] {
 
 /// Means of |p₁|, |p₂|, |p₃|, p₁², p₂², p₃² when the phases of isotropic rods are mixed: their orbits do not change.
 ///
-/// ∫ f(C) ⟨…⟩_C dC with f(C) = (2r_e/π) C E(m)/((1 + C²)^½(1 + r_e²C²)), m = (1 − r_e²)C²/(1 + C²), by the trapezoid rule in
-/// u = ln C. It is analytic for |Im u| < π/2, so the error falls as e^{−2π·½π/h}: with h = ln 9/8 that is e^{−80} at 0.95 of it.
-/// It rises as C or faster below min(1, 1/r_e) and falls as 1/C above max(1, 1/r_e): beyond 62 there, e^{−62}.
+/// ∫ f(C) ⟨…⟩_C dC with f(C) = (2r_e/π) C E(m)/((1 + C²)^½(1 + r_e²C²)), m = (1 − r_e²)C²/(1 + C²), by the trapezoid
+/// rule in u = ln C. It is analytic for |Im u| < π/2, so the error falls as e^{−2π·½π/h}: with h = ln 9/8 that is
+/// e^{−80} at 0.95 of it. It rises as C or faster below min(1, 1/r_e) and falls as 1/C above max(1, 1/r_e): beyond 62
+/// there, e^{−62}.
 fn plateaus(r: &Big) -> [Big; 6] {
     let one = BITS.of(1.0);
     let steps = |range: f64| (range / 1.125f64.ln()).ceil() as usize;
@@ -159,7 +160,8 @@ fn plateaus(r: &Big) -> [Big; 6] {
     sums.map(|sum| sum * &factor)
 }
 
-/// ∫₀^{π/2} (a cos²t + b sin²t)(cos²t + k² sin²t)^{-½} dt, k > 0 (Bulirsch's cel with p = 1): K for a = b = 1, E for b = k².
+/// ∫₀^{π/2} (a cos²t + b sin²t)(cos²t + k² sin²t)^{-½} dt, k > 0 (Bulirsch's cel with p = 1): K for a = b = 1, E for b
+/// = k².
 fn complete(k: &Big, a: &Big, b: &Big) -> Big {
     let (mut k, mut a, mut b) = (k.clone(), a.clone(), b.clone());
     let (mut e, mut m, mut p) = (k.clone(), BITS.of(1.0), BITS.of(1.0));

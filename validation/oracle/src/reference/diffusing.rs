@@ -35,7 +35,8 @@ impl Diffusing {
         columns
     }
 
-    /// A table of values at `at` ≥ 0, ascending doubles in `unit`, followed by the steady values at the time ∞ if requested.
+    /// A table of values at `at` ≥ 0, ascending doubles in `unit`, followed by the steady values at the time ∞ if
+    /// requested.
     ///
     /// Each value is rounded to as many decimals as its stated error allows, eleven at most.
     pub fn table(&self, at: &[f64], unit: Unit) -> Result<Table, NoValue> {
@@ -64,9 +65,10 @@ impl Diffusing {
 
     fn values(&self, means: &Means) -> Vec<Option<f64>> {
         let certain = |x: &f64| Some(means.certain(*x));
-        match self.fourth {
-            true => means.fourth.iter().map(certain).collect(),
-            false => means.projections.iter().chain(&means.second).map(certain).collect(),
+        if self.fourth {
+            means.fourth.iter().map(certain).collect()
+        } else {
+            means.projections.iter().chain(&means.second).map(certain).collect()
         }
     }
 }

@@ -52,10 +52,7 @@ impl Covariance {
         };
         let back = matrix(|i, j| cofactor(j, i));
         let kept = |m: Matrix| m.map(|row| row.map(|x| KEPT.round(x)));
-        Some(Self {
-            sigma: kept(product(&map, &transposed(&map))),
-            inverse: kept(product(&transposed(&back), &back)),
-        })
+        Some(Self { sigma: kept(product(&map, &transposed(&map))), inverse: kept(product(&transposed(&back), &back)) })
     }
 
     /// The means ⟨|p₁|⟩, ⟨|p₂|⟩, ⟨|p₃|⟩.
@@ -92,15 +89,12 @@ impl Covariance {
 
     /// ∫ f d(ln x) from 0 to ∞ for `f(x, adj M, det M)`, good to 80 bits of the largest entry of the same kind.
     ///
-    /// The trapezoid rule in u = ln x. The integrands are analytic for |Im u| < π, because the roots of det M and of the
-    /// diagonal of adj M are negative, so the error falls as e^{−2π·π/h}: with h = ln 5/4 that is e^{−88}. Close to
+    /// The trapezoid rule in u = ln x. The integrands are analytic for |Im u| < π, because the roots of det M and of
+    /// the diagonal of adj M are negative, so the error falls as e^{−2π·π/h}: with h = ln 5/4 that is e^{−88}. Close to
     /// Im u = π an integrand is larger by (cos ½Im u)⁻⁵ at most; at 0.95 π that leaves e^{−84}·3·10⁵ = 2^{−103}.
     /// They rise as x^{1/2} or faster and fall as x^{−3/2} or faster beyond the roots of det M, which lie between
     /// 1/tr Σ and tr B.
-    fn integral<const N: usize>(
-        &self,
-        f: impl Fn(&Big, &dyn Fn(usize, usize) -> Big, &Big) -> [Big; N],
-    ) -> [Big; N] {
+    fn integral<const N: usize>(&self, f: impl Fn(&Big, &dyn Fn(usize, usize) -> Big, &Big) -> [Big; N]) -> [Big; N] {
         let [trace_sigma, trace_inverse] = self.traces();
         let (left, right) = Self::steps(&trace_sigma, &trace_inverse);
         let one = KEPT.of(1.0);
@@ -109,10 +103,7 @@ impl Covariance {
         let add = |x: &Big| {
             let determinant = ((x + &trace_inverse) * x + &trace_sigma) * x + &one;
             let adjugate = |i: usize, j: usize| {
-                let linear = match i == j {
-                    true => x + &others[i],
-                    false => -&self.inverse[i][j],
-                };
+                let linear = if i == j { x + &others[i] } else { -&self.inverse[i][j] };
                 linear * x + &self.sigma[i][j]
             };
             for (sum, value) in sums.iter_mut().zip(f(x, &adjugate, &determinant)) {
@@ -140,7 +131,8 @@ impl Covariance {
         STEP.clone()
     }
 
-    /// The nodes on the left and on the right of x = 1, from tr Σ and tr B: ln 2 · 84 bits · 2 and · 2/3, in steps, beyond the roots.
+    /// The nodes on the left and on the right of x = 1, from tr Σ and tr B: ln 2 · 84 bits · 2 and · 2/3, in steps,
+    /// beyond the roots.
     pub(super) fn steps(trace_sigma: &Big, trace_inverse: &Big) -> (usize, usize) {
         let steps = |range: f64| (range / 1.25f64.ln()).ceil() as usize;
         // Traces may be beyond the range of a double.
@@ -190,8 +182,7 @@ mod tests {
     fn projections_are_carlsons_integrals() {
         for (u, v) in spread(20) {
             let (r, turns) = (1e4f64.powf(2.0 * u - 1.0), 3.0 * v);
-            let (found, expected) =
-                (at(COUETTE, r, turns, Unit::Period).projections(), mean_projections(r, turns));
+            let (found, expected) = (at(COUETTE, r, turns, Unit::Period).projections(), mean_projections(r, turns));
             let wrong = mean_projections(r, 1.01 * turns);
             for i in 0..3 {
                 // The tolerance is the claimed accuracy of the formula in doubles.
@@ -256,8 +247,7 @@ mod tests {
         let doubles = |exact: &[Big]| exact.iter().map(number).collect::<Vec<_>>();
         let (mut settled, mut all) = (0, 0);
         for (u, v) in spread(40) {
-            for (gradient, time, unit) in [(COUETTE, 3.0 * v, Unit::Period), (SPIRAL, 9.0 * v, Unit::Second)]
-            {
+            for (gradient, time, unit) in [(COUETTE, 3.0 * v, Unit::Period), (SPIRAL, 9.0 * v, Unit::Second)] {
                 let covariance = at(gradient, 1e3f64.powf(2.0 * u - 1.0), time, unit);
                 let matrices = Matrices::new(&covariance).unwrap();
                 let found = [
@@ -265,16 +255,10 @@ mod tests {
                     matrices.second().map(Vec::from),
                     matrices.fourth().map(Vec::from),
                 ];
-                let expected = [
-                    doubles(&covariance.projections()),
-                    doubles(&covariance.second()),
-                    doubles(&covariance.fourth()),
-                ];
+                let expected =
+                    [doubles(&covariance.projections()), doubles(&covariance.second()), doubles(&covariance.fourth())];
                 for (found, expected) in found.iter().zip(&expected) {
-                    assert!(
-                        found.as_ref().is_none_or(|found| found == expected),
-                        "{u} {v}: {found:?} {expected:?}"
-                    );
+                    assert!(found.as_ref().is_none_or(|found| found == expected), "{u} {v}: {found:?} {expected:?}");
                     settled += usize::from(found.is_some());
                     all += 1;
                 }

@@ -130,12 +130,11 @@ impl Motion {
     /// The traceless part of A t.
     fn generator(&self, seconds: &Big, bits: Bits) -> Matrix {
         let l = |i: usize, j: usize| bits.of(self.gradient_per_s[i][j]);
-        let shape = match self.aspect_ratio.is_finite() {
-            true => {
-                let square = bits.of(self.aspect_ratio).sqr();
-                (&square - bits.of(1.0)) / (&square + bits.of(1.0))
-            }
-            false => bits.of(1.0),
+        let shape = if self.aspect_ratio.is_finite() {
+            let square = bits.of(self.aspect_ratio).sqr();
+            (&square - bits.of(1.0)) / (&square + bits.of(1.0))
+        } else {
+            bits.of(1.0)
         };
         let (half, third) = (bits.of(0.5), bits.of(1.0) / bits.of(3.0));
         let trace = (l(0, 0) + l(1, 1) + l(2, 2)) * &shape * third;
@@ -151,11 +150,7 @@ fn couette_map(r: &Big, turns: &Big, sign: f64, bits: Bits) -> Matrix {
     let (sine, cosine) = turns.sin_cos_unit(1);
     let sine = sine * bits.of(sign);
     let (zero, one) = (bits.of(0.0), bits.of(1.0));
-    [
-        [cosine.clone(), -(&sine / r), zero.clone()],
-        [r * &sine, cosine, zero.clone()],
-        [zero.clone(), zero, one],
-    ]
+    [[cosine.clone(), -(&sine / r), zero.clone()], [r * &sine, cosine, zero.clone()], [zero.clone(), zero, one]]
 }
 
 /// exp M for |M| ≤ `norm`: the series of M/2^k, squared k times. k balances terms against squarings.
@@ -203,9 +198,7 @@ mod tests {
     #[test]
     fn the_exponential_is_the_closed_form_in_couette_flow() {
         let bits = Bits(300);
-        for (rate, aspect_ratio, strain) in
-            [(0.5, 11.6, 100.0), (-3.0, 0.2, 7.0), (1.0, 1.0, 30.0), (1e10, 1e4, 0.3)]
-        {
+        for (rate, aspect_ratio, strain) in [(0.5, 11.6, 100.0), (-3.0, 0.2, 7.0), (1.0, 1.0, 30.0), (1e10, 1e4, 0.3)] {
             let motion = Motion { gradient_per_s: [[0.0; 3], [rate, 0.0, 0.0], [0.0; 3]], aspect_ratio };
             let seconds = bits.of(strain) / bits.of(rate.abs());
             let closed = motion.map(&seconds, Unit::Second, bits).unwrap();

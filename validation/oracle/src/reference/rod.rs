@@ -51,12 +51,7 @@ pub struct At<'a> {
 
 impl<'a> At<'a> {
     /// A rod from its start, in the bits that the hardest of `times` needs.
-    pub fn new(
-        motion: &'a Motion,
-        start: Direction,
-        times: impl IntoIterator<Item = f64>,
-        unit: Unit,
-    ) -> Self {
+    pub fn new(motion: &'a Motion, start: Direction, times: impl IntoIterator<Item = f64>, unit: Unit) -> Self {
         let needed = times.into_iter().map(|time| motion.bits(time, unit, KEPT).0);
         let bits = Bits(needed.max().unwrap_or(KEPT));
         let start = Start::new(start, bits);
@@ -87,8 +82,8 @@ impl<'a> At<'a> {
     }
 }
 
-/// atan2(y, x) to the bits of angles: the double φ next to it is off by atan δ, δ = (y cos φ − x sin φ)/(x cos φ + y sin φ), and δ³ is
-/// below these bits. Takes half the time of the crate's own.
+/// atan2(y, x) to the bits of angles: the double φ next to it is off by atan δ, δ = (y cos φ − x sin φ)/(x cos φ + y
+/// sin φ), and δ³ is below these bits. Takes half the time of the crate's own.
 fn angle(y: &Big, x: &Big) -> Big {
     let near = OF_ANGLES.of(double(y).atan2(double(x)));
     let (sine, cosine) = near.sin_cos();
@@ -125,10 +120,7 @@ impl Start {
             Direction::Angles { phi_deg, theta_deg } => {
                 let (sine, cosine) = bits.of(theta_deg).sin_cos_unit(360);
                 let (across, along) = bits.of(phi_deg).sin_cos_unit(360);
-                Self {
-                    p: [&sine * &along, &sine * &across, cosine],
-                    along: Some([along, across, bits.of(0.0)]),
-                }
+                Self { p: [&sine * &along, &sine * &across, cosine], along: Some([along, across, bits.of(0.0)]) }
             }
         }
     }
@@ -186,13 +178,9 @@ mod tests {
             double(&((found - &exact) / exact)).abs()
         };
         for (u, v) in spread(50) {
-            for (x, y) in [
-                (u - 0.5, v - 0.5),
-                (-1.0, 1e-30 * v),
-                (1e-30 * u, -1.0),
-                (1.0, 1e-320),
-                (1e100 * u, 1e90 * v),
-            ] {
+            for (x, y) in
+                [(u - 0.5, v - 0.5), (-1.0, 1e-30 * v), (1e-30 * u, -1.0), (1.0, 1e-320), (1e100 * u, 1e90 * v)]
+            {
                 assert!(off(x, y, 0.0) < 2f64.powi(-110), "{x} {y}");
                 // Wrong: a last digit of a double.
                 assert!(off(x, y, f64::EPSILON) > 2f64.powi(-110));

@@ -1,5 +1,5 @@
-//! Second methods for the values of many digits. They share the arithmetic of `dashu-float` with the first ones, and what their
-//! doc comments name.
+//! Second methods for the values of many digits. They share the arithmetic of `dashu-float` with the first ones, and
+//! what their doc comments name.
 
 use super::big::{Big, Bits, length};
 use super::isotropic::{Covariance, PAIRS, QUADRUPLES};
@@ -16,16 +16,11 @@ fn cross(a: &[Big; 3], b: &[Big; 3]) -> [Big; 3] {
     [0, 1, 2].map(|i| &a[(i + 1) % 3] * &b[(i + 2) % 3] - &a[(i + 2) % 3] * &b[(i + 1) % 3])
 }
 
-/// p after `time_s` from the unit vector `start`, by Taylor's series of Jeffery's equation ṗ = Wp + Λ(Dp − p p·Dp) itself (A.1): no
-/// exponential, no linear equation and no closed form.
+/// p after `time_s` from the unit vector `start`, by Taylor's series of Jeffery's equation ṗ = Wp + Λ(Dp − p p·Dp)
+/// itself (A.1): no exponential, no linear equation and no closed form.
 ///
 /// `gradient_per_s` has ∂u_i/∂x_j in row i and column j. For |L| `time_s` up to some hundreds.
-pub fn direction(
-    gradient_per_s: &[[f64; 3]; 3],
-    aspect_ratio: f64,
-    start: &[Big; 3],
-    time_s: &Big,
-) -> [Big; 3] {
+pub fn direction(gradient_per_s: &[[f64; 3]; 3], aspect_ratio: f64, start: &[Big; 3], time_s: &Big) -> [Big; 3] {
     const TERMS: usize = 32;
     let norm = gradient_per_s.as_flattened().iter().map(|x| x * x).sum::<f64>().sqrt();
     let steps = (16.0 * norm * super::big::double(time_s).abs()).ceil().max(1.0);
@@ -71,11 +66,12 @@ fn double_exponential(per_unit: usize) -> Vec<(Big, Big)> {
     (-most..=most).map(node).collect()
 }
 
-/// ⟨|p_i|⟩ for i = `axis`, ⟨p_j p_k⟩ in the order of [`PAIRS`] and fourth moments in that of [`QUADRUPLES`] over isotropic starts: a sum
-/// over the starts p₀ themselves, with p the direction of F p₀. The map F is the only thing that it shares with the first method.
+/// ⟨|p_i|⟩ for i = `axis`, ⟨p_j p_k⟩ in the order of [`PAIRS`] and fourth moments in that of [`QUADRUPLES`] over
+/// isotropic starts: a sum over the starts p₀ themselves, with p the direction of F p₀. The map F is the only thing
+/// that it shares with the first method.
 ///
-/// `around` azimuths, and steps of the rule in cos θ₀ of `1/per_unit`: some 25 times the ratio of F's largest to its smallest stretch, and
-/// half that.
+/// `around` azimuths, and steps of the rule in cos θ₀ of `1/per_unit`: some 25 times the ratio of F's largest to its
+/// smallest stretch, and half that.
 pub fn isotropic(map: &Matrix, axis: usize, around: usize, per_unit: usize) -> (Big, Vec<Big>) {
     // The pole of the starts is the axis on whose equator p_i changes its sign.
     let pole = map[axis].clone();
@@ -113,15 +109,10 @@ pub fn isotropic(map: &Matrix, axis: usize, around: usize, per_unit: usize) -> (
     (modulus / &count, sums.into_iter().map(|sum| sum / &count).collect())
 }
 
-/// ⟨|p₁|⟩, ⟨|p₂|⟩, ⟨|p₃|⟩ of rods of Gaussian r_e (eq. 11), isotropic at t = 0, by the double-exponential rule over 11.5 deviations to each
-/// side. It shares the means at one r_e with the first method; [`isotropic`] is the second one for them.
-pub fn unequal(
-    rate_per_s: f64,
-    aspect_ratio: f64,
-    sd_percent: f64,
-    time_s: f64,
-    per_unit: usize,
-) -> [Big; 3] {
+/// ⟨|p₁|⟩, ⟨|p₂|⟩, ⟨|p₃|⟩ of rods of Gaussian r_e (eq. 11), isotropic at t = 0, by the double-exponential rule over
+/// 11.5 deviations to each side. It shares the means at one r_e with the first method; [`isotropic`] is the second one
+/// for them.
+pub fn unequal(rate_per_s: f64, aspect_ratio: f64, sd_percent: f64, time_s: f64, per_unit: usize) -> [Big; 3] {
     let deviation = BITS.of(aspect_ratio) * BITS.of(sd_percent) / BITS.of(100.0);
     let mut sums = [0; 4].map(|_| BITS.of(0.0));
     for (x, weight) in double_exponential(per_unit) {
@@ -140,10 +131,8 @@ pub fn unequal(
         };
         let transposed = |m: &Matrix| matrix(|i, j| m[j][i].clone());
         let (forth, back) = (map(sine.clone()), map(-sine));
-        let rods = Covariance {
-            sigma: product(&forth, &transposed(&forth)),
-            inverse: product(&transposed(&back), &back),
-        };
+        let rods =
+            Covariance { sigma: product(&forth, &transposed(&forth)), inverse: product(&transposed(&back), &back) };
         let [x1, x2, x3] = rods.projections();
         for (sum, value) in sums.iter_mut().zip([x1, x2, x3, BITS.of(1.0)]) {
             *sum += &weight * value;
@@ -153,8 +142,9 @@ pub fn unequal(
     [x1, x2, x3].map(|sum| sum / &whole)
 }
 
-/// ṗ′ of two rods in contact in u_2 = G x_1, from what the rule demands instead of its formulas: ṗ′ = ṗ + λℓ for each, with λ_a and λ_b such that
-/// both contact points have one velocity along ℓ and the sum of both velocities along ℓ stays.
+/// ṗ′ of two rods in contact in u_2 = G x_1, from what the rule demands instead of its formulas: ṗ′ = ṗ + λℓ for each,
+/// with λ_a and λ_b such that both contact points have one velocity along ℓ and the sum of both velocities along ℓ
+/// stays.
 ///
 /// `pair` has centre (mm), axis and r_e of a, then of b.
 pub fn contact(shear_rate_per_s: f64, pair: &[f64; 14]) -> [[Big; 3]; 2] {
@@ -207,9 +197,7 @@ mod tests {
     fn directions_are_those_of_spheres_and_threads() {
         let couette = [[0.0; 3], [1.0, 0.0, 0.0], [0.0; 3]];
         let [along, across, none] = [0.6, 0.8, 0.0].map(|x| BITS.of(x));
-        let of = |r: f64, start: [&Big; 3], time: f64| {
-            direction(&couette, r, &start.map(Clone::clone), &BITS.of(time))
-        };
+        let of = |r: f64, start: [&Big; 3], time: f64| direction(&couette, r, &start.map(Clone::clone), &BITS.of(time));
         let angle = 0.8f64.atan2(0.6) + 1.0;
         assert!(off(&of(1.0, [&along, &across, &none], 2.0), &[angle.cos(), angle.sin(), 0.0]) < 1e-15);
         let thread = |time: f64| (time + 0.8 / 0.6f64).atan();

@@ -51,8 +51,8 @@ pub enum NoValue {
     Strain,
     /// A time in another unit is not a finite double.
     Time,
-    /// Rods of unequal r_e with a deviation eight times which reaches r_e = 1, in a flow other than plane Couette flow, for more than a
-    /// thousand periods, or with a_4.
+    /// Rods of unequal r_e with a deviation eight times which reaches r_e = 1, in a flow other than plane Couette flow,
+    /// for more than a thousand periods, or with a_4.
     Unequal,
     /// A time before the start, with diffusion.
     Past,
@@ -90,10 +90,8 @@ pub fn columns(start: Start) -> Vec<Column> {
             columns.extend(QUADRUPLES.map(|q| column(&name(q), "1", equation)));
         }
         Start::Isotropic { .. } => {
-            let projection =
-                "4, A.4, A.5, 12: mean of |p_i|; a complete elliptic integral in plane Couette flow";
-            let moment =
-                "A.4, A.5, 12: mean of p_i p_j; an incomplete elliptic integral in plane Couette flow";
+            let projection = "4, A.4, A.5, 12: mean of |p_i|; a complete elliptic integral in plane Couette flow";
+            let moment = "A.4, A.5, 12: mean of p_i p_j; an incomplete elliptic integral in plane Couette flow";
             columns.extend(["x1", "x2", "x3"].map(|name| column(name, "1", projection)));
             let name = |(i, j)| format!("a{}{}", i + 1, j + 1);
             columns.extend(PAIRS.map(|pair| column(&name(pair), "1", moment)));
@@ -102,8 +100,8 @@ pub fn columns(start: Start) -> Vec<Column> {
     columns
 }
 
-/// Values at `times`, doubles in `unit`; each is correctly rounded except for means over unequal rods (`unequal.rs`). `done` is called
-/// after each row.
+/// Values at `times`, doubles in `unit`; each is correctly rounded except for means over unequal rods (`unequal.rs`).
+/// `done` is called after each row.
 pub fn table(
     motion: &Motion,
     start: Start,
@@ -150,9 +148,10 @@ fn row(
         }
         Start::Isotropic { fourth, .. } => {
             let covariance = Covariance::at(motion, &exact, unit).ok_or(NoValue::Unit)?;
-            match fourth {
-                true => row.extend(covariance.nearest_fourth().map(Some)),
-                false => row.extend(covariance.nearest().into_iter().map(Some)),
+            if fourth {
+                row.extend(covariance.nearest_fourth().map(Some))
+            } else {
+                row.extend(covariance.nearest().into_iter().map(Some))
             }
         }
     }

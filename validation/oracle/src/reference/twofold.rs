@@ -1,9 +1,10 @@
 //! The means of `isotropic.rs` in pairs of doubles, eight nodes at a time: the fast way to their nearest doubles.
 //!
-//! A pair hi + lo holds 106 bits. Relative to its exact result, with u = 2⁻⁵³, a sum of positive pairs is off by at most 3u², a product by 7u²,
-//! a quotient by 15u² (Joldes, Muller & Popescu 2017, ACM TOMS 44, 15) and a root by 4u² (Lefèvre et al. 2023, ACM TOMS 49, 10), so a
-//! term of the quadrature by less than 200u², and a sum of a thousand terms by 3000u² more: 2⁻⁹³ of the largest entry, while the
-//! quadrature itself holds 80 bits. Where 78 bits leave two doubles possible, there is no answer, and more bits decide.
+//! A pair hi + lo holds 106 bits. Relative to its exact result, with u = 2⁻⁵³, a sum of positive pairs is off by at
+//! most 3u², a product by 7u², a quotient by 15u² (Joldes, Muller & Popescu 2017, ACM TOMS 44, 15) and a root by 4u²
+//! (Lefèvre et al. 2023, ACM TOMS 49, 10), so a term of the quadrature by less than 200u², and a sum of a thousand
+//! terms by 3000u² more: 2⁻⁹³ of the largest entry, while the quadrature itself holds 80 bits. Where 78 bits leave two
+//! doubles possible, there is no answer, and more bits decide.
 
 use super::big::{Big, Bits, double, each_power};
 use super::isotropic::{Covariance, KEPT, PAIRS, QUADRUPLES};
@@ -158,18 +159,12 @@ impl Matrices {
         let mut sums = [zero; N];
         for k in (self.first..self.last).step_by(8) {
             let [hi, lo] = &*NODES;
-            let x = Eight {
-                hi: f64x8::from_slice(simd, &hi[k..k + 8]),
-                lo: f64x8::from_slice(simd, &lo[k..k + 8]),
-            };
+            let x = Eight { hi: f64x8::from_slice(simd, &hi[k..k + 8]), lo: f64x8::from_slice(simd, &lo[k..k + 8]) };
             let determinant = x.plus(all(self.trace_inverse)).times(x).plus(all(self.trace_sigma)).times(x);
             let determinant = determinant.plus(all([1.0, 0.0]));
             let mut adjugate = [[zero; 3]; 3];
             for (i, j) in PAIRS {
-                let linear = match i == j {
-                    true => x.plus(all(self.others[i])),
-                    false => all(self.minus_inverse[i][j]),
-                };
+                let linear = if i == j { x.plus(all(self.others[i])) } else { all(self.minus_inverse[i][j]) };
                 adjugate[i][j] = linear.times(x).plus(all(self.sigma[i][j]));
                 adjugate[j][i] = adjugate[i][j];
             }
@@ -253,7 +248,8 @@ impl Matrices {
     }
 }
 
-/// The nearest doubles of entries of one kind, which are good to 78 bits of the largest of them; an entry that is 0 is exactly so.
+/// The nearest doubles of entries of one kind, which are good to 78 bits of the largest of them; an entry that is 0 is
+/// exactly so.
 fn nearest<const N: usize>(entries: [Big; N]) -> Option<[f64; N]> {
     let largest = entries.iter().map(double).map(f64::abs).fold(0.0, f64::max);
     let bound = Bits(64).of(largest) >> 78;

@@ -36,8 +36,8 @@ fn to_eleven_decimals(x: f64) -> f64 {
     format!("{x:.11}").parse::<f64>().unwrap_or(x) + 0.0
 }
 
-/// ⟨|p₁|⟩, ⟨|p₂|⟩, ⟨|p₃|⟩ to 22 digits at `time_s` in u_2 = G x_1, by the trapezoid rule over r_e = k·2^(−halvings) within
-/// 11.5 standard deviations of the mean, beyond which 10⁻³⁰ of the Gaussian lies.
+/// ⟨|p₁|⟩, ⟨|p₂|⟩, ⟨|p₃|⟩ to 22 digits at `time_s` in u_2 = G x_1, by the trapezoid rule over r_e = k·2^(−halvings)
+/// within 11.5 standard deviations of the mean, beyond which 10⁻³⁰ of the Gaussian lies.
 ///
 /// Means at one time are analytic in r_e up to |Im ωt| of about 1/r_e, so the rule converges as e^{−2πd/h} with
 /// d = 1/(2π t/T): a step of d/10 leaves e^{−62}.
@@ -57,8 +57,7 @@ pub fn means_to_22_digits(
     let node = |k: i64| {
         // Exact, because k has few bits.
         let r = k as f64 * step;
-        let motion =
-            Motion { gradient_per_s: [[0.0; 3], [shear_rate_per_s, 0.0, 0.0], [0.0; 3]], aspect_ratio: r };
+        let motion = Motion { gradient_per_s: [[0.0; 3], [shear_rate_per_s, 0.0, 0.0], [0.0; 3]], aspect_ratio: r };
         let z = (BITS.of(r) - &mean) / &sd;
         let weight = (-(z.sqr() / BITS.of(2.0))).exp();
         let covariance = Covariance::at(&motion, &BITS.of(time_s), Unit::Second);
@@ -74,8 +73,8 @@ pub fn means_to_22_digits(
 
 /// a₁₁, a₂₂, a₃₃, a₁₂ of rods of one r_e, in doubles.
 ///
-/// Σ = F Fᵀ has the eigenvalues λ ≥ 1, 1/λ, 1, and in its axes ⟨p_i²⟩ = R_D(1/σ_j², 1/σ_k², 1/σ_i²)/3 (Carlson). The axis
-/// of 1/λ is at β from axis 1, tan 2β = 2|cos ωt|/(|sin ωt|(r_e + 1/r_e)).
+/// Σ = F Fᵀ has the eigenvalues λ ≥ 1, 1/λ, 1, and in its axes ⟨p_i²⟩ = R_D(1/σ_j², 1/σ_k², 1/σ_i²)/3 (Carlson). The
+/// axis of 1/λ is at β from axis 1, tan 2β = 2|cos ωt|/(|sin ωt|(r_e + 1/r_e)).
 fn second_moments(r: f64, turns: f64) -> [f64; 4] {
     if r < 1.0 {
         // A disc of r_e moves as a rod of 1/r_e with axes 1 and 2 exchanged and time reversed.

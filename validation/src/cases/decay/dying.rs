@@ -10,9 +10,9 @@ pub(super) fn dies_out(change: &Change, effort: &Effort) -> Vec<Evidence> {
         scene
     };
     let found = |scene: &Scene, design| amplitudes(scene, effort.samples(design), &[0, 2, 4, 8]);
-    // Pilots of 300 replicas: 0.136 ± 0.035 (mean and deviation); 0.017 ± 0.033; 0.107 ± 0.024, 0.066 ± 0.023 and 0.080 ± 0.028.
-    let (both, added, alone) =
-        (Design::new(0.13, 0.042), Design::new(0.013, 0.036), Design::new(0.06, 0.032));
+    // Pilots of 300 replicas: 0.136 ± 0.035 (mean and deviation); 0.017 ± 0.033; 0.107 ± 0.024, 0.066 ± 0.023 and 0.080
+    // ± 0.028.
+    let (both, added, alone) = (Design::new(0.13, 0.042), Design::new(0.013, 0.036), Design::new(0.06, 0.032));
     let spread = found(&scene(3.6), both);
     let margin: Vec<f64> = spread[0].iter().zip(&spread[3]).map(|(first, last)| first / E - last).collect();
     let mut evidence = vec![Evidence::new(
@@ -49,10 +49,11 @@ pub(super) fn damped(scene: &mut Scene) {
 
 pub(super) fn undamped(_: &mut Scene) {}
 
-/// The remaining share of the amplitudes after two periods: b for X̄_i or X̄_1, and a for the other. X̄_i decays less than
-/// twice as fast as X̄_j if a_i > a_j².
+/// The remaining share of the amplitudes after two periods: b for X̄_i or X̄_1, and a for the other. X̄_i decays less
+/// than twice as fast as X̄_j if a_i > a_j².
 pub(super) fn on_all_axes(axes: &Axes, effort: &Effort) -> Vec<Evidence> {
-    // A pilot of 200 replicas: a − b² of 0.127 ± 0.039 (mean and deviation), 0.213 ± 0.055, 0.284 ± 0.046, 0.234 ± 0.051.
+    // A pilot of 200 replicas: a − b² of 0.127 ± 0.039 (mean and deviation), 0.213 ± 0.055, 0.284 ± 0.046, 0.234 ±
+    // 0.051.
     let narrow = Design::new(0.11, 0.046);
     let wide = Design::new(0.2, 0.065);
     let replicas = effort.samples(narrow).max(effort.samples(wide));
@@ -63,7 +64,8 @@ pub(super) fn on_all_axes(axes: &Axes, effort: &Effort) -> Vec<Evidence> {
         })
     };
     let [first, others] = axes.map(swings);
-    // The ratio of the means, plus each replica's deviation to first order: a replica's own ratio is noisy and therefore biased.
+    // The ratio of the means, plus each replica's deviation to first order: a replica's own ratio is noisy and
+    // therefore biased.
     let left = [0, 1, 2].map(|axis| {
         let swings = if axis == 0 { &first } else { &others };
         let mean = |k: usize| swings.iter().map(|s| s[axis][k]).sum::<f64>() / swings.len() as f64;
@@ -79,11 +81,7 @@ pub(super) fn on_all_axes(axes: &Axes, effort: &Effort) -> Vec<Evidence> {
             let difference: Vec<f64> =
                 left[i].iter().zip(&left[j]).map(|(a, b)| a - 2.0 * mean * b + mean * mean).collect();
             Evidence::new(
-                format!(
-                    "share of the amplitude left at t/T = 2, X̄_{} less the square of that of X̄_{}",
-                    i + 1,
-                    j + 1
-                ),
+                format!("share of the amplitude left at t/T = 2, X̄_{} less the square of that of X̄_{}", i + 1, j + 1),
                 Sample::of(&difference).exceeds(
                     0.0,
                     design.effect,

@@ -32,7 +32,8 @@ fn first() -> UnitVector3<f64> {
     UnitVector3::new_normalize(Vector3::new(1.0, 0.0, 1.0))
 }
 
-/// The core's step with B at `arm` along A's axis and `BESIDE` along axis 2: A's arm is `arm`, ℓ has a part along the flow's difference.
+/// The core's step with B at `arm` along A's axis and `BESIDE` along axis 2: A's arm is `arm`, ℓ has a part along the
+/// flow's difference.
 pub(super) fn step_of_the_core(scene: &Scene, placed: &Placed) -> Stepped {
     let mut suspension = lab::suspension(scene, 0);
     let middle = 0.5 * suspension.sides_in_lengths()[1];
@@ -67,9 +68,10 @@ pub(super) fn step_with_squares(scene: &Scene, placed: &Placed) -> Stepped {
         let (sin, cos) = (speed * strain).sin_cos();
         (p[k].into_inner() * cos + rates[k] * (sin / speed)).normalize()
     });
-    match turned.iter().all(|p| p.sum().is_finite()) {
-        true => Stepped::Turned(turned.into()),
-        false => Stepped::Stopped("not finite".into()),
+    if turned.iter().all(|p| p.sum().is_finite()) {
+        Stepped::Turned(turned.into())
+    } else {
+        Stepped::Stopped("not finite".into())
     }
 }
 

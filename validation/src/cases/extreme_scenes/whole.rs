@@ -32,16 +32,12 @@ pub(super) fn whole_run(scene: &Scene) -> Ended {
         return Ended::LOST;
     };
     let mut channels = results.series.iter().flat_map(|series| &series.columns);
-    let finite =
-        channels.all(|channel| (channel.mean.iter().chain(&channel.se)).all(|value| value.is_finite()));
-    let mean =
-        |name: &str, output: usize| results.column(name).map_or(f64::NAN, |channel| channel.mean[output]);
+    let finite = channels.all(|channel| (channel.mean.iter().chain(&channel.se)).all(|value| value.is_finite()));
+    let mean = |name: &str, output: usize| results.column(name).map_or(f64::NAN, |channel| channel.mean[output]);
     if !finite {
         return Ended::LOST;
     }
-    let trace = |output: usize| {
-        (["a11", "a22", "a33"].map(|name| mean(name, output)).iter().sum::<f64>() - 1.0).abs()
-    };
+    let trace = |output: usize| (["a11", "a22", "a33"].map(|name| mean(name, output)).iter().sum::<f64>() - 1.0).abs();
     let last = results.times.len() - 1;
     Ended { trace: (0..=last).map(trace).fold(0.0, larger), finite, last_x1: mean("x1", last) }
 }
@@ -87,8 +83,7 @@ pub(super) fn extreme_scenes(program: &Program, effort: &Effort) -> Vec<Evidence
                 scene.time.outputs_per_unit = Some(4);
             }));
         }
-        for (phi_deg, theta_deg) in
-            [(0.0, 0.0), (0.0, 180.0), (0.0, 90.0), (180.0, 90.0), (90.0, 90.0), (0.0, 1e-300)]
+        for (phi_deg, theta_deg) in [(0.0, 0.0), (0.0, 180.0), (0.0, 90.0), (180.0, 90.0), (90.0, 90.0), (0.0, 1e-300)]
         {
             scenes.push(scene(&|scene| {
                 scene.particles.aspect_ratio = r;

@@ -1,5 +1,5 @@
-//! Points of free rods simulated at their own r_e, between the nodes, and the error of a fit to them. Free rods start alike in
-//! every replica, so that hardly any noise remains.
+//! Points of free rods simulated at their own r_e, between the nodes, and the error of a fit to them. Free rods start
+//! alike in every replica, so that hardly any noise remains.
 
 use super::{POINTS, data, set};
 use crate::judge::case::{Effort, Evidence};
@@ -83,7 +83,8 @@ pub fn off(straight: bool, effort: &Effort) -> Result<Evidence, String> {
             0.0,
             OFF,
             EFFECT,
-            "a tenth costs a 68 % interval 0.3 % of its share; straight lines between the nodes are off by more than the effect",
+            "a tenth costs a 68 % interval 0.3 % of its share; straight lines between the nodes are off by more than \
+                the effect",
         ),
     ))
 }

@@ -1,7 +1,8 @@
 //! Points that are means over the same rods, and so move together (`--rods`).
 //!
-//! The rods of a repeat are those of twelve replicas at the middle node, drawn from the pool as those of the model are. So the pool is all
-//! there is: its covariance is the right one. The example `fit_experiments` takes the rods of another simulator.
+//! The rods of a repeat are those of twelve replicas at the middle node, drawn from the pool as those of the model are.
+//! So the pool is all there is: its covariance is the right one. The example `fit_experiments` takes the rods of
+//! another simulator.
 
 use super::{DRAWN, Pool, SIMULATED, data, pool};
 use crate::judge::accept::Design;
@@ -34,9 +35,8 @@ pub enum Treatment {
 
 /// The model's curve at the middle node less the mean of its replicas.
 fn offset(pool: &Pool) -> DVector<f64> {
-    let values = DMatrix::from_rows(
-        &pool.replicas.iter().map(|one| one[3].row(MIDDLE).into_owned()).collect::<Vec<_>>(),
-    );
+    let values =
+        DMatrix::from_rows(&pool.replicas.iter().map(|one| one[3].row(MIDDLE).into_owned()).collect::<Vec<_>>());
     Emulator::new(&pool.basis, &pool.replicas).at(&[0.0]) - values.row_mean().transpose()
 }
 

@@ -1,5 +1,6 @@
-//! Rods in random flows that aim at difficult cases: eigenvalues that nearly meet, are tiny, huge or equal; planar, spiral and
-//! real; rotated in space; rods from 10⁻¹⁰⁰ to 10¹⁰⁰ and near 1; strains from 10⁻¹³ to 10⁶; starts on axes and in planes.
+//! Rods in random flows that aim at difficult cases: eigenvalues that nearly meet, are tiny, huge or equal; planar,
+//! spiral and real; rotated in space; rods from 10⁻¹⁰⁰ to 10¹⁰⁰ and near 1; strains from 10⁻¹³ to 10⁶; starts on axes
+//! and in planes.
 
 use crate::oracle::exponential::{Rod, Span};
 use nalgebra::{Matrix3, Rotation3, Vector3};
@@ -154,7 +155,8 @@ fn couette() -> Matrix3<f64> {
     Matrix3::new(0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 }
 
-/// A flow rotated in space: at random with rounding, by exchanged axes, or by 45°, where Couette flow's halves are exact in binary.
+/// A flow rotated in space: at random with rounding, by exchanged axes, or by 45°, where Couette flow's halves are
+/// exact in binary.
 fn turned(rng: &mut impl Rng, l: Matrix3<f64>) -> Matrix3<f64> {
     let any = Rotation3::new(Vector3::from_fn(|_, _| 3.0 * signed(rng))).into_inner();
     let turn = match rng.random_range(0..4) {
@@ -188,15 +190,5 @@ fn real(rng: &mut impl Rng) -> Matrix3<f64> {
 /// Planar flows from rotation through shear to extension.
 fn planar(rng: &mut impl Rng) -> Matrix3<f64> {
     let back = signed(rng).signum() * size(rng, -17.0, 0.0);
-    Matrix3::new(
-        0.0,
-        if rng.random_range(0..2) == 0 { back } else { back - 1.0 },
-        0.0,
-        1.0,
-        0.0,
-        0.0,
-        0.0,
-        0.0,
-        0.0,
-    )
+    Matrix3::new(0.0, if rng.random_range(0..2) == 0 { back } else { back - 1.0 }, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 }

@@ -1,5 +1,5 @@
-//! Whole scenes that once gave wrong results: overflowing spirals, extreme shapes, near-parabolic flows, Couette flow rotated
-//! by 45°, a weak strain in a strong rotation.
+//! Whole scenes that once gave wrong results: overflowing spirals, extreme shapes, near-parabolic flows, Couette flow
+//! rotated by 45°, a weak strain in a strong rotation.
 
 use crate::judge::case::{Effort, Evidence};
 use crate::judge::lab;
@@ -10,7 +10,8 @@ use shearbed::scene::Time;
 use shearbed::scene::{Orientation, Scene};
 use shearbed::{Observable, Plan};
 
-/// A function that runs a scene of one rod: |p_i| at its end and the bound on its error, `None` if the scene is refused.
+/// A function that runs a scene of one rod: |p_i| at its end and the bound on its error, `None` if the scene is
+/// refused.
 pub type Run = fn(&Scene) -> Option<([f64; 3], f64)>;
 
 /// ∂u_i/∂x_j, r_e, φ and θ in degrees, strain or (with Couette flow of the shear rate 1 1/s) eighths of a period.

@@ -21,7 +21,8 @@ pub(super) fn at_least(subjects: &Integrators, _: &Effort) -> Vec<Evidence> {
             format!("relative excess of the bound over the longest step without overtaking, {}", subject.name),
             RATIOS.iter().zip(found).map(above).fold(0.0, larger),
             1e-6,
-            "a bound from below, and for explicit Euler the limit itself: too few rods find a step too long, which is no excuse; \
+            "a bound from below, and for explicit Euler the limit itself: too few rods find a step too long, which is \
+                no excuse; \
              the bisection ends at 10⁻⁷",
         ));
         if order == 4 {

@@ -1,7 +1,8 @@
 //! Checkpoints: the state of an unfinished command in one file, from which the same command resumes.
 //!
-//! A line with the format's number, a line of JSON with the command and its inputs, the state in MessagePack, and the CRC-32 of
-//! all this in four bytes. The file is replaced as a whole: an interruption leaves the old one or the new one.
+//! A line with the format's number, a line of JSON with the command and its inputs, the state in MessagePack, and the
+//! CRC-32 of all this in four bytes. The file is replaced as a whole: an interruption leaves the old one or the new
+//! one.
 
 mod replicas;
 mod saved;
@@ -40,7 +41,8 @@ pub struct Checkpoint {
 }
 
 impl Checkpoint {
-    /// Claims the file for a command, this build and `inputs`, an object with everything else on which the results depend.
+    /// Claims the file for a command, this build and `inputs`, an object with everything else on which the results
+    /// depend.
     pub fn open(path: &Path, command: &str, mut inputs: Value) -> Result<Self, Refused> {
         inputs["build"] = build::record();
         Ok(Self { file: Replaced::claim(path)?, origin: Origin::new(command, inputs) })
@@ -88,9 +90,7 @@ impl Checkpoint {
         let first = line(&mut file, LINES[0]).map_err(unread)?;
         let format = first.strip_prefix(HEAD).ok_or("is no checkpoint of shearbed")?;
         if format != FORMAT.to_string() {
-            return Err(format!(
-                "has the format {format}, of another version of shearbed; {FORMAT} is allowed"
-            ));
+            return Err(format!("has the format {format}, of another version of shearbed; {FORMAT} is allowed"));
         }
         file.rewind().map_err(unread)?;
         let mut sum = Summed(io::sink(), Hasher::new());
@@ -99,9 +99,7 @@ impl Checkpoint {
         file.read_exact(&mut kept).map_err(unread)?;
         let (kept, found) = (u32::from_be_bytes(kept), sum.1.finalize());
         if kept != found {
-            return Err(format!(
-                "is damaged: its checksum is {kept:08x}, and that of its contents {found:08x}"
-            ));
+            return Err(format!("is damaged: its checksum is {kept:08x}, and that of its contents {found:08x}"));
         }
         file.rewind().map_err(unread)?;
         let mut file = file.take(length);

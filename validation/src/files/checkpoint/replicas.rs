@@ -1,7 +1,7 @@
 //! Runs replicas with a checkpoint.
 //!
-//! Replicas start in order, each in its own pool of threads. So only few finished replicas wait for their turn in the sum, and none waits
-//! in the middle of a step for another one, as could happen in a common pool.
+//! Replicas start in order, each in its own pool of threads. So only few finished replicas wait for their turn in the
+//! sum, and none waits in the middle of a step for another one, as could happen in a common pool.
 
 use super::saved::{Progress, Saved, without_replicas};
 use super::{Checkpoint, on_stop, stays};
@@ -20,7 +20,8 @@ use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
 
-/// The longest wait for the states of replicas when a signal ends the program; for slower replicas the last state is saved.
+/// The longest wait for the states of replicas when a signal ends the program; for slower replicas the last state is
+/// saved.
 const PATIENCE: Duration = Duration::from_secs(10);
 
 struct State {
@@ -53,8 +54,8 @@ pub struct Replicas {
 }
 
 impl Replicas {
-    /// Opens the checkpoint at `path`, to be written at least every `every`, for at most the plan's replicas. A checkpoint with fewer
-    /// replicas of the same scene is continued; if there is none, [`Self::write`] makes it.
+    /// Opens the checkpoint at `path`, to be written at least every `every`, for at most the plan's replicas. A
+    /// checkpoint with fewer replicas of the same scene is continued; if there is none, [`Self::write`] makes it.
     ///
     /// # Errors
     ///
@@ -119,9 +120,9 @@ impl Replicas {
         self.state().saved.tally.clone()
     }
 
-    /// Runs the plan's remaining replicas. Calls `finished` after each replica, and `saved` after each checkpoint with new contents,
-    /// including the last one at the end of the run, or with the reason why writing failed; then the run ends after that call. The
-    /// results are the bits of [`shearbed::run::ensemble::run`].
+    /// Runs the plan's remaining replicas. Calls `finished` after each replica, and `saved` after each checkpoint with
+    /// new contents, including the last one at the end of the run, or with the reason why writing failed; then the run
+    /// ends after that call. The results are the bits of [`shearbed::run::ensemble::run`].
     pub fn run(
         &self,
         threads: usize,
@@ -267,13 +268,12 @@ impl Replicas {
         }
     }
 
-    /// Checkpoints every replica: requests their states, waits up to `patience` for the answers, and writes the file if there is anything
-    /// new. Returns the progress in the file, and true if it was written.
+    /// Checkpoints every replica: requests their states, waits up to `patience` for the answers, and writes the file if
+    /// there is anything new. Returns the progress in the file, and true if it was written.
     fn save(&self, patience: Option<Duration>) -> Result<(Progress, bool), OutputError> {
         let mut state = self.state();
         let round = self.round.fetch_add(1, Ordering::Relaxed) + 1;
-        let silent =
-            |state: &mut State| !state.ended && state.in_work.values().any(|answered| *answered < round);
+        let silent = |state: &mut State| !state.ended && state.in_work.values().any(|answered| *answered < round);
         state = match patience {
             None => self.changed.wait_while(state, silent).unwrap_or_else(PoisonError::into_inner),
             Some(patience) => {
@@ -304,9 +304,7 @@ impl Replicas {
                 format!("{progress}; the run is kept in {path}, and the same command goes on from there")
             }
             Err(error) => {
-                format!(
-                    "{error}; the earlier state in {path} is kept, and the same command goes on from there"
-                )
+                format!("{error}; the earlier state in {path} is kept, and the same command goes on from there")
             }
         }
     }

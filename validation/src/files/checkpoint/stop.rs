@@ -8,7 +8,8 @@ type Last = Box<dyn FnOnce() -> Option<String> + Send>;
 
 static LAST: Mutex<Option<Last>> = Mutex::new(None);
 
-/// Sets the last action before a signal ends the program, replacing the previous one. It returns a message on how to resume, if possible.
+/// Sets the last action before a signal ends the program, replacing the previous one. It returns a message on how to
+/// resume, if possible.
 pub fn on_stop(last: impl FnOnce() -> Option<String> + Send + 'static) {
     *LAST.lock().unwrap_or_else(PoisonError::into_inner) = Some(Box::new(last));
 }

@@ -158,8 +158,7 @@ fn nothing_that_is_done_is_run_again() {
     for threads in [1, 2, 4, 9] {
         let dir = tempfile::tempdir().unwrap();
         let path = dir.path().join("kept");
-        let file = Checkpoint::open(&path, "run", json!({ "scene": super::without_replicas(plan.scene()) }))
-            .unwrap();
+        let file = Checkpoint::open(&path, "run", json!({ "scene": super::without_replicas(plan.scene()) })).unwrap();
         file.write(&kept).unwrap();
         drop(file);
         let run = Replicas::open(&plan, &path, std::time::Duration::from_millis(10)).unwrap();
@@ -198,8 +197,7 @@ impl Write for Full {
 /// Wherever the disk becomes full, in a length, a name or a number, the reason is the disk's.
 #[test]
 fn a_full_disk_is_told_in_the_systems_words() {
-    let state =
-        std::collections::BTreeMap::from([("a".to_owned(), state()), ("text".to_owned(), Vec::new())]);
+    let state = std::collections::BTreeMap::from([("a".to_owned(), state()), ("text".to_owned(), Vec::new())]);
     let whole = rmp_serde::to_vec_named(&state).unwrap().len();
     for room in 0..whole {
         let error = rmp_serde::encode::write_named(&mut Full(room), &state).unwrap_err();

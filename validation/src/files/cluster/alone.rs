@@ -18,7 +18,8 @@ impl Joined {
             let size = set(format!("{launcher}_SIZE")).unwrap_or(1);
             if size > 1 && set(format!("{launcher}_RANK")) == Some(0) {
                 complain(&format!(
-                    "warning: {launcher}_SIZE = {size}: this build shares no work over ranks, and each of the {size} processes runs \
+                    "warning: {launcher}_SIZE = {size}: this build shares no work over ranks, and each of the {size} \
+                        processes runs \
                      the whole command; start one, or build with --features mpi (docs/src/user/long-runs.md)\n"
                 ));
             }

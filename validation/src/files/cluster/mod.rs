@@ -1,10 +1,10 @@
-//! Shares work among the ranks of an MPI job, with the feature `mpi`; without it there is one rank, and everything here is
-//! no more than a loop.
+//! Shares work among the ranks of an MPI job, with the feature `mpi`; without it there is one rank, and everything here
+//! is no more than a loop.
 //!
-//! Every rank runs the same command on the same input and makes the same calls of [`share`] and [`from_root`] in the same
-//! order. Only rank 0, the root, writes and prints. A job's result does not depend on the rank that runs it, and results are
-//! returned in the order of jobs, so the root has the same bits as a single process. A rank that fails reports why and ends
-//! all others ([`Joined::fail`]).
+//! Every rank runs the same command on the same input and makes the same calls of [`share`] and [`from_root`] in the
+//! same order. Only rank 0, the root, writes and prints. A job's result does not depend on the rank that runs it, and
+//! results are returned in the order of jobs, so the root has the same bits as a single process. A rank that fails
+//! reports why and ends all others ([`Joined::fail`]).
 
 #[cfg(not(feature = "mpi"))]
 mod alone;
@@ -26,8 +26,8 @@ use serde::de::DeserializeOwned;
 use serde_json::Value;
 use std::process::ExitCode;
 
-/// Compares the inputs of all ranks. Every command calls this before anything else, so that ranks with different inputs do not wait for
-/// each other. The error, on the root, names the rank and the key.
+/// Compares the inputs of all ranks. Every command calls this before anything else, so that ranks with different inputs
+/// do not wait for each other. The error, on the root, names the rank and the key.
 pub fn agree(command: &str, mut input: Value) -> Result<(), String> {
     input["command"] = command.into();
     input["build"] = build::record();

@@ -30,14 +30,15 @@ impl Joined {
     pub fn new() -> Result<Self, String> {
         match mpi::initialize_with_threading(Threading::Serialized) {
             Some((universe, granted)) if granted >= Threading::Serialized => Ok(Self(universe)),
-            Some((_, granted)) => Err(format!(
-                "MPI: the thread level Serialized is needed, and this library grants {granted:?}"
-            )),
+            Some((_, granted)) => {
+                Err(format!("MPI: the thread level Serialized is needed, and this library grants {granted:?}"))
+            }
             None => Err("MPI: cannot be started".to_owned()),
         }
     }
 
-    /// Runs a command; a panic, which has printed its message, becomes an error: if the process ended, the other ranks would wait.
+    /// Runs a command; a panic, which has printed its message, becomes an error: if the process ended, the other ranks
+    /// would wait.
     pub fn caught<T>(&self, command: impl FnOnce() -> T) -> Result<T, String> {
         catch_unwind(AssertUnwindSafe(command)).map_err(|_| "the program broke off".to_owned())
     }
@@ -83,8 +84,8 @@ pub fn size() -> usize {
     world().map_or(1, |world| world.size() as usize)
 }
 
-/// Runs every job once: rank k runs the jobs k, k + size and so on. Calls `arrived` on the root with each result, in any order.
-/// Returns all results in order on the root, `None` on the other ranks.
+/// Runs every job once: rank k runs the jobs k, k + size and so on. Calls `arrived` on the root with each result, in
+/// any order. Returns all results in order on the root, `None` on the other ranks.
 pub fn share<T, E>(
     jobs: usize,
     job: impl Fn(usize) -> Result<T, E>,

@@ -6,9 +6,9 @@ use shearbed::run::ensemble::{self, Tally};
 use shearbed::{Plan, Results};
 use std::ops::Range;
 
-/// Runs every replica of a plan; each rank runs its share on the threads of the current rayon pool and calls `finished` after each of its
-/// replicas. Returns the results on the root, bit for bit those of [`shearbed::run::ensemble::run`], and `None` on the other
-/// ranks.
+/// Runs every replica of a plan; each rank runs its share on the threads of the current rayon pool and calls `finished`
+/// after each of its replicas. Returns the results on the root, bit for bit those of [`shearbed::run::ensemble::run`],
+/// and `None` on the other ranks.
 pub fn ensemble(plan: &Plan, finished: impl Fn() + Sync) -> Result<Option<Results>, Error> {
     let mut tally = Tally::new(plan);
     let root = extend(plan, &mut tally, 0..plan.scene().ensemble.replicas, finished)?;
@@ -16,12 +16,7 @@ pub fn ensemble(plan: &Plan, finished: impl Fn() + Sync) -> Result<Option<Result
 }
 
 /// Like `ensemble`, but adds the next `replicas` of a plan to the root's `tally`. Returns true on the root.
-pub fn extend(
-    plan: &Plan,
-    tally: &mut Tally,
-    replicas: Range<u64>,
-    finished: impl Fn() + Sync,
-) -> Result<bool, Error> {
+pub fn extend(plan: &Plan, tally: &mut Tally, replicas: Range<u64>, finished: impl Fn() + Sync) -> Result<bool, Error> {
     let mut root = true;
     ensemble::extend(plan, tally, replicas, |replicas| {
         let count = replicas.end - replicas.start;

@@ -34,8 +34,8 @@ impl Claim {
         Ok(Some(Self { path: path.to_owned(), dir, _lock: lock }))
     }
 
-    /// Writes a new folder under a hidden name, with the missing ones above it. They appear with all files by one move; `None` if
-    /// somebody else has made one of them meanwhile.
+    /// Writes a new folder under a hidden name, with the missing ones above it. They appear with all files by one move;
+    /// `None` if somebody else has made one of them meanwhile.
     pub fn appear<C: AsRef<[u8]>>(path: &Path, files: &[(String, C)]) -> Result<Option<Self>, OutputError> {
         let (above, missing) = existing(path);
         let mut missing = missing.components();
@@ -49,9 +49,10 @@ impl Claim {
         let dir = Dir::open_ambient_dir(above, ambient_authority()).map_err(at(path))?;
         report(&dir, above);
         let stage = Stage::new(&dir).map_err(at(path))?;
-        let inner = || match below.as_os_str().is_empty() {
-            true => Ok((stage.dir.try_clone()?, stage.lock.try_clone()?)),
-            false => {
+        let inner = || {
+            if below.as_os_str().is_empty() {
+                Ok((stage.dir.try_clone()?, stage.lock.try_clone()?))
+            } else {
                 stage.dir.create_dir_all(below)?;
                 let inner = stage.dir.open_dir(below)?;
                 let lock = lock(&inner, PATIENCE)?;
@@ -67,8 +68,9 @@ impl Claim {
         }
     }
 
-    /// Writes `files` and their record in place of `earlier` ones, and removes the files `gone`. All are written to the disk under
-    /// a hidden name, then moved. Meanwhile, and after a kill or an error, the record lists both, and says by that it is incomplete.
+    /// Writes `files` and their record in place of `earlier` ones, and removes the files `gone`. All are written to the
+    /// disk under a hidden name, then moved. Meanwhile, and after a kill or an error, the record lists both, and says
+    /// by that it is incomplete.
     pub fn write<C: AsRef<[u8]>>(
         &self,
         record: &Record,
@@ -176,7 +178,8 @@ pub(super) fn beneath(dir: &Dir, name: &str) -> io::Result<Option<(Dir, PathBuf)
     Ok(path.file_name().map(|last| (dir, PathBuf::from(last))))
 }
 
-/// A folder in another one. A link that takes its place after the look is not followed out of `dir` either: `Dir` does not leave it.
+/// A folder in another one. A link that takes its place after the look is not followed out of `dir` either: `Dir` does
+/// not leave it.
 fn opened(dir: &Dir, name: impl AsRef<Path>) -> io::Result<Dir> {
     match dir.symlink_metadata(&name)? {
         found if found.is_dir() => dir.open_dir(name),

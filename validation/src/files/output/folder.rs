@@ -1,5 +1,5 @@
-//! The rule for overwriting, for all commands: without `--force`, files that a command did not write itself, or wrote from other
-//! inputs, are left unchanged.
+//! The rule for overwriting, for all commands: without `--force`, files that a command did not write itself, or wrote
+//! from other inputs, are left unchanged.
 
 use super::claim::beneath;
 use super::record::{Origin, RECORD, Record, State, Sum};
@@ -15,10 +15,7 @@ use std::path::{Path, PathBuf};
 
 /// The error that a file would be overwritten, and what to do next.
 pub(super) fn in_the_way(path: &Path, what: &str, other: &str) -> Refused {
-    Refused(format!(
-        "{}: {what}; --force overwrites it, {other} leaves it; nothing was changed",
-        path.shown()
-    ))
+    Refused(format!("{}: {what}; --force overwrites it, {other} leaves it; nothing was changed", path.shown()))
 }
 
 /// The option by which most commands take another folder or file.
@@ -86,8 +83,9 @@ impl ResultFolder {
         found.origin.difference(&self.origin).filter(|_| found.origin.command == self.origin.command)
     }
 
-    /// Fails if files with these names must not be written. They may be written if none exists, or if this command wrote the folder before
-    /// from the same inputs (or any, with [`Self::from_any_input`]) and the files have not been changed since.
+    /// Fails if files with these names must not be written. They may be written if none exists, or if this command
+    /// wrote the folder before from the same inputs (or any, with [`Self::from_any_input`]) and the files have not been
+    /// changed since.
     ///
     /// # Errors
     ///
@@ -111,10 +109,9 @@ impl ResultFolder {
         let mut names = names.iter().map(|name| (name.as_ref(), self.dir.join(name.as_ref())));
         let Some(found) = found else {
             return match names.find(|(name, _)| is_there(name)) {
-                Some((_, path)) => Err(in_the_way(
-                    &path,
-                    &format!("is here already, and no {RECORD} says that this command wrote it"),
-                )),
+                Some((_, path)) => {
+                    Err(in_the_way(&path, &format!("is here already, and no {RECORD} says that this command wrote it")))
+                }
                 None => Ok(()),
             };
         };
@@ -123,8 +120,7 @@ impl ResultFolder {
             return Err(in_the_way(&record, &what));
         }
         if let Some(difference) = found.origin.difference(&self.origin).filter(|_| !self.from_any_input) {
-            let what =
-                format!("results of `shearbed {command}` from other input are kept here: {difference}");
+            let what = format!("results of `shearbed {command}` from other input are kept here: {difference}");
             return Err(in_the_way(&record, &what));
         }
         names.try_for_each(|(name, path)| {
@@ -138,8 +134,8 @@ impl ResultFolder {
         })
     }
 
-    /// Writes files and their record, if the command may. They appear together; files that it wrote there before under other names are
-    /// removed, unless they have been changed.
+    /// Writes files and their record, if the command may. They appear together; files that it wrote there before under
+    /// other names are removed, unless they have been changed.
     ///
     /// # Errors
     ///
@@ -151,8 +147,7 @@ impl ResultFolder {
             if let Some(claim) = Claim::open(&self.dir, PATIENCE)? {
                 self.check(&names)?;
                 let earlier = self.earlier(&claim);
-                let left_over: Vec<_> =
-                    earlier.keys().filter(|name| !names.contains(name)).cloned().collect();
+                let left_over: Vec<_> = earlier.keys().filter(|name| !names.contains(name)).cloned().collect();
                 return Ok(claim.write(&record, &files, earlier, &left_over)?);
             }
             let all = [&files[..], &[record.file()]].concat();
@@ -162,8 +157,8 @@ impl ResultFolder {
         }
     }
 
-    /// The unchanged files that the folder's record lists, if this command wrote them: left beside new results, they would be mistaken
-    /// for them. Those of another command stay, also with `--force`.
+    /// The unchanged files that the folder's record lists, if this command wrote them: left beside new results, they
+    /// would be mistaken for them. Those of another command stay, also with `--force`.
     pub(crate) fn earlier(&self, claim: &Claim) -> BTreeMap<String, Sum> {
         let record = Record::read(&self.dir).ok().flatten();
         let own = record.filter(|record| record.origin.command == self.origin.command);
@@ -194,8 +189,7 @@ mod tests {
 
     fn names(dir: &Path) -> Vec<String> {
         let entries = fs::read_dir(dir).unwrap();
-        let mut names: Vec<_> =
-            entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
+        let mut names: Vec<_> = entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
         names.sort();
         names
     }
@@ -221,14 +215,9 @@ mod tests {
         );
         assert_eq!(
             refused(&folder(dir, "run", 2), &["a.csv"]),
-            shown(
-                "shearbed.json: results of `shearbed run` from other input are kept here: seed was 1 and is 2 now"
-            )
+            shown("shearbed.json: results of `shearbed run` from other input are kept here: seed was 1 and is 2 now")
         );
-        assert_eq!(
-            refused(&own, &["a.csv", "user.csv"]),
-            shown("user.csv: was not written by `shearbed run`")
-        );
+        assert_eq!(refused(&own, &["a.csv", "user.csv"]), shown("user.csv: was not written by `shearbed run`"));
         fs::write(dir.join("a.csv"), "of b.csv\n").unwrap();
         assert_eq!(refused(&own, &["a.csv"]), shown("a.csv: was changed after `shearbed run` wrote it"));
         // Changed files stay too, even if they are no longer written.
@@ -256,10 +245,7 @@ mod tests {
         }
         for (text, why) in [
             ("{", "shearbed.json: is no record of results"),
-            (
-                r#"{"format": 2, "command": "run", "inputs": {}, "files": {}}"#,
-                "shearbed.json: has the format 2",
-            ),
+            (r#"{"format": 2, "command": "run", "inputs": {}, "files": {}}"#, "shearbed.json: has the format 2"),
         ] {
             fs::write(dir.path().join(RECORD), text).unwrap();
             let found = refused(&own, &["a.csv"]);

@@ -1,7 +1,7 @@
 //! `shearbed.json`: which command wrote a folder, from which inputs, and the folder's files with their checksums.
 //!
-//! Every folder of results has this file, including points of a sweep and exported problems. It decides about overwriting
-//! ([`super::ResultFolder`]), and lets `plot` and `compare` detect files that were changed since.
+//! Every folder of results has this file, including points of a sweep and exported problems. It decides about
+//! overwriting ([`super::ResultFolder`]), and lets `plot` and `compare` detect files that were changed since.
 
 use super::Output;
 use super::claim::beneath;
@@ -45,12 +45,12 @@ impl Origin {
             Value::Object(all) if all.len() > 3 => format!("of {} files", all.len()),
             value => shortened(&value.to_string()).into_owned(),
         };
-        let words = |(key, was, is): (String, Value, Value)| {
-            format!("{key} was {} and is {} now", shown(&was), shown(&is))
-        };
-        match self.command == now.command {
-            true => difference(&self.inputs, &now.inputs).map(words),
-            false => Some(format!("command was \"{}\" and is \"{}\" now", self.command, now.command)),
+        let words =
+            |(key, was, is): (String, Value, Value)| format!("{key} was {} and is {} now", shown(&was), shown(&is));
+        if self.command == now.command {
+            difference(&self.inputs, &now.inputs).map(words)
+        } else {
+            Some(format!("command was \"{}\" and is \"{}\" now", self.command, now.command))
         }
     }
 }
@@ -130,26 +130,26 @@ impl Record {
             .map_err(|error| format!("is no record of results that `shearbed` wrote: {error}"))?;
         match record.format {
             FORMAT => Ok(Some(record)),
-            other => {
-                Err(format!("has the format {other}, of another version of shearbed; {FORMAT} is allowed"))
-            }
+            other => Err(format!("has the format {other}, of another version of shearbed; {FORMAT} is allowed")),
         }
     }
 
-    /// Fails if a file of the folder has another sum than the record lists, or if the folder is incomplete; the error does not contain
-    /// the file's name.
+    /// Fails if a file of the folder has another sum than the record lists, or if the folder is incomplete; the error
+    /// does not contain the file's name.
     pub fn check(&self, name: &str, sum: &Sum) -> Result<(), String> {
         self.is_complete()?;
         match self.files.get(name) {
             Some(listed) if listed == sum => Ok(()),
             Some(_) => Err(format!(
-                "was changed after it was written: its checksum is not that of {RECORD}; run the command that wrote it again, with --force"
+                "was changed after it was written: its checksum is not that of {RECORD}; run the command that wrote \
+                    it again, with --force"
             )),
             None => Err(format!("is not listed in the folder's {RECORD}")),
         }
     }
 
-    /// Fails if the folder's command was stopped while it replaced files there; the error does not contain the folder's name.
+    /// Fails if the folder's command was stopped while it replaced files there; the error does not contain the folder's
+    /// name.
     pub fn is_complete(&self) -> Result<(), String> {
         match self.replaces {
             None => Ok(()),
@@ -202,7 +202,8 @@ pub(super) enum State {
     Foreign,
 }
 
-/// True if there is no such file. A file in place of a folder and a name that cannot be count too: the writer reports them.
+/// True if there is no such file. A file in place of a folder and a name that cannot be count too: the writer reports
+/// them.
 fn absent(error: &io::Error) -> bool {
     matches!(error.kind(), ErrorKind::NotFound | ErrorKind::NotADirectory | ErrorKind::InvalidFilename)
 }

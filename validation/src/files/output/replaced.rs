@@ -31,8 +31,7 @@ impl Replaced {
     /// Claims a file, which need not exist.
     pub fn claim(path: &Path) -> Result<Self, OutputError> {
         let not_a_file = || io::Error::new(io::ErrorKind::InvalidInput, "the name of a file is allowed");
-        let name =
-            path.file_name().and_then(|name| name.to_str()).ok_or_else(not_a_file).map_err(at(path))?;
+        let name = path.file_name().and_then(|name| name.to_str()).ok_or_else(not_a_file).map_err(at(path))?;
         let file = loop {
             let file = match bounded::open_with(path, File::options().read(true).write(true)) {
                 Err(error) if error.kind() == io::ErrorKind::NotFound => break None,
@@ -64,12 +63,9 @@ impl Replaced {
         self.file.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Writes new contents, which `Part::finish` moves into place: at every moment either the old or the new file is there, complete
-    /// and on the disk. Creates the file's folder if that does not exist.
-    pub fn write(
-        &self,
-        write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
-    ) -> Result<Part<'_>, OutputError> {
+    /// Writes new contents, which `Part::finish` moves into place: at every moment either the old or the new file is
+    /// there, complete and on the disk. Creates the file's folder if that does not exist.
+    pub fn write(&self, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<Part<'_>, OutputError> {
         let written = || {
             let parent = self.path.parent().filter(|dir| !dir.as_os_str().is_empty());
             let parent = parent.unwrap_or(Path::new("."));

@@ -100,12 +100,9 @@ impl Drop for Stage {
     }
 }
 
-/// Writes new files to a folder, and to the disk. Errors name the file in `shown`, the folder to which the files belong.
-pub(super) fn fill<C: AsRef<[u8]>>(
-    dir: &Dir,
-    shown: &Path,
-    files: &[(String, C)],
-) -> Result<(), OutputError> {
+/// Writes new files to a folder, and to the disk. Errors name the file in `shown`, the folder to which the files
+/// belong.
+pub(super) fn fill<C: AsRef<[u8]>>(dir: &Dir, shown: &Path, files: &[(String, C)]) -> Result<(), OutputError> {
     files.iter().try_for_each(|(name, contents)| {
         let write = || {
             if let Some((folder, _)) = name.rsplit_once('/') {
@@ -119,8 +116,9 @@ pub(super) fn fill<C: AsRef<[u8]>>(
     })
 }
 
-/// Locks a folder for as long as the returned handle is open, waiting up to `patience` for another process that holds the lock. The system
-/// releases it when the process ends in any way. Where folders have no locks, checksums alone keep two sets apart.
+/// Locks a folder for as long as the returned handle is open, waiting up to `patience` for another process that holds
+/// the lock. The system releases it when the process ends in any way. Where folders have no locks, checksums alone keep
+/// two sets apart.
 pub(super) fn lock(dir: &Dir, patience: Duration) -> io::Result<File> {
     let (file, start) = (dir.open(".")?.into_std(), Instant::now());
     loop {
@@ -135,19 +133,15 @@ pub(super) fn lock(dir: &Dir, patience: Duration) -> io::Result<File> {
     }
 }
 
-/// Warns, once, of each hidden folder in `dir` that a killed process left. Nothing is done about it: it may be another's.
+/// Warns, once, of each hidden folder in `dir` that a killed process left. Nothing is done about it: it may be
+/// another's.
 pub(super) fn report(dir: &Dir, path: &Path) {
     static SAID: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
-    let names = dir
-        .entries()
-        .into_iter()
-        .flatten()
-        .flatten()
-        .filter_map(|entry| entry.file_name().into_string().ok());
+    let names = dir.entries().into_iter().flatten().flatten().filter_map(|entry| entry.file_name().into_string().ok());
     for name in names {
-        let random = name.strip_prefix(PREFIX).is_some_and(|random| {
-            random.len() == 16 && random.bytes().all(|digit| digit.is_ascii_hexdigit())
-        });
+        let random = name
+            .strip_prefix(PREFIX)
+            .is_some_and(|random| random.len() == 16 && random.bytes().all(|digit| digit.is_ascii_hexdigit()));
         let left = || {
             dir.symlink_metadata(&name).is_ok_and(|found| found.is_dir())
                 && dir.open_dir(&name).is_ok_and(|left| lock(&left, Duration::ZERO).is_ok())

@@ -63,8 +63,8 @@ fn a_folder_that_is_a_file_is_named() {
     assert_eq!(fs::read_to_string(&file).unwrap(), "old");
 }
 
-/// A process that is killed between two moves leaves a record of both sets. No reader takes any of its files, and the same command
-/// goes on.
+/// A process that is killed between two moves leaves a record of both sets. No reader takes any of its files, and the
+/// same command goes on.
 #[test]
 fn half_a_replacement_is_seen_and_completed() {
     let dir = tempfile::tempdir().unwrap();
@@ -93,7 +93,8 @@ fn half_a_replacement_is_seen_and_completed() {
     assert!(Record::read(dir.path()).unwrap().unwrap().check("b", &Sum::of(b"new")).is_ok());
 }
 
-/// Threads make and replace one folder independently. A reader finds at any moment one whole set, or a record that says that it is none.
+/// Threads make and replace one folder independently. A reader finds at any moment one whole set, or a record that says
+/// that it is none.
 #[test]
 fn a_reader_finds_one_whole_set_or_is_told() {
     let dir = tempfile::tempdir().unwrap();
@@ -119,10 +120,7 @@ fn a_reader_finds_one_whole_set_or_is_told() {
             // No two sets have the same record.
             if !before.is_empty() && before == record() {
                 let record: Record = serde_json::from_slice(&before).unwrap();
-                let whole = ["f10", "f49"]
-                    .iter()
-                    .zip(&found)
-                    .all(|(name, text)| record.files[*name] == Sum::of(text));
+                let whole = ["f10", "f49"].iter().zip(&found).all(|(name, text)| record.files[*name] == Sum::of(text));
                 assert!(whole || record.is_complete().is_err(), "{found:?}");
                 looked += usize::from(whole);
             }

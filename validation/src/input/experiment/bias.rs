@@ -18,8 +18,8 @@ pub struct Bias {
 ///
 /// σ_M² + σ_E² = 1/(n−1) Σ (ln(M_i/E_i) − mean)², δ = exp(mean + σ_M²/2 − σ_E²/2).
 ///
-/// A model cannot be shown to be better than the experiments: σ_E is limited to σ_M. `None` for fewer than two pairs, or if
-/// a value is not positive.
+/// A model cannot be shown to be better than the experiments: σ_E is limited to σ_M. `None` for fewer than two pairs,
+/// or if a value is not positive.
 pub fn bias(pairs: &[(f64, f64)], sigma_e: f64) -> Option<Bias> {
     let positive = pairs.iter().all(|&(model, experiment)| model > 0.0 && experiment > 0.0);
     if pairs.len() < 2 || !positive {

@@ -25,12 +25,7 @@ pub struct Runs {
 }
 
 /// Compares measured curves of the scene named `scene` with replicas of that scene, altered by `change`.
-pub fn compare(
-    scene: &str,
-    curves: &[MeasuredCurve],
-    change: Change,
-    runs: Runs,
-) -> Result<Comparison, String> {
+pub fn compare(scene: &str, curves: &[MeasuredCurve], change: Change, runs: Runs) -> Result<Comparison, String> {
     let assessed = Assessed::new(scene, curves, change, runs)?;
     let (chi_square, p) = goodness_of_fit(&assessed.error, assessed.solver.as_ref());
     let points = assessed.points;
@@ -52,16 +47,16 @@ pub fn compare(
     })
 }
 
-/// χ² = Eᵀ V⁻¹ E, and the probability of a larger one. V is the full covariance: points share the model's replicas and, if the
-/// same rods were measured, also those. NaN if there is no V⁻¹.
+/// χ² = Eᵀ V⁻¹ E, and the probability of a larger one. V is the full covariance: points share the model's replicas and,
+/// if the same rods were measured, also those. NaN if there is no V⁻¹.
 fn goodness_of_fit(error: &DVector<f64>, solver: Option<&Solver>) -> (f64, f64) {
     let chi_square = solver.map_or(f64::NAN, |v| v.chi_square(error));
     let law = ChiSquared::new(error.len() as f64);
     (chi_square, law.map_or(f64::NAN, |law| law.sf(chi_square)))
 }
 
-/// The best fit of α to curves of several scenes, by one step of weighted least squares from the scenes' own α. `change` alters
-/// the model's runs without the estimate's knowledge.
+/// The best fit of α to curves of several scenes, by one step of weighted least squares from the scenes' own α.
+/// `change` alters the model's runs without the estimate's knowledge.
 pub fn alpha(curves: &[MeasuredCurve], change: Change, runs: Runs) -> Result<AlphaFit, String> {
     let (mut score, mut information, mut start) = (0.0, 0.0, f64::NAN);
     let mut names: Vec<_> = curves.iter().map(|curve| curve.scene).collect();
@@ -73,12 +68,7 @@ pub fn alpha(curves: &[MeasuredCurve], change: Change, runs: Runs) -> Result<Alp
         let here: Vec<_> = curves.iter().filter(|curve| curve.scene == name).cloned().collect();
         start = built_in(name)?.interaction.map_or(f64::NAN, |interaction| interaction.alpha);
         let assessed = Assessed::new(name, &here, change, runs)?;
-        let slope = assessed.slope(
-            &here,
-            |scene| Some(&mut scene.interaction.as_mut()?.alpha),
-            0.2,
-            runs.replicas,
-        )?;
+        let slope = assessed.slope(&here, |scene| Some(&mut scene.interaction.as_mut()?.alpha), 0.2, runs.replicas)?;
         let weighted = assessed.solver.as_ref().map(|v| v.solve(&slope));
         let weighted = weighted.ok_or("the covariance of the points is not positive")?;
         // D = S + slope·Δα, so that E = S − D is −slope·Δα.
@@ -113,8 +103,7 @@ impl Assessed {
         change(&mut scene);
         let places = places(curves, &scene)?;
         let model = model::run(&scene, &places, replicas, 1)?;
-        let mut assessed =
-            Self { error: DVector::zeros(places.len()), points: Vec::new(), solver: None, scene };
+        let mut assessed = Self { error: DVector::zeros(places.len()), points: Vec::new(), solver: None, scene };
         // Shared causes give covariances: a time step or a wrong input moves all points together.
         let step = assessed.step_error(&model, &places, replicas)?;
         let inputs = assessed.input_errors(curves, replicas)?;
@@ -127,8 +116,7 @@ impl Assessed {
         }
         causes.push(step.transpose());
         causes.extend(inputs.iter().map(|input| input.transpose()));
-        let mut covariance =
-            Covariance { own: DVector::zeros(places.len()), shared: DMatrix::from_rows(&causes) };
+        let mut covariance = Covariance { own: DVector::zeros(places.len()), shared: DMatrix::from_rows(&causes) };
         for (k, measured) in measured(curves).enumerate() {
             let reading = measured.u_y.powi(2) + model.time_variance[k];
             let interpolation = model.interpolation[k].powi(2);
@@ -157,13 +145,9 @@ impl Assessed {
         Ok(assessed)
     }
 
-    /// The time step's error, S − S(Δt → 0) to first order, from a run with half the step; 0 for free rods, which take no steps.
-    fn step_error(
-        &self,
-        model: &Model,
-        places: &[MeasuredAt],
-        replicas: u64,
-    ) -> Result<DVector<f64>, String> {
+    /// The time step's error, S − S(Δt → 0) to first order, from a run with half the step; 0 for free rods, which take
+    /// no steps.
+    fn step_error(&self, model: &Model, places: &[MeasuredAt], replicas: u64) -> Result<DVector<f64>, String> {
         if self.scene.interaction.is_none() {
             return Ok(DVector::zeros(places.len()));
         }
@@ -188,7 +172,8 @@ impl Assessed {
         Ok(errors)
     }
 
-    /// dS/dvalue at every point, from runs with the value larger and smaller by `share`; 0 if the scene has no such value.
+    /// dS/dvalue at every point, from runs with the value larger and smaller by `share`; 0 if the scene has no such
+    /// value.
     fn slope(
         &self,
         curves: &[MeasuredCurve],
@@ -234,8 +219,8 @@ fn places(curves: &[MeasuredCurve], scene: &Scene) -> Result<Vec<MeasuredAt>, St
     Ok(places)
 }
 
-/// The scatter of a mean over the experiment's rods, scaled from that over the scene's rods; 0 if their number is unknown. Curves of a
-/// scene are of the same rods.
+/// The scatter of a mean over the experiment's rods, scaled from that over the scene's rods; 0 if their number is
+/// unknown. Curves of a scene are of the same rods.
 fn rods(spread: &DMatrix<f64>, curves: &[MeasuredCurve], count: usize) -> DMatrix<f64> {
     let factors = curves.iter().flat_map(|curve| {
         let factor = curve.provenance.rods.map_or(0.0, |rods| (count as f64 / rods).sqrt());

@@ -1,4 +1,5 @@
-//! The covariance of many points with few shared causes: the cost of solving is linear in the number of points, not cubic.
+//! The covariance of many points with few shared causes: the cost of solving is linear in the number of points, not
+//! cubic.
 
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
@@ -83,8 +84,7 @@ mod tests {
                 shared: noise(causes, points),
             };
             // The textbook's method, with a cost cubic in the number of points.
-            let whole =
-                DMatrix::from_diagonal(&covariance.own) + covariance.shared.transpose() * &covariance.shared;
+            let whole = DMatrix::from_diagonal(&covariance.own) + covariance.shared.transpose() * &covariance.shared;
             assert_relative_eq!(covariance.variances(), whole.diagonal(), max_relative = 1e-13);
             let e: DVector<f64> = noise(points, 1).column(0).into();
             let expected = whole.cholesky().unwrap().solve(&e);

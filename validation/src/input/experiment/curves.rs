@@ -9,8 +9,8 @@ use crate::input::scenes;
 use std::collections::HashMap;
 use std::path::Path;
 
-/// The largest standard uncertainty of a time, in periods. Projections have the period T/2, so ± a quarter of T is one whole
-/// oscillation: a point with a more uncertain time contains no information, but makes the model run for long.
+/// The largest standard uncertainty of a time, in periods. Projections have the period T/2, so ± a quarter of T is one
+/// whole oscillation: a point with a more uncertain time contains no information, but makes the model run for long.
 const MOST_UNCERTAIN: f64 = 0.25;
 
 const TIME_UNCERTAINTY: &str =
@@ -67,8 +67,7 @@ pub(super) fn read(path: &Path, source: &Source) -> Result<Vec<MeasuredCurve>, D
         let dataset = datasets.iter().find(|dataset| only || Some(&dataset.name) == wanted.as_ref());
         let dataset = dataset.ok_or_else(|| {
             let wanted = wanted.unwrap_or_else(|| "missing".to_owned());
-            let message =
-                format!("curve.dataset = {wanted} is not allowed: {} has {names}", csv_path.shown());
+            let message = format!("curve.dataset = {wanted} is not allowed: {} has {names}", csv_path.shown());
             DataError::at(&path.display().to_string(), key.line, message)
         })?;
         convert(&file, key, dataset, &provenance, source)
@@ -104,10 +103,8 @@ fn convert(
         // 0 and −0 are the same number.
         let place = [row.x + 0.0, row.y + 0.0].map(f64::to_bits);
         if let Some(first) = seen.insert(place, row.line) {
-            let message = format!(
-                "the point ({}, {}) is in line {first} already: each point once is allowed",
-                row.x, row.y
-            );
+            let message =
+                format!("the point ({}, {}) is in line {first} already: each point once is allowed", row.x, row.y);
             return Err(DataError::at(file, row.line, message));
         }
     }
@@ -120,8 +117,7 @@ fn convert(
     let vague = |row: &&DataRow| row.u_x.is_some_and(|u| u > most);
     if let Some(row) = dataset.rows.iter().find(vague) {
         let (name, u) = (provenance.x.quantity.column(), row.u_x.unwrap_or_default());
-        let message =
-            format!("column {name}_u: `{u}` is not allowed: expected {TIME_UNCERTAINTY}, here {most}");
+        let message = format!("column {name}_u: `{u}` is not allowed: expected {TIME_UNCERTAINTY}, here {most}");
         return Err(DataError::at(file, row.line, message));
     }
     let length = match provenance.y.quantity {

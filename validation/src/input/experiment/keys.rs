@@ -57,12 +57,7 @@ impl<'a> Keys<'a> {
     }
 
     /// The finite number at `key`, for which `holds` must be true.
-    pub(super) fn number(
-        &self,
-        key: &str,
-        allowed: &str,
-        holds: impl Fn(f64) -> bool,
-    ) -> Result<f64, DataError> {
+    pub(super) fn number(&self, key: &str, allowed: &str, holds: impl Fn(f64) -> bool) -> Result<f64, DataError> {
         let number = self.table.read::<f64>(key).filter(|number| number.is_finite() && holds(*number));
         number.ok_or_else(|| self.refused(key, allowed))
     }

@@ -1,7 +1,8 @@
 //! Measured points of experiments: reading them, and comparing them with the model.
 //!
-//! Each source has a folder under a data folder, laid out as `validation/data`; the folder has pairs of files, `NAME.toml` with the
-//! provenance and `NAME.csv` with the points. Formats and formulas are in `docs/src/validation/points.md`.
+//! Each source has a folder under a data folder, laid out as `validation/data`; the folder has pairs of files,
+//! `NAME.toml` with the provenance and `NAME.csv` with the points. Formats and formulas are in
+//! `docs/src/validation/points.md`.
 
 mod bias;
 mod compare;
@@ -110,9 +111,8 @@ pub fn read(data: &Path, source: &Source) -> Result<Vec<MeasuredCurve>, DataErro
     let mut found: Vec<MeasuredCurve> = Vec::new();
     for path in with("toml") {
         let new = curves::read(path, source)?;
-        let again = |curve: &&MeasuredCurve| {
-            found.iter().any(|old| (old.scene, old.channel) == (curve.scene, curve.channel))
-        };
+        let again =
+            |curve: &&MeasuredCurve| found.iter().any(|old| (old.scene, old.channel) == (curve.scene, curve.channel));
         if let Some(curve) = new.iter().find(again) {
             let name = OBSERVABLES[curve.channel];
             let message = format!("{name} of {} is in another file already: points count once", curve.scene);
@@ -153,8 +153,7 @@ pub fn digest(data: &Path) -> Result<BTreeMap<String, u32>, DataError> {
             continue;
         }
         for path in files(&folder)?.iter().filter(|path| path.is_file()) {
-            let (_, crc32) =
-                bounded::length_and_crc32(path, MOST_BYTES).map_err(|error| unreadable(path, &error))?;
+            let (_, crc32) = bounded::length_and_crc32(path, MOST_BYTES).map_err(|error| unreadable(path, &error))?;
             let name = path.strip_prefix(data).unwrap_or(path).display().to_string();
             sums.insert(name, crc32);
         }
@@ -177,8 +176,7 @@ pub fn points_for(data: Option<&Path>, scene_name: &str) -> Result<Vec<Measured>
 fn files(folder: &Path) -> Result<Vec<PathBuf>, DataError> {
     let refused = |error: std::io::Error| unreadable(folder, &error);
     let entries = std::fs::read_dir(folder).map_err(refused)?;
-    let mut paths =
-        entries.map(|entry| Ok(entry.map_err(refused)?.path())).collect::<Result<Vec<_>, DataError>>()?;
+    let mut paths = entries.map(|entry| Ok(entry.map_err(refused)?.path())).collect::<Result<Vec<_>, DataError>>()?;
     paths.sort();
     Ok(paths)
 }

@@ -28,22 +28,22 @@ pub(super) struct Model {
     pub(super) time_variance: Vec<f64>,
     /// The difference between linear and the cubic interpolation that is used: more than the cubic's own error.
     pub(super) interpolation: Vec<f64>,
-    /// A row for each replica, a column for each place: spreadᵀ·spread is the covariance of one replica's values, and divided by the number
-    /// of replicas that of `value`.
+    /// A row for each replica, a column for each place: spreadᵀ·spread is the covariance of one replica's values, and
+    /// divided by the number of replicas that of `value`.
     pub(super) spread: DMatrix<f64>,
 }
 
-/// Number of values computed at each place: the value, the linearly interpolated value, and the values at the two outer nodes.
+/// Number of values computed at each place: the value, the linearly interpolated value, and the values at the two outer
+/// nodes.
 const EACH: usize = 4;
 
-/// Runs replicas of a scene with an output per step, for as long as the places require. The time steps may be finer than the
-/// outputs, by the factor `finer`.
+/// Runs replicas of a scene with an output per step, for as long as the places require. The time steps may be finer
+/// than the outputs, by the factor `finer`.
 pub(super) fn run(scene: &Scene, places: &[MeasuredAt], replicas: u64, finer: u64) -> Result<Model, String> {
     let mut scene = scene.clone();
     let per_period = scene.steps_per_unit();
     // Gauss–Hermite's outer nodes, ±√3 standard deviations.
-    let nodes =
-        |place: &MeasuredAt| [-1.0, 1.0].map(|side| place.turns + side * 3.0_f64.sqrt() * place.u_turns);
+    let nodes = |place: &MeasuredAt| [-1.0, 1.0].map(|side| place.turns + side * 3.0_f64.sqrt() * place.u_turns);
     let last = places.iter().map(|place| nodes(place)[1]).fold(0.0, f64::max);
     // One output more than the last place needs, for the cubic.
     scene.time.duration = ((last * per_period as f64).ceil() + 1.0) / per_period as f64;
@@ -66,19 +66,15 @@ pub(super) fn run(scene: &Scene, places: &[MeasuredAt], replicas: u64, finer: u6
         })
         .collect::<Result<Vec<Vec<f64>>, String>>()?;
     let n = rows.len() as f64;
-    let means: Vec<f64> =
-        (0..EACH * places.len()).map(|k| rows.iter().map(|row| row[k]).sum::<f64>() / n).collect();
-    let spread = DMatrix::from_fn(rows.len(), places.len(), |r, k| {
-        (rows[r][EACH * k] - means[EACH * k]) / (n - 1.0).sqrt()
-    });
+    let means: Vec<f64> = (0..EACH * places.len()).map(|k| rows.iter().map(|row| row[k]).sum::<f64>() / n).collect();
+    let spread =
+        DMatrix::from_fn(rows.len(), places.len(), |r, k| (rows[r][EACH * k] - means[EACH * k]) / (n - 1.0).sqrt());
     let each = || means.chunks_exact(EACH);
     Ok(Model {
         value: each().map(|mean| mean[0]).collect(),
-        // The mean of (S(t + ε) − S(t))² over a Gaussian ε by Gauss–Hermite's rule of three nodes: u_t²·(dS/dt)² if S is straight, and
-        // also right at a peak, where the slope alone would give 0.
-        time_variance: each()
-            .map(|mean| ((mean[2] - mean[0]).powi(2) + (mean[3] - mean[0]).powi(2)) / 6.0)
-            .collect(),
+        // The mean of (S(t + ε) − S(t))² over a Gaussian ε by Gauss–Hermite's rule of three nodes: u_t²·(dS/dt)² if S
+        // is straight, and also right at a peak, where the slope alone would give 0.
+        time_variance: each().map(|mean| ((mean[2] - mean[0]).powi(2) + (mean[3] - mean[0]).powi(2)) / 6.0).collect(),
         interpolation: each().map(|mean| (mean[1] - mean[0]).abs()).collect(),
         spread,
     })

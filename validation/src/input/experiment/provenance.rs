@@ -41,9 +41,7 @@ impl Time {
     pub fn per_period(self, aspect_ratio: f64) -> f64 {
         match self {
             Self::Periods => 1.0,
-            Self::Seconds { shear_rate_per_s } => {
-                jeffery::strain_per_period(aspect_ratio) / shear_rate_per_s.abs()
-            }
+            Self::Seconds { shear_rate_per_s } => jeffery::strain_per_period(aspect_ratio) / shear_rate_per_s.abs(),
             Self::Strain => jeffery::strain_per_period(aspect_ratio),
         }
     }
@@ -100,7 +98,8 @@ pub struct Key {
 /// The names of the observables, by channel.
 pub const OBSERVABLES: [&str; 3] = ["x1", "x2", "x3"];
 
-/// A key of `[inputs]`, and the value in a scene to which the uncertainty applies; `None` if the scene has no such value.
+/// A key of `[inputs]`, and the value in a scene to which the uncertainty applies; `None` if the scene has no such
+/// value.
 type Input = (&'static str, fn(&mut Scene) -> Option<&mut f64>);
 
 /// The experiment's conditions that may be uncertain.

@@ -35,9 +35,10 @@ pub(super) fn parse(file: &str, text: &str, source: &Source) -> Result<Provenanc
         "webplotdigitizer" => Layout::WebPlotDigitizer,
         _ => return Err(all.refused("csv", layouts)),
     };
-    let rods = match all.has("rods") {
-        true => Some(all.number("rods", "a whole number ≥ 1", |n| n >= 1.0 && n.fract() == 0.0)?),
-        false => None,
+    let rods = if all.has("rods") {
+        Some(all.number("rods", "a whole number ≥ 1", |n| n >= 1.0 && n.fract() == 0.0)?)
+    } else {
+        None
     };
     let curves = curves(&all, csv, source)?;
     own_aspect_ratio(&all, &curves)?;
@@ -59,10 +60,7 @@ pub(super) fn parse(file: &str, text: &str, source: &Source) -> Result<Provenanc
 fn date(all: &Keys<'_>) -> Result<String, DataError> {
     let allowed = "the day of reading off, as \"YYYY-MM-DD\"";
     let date = all.text("date", allowed)?;
-    match is_day(&date) {
-        true => Ok(date),
-        false => Err(all.refused("date", allowed)),
-    }
+    if is_day(&date) { Ok(date) } else { Err(all.refused("date", allowed)) }
 }
 
 /// True if the text is a calendar day, as YYYY-MM-DD.
@@ -99,9 +97,10 @@ fn axis<Q>(table: &Keys<'_>, quantity: fn(&Keys<'_>) -> Result<Q, DataError>) ->
         return Err(table.refused("calibration", CALIBRATION));
     }
     let [least, most] = axis.uncertainties();
-    match (least..=most).contains(&axis.standard_uncertainty) {
-        true => Ok(axis),
-        false => Err(table.refused("standard_uncertainty", &uncertainty(least, most))),
+    if (least..=most).contains(&axis.standard_uncertainty) {
+        Ok(axis)
+    } else {
+        Err(table.refused("standard_uncertainty", &uncertainty(least, most)))
     }
 }
 
@@ -111,9 +110,7 @@ fn time(table: &Keys<'_>) -> Result<Time, DataError> {
         "strain" => Time::Strain,
         "t_s" => {
             let allowed = "the experiment's shear rate, a number > 0, to turn seconds into periods";
-            return Ok(Time::Seconds {
-                shear_rate_per_s: table.number("shear_rate_per_s", allowed, |g| g > 0.0)?,
-            });
+            return Ok(Time::Seconds { shear_rate_per_s: table.number("shear_rate_per_s", allowed, |g| g > 0.0)? });
         }
         _ => return Err(table.refused("quantity", QUANTITY_X)),
     };
@@ -131,9 +128,10 @@ fn projection(table: &Keys<'_>) -> Result<Projection, DataError> {
 }
 
 fn no_shear_rate(table: &Keys<'_>) -> Result<(), DataError> {
-    match table.has("shear_rate_per_s") {
-        true => Err(table.refused("shear_rate_per_s", "only for x.quantity = \"t_s\"")),
-        false => Ok(()),
+    if table.has("shear_rate_per_s") {
+        Err(table.refused("shear_rate_per_s", "only for x.quantity = \"t_s\""))
+    } else {
+        Ok(())
     }
 }
 
@@ -188,7 +186,8 @@ fn own_aspect_ratio(all: &Keys<'_>, curves: &[Key]) -> Result<(), DataError> {
         let scene = scenes::find(key.scene).and_then(|built_in| built_in.scene().ok());
         let own = scene.map_or(f64::NAN, |scene| scene.particles.aspect_ratio);
         let allowed = format!(
-            "the mean r_e of the measured rods, {own} in {}; the paper leaves its points of r_e = 3.96 out (Results, after Fig. 5): \
+            "the mean r_e of the measured rods, {own} in {}; the paper leaves its points of r_e = 3.96 out (Results, \
+                after Fig. 5): \
              rods that start parallel in the shear plane do not disturb each other in this model",
             key.scene
         );

@@ -32,15 +32,15 @@ struct Record {
 /// The largest number of lines of a file: more than the points of any figure; a comparison then takes half a minute.
 const MOST_LINES: usize = 20_000;
 
-/// Fails if the cells of the first line are separated by semicolons or tabs, and says what to do: such files have decimal commas.
+/// Fails if the cells of the first line are separated by semicolons or tabs, and says what to do: such files have
+/// decimal commas.
 pub(crate) fn commas(file: &str, text: &str) -> Result<(), DataError> {
     let Some((index, first)) = text.lines().enumerate().find(|(_, line)| !line.trim().is_empty()) else {
         return Ok(());
     };
     for (separator, name, shell) in [(';', "semicolons", ";"), ('\t', "tabs", "\\t")] {
         let is_number = |cell: &str| cell.trim().replace(',', ".").parse::<f64>().is_ok();
-        let apart =
-            first.contains(separator) && (!first.contains(',') || first.split(separator).all(is_number));
+        let apart = first.contains(separator) && (!first.contains(',') || first.split(separator).all(is_number));
         if apart {
             let message = format!(
                 "cells are separated by {name}; commas between cells and points in numbers are allowed: \
@@ -59,8 +59,7 @@ fn records(file: &str, text: &str) -> Result<Vec<Record>, DataError> {
     lines
         .map(|(index, text)| {
             let mut cells = StringRecord::new();
-            let mut reader =
-                ReaderBuilder::new().has_headers(false).trim(Trim::All).from_reader(text.as_bytes());
+            let mut reader = ReaderBuilder::new().has_headers(false).trim(Trim::All).from_reader(text.as_bytes());
             let line = index + 1;
             if line > MOST_LINES {
                 let message = format!("more than {MOST_LINES} lines; at most {MOST_LINES} are allowed");
@@ -75,15 +74,14 @@ fn records(file: &str, text: &str) -> Result<Vec<Record>, DataError> {
 fn number(file: &str, line: usize, column: &str, cell: &str) -> Result<f64, DataError> {
     let number = cell.parse().ok().filter(|number: &f64| number.is_finite());
     number.ok_or_else(|| {
-        let message = format!(
-            "column {column}: `{cell}` is not allowed: expected a finite number with a decimal point"
-        );
+        let message =
+            format!("column {column}: `{cell}` is not allowed: expected a finite number with a decimal point");
         DataError::at(file, line, message)
     })
 }
 
-/// Reads the project's columns: `x`, each of `ys`, and their uncertainties `NAME_u` if given. A blank `y` was not measured; for a
-/// blank uncertainty that of the provenance file applies.
+/// Reads the project's columns: `x`, each of `ys`, and their uncertainties `NAME_u` if given. A blank `y` was not
+/// measured; for a blank uncertainty that of the provenance file applies.
 pub(crate) fn columns(file: &str, text: &str, x: &str, ys: &[String]) -> Result<Vec<Dataset>, DataError> {
     let records = records(file, text)?;
     let Some((header, body)) = records.split_first() else {
@@ -148,16 +146,16 @@ fn positive(file: &str, line: usize, column: &str, cell: &str) -> Result<Option<
     match number(file, line, column, cell)? {
         u if u > 0.0 => Ok(Some(u)),
         _ => {
-            let message = format!(
-                "column {column}: `{cell}` is not allowed: expected one standard deviation, a number > 0"
-            );
+            let message =
+                format!("column {column}: `{cell}` is not allowed: expected one standard deviation, a number > 0");
             Err(DataError::at(file, line, message))
         }
     }
 }
 
-/// Reads WebPlotDigitizer's export: two columns without a header; or all datasets side by side, where the first line has a name
-/// over the first column of each pair, the second has `X,Y` for each pair, and cells below shorter datasets are blank.
+/// Reads WebPlotDigitizer's export: two columns without a header; or all datasets side by side, where the first line
+/// has a name over the first column of each pair, the second has `X,Y` for each pair, and cells below shorter datasets
+/// are blank.
 pub(super) fn webplotdigitizer(file: &str, text: &str) -> Result<Vec<Dataset>, DataError> {
     let records = records(file, text)?;
     let Some(first) = records.first() else {
@@ -171,9 +169,8 @@ pub(super) fn webplotdigitizer(file: &str, text: &str) -> Result<Vec<Dataset>, D
         Some(second) => {
             let (named, width) = (first.cells.len(), second.cells.len());
             if named != width || width % 2 != 0 {
-                let message = format!(
-                    "{named} cells of names over {width} of X, Y: two columns for each dataset are allowed"
-                );
+                let message =
+                    format!("{named} cells of names over {width} of X, Y: two columns for each dataset are allowed");
                 return Err(DataError::at(file, first.line, message));
             }
             (first.cells.iter().step_by(2).collect(), &records[2..])
@@ -188,8 +185,7 @@ pub(super) fn webplotdigitizer(file: &str, text: &str) -> Result<Vec<Dataset>, D
         names.iter().map(|name| Dataset { name: (*name).to_owned(), rows: Vec::new() }).collect();
     for Record { line, cells } in body {
         if cells.len() > 2 * datasets.len() {
-            let message =
-                format!("{} cells; two for each dataset are allowed: {}", cells.len(), 2 * datasets.len());
+            let message = format!("{} cells; two for each dataset are allowed: {}", cells.len(), 2 * datasets.len());
             return Err(DataError::at(file, *line, message));
         }
         for (k, dataset) in datasets.iter_mut().enumerate() {
@@ -199,8 +195,7 @@ pub(super) fn webplotdigitizer(file: &str, text: &str) -> Result<Vec<Dataset>, D
             if names.len() > 1 && x.is_empty() && y.is_empty() {
                 continue;
             }
-            let read =
-                |axis: &str, cell: &str| number(file, *line, &format!("{} {axis}", dataset.name), cell);
+            let read = |axis: &str, cell: &str| number(file, *line, &format!("{} {axis}", dataset.name), cell);
             let (x, y) = (read("X", x)?, read("Y", y)?);
             dataset.rows.push(DataRow { line: *line, x, y, u_x: None, u_y: None });
         }

@@ -88,10 +88,7 @@ fn units_are_turned_into_the_models() {
     let strain = 2.0 * std::f64::consts::PI * (r + 1.0 / r);
     let with = |x: &str, calibration: &str| {
         PROVENANCE
-            .replace(
-                "quantity = \"t_over_T\"\ncalibration = [0, 2]",
-                &format!("{x}\ncalibration = {calibration}"),
-            )
+            .replace("quantity = \"t_over_T\"\ncalibration = [0, 2]", &format!("{x}\ncalibration = {calibration}"))
             .replace("\"fraction\"", "\"mm\"")
     };
     let in_seconds = with("quantity = \"t_s\"\nshear_rate_per_s = 0.25", "[0, 600]");

@@ -1,5 +1,5 @@
-//! Published results on related suspensions, shipped in `validation/published` with their provenance. The type of a set says
-//! whether it was measured or simulated.
+//! Published results on related suspensions, shipped in `validation/published` with their provenance. The type of a set
+//! says whether it was measured or simulated.
 
 /// Marks results measured in an experiment.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -67,8 +67,9 @@ fn numbers(text: &'static str) -> impl Iterator<Item = Vec<f64>> {
     text.lines().skip(1).map(move |line| line.split(',').map(number).collect())
 }
 
-/// The strain of the first maximum of a_11 after the start: the first half turn of rods along axis 1. It is the largest value
-/// between the first rise above 0.3, after a fall below 0.25, and the next such fall, so that ripples do not count.
+/// The strain of the first maximum of a_11 after the start: the first half turn of rods along axis 1. It is the largest
+/// value between the first rise above 0.3, after a fall below 0.25, and the next such fall, so that ripples do not
+/// count.
 pub fn first_half_turn(run: &Run) -> Option<f64> {
     let low = run.iter().position(|row| row[1] < 0.25)?;
     let rises = low + run[low..].iter().position(|row| row[1] > 0.3)?;

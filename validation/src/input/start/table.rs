@@ -71,7 +71,9 @@ pub(super) fn read(bytes: &[u8]) -> Result<(OwnRods, Vec<u64>), String> {
     let (p, places) = (Group::new(P, place)?, Group::new(PLACE, place)?);
     let (shape, length) = (Group::new(ASPECT_RATIO, place)?, Group::new(LENGTH, place)?);
     if p.0.is_none() && places.0.is_none() && shape.0.is_none() && length.0.is_none() {
-        return Err("1: no column of what a rod is: p1, p2 and p3, aspect_ratio, length_mm, or x1_mm, x2_mm and x3_mm".into());
+        return Err(
+            "1: no column of what a rod is: p1, p2 and p3, aspect_ratio, length_mm, or x1_mm, x2_mm and x3_mm".into()
+        );
     }
     let mut order = Order::new(place);
     let mut own = OwnRods::default();
@@ -192,7 +194,8 @@ impl Order {
                 && value != first
             {
                 return Err(format!(
-                    "{line}: {} = {value} is not allowed: line {first_line} has {first}, and a start has the rods of one \
+                    "{line}: {} = {value} is not allowed: line {first_line} has {first}, and a start has the rods of \
+                        one \
                      replica at one time; keep the rows of one",
                     &head[*column]
                 ));
@@ -299,10 +302,7 @@ mod tests {
             ("time_s,p1,p2,p3\nnow,1,0,0\n", "2: time_s = now is not allowed"),
             ("strain,p1,p2,p3\n0,1,0,0\n1,0,1,0\n", "3: strain = 1 is not allowed: line 2 has 0"),
             // A file of other content is shown by its first letters at most.
-            (
-                "-----BEGIN PRIVATE KEY OF SOMEBODY-----\nMIIE\n",
-                "1: unknown column \"-----BEGIN PRIVATE K…\"; allowed",
-            ),
+            ("-----BEGIN PRIVATE KEY OF SOMEBODY-----\nMIIE\n", "1: unknown column \"-----BEGIN PRIVATE K…\"; allowed"),
         ] {
             let found = refused(text);
             assert!(found.starts_with(said), "{found}");

@@ -1,7 +1,7 @@
 //! The rules by which numbers are accepted. The default tolerance is zero; a looser one gives its reason.
 //!
-//! A statistical rule has two errors: correct code fails, or a mistake passes. Both have a bound for each check, and the sizes of
-//! samples are computed such that both hold ([`Design`]).
+//! A statistical rule has two errors: correct code fails, or a mistake passes. Both have a bound for each check, and
+//! the sizes of samples are computed such that both hold ([`Design`]).
 
 mod sizes;
 #[cfg(test)]
@@ -159,9 +159,9 @@ impl Rule {
         }
     }
 
-    /// By how many standard deviations of the test's statistic a failing rule fails: at another seed it would not fail with the
-    /// probability [`upper_tail`] of this, by the noncentral t distribution, or for Kolmogorov's test by Massart's bound. `None` if
-    /// nothing is random, or no distance is given.
+    /// By how many standard deviations of the test's statistic a failing rule fails: at another seed it would not fail
+    /// with the probability [`upper_tail`] of this, by the noncentral t distribution, or for Kolmogorov's test by
+    /// Massart's bound. `None` if nothing is random, or no distance is given.
     pub fn margin(&self) -> Option<f64> {
         match self {
             Self::Mean { se, samples, allowance, .. } => {
@@ -225,7 +225,8 @@ pub fn judge(rule: &Rule) -> Verdict {
         Rule::NoData { .. } => return Verdict::NoData,
     };
     match (holds, rule.has_enough()) {
-        // Noise can hide a difference, but can bring a mean neither close to its reference nor many standard errors below its bound.
+        // Noise can hide a difference, but can bring a mean neither close to its reference nor many standard errors
+        // below its bound.
         (false, false) if rule.is_hidden() => Verdict::Underpowered,
         (false, _) => Verdict::Fail,
         (true, false) => Verdict::Underpowered,
@@ -234,7 +235,8 @@ pub fn judge(rule: &Rule) -> Verdict {
 }
 
 impl Sample {
-    /// The rule that this mean is `reference` up to `allowance`; the sample must be large enough to show `effect` beyond it.
+    /// The rule that this mean is `reference` up to `allowance`; the sample must be large enough to show `effect`
+    /// beyond it.
     pub fn is(self, reference: f64, allowance: f64, effect: f64, because: impl Into<Text>) -> Rule {
         Rule::Mean {
             mean: self.mean,
@@ -249,13 +251,6 @@ impl Sample {
 
     /// The rule that this mean exceeds `bound`; the sample must be large enough to show an excess of `effect`.
     pub fn exceeds(self, bound: f64, effect: f64, because: impl Into<Text>) -> Rule {
-        Rule::Above {
-            mean: self.mean,
-            se: self.se,
-            samples: self.samples,
-            bound,
-            effect,
-            because: because.into(),
-        }
+        Rule::Above { mean: self.mean, se: self.se, samples: self.samples, bound, effect, because: because.into() }
     }
 }

@@ -19,9 +19,9 @@ impl Design {
         Self { effect, sd }
     }
 
-    /// The smallest number of independent values that misses the effect with the probability [`MISS`] at most, at the false-alarm
-    /// probability [`LEVEL`], and whose standard error is too large to decide with another [`LEVEL`] at most (χ² quantile, Gaussian
-    /// values).
+    /// The smallest number of independent values that misses the effect with the probability [`MISS`] at most, at the
+    /// false-alarm probability [`LEVEL`], and whose standard error is too large to decide with another [`LEVEL`] at
+    /// most (χ² quantile, Gaussian values).
     pub fn samples(self) -> u64 {
         self.samples_at(LEVEL, MISS)
     }
@@ -52,14 +52,15 @@ const FEWEST: u64 = 16;
 /// More values than any case can run.
 const MOST: u64 = 1 << 40;
 
-/// The smallest number of values with which a Kolmogorov–Smirnov test misses a `distance` between two distribution functions with the
-/// probability [`MISS`] at most, at the false-alarm probability [`LEVEL`] (Massart's bound for both).
+/// The smallest number of values with which a Kolmogorov–Smirnov test misses a `distance` between two distribution
+/// functions with the probability [`MISS`] at most, at the false-alarm probability [`LEVEL`] (Massart's bound for
+/// both).
 pub fn kolmogorov_samples(distance: f64) -> u64 {
     ((massart(LEVEL) + massart(MISS)) / distance).powi(2).ceil() as u64
 }
 
-/// The ratio of a standard deviation of `samples` Gaussian values to its expectation that is exceeded with the probability
-/// `level`.
+/// The ratio of a standard deviation of `samples` Gaussian values to its expectation that is exceeded with the
+/// probability `level`.
 fn scatter(level: f64, samples: u64) -> f64 {
     let freedom = freedom(samples);
     ChiSquared::new(freedom).map_or(f64::NAN, |chi| (chi.inverse_cdf(1.0 - level) / freedom).sqrt())

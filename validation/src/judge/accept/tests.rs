@@ -66,15 +66,7 @@ fn distance(distance: Option<f64>, samples: u64) -> Rule {
 }
 
 fn of_a_million(mean: f64, reference: f64) -> Rule {
-    Rule::Mean {
-        mean,
-        se: 0.5,
-        samples: 1_000_000,
-        reference,
-        allowance: 1.0,
-        effect: 100.0,
-        because: "".into(),
-    }
+    Rule::Mean { mean, se: 0.5, samples: 1_000_000, reference, allowance: 1.0, effect: 100.0, because: "".into() }
 }
 
 /// Tests which rules are statistical, and their contributions to the budget.
@@ -93,7 +85,8 @@ fn the_false_alarms_of_each_rule_by_hand() {
     }
 }
 
-/// For many values the noncentral t distribution is Gaussian: the margin is the distance of a statistic from its critical value.
+/// For many values the noncentral t distribution is Gaussian: the margin is the distance of a statistic from its
+/// critical value.
 #[test]
 fn margins_by_hand() {
     let critical = student(LEVEL, 1_000_000);
@@ -104,8 +97,7 @@ fn margins_by_hand() {
     // Seven off, one of them allowed, with standard errors of ½.
     near(of_a_million(10.0, 3.0).margin(), 12.0 - critical);
     near(of_a_million(-4.0, 3.0).margin(), 12.0 - critical);
-    let below =
-        Rule::Above { mean: 1.0, se: 0.5, samples: 1_000_000, bound: 3.0, effect: 100.0, because: "".into() };
+    let below = Rule::Above { mean: 1.0, se: 0.5, samples: 1_000_000, bound: 3.0, effect: 100.0, because: "".into() };
     near(below.margin(), critical + 4.0);
     // Massart's bound: twice √n d beyond that of the level.
     let margin = |samples| distance(Some(0.5), samples).margin().unwrap();

@@ -55,10 +55,7 @@ mod tests {
     fn a_full_run_draws_four_times_as_much() {
         let design = Design { effect: 0.1, sd: 1.0 };
         let full = Effort { full: true, ..Effort::gate() };
-        assert_eq!(
-            (Effort::gate().samples(design), full.samples(design)),
-            (design.samples(), 4 * design.samples())
-        );
+        assert_eq!((Effort::gate().samples(design), full.samples(design)), (design.samples(), 4 * design.samples()));
     }
 
     #[test]

@@ -53,9 +53,8 @@ impl Control {
     /// Judges a control: a check with NaN has broken, and has caught nothing.
     pub(super) fn new(mistake: &'static str, evidence: &[Evidence]) -> Self {
         let broke = evidence.iter().any(|e| e.rule.error().is_nan());
-        let failed: Vec<_> = (evidence.iter().map(|e| &e.rule))
-            .filter(|rule| !broke && judge(rule) == Verdict::Fail)
-            .collect();
+        let failed: Vec<_> =
+            (evidence.iter().map(|e| &e.rule)).filter(|rule| !broke && judge(rule) == Verdict::Fail).collect();
         let drawn = failed.iter().all(|rule| rule.is_statistical());
         Self {
             mistake: mistake.into(),

@@ -1,5 +1,5 @@
-//! Tools shared by cases and studies: the paper's problem as a scene, samples of replicas, and the scene in the form of the
-//! naive reference.
+//! Tools shared by cases and studies: the paper's problem as a scene, samples of replicas, and the scene in the form of
+//! the naive reference.
 
 mod reference;
 mod sampling;
@@ -25,11 +25,7 @@ pub fn changed(mut scene: Scene, change: impl FnOnce(&mut Scene)) -> Scene {
 
 /// Free rods of the paper's Fig. 6 (G = 0.5 1/s, r_e = 11.6, a = 0.72 mm): one period, projections.
 pub fn free_scene(effort: &Effort) -> Scene {
-    Scene {
-        title: "a case".to_owned(),
-        ensemble: Ensemble { replicas: 1, seed: effort.seed(0) },
-        ..Scene::default()
-    }
+    Scene { title: "a case".to_owned(), ensemble: Ensemble { replicas: 1, seed: effort.seed(0) }, ..Scene::default() }
 }
 
 /// The rods of `free_scene` interacting, at 50 per cm³ with α = 0.5 and m = 3 (Fig. 6, bottom).

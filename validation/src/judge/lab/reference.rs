@@ -12,10 +12,10 @@ pub fn problem(scene: &Scene, replica: u64, mistake: Option<Mistake>) -> NaivePr
     NaiveProblem {
         count: particles.count,
         shear_rate_per_s: scene.flow.shear_rate_per_s().unwrap_or(f64::NAN),
-        other_flow: scene.flow.gradient_per_s().map(|gradient_per_s| OtherFlow {
-            gradient_per_s,
-            steps_per_strain: scene.steps_per_unit() as usize,
-        }),
+        other_flow: scene
+            .flow
+            .gradient_per_s()
+            .map(|gradient_per_s| OtherFlow { gradient_per_s, steps_per_strain: scene.steps_per_unit() as usize }),
         length_mm: particles.length_mm,
         length_sd_percent: particles.length_sd_percent,
         aspect_ratio: particles.aspect_ratio,

@@ -20,15 +20,13 @@ pub fn per_replica<T: Send>(
     let of_replica = |replica| {
         // A run that stopped fails every check: all its means are NaN.
         let found = run_replica(&plan, replica).ok();
-        value(&|channel, output| {
-            found.as_ref().and_then(|found| found.mean(channel, output)).unwrap_or(f64::NAN)
-        })
+        value(&|channel, output| found.as_ref().and_then(|found| found.mean(channel, output)).unwrap_or(f64::NAN))
     };
     (0..replicas).into_par_iter().map(of_replica).collect()
 }
 
-/// The Kolmogorov–Smirnov test that `values` in [0, 1] are uniform; there must be enough values to show a `distance` between
-/// the two distribution functions.
+/// The Kolmogorov–Smirnov test that `values` in [0, 1] are uniform; there must be enough values to show a `distance`
+/// between the two distribution functions.
 pub fn uniform(values: Vec<f64>, distance: f64, because: impl Into<Text>) -> Rule {
     let samples = values.len() as u64;
     let enough = kolmogorov_samples(distance);

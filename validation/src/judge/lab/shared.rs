@@ -25,7 +25,8 @@ impl<K: Ord, T> Shared<K, T> {
         Self(Mutex::new(Kept { run: (0, false), values: BTreeMap::new() }))
     }
 
-    /// The value for `key`, computed by `work_out` if it is missing. It must depend only on key and effort; another run clears it.
+    /// The value for `key`, computed by `work_out` if it is missing. It must depend only on key and effort; another run
+    /// clears it.
     pub fn get(&self, effort: &Effort, key: K, work_out: impl FnOnce() -> T) -> Arc<T> {
         let held = || {
             let mut kept = self.0.lock().unwrap_or_else(PoisonError::into_inner);

@@ -3,15 +3,15 @@
 use super::axis::{Axis, place};
 use super::legend::Legend;
 use super::style::{
-    BAR_WIDTH, FINE, MARKER, SMALL_MARKER, TEXT, colour, curve, cut, is_coloured, looks, marker, text,
-    text_width,
+    BAR_WIDTH, FINE, MARKER, SMALL_MARKER, TEXT, colour, curve, cut, is_coloured, looks, marker, text, text_width,
 };
 use super::window::Window;
 use super::{Backend, Drawn, Figure};
 use plotters::coord::Shift;
 use plotters::prelude::*;
 
-/// Half the length of an error bar's cap, and the width of a band's edge; both differ from a curve's, so that neither is dashed.
+/// Half the length of an error bar's cap, and the width of a band's edge; both differ from a curve's, so that neither
+/// is dashed.
 const CAP: i32 = 4 * FINE;
 const EDGE_WIDTH: u32 = 3;
 
@@ -41,14 +41,7 @@ fn placed(figure: &Figure, x: &[f64], y: &[f64], x_error: Errors, y_error: Error
     (x.iter().zip(y).enumerate())
         .map(|(k, (x, y))| {
             let (dx, dy) = (half(x_error, k), half(y_error, k));
-            Placed {
-                x: px(*x),
-                y: py(*y),
-                left: px(x - dx),
-                right: px(x + dx),
-                low: py(y - dy),
-                high: py(y + dy),
-            }
+            Placed { x: px(*x), y: py(*y), left: px(x - dx), right: px(x + dx), low: py(y - dy), high: py(y + dy) }
         })
         .collect()
 }
@@ -62,9 +55,8 @@ pub(super) fn draw<DB: Backend>(figure: &Figure, legend: &Legend, area: &Drawing
         .map(|p| placed(figure, &p.x, &p.y, p.x_error.as_deref(), p.y_error.as_deref()))
         .collect();
     let shown = || (curves.iter().chain(&points).flatten()).filter(|p| p.is_finite());
-    let span = |ends: Option<(f64, f64)>, log| {
-        (ends.into_iter()).flat_map(move |(a, b)| [place(a, log), place(b, log)])
-    };
+    let span =
+        |ends: Option<(f64, f64)>, log| (ends.into_iter()).flat_map(move |(a, b)| [place(a, log), place(b, log)]);
     let x = shown().flat_map(|p| [p.x, p.left, p.right]);
     let x = x.chain(span(figure.x_span, figure.x_log));
     // A curve may end at the frame, but a marker must not be cut.

@@ -93,11 +93,8 @@ fn linear(low: f64, high: f64, margin: f64) -> Axis {
     let size = low.abs().max(high.abs());
     let span = high - low;
     // Constant but for round-off: the axis then shows the value, not its last bits.
-    let pad = if span <= 1e-9 * size || span < 1e-290 {
-        if size > 1e-280 { 0.1 * size } else { 1.0 }
-    } else {
-        margin * span
-    };
+    let pad =
+        if span <= 1e-9 * size || span < 1e-290 { if size > 1e-280 { 0.1 * size } else { 1.0 } } else { margin * span };
     let (low, high) = (low - pad, high + pad);
     let step = round_step((high - low) / 6.0);
     let ticks = ((low / step - 1e-9).ceil() as i64..=(high / step + 1e-9).floor() as i64)
@@ -152,9 +149,7 @@ fn logarithmic(low: f64, high: f64) -> Axis {
     let ticks = exponents()
         .filter(|exponent| exponent % stride == 0)
         .flat_map(|exponent| factors.iter().map(move |f| (*f, exponent)))
-        .map(|(factor, exponent)| {
-            (f64::from(exponent) + factor.log10(), logarithmic_label(factor, exponent, plain))
-        })
+        .map(|(factor, exponent)| (f64::from(exponent) + factor.log10(), logarithmic_label(factor, exponent, plain)))
         .filter(|(tick, _)| inside(tick))
         .collect();
     Axis { low, high, ticks, between }
@@ -242,20 +237,7 @@ mod tests {
 
     #[test]
     fn any_values_give_a_few_ticks() {
-        let odd = [
-            0.0,
-            -0.0,
-            1.0,
-            -1.0,
-            5e-324,
-            1e-308,
-            f64::MAX,
-            f64::MIN,
-            f64::INFINITY,
-            f64::NAN,
-            1e300,
-            -1e300,
-        ];
+        let odd = [0.0, -0.0, 1.0, -1.0, 5e-324, 1e-308, f64::MAX, f64::MIN, f64::INFINITY, f64::NAN, 1e300, -1e300];
         for a in odd {
             for b in odd {
                 for log in [false, true] {

@@ -27,8 +27,7 @@ pub(super) fn boxes(svg: &str) -> Vec<Box> {
         let (tag, rest) = part.split_once('>')?;
         let text = rest.split("</text>").next()?.trim();
         // Without the tags of subscripts, which are a little narrower.
-        let text: String =
-            text.split('<').map(|part| part.split_once('>').map_or(part, |(_, text)| text)).collect();
+        let text: String = text.split('<').map(|part| part.split_once('>').map_or(part, |(_, text)| text)).collect();
         let text = text.replace("&lt;", "<").replace("&gt;", ">").replace("&amp;", "&");
         let (x, y, size) = (number(tag, "x"), number(tag, "y"), number(tag, "font-size"));
         let width = f64::from(text_width(&text, (size / f64::from(FINE)).round()));
@@ -45,10 +44,11 @@ pub(super) fn boxes(svg: &str) -> Vec<Box> {
         };
         let (along, across) = ((start, start + width), (down - 0.76 * size, down + 0.22 * size));
         let turned = attribute(tag, "transform").is_some_and(|t| t.contains("rotate"));
-        let (left, right, top, bottom) = match turned {
-            // Rotated by 270 degrees: the text runs upwards.
-            true => (x + across.0, x + across.1, y - along.1, y - along.0),
-            false => (x + along.0, x + along.1, y + across.0, y + across.1),
+        // Rotated by 270 degrees, the text runs upwards.
+        let (left, right, top, bottom) = if turned {
+            (x + across.0, x + across.1, y - along.1, y - along.0)
+        } else {
+            (x + along.0, x + along.1, y + across.0, y + across.1)
         };
         Some(Box { text, left, right, top, bottom })
     };
@@ -61,9 +61,8 @@ pub(crate) fn faults(svg: &str) -> Vec<String> {
         .map(|number| number.parse().unwrap_or(0.0))
         .collect();
     let boxes = boxes(svg);
-    let outside = boxes
-        .iter()
-        .filter(|b| b.left < -1.0 || b.top < -1.0 || b.right > view[2] + 1.0 || b.bottom > view[3] + 1.0);
+    let outside =
+        boxes.iter().filter(|b| b.left < -1.0 || b.top < -1.0 || b.right > view[2] + 1.0 || b.bottom > view[3] + 1.0);
     let mut faults: Vec<_> = outside.map(|b| format!("outside: {b:?} of {view:?}")).collect();
     for (k, a) in boxes.iter().enumerate() {
         for b in &boxes[k + 1..] {

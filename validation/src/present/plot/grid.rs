@@ -60,8 +60,7 @@ impl Layout {
 
 /// The legend: the classes that occur, in rows no wider than the figure.
 fn keys(grid: &Grid, most: i32) -> Vec<Vec<(usize, i32)>> {
-    let occurs =
-        |class: &usize| grid.maps.iter().flat_map(|map| map.cells.iter().flatten()).any(|c| c == class);
+    let occurs = |class: &usize| grid.maps.iter().flat_map(|map| map.cells.iter().flatten()).any(|c| c == class);
     let mut rows: Vec<Vec<(usize, i32)>> = vec![Vec::new()];
     let mut x = MARGIN;
     for class in (0..grid.classes.len()).filter(occurs) {

@@ -1,9 +1,7 @@
-//! The legend: rows above the axes, where it covers no data; with more than five entries, labels beside the axes, each as near to the
-//! end of its curve as the others allow.
+//! The legend: rows above the axes, where it covers no data; with more than five entries, labels beside the axes, each
+//! as near to the end of its curve as the others allow.
 
-use super::style::{
-    FINE, MARGIN, MARKER, ROW, SMALL_MARKER, TEXT, curve, cut, looks, marker, text, text_width, wrap,
-};
+use super::style::{FINE, MARGIN, MARKER, ROW, SMALL_MARKER, TEXT, curve, cut, looks, marker, text, text_width, wrap};
 use super::{Backend, Drawn, Figure};
 use plotters::coord::Shift;
 use plotters::prelude::*;
@@ -46,18 +44,18 @@ impl Legend {
         let looks = looks(figure);
         let curves = figure.curves.iter().map(|curve| &curve.label);
         let labels = curves.chain(figure.points.iter().map(|points| &points.label));
-        let mark = |series: usize| match series < figure.curves.len() {
-            true => Mark::Curve(looks[series], figure.curves[series].is_marked()),
-            false => Mark::Points(looks[series]),
+        let mark = |series: usize| {
+            if series < figure.curves.len() {
+                Mark::Curve(looks[series], figure.curves[series].is_marked())
+            } else {
+                Mark::Points(looks[series])
+            }
         };
         let mut series: Vec<_> = (labels.enumerate())
             .filter(|(_, label)| !label.is_empty())
             .map(|(series, label)| (series, mark(series), label.clone()))
             .collect();
-        let beside = match series.len() > MOST {
-            true => std::mem::take(&mut series),
-            false => Vec::new(),
-        };
+        let beside = if series.len() > MOST { std::mem::take(&mut series) } else { Vec::new() };
         let beside = (beside.into_iter())
             .map(|(series, mark, label)| (series, mark, wrap(&label, 2 * width / 5, SMALL)))
             .collect();
@@ -102,7 +100,8 @@ impl Legend {
         Ok(())
     }
 
-    /// Draws the labels beside the axes, from `left` and within `height`; `end` gives the height at which a series ends.
+    /// Draws the labels beside the axes, from `left` and within `height`; `end` gives the height at which a series
+    /// ends.
     pub(super) fn draw_beside<DB: Backend>(
         &self,
         canvas: &DrawingArea<DB, Shift>,

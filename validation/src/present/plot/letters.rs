@@ -211,10 +211,7 @@ mod tests {
         assert!((f64::from(Line::of(&low("C_bX"), false).width) - ems(&low("C_bX"), false)).abs() < 1e-5);
         let bounds = |text: &str| Line::of(text, false).outline.finish().unwrap().bounds();
         let (alone, below) = (bounds("b"), bounds(&low("_b")));
-        assert!(
-            below.top() < alone.top() - 0.1 && below.height() < 0.75 * alone.height(),
-            "{alone:?} {below:?}"
-        );
+        assert!(below.top() < alone.top() - 0.1 && below.height() < 0.75 * alone.height(), "{alone:?} {below:?}");
         assert!(Line::of(&low("C_b"), false).missing.is_empty());
     }
 

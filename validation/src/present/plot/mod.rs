@@ -1,7 +1,7 @@
 //! Pictures of curves, points and maps as SVG, PNG or PDF, from plain data.
 //!
-//! Curves differ by colour (Okabe & Ito's palette, safe for the colour-blind), by dashes and, if they have few points, by
-//! markers; points differ by colour and marker. The legend is above the axes, where it covers no data.
+//! Curves differ by colour (Okabe & Ito's palette, safe for the colour-blind), by dashes and, if they have few points,
+//! by markers; points differ by colour and marker. The legend is above the axes, where it covers no data.
 
 mod axes;
 mod axis;
@@ -73,8 +73,8 @@ impl Curve {
         Self { label, x, y, half_band: y_error }
     }
 
-    /// True if the curve's points are marked: there are few, and each is a result by itself. A line through two points guides
-    /// the eye, and theory has no points.
+    /// True if the curve's points are marked: there are few, and each is a result by itself. A line through two points
+    /// guides the eye, and theory has no points.
     fn is_marked(&self) -> bool {
         (3..=40).contains(&self.x.len()) && !self.label.ends_with(", theory")
     }
@@ -303,7 +303,8 @@ fn typeset(figure: &Figure) -> Figure {
     figure
 }
 
-/// Puts subscripts below the line. A shift moves all that follows, and counts in the size of the letters that it stands at.
+/// Puts subscripts below the line. A shift moves all that follows, and counts in the size of the letters that it stands
+/// at.
 fn below_the_line(drawing: &str) -> String {
     let mut parts = drawing.split(LOW);
     let mut all = parts.next().unwrap_or_default().to_owned();

@@ -68,10 +68,7 @@ mod tests {
 
     #[test]
     fn columns_and_keys_have_letters_and_units() {
-        assert_eq!(
-            ["x1", "phi", "a12", "a1122", "x1x2"].map(channel),
-            ["X̄₁", "φ̄ (rad)", "a_12", "a_1122", "x1x2"]
-        );
+        assert_eq!(["x1", "phi", "a12", "a1122", "x1x2"].map(channel), ["X̄₁", "φ̄ (rad)", "a_12", "a_1122", "x1x2"]);
         assert_eq!(
             ["cos_2phi", "s12_pa", "n1_per_mu_fiber_g", "n1_mm", "n9_pa"].map(channel),
             ["⟨cos 2φ⟩", "σ_12 (Pa)", "N_1/(μ_fiber G)", "n1_mm", "n9_pa"]

@@ -38,7 +38,8 @@ impl Page {
     }
 
     fn draw(&mut self, path: &Path) {
-        // Curves in a PDF are cubic: both their middle points are two thirds of the way to a quadratic curve's middle point.
+        // Curves in a PDF are cubic: both their middle points are two thirds of the way to a quadratic curve's middle
+        // point.
         let towards = |a: Point, b: Point| (a.x + (b.x - a.x) * 2.0 / 3.0, a.y + (b.y - a.y) * 2.0 / 3.0);
         let content = &mut self.content;
         let mut last = Point::zero();

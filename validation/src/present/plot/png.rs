@@ -29,8 +29,7 @@ fn in_bands(figure: &Figure, at_once: u32) -> Result<Drawing, String> {
     loop {
         for row in band_of_rows.pixels.pixels().chunks(width as usize) {
             // White is drawn first, so no pixel is transparent.
-            let rgb: Vec<u8> =
-                row.iter().flat_map(|pixel| [pixel.red(), pixel.green(), pixel.blue()]).collect();
+            let rgb: Vec<u8> = row.iter().flat_map(|pixel| [pixel.red(), pixel.green(), pixel.blue()]).collect();
             rows.write_all(&rgb).map_err(|error| cannot(error.into()))?;
         }
         let top = band_of_rows.top + band_of_rows.pixels.height();
@@ -44,20 +43,12 @@ fn in_bands(figure: &Figure, at_once: u32) -> Result<Drawing, String> {
     Ok(Drawing { bytes, missing })
 }
 
-fn header(
-    bytes: &mut Vec<u8>,
-    width: u32,
-    height: u32,
-) -> Result<png::Writer<&mut Vec<u8>>, png::EncodingError> {
+fn header(bytes: &mut Vec<u8>, width: u32, height: u32) -> Result<png::Writer<&mut Vec<u8>>, png::EncodingError> {
     let mut encoder = png::Encoder::new(bytes, width, height);
     encoder.set_color(png::ColorType::Rgb);
     // A browser's pixel is 1/96 inch.
     let per_metre = (96.0 * f64::from(FINE) / 0.0254).round() as u32;
-    encoder.set_pixel_dims(Some(png::PixelDimensions {
-        xppu: per_metre,
-        yppu: per_metre,
-        unit: png::Unit::Meter,
-    }));
+    encoder.set_pixel_dims(Some(png::PixelDimensions { xppu: per_metre, yppu: per_metre, unit: png::Unit::Meter }));
     encoder.write_header()
 }
 

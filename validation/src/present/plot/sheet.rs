@@ -21,8 +21,8 @@ pub(super) trait Canvas {
     fn stroke(&mut self, path: &Path, color: BackendColor, width: f32, dashes: &[f32]);
 }
 
-/// Draws a figure on the canvas that `make` returns for a width and a height. Returns the characters that the fonts lack, which are
-/// drawn as empty boxes.
+/// Draws a figure on the canvas that `make` returns for a width and a height. Returns the characters that the fonts
+/// lack, which are drawn as empty boxes.
 pub(super) fn draw<C: Canvas>(
     figure: &Figure,
     make: impl FnOnce(u32, u32) -> Option<C>,
@@ -32,8 +32,7 @@ pub(super) fn draw<C: Canvas>(
     let parts = Parts::of(figure);
     let size = (parts.width as u32, parts.height as u32);
     let canvas = make(size.0, size.1).ok_or_else(|| cannot("it has no height".into()))?;
-    let mut sheet =
-        Sheet { canvas, size, dashes: dashes(figure), theme: figure.theme, missing: BTreeSet::new() };
+    let mut sheet = Sheet { canvas, size, dashes: dashes(figure), theme: figure.theme, missing: BTreeSet::new() };
     parts.draw(figure, &mut sheet).map_err(|error| cannot(error.to_string()))?;
     Ok((sheet.canvas, sheet.missing))
 }
@@ -62,10 +61,7 @@ type Done = Result<(), DrawingErrorKind<Infallible>>;
 fn path(points: impl IntoIterator<Item = BackendCoord>) -> PathBuilder {
     let mut path = PathBuilder::new();
     for (x, y) in points {
-        match path.is_empty() {
-            true => path.move_to(x as f32, y as f32),
-            false => path.line_to(x as f32, y as f32),
-        }
+        if path.is_empty() { path.move_to(x as f32, y as f32) } else { path.line_to(x as f32, y as f32) }
     }
     path
 }
@@ -124,42 +120,22 @@ impl<C: Canvas> DrawingBackend for &mut Sheet<C> {
     ) -> Done {
         let outline = Rect::from_ltrb(left as f32, top as f32, right as f32, bottom as f32);
         let outline = outline.map(PathBuilder::from_rect);
-        match fill {
-            true => self.fill(outline, style.color(), Transform::identity()),
-            false => self.stroke(outline, style),
-        }
+        if fill { self.fill(outline, style.color(), Transform::identity()) } else { self.stroke(outline, style) }
     }
 
-    fn draw_path<S: BackendStyle, I: IntoIterator<Item = BackendCoord>>(
-        &mut self,
-        points: I,
-        style: &S,
-    ) -> Done {
+    fn draw_path<S: BackendStyle, I: IntoIterator<Item = BackendCoord>>(&mut self, points: I, style: &S) -> Done {
         self.stroke(path(points).finish(), style)
     }
 
-    fn fill_polygon<S: BackendStyle, I: IntoIterator<Item = BackendCoord>>(
-        &mut self,
-        corners: I,
-        style: &S,
-    ) -> Done {
+    fn fill_polygon<S: BackendStyle, I: IntoIterator<Item = BackendCoord>>(&mut self, corners: I, style: &S) -> Done {
         let mut outline = path(corners);
         outline.close();
         self.fill(outline.finish(), style.color(), Transform::identity())
     }
 
-    fn draw_circle<S: BackendStyle>(
-        &mut self,
-        (x, y): BackendCoord,
-        radius: u32,
-        style: &S,
-        fill: bool,
-    ) -> Done {
+    fn draw_circle<S: BackendStyle>(&mut self, (x, y): BackendCoord, radius: u32, style: &S, fill: bool) -> Done {
         let outline = PathBuilder::from_circle(x as f32, y as f32, radius as f32);
-        match fill {
-            true => self.fill(outline, style.color(), Transform::identity()),
-            false => self.stroke(outline, style),
-        }
+        if fill { self.fill(outline, style.color(), Transform::identity()) } else { self.stroke(outline, style) }
     }
 
     fn draw_text<S: BackendTextStyle>(&mut self, text: &str, style: &S, (x, y): BackendCoord) -> Done {
@@ -185,8 +161,7 @@ impl<C: Canvas> DrawingBackend for &mut Sheet<C> {
             FontTransform::Rotate270 => 270.0,
         };
         let (x, y) = (x as f32, y as f32);
-        let place =
-            Transform::from_rotate_at(turn, x, y).pre_translate(x + along, y + down).pre_scale(size, -size);
+        let place = Transform::from_rotate_at(turn, x, y).pre_translate(x + along, y + down).pre_scale(size, -size);
         self.fill(line.outline.finish(), style.color(), place)
     }
 }

@@ -3,7 +3,8 @@
 use super::Figure;
 use plotters::prelude::*;
 
-/// Scale of drawing: plotters' SVG has only whole pixels, so figures are drawn this much larger, and scaled by the view box.
+/// Scale of drawing: plotters' SVG has only whole pixels, so figures are drawn this much larger, and scaled by the view
+/// box.
 pub(super) const FINE: i32 = 4;
 pub(super) const WIDTH: i32 = 560 * FINE;
 pub(super) const AXES_HEIGHT: i32 = 340 * FINE;
@@ -66,8 +67,8 @@ pub const MEASURED: &str = ", measured ± u";
 /// That of a curve.
 pub const FITTED: &str = ", best fit";
 
-/// The look of every curve and then of all points: that of the integrator named in the label, or the first that is not used in the
-/// figure. Where several curves were fitted, points look as theirs.
+/// The look of every curve and then of all points: that of the integrator named in the label, or the first that is not
+/// used in the figure. Where several curves were fitted, points look as theirs.
 pub(super) fn looks(figure: &Figure) -> Vec<usize> {
     let labels = figure.curves.iter().map(|c| &c.label).chain(figure.points.iter().map(|p| &p.label));
     let named = |label: &String| {
@@ -79,8 +80,7 @@ pub(super) fn looks(figure: &Figure) -> Vec<usize> {
     };
     let known: Vec<_> = labels.map(named).collect();
     let mut free = (0..).filter(|look| !known.contains(&Some(*look)));
-    let mut looks: Vec<usize> =
-        (known.iter()).map(|look| look.or_else(|| free.next()).unwrap_or(0)).collect();
+    let mut looks: Vec<usize> = (known.iter()).map(|look| look.or_else(|| free.next()).unwrap_or(0)).collect();
     let fitted: Vec<_> = figure.curves.iter().map(|curve| curve.label.strip_suffix(FITTED)).collect();
     if fitted.len() > 1 {
         for (k, points) in figure.points.iter().enumerate() {
@@ -109,8 +109,8 @@ pub(super) fn is_coloured(index: usize) -> bool {
     index % THEORY < PALETTE.len()
 }
 
-/// The colours of a map's classes, from right to not run. They also differ in grey, on a dark page that inverts lightness, and
-/// by their glyphs.
+/// The colours of a map's classes, from right to not run. They also differ in grey, on a dark page that inverts
+/// lightness, and by their glyphs.
 pub(super) const CLASSES: [RGBColor; 6] = [
     RGBColor(70, 145, 200),
     RGBColor(245, 232, 110),
@@ -165,8 +165,8 @@ pub(super) fn dashes(index: usize) -> String {
     }
 }
 
-/// The marker of a point around the origin: a disc, a diamond, a triangle, a square, a triangle on its tip, as a polygon
-/// defined by its number of corners and the angle of the first.
+/// The marker of a point around the origin: a disc, a diamond, a triangle, a square, a triangle on its tip, as a
+/// polygon defined by its number of corners and the angle of the first.
 pub(super) fn marker(index: usize, size: i32) -> Polygon<(i32, i32)> {
     let (corners, first) = [(16, 0.0), (4, 0.0), (3, 0.75), (4, 0.125), (3, 0.25)][index % 5];
     let radius = f64::from(size) * if corners == 16 { 0.85 } else { 1.1 };
@@ -199,8 +199,8 @@ fn styled(size: f64, style: FontStyle) -> TextStyle<'static> {
 /// Largest number of lines of a title.
 const MOST_LINES: usize = 4;
 
-/// The width of a text in the widest font that a browser or a printer falls back to: DejaVu Sans, bold for sizes that may be
-/// bold.
+/// The width of a text in the widest font that a browser or a printer falls back to: DejaVu Sans, bold for sizes that
+/// may be bold.
 pub(super) fn text_width(text: &str, size: f64) -> i32 {
     let bold = size >= TITLE || size == SMALL_BOLD;
     (super::letters::ems(text, bold) * size * f64::from(FINE)).ceil() as i32
@@ -269,12 +269,9 @@ mod tests {
     #[test]
     fn points_look_as_the_curve_that_was_fitted_to_them_where_there_are_several() {
         let figure = |names: &[&str]| Figure {
-            curves: (names.iter().map(|name| Curve { label: format!("{name}{FITTED}"), ..Curve::default() }))
+            curves: (names.iter().map(|name| Curve { label: format!("{name}{FITTED}"), ..Curve::default() })).collect(),
+            points: (names.iter().map(|name| Points { label: format!("{name}{MEASURED}"), ..Points::default() }))
                 .collect(),
-            points: (names
-                .iter()
-                .map(|name| Points { label: format!("{name}{MEASURED}"), ..Points::default() }))
-            .collect(),
             ..Figure::default()
         };
         assert_eq!(looks(&figure(&["x1"])), [0, 1]);

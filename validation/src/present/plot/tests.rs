@@ -18,8 +18,7 @@ fn wave(label: &str, phase: f64) -> Curve {
 
 pub(super) fn synthetic() -> Figure {
     Figure {
-        title: "Synthetic: a < b & c, for a test of the drawing that has a title of more than one line"
-            .into(),
+        title: "Synthetic: a < b & c, for a test of the drawing that has a title of more than one line".into(),
         x_name: "t/T (periods)".into(),
         y_name: "mean axial projection X̄₁ (–)".into(),
         curves: vec![wave("n = 20 cm⁻³", 0.0), wave("n = 50 cm⁻³", 1.0), wave("free", 2.0)],
@@ -71,12 +70,8 @@ fn odd_data_draw_what_can_be_drawn() {
     for values in &odd {
         for log in [false, true] {
             for band in [None, Some(vec![f64::NAN]), Some(values.clone())] {
-                let curve = Curve {
-                    x: values.clone(),
-                    y: values.clone(),
-                    half_band: band.clone(),
-                    ..Default::default()
-                };
+                let curve =
+                    Curve { x: values.clone(), y: values.clone(), half_band: band.clone(), ..Default::default() };
                 let points = Points {
                     x: values.clone(),
                     y: values.clone(),
@@ -84,13 +79,8 @@ fn odd_data_draw_what_can_be_drawn() {
                     y_error: band,
                     ..Default::default()
                 };
-                let figure = Figure {
-                    curves: vec![curve],
-                    points: vec![points],
-                    x_log: log,
-                    y_log: log,
-                    ..Default::default()
-                };
+                let figure =
+                    Figure { curves: vec![curve], points: vec![points], x_log: log, y_log: log, ..Default::default() };
                 let svg = svg(&figure).unwrap();
                 assert!(is_well_formed(&svg) && !svg.contains("NaN"), "{values:?} {log}: {svg}");
             }
@@ -111,9 +101,8 @@ fn a_power_law_is_straight_on_logarithmic_axes() {
     let svg = svg(&figure).unwrap();
     let path = svg.lines().find(|line| line.contains("stroke-linejoin")).unwrap();
     let path = path.split("points=\"").nth(1).unwrap().split('"').next().unwrap();
-    let points: Vec<Vec<f64>> = (path.split_whitespace())
-        .map(|point| point.split(',').map(|v| v.parse().unwrap()).collect())
-        .collect();
+    let points: Vec<Vec<f64>> =
+        (path.split_whitespace()).map(|point| point.split(',').map(|v| v.parse().unwrap()).collect()).collect();
     assert_eq!(points.len(), 5);
     for w in points.windows(3) {
         let bend = |axis: usize| w[0][axis] - 2.0 * w[1][axis] + w[2][axis];
@@ -179,8 +168,7 @@ fn few_points_are_shown_and_theory_has_none() {
 #[test]
 fn no_text_of_the_papers_figures_leaves_its_picture_or_overlaps_another() {
     let few = crate::studies::figures::Replicas { interacting: 2, free: 2 };
-    let drawn =
-        crate::studies::figures::draw(&crate::judge::case::Effort::gate(), few, &|| ()).unwrap().unwrap();
+    let drawn = crate::studies::figures::draw(&crate::judge::case::Effort::gate(), few, &|| ()).unwrap().unwrap();
     let figures: Vec<_> = (drawn.exhibits.iter()).filter_map(|exhibit| exhibit.figure.as_ref()).collect();
     assert!(figures.len() > 8);
     for figure in figures {
@@ -219,13 +207,11 @@ fn an_axis_covers_what_it_is_asked_to() {
 fn a_subscript_without_a_character_of_its_own_stands_below_the_line() {
     let curves = vec![wave("C_b < 1 of μ_fiber", 0.0)];
     let svg =
-        svg(&Figure { title: "χ²_min\u{E000}".into(), y_name: "a_12".into(), curves, ..Figure::default() })
-            .unwrap();
+        svg(&Figure { title: "χ²_min\u{E000}".into(), y_name: "a_12".into(), curves, ..Figure::default() }).unwrap();
     let low = |letter: &str, dy: &str| format!("<tspan{dy} font-size=\"70%\">{letter}</tspan>");
     let down = " dy=\"0.229em\"";
     let fiber: String = "iber".chars().map(|letter| low(&letter.to_string(), "")).collect();
-    let text =
-        format!("C{}<tspan dy=\"-0.16em\"> &lt; 1 of μ</tspan>{}{fiber}\n", low("b", down), low("f", down));
+    let text = format!("C{}<tspan dy=\"-0.16em\"> &lt; 1 of μ</tspan>{}{fiber}\n", low("b", down), low("f", down));
     assert!(svg.contains(&text), "{svg}");
     assert!(svg.contains("a₁₂") && svg.contains("Cb &lt; 1 of μfiber") && is_well_formed(&svg));
     assert!(!svg.contains('\u{E000}') && boxes::faults(&svg).is_empty(), "{:?}", boxes::faults(&svg));

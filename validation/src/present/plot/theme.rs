@@ -31,17 +31,15 @@ impl Theme {
         let spread = red.max(green).max(blue) - red.min(green).min(blue);
         let turned = |part: u8| 255.0 - (255.0 - GROUND) * f64::from(part) / 255.0;
         let lightened = |part: u8| 255.0 - KEPT * f64::from(255 - part);
-        let part = |part: u8| match spread < 64 {
-            true => turned(part),
-            false => lightened(part),
-        };
+        let part = |part: u8| if spread < 64 { turned(part) } else { lightened(part) };
         match self {
             Self::Light => (red, green, blue),
             Self::Dark => all.map(|value| part(value).round() as u8).into(),
         }
     }
 
-    /// The SVG document in the colours of this theme. Colours are whole attributes there, and quotation marks in texts are escaped.
+    /// The SVG document in the colours of this theme. Colours are whole attributes there, and quotation marks in texts
+    /// are escaped.
     pub(super) fn svg(self, drawing: String) -> String {
         if self == Self::Light {
             return drawing;

@@ -90,8 +90,7 @@ mod tests {
         let lines = |points: &[Point]| SQUARE.lines(points.iter().copied());
         // In and out twice, by hand.
         let zigzag = [(-1.0, 0.5), (0.5, 0.5), (0.5, 2.0), (0.75, 2.0), (0.75, 0.5), (0.9, 0.5)];
-        let expected =
-            vec![vec![(0.0, 0.5), (0.5, 0.5), (0.5, 1.0)], vec![(0.75, 1.0), (0.75, 0.5), (0.9, 0.5)]];
+        let expected = vec![vec![(0.0, 0.5), (0.5, 0.5), (0.5, 1.0)], vec![(0.75, 1.0), (0.75, 0.5), (0.9, 0.5)]];
         assert_eq!(lines(&zigzag), expected);
         // Across a corner from outside to outside, and past the corner.
         assert_eq!(lines(&[(-0.5, 1.0), (0.5, 0.0)]), vec![vec![(0.0, 0.5), (0.5, 0.0)]]);

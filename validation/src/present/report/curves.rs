@@ -5,8 +5,8 @@ use crate::files::text::cell;
 use crate::present::plot::{Figure, Grid};
 use crate::present::table::{columns_csv, words};
 
-/// A figure as CSV: a row for each point of each curve, with the half widths of its 95 % intervals if it has them. Every
-/// number is the shortest text that reads back as the same bits.
+/// A figure as CSV: a row for each point of each curve, with the half widths of its 95 % intervals if it has them.
+/// Every number is the shortest text that reads back as the same bits.
 pub(super) fn csv(figure: &ReportFigure) -> Result<String, String> {
     let picture = &figure.figure;
     if let Some(grid) = &picture.grid {
@@ -16,15 +16,12 @@ pub(super) fn csv(figure: &ReportFigure) -> Result<String, String> {
     let header = ["series", &cell(&picture.x_name), &cell(&picture.y_name), "± x", "± y"];
     writer.write_record(header).map_err(|error| error.to_string())?;
     let curves = picture.curves.iter().map(|c| (&c.label, &c.x, &c.y, None, c.half_band.as_ref()));
-    let points =
-        (picture.points.iter()).map(|p| (&p.label, &p.x, &p.y, p.x_error.as_ref(), p.y_error.as_ref()));
+    let points = (picture.points.iter()).map(|p| (&p.label, &p.x, &p.y, p.x_error.as_ref(), p.y_error.as_ref()));
     for (label, x, y, x_half, y_half) in curves.chain(points) {
         let label = cell(label);
         for (k, (x, y)) in x.iter().zip(y).enumerate() {
             let half = |widths: Option<&Vec<f64>>| widths.and_then(|w| w.get(k)).copied();
-            writer
-                .serialize((&label, x, y, half(x_half), half(y_half)))
-                .map_err(|error| error.to_string())?;
+            writer.serialize((&label, x, y, half(x_half), half(y_half))).map_err(|error| error.to_string())?;
         }
     }
     let bytes = writer.into_inner().map_err(|error| error.to_string())?;
@@ -68,12 +65,7 @@ mod tests {
                     y: vec![0.5, f64::NAN],
                     half_band: Some(vec![0.01, 0.02]),
                 }],
-                points: vec![Points {
-                    label: "a, b".into(),
-                    x: vec![1.0],
-                    y: vec![2.0],
-                    ..Default::default()
-                }],
+                points: vec![Points { label: "a, b".into(), x: vec![1.0], y: vec![2.0], ..Default::default() }],
                 ..Default::default()
             },
             ..Default::default()

@@ -26,9 +26,7 @@ pub(super) fn means(judges: Judges) -> &'static str {
         Judges::Core => "The equations are solved right: closed forms, orders, invariants.",
         Judges::Program => "Whole runs are right: files, errors, statistics, refusals.",
         Judges::Integrator => "Integrators of one rod behave as theory says.",
-        Judges::Oracle => {
-            "The oracles and statistics are right, and formulas that are wrong in the text at hand fail."
-        }
+        Judges::Oracle => "The oracles and statistics are right, and formulas that are wrong in the text at hand fail.",
         Judges::Interpretation => "Where the paper is open: what the alternatives change.",
         Judges::Statement => "What the paper says in words of its model’s results.",
         Judges::Measurement => "Validation: the model against experiments.",
@@ -66,11 +64,8 @@ fn count(part: &Part) -> String {
 /// stability.
 pub(super) fn thumbnails(report: &Report) -> Result<Vec<Json>, String> {
     // Three pictures are side by side and must be legible: those with space for larger letters have them.
-    let wanted = [
-        ("fig4", Some((420, 320))),
-        ("work-precision-re11.6", Some((420, 440))),
-        ("stability-steps", Some((420, 0))),
-    ];
+    let wanted =
+        [("fig4", Some((420, 320))), ("work-precision-re11.6", Some((420, 440))), ("stability-steps", Some((420, 0)))];
     let found = |(name, size)| {
         let figure = report.sections.figures().find(|figure| figure.name == name)?;
         Some((figure, Figure { size, ..figure.figure.clone() }))

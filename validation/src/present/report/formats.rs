@@ -42,12 +42,8 @@ fn trimmed(number: &str) -> &str {
 pub(super) fn bounds(line: &Line) -> (String, String) {
     match line.judged_by {
         Rule::NoData { .. } => ("–".into(), "–".into()),
-        Rule::PValue { .. } => {
-            (format!("p = {}", number(line.error)), format!("p ≥ {}", number(line.tolerance)))
-        }
-        Rule::Above { .. } => {
-            (format!("mean {}", number(line.error)), format!("> {}", number(line.tolerance)))
-        }
+        Rule::PValue { .. } => (format!("p = {}", number(line.error)), format!("p ≥ {}", number(line.tolerance))),
+        Rule::Above { .. } => (format!("mean {}", number(line.error)), format!("> {}", number(line.tolerance))),
         _ => (number(line.error), number(line.tolerance)),
     }
 }

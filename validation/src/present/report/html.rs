@@ -18,9 +18,8 @@ pub(super) fn write(report: &Report) -> Result<String, String> {
     environment.set_undefined_behavior(UndefinedBehavior::Strict);
     let anchors = Anchors::of(report);
     environment.add_filter("prose", move |text: &str| Value::from_safe_string(anchors.html(text)));
-    let attention = (report.cases.iter())
-        .filter(|row| matches!(row.verdict, Verdict::Fail | Verdict::Underpowered))
-        .map(case_link);
+    let attention =
+        (report.cases.iter()).filter(|row| matches!(row.verdict, Verdict::Fail | Verdict::Underpowered)).map(case_link);
     let page = json!({
         "style": include_str!("report.css"),
         "script": include_str!("report.js"),
@@ -93,10 +92,7 @@ fn case(report: &Report, row: &CaseRow) -> Json {
 
 /// The used share of the tolerance as the length of a bar in percent, on a logarithmic scale from 10⁻⁴ to 10.
 fn bar(used: f64) -> f64 {
-    match used.is_nan() {
-        true => 100.0,
-        false => (20.0 * (used.max(1e-300).log10() + 4.0)).clamp(0.0, 100.0).round(),
-    }
+    if used.is_nan() { 100.0 } else { (20.0 * (used.max(1e-300).log10() + 4.0)).clamp(0.0, 100.0).round() }
 }
 
 fn line(line: &Line) -> Json {

@@ -1,8 +1,6 @@
 //! Writes report.json.
 
-use super::{
-    CaseRow, Origin, Report, ReportEquation, ReportFigure, ReportStudy, ReportTable, ScenePlan, Summary,
-};
+use super::{CaseRow, Origin, Report, ReportEquation, ReportFigure, ReportStudy, ReportTable, ScenePlan, Summary};
 use crate::files::output::Sum;
 use serde::Serialize;
 
@@ -35,8 +33,7 @@ pub(super) fn write(report: &Report) -> String {
         plans: &sections.plans,
         origin: &report.origin,
     };
-    let text = serde_json::to_string_pretty(&written)
-        .unwrap_or_else(|error| format!("{{\"error\": \"{error}\"\n}}"));
+    let text = serde_json::to_string_pretty(&written).unwrap_or_else(|error| format!("{{\"error\": \"{error}\"\n}}"));
     let before = text.strip_suffix("\n}").unwrap_or(&text);
     format!("{before},\n  \"crc32\": \"{}\"\n}}", Sum::of(before.as_bytes()).crc32)
 }
@@ -47,7 +44,10 @@ pub fn check(text: &str) -> Result<(), String> {
     let last: String = last.split_whitespace().collect();
     match last.strip_prefix("\"crc32\":\"").and_then(|rest| rest.strip_suffix("\"}")) {
         Some(sum) if sum == Sum::of(before.as_bytes()).crc32 => Ok(()),
-        Some(_) => Err("was changed after it was written: its checksum is not that of its text; run `shearbed validate` again".into()),
+        Some(_) => {
+            Err("was changed after it was written: its checksum is not that of its text; run `shearbed validate` again"
+                .into())
+        }
         None => Err("has no checksum as its last key: run `shearbed validate` again".into()),
     }
 }

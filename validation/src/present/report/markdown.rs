@@ -76,12 +76,7 @@ fn study(study: &ReportStudy) -> String {
 }
 
 fn section(level: &str, table: &ReportTable) -> String {
-    format!(
-        "{level} {}\n\n{}\n\n{}\n",
-        markdown(&table.title),
-        markdown(&table.caption),
-        table.cells_as_markdown()
-    )
+    format!("{level} {}\n\n{}\n\n{}\n", markdown(&table.title), markdown(&table.caption), table.cells_as_markdown())
 }
 
 /// The equations as a table.
@@ -93,9 +88,7 @@ pub(crate) fn equation_table(equations: &[ReportEquation]) -> ReportTable {
         "From each equation of the paper to the code that is made from it and the cases that test it.",
         &["equation", "says", "code, in `src/`", "cases"],
         (equations.iter())
-            .map(|e| {
-                vec![e.number.clone(), e.says.clone(), code(&e.code).join(", "), code(&e.cases).join(", ")]
-            })
+            .map(|e| vec![e.number.clone(), e.says.clone(), code(&e.code).join(", "), code(&e.cases).join(", ")])
             .collect(),
     )
 }
@@ -105,8 +98,5 @@ fn code(text: &str) -> String {
     let text = text.replace('\n', " ");
     let runs = text.split(|c| c != '`').map(str::len);
     let fence = "`".repeat(runs.max().unwrap_or(0) + 1);
-    match text.contains('`') {
-        true => format!("{fence} {text} {fence}"),
-        false => format!("{fence}{text}{fence}"),
-    }
+    if text.contains('`') { format!("{fence} {text} {fence}") } else { format!("{fence}{text}{fence}") }
 }

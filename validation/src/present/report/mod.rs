@@ -161,12 +161,14 @@ impl Report {
     pub fn headline(&self) -> String {
         let summary = &self.summary;
         let parts: Vec<_> = summary.parts.iter().map(Part::to_string).collect();
-        let over = match summary.false_alarm > FALSE_ALARM_BUDGET {
-            true => format!(", over the budget of {}", formats::number(FALSE_ALARM_BUDGET)),
-            false => String::new(),
+        let over = if summary.false_alarm > FALSE_ALARM_BUDGET {
+            format!(", over the budget of {}", formats::number(FALSE_ALARM_BUDGET))
+        } else {
+            String::new()
         };
         format!(
-            "Passed: {}. {} fail, {} under-powered. By chance alone statistical checks turn correct code red with a probability of \
+            "Passed: {}. {} fail, {} under-powered. By chance alone statistical checks turn correct code red with a \
+                probability of \
              at most {}{over}.",
             parts.join("; "),
             summary.fail,

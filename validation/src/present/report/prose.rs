@@ -34,9 +34,7 @@ impl Anchors {
                 (Some(before), Some(_)) => typeset(before),
                 _ => typeset(text),
             },
-            Piece::Code(code) => {
-                self.link(&format!("case-{code}"), format!("<code>{}</code>", escaped(code)))
-            }
+            Piece::Code(code) => self.link(&format!("case-{code}"), format!("<code>{}</code>", escaped(code))),
             Piece::Equation(number) => self.link(&format!("equation-{number}"), escaped(number)),
             Piece::Figure(number) => {
                 let before = k.checked_sub(1).and_then(|k| pieces.get(k));
@@ -64,10 +62,7 @@ impl Anchors {
 
     /// A link to this anchor, or the bare text if there is none.
     fn link(&self, target: &str, html: String) -> String {
-        match self.known.contains(target) {
-            true => anchor(target, &html),
-            false => html,
-        }
+        if self.known.contains(target) { anchor(target, &html) } else { html }
     }
 }
 
@@ -78,10 +73,9 @@ fn anchor(target: &str, html: &str) -> String {
 pub(crate) fn typeset(text: &str) -> String {
     // An error stays with its sign at a line break.
     let text = powers(text).replace("± ", "±\u{a0}");
-    let parts = subscripts(&text).into_iter().map(|(below, part)| match below {
-        true => format!("<sub>{}</sub>", escaped(part)),
-        false => escaped(part),
-    });
+    let parts = subscripts(&text)
+        .into_iter()
+        .map(|(below, part)| if below { format!("<sub>{}</sub>", escaped(part)) } else { escaped(part) });
     parts.collect()
 }
 

@@ -132,8 +132,8 @@ impl CaseRow {
         self.worst.and_then(|index| self.evidence.get(index))
     }
 
-    /// Why the case is not passed: rules that do not hold with their numbers, controls that were not caught, and the command;
-    /// empty for a passing case.
+    /// Why the case is not passed: rules that do not hold with their numbers, controls that were not caught, and the
+    /// command; empty for a passing case.
     pub fn reasons(&self) -> String {
         let bad = |verdict| matches!(verdict, Verdict::Fail | Verdict::Underpowered);
         let mut text = String::new();
@@ -145,14 +145,12 @@ impl CaseRow {
             text += &format!("  {how}: {}: {}\n    because: {}\n", line.what, line.numbers(), line.because);
         }
         for control in self.controls.iter().filter(|control| !control.caught) {
-            text += &format!(
-                "  not caught: the same check passes or breaks on this mistake: {}\n",
-                control.mistake
-            );
+            text += &format!("  not caught: the same check passes or breaks on this mistake: {}\n", control.mistake);
         }
-        match text.is_empty() && !bad(self.verdict) {
-            true => text,
-            false => format!("{}: {}\n{text}  repeat: {}\n", self.name, self.claim, self.command),
+        if text.is_empty() && !bad(self.verdict) {
+            text
+        } else {
+            format!("{}: {}\n{text}  repeat: {}\n", self.name, self.claim, self.command)
         }
     }
 }

@@ -14,12 +14,7 @@ use synthetic::synthetic;
 
 const EFFORT: Effort = Effort { full: false, seed: GATE_SEED, data: None };
 
-fn outcome(
-    name: &'static str,
-    verdict: Verdict,
-    rules: Vec<Rule>,
-    controls: &[(&'static str, bool)],
-) -> Outcome {
+fn outcome(name: &'static str, verdict: Verdict, rules: Vec<Rule>, controls: &[(&'static str, bool)]) -> Outcome {
     let judged = |(k, rule): (usize, Rule)| Judged {
         verdict: judge(&rule),
         evidence: Evidence::new(format!("synthetic number {k} with a < b & c"), rule),
@@ -57,13 +52,7 @@ fn mean(se: f64) -> Rule {
 }
 
 fn p_value(p: f64) -> Rule {
-    Rule::PValue {
-        p,
-        samples: 1000,
-        enough: 100,
-        distance: None,
-        because: "synthetic: Kolmogorov–Smirnov".into(),
-    }
+    Rule::PValue { p, samples: 1000, enough: 100, distance: None, because: "synthetic: Kolmogorov–Smirnov".into() }
 }
 
 #[test]
@@ -127,8 +116,7 @@ fn junit_counts_what_is_red() {
 #[test]
 fn a_one_sided_rule_uses_less_of_its_bound_the_farther_it_is() {
     let used = |mean| {
-        let rule =
-            Rule::Above { mean, se: 0.0, samples: 100, bound: 0.1, effect: 0.2, because: "synthetic".into() };
+        let rule = Rule::Above { mean, se: 0.0, samples: 100, bound: 0.1, effect: 0.2, because: "synthetic".into() };
         let row = CaseRow::new(outcome("synthetic", Verdict::Pass, vec![rule], &[]), &EFFORT);
         row.evidence[0].used
     };

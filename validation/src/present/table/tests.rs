@@ -19,7 +19,8 @@ fn a_column_is_declared_once_and_written_everywhere() {
     assert_eq!(table.rows[1], ["2", "–", "–", "–", "a, b"]);
     assert_eq!(
         table.csv().unwrap(),
-        "n,x (s),y,± y,less,± less,said\n1,0.30000000000000004,2.0,0.30000000000000004,-2.0,0.30000000000000004,'=1\n2,,,,,,\"a, b\"\n"
+        "n,x (s),y,± y,less,± \
+            less,said\n1,0.30000000000000004,2.0,0.30000000000000004,-2.0,0.30000000000000004,'=1\n2,,,,,,\"a, b\"\n"
     );
     // 1, 0.3, 2.00 ± 0.30 with its sign and without, "a, b", and two between columns.
     assert_eq!(table.letters_across(), 1 + 3 + 11 + 12 + 4 + 5 * 2);
@@ -54,10 +55,7 @@ fn rows_are_written_by_the_names_of_their_fields() {
             Row { text: "-1", x_error: Some(-1e-9), rods: 1 },
         ]
     };
-    assert_eq!(
-        rows_csv(rows()).unwrap(),
-        "text,x_error,rods\n'=1,0.30000000000000004,3\n\"a, b\",,0\n-1,-1e-9,1\n"
-    );
+    assert_eq!(rows_csv(rows()).unwrap(), "text,x_error,rods\n'=1,0.30000000000000004,3\n\"a, b\",,0\n-1,-1e-9,1\n");
     assert_eq!(rows_csv(rows().into_iter().take(0)).unwrap(), "text,x_error,rods\n");
     assert_eq!(two_digits(0.26154, 0.00842), "0.2615 ± 0.0084");
     assert_eq!(two_digits(83.878, 0.53), "83.88 ± 0.53");

@@ -41,8 +41,8 @@ pub fn parts(fit: &Fit) -> Vec<Part> {
 /// The largest number of replicas from which a shift is measured.
 const MOST_REPLICAS: u64 = 200;
 
-/// The change of the estimates, to first order, if the model were `changed` instead of `own`: from pairs of replicas at the
-/// best values, with the standard error over the pairs.
+/// The change of the estimates, to first order, if the model were `changed` instead of `own`: from pairs of replicas at
+/// the best values, with the standard error over the pairs.
 pub fn shift(
     fit: &Fit,
     change: &'static str,
@@ -62,16 +62,10 @@ pub fn shift(
     })?;
     let n = moves.len() as f64;
     let mean = moves.iter().fold(DVector::zeros(fit.sides.len()), |sum, one| sum + one) / n;
-    let square = moves
-        .iter()
-        .fold(DVector::zeros(fit.sides.len()), |sum: DVector<f64>, one| sum + (one - &mean).map(|d| d * d));
-    let scaled =
-        |vector: &DVector<f64>| (0..vector.len()).map(|axis| vector[axis] * fit.scale(axis)).collect();
-    Ok(Shift {
-        change,
-        shift: scaled(&mean),
-        se: scaled(&square.map(|square| (square / (n * (n - 1.0))).sqrt())),
-    })
+    let square =
+        moves.iter().fold(DVector::zeros(fit.sides.len()), |sum: DVector<f64>, one| sum + (one - &mean).map(|d| d * d));
+    let scaled = |vector: &DVector<f64>| (0..vector.len()).map(|axis| vector[axis] * fit.scale(axis)).collect();
+    Ok(Shift { change, shift: scaled(&mean), se: scaled(&square.map(|square| (square / (n * (n - 1.0))).sqrt())) })
 }
 
 /// The residual of each point of `data` at the best values.

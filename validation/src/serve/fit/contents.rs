@@ -1,5 +1,5 @@
-//! What the points' uncertainties contain: the error of reading alone, or the scatter of the measured rods too, which all points of a
-//! curve share.
+//! What the points' uncertainties contain: the error of reading alone, or the scatter of the measured rods too, which
+//! all points of a curve share.
 
 use super::search::Fit;
 use super::terminal::decimals;
@@ -18,7 +18,8 @@ pub enum Contents {
     Rods,
 }
 
-/// The rods that were measured as the command says, `counts` in a replica of each set. Without a number the points share no rods.
+/// The rods that were measured as the command says, `counts` in a replica of each set. Without a number the points
+/// share no rods.
 pub fn rods(measured: Option<u64>, contents: Option<Contents>, counts: &[f64]) -> Rods {
     match measured {
         None => Rods::none(counts.len()),
@@ -32,8 +33,8 @@ pub fn rods(measured: Option<u64>, contents: Option<Contents>, counts: &[f64]) -
 /// Ratios of standard uncertainties below which the answer does not depend on what u contains.
 const ALIKE: f64 = 1.1;
 
-/// A warning if the answer depends on what the points' uncertainties contain and the command does not say it, or if they are too small
-/// for what it says. The arguments are those of [`rods`].
+/// A warning if the answer depends on what the points' uncertainties contain and the command does not say it, or if
+/// they are too small for what it says. The arguments are those of [`rods`].
 pub fn warning(
     fit: &Fit,
     data: &[Datum],
@@ -68,8 +69,10 @@ pub fn warning(
             let said: String = [contained, beside].into_iter().flatten().collect();
             (!said.is_empty()).then(|| {
                 format!(
-                    "--rods is not given, so the points count as independent: {own} (95 %). The scatter of measured rods moves all points of \
-                     a curve together{said}. Give --rods N if u is the reading alone, --rods N --u-contains rods if it contains the scatter \
+                    "--rods is not given, so the points count as independent: {own} (95 %). The scatter of measured \
+                        rods moves all points of \
+                     a curve together{said}. Give --rods N if u is the reading alone, --rods N --u-contains rods if \
+                     it contains the scatter \
                      of N rods, and --u-contains reading if the points share no rods"
                 )
             })
@@ -77,13 +80,15 @@ pub fn warning(
         (Some(rods), None) if times > 0.7 => {
             let other = best(data, &fit.emulator, &self::rods(measured, Some(Contents::Rods), counts))?;
             Some(format!(
-                "u is {times:.1} times the scatter of {rods} rods, but counts as the error of reading alone: {own} (95 %). If it contains \
+                "u is {times:.1} times the scatter of {rods} rods, but counts as the error of reading alone: {own} \
+                    (95 %). If it contains \
                  that scatter, --u-contains rods gives {}; --u-contains reading says that it does not",
                 answer(fit, &other)
             ))
         }
         (Some(rods), Some(Contents::Rods)) if times < 0.7 => Some(format!(
-            "--u-contains rods: u is only {times:.2} times the scatter of {rods} rods, and cannot contain it: check --rods, or give \
+            "--u-contains rods: u is only {times:.2} times the scatter of {rods} rods, and cannot contain it: check \
+                --rods, or give \
              --u-contains reading"
         )),
         _ => None,

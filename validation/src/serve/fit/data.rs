@@ -77,29 +77,24 @@ pub fn read(path: &Path, set: usize) -> Result<Points, DataError> {
     let times = TimeColumn::ALL.map(TimeColumn::name).join(", ");
     let here: Vec<_> = TimeColumn::ALL.into_iter().filter(|time| header.contains(&time.name())).collect();
     if header[0].starts_with('#') {
-        return Err(refused(
-            "comments are not read here: the first line has the names of the columns".into(),
-        ));
+        return Err(refused("comments are not read here: the first line has the names of the columns".into()));
     }
     let [time] = here[..] else {
         if header.contains(&"time_s") && here.is_empty() {
-            return Err(refused(
-                "measured times in seconds are named `t_s`: rename the column `time_s`".into(),
-            ));
+            return Err(refused("measured times in seconds are named `t_s`: rename the column `time_s`".into()));
         }
         let like = |name: &&&str| ["time", "t", "seconds"].contains(&name.to_lowercase().as_str());
         if let Some(name) = header.iter().find(like).filter(|_| here.is_empty()) {
             return Err(refused(format!(
-                "column `{name}` does not say its unit: `t_s` for seconds, `t_over_T` for periods and `strain` for Gt are allowed; \
+                "column `{name}` does not say its unit: `t_s` for seconds, `t_over_T` for periods and `strain` for Gt \
+                    are allowed; \
                  rename it in this line"
             )));
         }
-        let found = match here.is_empty() {
-            true => format!("no column of times among {}", header.join(", ")),
-            false => {
-                here.iter().map(|time| time.name()).collect::<Vec<_>>().join(" and ")
-                    + " are two columns of times"
-            }
+        let found = if here.is_empty() {
+            format!("no column of times among {}", header.join(", "))
+        } else {
+            here.iter().map(|time| time.name()).collect::<Vec<_>>().join(" and ") + " are two columns of times"
         };
         return Err(refused(format!("{found}; one of {times} is allowed")));
     };
@@ -113,16 +108,17 @@ pub fn read(path: &Path, set: usize) -> Result<Points, DataError> {
         if value == time.name() {
             continue;
         }
-        if let Some(value) = name.strip_suffix("_se").filter(|value| known.iter().any(|known| known == value))
-        {
+        if let Some(value) = name.strip_suffix("_se").filter(|value| known.iter().any(|known| known == value)) {
             return Err(refused(format!(
-                "column `{name}`: a measured value's standard uncertainty is named `{value}_u`; rename the column if that is what \
+                "column `{name}`: a measured value's standard uncertainty is named `{value}_u`; rename the column if \
+                    that is what \
                  it has"
             )));
         }
         if !known.iter().any(|known| known == value) {
             return Err(refused(format!(
-                "column `{name}` is not allowed: expected a time ({times}), x1, x2, x3 or another column of `shearbed run` \
+                "column `{name}` is not allowed: expected a time ({times}), x1, x2, x3 or another column of `shearbed \
+                    run` \
                  (phi, c_b, a11, …), and after a name `_u` for its uncertainty"
             )));
         }
@@ -134,19 +130,14 @@ pub fn read(path: &Path, set: usize) -> Result<Points, DataError> {
         return Err(refused("no column of measured values; x1, x2, x3 … are allowed".into()));
     }
     if let Some(bare) = columns.iter().find(|name| !header.contains(&format!("{name}_u").as_str())) {
-        return Err(refused(format!(
-            "column {bare}_u is missing: one standard deviation of each {bare} is needed"
-        )));
+        return Err(refused(format!("column {bare}_u is missing: one standard deviation of each {bare} is needed")));
     }
     let mut points = Vec::new();
     for dataset in table::columns(&file, &text, time.name(), &columns)? {
         for row in dataset.rows {
             let refused = |message: String| DataError::at(&file, row.line, message);
             let u = row.u_y.ok_or_else(|| {
-                refused(format!(
-                    "column {}_u is blank: one standard deviation, a number > 0, is needed",
-                    dataset.name
-                ))
+                refused(format!("column {}_u is blank: one standard deviation, a number > 0, is needed", dataset.name))
             })?;
             if row.x < 0.0 {
                 return Err(refused(format!(
@@ -165,7 +156,8 @@ pub fn read(path: &Path, set: usize) -> Result<Points, DataError> {
             // A smaller u is lost in the rounding of the model, a larger one carries no information.
             if !(LEAST_U..=most - least).contains(&u) {
                 return Err(refused(format!(
-                    "column {}_u: `{u:?}` is not allowed: expected one standard deviation from {LEAST_U:?} to {}, the width of what {} can be",
+                    "column {}_u: `{u:?}` is not allowed: expected one standard deviation from {LEAST_U:?} to {}, the \
+                        width of what {} can be",
                     dataset.name,
                     most - least,
                     dataset.name
@@ -207,9 +199,8 @@ fn check(file: &str, points: &[Datum]) -> Result<(), DataError> {
         return Err(DataError::at(file, points[MOST_POINTS].line, message));
     }
     for (k, point) in points.iter().enumerate() {
-        let same = |other: &&Datum| {
-            (&other.column, other.time, other.value) == (&point.column, point.time, point.value)
-        };
+        let same =
+            |other: &&Datum| (&other.column, other.time, other.value) == (&point.column, point.time, point.value);
         if let Some(first) = points[..k].iter().find(same) {
             let message = format!(
                 "{} = {} at {} is in line {} already: each point once is allowed",
@@ -244,17 +235,12 @@ mod tests {
     #[test]
     fn points_are_read_column_by_column_with_blanks_left_out() {
         let found =
-            read_of("t_over_T,t_over_T_u,x1,x1_u,x3,x3_u\n0,,0.5,0.01,,\n0.5,0.02,0.4,0.02,0.6,0.03\n")
-                .unwrap();
+            read_of("t_over_T,t_over_T_u,x1,x1_u,x3,x3_u\n0,,0.5,0.01,,\n0.5,0.02,0.4,0.02,0.6,0.03\n").unwrap();
         assert_eq!(found.time, TimeColumn::Periods);
-        let short: Vec<_> = (found.points.iter())
-            .map(|p| (p.line, p.column.as_str(), p.time, p.u_time, p.value, p.u))
-            .collect();
-        let expected = [
-            (2, "x1", 0.0, 0.0, 0.5, 0.01),
-            (3, "x1", 0.5, 0.02, 0.4, 0.02),
-            (3, "x3", 0.5, 0.02, 0.6, 0.03),
-        ];
+        let short: Vec<_> =
+            (found.points.iter()).map(|p| (p.line, p.column.as_str(), p.time, p.u_time, p.value, p.u)).collect();
+        let expected =
+            [(2, "x1", 0.0, 0.0, 0.5, 0.01), (3, "x1", 0.5, 0.02, 0.4, 0.02), (3, "x3", 0.5, 0.02, 0.6, 0.03)];
         assert_eq!(short, expected);
         assert!(found.points.iter().all(|point| point.set == 3));
         assert_eq!(read_of("strain,phi,phi_u\n1,0.7,0.1\n").unwrap().time, TimeColumn::Strain);
@@ -263,9 +249,7 @@ mod tests {
     /// What the program writes can be fitted.
     #[test]
     fn every_column_can_have_the_values_of_its_observable() {
-        for text in
-            ["cos_2phi,cos_2phi_u\n0,-0.8,0.1", "n1_pa,n1_pa_u\n0,-3e4,0.1", "s12_pa,s12_pa_u\n0,1e5,0.1"]
-        {
+        for text in ["cos_2phi,cos_2phi_u\n0,-0.8,0.1", "n1_pa,n1_pa_u\n0,-3e4,0.1", "s12_pa,s12_pa_u\n0,1e5,0.1"] {
             assert_eq!(read_of(&format!("t_s,{text}\n")).unwrap().points.len(), 1);
         }
         for name in measurable() {

@@ -1,10 +1,12 @@
-//! Which further points would determine the parameters best: evaluates each point that could be measured, at all times of a
-//! scene and at half and twice its concentration, by the uncertainties that it would leave, and chooses the best in sequence.
+//! Which further points would determine the parameters best: evaluates each point that could be measured, at all times
+//! of a scene and at half and twice its concentration, by the uncertainties that it would leave, and chooses the best
+//! in sequence.
 //!
-//! The measured points give exp(−χ²/2) as the density over the last box, evenly on the scales of the ranges. It gives the
-//! parameters and each new point means, variances and covariances; a point with a standard uncertainty of u then leaves
-//! C − c cᵀ/(u² + v), with c its covariances with the parameters and v its own variance (linear Bayes estimation: Goldstein &
-//! Wooff, *Bayes Linear Statistics*, 2007). So a bent region is judged as a whole, not by the slopes at its best place.
+//! The measured points give exp(−χ²/2) as the density over the last box, evenly on the scales of the ranges. It gives
+//! the parameters and each new point means, variances and covariances; a point with a standard uncertainty of u then
+//! leaves C − c cᵀ/(u² + v), with c its covariances with the parameters and v its own variance (linear Bayes
+//! estimation: Goldstein & Wooff, *Bayes Linear Statistics*, 2007). So a bent region is judged as a whole, not by the
+//! slopes at its best place.
 
 mod known;
 #[cfg(test)]
@@ -21,8 +23,8 @@ pub(super) use known::Known;
 use nalgebra::{DMatrix, DVector};
 use serde::Serialize;
 
-/// Evenly spaced times of a scene at which a point could be measured, and the largest number of candidates over all sets, columns
-/// and concentrations: their values at all places take a quarter of a gigabyte at most.
+/// Evenly spaced times of a scene at which a point could be measured, and the largest number of candidates over all
+/// sets, columns and concentrations: their values at all places take a quarter of a gigabyte at most.
 const TIMES: usize = 300;
 const MOST_CANDIDATES: usize = 1800;
 /// Concentrations, in multiples of the scene's.
@@ -47,8 +49,8 @@ pub struct Candidate {
     pub column: String,
     /// Time of the point, in the unit of the set's times.
     pub time: f64,
-    /// Standard uncertainty of the new point: the median of the set's measured points in this column, including that of their times,
-    /// and the scatter of the rods of a point at its own time.
+    /// Standard uncertainty of the new point: the median of the set's measured points in this column, including that of
+    /// their times, and the scatter of the rods of a point at its own time.
     pub u: f64,
     /// Standard deviation of the point's value, given the measured points.
     pub spread: f64,
@@ -109,13 +111,7 @@ pub struct Design {
 }
 
 /// The design of further points for a fit of `data`, each a mean over as many rods as the measured ones.
-pub fn design(
-    fit: &Fit,
-    scenes: &Scenes,
-    data: &[Datum],
-    rods: &Rods,
-    watch: &Watch<'_>,
-) -> Result<Design, String> {
+pub fn design(fit: &Fit, scenes: &Scenes, data: &[Datum], rods: &Rods, watch: &Watch<'_>) -> Result<Design, String> {
     let best = fit.values(&fit.best.place);
     let basis = Basis::new(fit.sides.len());
     let replicas = (fit.emulator.replicas() as u64).min(MOST_REPLICAS);
@@ -126,10 +122,8 @@ pub fn design(
     let mut columns: Vec<DVector<f64>> = Vec::new();
     for factor in CONCENTRATIONS {
         let (at, concentrations) = scenes.at_concentration(factor, &best)?;
-        let of: Vec<Datum> = (places.iter())
-            .filter(|place| factor == 1.0 || concentrations[place.set].is_some())
-            .cloned()
-            .collect();
+        let of: Vec<Datum> =
+            (places.iter()).filter(|place| factor == 1.0 || concentrations[place.set].is_some()).cloned().collect();
         if of.is_empty() {
             continue;
         }

@@ -21,8 +21,8 @@ const CERTAIN: f64 = 5.0;
 /// The number of lowest minima that are examined.
 const MINIMA: usize = 8;
 
-/// A part is short enough if every prediction changes over it by at most this share of its change over the whole range, or by
-/// at most the point's uncertainty.
+/// A part is short enough if every prediction changes over it by at most this share of its change over the whole range,
+/// or by at most the point's uncertainty.
 const SHARE: f64 = 0.25;
 
 /// A difference of χ² that the noise of the replicas can cause.
@@ -41,7 +41,8 @@ struct Tried {
     chi_square: f64,
 }
 
-/// Searches along each range, with the other parameters at their best values, and returns warnings on what could not be searched.
+/// Searches along each range, with the other parameters at their best values, and returns warnings on what could not be
+/// searched.
 ///
 /// # Errors
 ///
@@ -59,7 +60,8 @@ pub fn look_elsewhere(problem: &FitProblem<'_>, fit: &Fit, watch: &Watch<'_>) ->
         let emulated = fit.best.chi_square;
         if own.chi_square > emulated + emulated.max(NOISE) {
             return Err(format!(
-                "--over {}: at the best values, {:.4} for it, the model has χ² = {:.1} where the polynomials between its runs \
+                "--over {}: at the best values, {:.4} for it, the model has χ² = {:.1} where the polynomials between \
+                    its runs \
                  have {emulated:.1}, so they do not follow it over this range; give a narrower one",
                 range.label(),
                 values[axis],
@@ -76,8 +78,7 @@ pub fn look_elsewhere(problem: &FitProblem<'_>, fit: &Fit, watch: &Watch<'_>) ->
         }
         let (low, high) = fit.sides[axis];
         let is_minimum = |k: &usize| {
-            let no_less =
-                |other: Option<&Tried>| other.is_none_or(|other| other.chi_square >= tried[*k].chi_square);
+            let no_less = |other: Option<&Tried>| other.is_none_or(|other| other.chi_square >= tried[*k].chi_square);
             no_less(k.checked_sub(1).map(|k| &tried[k])) && no_less(tried.get(k + 1))
         };
         let mut minima: Vec<usize> = (0..tried.len()).filter(is_minimum).collect();
@@ -88,11 +89,12 @@ pub fn look_elsewhere(problem: &FitProblem<'_>, fit: &Fit, watch: &Watch<'_>) ->
             if found.chi_square > few + NOISE {
                 continue;
             }
-            // Within the box, the minima of the polynomials and of the model differ by the noise of runs at different values; no interval
-            // contains a place outside the box.
-            let allowed = match found.at < low || found.at > high {
-                true => own.chi_square + rise_of(0.95),
-                false => own.chi_square - NOISE.max(0.5 * own.chi_square),
+            // Within the box, the minima of the polynomials and of the model differ by the noise of runs at different
+            // values; no interval contains a place outside the box.
+            let allowed = if found.at < low || found.at > high {
+                own.chi_square + rise_of(0.95)
+            } else {
+                own.chi_square - NOISE.max(0.5 * own.chi_square)
             };
             let found = line.run(found.at, known.len())?;
             if found.chi_square < allowed {
@@ -107,7 +109,8 @@ pub fn look_elsewhere(problem: &FitProblem<'_>, fit: &Fit, watch: &Watch<'_>) ->
                 let why = undescribed(least, problem.measured.data.len(), fit.ranges.len());
                 let why = why.unwrap_or_else(|| {
                     format!(
-                        "χ² has minima at {both}; more --replicas tell noise from minima, and a narrower range leaves out \
+                        "χ² has minima at {both}; more --replicas tell noise from minima, and a narrower range leaves \
+                            out \
                          impossible values"
                     )
                 });
@@ -118,8 +121,8 @@ pub fn look_elsewhere(problem: &FitProblem<'_>, fit: &Fit, watch: &Watch<'_>) ->
     Ok(warnings)
 }
 
-/// Predictions of each replica at the best values, and the parts of the model behind them: a part that does not depend on a
-/// parameter need not run again along that parameter's range.
+/// Predictions of each replica at the best values, and the parts of the model behind them: a part that does not depend
+/// on a parameter need not run again along that parameter's range.
 fn at_best(
     problem: &FitProblem<'_>,
     values: &[f64],
@@ -173,15 +176,13 @@ impl Line<'_> {
     fn scan(&self) -> Result<(Vec<Tried>, bool), String> {
         let (from, to) = (self.range.scaled(self.range.from), self.range.scaled(self.range.to));
         let place = |k: usize| from + (to - from) * k as f64 / PARTS as f64;
-        let mut tried: Vec<Tried> =
-            (0..=PARTS).map(|k| self.run(place(k), self.few())).collect::<Result<_, _>>()?;
+        let mut tried: Vec<Tried> = (0..=PARTS).map(|k| self.run(place(k), self.few())).collect::<Result<_, _>>()?;
         let data = self.problem.measured.data;
         for _ in 0..HALVED {
             let enough: Vec<f64> = (0..data.len())
                 .map(|point| {
                     let all = tried.iter().map(|tried| tried.mean[point]);
-                    let (least, most) =
-                        all.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, m), x| (l.min(x), m.max(x)));
+                    let (least, most) = all.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, m), x| (l.min(x), m.max(x)));
                     data[point].u.max(SHARE * (most - least))
                 })
                 .collect();
@@ -192,9 +193,8 @@ impl Line<'_> {
                     change > enough[point].max(CERTAIN * noise)
                 })
             };
-            let between: Vec<f64> = (tried.windows(2).filter(|pair| far(pair)))
-                .map(|pair| 0.5 * (pair[0].at + pair[1].at))
-                .collect();
+            let between: Vec<f64> =
+                (tried.windows(2).filter(|pair| far(pair))).map(|pair| 0.5 * (pair[0].at + pair[1].at)).collect();
             if between.is_empty() {
                 return Ok((tried, true));
             }
@@ -210,20 +210,15 @@ impl Line<'_> {
     fn least(&self, mut best: Tried, [mut low, mut high]: [f64; 2]) -> Result<Tried, String> {
         for _ in 0..STEPS {
             let golden = 0.5 * (3.0 - 5f64.sqrt());
-            let at = match high - best.at > best.at - low {
-                true => best.at + golden * (high - best.at),
-                false => best.at - golden * (best.at - low),
+            let at = if high - best.at > best.at - low {
+                best.at + golden * (high - best.at)
+            } else {
+                best.at - golden * (best.at - low)
             };
             let new = self.run(at, self.few())?;
-            let worse = match new.chi_square < best.chi_square {
-                true => std::mem::replace(&mut best, new),
-                false => new,
-            };
+            let worse = if new.chi_square < best.chi_square { std::mem::replace(&mut best, new) } else { new };
             // The worse place becomes an end.
-            match worse.at > best.at {
-                true => high = worse.at,
-                false => low = worse.at,
-            }
+            if worse.at > best.at { high = worse.at } else { low = worse.at }
         }
         Ok(best)
     }

@@ -1,5 +1,5 @@
-//! Fits of points that hardly determine a parameter, with a noisy model: by chance its curves differ from one value to another,
-//! which would make intervals too short.
+//! Fits of points that hardly determine a parameter, with a noisy model: by chance its curves differ from one value to
+//! another, which would make intervals too short.
 
 use super::range::Range;
 use super::search::{Fit, Measured, fitted};
@@ -33,9 +33,9 @@ fn curve(slope: f64, value: f64) -> impl Iterator<Item = f64> {
 fn model(slope: f64, seed: u64) -> impl Fn(&[f64]) -> Result<Replica, String> + Sync {
     move |values| {
         let mean: Vec<f64> = curve(slope, values[0]).collect();
-        let here = values.iter().fold(seed, |hash, value| {
-            (hash ^ value.to_bits()).wrapping_mul(0x9E37_79B9_7F4A_7C15).rotate_left(29)
-        });
+        let here = values
+            .iter()
+            .fold(seed, |hash, value| (hash ^ value.to_bits()).wrapping_mul(0x9E37_79B9_7F4A_7C15).rotate_left(29));
         Ok(Replica::whole(move |replica| {
             let mut rng = Pcg64Dxsm::seed_from_u64(here.wrapping_add(replica));
             let one = |mean: &f64| [mean + SCATTER * normal(&mut rng); 3];
@@ -81,7 +81,8 @@ fn asked(fit: &Fit) -> ([bool; 2], f64) {
     (inside, law.sf(fit.best.chi_square))
 }
 
-/// If 0.4 of the points' apparent information is noise, intervals are √0.6 as long and contain the truth in 56 and 87 %.
+/// If 0.4 of the points' apparent information is noise, intervals are √0.6 as long and contain the truth in 56 and 87
+/// %.
 const EFFECT: f64 = 0.1;
 
 /// Allows for the covariance of a replica, half of V, being itself estimated from [`REPLICAS`] replicas.

@@ -1,5 +1,5 @@
-//! Likelihood-ratio tests of hypotheses about fitted keys: that a key has a given value, or that two sets of points share one value.
-//! The statistic is the rise of χ²: its minimum under the hypothesis less its minimum.
+//! Likelihood-ratio tests of hypotheses about fitted keys: that a key has a given value, or that two sets of points
+//! share one value. The statistic is the rise of χ²: its minimum under the hypothesis less its minimum.
 
 use super::range::Range;
 use super::search::Fit;
@@ -54,10 +54,11 @@ pub struct Tested {
     pub hypothesis: String,
     /// χ² at its least under the hypothesis, less χ² at its least.
     pub rise_of_chi2: f64,
-    /// True if the hypothesis lies outside the last box of the search: then the rise is at least, and p at most, what is given here.
+    /// True if the hypothesis lies outside the last box of the search: then the rise is at least, and p at most, what
+    /// is given here.
     pub beyond_the_box: bool,
-    /// The probability of a larger rise under the hypothesis, by χ² of one degree of freedom; never below 10⁻⁶, as simulations
-    /// did not test smaller values.
+    /// The probability of a larger rise under the hypothesis, by χ² of one degree of freedom; never below 10⁻⁶, as
+    /// simulations did not test smaller values.
     pub p_value: f64,
     /// The first value less the second, for a comparison of two keys.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -77,7 +78,8 @@ pub struct Difference {
     pub low_95: f64,
     /// Its upper end.
     pub high_95: f64,
-    /// True where an end of the 95 % interval, lower and upper, is set by an edge of the box: the points may allow more.
+    /// True where an end of the 95 % interval, lower and upper, is set by an edge of the box: the points may allow
+    /// more.
     pub ends_at_edge: [bool; 2],
 }
 
@@ -88,15 +90,13 @@ impl Hypothesis {
     ///
     /// A text of another form; the message lists the allowed forms.
     pub fn parse(text: &str) -> Result<Self, String> {
-        const SHAPE: &str = "KEY=VALUE is allowed, as interaction.alpha=1, and SET:KEY=OTHER:KEY for two sets with a value each";
-        let (key, other) =
-            text.split_once('=').ok_or_else(|| format!("{text:?} is no hypothesis; {SHAPE}"))?;
+        const SHAPE: &str =
+            "KEY=VALUE is allowed, as interaction.alpha=1, and SET:KEY=OTHER:KEY for two sets with a value each";
+        let (key, other) = text.split_once('=').ok_or_else(|| format!("{text:?} is no hypothesis; {SHAPE}"))?;
         let (key, other) = (key.trim(), other.trim());
         let against = match (finite(other), other.split_once(':')) {
             (Some(value), _) => Against::Value(value),
-            (_, Some((_, last)))
-                if key.split_once(':').is_some_and(|(_, own)| own == last) && key != other =>
-            {
+            (_, Some((_, last))) if key.split_once(':').is_some_and(|(_, own)| own == last) && key != other => {
                 Against::Key(other.to_owned())
             }
             _ => return Err(format!("{other:?} is no value; {SHAPE}")),
@@ -123,23 +123,22 @@ impl Hypothesis {
         match &self.against {
             Against::Value(value) => {
                 let Range { from, to, .. } = ranges[own];
-                match (from..=to).contains(value) {
-                    true => Ok(Asked::Value(own, *value)),
-                    false => Err(format!(
-                        "--test {}: {value} is outside the range of --over, {from} to {to}",
-                        self.text
-                    )),
+                if (from..=to).contains(value) {
+                    Ok(Asked::Value(own, *value))
+                } else {
+                    Err(format!("--test {}: {value} is outside the range of --over, {from} to {to}", self.text))
                 }
             }
             Against::Key(label) => {
                 let axes = [own, axis(label)?];
                 let [a, b] = axes.map(|axis| &ranges[axis]);
-                match a.from.max(b.from) <= a.to.min(b.to) {
-                    true => Ok(Asked::Difference(axes)),
-                    false => Err(format!(
+                if a.from.max(b.from) <= a.to.min(b.to) {
+                    Ok(Asked::Difference(axes))
+                } else {
+                    Err(format!(
                         "--test {}: the ranges of --over, {} to {} and {} to {}, have no value in common",
                         self.text, a.from, a.to, b.from, b.to
-                    )),
+                    ))
                 }
             }
         }
@@ -222,10 +221,7 @@ impl Tied<'_> {
         let (mut from, mut to) = (place(least.saturating_sub(1)), place((least + 1).min(PLACES - 1)));
         for _ in 0..STEPS {
             let [left, right] = [0.382, 0.618].map(|part| from + part * (to - from));
-            match at(left) < at(right) {
-                true => to = right,
-                false => from = left,
-            }
+            if at(left) < at(right) { to = right } else { from = left }
         }
         let best = if at(0.5 * (from + to)) < at(place(least)) { 0.5 * (from + to) } else { place(least) };
         (at(best), (best - low).min(high - best) < EDGE)

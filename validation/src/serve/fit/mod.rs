@@ -1,8 +1,9 @@
 //! From measured points to a model's parameters: estimate, intervals, goodness of fit, and what limits them.
 //!
-//! The model runs at the nodes of a box of parameters, with the same random numbers at each; polynomials interpolate the
-//! results, and generalised least squares fits them. The covariance of the points includes reading errors in both axes,
-//! the measured rods, the model's replicas and the polynomials' lack of fit. `docs/src/theory/fits.md` has the formulas.
+//! The model runs at the nodes of a box of parameters, with the same random numbers at each; polynomials interpolate
+//! the results, and generalised least squares fits them. The covariance of the points includes reading errors in both
+//! axes, the measured rods, the model's replicas and the polynomials' lack of fit. `docs/src/theory/fits.md` has the
+//! formulas.
 
 pub mod budget;
 pub mod contents;

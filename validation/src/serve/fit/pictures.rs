@@ -44,8 +44,8 @@ fn mean(model: &Model<'_>, values: &[f64], replicas: u64, watch: &Watch<'_>) -> 
     Ok((0..rows[0].len()).map(of).collect())
 }
 
-/// The best curve at `places`, which [`places`] returned, by `model`, and half its 95 % band: the replicas' standard error, and
-/// the change by one standard deviation along each axis of the parameters' covariance.
+/// The best curve at `places`, which [`places`] returned, by `model`, and half its 95 % band: the replicas' standard
+/// error, and the change by one standard deviation along each axis of the parameters' covariance.
 pub fn best_curves(
     fit: &Fit,
     places: &[Datum],
@@ -60,8 +60,7 @@ pub fn best_curves(
     for (length, way) in axes.eigenvalues.iter().zip(axes.eigenvectors.column_iter()) {
         let side = |sign: f64| {
             let step = sign * length.max(0.0).sqrt();
-            let place: Vec<f64> =
-                fit.best.place.iter().zip(way.iter()).map(|(p, way)| p + step * way).collect();
+            let place: Vec<f64> = fit.best.place.iter().zip(way.iter()).map(|(p, way)| p + step * way).collect();
             mean(model, &fit.values(&place), replicas, watch)
         };
         let (above, below) = (side(1.0)?, side(-1.0)?);
@@ -74,7 +73,8 @@ pub fn best_curves(
         .collect())
 }
 
-/// Every picture with the stem of its file name. `names` are the names of the data sets, `times` those of their time columns.
+/// Every picture with the stem of its file name. `names` are the names of the data sets, `times` those of their time
+/// columns.
 pub fn figures(
     fit: &Fit,
     report: &Report,
@@ -85,8 +85,7 @@ pub fn figures(
 ) -> Vec<(String, Figure)> {
     let mut all = Vec::new();
     for (set, name) in names.iter().enumerate() {
-        let of_set: Vec<_> =
-            kinds(data).into_iter().filter(|kind| kind.0 == set).map(|kind| kind.1).collect();
+        let of_set: Vec<_> = kinds(data).into_iter().filter(|kind| kind.0 == set).map(|kind| kind.1).collect();
         let here = |datum: &Datum, column: &String| datum.set == set && datum.column == *column;
         let curve = |column: &String| {
             let own: Vec<_> = places.iter().zip(curves).filter(|(place, _)| here(place, column)).collect();
@@ -102,8 +101,7 @@ pub fn figures(
             Curve { y: vec![0.0; best.x.len()], ..best }
         };
         // The uncertainty of the point alone: reading in y and in time, and the measured rods.
-        let of_point =
-            |k: usize| fit.best.causes[..REPLICAS].iter().map(|cause| cause[(k, k)]).sum::<f64>().sqrt();
+        let of_point = |k: usize| fit.best.causes[..REPLICAS].iter().map(|cause| cause[(k, k)]).sum::<f64>().sqrt();
         let points = |column: &String, value: &dyn Fn(usize) -> f64| {
             let own: Vec<usize> = (0..data.len()).filter(|k| here(&data[*k], column)).collect();
             let each = |value: &dyn Fn(usize) -> f64| own.iter().map(|k| value(*k)).collect::<Vec<f64>>();
@@ -155,19 +153,10 @@ fn profile_of(fit: &Fit, axis: usize) -> (String, Figure) {
     let near: Vec<usize> = (0..profile.place.len()).filter(|k| profile.rise[*k] <= 3.0 * outer).collect();
     let x: Vec<f64> = near.iter().map(|k| fit.value(axis, profile.place[*k])).collect();
     let ends = [x.first(), x.last()].map(|end| end.copied().unwrap_or(f64::NAN));
-    let level = |name: &str, level: f64| Curve {
-        label: name.to_owned(),
-        x: ends.to_vec(),
-        y: vec![level; 2],
-        half_band: None,
-    };
+    let level =
+        |name: &str, level: f64| Curve { label: name.to_owned(), x: ends.to_vec(), y: vec![level; 2], half_band: None };
     let curves = vec![
-        Curve {
-            label: "profile".into(),
-            y: near.iter().map(|k| profile.rise[*k]).collect(),
-            x,
-            half_band: None,
-        },
+        Curve { label: "profile".into(), y: near.iter().map(|k| profile.rise[*k]).collect(), x, half_band: None },
         level("68 %", inner),
         level("95 %", outer),
     ];
@@ -202,12 +191,7 @@ fn region_of(fit: &Fit, axes: [usize; 2]) -> (String, Figure) {
         x_name,
         y_name,
         curves: curves.into(),
-        points: vec![Points {
-            label: "best".into(),
-            x: vec![best[a]],
-            y: vec![best[b]],
-            ..Points::default()
-        }],
+        points: vec![Points { label: "best".into(), x: vec![best[a]], y: vec![best[b]], ..Points::default() }],
         ..Figure::default()
     };
     (format!("region_{}_{}", fit.ranges[a].name(), fit.ranges[b].name()), figure)
@@ -226,9 +210,7 @@ mod tests {
     fn a_region_at_the_edge_of_the_box_is_open() {
         let ring = |reach: f64| -> Vec<[f64; 2]> {
             let angle = |k: usize| (std::f64::consts::TAU * k as f64 / 144.0).sin_cos();
-            (0..=144)
-                .map(|k| [0.4 + reach * angle(k).1, 0.5 * angle(k).0].map(|v| v.clamp(-1.0, 1.0)))
-                .collect()
+            (0..=144).map(|k| [0.4 + reach * angle(k).1, 0.5 * angle(k).0].map(|v| v.clamp(-1.0, 1.0))).collect()
         };
         assert!(!is_open(&ring(0.5)) && is_open(&ring(0.7)));
     }

@@ -1,4 +1,5 @@
-//! `[SET:]KEY=FROM:TO`: a key of the scene and the range in which its value is sought, for all sets of points or for one.
+//! `[SET:]KEY=FROM:TO`: a key of the scene and the range in which its value is sought, for all sets of points or for
+//! one.
 
 use crate::oracle::reference::big::finite;
 use crate::serve::sweep::key_and_text;
@@ -24,7 +25,8 @@ pub struct Range {
 impl Range {
     /// Parses the argument of `--over`.
     pub fn parse(text: &str) -> Result<Self, String> {
-        const SHAPE: &str = "KEY=FROM:TO is allowed, as interaction.alpha=0.05:5, and SET:KEY=FROM:TO with the number of a --data";
+        const SHAPE: &str =
+            "KEY=FROM:TO is allowed, as interaction.alpha=0.05:5, and SET:KEY=FROM:TO with the number of a --data";
         let (set, text) = match text.split_once(':') {
             Some((set, rest)) if !set.contains('=') => {
                 let number = set.trim().parse().ok().filter(|number| *number > 0);
@@ -34,13 +36,13 @@ impl Range {
         };
         let (key, ends) = key_and_text(text, SHAPE)?;
         let (from, to) = (ends.split_once(':')).ok_or_else(|| format!("{ends:?} is no range; {SHAPE}"))?;
-        let refused =
-            |text: &str| format!("{text:?} is no end of a range; a finite number is allowed: {SHAPE}");
+        let refused = |text: &str| format!("{text:?} is no end of a range; a finite number is allowed: {SHAPE}");
         let number = |text: &str| finite(text).ok_or_else(|| refused(text));
         let (from, to) = (number(from)?, number(to)?);
-        match from < to {
-            true => Ok(Self { key: key.to_owned(), set, from, to }),
-            false => Err(format!("{from}:{to} is no range; FROM < TO is allowed")),
+        if from < to {
+            Ok(Self { key: key.to_owned(), set, from, to })
+        } else {
+            Err(format!("{from}:{to} is no range; FROM < TO is allowed"))
         }
     }
 

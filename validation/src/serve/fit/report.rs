@@ -32,7 +32,8 @@ pub struct Parameter {
     pub standard_uncertainty: f64,
     /// The range in which it was sought.
     pub range: [f64; 2],
-    /// True where the 95 % interval ends at an edge of the range, below and above: the points do not determine that end.
+    /// True where the 95 % interval ends at an edge of the range, below and above: the points do not determine that
+    /// end.
     pub ends_at_edge: [bool; 2],
 }
 
@@ -143,7 +144,8 @@ fn warnings(
         let found = &parameters[&range.label()];
         if let Some(k) = another_minimum(&fit.profiles[axis].rise) {
             all.push(format!(
-                "{}: {:.4} describes the points nearly as well as {:.4} (its χ² is {:.2} higher, with a ridge between them): give the \
+                "{}: {:.4} describes the points nearly as well as {:.4} (its χ² is {:.2} higher, with a ridge between \
+                    them): give the \
                  whole interval, not the best value",
                 range.label(),
                 fit.value(axis, fit.profiles[axis].place[k]),
@@ -163,7 +165,8 @@ fn warnings(
         }
         for (_, side, edge) in ends.into_iter().filter(|(open, ..)| *open) {
             all.push(format!(
-                "{}: its 95 % interval reaches the {side} end of its range, {edge}: the points do not say where it ends",
+                "{}: its 95 % interval reaches the {side} end of its range, {edge}: the points do not say where it \
+                    ends",
                 range.label()
             ));
         }
@@ -183,14 +186,16 @@ fn warnings(
     }
     if p_value < NOT_DESCRIBED {
         all.push(format!(
-            "p = {}: no value describes these points, or their uncertainties are too small; the intervals say nothing then; \
+            "p = {}: no value describes these points, or their uncertainties are too small; the intervals say nothing \
+                then; \
              {CHECK}",
             probability(p_value)
         ));
     }
     if p_value > 1.0 - NOT_DESCRIBED {
         all.push(format!(
-            "p = {}: the points lie nearer to the curve than their uncertainties allow; are these too large, or in per cent?",
+            "p = {}: the points lie nearer to the curve than their uncertainties allow; are these too large, or in \
+                per cent?",
             probability(p_value)
         ));
     }
@@ -211,8 +216,9 @@ fn warnings(
     all
 }
 
-/// The deepest other minimum of a profile that is within its 95 % interval, with a ridge between it and the best place: of a tenth of the
-/// rise at the ends of the 68 % interval, so that an estimate that hangs on so little is not given without a word.
+/// The deepest other minimum of a profile that is within its 95 % interval, with a ridge between it and the best place:
+/// of a tenth of the rise at the ends of the 68 % interval, so that an estimate that hangs on so little is not given
+/// without a word.
 fn another_minimum(rise: &[f64]) -> Option<usize> {
     let best = rise.iter().position(|rise| *rise == 0.0)?;
     let ridge = |k: usize| rise[k.min(best)..=k.max(best)].iter().copied().fold(0.0, f64::max);
@@ -223,9 +229,7 @@ fn another_minimum(rise: &[f64]) -> Option<usize> {
 /// `residuals.csv`: each point with the best model; sets count from 1, as in `--over`.
 pub fn residuals_csv(report: &Report, times: &[&str]) -> Result<String, String> {
     let mut rows = vec![
-        ["set", "time_unit", "time", "column", "measured", "simulated", "residual", "u"]
-            .map(String::from)
-            .to_vec(),
+        ["set", "time_unit", "time", "column", "measured", "simulated", "residual", "u"].map(String::from).to_vec(),
     ];
     rows.extend(report.residuals.iter().map(|r| {
         let numbers = [r.measured, r.simulated, r.residual, r.u].map(|number| number.to_string());
@@ -246,8 +250,8 @@ pub fn profiles_csv(fit: &Fit) -> Result<String, String> {
     csv_of(&rows)
 }
 
-/// `design.csv`: each point that could be measured, its standard deviation given the measured points, and the uncertainties of
-/// the parameters that it would leave; sets count from 1.
+/// `design.csv`: each point that could be measured, its standard deviation given the measured points, and the
+/// uncertainties of the parameters that it would leave; sets count from 1.
 pub fn design_csv(fit: &Fit, candidates: &[Candidate], times: &[&str]) -> Result<String, String> {
     let head = ["set", "time_unit", "time", "column", "concentration_per_cm3", "u", "spread"];
     let own = (fit.ranges.iter()).map(|range| format!("u_{}_with_it", range.name()));

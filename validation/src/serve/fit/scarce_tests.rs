@@ -18,7 +18,8 @@ use std::sync::Arc;
 const POINTS: usize = 20;
 const REPLICAS: u64 = 100;
 const PLANTED: f64 = 0.1;
-/// Standard deviations of the reading error, of each point's own scatter, and of each step of a random walk along the points.
+/// Standard deviations of the reading error, of each point's own scatter, and of each step of a random walk along the
+/// points.
 const NOISE: f64 = 0.002;
 const OWN: f64 = 0.01;
 const WALK: f64 = 0.005;
@@ -47,9 +48,8 @@ fn fit(seed: u64) -> Fit {
     };
     let data: Vec<Datum> = curve(PLANTED).enumerate().map(point).collect();
     // A replica scatters alike at every value.
-    let of_replica = |replica: u64| {
-        scatter(&mut Pcg64Dxsm::seed_from_u64(seed.wrapping_mul(1_000_003).wrapping_add(1 + replica)))
-    };
+    let of_replica =
+        |replica: u64| scatter(&mut Pcg64Dxsm::seed_from_u64(seed.wrapping_mul(1_000_003).wrapping_add(1 + replica)));
     let scatters: Arc<Vec<_>> = Arc::new((0..REPLICAS).map(of_replica).collect());
     let model = |values: &[f64]| -> Result<Replica, String> {
         let (mean, scatters) = (curve(values[0]).collect::<Vec<f64>>(), scatters.clone());
@@ -82,8 +82,8 @@ fn asked(fit: &Fit) -> ([bool; 2], f64) {
     (inside, fit.best.goodness.p_value())
 }
 
-/// With q = 19 and n − 1 = 99 a covariance taken as known is 0.81 of the right one and the estimates' covariance is 1.24 of it: its
-/// intervals contain the truth in 57 and 88 %.
+/// With q = 19 and n − 1 = 99 a covariance taken as known is 0.81 of the right one and the estimates' covariance is
+/// 1.24 of it: its intervals contain the truth in 57 and 88 %.
 const EFFECT: f64 = 0.09;
 /// The correction is exact up to terms ∝ 1/n, 1 % here.
 const ALLOWANCE: f64 = 0.01;

@@ -1,4 +1,5 @@
-//! Scenes as a model of measured points: sets keys of scenes to values, runs the replicas, and evaluates them at the points' times.
+//! Scenes as a model of measured points: sets keys of scenes to values, runs the replicas, and evaluates them at the
+//! points' times.
 
 use super::data::TimeColumn;
 use super::range::Range;
@@ -20,7 +21,8 @@ pub struct Set {
     pub source: String,
     /// The text of the scene's file.
     pub text: String,
-    /// The initial directions of rods that are given in a file beside the scene, read once for all values of the parameters.
+    /// The initial directions of rods that are given in a file beside the scene, read once for all values of the
+    /// parameters.
     pub starts: Starts,
     /// Keys whose values differ from the text, the same for all values of the parameters.
     pub settings: Vec<KeyValue>,
@@ -51,12 +53,13 @@ pub struct Scenes {
     pub sets: Vec<Set>,
     /// The parameters.
     pub ranges: Vec<Range>,
-    /// Steps per period or unit of strain of each scene, the same for all parameter values, so that the random numbers stay the same.
+    /// Steps per period or unit of strain of each scene, the same for all parameter values, so that the random numbers
+    /// stay the same.
     steps: Vec<u64>,
 }
 
-/// The reason why rods with a common initial direction do not disturb each other; none if they do. Parallel rods have no contact
-/// line; in the shear plane it is along axis 3, along which nothing moves.
+/// The reason why rods with a common initial direction do not disturb each other; none if they do. Parallel rods have
+/// no contact line; in the shear plane it is along axis 3, along which nothing moves.
 fn apart(scene: &Scene) -> Option<&'static str> {
     let [_, theta_deg] = scene.particles.common_start_deg()?;
     match theta_deg.rem_euclid(180.0) {
@@ -73,16 +76,15 @@ const OUTER: f64 = 1.732_050_807_568_877_2;
 /// Outputs per unit of strain, for scenes whose unit of time is the strain.
 const PER_STRAIN: u64 = 40;
 
-/// Outputs per period of free rods with a common initial direction: |p_i| has a kink where p_i changes its sign, for all rods at once,
-/// which a cubic between outputs rounds off by an error in proportion to the outputs' distance.
+/// Outputs per period of free rods with a common initial direction: |p_i| has a kink where p_i changes its sign, for
+/// all rods at once, which a cubic between outputs rounds off by an error in proportion to the outputs' distance.
 const KINKED: u64 = 5000;
 
 impl Scenes {
     /// Checks every scene at all corners of the ranges. An error says which scene, which values, and why.
     pub fn new(sets: Vec<Set>, ranges: Vec<Range>) -> Result<Self, String> {
-        let is_whole = |range: &&Range| {
-            keys().any(|key| key.path == range.key && matches!(key.holds, Holds::Whole { .. }))
-        };
+        let is_whole =
+            |range: &&Range| keys().any(|key| key.path == range.key && matches!(key.holds, Holds::Whole { .. }));
         if let Some(range) = ranges.iter().find(is_whole) {
             return Err(format!(
                 "--over {}: a whole number cannot be fitted; `shearbed sweep` runs several values of it",
@@ -102,12 +104,13 @@ impl Scenes {
 
     /// Refuses to fit the interaction of rods that never disturb each other: their curves do not depend on it.
     fn says_something(&self, set: usize, scene: &Scene) -> Result<(), String> {
-        let fitted =
-            self.ranges.iter().find(|range| range.is_of(set) && range.key.starts_with("interaction."));
+        let fitted = self.ranges.iter().find(|range| range.is_of(set) && range.key.starts_with("interaction."));
         match (fitted, apart(scene)) {
             (Some(range), Some(why)) => Err(format!(
-                "{}: --over {}: {why}: such rods disturb each other in this model only by the error of a time step, so their \
-                 points do not determine it. Lee & Springer leave such points out (r_e = 3.96; Results, after Fig. 5). Keys of particles \
+                "{}: --over {}: {why}: such rods disturb each other in this model only by the error of a time step, \
+                    so their \
+                 points do not determine it. Lee & Springer leave such points out (r_e = 3.96; Results, after Fig. \
+                 5). Keys of particles \
                  and flow are allowed",
                 self.sets[set].source,
                 range.label()
@@ -125,7 +128,8 @@ impl Scenes {
         let of_shape = |range: &&Range| range.key == "particles.aspect_ratio";
         self.ranges.iter().filter(of_shape).filter(in_periods).map(|range| {
             format!(
-                "{}: t_over_T counts periods of the fitted r_e, so the points move with it; times as t_s or strain do not",
+                "{}: t_over_T counts periods of the fitted r_e, so the points move with it; times as t_s or strain do \
+                    not",
                 range.label()
             )
         })
@@ -138,8 +142,8 @@ impl Scenes {
         (self.sets[set].time.end_of(&plan)).ok_or_else(|| refused("has no period".into()))
     }
 
-    /// The same scenes at `factor` times their concentration, and that concentration; none for rods that do not interact, or whose
-    /// concentration is fitted. A box is scaled in proportion.
+    /// The same scenes at `factor` times their concentration, and that concentration; none for rods that do not
+    /// interact, or whose concentration is fitted. A box is scaled in proportion.
     pub fn at_concentration(&self, factor: f64, values: &[f64]) -> Result<(Self, Vec<Option<f64>>), String> {
         const KEY: &str = "interaction.concentration_per_cm3";
         const BOX: &str = "interaction.box_mm";
@@ -180,8 +184,7 @@ impl Scenes {
     pub fn scene(&self, set: usize, values: &[f64]) -> Result<Scene, String> {
         let Set { source, text, starts, settings, seed, .. } = &self.sets[set];
         let own = || self.ranges.iter().zip(values).filter(|(range, _)| range.is_of(set));
-        let fitted =
-            own().map(|(range, value)| KeyValue { key: range.key.clone(), value: Value::Float(*value) });
+        let fitted = own().map(|(range, value)| KeyValue { key: range.key.clone(), value: Value::Float(*value) });
         let settings: Vec<_> = settings.iter().cloned().chain(fitted).collect();
         let said = || {
             let pairs = own().map(|(range, value)| format!(" {}={value}", range.label()));
@@ -207,13 +210,13 @@ impl Scenes {
         let own = Plan::new(&scene).map_err(|error| refused(error.to_string()))?;
         if scene.flow.steps().is_some() {
             return Err(refused(
-                "a fit needs one flow throughout: shear_rate_per_s or gradient_per_s in place of flow.steps"
-                    .into(),
+                "a fit needs one flow throughout: shear_rate_per_s or gradient_per_s in place of flow.steps".into(),
             ));
         }
-        let per_unit = self.sets[set].time.per_unit(&own).ok_or_else(|| {
-            refused("has no period: times as t_s or strain are allowed, not t_over_T".into())
-        })?;
+        let per_unit = self.sets[set]
+            .time
+            .per_unit(&own)
+            .ok_or_else(|| refused("has no period: times as t_s or strain are allowed, not t_over_T".into()))?;
         let here = data.iter().filter(|datum| datum.set == set);
         let last = here.map(|datum| (datum.time + OUTER * datum.u_time) / per_unit).fold(0.0, f64::max);
         // One output more than the last point needs, for the cubic interpolation.
@@ -233,8 +236,7 @@ impl Scenes {
         }
         let needed = |observable: &Observable| {
             let mut channels = observable.channels();
-            channels
-                .any(|channel| data.iter().any(|datum| datum.set == set && datum.column == channel.name()))
+            channels.any(|channel| data.iter().any(|datum| datum.set == set && datum.column == channel.name()))
         };
         scene.output.observables = Observable::ALL.into_iter().filter(needed).collect();
         scene.output.drop_rods();

@@ -1,5 +1,5 @@
-//! The search for the best fit: runs over the whole range, then over the part that the data leave, until the model's own error
-//! is small beside the data's.
+//! The search for the best fit: runs over the whole range, then over the part that the data leave, until the model's
+//! own error is small beside the data's.
 
 use super::goodness::undescribed;
 use super::range::Range;
@@ -15,8 +15,8 @@ use rayon::prelude::*;
 /// Number of replicas of the first runs, which only show where to look closer.
 pub const FIRST_REPLICAS: u64 = 50;
 
-/// The largest share of a parameter's variance that may come from the model's own sampling error; above it replicas are added.
-/// At this share the interval is 5 % longer.
+/// The largest share of a parameter's variance that may come from the model's own sampling error; above it replicas are
+/// added. At this share the interval is 5 % longer.
 pub const MOST_SHARE: f64 = 0.1;
 
 /// The largest share of the points' apparent information that may be noise of the replicas before the box is reduced.
@@ -34,8 +34,8 @@ const MOST_ROUNDS: u64 = 12;
 /// The rise of χ² at which the box may end: four standard deviations from the best place.
 const FAR: f64 = 16.0;
 
-/// The same rise where polynomials over that box exceed [`MOST_SHARE`] of a parameter's variance: three standard deviations,
-/// over which the error of degree 4 is a quarter. The 95 % interval, two of them, must end inside.
+/// The same rise where polynomials over that box exceed [`MOST_SHARE`] of a parameter's variance: three standard
+/// deviations, over which the error of degree 4 is a quarter. The 95 % interval, two of them, must end inside.
 const NEAR: f64 = 9.0;
 
 /// A box is made smaller only when a side shrinks below this share of it: otherwise new runs cost more than they gain.
@@ -156,7 +156,8 @@ pub fn search(problem: &FitProblem<'_>, watch: &Watch<'_>) -> Result<Fit, String
         if share <= MOST_SHARE || !more {
             if fit.feigned() > NOTHING_ELSE {
                 return Err(format!(
-                    "--over: {:.0} % of the apparent information in the points is noise of the model with {wanted} replicas \
+                    "--over: {:.0} % of the apparent information in the points is noise of the model with {wanted} \
+                        replicas \
                      at each value; give more --replicas, more rods in the scene, or one parameter less",
                     100.0 * fit.feigned()
                 ));
@@ -178,7 +179,8 @@ pub fn search(problem: &FitProblem<'_>, watch: &Watch<'_>) -> Result<Fit, String
             }
             if !enclosed(&fit, &whole) {
                 return Err(format!(
-                    "--over: the search did not enclose the best values in {rounds} boxes; give a narrower range near {:?}",
+                    "--over: the search did not enclose the best values in {rounds} boxes; give a narrower range near \
+                        {:?}",
                     fit.values(&fit.best.place)
                 ));
             }
@@ -204,12 +206,7 @@ pub fn values(ranges: &[Range], sides: &Sides, place: &[f64]) -> Vec<f64> {
 }
 
 /// The fit over the box `sides`, from the coefficients of its replicas.
-pub fn fitted(
-    measured: &Measured<'_>,
-    basis: &Basis,
-    sides: &Sides,
-    found: &[Coefficients],
-) -> Result<Fit, String> {
+pub fn fitted(measured: &Measured<'_>, basis: &Basis, sides: &Sides, found: &[Coefficients]) -> Result<Fit, String> {
     let emulator = Emulator::new(basis, found);
     let best = best(measured.data, &emulator, measured.rods)
         .ok_or("the points say nothing about a parameter: no model value changes with it")?;
@@ -224,16 +221,17 @@ pub fn fitted(
     })
 }
 
-/// The number of replicas that reduces the share of the sampling variance, which falls as one over that number, to `allowed`;
-/// a tenth more, as the share is known no better than the variance itself, and at most ten times as many at once.
+/// The number of replicas that reduces the share of the sampling variance, which falls as one over that number, to
+/// `allowed`; a tenth more, as the share is known no better than the variance itself, and at most ten times as many at
+/// once.
 fn enough(replicas: u64, share: f64, allowed: f64) -> u64 {
     let others = (1.0 - share).max(0.05);
     let needed = replicas as f64 * (share / others) * (1.0 - allowed) / allowed;
     (1.1 * needed).ceil().min(10.0 * replicas as f64) as u64 + 1
 }
 
-/// The next box, and true if it gains enough to run again. Each side should end a quarter beyond the place where χ² has risen
-/// by `far`: nearer, the interval may be cut; farther, polynomials of this degree are too inaccurate.
+/// The next box, and true if it gains enough to run again. Each side should end a quarter beyond the place where χ² has
+/// risen by `far`: nearer, the interval may be cut; farther, polynomials of this degree are too inaccurate.
 fn other_sides(fit: &Fit, whole: &Sides, far: f64) -> (Sides, bool) {
     let mut change = false;
     let sides = (0..whole.len())
@@ -243,13 +241,13 @@ fn other_sides(fit: &Fit, whole: &Sides, far: f64) -> (Sides, bool) {
             let far = interval(&fit.best, axis, &fit.profiles[axis], far);
             let centre = fit.best.place[axis];
             let end = |place: f64, open: bool| match open {
-                // The end is not known yet: go beyond this box, and far beyond it if even the best place is at its edge.
+                // The end is not known yet: go beyond this box, and far beyond it if even the best place is at its
+                // edge.
                 true if centre.abs() > 0.99 => at(place + 4.0 * place.signum()),
                 true => at(place + place.signum()),
                 false => at(place + 0.25 * (place - centre)),
             };
-            let wanted =
-                (end(far.low, far.open[0]).max(whole[axis].0), end(far.high, far.open[1]).min(whole[axis].1));
+            let wanted = (end(far.low, far.open[0]).max(whole[axis].0), end(far.high, far.open[1]).min(whole[axis].1));
             let wider = wanted.0 < low && far.open[0] || wanted.1 > high && far.open[1];
             change |= wider || wanted.1 - wanted.0 < WORTH * (high - low);
             wanted
@@ -267,10 +265,12 @@ fn enclosed(fit: &Fit, whole: &Sides) -> bool {
     })
 }
 
-/// A standard uncertainty above this multiple of the range, with an interval of the whole range: no prediction depends on the parameter.
+/// A standard uncertainty above this multiple of the range, with an interval of the whole range: no prediction depends
+/// on the parameter.
 const UNTOLD: f64 = 10.0;
 
-/// Ends of 68 and 95 % closer than this share of the distance from the best place are one end: those of a parabola are half of it apart.
+/// Ends of 68 and 95 % closer than this share of the distance from the best place are one end: those of a parabola are
+/// half of it apart.
 const SAME: f64 = 0.02;
 
 impl Fit {
@@ -324,16 +324,15 @@ impl Fit {
         self.best.covariance().component_mul(&(&scales * scales.transpose()))
     }
 
-    /// The interval of parameter `axis` at a confidence level, in the parameter's unit. It is open at an end that is the edge of the
-    /// parameter's range.
+    /// The interval of parameter `axis` at a confidence level, in the parameter's unit. It is open at an end that is
+    /// the edge of the parameter's range.
     pub fn interval(&self, axis: usize, confidence: f64) -> Interval {
         let found = interval(&self.best, axis, &self.profiles[axis], rise_of(confidence));
         let range = &self.ranges[axis];
         let (low, high) = self.sides[axis];
         // Exact to the last digit where the box ends at the end of the range.
-        let end = |open: bool, side: f64, edge: f64, place: f64| match open && side == range.scaled(edge) {
-            true => edge,
-            false => self.value(axis, place),
+        let end = |open: bool, side: f64, edge: f64, place: f64| {
+            if open && side == range.scaled(edge) { edge } else { self.value(axis, place) }
         };
         Interval {
             low: end(found.open[0], low, range.from, found.low),
@@ -342,8 +341,8 @@ impl Fit {
         }
     }
 
-    /// The parts of a parameter's range in which its profile is within the 95 % interval's level, where what lies between them is
-    /// ruled out by four standard deviations: a lower rise in between is no more than a ripple.
+    /// The parts of a parameter's range in which its profile is within the 95 % interval's level, where what lies
+    /// between them is ruled out by four standard deviations: a lower rise in between is no more than a ripple.
     fn valleys(&self, axis: usize) -> Vec<(f64, f64)> {
         let profile = &self.profiles[axis];
         let mut parts: Vec<(usize, usize)> = Vec::new();
@@ -357,36 +356,38 @@ impl Fit {
         parts.into_iter().map(|(first, last)| (value(first), value(last))).collect()
     }
 
-    /// Checks that every profile has one valley in its intervals and no jump at their ends, and that the 68 % interval is within 95 %'s.
+    /// Checks that every profile has one valley in its intervals and no jump at their ends, and that the 68 % interval
+    /// is within 95 %'s.
     ///
     /// # Errors
     ///
     /// The parameter whose intervals cannot be determined, and what to do.
     pub(super) fn is_smooth(&self) -> Result<(), String> {
         for (axis, range) in self.ranges.iter().enumerate() {
-            let [inner, outer] = [0.68, 0.95]
-                .map(|confidence| interval(&self.best, axis, &self.profiles[axis], rise_of(confidence)));
+            let [inner, outer] =
+                [0.68, 0.95].map(|confidence| interval(&self.best, axis, &self.profiles[axis], rise_of(confidence)));
             let centre = self.best.place[axis];
             let valleys = self.valleys(axis);
             if valleys.len() > 1 {
                 let ends = valleys.iter().map(|(from, to)| format!("{from:.4} to {to:.4}"));
                 return Err(format!(
-                    "--over {}: χ² has several minima in this range, as low as the best or nearly: {}; give a narrower one without \
+                    "--over {}: χ² has several minima in this range, as low as the best or nearly: {}; give a \
+                        narrower one without \
                      impossible values",
                     range.label(),
                     ends.collect::<Vec<_>>().join(", ")
                 ));
             }
-            let same = |inner: f64, outer: f64, open: bool| {
-                !open && (outer - inner).abs() < SAME * (outer - centre).abs()
-            };
+            let same =
+                |inner: f64, outer: f64, open: bool| !open && (outer - inner).abs() < SAME * (outer - centre).abs();
             if inner.jumps != [false; 2]
                 || outer.jumps != [false; 2]
                 || same(inner.low, outer.low, outer.open[0])
                 || same(inner.high, outer.high, outer.open[1])
             {
                 return Err(format!(
-                    "--over {}: χ² jumps along it where the other parameters change to another minimum, so that its intervals have no end \
+                    "--over {}: χ² jumps along it where the other parameters change to another minimum, so that its \
+                        intervals have no end \
                      there; a narrower range, or one parameter less, may do",
                     range.label()
                 ));

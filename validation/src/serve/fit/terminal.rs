@@ -50,9 +50,10 @@ pub fn tests(report: &Report) -> String {
     let line = |tested: &Tested| {
         let (beyond, p) = (tested.beyond_the_box, tested.p_value);
         let more = if beyond { " or more" } else { "" };
-        let p = match beyond || p <= LEAST_P {
-            true => format!("p below {}", rounded_up(p)),
-            false => format!("p = {}", probability(p)),
+        let p = if beyond || p <= LEAST_P {
+            format!("p below {}", rounded_up(p))
+        } else {
+            format!("p = {}", probability(p))
         };
         let found = format!("χ² rises by {:.1}{more}, {p}", tested.rise_of_chi2);
         let difference = tested.difference.map_or(String::new(), |found| {
@@ -87,7 +88,8 @@ fn rounded_up(p: f64) -> String {
     format!("{:.0e}", (p / unit - 1e-9).ceil() * unit)
 }
 
-/// The table of uncertainties that further points would leave, for the terminal. `times` are the units of the sets' times.
+/// The table of uncertainties that further points would leave, for the terminal. `times` are the units of the sets'
+/// times.
 pub fn design(fit: &Fit, steps: &[Step], times: &[&str]) -> String {
     let head = "what further points would leave".to_owned();
     let mut points = 0;
@@ -148,9 +150,6 @@ mod tests {
     fn probabilities_are_on_the_right_side_of_a_limit() {
         assert_eq!([0.0458, 0.5, 0.003].map(probability), ["0.046", "0.50", "3.0e-3"]);
         // A rounded bound is never below the bound itself.
-        assert_eq!(
-            [0.0646, 3.28e-6, 1e-6, 0.86, 1.0].map(rounded_up),
-            ["7e-2", "4e-6", "1e-6", "9e-1", "1e0"]
-        );
+        assert_eq!([0.0646, 3.28e-6, 1e-6, 0.86, 1.0].map(rounded_up), ["7e-2", "4e-6", "1e-6", "9e-1", "1e0"]);
     }
 }

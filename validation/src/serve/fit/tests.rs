@@ -43,8 +43,7 @@ fn model(seed: u64, scatter: f64) -> impl Fn(&[f64]) -> Result<Replica, String> 
             let mut rng = Pcg64Dxsm::seed_from_u64(seed.wrapping_mul(1_000_003).wrapping_add(replica));
             let (offset, faster) = (scatter * normal(&mut rng), 10.0 * scatter * normal(&mut rng));
             // The rate's scatter enters linearly, so that the mean is the curve itself.
-            let one =
-                |(mean, time, decay): &(f64, f64, f64)| [offset + mean - 0.2 * faster * time * decay; 3];
+            let one = |(mean, time, decay): &(f64, f64, f64)| [offset + mean - 0.2 * faster * time * decay; 3];
             Ok(shared.iter().map(one).collect::<Vec<Prediction>>())
         }))
     }
@@ -86,7 +85,8 @@ fn without_noise_the_planted_values_are_found() {
         }
         data
     };
-    // The rest is the error of the polynomial over the last box, some five standard deviations wide: below a hundredth of one.
+    // The rest is the error of the polynomial over the last box, some five standard deviations wide: below a hundredth
+    // of one.
     let found = fit(&exact(0.8, 1.0), &ONE, 1, 1e-9, 100);
     let interval = found.interval(0, 0.68);
     let value = found.value(0, found.best.place[0]);
@@ -107,7 +107,8 @@ fn the_levels_of_a_profile_are_those_of_its_intervals() {
     assert!((low - 0.988_946).abs() < 1e-5 && (high - 3.841_459).abs() < 1e-5, "{low} {high}");
 }
 
-/// Uncertainties that are a hundredth or a hundred times of the scatter, as of per cent taken for fractions, are doubted.
+/// Uncertainties that are a hundredth or a hundred times of the scatter, as of per cent taken for fractions, are
+/// doubted.
 #[test]
 fn too_small_and_too_large_uncertainties_are_warned_of() {
     let warnings = |factor: f64| {
@@ -137,10 +138,7 @@ fn another_minimum_of_the_range_is_seen() {
     assert_eq!(look(&found), Ok(Vec::new()));
     let over = |over: [&str; 2]| Fit { ranges: ranges(&over), ..found.clone() };
     let said = look(&over(["a.rate=0.05:5", "a.frequency=0.95:9.4"])).unwrap_err();
-    assert!(
-        said.contains("a.frequency") && said.contains("8.99") && said.contains("χ² has minima at"),
-        "{said}"
-    );
+    assert!(said.contains("a.frequency") && said.contains("8.99") && said.contains("χ² has minima at"), "{said}");
     // Where no value describes the points, two minima are not the news.
     let mut wrong = data.clone();
     wrong.iter_mut().for_each(|datum| datum.value += 0.3);
@@ -181,7 +179,8 @@ fn area(ring: &[[f64; 2]]) -> f64 {
     0.5 * ring.windows(2).map(|ends| ends[0][0] * ends[1][1] - ends[1][0] * ends[0][1]).sum::<f64>().abs()
 }
 
-/// y + x² is known to 0.02 and x to 1: rays from the best place leave such a region and come back, and an ellipse misses it.
+/// y + x² is known to 0.02 and x to 1: rays from the best place leave such a region and come back, and an ellipse
+/// misses it.
 #[test]
 fn a_bent_region_is_followed() {
     let fit = surface_of(|x, y, time| y + x * x + 0.034 * x * (time - 1.05), [0.3, -0.2]);
@@ -260,13 +259,15 @@ fn repeats(count: u64, scatter: f64, most_replicas: u64) -> Vec<Repeat> {
     (0..count).into_par_iter().map(one).collect()
 }
 
-/// The rule that the share of true values is `reference`, up to an error of `allowance`, and that it must detect `effect`.
+/// The rule that the share of true values is `reference`, up to an error of `allowance`, and that it must detect
+/// `effect`.
 pub(super) fn share(inside: impl Iterator<Item = bool>, reference: f64, allowance: f64, effect: f64) -> Rule {
     let all: Vec<f64> = inside.map(|inside| f64::from(u8::from(inside))).collect();
     mean(&all, (reference, (reference * (1.0 - reference)).sqrt()), allowance, effect)
 }
 
-/// The rule that values with a known standard deviation have this mean, up to an error of `allowance`, and that it must detect `effect`.
+/// The rule that values with a known standard deviation have this mean, up to an error of `allowance`, and that it must
+/// detect `effect`.
 pub(super) fn mean(all: &[f64], (reference, sd): (f64, f64), allowance: f64, effect: f64) -> Rule {
     let n = all.len() as f64;
     Rule::Mean {
@@ -280,8 +281,8 @@ pub(super) fn mean(all: &[f64], (reference, sd): (f64, f64), allowance: f64, eff
     }
 }
 
-/// The smallest number of values with a known standard deviation with which [`mean`] detects `effect`. `Design` would allow for one that
-/// is estimated, with up to half as many values more.
+/// The smallest number of values with a known standard deviation with which [`mean`] detects `effect`. `Design` would
+/// allow for one that is estimated, with up to half as many values more.
 pub(super) fn enough(sd: f64, effect: f64) -> usize {
     let shows = |count: &usize| judge(&mean(&vec![0.0; *count], (0.0, sd), 0.0, effect)) == Verdict::Pass;
     (2..).find(shows).unwrap()
@@ -294,10 +295,11 @@ const EFFECT: f64 = 0.27;
 
 #[test]
 fn intervals_hold_the_planted_value_as_often_as_they_say() {
-    // A rate and a frequency in each fit. Their estimates have a correlation of −0.009, and whether one interval contains its value says
-    // next to nothing about the other.
+    // A rate and a frequency in each fit. Their estimates have a correlation of −0.009, and whether one interval
+    // contains its value says next to nothing about the other.
     let count = enough((0.68_f64 * 0.32).sqrt(), EFFECT).div_ceil(2);
-    // Sampling noise that replicas do not quite remove. The case `fit-covers` has one key, and a fit without that noise as its control.
+    // Sampling noise that replicas do not quite remove. The case `fit-covers` has one key, and a fit without that noise
+    // as its control.
     let found = repeats(count as u64, 0.02, 40);
     for (which, confidence) in [(0, 0.68), (1, 0.95)] {
         let inside = found.iter().flat_map(|repeat| repeat.inside.map(|of| of[which]));
@@ -332,11 +334,7 @@ fn a_straight_line_has_the_estimate_and_the_intervals_of_the_textbook() {
     }
     // One range is linear, the other logarithmic; a and b are strongly correlated, as t starts at 1.
     let problem = FitProblem {
-        measured: Measured {
-            data: &data,
-            ranges: &ranges(&["line.a=-3:5", "line.b=0.1:4"]),
-            rods: &Rods::none(1),
-        },
+        measured: Measured { data: &data, ranges: &ranges(&["line.a=-3:5", "line.b=0.1:4"]), rods: &Rods::none(1) },
         model: &line,
         most_replicas: 50,
     };

@@ -17,7 +17,8 @@ fn points(values: &[(f64, f64)]) -> Vec<Datum> {
         .collect()
 }
 
-/// b² determines the size of b, a b its sign given that of a, and a is hardly determined: as a passes 0, b changes its sign.
+/// b² determines the size of b, a b its sign given that of a, and a is hardly determined: as a passes 0, b changes its
+/// sign.
 fn two_signs(values: &[f64]) -> Result<Replica, String> {
     let (a, b) = (values[0], values[1]);
     Ok(Replica::whole(move |_| Ok([b * b, a * b, a].map(|value| [value; 3]).to_vec())))

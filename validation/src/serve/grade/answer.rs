@@ -4,7 +4,8 @@ use crate::judge::statistics::worst;
 use crate::serve::problems::{Kind, LoadedProblem, ReadError};
 use std::path::{Path, PathBuf};
 
-/// The largest difference of a time from the problem's, as a share of the gap to the next one: times are labels, with few digits.
+/// The largest difference of a time from the problem's, as a share of the gap to the next one: times are labels, with
+/// few digits.
 const LABEL: f64 = 1e-4;
 
 /// An answer to a problem.
@@ -102,12 +103,10 @@ impl<'a> Collector<'a> {
         let whole = |key: usize, count: usize| {
             let found = keys[key];
             let name = self.problem.problem.kind.keys()[key];
-            match found >= 0.0 && found < count as f64 && found.fract() == 0.0 {
-                true => Ok(found as usize),
-                false => Err((
-                    key,
-                    format!("{name} = {found}; whole numbers from 0 to {} are asked for", count - 1),
-                )),
+            if found >= 0.0 && found < count as f64 && found.fract() == 0.0 {
+                Ok(found as usize)
+            } else {
+                Err((key, format!("{name} = {found}; whole numbers from 0 to {} are asked for", count - 1)))
             }
         };
         if self.problem.problem.kind == Kind::Contact {
@@ -123,8 +122,8 @@ impl<'a> Collector<'a> {
         let times = &self.problem.problem.times_s;
         let after = times.partition_point(|time| *time < found);
         let near = [after.checked_sub(1), (after < times.len()).then_some(after)];
-        let nearest = (near.into_iter().flatten())
-            .min_by(|a, b| (times[*a] - found).abs().total_cmp(&(times[*b] - found).abs()));
+        let nearest =
+            (near.into_iter().flatten()).min_by(|a, b| (times[*a] - found).abs().total_cmp(&(times[*b] - found).abs()));
         let gap = |at: usize| {
             let below = at.checked_sub(1).map_or(0.0, |before| times[before]);
             let above = times.get(at + 1).map_or(f64::INFINITY, |next| next - times[at]);
@@ -134,10 +133,9 @@ impl<'a> Collector<'a> {
             _ if self.steady && found > 0.0 => Ok(Some(0)),
             Some(at) if (times[at] - found).abs() <= LABEL * gap(at) => Ok(Some(at)),
             _ if found == 0.0 => Ok(None),
-            Some(at) => Err((
-                0,
-                format!("time_s = {found} is not asked for; the nearest that is asked for is {}", times[at]),
-            )),
+            Some(at) => {
+                Err((0, format!("time_s = {found} is not asked for; the nearest that is asked for is {}", times[at])))
+            }
             None => Err((0, format!("time_s = {found} is not asked for"))),
         }
     }
@@ -158,10 +156,6 @@ impl<'a> Collector<'a> {
             let message = format!("{what} ({missing} of {} rows are missing){other}", lines.len());
             return Err(ReadError::at(path, line, 1, message));
         }
-        Ok(Answer {
-            path: path.to_owned(),
-            lines: lines.iter().flatten().copied().collect(),
-            rows: self.rows,
-        })
+        Ok(Answer { path: path.to_owned(), lines: lines.iter().flatten().copied().collect(), rows: self.rows })
     }
 }

@@ -17,7 +17,8 @@ impl Default for Axes {
 impl std::str::FromStr for Axes {
     type Err = String;
 
-    /// Parses text such as `flow,gradient,vorticity`: the meaning of the program's axes 1, 2, 3; `-flow` is against the flow.
+    /// Parses text such as `flow,gradient,vorticity`: the meaning of the program's axes 1, 2, 3; `-flow` is against the
+    /// flow.
     fn from_str(text: &str) -> Result<Self, String> {
         let mut found = [None; 3];
         let words: Vec<_> = text.split(',').map(str::trim).collect();
@@ -50,8 +51,7 @@ impl std::fmt::Display for Axes {
 }
 
 fn allowed() -> String {
-    "gradient, flow and vorticity are allowed, each once, each with a - before it where it is reversed"
-        .to_owned()
+    "gradient, flow and vorticity are allowed, each once, each with a - before it where it is reversed".to_owned()
 }
 
 impl Axes {
@@ -78,8 +78,8 @@ impl Axes {
         theirs
     }
 
-    /// The program's name of one of the problem's columns, and the sign for its values: `p1` is `p2` if the program's second
-    /// axis is the gradient. Columns without an axis keep their names.
+    /// The program's name of one of the problem's columns, and the sign for its values: `p1` is `p2` if the program's
+    /// second axis is the gradient. Columns without an axis keep their names.
     pub fn theirs(&self, column: &str) -> (String, f64) {
         let tail = ["_se", "_per_s"].into_iter().find(|tail| column.ends_with(tail)).unwrap_or("");
         let stem = &column[..column.len() - tail.len()];

@@ -45,10 +45,7 @@ fn candidates(problem: &Problem) -> Vec<Candidate> {
         let name = format!("the {} closure{words}", closure.name());
         Some(Candidate { name, equation: Equation { closure, model, ..right }, start: closed.start() })
     };
-    Closure::ALL
-        .into_iter()
-        .flat_map(|closure| FACTORS.into_iter().filter_map(move |off| of(closure, off)))
-        .collect()
+    Closure::ALL.into_iter().flat_map(|closure| FACTORS.into_iter().filter_map(move |off| of(closure, off))).collect()
 }
 
 /// The values of the problem's columns for a, with the fourth moments by the closure; `None` for other columns.

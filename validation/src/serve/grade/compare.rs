@@ -23,8 +23,8 @@ pub struct Compared {
     pub length_drift: Option<f64>,
     /// The largest change of C_b = C/(1 + C) from the start (eq. 13), in plane Couette flow.
     pub orbit_drift: Option<f64>,
-    /// The phase lost per period, in periods, negative for a program that is ahead: of the worst rod at the last time, in plane
-    /// Couette flow.
+    /// The phase lost per period, in periods, negative for a program that is ahead: of the worst rod at the last time,
+    /// in plane Couette flow.
     pub phase_lost_per_period: Option<f64>,
     /// True if a standard error is too large for a verdict.
     pub too_little_data: bool,
@@ -42,9 +42,12 @@ pub fn compare(loaded: &LoadedProblem, answer: &Answer) -> Compared {
         Metric::StandardErrors => standard_errors(names, &answer.rows[row], certified(row)),
     };
     // Of an infinite value, or one whose square is, no distance says anything.
-    let error_of = |row: usize| match answer.rows[row].iter().all(|value| value.is_finite()) {
-        true => Some(distance(row)).filter(|error| error.is_finite()).unwrap_or(f64::NAN),
-        false => f64::NAN,
+    let error_of = |row: usize| {
+        if answer.rows[row].iter().all(|value| value.is_finite()) {
+            Some(distance(row)).filter(|error| error.is_finite()).unwrap_or(f64::NAN)
+        } else {
+            f64::NAN
+        }
     };
     let worst = (0..answer.rows.len()).map(|row| (row, error_of(row))).reduce(|a, b| {
         let worse = b.1.is_nan() || b.1 > a.1;
@@ -52,8 +55,7 @@ pub fn compare(loaded: &LoadedProblem, answer: &Answer) -> Compared {
     });
     let (row, error) = worst.unwrap_or((0, f64::NAN));
     let largest_se = largest_standard_error(names, answer);
-    let enough =
-        loaded.problem.ensemble.as_ref().map_or(f64::INFINITY, |ensemble| ensemble.largest_standard_error);
+    let enough = loaded.problem.ensemble.as_ref().map_or(f64::INFINITY, |ensemble| ensemble.largest_standard_error);
     let directions = loaded.problem.metric == Metric::Angle;
     Compared {
         error,
@@ -85,9 +87,10 @@ fn relative(names: &[String], values: &[f64], certified: &[f64]) -> f64 {
     let of_rod = |rod: &str| {
         let columns: Vec<_> = (0..names.len()).filter(|k| names[*k].starts_with(rod)).collect();
         let sum = |of: &dyn Fn(usize) -> f64| columns.iter().map(|k| of(*k).powi(2)).sum::<f64>().sqrt();
-        match columns.is_empty() {
-            true => 0.0,
-            false => sum(&|k| values[k] - certified[k]) / sum(&|k| certified[k]).max(f64::MIN_POSITIVE),
+        if columns.is_empty() {
+            0.0
+        } else {
+            sum(&|k| values[k] - certified[k]) / sum(&|k| certified[k]).max(f64::MIN_POSITIVE)
         }
     };
     largest(["a_", "b_"].into_iter().map(of_rod))
@@ -111,9 +114,8 @@ pub(super) fn standard_errors(names: &[String], values: &[f64], certified: &[f64
 
 /// The largest standard error; NaN if one is not above 0, as the mean of a random sample has an error.
 fn largest_standard_error(names: &[String], answer: &Answer) -> f64 {
-    let of_row = |row: &Vec<f64>| {
-        largest(with_errors(names).map(|(_, se)| if row[se] > 0.0 { row[se] } else { f64::NAN }))
-    };
+    let of_row =
+        |row: &Vec<f64>| largest(with_errors(names).map(|(_, se)| if row[se] > 0.0 { row[se] } else { f64::NAN }));
     largest(answer.rows.iter().map(of_row))
 }
 
@@ -129,13 +131,7 @@ fn without_error(loaded: &LoadedProblem, answer: &Answer) -> Option<String> {
     answer.rows.iter().enumerate().find_map(none)
 }
 
-fn remark(
-    loaded: &LoadedProblem,
-    answer: &Answer,
-    row: usize,
-    error: f64,
-    largest_se: f64,
-) -> Option<String> {
+fn remark(loaded: &LoadedProblem, answer: &Answer, row: usize, error: f64, largest_se: f64) -> Option<String> {
     let place = || format!("{}:{}", answer.path.shown(), answer.lines[row]);
     if error.is_nan() {
         return Some(format!("{}: a value is not finite", place()));

@@ -58,11 +58,8 @@ mod tests {
             let named = |variant: Variant| {
                 let inputs = loaded.inputs.as_ref().unwrap();
                 let row = |pair: &Vec<f64>| answers(&gradient, &pair[1..], step_s, variant).concat();
-                let answer = Answer {
-                    path: name.into(),
-                    rows: inputs.rows.iter().map(row).collect(),
-                    lines: Vec::new(),
-                };
+                let answer =
+                    Answer { path: name.into(), rows: inputs.rows.iter().map(row).collect(), lines: Vec::new() };
                 let near = near(&loaded, &answer, 1e-3);
                 near.into_iter()
                     .map(|(distance, name)| {

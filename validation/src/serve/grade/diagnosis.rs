@@ -10,8 +10,8 @@ use crate::methods::integrators::apart_rad;
 use crate::serve::problems::{Kind, LoadedProblem};
 use nalgebra::{Matrix3, Vector3};
 
-/// An answer belongs to a mistake's curve if it is a thousand times nearer to it than to the truth: for one direction and some
-/// fifty curves this happens by chance with a probability of 10⁻⁴, for several rows far more rarely.
+/// An answer belongs to a mistake's curve if it is a thousand times nearer to it than to the truth: for one direction
+/// and some fifty curves this happens by chance with a probability of 10⁻⁴, for several rows far more rarely.
 pub(super) const NEARER: f64 = 1e-3;
 
 /// Above this number of names none is reported: most mistakes share a curve that has come to rest.
@@ -125,9 +125,7 @@ fn not_unit(loaded: &LoadedProblem, answer: &Answer, nearer_than: f64) -> Option
     let lengths = || found.iter().map(|p| p.norm());
     let (least, most) = (lengths().fold(f64::INFINITY, f64::min), lengths().fold(0.0, f64::max));
     let right = angles.fold(0.0, f64::max) <= nearer_than;
-    right.then(|| {
-        format!("only the directions' length is wrong: |p| is {least:.6} to {most:.6}, where 1 is due")
-    })
+    right.then(|| format!("only the directions' length is wrong: |p| is {least:.6} to {most:.6}, where 1 is due"))
 }
 
 /// The nearest curve, and those that are indistinguishable from it here.
@@ -146,8 +144,7 @@ fn said(mut near: Vec<(f64, String)>, tolerance: f64) -> Diagnosis {
     });
     let suspects: Vec<_> = near.into_iter().map(|(_, name)| name).collect();
     let names = suspects.join(" or of ");
-    let said =
-        (suspects.len() <= MOST_NAMES).then(|| format!("this is the curve of {names}, to {nearest:.0e}"));
+    let said = (suspects.len() <= MOST_NAMES).then(|| format!("this is the curve of {names}, to {nearest:.0e}"));
     Diagnosis { said, suspects, rates: Vec::new() }
 }
 
@@ -167,18 +164,15 @@ fn rows(loaded: &LoadedProblem, mistake: &Mistake, part: f64) -> Option<Vec<Vec<
                 loaded.start.iter().map(move |start| (Vector3::from(*start), time))
             };
             let all = problem.times_s.iter().flat_map(starts);
-            all.map(|(start, time)| Some(mistake.direction(&setting, &start, time)?.as_slice().to_vec()))
-                .collect()
+            all.map(|(start, time)| Some(mistake.direction(&setting, &start, time)?.as_slice().to_vec())).collect()
         }
         Kind::Tensor => {
             let columns = second_moments(&problem.columns)?;
             let of_time = |time: &f64| {
                 let map = mistake.map(&setting, part * time)?;
-                let a = match mistake.has_length {
-                    // ⟨qq⟩ of isotropic p(0).
-                    true => map * map.transpose() / 3.0,
-                    false => mistakes::isotropic_tensor(&map)?,
-                };
+                // With its length: ⟨qq⟩ of isotropic p(0).
+                let a =
+                    if mistake.has_length { map * map.transpose() / 3.0 } else { mistakes::isotropic_tensor(&map)? };
                 let scale = if mistake.has_length { a.amax() } else { 1.0 };
                 Some(columns.iter().map(|place| a[*place]).chain([scale]).collect())
             };
@@ -197,7 +191,8 @@ fn second_moments(columns: &[String]) -> Option<Vec<(usize, usize)>> {
     columns.iter().skip(1).map(one).collect()
 }
 
-/// The distance of rows from a mistake's curve: directions by angle, tensor components relative to the last entry of the curve's row.
+/// The distance of rows from a mistake's curve: directions by angle, tensor components relative to the last entry of
+/// the curve's row.
 fn between(loaded: &LoadedProblem, found: &[Vec<f64>], curve: &[Vec<f64>], has_length: bool) -> Option<f64> {
     largest(found.iter().zip(curve).map(|(found, curve)| match loaded.problem.kind {
         Kind::Rods => {
@@ -211,12 +206,13 @@ fn between(loaded: &LoadedProblem, found: &[Vec<f64>], curve: &[Vec<f64>], has_l
     }))
 }
 
-/// The angle between two directions or ||p| − 1|, whichever is larger; for a mistake with a length of its own, the relative
-/// distance. Opposite directions are the same.
+/// The angle between two directions or ||p| − 1|, whichever is larger; for a mistake with a length of its own, the
+/// relative distance. Opposite directions are the same.
 pub(super) fn apart(found: &Vector3<f64>, expected: &Vector3<f64>, has_length: bool) -> f64 {
-    match has_length {
-        true => (found - expected).norm().min((found + expected).norm()) / expected.norm(),
-        false => apart_rad(found, expected).max((found.norm() - 1.0).abs()),
+    if has_length {
+        (found - expected).norm().min((found + expected).norm()) / expected.norm()
+    } else {
+        apart_rad(found, expected).max((found.norm() - 1.0).abs())
     }
 }
 
@@ -235,7 +231,8 @@ mod tests {
         Answer { rows: rows(loaded, &mistake, 1.0).unwrap(), ..Answer::certified(loaded) }
     }
 
-    /// A = W/2 + ΛD and A = W + 2ΛD come to rest in the same direction: they can be distinguished at 2.7 s, but not at 150 s.
+    /// A = W/2 + ΛD and A = W + 2ΛD come to rest in the same direction: they can be distinguished at 2.7 s, but not at
+    /// 150 s.
     #[test]
     fn a_mistake_is_not_named_by_where_it_has_come_to_rest() {
         let whole = loaded("mid-flip-11.6");
@@ -247,8 +244,7 @@ mod tests {
         let mut loaded = whole;
         loaded.problem.times_s.drain(..2);
         loaded.certified.rows.drain(..2);
-        for (name, is_named) in
-            [("W halved twice", false), ("D without its ½", false), ("half the shear rate", true)]
+        for (name, is_named) in [("W halved twice", false), ("D without its ½", false), ("half the shear rate", true)]
         {
             let found = diagnose(&loaded, &answer(&loaded, name), 0.35);
             assert_eq!(found.said.is_some(), is_named, "{name}: {found:?}");

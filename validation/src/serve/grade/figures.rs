@@ -17,8 +17,8 @@ pub(super) const LEAST: f64 = 1e-17;
 /// The program's label in a picture: its own name may be long, and _ would set the next letter as an index.
 pub(super) const PROGRAM: &str = "the graded program";
 
-/// Error against the number of steps on one problem about rods in plane Couette flow, first for the program, then for the
-/// project's own integrators; `None` if the program answered no such problem with two numbers of steps.
+/// Error against the number of steps on one problem about rods in plane Couette flow, first for the program, then for
+/// the project's own integrators; `None` if the program answered no such problem with two numbers of steps.
 pub fn steps(problems: &[LoadedProblem], graded: &[Graded]) -> Option<Figure> {
     let with_steps = |name: &str| {
         let of = |graded: &&Graded| graded.name == name && drawn(graded).len() >= 2;
@@ -29,8 +29,7 @@ pub fn steps(problems: &[LoadedProblem], graded: &[Graded]) -> Option<Figure> {
         Some((loaded, graded, couette_per_s(loaded)?))
     });
     // Prefers the paper's aspect ratio.
-    let (loaded, graded, rate) =
-        candidates.min_by_key(|(loaded, ..)| loaded.problem.name != "mid-flip-11.6")?;
+    let (loaded, graded, rate) = candidates.min_by_key(|(loaded, ..)| loaded.problem.name != "mid-flip-11.6")?;
     let errors = drawn(graded);
     let counts: Vec<_> = errors.iter().map(|(steps, _)| *steps).collect();
     let mut curves = vec![curve(PROGRAM.to_owned(), &errors)];
@@ -85,8 +84,7 @@ fn own_errors(subject: &Integrator, loaded: &LoadedProblem, rate: f64, counts: &
     let error = |steps: u64| {
         let of_rod = |p: &[f64; 3]| {
             let start = UnitVector3::new_normalize(Vector3::from(*p));
-            let errors =
-                crate::methods::integrators::grade(subject, &problem, &start, Setting::Steps(steps)).ok()?;
+            let errors = crate::methods::integrators::grade(subject, &problem, &start, Setting::Steps(steps)).ok()?;
             Some(errors.orientation_rad)
         };
         let errors: Option<Vec<_>> = loaded.start.iter().map(of_rod).collect();

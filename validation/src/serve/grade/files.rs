@@ -32,11 +32,7 @@ pub struct Options {
 }
 
 /// Grades the answers in `mine/NAME/` to each problem. `Err` lists every file that cannot be read.
-pub fn grade(
-    problems: &[LoadedProblem],
-    mine: &Path,
-    options: &Options,
-) -> Result<Vec<Graded>, Vec<ReadError>> {
+pub fn grade(problems: &[LoadedProblem], mine: &Path, options: &Options) -> Result<Vec<Graded>, Vec<ReadError>> {
     let mut all = Vec::new();
     let mut errors = Vec::new();
     for problem in problems {
@@ -136,13 +132,12 @@ fn judge(graded: &mut Graded, loaded: &LoadedProblem, answer: &Answer, claim: Cl
     graded.orbit_drift = compared.orbit_drift.filter(|drift| drift.is_finite());
     graded.phase_lost_per_period = compared.phase_lost_per_period.filter(|lost| lost.is_finite());
     graded.set_diagnosis(diagnose(loaded, answer, compared.error));
-    graded.note = match within {
-        true => off,
-        false => {
-            let place = compared.remark.unwrap_or_else(|| place(loaded, answer, compared.row));
-            let needed = graded.steps_needed().filter(|_| off.is_none());
-            Some(off.into_iter().chain(needed).chain([place]).collect::<Vec<_>>().join("; "))
-        }
+    graded.note = if within {
+        off
+    } else {
+        let place = compared.remark.unwrap_or_else(|| place(loaded, answer, compared.row));
+        let needed = graded.steps_needed().filter(|_| off.is_none());
+        Some(off.into_iter().chain(needed).chain([place]).collect::<Vec<_>>().join("; "))
     };
 }
 

@@ -66,8 +66,7 @@ pub fn html(report: &Report, good: bool, pictures: &[&str]) -> Result<String, St
     let mut environment = Environment::new();
     environment.set_undefined_behavior(UndefinedBehavior::Strict);
     environment.add_filter("prose", |text: &str| Value::from_safe_string(typeset(text)));
-    let mut answered: Vec<&Graded> =
-        report.problems.iter().filter(|g| g.verdict != Verdict::Missing).collect();
+    let mut answered: Vec<&Graded> = report.problems.iter().filter(|g| g.verdict != Verdict::Missing).collect();
     // Failures come first.
     answered.sort_by_key(|graded| graded.verdict == Verdict::Pass);
     let says = |cell: String| ![NOTHING, BUILT_IN].contains(&&cell[..]);

@@ -12,7 +12,8 @@ use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 pub struct DumpOptions {
     /// The length of a time step in s, for a dump without `ITEM: TIME`.
     pub timestep_s: Option<f64>,
-    /// The rod's axis in its body frame, 0 to 2; `None` for the axis that the columns shapex, shapey, shapez single out.
+    /// The rod's axis in its body frame, 0 to 2; `None` for the axis that the columns shapex, shapey, shapez single
+    /// out.
     pub rod_axis: Option<usize>,
 }
 
@@ -88,10 +89,8 @@ pub(super) fn read(
             Some(bounds) if bounds.starts_with("BOX BOUNDS") => skip(&mut lines, 3)?,
             Some(header) if header.starts_with("ATOMS") => {
                 let time = time_s.take().ok_or_else(|| {
-                    lines.error(
-                        0,
-                        "no time: --timestep-s must say how long a step is, or the dump must have ITEM: TIME",
-                    )
+                    lines
+                        .error(0, "no time: --timestep-s must say how long a step is, or the dump must have ITEM: TIME")
                 })?;
                 let columns = columns(&header["ATOMS".len()..]).map_err(|message| lines.error(0, message))?;
                 snapshot(&mut lines, &mut collector, &columns, atoms, time, axes, options)?;
@@ -149,27 +148,20 @@ fn snapshot(
         {
             let [given, by_shape] = [given, by_shape].map(|axis| ["x", "y", "z"][axis]);
             let message = format!(
-                "--rod-axis {given}, but by shapex shapey shapez the rod lies along {by_shape}: leave --rod-axis out, or correct it"
+                "--rod-axis {given}, but by shapex shapey shapez the rod lies along {by_shape}: leave --rod-axis out, \
+                    or correct it"
             );
             return Err(lines.error(0, message));
         }
         let axis = options.rod_axis.or(by_shape).ok_or_else(|| {
-            lines.error(
-                0,
-                "which axis of the body is the rod's? --rod-axis x, y or z, or columns shapex shapey shapez",
-            )
+            lines.error(0, "which axis of the body is the rod's? --rod-axis x, y or z, or columns shapex shapey shapez")
         })?;
         found.push((at(columns.id)?, lines.number(), direction(q, axis)));
     }
     found.sort_by(|a, b| a.0.total_cmp(&b.0));
     for (rod, (id, line, p)) in found.iter().enumerate() {
         if rod > 0 && found[rod - 1].0 == *id {
-            return Err(ReadError::at(
-                lines.path(),
-                *line,
-                columns.id as u64 + 1,
-                format!("atom {id} is there twice"),
-            ));
+            return Err(ReadError::at(lines.path(), *line, columns.id as u64 + 1, format!("atom {id} is there twice")));
         }
         let ours = axes.to_ours((*p).into());
         let added = collector.add(*line, &[time_s, rod as f64], ours.to_vec());

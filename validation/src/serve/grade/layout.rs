@@ -86,9 +86,7 @@ impl Layout {
         let names: Vec<String> = match (&options.columns, options.foreign, first_is_row) {
             (Some(columns), _, _) => columns.clone(),
             (None, Some(foreign), _) => foreign.columns().iter().map(|name| (*name).to_owned()).collect(),
-            (None, None, false) => {
-                header.iter().map(|name| known(name.trim_matches('"')).to_owned()).collect()
-            }
+            (None, None, false) => header.iter().map(|name| known(name.trim_matches('"')).to_owned()).collect(),
             (None, None, true) if wants_tensor && header.len() == 10 => {
                 Foreign::Fiberoripy.columns().iter().map(|name| (*name).to_owned()).collect()
             }
@@ -115,8 +113,7 @@ impl Layout {
 fn split(line: &str, separator: char) -> impl Iterator<Item = &str> {
     // White space may be several blanks; between commas a field may be empty.
     let blank = separator == ' ';
-    let parts =
-        line.split(move |letter: char| if blank { letter.is_whitespace() } else { letter == separator });
+    let parts = line.split(move |letter: char| if blank { letter.is_whitespace() } else { letter == separator });
     parts.map(str::trim).filter(move |part| !blank || !part.is_empty())
 }
 
@@ -150,9 +147,10 @@ fn fields(names: &[String], problem: &Problem, axes: Axes) -> Result<Vec<Field>,
         }
         fields.push(field);
     }
-    let there = |wanted: &str, is: &dyn Fn(&Field) -> bool| match fields.iter().any(is) {
-        true => Ok(()),
-        false => {
+    let there = |wanted: &str, is: &dyn Fn(&Field) -> bool| {
+        if fields.iter().any(is) {
+            Ok(())
+        } else {
             Err((0, format!("column {wanted:?} is missing; asked for are {}", problem.columns.join(","))))
         }
     };

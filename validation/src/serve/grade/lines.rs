@@ -99,7 +99,8 @@ impl Lines {
     }
 }
 
-const MARKED: &str = "begins with a byte order mark: write UTF-8 without it (in Python encoding=\"utf-8\"), or give --windows-text";
+const MARKED: &str =
+    "begins with a byte order mark: write UTF-8 without it (in Python encoding=\"utf-8\"), or give --windows-text";
 const CARRIED: &str =
     "ends in CR LF: write LF alone (csv.writer of Python has lineterminator=\"\\n\"), or give --windows-text";
 

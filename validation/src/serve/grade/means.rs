@@ -1,4 +1,5 @@
-//! Effects of known mistakes on the means |p_i| of rods that were isotropic at t = 0: for unequal rods and for suspensions.
+//! Effects of known mistakes on the means |p_i| of rods that were isotropic at t = 0: for unequal rods and for
+//! suspensions.
 
 use super::answer::Answer;
 use super::compare::standard_errors;
@@ -8,8 +9,8 @@ use crate::serve::problems::{LoadedProblem, Problem};
 use nalgebra::{Matrix3, Vector3};
 use rayon::prelude::*;
 
-/// Nodes in r_e from −6 to 6 standard deviations: the trapezoid rule for a Gaussian times an analytic function converges
-/// geometrically, and this number leaves an error of 10⁻⁹ after three periods.
+/// Nodes in r_e from −6 to 6 standard deviations: the trapezoid rule for a Gaussian times an analytic function
+/// converges geometrically, and this number leaves an error of 10⁻⁹ after three periods.
 const NODES: usize = 401;
 const REACH: f64 = 6.0;
 
@@ -39,11 +40,8 @@ fn setting(problem: &Problem, aspect_ratio: f64) -> Setting {
 fn by_mistake(problem: &Problem, mistake: &Mistake, time_s: f64) -> Option<Vector3<f64>> {
     over_shapes(problem, |r| {
         let map = mistake.map(&setting(problem, r), time_s)?;
-        match mistake.has_length {
-            // ⟨|m·p(0)|⟩ = |m|/2 for each row m.
-            true => Some(Vector3::from_fn(|i, _| 0.5 * map.row(i).norm())),
-            false => projections(&map),
-        }
+        // With its length: ⟨|m·p(0)|⟩ = |m|/2 for each row m.
+        if mistake.has_length { Some(Vector3::from_fn(|i, _| 0.5 * map.row(i).norm())) } else { projections(&map) }
     })
 }
 
@@ -80,7 +78,8 @@ pub(super) fn unequal(loaded: &LoadedProblem, answer: &Answer, nearer_than: f64)
 
 const ONE_SHAPE: &str = "rods of one r_e, the mean";
 
-/// A diagnosis of a suspension: the wrong means with which the answer agrees as well as a right answer may with the right ones.
+/// A diagnosis of a suspension: the wrong means with which the answer agrees as well as a right answer may with the
+/// right ones.
 pub(super) fn ensemble(loaded: &LoadedProblem, answer: &Answer) -> Option<String> {
     let problem = &loaded.problem;
     let names = &problem.columns[1..];
@@ -164,9 +163,8 @@ mod tests {
         let period_s = std::f64::consts::TAU * (11.6 + 1.0 / 11.6) / problem.gradient_per_s[1][0];
         for turns in [0.0, 0.1, 0.25, 0.5, 3.0] {
             let time_s = turns * period_s;
-            let off = |found: Option<Vector3<f64>>, expected: [f64; 3]| {
-                (found.unwrap() - Vector3::from(expected)).amax()
-            };
+            let off =
+                |found: Option<Vector3<f64>>, expected: [f64; 3]| (found.unwrap() - Vector3::from(expected)).amax();
             problem.aspect_ratio_sd_percent = 0.0;
             assert!(off(free(&problem, time_s), mean_projections(11.6, turns)) < 1e-12);
             problem.aspect_ratio_sd_percent = 3.6;

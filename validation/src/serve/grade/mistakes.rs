@@ -37,8 +37,8 @@ enum Kind {
 }
 
 impl Mistake {
-    /// The direction after `time_s` of a rod that starts along `p`, by this mistake; `None` if the mistake does not apply. The
-    /// length is 1 except for mistakes with a length of their own.
+    /// The direction after `time_s` of a rod that starts along `p`, by this mistake; `None` if the mistake does not
+    /// apply. The length is 1 except for mistakes with a length of their own.
     pub fn direction(&self, setting: &Setting, p: &Vector3<f64>, time_s: f64) -> Option<Vector3<f64>> {
         let q = match &self.kind {
             Kind::Linear { map, start, end } => end * map(setting, time_s)? * start * p,
@@ -48,8 +48,8 @@ impl Mistake {
         q.iter().all(|component| component.is_finite()).then_some(q)
     }
 
-    /// The linear map of directions that were isotropic at t = 0, up to a rotation before it; `None` for a mistake that is
-    /// not a linear map.
+    /// The linear map of directions that were isotropic at t = 0, up to a rotation before it; `None` for a mistake that
+    /// is not a linear map.
     pub fn map(&self, setting: &Setting, time_s: f64) -> Option<Matrix3<f64>> {
         match &self.kind {
             Kind::Linear { map, end, .. } => Some(end * map(setting, time_s)?),
@@ -106,10 +106,7 @@ fn couette_per_s(setting: &Setting) -> Option<f64> {
     flow.shear_rate_per_s().filter(|rate| *rate > 0.0)
 }
 
-fn linear(
-    name: &str,
-    map: impl Fn(&Setting, f64) -> Option<Matrix3<f64>> + Send + Sync + 'static,
-) -> Mistake {
+fn linear(name: &str, map: impl Fn(&Setting, f64) -> Option<Matrix3<f64>> + Send + Sync + 'static) -> Mistake {
     Mistake {
         name: name.to_owned(),
         has_length: false,
@@ -151,15 +148,9 @@ pub fn all() -> Vec<Mistake> {
             gradient_per_s: -s.gradient_per_s,
             ..s
         }),
-        moved("Λ without its sign", |s| Setting {
-            aspect_ratio: s.aspect_ratio.max(1.0 / s.aspect_ratio),
-            ..s
-        }),
+        moved("Λ without its sign", |s| Setting { aspect_ratio: s.aspect_ratio.max(1.0 / s.aspect_ratio), ..s }),
         // For a disc this is Λ without its sign: both are named.
-        moved("Λ with the wrong sign (1/r_e for r_e)", |s| Setting {
-            aspect_ratio: 1.0 / s.aspect_ratio,
-            ..s
-        }),
+        moved("Λ with the wrong sign (1/r_e for r_e)", |s| Setting { aspect_ratio: 1.0 / s.aspect_ratio, ..s }),
         rate("no 1/r_e (Λ = 1, an infinitely slender rod)", |w, d, _| w + d),
         // This is Λ of √r_e.
         moved("(r_e − 1)/(r_e + 1) for Λ", |s| Setting { aspect_ratio: s.aspect_ratio.sqrt(), ..s }),
@@ -257,10 +248,7 @@ fn permuted() -> Vec<Mistake> {
     let none = Matrix3::identity();
     (changes.into_iter())
         .flat_map(|(name, change)| {
-            [
-                components(name.to_owned(), none, change),
-                components(format!("{name}{IN_THE_START}"), change, none),
-            ]
+            [components(name.to_owned(), none, change), components(format!("{name}{IN_THE_START}"), change, none)]
         })
         .collect()
 }

@@ -45,7 +45,8 @@ pub enum Verdict {
     Fail,
     /// There is no answer.
     Missing,
-    /// Time ran out before the answers came within the tolerance, or showed that they would not: neither a pass nor a failure.
+    /// Time ran out before the answers came within the tolerance, or showed that they would not: neither a pass nor a
+    /// failure.
     #[serde(rename = "NOT REACHED")]
     NotReached,
 }

@@ -1,11 +1,12 @@
 //! The order with which errors fall, compared with a claimed order.
 //!
 //! Orders come from neighbours of a ladder with more and more steps, from where the method follows the motion down to
-//! round-off: a hundredth of the tolerance, which allows for 10 ε^(4/5) per radian, or the first error below the tolerance that no
-//! longer falls. In that range a correct method's order wanders (rods or error terms take turns as the largest) and approaches
-//! the claimed one from either side, or a higher one if a problem has no such error term. A wrong coefficient removes whole
-//! orders, and the remaining order settles. So an order is refuted by two consecutive pairs that agree and are nearly a whole
-//! order lower, and by nothing else. `examples/graded_integrators` tests this with several hundred integrators.
+//! round-off: a hundredth of the tolerance, which allows for 10 ε^(4/5) per radian, or the first error below the
+//! tolerance that no longer falls. In that range a correct method's order wanders (rods or error terms take turns as
+//! the largest) and approaches the claimed one from either side, or a higher one if a problem has no such error term. A
+//! wrong coefficient removes whole orders, and the remaining order settles. So an order is refuted by two consecutive
+//! pairs that agree and are nearly a whole order lower, and by nothing else. `examples/graded_integrators` tests this
+//! with several hundred integrators.
 
 use super::{Graded, Verdict};
 use crate::serve::problems::LoadedProblem;
@@ -20,8 +21,8 @@ const WHOLE: f64 = 0.8;
 /// The error in rad above which a method does not follow the motion yet.
 const FOLLOWS: f64 = 0.1;
 
-/// The share of a problem's own tolerance below which differences of errors are round-off. Between that and the tolerance, a
-/// correct code may have reached its round-off.
+/// The share of a problem's own tolerance below which differences of errors are round-off. Between that and the
+/// tolerance, a correct code may have reached its round-off.
 const ROUND_OFF: f64 = 0.01;
 
 /// Errors that fall with a higher order than this are the method's, not round-off.
@@ -134,27 +135,25 @@ impl Orders {
         self.certain().last_chunk::<3>().is_some_and(|last| Self::proves_lower(last, claimed))
     }
 
-    /// True if these pairs agree, lie whole orders below the claim, and end where the method follows the motion closely.
+    /// True if these pairs agree, lie whole orders below the claim, and end where the method follows the motion
+    /// closely.
     fn proves_lower(pairs: &[(f64, f64)], claimed: f64) -> bool {
         let orders = || pairs.iter().map(|(order, _)| *order);
-        let (least, most) =
-            (orders().fold(f64::INFINITY, f64::min), orders().fold(f64::NEG_INFINITY, f64::max));
-        most <= claimed - WHOLE
-            && most - least < ORDER_TOLERANCE
-            && pairs.last().is_some_and(|last| last.1 < CLOSE)
+        let (least, most) = (orders().fold(f64::INFINITY, f64::min), orders().fold(f64::NEG_INFINITY, f64::max));
+        most <= claimed - WHOLE && most - least < ORDER_TOLERANCE && pairs.last().is_some_and(|last| last.1 < CLOSE)
     }
 }
 
-/// An error is far off if it exceeds the prediction of other settings by this factor: between two settings that is five orders
-/// more than the method's, and between neighbours, whose steps differ by an eighth at most, an order of thirty.
+/// An error is far off if it exceeds the prediction of other settings by this factor: between two settings that is five
+/// orders more than the method's, and between neighbours, whose steps differ by an eighth at most, an order of thirty.
 pub(super) const FAR: f64 = 32.0;
 
 /// The order assumed where errors do not show one: that of the highest methods in use.
 pub(super) const HIGHEST: f64 = 8.0;
 
-/// A message about an answer that is off by far where one with fewer steps follows the motion closely; none if there is no such answer.
-/// What its error should be is foretold by a power law through two others, of which only one may be small by chance: then either this
-/// one is not larger than that before it, or it is as large as foretold.
+/// A message about an answer that is off by far where one with fewer steps follows the motion closely; none if there is
+/// no such answer. What its error should be is foretold by a power law through two others, of which only one may be
+/// small by chance: then either this one is not larger than that before it, or it is as large as foretold.
 pub fn wild(errors: &[(u64, f64)], tolerance: f64) -> Option<String> {
     let steps = |k: usize| errors[k].0 as f64;
     let size = |k: usize| if errors[k].1.is_finite() { errors[k].1 } else { f64::INFINITY };
@@ -196,8 +195,8 @@ pub fn other(graded: &Graded, claimed: f64) -> String {
     }
 }
 
-/// Decides on orders higher than the claimed one: if no problem shows the claimed order, the claim is wrong; otherwise these
-/// problems have no error term of that order.
+/// Decides on orders higher than the claimed one: if no problem shows the claimed order, the claim is wrong; otherwise
+/// these problems have no error term of that order.
 pub fn settle(problems: &[LoadedProblem], graded: &mut [Graded], claimed: Option<f64>) {
     let Some(claimed) = claimed else {
         return;
@@ -210,8 +209,7 @@ pub fn settle(problems: &[LoadedProblem], graded: &mut [Graded], claimed: Option
         let of = problems.iter().find(|loaded| loaded.problem.name == graded.name);
         if shown || of.is_some_and(in_the_shear_plane) {
             let observed = graded.order_text();
-            graded.note =
-                Some(format!("observed order {observed}: this problem has no error of order {claimed}"));
+            graded.note = Some(format!("observed order {observed}: this problem has no error of order {claimed}"));
         } else {
             graded.verdict = Verdict::Fail;
             graded.note = Some(other(graded, claimed));
@@ -222,9 +220,8 @@ pub fn settle(problems: &[LoadedProblem], graded: &mut [Graded], claimed: Option
 /// A sentence that lists where a claimed order was seen and where it is unclear; none without a claim.
 pub fn remark(graded: &[Graded], claimed: Option<f64>) -> Option<String> {
     let claimed = claimed?;
-    let found = |order: Order| -> Vec<&Graded> {
-        graded.iter().filter(|graded| graded.order_found == Some(order)).collect()
-    };
+    let found =
+        |order: Order| -> Vec<&Graded> { graded.iter().filter(|graded| graded.order_found == Some(order)).collect() };
     let seen = found(Order::Seen);
     // Of a wrong answer the verdict says why.
     let unclear = found(Order::Unclear).into_iter().filter(|graded| graded.verdict == Verdict::Pass);
@@ -238,7 +235,8 @@ pub fn remark(graded: &[Graded], claimed: Option<f64>) -> Option<String> {
     Some(said)
 }
 
-/// True if all rods lie in the shear plane: they have only a phase, whose error is of one order more for a linear method.
+/// True if all rods lie in the shear plane: they have only a phase, whose error is of one order more for a linear
+/// method.
 fn in_the_shear_plane(loaded: &LoadedProblem) -> bool {
     loaded.start.iter().all(|p| p[2] == 0.0)
 }

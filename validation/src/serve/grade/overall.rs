@@ -9,20 +9,17 @@ use crate::serve::problems::LoadedProblem;
 /// The largest number of names in a finding.
 const MOST_NAMES: usize = 3;
 
-/// The largest relative difference of two problems' rates that count as equal: a method with long steps adds its own error.
+/// The largest relative difference of two problems' rates that count as equal: a method with long steps adds its own
+/// error.
 const SAME_RATE: f64 = 1e-3;
 
-/// Sentences on what explains more than one problem. A problem that passes rules out an explanation that contradicts it.
+/// Sentences on what explains more than one problem. A problem that passes rules out an explanation that contradicts
+/// it.
 pub fn overall(problems: &[LoadedProblem], graded: &[Graded]) -> Vec<String> {
-    let wrong: Vec<_> = graded
-        .iter()
-        .filter(|graded| matches!(graded.verdict, Verdict::Fail | Verdict::NotReached))
-        .collect();
+    let wrong: Vec<_> =
+        graded.iter().filter(|graded| matches!(graded.verdict, Verdict::Fail | Verdict::NotReached)).collect();
     let named = by_name(problems, graded, &wrong);
-    match named.is_empty() {
-        true => by_rate(&passing(problems, graded), &wrong).into_iter().collect(),
-        false => named,
-    }
+    if named.is_empty() { by_rate(&passing(problems, graded), &wrong).into_iter().collect() } else { named }
 }
 
 /// The problems that pass.
@@ -34,12 +31,12 @@ fn passing<'a>(problems: &'a [LoadedProblem], graded: &[Graded]) -> Vec<&'a Load
     problems.iter().filter(passes).collect()
 }
 
-/// Takes the mistake that explains the most problems, with all that explain the same ones, then continues with the rest.
+/// Takes the mistake that explains the most problems, with all that explain the same ones, then continues with the
+/// rest.
 fn by_name(problems: &[LoadedProblem], graded: &[Graded], wrong: &[&Graded]) -> Vec<String> {
     let passing = passing(problems, graded);
     let contradicted = |mistake: &Mistake| passing.iter().any(|loaded| shows(loaded, mistake));
-    let known: Vec<_> =
-        mistakes::all().into_iter().map(|mistake| (contradicted(&mistake), mistake.name)).collect();
+    let known: Vec<_> = mistakes::all().into_iter().map(|mistake| (contradicted(&mistake), mistake.name)).collect();
     let allowed = |name: &String| !known.iter().any(|(contradicted, known)| *contradicted && known == name);
     let mut left: Vec<&Graded> = wrong.to_vec();
     let mut said = Vec::new();
@@ -69,9 +66,7 @@ fn by_name(problems: &[LoadedProblem], graded: &[Graded], wrong: &[&Graded]) -> 
                 _ => format!("{} of {}", of.len(), wrong.len()),
             };
             let (names, of) = (names.join(", or "), of.join(", "));
-            said.push(format!(
-                "one mistake explains {rest} that do not pass: {names}{either}; its curve fits {of}"
-            ));
+            said.push(format!("one mistake explains {rest} that do not pass: {names}{either}; its curve fits {of}"));
         }
         let done: Vec<String> = explained(best[0]).iter().map(|name| (*name).to_owned()).collect();
         left.retain(|graded| !done.contains(&graded.name));
@@ -93,10 +88,7 @@ fn by_rate(passing: &[&LoadedProblem], wrong: &[&Graded]) -> Option<String> {
     (!contradicted && best.iter().all(|other| same(*other, rate))).then(|| {
         let of = agree(rate);
         let (count, names) = (of.len(), of.join(", "));
-        format!(
-            "your time runs at {rate:.3} of the true one, on {count} of {} that do not pass: {names}",
-            wrong.len()
-        )
+        format!("your time runs at {rate:.3} of the true one, on {count} of {} that do not pass: {names}", wrong.len())
     })
 }
 
@@ -111,14 +103,13 @@ mod tests {
     }
 
     fn graded(problems: &[LoadedProblem], of: &[(Verdict, &[&str], &[f64])]) -> Vec<Graded> {
-        let one =
-            |(loaded, (verdict, suspects, rates)): (&LoadedProblem, &(Verdict, &[&str], &[f64]))| Graded {
-                verdict: *verdict,
-                suspects: suspects.iter().map(|name| (*name).to_owned()).collect(),
-                diagnosis: suspects.first().map(|name| format!("this is the curve of {name}")),
-                rates: rates.to_vec(),
-                ..Graded::without_answer(loaded)
-            };
+        let one = |(loaded, (verdict, suspects, rates)): (&LoadedProblem, &(Verdict, &[&str], &[f64]))| Graded {
+            verdict: *verdict,
+            suspects: suspects.iter().map(|name| (*name).to_owned()).collect(),
+            diagnosis: suspects.first().map(|name| format!("this is the curve of {name}")),
+            rates: rates.to_vec(),
+            ..Graded::without_answer(loaded)
+        };
         problems.iter().zip(of).map(one).collect()
     }
 
@@ -128,28 +119,18 @@ mod tests {
         let problems = problems();
         let said = |of: &[(Verdict, &[&str], &[f64])]| overall(&problems, &graded(&problems, of));
         let (half, twice) = ("half the shear rate", "twice the shear rate");
-        let found = said(&[
-            (Fail, &[half], &[]),
-            (Fail, &[half], &[]),
-            (Fail, &[half, twice], &[]),
-            (Fail, &[], &[]),
-        ]);
+        let found = said(&[(Fail, &[half], &[]), (Fail, &[half], &[]), (Fail, &[half, twice], &[]), (Fail, &[], &[])]);
         assert_eq!(
             found,
-            [
-                "one mistake explains 3 of 4 that do not pass: half the shear rate; its curve fits mid-flip-2, mid-flip-11.6, spiral"
-            ]
+            ["one mistake explains 3 of 4 that do not pass: half the shear rate; its curve fits mid-flip-2, \
+                    mid-flip-11.6, spiral"]
         );
         // Curves that have come to rest name it in no problem.
         let mut resting = graded(&problems, &[(Fail, &[half], &[]), (Fail, &[half], &[])]);
         resting.iter_mut().for_each(|graded| graded.diagnosis = None);
         assert_eq!(overall(&problems, &resting), [""; 0]);
-        let both = said(&[
-            (Fail, &[half, twice], &[]),
-            (Fail, &[twice, half], &[]),
-            (Pass, &[], &[]),
-            (Pass, &[], &[]),
-        ]);
+        let both =
+            said(&[(Fail, &[half, twice], &[]), (Fail, &[twice, half], &[]), (Pass, &[], &[]), (Pass, &[], &[])]);
         // Both mistakes would show on a problem that passes.
         assert_eq!(both, [""; 0]);
         let both = said(&[(Fail, &[half, twice], &[]), (Fail, &[twice, half], &[])]);

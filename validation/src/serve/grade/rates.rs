@@ -1,5 +1,5 @@
-//! Time that runs at another rate: in plane Couette flow the phase of an answer shows for how long a correct rod has turned; in
-//! other flows, the rate is sought at which a correct rod comes nearest.
+//! Time that runs at another rate: in plane Couette flow the phase of an answer shows for how long a correct rod has
+//! turned; in other flows, the rate is sought at which a correct rod comes nearest.
 
 use super::answer::Answer;
 use super::diagnosis::{apart, setting};
@@ -21,13 +21,9 @@ const IN_PLANE: f64 = 1e-3;
 /// Number of rates that are tried in other flows.
 const TRIED: u32 = 500;
 
-/// The rates at which all rows of an answer are those of correct rods, to `nearer_than`; none for rods at rest, which fit any rate.
-pub(super) fn rates(
-    loaded: &LoadedProblem,
-    answer: &Answer,
-    setting: &Setting,
-    nearer_than: f64,
-) -> Vec<f64> {
+/// The rates at which all rows of an answer are those of correct rods, to `nearer_than`; none for rods at rest, which
+/// fit any rate.
+pub(super) fn rates(loaded: &LoadedProblem, answer: &Answer, setting: &Setting, nearer_than: f64) -> Vec<f64> {
     if loaded.problem.kind != Kind::Rods {
         return Vec::new();
     }
@@ -40,10 +36,7 @@ pub(super) fn rates(
     };
     let fit = |rate: f64| fits(loaded, answer, &motion, rate, nearer_than);
     let rests = |rate: f64| fit(0.95 * rate) && fit(1.05 * rate);
-    candidates
-        .into_iter()
-        .filter(|rate| (0.01..=MOST).contains(rate) && fit(*rate) && !rests(*rate))
-        .collect()
+    candidates.into_iter().filter(|rate| (0.01..=MOST).contains(rate) && fit(*rate) && !rests(*rate)).collect()
 }
 
 /// The rates by the phase of the first rod that turns; a correct rod has the phase `due` at the first time.
@@ -105,7 +98,8 @@ fn golden(f: impl Fn(f64) -> f64, [mut low, mut high]: [f64; 2]) -> f64 {
     0.5 * (low + high)
 }
 
-/// True if another rate of time is detectable on a problem: its curve is not within the tolerance of the certified answer.
+/// True if another rate of time is detectable on a problem: its curve is not within the tolerance of the certified
+/// answer.
 pub(super) fn shows(loaded: &LoadedProblem, rate: f64) -> bool {
     let certified = Answer::certified(loaded);
     let nearer_than = 2.0 * loaded.problem.tolerance;

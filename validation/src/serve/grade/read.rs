@@ -46,21 +46,15 @@ pub fn read(
             },
         };
         last = lines.number();
-        let (keys, values) =
-            fields(&line, &layout, problem).map_err(|(at, message)| lines.error(at, message))?;
-        let place = |key: usize| {
-            layout.fields.iter().position(|field| *field == Field::Key(key)).map_or(0, |at| at + 1)
-        };
+        let (keys, values) = fields(&line, &layout, problem).map_err(|(at, message)| lines.error(at, message))?;
+        let place =
+            |key: usize| layout.fields.iter().position(|field| *field == Field::Key(key)).map_or(0, |at| at + 1);
         collector.add(last, &keys, values).map_err(|(key, message)| lines.error(place(key), message))?;
     }
 }
 
 /// The keys and values of a row. `Err` has the field from 1, or 0, and what is wrong.
-fn fields(
-    line: &str,
-    layout: &Layout,
-    problem: &LoadedProblem,
-) -> Result<(Vec<f64>, Vec<f64>), (usize, String)> {
+fn fields(line: &str, layout: &Layout, problem: &LoadedProblem) -> Result<(Vec<f64>, Vec<f64>), (usize, String)> {
     let key_count = problem.problem.kind.keys().len();
     let mut keys = vec![0.0; key_count];
     let mut values = vec![f64::NAN; problem.problem.columns.len() - key_count];

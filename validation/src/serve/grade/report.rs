@@ -27,8 +27,8 @@ pub struct Report {
     pub diagnosis: Vec<String>,
     /// Other remarks.
     pub remarks: Vec<String>,
-    /// True if every problem needs an answer: a missing one is then a failure, and otherwise neither a pass nor a failure, like a case
-    /// without data in `validate`.
+    /// True if every problem needs an answer: a missing one is then a failure, and otherwise neither a pass nor a
+    /// failure, like a case without data in `validate`.
     #[serde(skip)]
     pub all: bool,
 }
@@ -77,9 +77,7 @@ impl Report {
         match foreign.count() {
             0 => {}
             count => {
-                words += &format!(
-                    "; {count} FOREIGN (no problem of this program: its certified answer is unchecked)"
-                );
+                words += &format!("; {count} FOREIGN (no problem of this program: its certified answer is unchecked)");
             }
         }
         words
@@ -130,11 +128,7 @@ pub(super) const COLUMNS: [Column; 8] = [
     Column { title: "setting", numeric: false, of: |graded, _| graded.setting_text() },
     Column { title: "|p| off by", numeric: true, of: |graded, number| number(graded.length_drift) },
     Column { title: "C_b drift", numeric: true, of: |graded, number| number(graded.orbit_drift) },
-    Column {
-        title: "phase lost/period",
-        numeric: true,
-        of: |graded, number| number(graded.phase_lost_per_period),
-    },
+    Column { title: "phase lost/period", numeric: true, of: |graded, number| number(graded.phase_lost_per_period) },
 ];
 
 /// The table of verdicts, without problems that have no answer.
@@ -143,8 +137,7 @@ fn verdicts(report: &Report) -> ReportTable {
         let cells = COLUMNS.iter().map(|column| (column.of)(graded, number));
         [graded.verdict.word().to_owned(), graded.name.clone()].into_iter().chain(cells).collect()
     };
-    let titles: Vec<_> =
-        ["verdict", "problem"].into_iter().chain(COLUMNS.map(|column| column.title)).collect();
+    let titles: Vec<_> = ["verdict", "problem"].into_iter().chain(COLUMNS.map(|column| column.title)).collect();
     of_words(
         "grade",
         &format!("{} on {}", report.answers, report.reference),
@@ -160,8 +153,8 @@ pub(super) fn words(graded: &Graded) -> Vec<&str> {
     parts.into_iter().flatten().collect()
 }
 
-/// Findings from several problems, the remarks on each (equal ones once), all missing problems in one line, and the other
-/// remarks.
+/// Findings from several problems, the remarks on each (equal ones once), all missing problems in one line, and the
+/// other remarks.
 fn lines(report: &Report) -> Vec<String> {
     let mut said: Vec<(Verdict, String, Vec<&str>)> = Vec::new();
     for graded in report.problems.iter().filter(|graded| graded.verdict != Verdict::Missing) {
@@ -235,17 +228,14 @@ pub fn markdown(report: &Report) -> String {
         text += &format!("\n## {title}\n\n{caption}\n\n{}", table.cells_as_markdown());
         if k == 0 {
             text += "\n";
-            text += &lines(report)
-                .iter()
-                .map(|line| format!("- {}\n", markup::markdown(line)))
-                .collect::<String>();
+            text += &lines(report).iter().map(|line| format!("- {}\n", markup::markdown(line))).collect::<String>();
         }
     }
     readable(&text).into_owned()
 }
 
-/// The content of junit.xml: a test case for each problem. A missing answer is skipped, or a failure if all are needed; a problem
-/// that was not reached is a failure.
+/// The content of junit.xml: a test case for each problem. A missing answer is skipped, or a failure if all are needed;
+/// a problem that was not reached is a failure.
 pub fn junit(report: &Report) -> String {
     let failed = report.problems.iter().filter(|graded| report.is_failure(graded.verdict)).count();
     let skipped = report.problems.len() - failed - report.count(Verdict::Pass);

@@ -20,7 +20,8 @@ fn folder() -> String {
     format!("shearbed-problems-{VERSION}")
 }
 
-/// The archive's bytes: each problem's folder, `README.md`, `LICENSE`, `CITATION.cff`, and `SHA256SUMS` over all of them.
+/// The archive's bytes: each problem's folder, `README.md`, `LICENSE`, `CITATION.cff`, and `SHA256SUMS` over all of
+/// them.
 pub fn archive() -> Vec<u8> {
     let mut contents = BTreeMap::from([
         ("README.md".to_owned(), readme()),
@@ -73,15 +74,20 @@ fn header(path: &str, length: usize) -> [u8; BLOCK] {
 fn readme() -> String {
     let problems: String = all().iter().map(|def| format!("- `{}`: {}\n", def.name, def.title)).collect();
     format!(
-        "# Reference problems for rigid rods in shear flow\n\n{} problems with certified answers, version {VERSION}, format \
-         {FORMAT}. Any program that moves rigid rods (fibres, ellipsoids) by Jeffery's equation, or after Lee & Springer (1982), \
+        "# Reference problems for rigid rods in shear flow\n\n{} problems with certified answers, version {VERSION}, \
+            format \
+         {FORMAT}. Any program that moves rigid rods (fibres, ellipsoids) by Jeffery's equation, or after Lee & \
+         Springer (1982), \
          can be verified with them.\n\n\
-         Each folder has a description to read (`README.md`) and one for programs (`problem.json`), the start (`start.csv`, or pairs of \
+         Each folder has a description to read (`README.md`) and one for programs (`problem.json`), the start \
+         (`start.csv`, or pairs of \
          rods in `inputs.csv`) and the certified answer (`certified.csv`) with more digits than a double holds. \
          `sha256sum -c SHA256SUMS` checks the files.\n\n\
-         Write your answers to `mine/NAME/answer.csv` and compare them as the pages say, or with the program that made the \
+         Write your answers to `mine/NAME/answer.csv` and compare them as the pages say, or with the program that \
+         made the \
          problems: `shearbed grade shearbed-problems-{VERSION} mine`.\n\n## The problems\n\n{problems}\n\
-         ## Sources\n\nW. I. Lee and G. S. Springer, J. Reinforced Plastics and Composites 1, 279 (1982): the equations that are \
+         ## Sources\n\nW. I. Lee and G. S. Springer, J. Reinforced Plastics and Composites 1, 279 (1982): the \
+         equations that are \
          cited by number. G. B. Jeffery, Proc. R. Soc. A 102, 161 (1922): the motion of an ellipsoid.\n\n\
          Licence: `LICENSE`. How to cite: `CITATION.cff`.\n",
         all().len(),
@@ -92,7 +98,8 @@ fn citation() -> String {
     format!(
         "cff-version: 1.2.0\nmessage: \"If you use these problems, please cite them as below.\"\ntype: dataset\n\
          title: \"Reference problems for rigid rods in shear flow\"\nauthors:\n  - name: \"The shearbed authors\"\n\
-         version: \"{VERSION}\"\ncommit: \"{}\"\nlicense: MIT\nkeywords:\n  - verification\n  - Jeffery orbits\n  - fibre orientation\n",
+         version: \"{VERSION}\"\ncommit: \"{}\"\nlicense: MIT\nkeywords:\n  - verification\n  - Jeffery orbits\n  - \
+         fibre orientation\n",
         BUILD.commit,
     )
 }

@@ -1,5 +1,5 @@
-//! Validation of a problem before anything is compared with it: kind, metric and columns must match, and every number must be
-//! in its range. The JSON Schema (`schemas/problem.schema.json`) has the same rules.
+//! Validation of a problem before anything is compared with it: kind, metric and columns must match, and every number
+//! must be in its range. The JSON Schema (`schemas/problem.schema.json`) has the same rules.
 
 use super::folgar_tucker::FOURTH;
 use super::table::ReadError;
@@ -11,8 +11,8 @@ type Columns = &'static [&'static [&'static str]];
 
 /// A kind's metric, its smallest and largest tolerance, and its columns.
 ///
-/// Directions differ by at most π/2, and means and relative errors of a wrong answer are about 1: a larger tolerance would let
-/// anything pass.
+/// Directions differ by at most π/2, and means and relative errors of a wrong answer are about 1: a larger tolerance
+/// would let anything pass.
 fn form(kind: Kind) -> (Metric, [f64; 2], Columns) {
     const LEAST: f64 = 1e-300;
     match kind {
@@ -23,9 +23,7 @@ fn form(kind: Kind) -> (Metric, [f64; 2], Columns) {
             &[&["a11", "a22", "a33", "a12", "a13", "a23"], &["x1", "x2", "x3"], &FOURTH],
         ),
         Kind::Contact => (Metric::Relative, [LEAST, 0.1], &[&RATES, &ANGLES]),
-        Kind::Ensemble => {
-            (Metric::StandardErrors, [1.0, 10.0], &[&["x1", "x1_se", "x2", "x2_se", "x3", "x3_se"]])
-        }
+        Kind::Ensemble => (Metric::StandardErrors, [1.0, 10.0], &[&["x1", "x1_se", "x2", "x2_se", "x3", "x3_se"]]),
     }
 }
 
@@ -93,9 +91,10 @@ fn word<T: serde::Serialize>(value: &T) -> String {
 }
 
 fn between(key: &'static str, found: f64, [least, most]: [f64; 2]) -> Result<(), Refused> {
-    match (least..=most).contains(&found) {
-        true => Ok(()),
-        false => Err((key, format!("{found:e}: a number from {least:e} to {most:e} is allowed"))),
+    if (least..=most).contains(&found) {
+        Ok(())
+    } else {
+        Err((key, format!("{found:e}: a number from {least:e} to {most:e} is allowed")))
     }
 }
 
@@ -104,15 +103,13 @@ fn name(folder: &Path, problem: &Problem) -> Result<(), Refused> {
     let folder = folder.file_name().unwrap_or_default().to_string_lossy();
     let plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || matches!(c, '.' | '-');
     let good = problem.name.chars().all(plain) && !problem.name.starts_with(['.', '-']);
-    match good && problem.name == folder {
-        true => Ok(()),
-        false => Err((
+    if good && problem.name == folder {
+        Ok(())
+    } else {
+        Err((
             "name",
-            format!(
-                "{:?}: it must be the folder's, {folder:?}, in small letters, digits, - and .",
-                cut(&problem.name)
-            ),
-        )),
+            format!("{:?}: it must be the folder's, {folder:?}, in small letters, digits, - and .", cut(&problem.name)),
+        ))
     }
 }
 
@@ -129,10 +126,7 @@ fn texts(problem: &Problem) -> Result<(), Refused> {
             return Err((key, format!("a text of 1 to {LONGEST} characters is allowed")));
         }
     }
-    match problem.equations.is_empty() {
-        true => Err(("equations", "there must be one at least".to_owned())),
-        false => Ok(()),
-    }
+    if problem.equations.is_empty() { Err(("equations", "there must be one at least".to_owned())) } else { Ok(()) }
 }
 
 fn columns(problem: &Problem, lists: Columns) -> Result<(), Refused> {
@@ -143,11 +137,7 @@ fn columns(problem: &Problem, lists: Columns) -> Result<(), Refused> {
         let kind = word(&problem.kind);
         return Err((
             "columns",
-            format!(
-                "{:?}: a problem of the kind {kind} has {}",
-                cut(&problem.columns.join(",")),
-                allowed.join(" or ")
-            ),
+            format!("{:?}: a problem of the kind {kind} has {}", cut(&problem.columns.join(",")), allowed.join(" or ")),
         ));
     };
     // Angles need a time step, rates must have none.
@@ -164,9 +154,10 @@ fn columns(problem: &Problem, lists: Columns) -> Result<(), Refused> {
 fn spread(problem: &Problem) -> Result<(), Refused> {
     let found = problem.aspect_ratio_sd_percent;
     let unequal = problem.columns.iter().any(|column| column == "x1");
-    match unequal {
-        true => between("aspect_ratio_sd_percent", found, [0.0, MOST_SPREAD]),
-        false => between("aspect_ratio_sd_percent", found, [0.0, 0.0]),
+    if unequal {
+        between("aspect_ratio_sd_percent", found, [0.0, MOST_SPREAD])
+    } else {
+        between("aspect_ratio_sd_percent", found, [0.0, 0.0])
     }
 }
 
@@ -189,9 +180,10 @@ fn closed(problem: &Problem) -> Result<(), Refused> {
     closed.model.parameters().iter().try_for_each(allowed)?;
     let a = closed.start();
     let whole = (a.trace() - 1.0).abs() <= 1e-12 && a == a.transpose();
-    match whole && a.symmetric_eigenvalues().iter().all(|x| *x >= -1e-12) {
-        true => Ok(()),
-        false => Err((KEY, "start must be symmetric, with trace 1 and no eigenvalue below 0".to_owned())),
+    if whole && a.symmetric_eigenvalues().iter().all(|x| *x >= -1e-12) {
+        Ok(())
+    } else {
+        Err((KEY, "start must be symmetric, with trace 1 and no eigenvalue below 0".to_owned()))
     }
 }
 
@@ -202,14 +194,14 @@ fn times(problem: &Problem) -> Result<(), Refused> {
     if !ascending || !positive || times.is_empty() != (problem.kind == Kind::Contact) {
         return Err((
             "times_s",
-            "they must be above 0 and ascend, and there must be one at least, but of contacts none"
-                .to_owned(),
+            "they must be above 0 and ascend, and there must be one at least, but of contacts none".to_owned(),
         ));
     }
     let rate = problem.gradient_per_s.iter().flatten().fold(0.0, |a: f64, b| a.max(b.abs()));
-    match times.iter().all(|time| *time <= 1e300 && time * rate <= MOST_STRAIN) {
-        true => Ok(()),
-        false => Err(("times_s", format!("a strain of at most {MOST_STRAIN:e} is allowed"))),
+    if times.iter().all(|time| *time <= 1e300 && time * rate <= MOST_STRAIN) {
+        Ok(())
+    } else {
+        Err(("times_s", format!("a strain of at most {MOST_STRAIN:e} is allowed")))
     }
 }
 
@@ -256,9 +248,8 @@ pub(super) fn tables(loaded: &LoadedProblem) -> Result<(), ReadError> {
     if let Some(inputs) = &loaded.inputs {
         let path = dir.join("inputs.csv");
         for (row, pair) in inputs.rows.iter().enumerate() {
-            let wrong = |column: usize, message: String| {
-                ReadError::at(&path, row as u64 + 2, column as u64 + 1, message)
-            };
+            let wrong =
+                |column: usize, message: String| ReadError::at(&path, row as u64 + 2, column as u64 + 1, message);
             if pair[0] != row as f64 {
                 return Err(wrong(0, format!("snapshot = {}; {row} is next", pair[0])));
             }
@@ -281,26 +272,36 @@ pub(super) fn tables(loaded: &LoadedProblem) -> Result<(), ReadError> {
 
 /// Refuses the values of a certified row if they are out of range.
 fn certified(problem: &Problem, values: &[f64]) -> Result<(), String> {
-    let within = |values: &[f64]| match values.iter().all(|x| (0.0..=1.0).contains(x)) {
-        true => Ok(()),
-        false => Err("means of |p_i| and their errors are from 0 to 1".to_owned()),
+    let within = |values: &[f64]| {
+        if values.iter().all(|x| (0.0..=1.0).contains(x)) {
+            Ok(())
+        } else {
+            Err("means of |p_i| and their errors are from 0 to 1".to_owned())
+        }
     };
     match problem.kind {
         Kind::Rods => unit(values),
-        Kind::Contact => match values.chunks(values.len() / 2).all(|rod| rod.iter().any(|x| *x != 0.0)) {
-            true => Ok(()),
-            false => Err("all values of a rod are 0: there is no relative error".to_owned()),
-        },
-        Kind::Tensor if values.len() == 6 => match (values[..3].iter().sum::<f64>() - 1.0).abs() < 1e-9 {
-            true => Ok(()),
-            false => Err("a11 + a22 + a33 must be 1".to_owned()),
-        },
+        Kind::Contact => {
+            if values.chunks(values.len() / 2).all(|rod| rod.iter().any(|x| *x != 0.0)) {
+                Ok(())
+            } else {
+                Err("all values of a rod are 0: there is no relative error".to_owned())
+            }
+        }
+        Kind::Tensor if values.len() == 6 => {
+            if (values[..3].iter().sum::<f64>() - 1.0).abs() < 1e-9 {
+                Ok(())
+            } else {
+                Err("a11 + a22 + a33 must be 1".to_owned())
+            }
+        }
         Kind::Tensor if values.len() == FOURTH.len() => {
             let trace: f64 = [0, 10, 14].map(|at| values[at]).iter().sum();
             let mixed: f64 = [3, 5, 12].map(|at| values[at]).iter().sum();
-            match (trace + 2.0 * mixed - 1.0).abs() < 1e-9 {
-                true => Ok(()),
-                false => Err("a1111 + a2222 + a3333 + 2 (a1122 + a1133 + a2233) must be 1".to_owned()),
+            if (trace + 2.0 * mixed - 1.0).abs() < 1e-9 {
+                Ok(())
+            } else {
+                Err("a1111 + a2222 + a3333 + 2 (a1122 + a1133 + a2233) must be 1".to_owned())
             }
         }
         Kind::Tensor | Kind::Ensemble => within(values),
@@ -310,18 +311,12 @@ fn certified(problem: &Problem, values: &[f64]) -> Result<(), String> {
 /// Refuses a direction whose length differs from 1 by more than the rounding of three numbers near 1.
 pub(super) fn unit(p: &[f64]) -> Result<(), String> {
     let length = p.iter().map(|x| x * x).sum::<f64>().sqrt();
-    match (length - 1.0).abs() <= 4.0 * f64::EPSILON {
-        true => Ok(()),
-        false => Err(format!("|p| = {length}; it must be 1")),
-    }
+    if (length - 1.0).abs() <= 4.0 * f64::EPSILON { Ok(()) } else { Err(format!("|p| = {length}; it must be 1")) }
 }
 
 /// The start of a foreign text, for messages.
 pub(super) fn cut(text: &str) -> String {
     const MOST: usize = 300;
     let start: String = text.chars().take(MOST).collect();
-    match start.len() < text.len() {
-        true => start + "…",
-        false => start,
-    }
+    if start.len() < text.len() { start + "…" } else { start }
 }

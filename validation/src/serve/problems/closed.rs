@@ -41,7 +41,8 @@ const PROBLEMS: [ClosureProblem; 15] = [
     ft("closed-ft-hybrid-0.01", Closure::Hybrid, 0.01),
     ft("closed-ft-natural-0.01", Closure::Natural, 0.01),
     ft("closed-ft-ore-0.01", Closure::Ore, 0.01),
-    // ORW is not exactly isotropic where a is: its answer from there depends on the axes that an eigensolver happens to return.
+    // ORW is not exactly isotropic where a is: its answer from there depends on the axes that an eigensolver happens to
+    // return.
     shear("closed-ft-orw-0.01", Closure::Orw, Model::FolgarTucker { c_i: 0.01 }, APART),
     ft("closed-ft-ibof-0.01", Closure::Ibof, 0.01),
     ClosureProblem { times: TO_REST, ..ft("closed-ft-ibof-0.0311", Closure::Ibof, 0.0311) },
@@ -50,13 +51,10 @@ const PROBLEMS: [ClosureProblem; 15] = [
         aspect_ratio: 11.6,
         ..ft("closed-ft-hybrid-extension", Closure::Hybrid, 0.05)
     },
-    ClosureProblem {
-        gradient_per_s: ASKEW,
-        aspect_ratio: 3.0,
-        ..ft("closed-ft-ibof-mixed", Closure::Ibof, 0.02)
-    },
+    ClosureProblem { gradient_per_s: ASKEW, aspect_ratio: 3.0, ..ft("closed-ft-ibof-mixed", Closure::Ibof, 0.02) },
     shear("closed-rsc-ore-0.01", Closure::Ore, Model::Rsc { c_i: 0.01, kappa: 0.1 }, APART),
-    // The parameters of the other settings are published: see `published/README.md` and fiberoripy's comparison in perfect shear.
+    // The parameters of the other settings are published: see `published/README.md` and fiberoripy's comparison in
+    // perfect shear.
     shear(
         "closed-phelps-tucker-ibof",
         Closure::Ibof,
@@ -86,7 +84,8 @@ const TABLE: &str = include_str!("data/closed.csv");
 /// The largest difference of two solutions.
 const AGREED: f64 = 1e-12;
 
-/// Computes the table afresh, with twelve decimals: each value from two formulations of the equation with two integrators.
+/// Computes the table afresh, with twelve decimals: each value from two formulations of the equation with two
+/// integrators.
 ///
 /// # Errors
 ///
@@ -131,13 +130,15 @@ fn built(def: &ProblemDef, problem: &ClosureProblem) -> Built {
             name: def.name.into(),
             title: def.title.into(),
             summary: format!(
-                "The orientation tensor a_ij(t) by the model {} with the {} closure of a_ijkl, {} The answer is that of this closed \
+                "The orientation tensor a_ij(t) by the model {} with the {} closure of a_ijkl, {} The answer is that \
+                    of this closed \
                  equation, not of the distribution of rods, which the problems folgar-tucker-* ask for.",
                 model.name(),
                 closure.name(),
-                match problem.closed.start == RANDOM {
-                    true => "from a_ij = δ_ij/3 at t = 0.",
-                    false => "from the a_ij(0) of problem.json, whose axes are apart: the model needs them.",
+                if problem.closed.start == RANDOM {
+                    "from a_ij = δ_ij/3 at t = 0."
+                } else {
+                    "from the a_ij(0) of problem.json, whose axes are apart: the model needs them."
                 }
             ),
             kind: Kind::Tensor,
@@ -151,8 +152,10 @@ fn built(def: &ProblemDef, problem: &ClosureProblem) -> Built {
             columns: std::iter::once("time_s").chain(COLUMNS).map(String::from).collect(),
             metric: Metric::Absolute,
             tolerance: 1e-10,
-            because: "A fourth-order method comes to about 10 ε^(4/5) = 3e-12 per unit of strain, and an error fades within some 17 \
-                      units: 5e-11; twice that is left. Certified values are good to 1e-12: two writings of the equation with two \
+            because: "A fourth-order method comes to about 10 ε^(4/5) = 3e-12 per unit of strain, and an error fades \
+                within some 17 \
+                      units: 5e-11; twice that is left. Certified values are good to 1e-12: two writings of the \
+                      equation with two \
                       integrators agree to that. Closures differ from each other by 1e-4 to 1e-1."
                 .into(),
             equations: vec![model.source().into(), closure.source().into()],
@@ -205,9 +208,8 @@ mod tests {
             let off = |equation: Equation| {
                 // A failed solution counts as different.
                 let found = at(&equation, &problem.closed.start(), &times_s, 1e-11);
-                let apart = |all: Vec<Matrix3<f64>>| {
-                    all.iter().zip(&right).map(|(a, b)| (a - b).amax()).fold(0.0, f64::max)
-                };
+                let apart =
+                    |all: Vec<Matrix3<f64>>| all.iter().zip(&right).map(|(a, b)| (a - b).amax()).fold(0.0, f64::max);
                 found.map_or(f64::INFINITY, apart)
             };
             for closure in Closure::ALL.into_iter().filter(|closure| *closure != problem.closed.closure) {

@@ -1,8 +1,9 @@
 //! Problems of suspensions with collisions after Lee & Springer (1982).
 //!
-//! The means are a reference of this program, not certified, and a shipped table: they take 20 000 replicas and minutes, and a table is the same
-//! on every machine. `shearbed run fig7-n50 --set interaction.update=rotation --replicas 20000 --seed 1982` wrote `data/fig7-n50.csv`, and
-//! the same with fig4-n50 wrote `data/fig4-n50.csv`; rows at other times are left out.
+//! The means are a reference of this program, not certified, and a shipped table: they take 20 000 replicas and
+//! minutes, and a table is the same on every machine. `shearbed run fig7-n50 --set interaction.update=rotation
+//! --replicas 20000 --seed 1982` wrote `data/fig7-n50.csv`, and the same with fig4-n50 wrote `data/fig4-n50.csv`; rows
+//! at other times are left out.
 
 use super::asked::{AXES, COUETTE, period_s};
 use super::{Built, Ensemble, FORMAT, Kind, Metric, Problem, ProblemDef};
@@ -22,11 +23,9 @@ pub(super) fn problems() -> Vec<ProblemDef> {
         ProblemDef::new("lee-springer", "Colliding rods of one aspect ratio, 50 per cm³", |def| {
             built(def, 0.0, EQUAL)
         }),
-        ProblemDef::new(
-            "lee-springer-unequal",
-            "Colliding rods of unequal aspect ratios, 50 per cm³",
-            |def| built(def, 3.6, UNEQUAL),
-        ),
+        ProblemDef::new("lee-springer-unequal", "Colliding rods of unequal aspect ratios, 50 per cm³", |def| {
+            built(def, 3.6, UNEQUAL)
+        }),
     ]
 }
 
@@ -36,8 +35,7 @@ const FALSE_ALARM_RATE: f64 = 5e-3;
 fn built(def: &ProblemDef, sd_percent: f64, table: &str) -> Built {
     let rows: Vec<Vec<&str>> = table.lines().skip(1).map(|line| line.split(',').collect()).collect();
     let time_s = |row: &Vec<&str>| row[0].parse().map(|turns: f64| turns * period_s(ASPECT_RATIO));
-    let times_s: Vec<f64> =
-        rows.iter().map(time_s).collect::<Result<_, _>>().expect("a shipped table has numbers");
+    let times_s: Vec<f64> = rows.iter().map(time_s).collect::<Result<_, _>>().expect("a shipped table has numbers");
     let certified = rows.iter().zip(&times_s).map(|(row, time)| {
         let values = row[1..].iter().map(|text| (*text).to_owned());
         std::iter::once(format!("{time:?}")).chain(values).collect()
@@ -52,8 +50,10 @@ fn built(def: &ProblemDef, sd_percent: f64, table: &str) -> Built {
             version: super::version(def.name),
             name: def.name.into(),
             title: def.title.into(),
-            summary: "The model of Lee & Springer (1982) with the paper's rods in plane Couette flow: free rods turn by Jeffery's \
-                      equation, neighbours collide at random, and the mean projections x_i = ⟨|p_i|⟩ oscillate and die out. Your \
+            summary: "The model of Lee & Springer (1982) with the paper's rods in plane Couette flow: free rods turn \
+                by Jeffery's \
+                      equation, neighbours collide at random, and the mean projections x_i = ⟨|p_i|⟩ oscillate and \
+                      die out. Your \
                       answer is an average over replicas with standard errors, and is compared within both errors."
                 .into(),
             kind: Kind::Ensemble,
@@ -68,14 +68,17 @@ fn built(def: &ProblemDef, sd_percent: f64, table: &str) -> Built {
             metric: Metric::StandardErrors,
             tolerance: critical,
             because: format!(
-                "Student's t with {} degrees of freedom ({LEAST} replicas, the fewest allowed) at the level at which a right \
-                 answer fails one of the {} comparisons of both such problems with a probability of {FALSE_ALARM_RATE:e}; rounded up \
+                "Student's t with {} degrees of freedom ({LEAST} replicas, the fewest allowed) at the level at which \
+                    a right \
+                 answer fails one of the {} comparisons of both such problems with a probability of \
+                 {FALSE_ALARM_RATE:e}; rounded up \
                  to hundredths.",
                 LEAST - 1,
                 2 * 3 * rows.len()
             ),
             equations: vec![format!(
-                "the model of Lee & Springer (1982), eqs 4 to 14 and A.1 to A.13; in the step of a collision a rod turns about p × ṗ′ by |ṗ′|Δt. {REPLICAS} replicas of this \
+                "the model of Lee & Springer (1982), eqs 4 to 14 and A.1 to A.13; in the step of a collision a rod \
+                    turns about p × ṗ′ by |ṗ′|Δt. {REPLICAS} replicas of this \
                  project's simulator with update = \"rotation\", seed 1982, judged by the independent naive reference"
             )],
             axes: AXES.into(),
@@ -87,8 +90,8 @@ fn built(def: &ProblemDef, sd_percent: f64, table: &str) -> Built {
                 m: 3.0,
                 steps_per_period: 200,
                 certified_replicas: REPLICAS,
-                // A replica's means spread by up to 0.0322: `LEAST` replicas give 0.00102, known to 2.2 %. With this and the
-                // tolerance of 3.83 such errors, a bias of 0.008 fails with a probability of 99.9 %.
+                // A replica's means spread by up to 0.0322: `LEAST` replicas give 0.00102, known to 2.2 %. With this
+                // and the tolerance of 3.83 such errors, a bias of 0.008 fails with a probability of 99.9 %.
                 largest_standard_error: 0.0011,
             }),
         },

@@ -15,8 +15,7 @@ pub const SCHEMA: &str = include_str!("../../../schemas/problem.schema.json");
 /// Without `force`: a file in the way that no export wrote, or that was changed since. A file that cannot be written.
 pub fn export(dir: &Path, force: bool) -> Result<Vec<&'static str>, Refused> {
     let folder = ResultFolder::new(dir, "problems export", json!({}), force).as_argument();
-    let always =
-        |def: &ProblemDef| ["problem.json", "certified.csv"].map(|file| format!("{}/{file}", def.name));
+    let always = |def: &ProblemDef| ["problem.json", "certified.csv"].map(|file| format!("{}/{file}", def.name));
     // Checked before the problems are built, which takes seconds.
     folder.check(&all().iter().flat_map(always).collect::<Vec<_>>())?;
     output::probe(dir, 0)?;

@@ -1,4 +1,5 @@
-//! Problems of means over infinitely many rods with rotary diffusion D_r = C_I γ̇ (Folgar & Tucker 1984), without a closure.
+//! Problems of means over infinitely many rods with rotary diffusion D_r = C_I γ̇ (Folgar & Tucker 1984), without a
+//! closure.
 
 use super::asked::{AXES, COUETTE, SHEAR_RATE_PER_S};
 use super::table::twelve_decimals;
@@ -29,20 +30,33 @@ struct DiffusionProblem {
 
 #[rustfmt::skip]
 const PROBLEMS: [DiffusionProblem; 14] = [
-    problem("folgar-tucker-shear-0.1", "a_ij(t) in shear, C_I = 0.1", COUETTE, NEEDLE, 0.1, &[0.5, 1.0, 2.0, 4.0, 8.0], None),
-    problem("folgar-tucker-shear-0.0311", "a_ij(t) in shear, C_I = 0.0311", COUETTE, NEEDLE, 0.0311, &[1.0, 2.0, 4.0, 6.25, 10.0, 65.0], None),
-    problem("folgar-tucker-shear-0.01", "a_ij(t) in shear, C_I = 0.01", COUETTE, NEEDLE, 0.01, &[1.0, 2.0, 4.0, 7.0, 12.0, 20.0], Some("folgar-tucker-fourth-shear-0.01")),
-    problem("folgar-tucker-shear-0.001", "a_ij(t) in shear, C_I = 0.001", COUETTE, NEEDLE, 0.001, &[1.0, 3.0, 6.0, 10.0], None),
-    problem("folgar-tucker-rods-5", "a_ij(t) in shear, r_e = 5, C_I = 0.01", COUETTE, 5.0, 0.01, &[1.0, 4.0, 8.0, 16.0, 32.0], None),
-    problem("folgar-tucker-discs", "a_ij(t) in shear, r_e = 0.2, C_I = 0.02", COUETTE, 0.2, 0.02, &[1.0, 4.0, 8.0, 16.0], None),
-    problem("folgar-tucker-planar-extension", "a_ij(t) in planar extension, C_I = 0.01", PLANAR, NEEDLE, 0.01, &[0.5, 1.0, 2.0, 4.0, 8.0], None),
-    problem("folgar-tucker-uniaxial-extension", "a_ij(t) in uniaxial extension, C_I = 0.05", UNIAXIAL, 11.6, 0.05, &[0.5, 1.0, 2.0, 4.0, 8.0], None),
-    problem("folgar-tucker-mixed", "a_ij(t) in a flow without symmetry, C_I = 0.02", ASKEW, 3.0, 0.02, &[0.5, 1.0, 2.0, 4.0, 8.0], Some("folgar-tucker-fourth-mixed")),
-    problem("folgar-tucker-steady-shear-0.01", "Steady a_ij in shear, C_I = 0.01", COUETTE, NEEDLE, 0.01, &[], Some("folgar-tucker-fourth-steady")),
+    problem("folgar-tucker-shear-0.1", "a_ij(t) in shear, C_I = \
+        0.1", COUETTE, NEEDLE, 0.1, &[0.5, 1.0, 2.0, 4.0, 8.0], None),
+    problem("folgar-tucker-shear-0.0311", "a_ij(t) in shear, C_I = \
+        0.0311", COUETTE, NEEDLE, 0.0311, &[1.0, 2.0, 4.0, 6.25, 10.0, 65.0], None),
+    problem("folgar-tucker-shear-0.01", "a_ij(t) in shear, C_I = \
+        0.01", COUETTE, NEEDLE, 0.01, &[1.0, 2.0, 4.0, 7.0, 12.0, 20.0], Some("folgar-tucker-fourth-shear-0.01")),
+    problem("folgar-tucker-shear-0.001", "a_ij(t) in shear, C_I = \
+        0.001", COUETTE, NEEDLE, 0.001, &[1.0, 3.0, 6.0, 10.0], None),
+    problem("folgar-tucker-rods-5", "a_ij(t) in shear, r_e = 5, C_I = \
+        0.01", COUETTE, 5.0, 0.01, &[1.0, 4.0, 8.0, 16.0, 32.0], None),
+    problem("folgar-tucker-discs", "a_ij(t) in shear, r_e = 0.2, C_I = \
+        0.02", COUETTE, 0.2, 0.02, &[1.0, 4.0, 8.0, 16.0], None),
+    problem("folgar-tucker-planar-extension", "a_ij(t) in planar extension, C_I = \
+        0.01", PLANAR, NEEDLE, 0.01, &[0.5, 1.0, 2.0, 4.0, 8.0], None),
+    problem("folgar-tucker-uniaxial-extension", "a_ij(t) in uniaxial extension, C_I = \
+        0.05", UNIAXIAL, 11.6, 0.05, &[0.5, 1.0, 2.0, 4.0, 8.0], None),
+    problem("folgar-tucker-mixed", "a_ij(t) in a flow without symmetry, C_I = \
+        0.02", ASKEW, 3.0, 0.02, &[0.5, 1.0, 2.0, 4.0, 8.0], Some("folgar-tucker-fourth-mixed")),
+    problem("folgar-tucker-steady-shear-0.01", "Steady a_ij in shear, C_I = \
+        0.01", COUETTE, NEEDLE, 0.01, &[], Some("folgar-tucker-fourth-steady")),
     problem("folgar-tucker-steady-shear-0.001", "Steady a_ij in shear, C_I = 0.001", COUETTE, NEEDLE, 0.001, &[], None),
-    problem("folgar-tucker-steady-weak", "Steady a_ij in shear, r_e = 11.6, C_I = 0.0001", COUETTE, 11.6, 1e-4, &[], None),
-    problem("folgar-tucker-steady-stretched", "Steady a_ij in stretched shear, C_I = 0.005", STRETCHED, 20.0, 0.005, &[], None),
-    problem("folgar-tucker-steady-mixed", "Steady a_ij in a flow without symmetry, C_I = 0.02", ASKEW, 3.0, 0.02, &[], None),
+    problem("folgar-tucker-steady-weak", "Steady a_ij in shear, r_e = 11.6, C_I = \
+        0.0001", COUETTE, 11.6, 1e-4, &[], None),
+    problem("folgar-tucker-steady-stretched", "Steady a_ij in stretched shear, C_I = \
+        0.005", STRETCHED, 20.0, 0.005, &[], None),
+    problem("folgar-tucker-steady-mixed", "Steady a_ij in a flow without symmetry, C_I = \
+        0.02", ASKEW, 3.0, 0.02, &[], None),
 ];
 
 const fn problem(
@@ -102,9 +116,8 @@ pub fn certify() -> Result<String, NoAnswer> {
 }
 
 pub(super) fn problems() -> Vec<ProblemDef> {
-    let second = PROBLEMS
-        .iter()
-        .map(|problem| ProblemDef::new(problem.name, problem.title, |def| built(def, problem, 0..6)));
+    let second =
+        PROBLEMS.iter().map(|problem| ProblemDef::new(problem.name, problem.title, |def| built(def, problem, 0..6)));
     let fourth = PROBLEMS.iter().filter_map(|problem| {
         let title = if problem.times.is_empty() {
             "Steady a_ijkl in shear, C_I = 0.01"
@@ -146,8 +159,10 @@ fn built(def: &ProblemDef, problem: &DiffusionProblem, values: std::ops::Range<u
             name: def.name.into(),
             title: def.title.into(),
             summary: format!(
-                "{moments} of infinitely many rods of {rods} with the rotary diffusivity D_r = C_I γ̇, C_I = {}, γ̇ = (2D:D)^½, \
-                 {when}. The answer is that of the distribution, ∂ψ/∂t = D_r∇²ψ − ∇·(ṗψ) on the sphere with Jeffery's ṗ, and not \
+                "{moments} of infinitely many rods of {rods} with the rotary diffusivity D_r = C_I γ̇, C_I = {}, γ̇ = \
+                    (2D:D)^½, \
+                 {when}. The answer is that of the distribution, ∂ψ/∂t = D_r∇²ψ − ∇·(ṗψ) on the sphere with Jeffery's \
+                 ṗ, and not \
                  of a closure: a code with a closure of a_ijkl misses it by what the closure costs.",
                 problem.c_i
             ),
@@ -162,12 +177,15 @@ fn built(def: &ProblemDef, problem: &DiffusionProblem, values: std::ops::Range<u
             columns,
             metric: Metric::Absolute,
             tolerance: 1e-9,
-            because: "Diffusion makes every error on the way fade, so a fourth-order method comes to about 10 ε^(4/5) = 3e-12 per \
-                      unit of strain, 2e-10 for the longest time here; five times that is left for the number of harmonics or cells. \
+            because: "Diffusion makes every error on the way fade, so a fourth-order method comes to about 10 ε^(4/5) \
+                = 3e-12 per \
+                      unit of strain, 2e-10 for the longest time here; five times that is left for the number of \
+                      harmonics or cells. \
                       Certified values are good to 4e-12. Closures miss by 1e-3 to 1e-1."
                 .into(),
             equations: vec![
-                "Folgar & Tucker 1984, J. Reinf. Plast. Comp. 3, 98: the Fokker–Planck equation, by even spherical harmonics; \
+                "Folgar & Tucker 1984, J. Reinf. Plast. Comp. 3, 98: the Fokker–Planck equation, by even spherical \
+                    harmonics; \
                  A.1 for ṗ"
                     .into(),
             ],
@@ -200,17 +218,15 @@ mod tests {
         let residual = |problem: &DiffusionProblem, c_i: f64, transposed: bool| {
             let line = TABLE.lines().find(|line| line.starts_with(&format!("{},", problem.name))).unwrap();
             let (_, values) = certified_row(line);
-            let at =
-                |columns: &[&str], name: String| columns.iter().position(|column| *column == name).unwrap();
+            let at = |columns: &[&str], name: String| columns.iter().position(|column| *column == name).unwrap();
             let sorted = |mut indices: Vec<usize>| {
                 indices.sort_unstable();
                 format!("a{}", indices.iter().map(|i| (i + 1).to_string()).collect::<String>())
             };
             let two = |i: usize, j: usize| values[1 + at(&SECOND, sorted(vec![i, j]))];
             let four = |i, j, k, l| values[7 + at(&FOURTH, sorted(vec![i, j, k, l]))];
-            let l = |i: usize, j: usize| match transposed {
-                true => problem.gradient_per_s[j][i],
-                false => problem.gradient_per_s[i][j],
+            let l = |i: usize, j: usize| {
+                if transposed { problem.gradient_per_s[j][i] } else { problem.gradient_per_s[i][j] }
             };
             let r = problem.aspect_ratio;
             let shape = (r * r - 1.0) / (r * r + 1.0);
@@ -220,8 +236,7 @@ mod tests {
             let rate = pairs().map(|(i, j)| 2.0 * d(i, j) * d(i, j)).sum::<f64>().sqrt();
             let of = |(i, j): (usize, usize)| {
                 let turned = (0..3).map(|k| {
-                    w(i, k) * two(k, j) - two(i, k) * w(k, j)
-                        + shape * (d(i, k) * two(k, j) + two(i, k) * d(k, j))
+                    w(i, k) * two(k, j) - two(i, k) * w(k, j) + shape * (d(i, k) * two(k, j) + two(i, k) * d(k, j))
                 });
                 let stretched = pairs().map(|(k, n)| four(i, j, k, n) * d(k, n)).sum::<f64>();
                 let one = if i == j { 1.0 } else { 0.0 };

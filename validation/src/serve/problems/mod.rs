@@ -1,8 +1,9 @@
 //! Reference problems for any program: the question, the start, and the certified answer, as folders of files.
 //!
-//! `all` is the registry. `export` writes one folder per problem: `problem.json` ([`Problem`]), `start.csv` for given rods,
-//! `inputs.csv` for given pairs in contact, `certified.csv`, `README.md`. `read` reads such folders back. A folder with the
-//! name of a built-in problem is refused if it differs from that problem; a folder of another name is [`Origin::Foreign`].
+//! `all` is the registry. `export` writes one folder per problem: `problem.json` ([`Problem`]), `start.csv` for given
+//! rods, `inputs.csv` for given pairs in contact, `certified.csv`, `README.md`. `read` reads such folders back. A
+//! folder with the name of a built-in problem is refused if it differs from that problem; a folder of another name is
+//! [`Origin::Foreign`].
 
 mod archive;
 mod asked;
@@ -37,7 +38,8 @@ use std::sync::{LazyLock, OnceLock};
 /// The version of the file format.
 pub const FORMAT: u32 = 1;
 
-/// The problems whose certified answer was once wrong: the name, the version of the first right one, and what was wrong before.
+/// The problems whose certified answer was once wrong: the name, the version of the first right one, and what was wrong
+/// before.
 const CORRECTED: [(&str, u32, &str); 1] =
     [("folgar-tucker-planar-extension", 2, "up to 2026-11-26 its certified a_ij were wrong by up to 1.8e-4")];
 
@@ -61,7 +63,8 @@ fn is_first(version: &u32) -> bool {
 pub enum Kind {
     /// The directions of given rods at given times. Keys of a row: `time_s`, `rod`.
     Rods,
-    /// Means over infinitely many rods, free or with rotary diffusion, that are isotropic at t = 0. Key of a row: `time_s`.
+    /// Means over infinitely many rods, free or with rotary diffusion, that are isotropic at t = 0. Key of a row:
+    /// `time_s`.
     Tensor,
     /// The rates or angles of given pairs of rods after the contact rule. Key of a row: `snapshot`.
     Contact,
@@ -225,10 +228,8 @@ impl LoadedProblem {
     pub fn with_tolerance(mut self, tolerance: f64) -> Self {
         if tolerance > self.own_tolerance {
             self.problem.tolerance = tolerance;
-            self.problem.because = format!(
-                "--tolerance. The problem's own is {:e}: {}",
-                self.own_tolerance, self.problem.because
-            );
+            self.problem.because =
+                format!("--tolerance. The problem's own is {:e}: {}", self.own_tolerance, self.problem.because);
         }
         self
     }
@@ -268,11 +269,7 @@ pub struct ProblemDef {
 type Build = Box<dyn Fn(&ProblemDef) -> Built + Send + Sync>;
 
 impl ProblemDef {
-    fn new(
-        name: &'static str,
-        title: &'static str,
-        build: impl Fn(&Self) -> Built + Send + Sync + 'static,
-    ) -> Self {
+    fn new(name: &'static str, title: &'static str, build: impl Fn(&Self) -> Built + Send + Sync + 'static) -> Self {
         Self { name, title, build: Box::new(build), built: OnceLock::new() }
     }
 

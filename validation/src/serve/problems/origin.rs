@@ -10,8 +10,8 @@ use std::path::Path;
 ///
 /// # Errors
 ///
-/// A problem with the name of a built-in one that differs from it in any value: file, line, key or column, with the value that
-/// was found and this program's own.
+/// A problem with the name of a built-in one that differs from it in any value: file, line, key or column, with the
+/// value that was found and this program's own.
 pub(super) fn origin(loaded: &LoadedProblem, json: &str) -> Result<Origin, ReadError> {
     let Some(built) = named(&loaded.problem.name) else {
         return Ok(Origin::Foreign);
@@ -21,9 +21,8 @@ pub(super) fn origin(loaded: &LoadedProblem, json: &str) -> Result<Origin, ReadE
     let name = &loaded.problem.name;
     let version = loaded.problem.version;
     if let Some((_, now, wrong)) = CORRECTED.iter().find(|(of, now, _)| of == name && version < *now) {
-        let message = format!(
-            "version = {version}: {wrong}; version {now} is right, and `shearbed problems export` writes it"
-        );
+        let message =
+            format!("version = {version}: {wrong}; version {now} is right, and `shearbed problems export` writes it");
         return Err(ReadError::whole(&path("problem.json"), message));
     }
     let record = |loaded: &LoadedProblem| serde_json::to_value(&loaded.problem).unwrap_or_default();
@@ -50,7 +49,8 @@ pub(super) fn origin(loaded: &LoadedProblem, json: &str) -> Result<Origin, ReadE
 
 fn differs(name: &str, due: &str) -> String {
     format!(
-        "{name} is a problem of this program, which has {due} there; `shearbed problems export` writes it afresh, and a problem \
+        "{name} is a problem of this program, which has {due} there; `shearbed problems export` writes it afresh, and \
+            a problem \
          of your own needs a name of its own"
     )
 }
@@ -58,17 +58,14 @@ fn differs(name: &str, due: &str) -> String {
 fn same(path: &Path, name: &str, found: &Table, due: &Table) -> Result<(), ReadError> {
     for (at, (row, own)) in found.rows.iter().zip(&due.rows).enumerate() {
         if let Some(k) = (0..row.len()).find(|k| row[*k] != own[*k]) {
-            let message =
-                format!("{} = {}: {}", found.columns[k], row[k], differs(name, &own[k].to_string()));
+            let message = format!("{} = {}: {}", found.columns[k], row[k], differs(name, &own[k].to_string()));
             return Err(ReadError::at(path, at as u64 + 2, k as u64 + 1, message));
         }
     }
-    match found.rows.len() == due.rows.len() {
-        true => Ok(()),
-        false => {
-            let message =
-                format!("{} rows: {}", found.rows.len(), differs(name, &due.rows.len().to_string()));
-            Err(ReadError::whole(path, message))
-        }
+    if found.rows.len() == due.rows.len() {
+        Ok(())
+    } else {
+        let message = format!("{} rows: {}", found.rows.len(), differs(name, &due.rows.len().to_string()));
+        Err(ReadError::whole(path, message))
     }
 }

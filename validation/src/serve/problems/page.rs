@@ -16,7 +16,8 @@ pub(super) fn page(built: &Built) -> String {
         problem.axes
     );
     page += &format!(
-        "Write `answer.csv` with the columns `{}`, or one file a step size, `steps-100.csv`, `steps-200.csv` and so on, so \
+        "Write `answer.csv` with the columns `{}`, or one file a step size, `steps-100.csv`, `steps-200.csv` and so \
+            on, so \
          that an order can be read off.\n\n",
         problem.columns.join(",")
     );
@@ -46,7 +47,8 @@ fn asked(built: &Built) -> String {
     };
     match problem.kind {
         Kind::Rods => format!(
-            "The directions at t = {2} s of the {0} of `start.csv` (`rod,p1,p2,p3` at t = 0, of aspect ratio {1}). Numbers are \
+            "The directions at t = {2} s of the {0} of `start.csv` (`rod,p1,p2,p3` at t = 0, of aspect ratio {1}). \
+                Numbers are \
              doubles and are exact.",
             match built.start.len() {
                 1 => "rod".into(),
@@ -56,7 +58,8 @@ fn asked(built: &Built) -> String {
             times()
         ),
         Kind::Tensor if problem.closed.is_some() => format!(
-            "a_ij of the closed equation below, for rods of {}, at t = {} s. `closed` in problem.json has the closure, the model \
+            "a_ij of the closed equation below, for rods of {}, at t = {} s. `closed` in problem.json has the \
+                closure, the model \
              with its parameters, and a_ij at t = 0.",
             aspect_ratio(problem.aspect_ratio),
             times()
@@ -75,7 +78,8 @@ fn asked(built: &Built) -> String {
             times()
         ),
         Kind::Contact => format!(
-            "What the contact rule makes of each of the {} pairs of rods in `inputs.csv`: centres in mm, axes p of length 1 and \
+            "What the contact rule makes of each of the {} pairs of rods in `inputs.csv`: centres in mm, axes p of \
+                length 1 and \
              aspect ratios of rods a and b. Before the contact each rod turns by Jeffery's equation (A.1).{}",
             built.inputs.len(),
             match problem.time_step_s {
@@ -89,25 +93,31 @@ fn asked(built: &Built) -> String {
 
 /// The aspect ratio as text, such as "r_e = 11.6". From 1e9 on Λ is 1 in doubles: rods without thickness.
 fn aspect_ratio(r_e: f64) -> String {
-    match r_e < 1e9 {
-        true => format!("r_e = {r_e}"),
-        false => format!("r_e = {r_e:e} (Λ = 1)"),
-    }
+    if r_e < 1e9 { format!("r_e = {r_e}") } else { format!("r_e = {r_e:e} (Λ = 1)") }
 }
 
 fn model(problem: &Problem, ensemble: &Ensemble) -> String {
     format!(
-        "A replica is {} rods of length a = {} mm and r_e = {}{} in the cube [0, H]³, H = (N/n)^(1/3), at n = {} rods per cm³, with \
-         α = {} and m = {}, stepped with {} steps a period T = 2π(r_e + 1/r_e)/G of the mean r_e. P_c has no Δt, so the step is part \
+        "A replica is {} rods of length a = {} mm and r_e = {}{} in the cube [0, H]³, H = (N/n)^(1/3), at n = {} rods \
+            per cm³, with \
+         α = {} and m = {}, stepped with {} steps a period T = 2π(r_e + 1/r_e)/G of the mean r_e. P_c has no Δt, so \
+         the step is part \
          of the model. At t = 0 centres are uniform in the cube and axes isotropic (eq. 12).\n\n\
-         Each step, from the state at its start: every rod i finds its nearest neighbour j by centre distance s, without images, \
-         and draws R_i uniform in [0, 1); (i, j) is a candidate when (α/(s/a + α))^m > R_i (eqs 7 to 9). Candidates are taken \
-         closest first, each rod in one collision at most. A pair that is parallel, or has an arm of exactly 0, makes no contact. \
-         The two rods of a collision turn about p × ṗ′ by |ṗ′|Δt with ṗ′ of A.7 to A.13, their contact lines being infinite; all \
-         others take Jeffery's exact step. Then x_2 grows by G x_1 Δt; a rod that leaves at x_2 ≥ H comes back at x_2 − H with \
+         Each step, from the state at its start: every rod i finds its nearest neighbour j by centre distance s, \
+         without images, \
+         and draws R_i uniform in [0, 1); (i, j) is a candidate when (α/(s/a + α))^m > R_i (eqs 7 to 9). Candidates \
+         are taken \
+         closest first, each rod in one collision at most. A pair that is parallel, or has an arm of exactly 0, makes \
+         no contact. \
+         The two rods of a collision turn about p × ṗ′ by |ṗ′|Δt with ṗ′ of A.7 to A.13, their contact lines being \
+         infinite; all \
+         others take Jeffery's exact step. Then x_2 grows by G x_1 Δt; a rod that leaves at x_2 ≥ H comes back at x_2 \
+         − H with \
          x_1 = H√R, x_3 = H R′ (eq. 14), its axis and r_e kept.\n\n\
-         x_1, x_2, x_3 in the columns are the means over rods and replicas of |p_1|, |p_2|, |p_3|; `x1_se` is the standard error \
-         over replicas of x1. Take at least 1000 replicas, and enough for a standard error of {} or less. The reference means are \
+         x_1, x_2, x_3 in the columns are the means over rods and replicas of |p_1|, |p_2|, |p_3|; `x1_se` is the \
+         standard error \
+         over replicas of x1. Take at least 1000 replicas, and enough for a standard error of {} or less. The \
+         reference means are \
          from {} replicas.",
         ensemble.count,
         ensemble.length_mm,
@@ -128,11 +138,13 @@ fn model(problem: &Problem, ensemble: &Ensemble) -> String {
 fn metric(metric: Metric) -> &'static str {
     match metric {
         Metric::Angle => {
-            "The error of a row is the angle in rad between its axis and the certified one, or | |p| - 1 | if that is larger; p and -p are the same rod."
+            "The error of a row is the angle in rad between its axis and the certified one, or | |p| - 1 | if that is \
+                larger; p and -p are the same rod."
         }
         Metric::Absolute => "The error of a row is the largest difference from its certified values.",
         Metric::Relative => {
-            "The error of a row is, for rod a and for rod b, the length of the difference from the certified numbers (the \
+            "The error of a row is, for rod a and for rod b, the length of the difference from the certified numbers \
+                (the \
              columns `a_…` or `b_…`) over the length of the certified ones."
         }
         Metric::StandardErrors => {

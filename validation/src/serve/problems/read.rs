@@ -11,9 +11,9 @@ use std::path::Path;
 ///
 /// # Errors
 ///
-/// File, line and column of: another format version, an unknown key, keys that do not belong together or are out of range,
-/// a table with other columns, fields or keys than the problem has, a number that is not finite, a folder with the name of
-/// a built-in problem that differs from it, and a folder without any problem.
+/// File, line and column of: another format version, an unknown key, keys that do not belong together or are out of
+/// range, a table with other columns, fields or keys than the problem has, a number that is not finite, a folder with
+/// the name of a built-in problem that differs from it, and a folder without any problem.
 pub fn read(dir: &Path) -> Result<Vec<LoadedProblem>, ReadError> {
     let failed = |error: std::io::Error| ReadError::whole(dir, format!("cannot be read: {error}"));
     let mut folders = Vec::new();
@@ -25,8 +25,7 @@ pub fn read(dir: &Path) -> Result<Vec<LoadedProblem>, ReadError> {
     }
     folders.sort();
     if folders.is_empty() {
-        let message =
-            "no problems here: no folder in it has a problem.json; `shearbed problems export` writes them";
+        let message = "no problems here: no folder in it has a problem.json; `shearbed problems export` writes them";
         return Err(ReadError::whole(dir, message));
     }
     folders.iter().map(|folder| read_one(folder)).collect()
@@ -36,9 +35,8 @@ fn read_one(dir: &Path) -> Result<LoadedProblem, ReadError> {
     let path = dir.join("problem.json");
     let json = table::text(&path)?;
     let problem = problem(&path, &json)?;
-    let refused = |(key, message): check::Refused| {
-        ReadError::at(&path, line_of(&json, key), 0, format!("{key} = {message}"))
-    };
+    let refused =
+        |(key, message): check::Refused| ReadError::at(&path, line_of(&json, key), 0, format!("{key} = {message}"));
     check::check(dir, &problem).map_err(refused)?;
     let start = match problem.kind {
         Kind::Rods => start(&dir.join("start.csv"))?,
@@ -124,9 +122,9 @@ pub(super) fn keys(loaded: &LoadedProblem) -> Vec<Vec<f64>> {
     let times = &loaded.problem.times_s;
     let numbers = |table: &Table| (0..table.rows.len()).map(|i| vec![i as f64]).collect();
     match loaded.problem.kind {
-        Kind::Rods => (times.iter())
-            .flat_map(|time| (0..loaded.start.len()).map(|rod| vec![*time, rod as f64]))
-            .collect(),
+        Kind::Rods => {
+            (times.iter()).flat_map(|time| (0..loaded.start.len()).map(|rod| vec![*time, rod as f64])).collect()
+        }
         Kind::Tensor | Kind::Ensemble => times.iter().map(|time| vec![*time]).collect(),
         Kind::Contact => loaded.inputs.as_ref().map(numbers).unwrap_or_default(),
     }

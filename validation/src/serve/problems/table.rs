@@ -115,9 +115,12 @@ pub(super) fn tables_apart(a: &str, b: &str) -> f64 {
     assert_eq!(a.lines().next(), b.lines().next());
     assert_eq!(a.lines().count(), b.lines().count());
     let rows = a.lines().zip(b.lines()).skip(1).map(|(a, b)| (certified_row(a), certified_row(b)));
-    let each = rows.map(|((name, a), (other, b))| match name == other && a[0] == b[0] {
-        true => a.iter().zip(&b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max),
-        false => 1.0,
+    let each = rows.map(|((name, a), (other, b))| {
+        if name == other && a[0] == b[0] {
+            a.iter().zip(&b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+        } else {
+            1.0
+        }
     });
     each.fold(0.0, f64::max)
 }

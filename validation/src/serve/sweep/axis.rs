@@ -60,7 +60,8 @@ impl KeyValue {
     }
 }
 
-/// The largest number of parts of a key, as in `particles.orientation.phi_deg`; without a limit a key could nest tables without end.
+/// The largest number of parts of a key, as in `particles.orientation.phi_deg`; without a limit a key could nest tables
+/// without end.
 const DEEPEST: usize = 3;
 
 /// The texts before and after the first `=`; the first must be a key.
@@ -70,9 +71,9 @@ pub(crate) fn key_and_text<'a>(text: &'a str, shape: &str) -> Result<(&'a str, &
     let bare = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
     let is_key = |part: &str| !part.is_empty() && part.chars().all(bare);
     match (key.split('.').all(is_key), key.split('.').count()) {
-        (true, parts) if parts > DEEPEST => Err(format!(
-            "{key:?} is no key of a scene: it has {parts} parts, and at most {DEEPEST} are allowed"
-        )),
+        (true, parts) if parts > DEEPEST => {
+            Err(format!("{key:?} is no key of a scene: it has {parts} parts, and at most {DEEPEST} are allowed"))
+        }
         (true, _) => Ok((key, text)),
         _ => Err(format!("{key:?} is no key of a scene; {shape}")),
     }
@@ -112,9 +113,7 @@ fn value(text: &str) -> Result<Value, String> {
     let is_of_word = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
     let is_word = text.starts_with(char::is_alphabetic) && text.chars().all(is_of_word);
     let value = document::value(text).or_else(|| is_word.then(|| Value::String(text.to_owned())));
-    value.ok_or_else(|| {
-        format!("{text:?} is no value; expected a number, a word, or what a scene file has behind `=`")
-    })
+    value.ok_or_else(|| format!("{text:?} is no value; expected a number, a word, or what a scene file has behind `=`"))
 }
 
 /// The values; an error names one that stands there twice.
@@ -145,9 +144,7 @@ fn evenly(from: &str, to: &str, count: &str) -> Result<Vec<Value>, String> {
     let steps = match count.parse::<usize>() {
         Ok(count) if (2..=MAX_POINTS).contains(&count) => count as i128 - 1,
         _ => {
-            return Err(format!(
-                "{count:?} is no count of values; a whole number from 2 to {MAX_POINTS} is allowed"
-            ));
+            return Err(format!("{count:?} is no count of values; a whole number from 2 to {MAX_POINTS} is allowed"));
         }
     };
     let places = decimals(from).max(decimals(to));
@@ -212,8 +209,7 @@ mod tests {
         let deep = |parts| format!("{}=1", vec!["a"; parts].join("."));
         assert!(Axis::parse(&deep(3)).is_ok() && KeyValue::parse(&deep(3)).is_ok());
         for parts in [4, 30_000] {
-            for error in [Axis::parse(&deep(parts)).unwrap_err(), KeyValue::parse(&deep(parts)).unwrap_err()]
-            {
+            for error in [Axis::parse(&deep(parts)).unwrap_err(), KeyValue::parse(&deep(parts)).unwrap_err()] {
                 assert!(error.contains(&format!("it has {parts} parts, and at most 3 are allowed")));
             }
         }
@@ -221,8 +217,7 @@ mod tests {
 
     #[test]
     fn ends_of_a_range_without_a_short_decimal_are_the_numbers_given() {
-        for (from, to) in [("1e-300", "1e300"), ("0.1234567890123456", "7.7"), ("12345678901234567", "1e17")]
-        {
+        for (from, to) in [("1e-300", "1e300"), ("0.1234567890123456", "7.7"), ("12345678901234567", "1e17")] {
             let values = shown_values(&format!("a={from}:{to}:4"));
             let read = |text: &str| text.parse::<f64>().unwrap();
             assert_eq!((read(&values[0]), read(&values[3])), (read(from), read(to)));

@@ -1,6 +1,6 @@
 //! The folder of a sweep: `sweep.json` has the scene and the grid, `points/` a folder of tables with a record
-//! (`shearbed.json`) for each finished point, `sweep.csv` one row a point. Every file and every point's folder appears whole
-//! or not at all.
+//! (`shearbed.json`) for each finished point, `sweep.csv` one row a point. Every file and every point's folder appears
+//! whole or not at all.
 
 use super::axis::{Axis, shown};
 use super::{Pairs, Point};
@@ -17,8 +17,8 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-/// The inputs of a sweep, everything on which its results depend: this build, the scene without the swept keys, the grid, the
-/// warnings of the points' plans, and the checksums of files with initial directions.
+/// The inputs of a sweep, everything on which its results depend: this build, the scene without the swept keys, the
+/// grid, the warnings of the points' plans, and the checksums of files with initial directions.
 pub fn inputs(scene: &Scene, axes: &[Axis], points: &[Point], warnings: &[String]) -> Value {
     let mut inputs = build::record();
     inputs["scene"] = json!(scene.resolved());
@@ -66,8 +66,9 @@ impl Folder {
     ///
     /// # Errors
     ///
-    /// Another sweep in the folder, files of unknown origin under the names of a sweep's, or a point that was changed: all are left
-    /// as they are, unless `folder` has force, which empties the folder of sweeps. Another process at work in the folder.
+    /// Another sweep in the folder, files of unknown origin under the names of a sweep's, or a point that was changed:
+    /// all are left as they are, unless `folder` has force, which empties the folder of sweeps. Another process at work
+    /// in the folder.
     pub fn open(folder: ResultFolder, inputs: &Value, points: Points) -> Result<Self, Refused> {
         let first = vec![("sweep.json".to_owned(), format!("{inputs:#}\n"))];
         let begun = Record::new(folder.origin(), &first);
@@ -113,18 +114,20 @@ impl Folder {
     ///
     /// # Errors
     ///
-    /// A file in one of them that the sweep did not write, or a folder in the way of a point: force does not remove these.
+    /// A file in one of them that the sweep did not write, or a folder in the way of a point: force does not remove
+    /// these.
     fn others(&self) -> Result<Vec<String>, Refused> {
         let points = self.folder.dir().join("points");
-        let list = |dir: &Path| -> Result<Vec<PathBuf>, Refused> {
-            let failed = |reason| OutputError { path: dir.to_owned(), reason };
-            match fs::read_dir(dir) {
-                Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(Vec::new()),
-                entries => (entries.map_err(failed)?)
-                    .map(|entry| Ok(entry.map_err(failed)?.path()))
-                    .collect::<Result<Vec<_>, Refused>>(),
-            }
-        };
+        let list =
+            |dir: &Path| -> Result<Vec<PathBuf>, Refused> {
+                let failed = |reason| OutputError { path: dir.to_owned(), reason };
+                match fs::read_dir(dir) {
+                    Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(Vec::new()),
+                    entries => (entries.map_err(failed)?)
+                        .map(|entry| Ok(entry.map_err(failed)?.path()))
+                        .collect::<Result<Vec<_>, Refused>>(),
+                }
+            };
         let foreign = |path: &Path| {
             let what = "was not written by `shearbed sweep`: move it away";
             Refused(format!("{}: {what}; nothing was changed", path.shown()))
@@ -140,8 +143,7 @@ impl Folder {
                 }
                 continue;
             };
-            let name =
-                |file: &Path| file.file_name().and_then(|name| name.to_str()).unwrap_or_default().to_owned();
+            let name = |file: &Path| file.file_name().and_then(|name| name.to_str()).unwrap_or_default().to_owned();
             let is_own = |file: &&PathBuf| name(file) == RECORD || record.files.contains_key(&name(file));
             if let Some(file) = list(&path)?.iter().find(|file| !is_own(file)) {
                 return Err(foreign(file));
@@ -210,8 +212,7 @@ impl Folder {
         if own == record {
             return Ok(tables);
         }
-        let [found, own] =
-            [&record, &own].map(|text| serde_json::from_str::<Value>(text).unwrap_or_default());
+        let [found, own] = [&record, &own].map(|text| serde_json::from_str::<Value>(text).unwrap_or_default());
         let why = match difference(&found, &own) {
             Some((key, was, is)) => {
                 let key = key.strip_prefix("inputs.").unwrap_or(&key);
@@ -230,8 +231,9 @@ impl Folder {
         ))
     }
 
-    /// Writes `sweep.csv` from the tables of all points, which must all exist (the swept values, then the last row of each of the
-    /// tables), and the record of the sweep. Numbers are copied as texts from the tables. Returns the header and the rows.
+    /// Writes `sweep.csv` from the tables of all points, which must all exist (the swept values, then the last row of
+    /// each of the tables), and the record of the sweep. Numbers are copied as texts from the tables. Returns the
+    /// header and the rows.
     pub fn gather(&self, axes: &[Axis], values: &[Vec<toml::Value>]) -> Result<Rows, Refused> {
         let mut rows = Vec::new();
         let mut records = Vec::new();
@@ -242,8 +244,8 @@ impl Folder {
             let (record, text) = self.record(k, &tables).file();
             records.push((format!("{}/{record}", self.name(k)), text));
             for (name, text) in tables {
-                let (columns, last) = last_row(&text)
-                    .map_err(|why| Refused(format!("{}: {why}", self.point(k).join(&name).shown())))?;
+                let (columns, last) =
+                    last_row(&text).map_err(|why| Refused(format!("{}: {why}", self.point(k).join(&name).shown())))?;
                 for (column, value) in columns.into_iter().zip(last) {
                     // Every table has the time; it is copied once.
                     if !head.contains(&column) {

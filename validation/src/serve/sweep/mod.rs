@@ -21,8 +21,8 @@ pub struct Point {
     pub plan: Plan,
 }
 
-/// Every point of the grid, the last axis varying fastest, checked like a scene file. `fixed` are keys that all points have in
-/// place of the scene's own; `starts` belong to the scene's folder. An error says which point and why.
+/// Every point of the grid, the last axis varying fastest, checked like a scene file. `fixed` are keys that all points
+/// have in place of the scene's own; `starts` belong to the scene's folder. An error says which point and why.
 pub fn points(text: &str, starts: &Starts, fixed: &[KeyValue], axes: &[Axis]) -> Result<Vec<Point>, String> {
     let base = document(text)?;
     let count = count(axes)
@@ -151,8 +151,7 @@ mod tests {
         let over = ["interaction.alpha=0.1:0.7:7", "particles.count=10,20"];
         let axes = over.map(|text| Axis::parse(text).unwrap());
         let found =
-            points(text(), &Starts::default(), &[KeyValue::parse("ensemble.replicas=3").unwrap()], &axes)
-                .unwrap();
+            points(text(), &Starts::default(), &[KeyValue::parse("ensemble.replicas=3").unwrap()], &axes).unwrap();
         assert_eq!(found.len(), 14);
         for (k, point) in found.iter().enumerate() {
             let scene = point.plan.scene();
@@ -179,10 +178,7 @@ mod tests {
             assert!(error.contains("one of the two is allowed"), "{error}");
         }
         let error = one_owner(&[("--replicas", "ensemble.replicas"), ("--over", "ensemble")]).unwrap_err();
-        assert_eq!(
-            error,
-            "--over ensemble and --replicas: both set ensemble.replicas; one of the two is allowed"
-        );
+        assert_eq!(error, "--over ensemble and --replicas: both set ensemble.replicas; one of the two is allowed");
     }
 
     #[test]

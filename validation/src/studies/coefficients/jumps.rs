@@ -1,5 +1,5 @@
-//! Kicks compared with rotary diffusion of the same C_I: how far rods deviate from Jeffery's motion after a fixed strain, and
-//! their final orbits and phases.
+//! Kicks compared with rotary diffusion of the same C_I: how far rods deviate from Jeffery's motion after a fixed
+//! strain, and their final orbits and phases.
 
 mod show;
 
@@ -27,15 +27,9 @@ pub fn kicked(scene: &Scene, watch: Watch, replicas: u64) -> Vec<Shares> {
     (0..replicas).into_par_iter().map(one).collect()
 }
 
-/// The same for as many rods in the same steps that turn by Jeffery's equation and rotary diffusion of C_I. Their seeds are the
-/// effort's streams from `stream` on.
-pub fn diffused(
-    scene: &Scene,
-    c_i: f64,
-    watch: Watch,
-    replicas: u64,
-    (effort, stream): (&Effort, u64),
-) -> Vec<Shares> {
+/// The same for as many rods in the same steps that turn by Jeffery's equation and rotary diffusion of C_I. Their seeds
+/// are the effort's streams from `stream` on.
+pub fn diffused(scene: &Scene, c_i: f64, watch: Watch, replicas: u64, (effort, stream): (&Effort, u64)) -> Vec<Shares> {
     let aspect_ratio = scene.particles.aspect_ratio;
     let diffusion = Diffusion::isotropic(shape_factor(aspect_ratio), c_i, watch.strain);
     let one = |replica| {

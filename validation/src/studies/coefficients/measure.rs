@@ -140,7 +140,8 @@ pub struct Coefficients {
     pub koch: [Estimate; 2],
     /// The relative residual of a fit by these two.
     pub koch_misfit: Estimate,
-    /// The decay rate of X̄₁'s oscillation from an isotropic start, per period; none if the oscillation is lost in noise.
+    /// The decay rate of X̄₁'s oscillation from an isotropic start, per period; none if the oscillation is lost in
+    /// noise.
     pub damping_per_period: Option<Estimate>,
     /// Steady σ₁₂, N₁ and N₂ of the rods over μ_fiber G.
     pub stress: [Estimate; 3],
@@ -157,7 +158,8 @@ pub fn rows(amount: Amount, effort: &Effort) -> Vec<Coefficients> {
     settings.map(|setting| row(*setting, amount.replicas, effort)).collect()
 }
 
-/// Number of periods until the state is steady, and of the window: about equal numbers of collisions in each suspension.
+/// Number of periods until the state is steady, and of the window: about equal numbers of collisions in each
+/// suspension.
 fn periods(setting: Setting) -> u64 {
     (1.0 / (setting.n_a3 * setting.alpha / 0.5)).ceil().clamp(5.0, 50.0) as u64
 }

@@ -1,4 +1,5 @@
-//! The effect of collisions on ⟨pp⟩, measured in runs: C_I with measured ⟨pppp⟩ (no closure), J per collision, and the rods' stress.
+//! The effect of collisions on ⟨pp⟩, measured in runs: C_I with measured ⟨pppp⟩ (no closure), J per collision, and the
+//! rods' stress.
 
 pub mod jumps;
 mod measure;

@@ -16,8 +16,7 @@ pub(super) fn amplitude(run: &Run, label: impl Into<String>) -> Curve {
     let extremes = extremes(&times, &run.curve("x1", "").y);
     let heights = (0..extremes.len()).step_by(2).map(|at| {
         let beside = [at.checked_sub(1), Some(at + 1)];
-        let minima: Vec<usize> =
-            (beside.into_iter().flatten()).filter_map(|k| extremes.get(k).copied()).collect();
+        let minima: Vec<usize> = (beside.into_iter().flatten()).filter_map(|k| extremes.get(k).copied()).collect();
         let height = run.sample("x1", |x1| {
             let below: f64 = minima.iter().map(|k| x1(*k)).sum();
             x1(extremes[at]) - below / minima.len() as f64

@@ -4,9 +4,9 @@ use crate::present::plot::{Curve, Figure};
 use crate::present::study::ReportFigure;
 use crate::present::table::{Column, ReportTable, decimals, estimate, field, number};
 
-/// A row for each point of the first series, or against time for each quarter of a period at which a series has a value:
-/// free rods return every half period, so that whole and half periods alone would show no motion. One column for each
-/// series.
+/// A row for each point of the first series, or against time for each quarter of a period at which a series has a
+/// value: free rods return every half period, so that whole and half periods alone would show no motion. One column for
+/// each series.
 pub(super) fn table(figure: &ReportFigure) -> ReportTable {
     let picture = &figure.figure;
     let series = series(picture);
@@ -47,9 +47,7 @@ fn near(curve: &Curve, wanted: f64) -> Option<usize> {
 fn column<'a>(curve: Curve) -> Column<'a, f64> {
     let label = curve.label.clone();
     match curve.half_band.clone() {
-        Some(half) => {
-            estimate(label, move |wanted: &f64| near(&curve, *wanted).map(|k| (curve.y[k], half[k])))
-        }
+        Some(half) => estimate(label, move |wanted: &f64| near(&curve, *wanted).map(|k| (curve.y[k], half[k]))),
         None => number(label, decimals(3), move |wanted: &f64| near(&curve, *wanted).map(|k| curve.y[k])),
     }
 }

@@ -38,8 +38,7 @@ mod tests {
 
     #[test]
     fn a_synthetic_point_has_bars_of_95_percent() {
-        let point =
-            Measured { label: "synthetic".into(), observable: "x3", x: 1.0, y: 0.25, u_x: 0.01, u_y: 0.02 };
+        let point = Measured { label: "synthetic".into(), observable: "x3", x: 1.0, y: 0.25, u_x: 0.01, u_y: 0.02 };
         let points = series("synthetic", "x3", &[&point]);
         assert_eq!(points.label, "X̄_3, synthetic");
         assert_eq!((points.x, points.y), (vec![1.0], vec![0.25]));

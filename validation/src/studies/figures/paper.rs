@@ -13,8 +13,7 @@ const AMPLITUDE: &str = "amplitude A₁ of X̄₁ (rod lengths)";
 
 /// All figures, in the paper's order.
 pub(super) fn figures(runs: &Runs, effort: &Effort) -> Result<Vec<ReportFigure>, String> {
-    let mut figures =
-        vec![fig4(runs, effort)?, fig4_differences(runs)?, fig5(runs, effort)?, fig6_overlaid(runs)?];
+    let mut figures = vec![fig4(runs, effort)?, fig4_differences(runs)?, fig5(runs, effort)?, fig6_overlaid(runs)?];
     figures.extend(fig6(runs)?);
     figures.extend(amplitudes(runs)?);
     figures.push(fig11(runs)?);
@@ -57,7 +56,8 @@ fn fig4(runs: &Runs, effort: &Effort) -> Result<ReportFigure, String> {
         }
     }
     figure.caption = format!(
-        "The oscillation of X̄₁ about a plateau dies out, faster where n is larger. The maxima stay at multiples of T/2. \
+        "The oscillation of X̄₁ about a plateau dies out, faster where n is larger. The maxima stay at multiples of \
+            T/2. \
          {supplied}"
     );
     Ok(figure)
@@ -66,11 +66,11 @@ fn fig4(runs: &Runs, effort: &Effort) -> Result<ReportFigure, String> {
 /// The differences between the curves of Fig. 4, which are too close to be distinguished there.
 fn fig4_differences(runs: &Runs) -> Result<ReportFigure, String> {
     let first = runs.get("fig4-n20")?;
-    let curve =
-        |n: u32| Ok(runs.get(&format!("fig4-n{n}"))?.less(first, "x1", format!("n = {n} less n = 20")));
+    let curve = |n: u32| Ok(runs.get(&format!("fig4-n{n}"))?.less(first, "x1", format!("n = {n} less n = 20")));
     Ok(ReportFigure::new(
         ["fig4-differences", "Fig. 4: what a larger concentration changes in X̄₁"],
-        "Where n is larger, the maxima are lower and the minima higher. Replicas with the same random numbers are compared, so \
+        "Where n is larger, the maxima are lower and the minima higher. Replicas with the same random numbers are \
+            compared, so \
          that the band is narrower than those of the curves.",
         ["time t/T (periods)", "difference of X̄₁ (rod lengths)"],
     )
@@ -88,7 +88,8 @@ pub(super) fn answer(runs: &Runs) -> Result<String, String> {
         Ok::<_, String>(format!("{:.3} ± {:.3} at n = {n}", sample.mean, sample.half_width()))
     };
     Ok(format!(
-        "In Fig. 4 X̄₁ at its maximum at t/T = 2 is {}, {} and {} per cm³ (95 %); measured points are needed to say whether \
+        "In Fig. 4 X̄₁ at its maximum at t/T = 2 is {}, {} and {} per cm³ (95 %); measured points are needed to say \
+            whether \
          nature does so too.",
         at(20)?,
         at(50)?,
@@ -102,7 +103,8 @@ fn fig5(runs: &Runs, effort: &Effort) -> Result<ReportFigure, String> {
     let mut figure = against_time(words, "Fig. 5, eqs 4, 11", "", (PROJECTION, 1.0), curves);
     let supplied = measured("fig5", effort, &mut figure.figure)?;
     figure.caption = format!(
-        "The oscillations are damped out by t/T = 3, and X̄₁ stays where it is. X̄₃ still falls slowly and X̄₂ rises: the \
+        "The oscillations are damped out by t/T = 3, and X̄₁ stays where it is. X̄₃ still falls slowly and X̄₂ rises: \
+            the \
          orbits become steady later than the phases, and `steady-stays-put` judges what comes then. {supplied}"
     );
     Ok(figure)
@@ -157,7 +159,8 @@ const AMPLITUDES: [(u32, Compared, &str, &str); 4] = [
         7,
         &[("fig7-n20", "n = 20 cm⁻³"), ("fig7-n50", "n = 50 cm⁻³"), ("fig7-n100", "n = 100 cm⁻³")],
         "A₁ and the concentration",
-        "The amplitude decays faster where n is larger. A₁ is the height of a maximum of X̄₁ above the mean of the minima \
+        "The amplitude decays faster where n is larger. A₁ is the height of a maximum of X̄₁ above the mean of the \
+            minima \
          on its two sides: the paper defines it in a drawing that is not at hand, and this reading gives free rods of \
          one size the \"approximately 1/2\" of its text.",
     ),
@@ -169,12 +172,7 @@ const AMPLITUDES: [(u32, Compared, &str, &str); 4] = [
     ),
     (
         9,
-        &[
-            ("fig9-sd0", "σ = 0"),
-            ("fig9-sd1.8", "σ = 1.8 %"),
-            ("fig9-sd3.6", "σ = 3.6 %"),
-            ("fig9-sd7.2", "σ = 7.2 %"),
-        ],
+        &[("fig9-sd0", "σ = 0"), ("fig9-sd1.8", "σ = 1.8 %"), ("fig9-sd3.6", "σ = 3.6 %"), ("fig9-sd7.2", "σ = 7.2 %")],
         "A₁ and the spread of r_e, free rods",
         "Without collisions the amplitude decays by the spread of r_e alone: not at all at σ = 0, faster the larger σ \
          is. Where an oscillation is lost in noise, the difference of two extremes of the noise is left.",

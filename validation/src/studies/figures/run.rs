@@ -39,14 +39,14 @@ impl Run {
     fn values(&self, channel: &str, value: impl Fn(&dyn Fn(usize) -> f64) -> f64) -> Vec<f64> {
         let channel = Channel::named(channel);
         let observed = |replica: &Replica| channel.is_some_and(|channel| replica.mean(channel, 0).is_some());
-        let mean = |replica: &Replica, output| {
-            channel.and_then(|channel| replica.mean(channel, output)).unwrap_or(f64::NAN)
-        };
+        let mean =
+            |replica: &Replica, output| channel.and_then(|channel| replica.mean(channel, output)).unwrap_or(f64::NAN);
         let replicas = self.replicas.iter().filter(|replica| observed(replica));
         replicas.map(|replica| value(&|output| mean(replica, output))).collect()
     }
 
-    /// A channel's mean less that of another scene with the same outputs, from pairs of replicas with the same random numbers.
+    /// A channel's mean less that of another scene with the same outputs, from pairs of replicas with the same random
+    /// numbers.
     pub(super) fn less(&self, other: &Self, channel: &str, label: impl Into<String>) -> Curve {
         let times = self.times();
         let sample = |output: usize| {
@@ -73,8 +73,8 @@ pub(super) fn with_band(label: impl Into<String>, samples: impl Iterator<Item = 
 pub(super) struct Runs(BTreeMap<&'static str, Arc<Run>>);
 
 impl Runs {
-    /// Runs the scenes over all ranks; `finished` is called on the root for each replica, after its scene. `None` except on
-    /// the root.
+    /// Runs the scenes over all ranks; `finished` is called on the root for each replica, after its scene. `None`
+    /// except on the root.
     pub(super) fn new(plans: Vec<(&'static str, Plan)>, finished: &dyn Fn()) -> Result<Option<Self>, String> {
         let alike = |a: &(_, Plan), b: &(_, Plan)| same(a.1.scene(), b.1.scene());
         let first = |k: usize| plans.iter().position(|other| alike(other, &plans[k]));

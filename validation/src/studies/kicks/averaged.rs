@@ -1,5 +1,5 @@
-//! The core against the averaged motion: the same rods at the same places, with and without draws; and the update `angles`
-//! against `rotation`, with the same draws.
+//! The core against the averaged motion: the same rods at the same places, with and without draws; and the update
+//! `angles` against `rotation`, with the same draws.
 
 use crate::judge::case::Effort;
 use crate::judge::lab;
@@ -63,10 +63,8 @@ pub struct AveragedStep {
 /// Runs `replicas` replicas with this step and shortest arm.
 pub fn row(effort: &Effort, steps_per_period: u64, min_contact_arm: f64, replicas: u64) -> AveragedStep {
     let scene = scene(effort, steps_per_period, min_contact_arm);
-    let found: Vec<_> = (0..replicas)
-        .into_par_iter()
-        .map(|replica| apart(&scene, steps_per_period, |_| {}, replica))
-        .collect();
+    let found: Vec<_> =
+        (0..replicas).into_par_iter().map(|replica| apart(&scene, steps_per_period, |_| {}, replica)).collect();
     let sample = |value: fn(&Apart) -> f64| Sample::of(&found.iter().map(value).collect::<Vec<_>>());
     AveragedStep {
         steps_per_period,
@@ -102,12 +100,7 @@ pub struct BothUpdates {
 }
 
 /// Runs `replicas` replicas of the scene of the averaged motion with both updates for a period.
-pub fn both_updates(
-    effort: &Effort,
-    steps_per_period: u64,
-    min_contact_arm: f64,
-    replicas: u64,
-) -> BothUpdates {
+pub fn both_updates(effort: &Effort, steps_per_period: u64, min_contact_arm: f64, replicas: u64) -> BothUpdates {
     let x1 = |update| {
         let mut scene = scene(effort, steps_per_period, min_contact_arm);
         lab::interaction(&mut scene).update = update;

@@ -56,7 +56,8 @@ pub struct Counts {
     pub closing: [f64; 4],
     /// The same where it was opening.
     pub opening: [f64; 4],
-    /// The prediction for the closing ones by the formula for fresh arms, from the directions and collisions of the run.
+    /// The prediction for the closing ones by the formula for fresh arms, from the directions and collisions of the
+    /// run.
     pub fresh_closing: [f64; 4],
     /// The same prediction for the opening ones.
     pub fresh_opening: [f64; 4],
@@ -83,9 +84,7 @@ pub fn count(scene: &Scene, replica: u64, periods: Range<u64>, counted: Counted)
         for collision in collisions.iter().filter(|_| within) {
             let [a, b] = collision.rods.map(|rod| directions[rod]);
             counts.add((counted.opens)(&a, &b), (counted.angles)(collision));
-            for (fresh, chances) in
-                [&mut counts.fresh_closing, &mut counts.fresh_opening].into_iter().zip(chances)
-            {
+            for (fresh, chances) in [&mut counts.fresh_closing, &mut counts.fresh_opening].into_iter().zip(chances) {
                 for (fresh, chance) in fresh.iter_mut().zip(chances) {
                     *fresh += 2.0 * chance;
                 }
@@ -181,23 +180,14 @@ impl StepCounts {
 }
 
 /// Counts the kicks of a scene at `steps_per_period` over a window of periods.
-pub fn rates(
-    scene: &Scene,
-    steps_per_period: u64,
-    periods: Range<u64>,
-    replicas: u64,
-    counted: Counted,
-) -> StepCounts {
+pub fn rates(scene: &Scene, steps_per_period: u64, periods: Range<u64>, replicas: u64, counted: Counted) -> StepCounts {
     let mut scene = scene.clone();
     scene.time.steps_per_unit = Some(steps_per_period);
     scene.time.outputs_per_unit = Some(1);
     scene.time.duration = periods.end as f64;
     StepCounts {
         steps_per_period,
-        counts: (0..replicas)
-            .into_par_iter()
-            .map(|replica| count(&scene, replica, periods.clone(), counted))
-            .collect(),
+        counts: (0..replicas).into_par_iter().map(|replica| count(&scene, replica, periods.clone(), counted)).collect(),
         periods,
     }
 }

@@ -108,9 +108,7 @@ pub fn measure(effort: &Effort) -> Result<Limit, String> {
     Ok(Limit {
         steps: steps.map(|steps| rates(&scene, steps, 0..2, replicas[0], KICKS)).collect(),
         dense: dense_steps.map(|steps| rates(&dense, steps, 0..1, replicas[1], KICKS)).collect(),
-        periods: (0..6)
-            .map(|period| rates(&scene, PERIODS_AT, period..period + 1, replicas[0], KICKS))
-            .collect(),
+        periods: (0..6).map(|period| rates(&scene, PERIODS_AT, period..period + 1, replicas[0], KICKS)).collect(),
         tails: tails(&scene, replicas[0]),
         averaged: arms
             .into_iter()
@@ -174,7 +172,8 @@ fn steps(study: &Limit) -> ReportTable {
     ReportTable::new(
         ["kick-rates", "Kicks per rod and period against the step"],
         format!(
-            "Scene {SCENE} (σ = 3.6 %), t/T from 0 to 2, {} replicas. A kick is |ṗ′ − ṗ|Δt. Kicks above 0.1 rad are also told \
+            "Scene {SCENE} (σ = 3.6 %), t/T from 0 to 2, {} replicas. A kick is |ṗ′ − ṗ|Δt. Kicks above 0.1 rad are \
+                also told \
              apart by what the liquid does to the gap between the contact points, and stand beside the formula for \
              fresh arms with the directions of the run. `kick-formula`, `kick-memory`",
             study.replicas[0]
@@ -209,7 +208,8 @@ fn periods(study: &Limit) -> ReportTable {
     ReportTable::new(
         ["kicks-by-period", "Kicks per rod and period as the rods align"],
         format!(
-            "Scene {SCENE} (σ = 3.6 %) at {PERIODS_AT} steps a period, {} replicas. The rate follows the directions: the formula \
+            "Scene {SCENE} (σ = 3.6 %) at {PERIODS_AT} steps a period, {} replicas. The rate follows the directions: \
+                the formula \
              is evaluated with those of the run.",
             study.replicas[0]
         ),
@@ -222,7 +222,8 @@ fn exponents(study: &Limit) -> ReportTable {
     type Tail = (String, Exponent);
     ReportTable::new(
         ["kick-tail", "The exponent of the kicks' tail, by Hill's estimate"],
-        "Rods of Fig. 4 (σ = 3.6 %). From all kicks above a threshold chosen beforehand; the standard error is α over the root of their number. \
+        "Rods of Fig. 4 (σ = 3.6 %). From all kicks above a threshold chosen beforehand; the standard error is α over \
+            the root of their number. \
          An arm of any size gives 1; a shortest arm cuts the tail off. `kick-tail`",
         &study.tails,
         vec![
@@ -261,7 +262,8 @@ fn update(study: &Limit) -> ReportTable {
         ["updates", "The update `angles` against `rotation`"],
         format!(
             "50 rods at 400 per cm³, r_e = 11.6, t/T = 1, {} replicas with the same draws. A kick of finite angle ends \
-             elsewhere by either update, however short the step: with arms of every size the two have different limits. \
+             elsewhere by either update, however short the step: with arms of every size the two have different \
+             limits. \
              `updates-in-the-limit`",
             2 * study.replicas[1]
         ),
@@ -287,7 +289,8 @@ fn figure(study: &Limit) -> ReportFigure {
         ["kick-rates", "Kicks above 0.1 rad per rod and period against the step"],
         format!(
             "Scene {SCENE}, t/T from 0 to 2, with 95 % bars. Kicks of closing pairs come at the formula's rate at any \
-             step; those of opening pairs die out as Δt → 0, because a pair's earlier collisions push the arm away from \
+             step; those of opening pairs die out as Δt → 0, because a pair's earlier collisions push the arm away \
+             from \
              0."
         ),
         ["log steps per period", "kicks per rod and period"],

@@ -33,14 +33,7 @@ fn the_problem_is_that_of_fig_7() {
     let (ours, rods) = (NaiveProblem::paper(SEED, 0), &scene.particles);
     let theirs = scene.interaction.as_ref().expect("interacting");
     assert_eq!(
-        [
-            ours.length_mm,
-            ours.aspect_ratio,
-            ours.aspect_ratio_sd_percent,
-            ours.alpha,
-            ours.m,
-            ours.min_contact_arm
-        ],
+        [ours.length_mm, ours.aspect_ratio, ours.aspect_ratio_sd_percent, ours.alpha, ours.m, ours.min_contact_arm],
         [
             rods.length_mm,
             rods.aspect_ratio,

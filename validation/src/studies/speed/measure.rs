@@ -28,9 +28,8 @@ pub fn measure(amount: Amount) -> Result<Speed, String> {
     let one = pool(1)?;
     let by_rods: Vec<_> =
         (RODS.iter()).map(|rods| one.install(|| step(*rods, 50.0, amount))).collect::<Result<_, _>>()?;
-    let by_concentration = (CONCENTRATIONS_PER_CM3.iter())
-        .map(|n| one.install(|| step(1000, *n, amount)))
-        .collect::<Result<_, _>>()?;
+    let by_concentration =
+        (CONCENTRATIONS_PER_CM3.iter()).map(|n| one.install(|| step(1000, *n, amount))).collect::<Result<_, _>>()?;
     let all = pool(threads)?;
     let mut checks = vec![
         free("free rods of one r_e, per rod and output", 0.0, Target::AtMost(1.2), &one, amount),
@@ -140,14 +139,9 @@ fn free_plan(rods: usize, outputs: u64, sd_percent: f64) -> Plan {
     lab::plan(&scene)
 }
 
-/// The time of an output of free rods, beside the roots and quotients in it: bringing a direction to length 1 takes one of each.
-fn free(
-    what: &'static str,
-    sd_percent: f64,
-    target: Target,
-    one: &rayon::ThreadPool,
-    amount: Amount,
-) -> Check {
+/// The time of an output of free rods, beside the roots and quotients in it: bringing a direction to length 1 takes one
+/// of each.
+fn free(what: &'static str, sd_percent: f64, target: Target, one: &rayon::ThreadPool, amount: Amount) -> Check {
     const RODS: usize = 10_000;
     let run = |outputs| {
         let plan = free_plan(RODS, outputs, sd_percent);
@@ -165,7 +159,8 @@ fn free(
         target,
         unit: "ns",
         behind: format!(
-            "10⁴ rods, projections with standard errors, one core; {:.2} ns with the draws and 51 outputs; a root and a quotient alone \
+            "10⁴ rods, projections with standard errors, one core; {:.2} ns with the draws and 51 outputs; a root and \
+                a quotient alone \
              take {:.2} ns",
             per_rod(few, 51.0),
             per_rod(roots, 100.0)
@@ -232,8 +227,7 @@ fn efficiency(
 ) -> Result<Check, String> {
     let plan = lab::plan(scene);
     ensemble::run(&plan).map_err(|error| error.to_string())?;
-    let [alone, shared] =
-        pools.map(|pool| least(amount, || pool.install(|| seconds(|| ensemble::run(&plan)))));
+    let [alone, shared] = pools.map(|pool| least(amount, || pool.install(|| seconds(|| ensemble::run(&plan)))));
     let threads = pools[1].current_num_threads();
     Ok(Check {
         what,
@@ -259,7 +253,8 @@ fn held() -> Check {
         target: Target::AtMost(80.0),
         unit: "bytes",
         behind: format!(
-            "10⁶ rods; place, direction and its step are 52, the rest is the search and collisions; {:.1} with an r_e of its own",
+            "10⁶ rods; place, direction and its step are 52, the rest is the search and collisions; {:.1} with an r_e \
+                of its own",
             bytes(3.6)
         ),
     }

@@ -32,7 +32,8 @@ const SHOWN: [Shown; 6] = [
     Shown {
         name: "step-limit-turning",
         title: "The longest step GΔt with which every rod turns",
-        caption: "Of 512 rods in the plane of shear each turns forward in a step, by less than half a turn; half a turn is rest. \
+        caption: "Of 512 rods in the plane of shear each turns forward in a step, by less than half a turn; half a \
+            turn is rest. \
                   Exact motion has half a period.",
         property: Property::Turning,
         picture: Some(["The longest step with which every rod turns", "step-limit-turning"]),
@@ -54,14 +55,16 @@ const SHOWN: [Shown; 6] = [
     Shown {
         name: "step-limit-length",
         title: "The longest step GΔt with a bounded length",
-        caption: "|p| < 1.5 after ten periods in the plane of shear. The ladder's factor is 1.25: narrower gaps are not seen.",
+        caption: "|p| < 1.5 after ten periods in the plane of shear. The ladder's factor is 1.25: narrower gaps are \
+            not seen.",
         property: Property::Length,
         picture: None,
     },
     Shown {
         name: "step-limit-orbit",
         title: "The longest step GΔt that keeps the orbit",
-        caption: "C_b within 0.1 of its start after ten periods. The ladder's factor is 1.25: narrower gaps are not seen. There is \
+        caption: "C_b within 0.1 of its start after ten periods. The ladder's factor is 1.25: narrower gaps are not \
+            seen. There is \
                   no closed form.",
         property: Property::Orbit,
         picture: None,
@@ -70,8 +73,7 @@ const SHOWN: [Shown; 6] = [
 
 /// A table for each property, with a picture if there is a theory.
 pub fn exhibits(subjects: &[Integrator]) -> impl Iterator<Item = Exhibit> {
-    let stepped: Vec<_> =
-        subjects.iter().filter(|subject| matches!(subject.theory, Theory::Order(_))).collect();
+    let stepped: Vec<_> = subjects.iter().filter(|subject| matches!(subject.theory, Theory::Order(_))).collect();
     SHOWN.iter().map(move |shown| Exhibit {
         figure: shown.picture.map(|picture| figure(shown, picture, &stepped)),
         table: Some(table(shown, &stepped)),
@@ -102,8 +104,7 @@ fn table(shown: &Shown, subjects: &[&Integrator]) -> ReportTable {
     }
     let columns = ratios.iter().map(|r| format!("r_e = {}", ratio(*r)));
     let columns: Vec<_> = std::iter::once("subject".to_owned()).chain(columns).collect();
-    let rest =
-        format!("Integrators with fixed steps that are not listed have no limit up to {:.0}.", ladder.most);
+    let rest = format!("Integrators with fixed steps that are not listed have no limit up to {:.0}.", ladder.most);
     of_words(shown.name, shown.title, &format!("{} {rest}", shown.caption), &columns, rows)
 }
 
@@ -132,7 +133,8 @@ fn figure(shown: &Shown, [title, case]: [&str; 2], subjects: &[&Integrator]) -> 
     ReportFigure::new(
         [shown.name, &format!("{title}: theory and bisection")],
         "Points by bisection between 512 rods; the numbers are in the table of the same name. A point that is \
-         missing has no limit up to GΔt = 941. Projected RK4 lies on RK4 in p, and in the plane of shear RKMK4 on RK4 in \
+         missing has no limit up to GΔt = 941. Projected RK4 lies on RK4 in p, and in the plane of shear RKMK4 on RK4 \
+         in \
          angles.",
         ["log aspect ratio r_e", "log longest step GΔt"],
     )

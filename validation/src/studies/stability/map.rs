@@ -98,8 +98,9 @@ pub fn round_off_at_once(aspect_ratio: f64, turns: f64) -> f64 {
 }
 
 impl Run {
-    /// The largest error of a direction by rounding alone. With steps the time itself is rounded, φ moves by max(r_e, 1/r_e)
-    /// times the phase, and thousands of roundings add up: 1000 ε max(r_e, 1/r_e) max(t/T, 1), as in `work_precision::order`.
+    /// The largest error of a direction by rounding alone. With steps the time itself is rounded, φ moves by max(r_e,
+    /// 1/r_e) times the phase, and thousands of roundings add up: 1000 ε max(r_e, 1/r_e) max(t/T, 1), as in
+    /// `work_precision::order`.
     pub fn round_off(&self) -> f64 {
         let stretch = self.aspect_ratio.max(1.0 / self.aspect_ratio);
         match self.setting {
@@ -174,10 +175,7 @@ pub fn by_step(theory: Theory, aspect_ratio: f64, step: f64, most_steps: u64) ->
         _ => {
             let wanted = (1.0 / step).clamp(20.0, most_steps as f64).round();
             let whole = (wanted * step).round();
-            let turns = match whole >= 1.0 {
-                true => whole + flip(aspect_ratio),
-                false => wanted * step,
-            };
+            let turns = if whole >= 1.0 { whole + flip(aspect_ratio) } else { wanted * step };
             (turns, Setting::Steps((turns / step).round().max(1.0) as u64))
         }
     };
@@ -208,7 +206,8 @@ pub fn by_duration(
     Ok(Run { aspect_ratio, turns, end, setting })
 }
 
-/// GΔt of the runs by start and by duration: a tenth of explicit Euler's limit, and below the limit of every other method.
+/// GΔt of the runs by start and by duration: a tenth of explicit Euler's limit, and below the limit of every other
+/// method.
 pub const STRAIN_PER_STEP: f64 = 0.1;
 
 /// The tolerance of the runs by start and by duration.

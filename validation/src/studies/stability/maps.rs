@@ -34,8 +34,8 @@ fn limit(subject: &str) -> Vec<(f64, f64)> {
     points.filter(|(column, _)| column.is_finite()).collect()
 }
 
-/// A sentence on the worst and the best method with steps: the longest step of the grid up to which it is right at every aspect
-/// ratio of the picture.
+/// A sentence on the worst and the best method with steps: the longest step of the grid up to which it is right at
+/// every aspect ratio of the picture.
 pub fn answer(figures: &[ReportFigure]) -> String {
     let grid = figures.first().and_then(|figure| figure.figure.grid.as_ref());
     let maps = grid.iter().flat_map(|grid| &grid.maps);
@@ -85,9 +85,11 @@ fn steps(subjects: &[Integrator]) -> ReportFigure {
     figure(
         ["stability-steps", "Stability by step and aspect ratio"],
         format!(
-            "Runs end during a flip, at φ = 1 rad, after one period or twenty steps, whichever is more; at short steps after \
+            "Runs end during a flip, at φ = 1 rad, after one period or twenty steps, whichever is more; at short \
+                steps after \
              {MOST_STEPS} of them. Right: within 10⁻² rad of the closed form. The black line is theory's longest step \
-             without overtaking, where there is one: a step is inaccurate long before. The exact propagator takes no steps \
+             without overtaking, where there is one: a step is inaccurate long before. The exact propagator takes no \
+             steps \
              and is right everywhere."
         ),
         ["step GΔt", "aspect ratio r_e"],
@@ -118,8 +120,7 @@ pub(super) fn with_tolerance(subject: &Integrator, r: f64, tolerance: f64) -> Ce
 }
 
 fn tolerances(subjects: &[Integrator]) -> ReportFigure {
-    let row =
-        |subject: &Integrator, r| classes(tolerances_from_fine().map(|t| with_tolerance(subject, r, t)));
+    let row = |subject: &Integrator, r| classes(tolerances_from_fine().map(|t| with_tolerance(subject, r, t)));
     let map = |subject: &Integrator| Map {
         title: subject.name.clone(),
         cells: ASPECT_RATIOS.map(|r| row(subject, r)).into(),
@@ -144,8 +145,7 @@ fn power(value: f64) -> String {
 }
 
 fn cell(subject: &Integrator, r: f64, periods: f64, end: Place, most_steps: u64) -> Cell {
-    map::by_duration(subject.theory, r, periods, end, most_steps)
-        .map_or_else(Cell::not_run, |run| run.of(subject))
+    map::by_duration(subject.theory, r, periods, end, most_steps).map_or_else(Cell::not_run, |run| run.of(subject))
 }
 
 fn names(subjects: &[Integrator]) -> Vec<String> {
@@ -167,12 +167,7 @@ fn starts(subjects: &[Integrator]) -> ReportFigure {
         ["stability-starts", "Stability at the poles, in the flip, and on orbits from C = 0 to ∞"],
         format!(
             "The end of one period and a flip. Places: {}. GΔt = {}, tolerance {:.0e}.",
-            places
-                .clone()
-                .enumerate()
-                .map(|(k, name)| format!("{} {name}", k + 1))
-                .collect::<Vec<_>>()
-                .join("; "),
+            places.clone().enumerate().map(|(k, name)| format!("{} {name}", k + 1)).collect::<Vec<_>>().join("; "),
             map::STRAIN_PER_STEP,
             map::TOLERANCE
         ),
@@ -231,8 +226,7 @@ fn classes(cells: impl IntoIterator<Item = Cell>) -> Vec<usize> {
 
 impl Fate {
     /// The classes that a map distinguishes.
-    const CLASSES: [&'static str; 6] =
-        ["right", "stable but wrong", "length lost", "not finite", "refused", "not run"];
+    const CLASSES: [&'static str; 6] = ["right", "stable but wrong", "length lost", "not finite", "refused", "not run"];
 
     /// The index of the outcome's class in [`Self::CLASSES`]: the first two outcomes are right.
     fn class(self) -> usize {

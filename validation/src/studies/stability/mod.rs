@@ -1,5 +1,5 @@
-//! Limits of stability of integrators of a free rod: maps of outcomes over wide ranges, and the longest steps by bisection
-//! compared with theory. Derived in `docs/src/developer/step-limits.md`.
+//! Limits of stability of integrators of a free rod: maps of outcomes over wide ranges, and the longest steps by
+//! bisection compared with theory. Derived in `docs/src/developer/step-limits.md`.
 
 pub mod corners;
 pub mod limit_study;

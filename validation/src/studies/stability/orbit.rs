@@ -1,5 +1,5 @@
-//! A rod at a place of its orbit, from the poles to the plane of shear, without angles: every component keeps all its digits
-//! at any aspect ratio.
+//! A rod at a place of its orbit, from the poles to the plane of shear, without angles: every component keeps all its
+//! digits at any aspect ratio.
 
 use nalgebra::{UnitVector3, Vector3};
 use std::f64::consts::TAU;

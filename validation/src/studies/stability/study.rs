@@ -66,10 +66,7 @@ fn ends(subjects: &[Integrator]) -> [ReportTable; 2] {
         let cells: Vec<_> = settings.iter().map(|t| with_tolerance(subject, r, *t)).collect();
         leaves(&cells, |k| format!("{:.0e}", settings[k]))
     };
-    let table = |words: [&str; 2],
-                 caption: &str,
-                 which: Vec<&Integrator>,
-                 end: &dyn Fn(&Integrator, f64) -> String| {
+    let table = |words: [&str; 2], caption: &str, which: Vec<&Integrator>, end: &dyn Fn(&Integrator, f64) -> String| {
         let names = which.iter().map(|subject| subject.name.clone());
         let row = |r: f64| {
             let ends = which.iter().map(|subject| end(subject, r));
@@ -100,7 +97,8 @@ fn corners_table() -> ReportTable {
     ReportTable::new(
         ["stability-core", "The core in the corners of plane Couette flow"],
         format!(
-            "The worst over G = 10⁻³⁰, ½ and 10³⁰ 1/s, {} durations from 10⁻⁹ to 10⁸ periods, and {} starts: both poles, \
+            "The worst over G = 10⁻³⁰, ½ and 10³⁰ 1/s, {} durations from 10⁻⁹ to 10⁸ periods, and {} starts: both \
+                poles, \
              the flip, C = 0, 10⁻³⁰⁰, 10³⁰⁰, ∞. ε = 2.2·10⁻¹⁶. Bounds: 4 ε, 8 ε, and 1.",
             corners::TURNS.len(),
             map::places(2.0).len()

@@ -57,8 +57,8 @@ pub fn implicit_midpoint_side(aspect_ratio: f64) -> f64 {
     4.0 / shape(aspect_ratio)
 }
 
-/// The implicit midpoint rule has one solution on the whole sphere up to the shorter of the two steps: only up to it is it
-/// certain that no rod crosses the plane of shear.
+/// The implicit midpoint rule has one solution on the whole sphere up to the shorter of the two steps: only up to it is
+/// it certain that no rod crosses the plane of shear.
 pub fn implicit_midpoint_one_solution(aspect_ratio: f64) -> f64 {
     implicit_midpoint_side(aspect_ratio).min(implicit_midpoint_order(aspect_ratio))
 }
@@ -83,10 +83,7 @@ fn last(mut high: f64, holds: impl Fn(f64) -> bool) -> f64 {
     let mut low = 0.0;
     for _ in 0..60 {
         let middle = 0.5 * (low + high);
-        match holds(middle) {
-            true => low = middle,
-            false => high = middle,
-        }
+        if holds(middle) { low = middle } else { high = middle }
     }
     low
 }
@@ -123,9 +120,7 @@ mod tests {
 
     #[test]
     fn discs_are_rods_turned_by_a_right_angle() {
-        for theory in
-            [euler_order, euler_turning, euler_side, implicit_midpoint_order, implicit_midpoint_side]
-        {
+        for theory in [euler_order, euler_turning, euler_side, implicit_midpoint_order, implicit_midpoint_side] {
             for r in [1.1, 3.0, 50.0] {
                 assert!((theory(r) / theory(1.0 / r) - 1.0).abs() < 1e-12 || theory(r) == f64::INFINITY);
             }

@@ -20,13 +20,8 @@ pub fn blocks(x1: &[f64]) -> Vec<Block> {
     let sizes = (0..).map(|power| 1usize << power);
     (sizes.take_while(|size| x1.len() / size >= 8))
         .map(|size| {
-            let means: Vec<_> =
-                (x1.chunks_exact(size)).map(|block| block.iter().sum::<f64>() / size as f64).collect();
-            Block {
-                replicas: size as u64,
-                blocks: means.len() as u64,
-                deviation: covariance(&means, &means).sqrt(),
-            }
+            let means: Vec<_> = (x1.chunks_exact(size)).map(|block| block.iter().sum::<f64>() / size as f64).collect();
+            Block { replicas: size as u64, blocks: means.len() as u64, deviation: covariance(&means, &means).sqrt() }
         })
         .collect()
 }

@@ -48,8 +48,8 @@ pub struct Coupled {
 }
 
 impl Saving {
-    /// The largest factor by which levels in Δt reduce the cost of a mean, if coarse runs cost nothing: one over the share of
-    /// the variance that is left to the fine ones, 1 − ρ².
+    /// The largest factor by which levels in Δt reduce the cost of a mean, if coarse runs cost nothing: one over the
+    /// share of the variance that is left to the fine ones, 1 − ρ².
     fn multilevel_at_best(&self) -> f64 {
         1.0 / (1.0 - self.finer * self.finer)
     }
@@ -89,13 +89,7 @@ pub fn measure(scene: &Scene, replicas: u64) -> Result<Coupled, String> {
 }
 
 /// X̄₁ at every quarter of a period of a scene whose α is multiplied by `alpha`.
-pub fn interacting(
-    scene: &Scene,
-    steps: u64,
-    alpha: f64,
-    quarters: u64,
-    replicas: u64,
-) -> Result<Values, String> {
+pub fn interacting(scene: &Scene, steps: u64, alpha: f64, quarters: u64, replicas: u64) -> Result<Values, String> {
     let mut job = Job::new(scene, steps, scene.particles.count, replicas, quarters.div_ceil(4));
     job.marks = (1..=quarters).map(|quarter| quarter * steps / 4).collect();
     if let Some(interaction) = &mut job.scene.interaction {
@@ -105,7 +99,8 @@ pub fn interacting(
     Ok(job.run(&|| ())?.into_iter().map(looks).collect())
 }
 
-/// The same for the scene's rods without collisions: starts and aspect ratios are the same, as they have streams of their own.
+/// The same for the scene's rods without collisions: starts and aspect ratios are the same, as they have streams of
+/// their own.
 pub fn free(scene: &Scene, quarters: u64, replicas: u64) -> Result<Values, String> {
     let mut scene = scene.clone();
     scene.interaction = None;
@@ -149,8 +144,10 @@ pub fn table(coupled: &Coupled) -> ReportTable {
     ReportTable::new(
         ["suspension-coupled", "Shared random numbers: the factor by which they save runs"],
         format!(
-            "Levels in Δt ({} and {} steps per period, same seeds) are tied by their starts alone: the gain with coarse runs \
-             at an eighth of the cost, and the largest gain if coarse runs cost nothing; below 1 it costs more than it saves. The same rods without collisions, whose mean has a closed form, give more for less. Common \
+            "Levels in Δt ({} and {} steps per period, same seeds) are tied by their starts alone: the gain with \
+                coarse runs \
+             at an eighth of the cost, and the largest gain if coarse runs cost nothing; below 1 it costs more than \
+             it saves. The same rods without collisions, whose mean has a closed form, give more for less. Common \
              random numbers pay for a difference, here between α and 0.8 α. {} replicas (`shared-random-numbers`, \
              `paths-do-not-converge`).",
             coupled.steps_per_period,

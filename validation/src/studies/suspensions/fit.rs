@@ -70,8 +70,8 @@ impl Means {
         }
     }
 
-    /// The line through the means at `x`: least squares weighted by the inverse of the covariances, equivalent to a fit of
-    /// the differences of neighbours. `None` for fewer than two levels, fewer than eight replicas of a level, or
+    /// The line through the means at `x`: least squares weighted by the inverse of the covariances, equivalent to a fit
+    /// of the differences of neighbours. `None` for fewer than two levels, fewer than eight replicas of a level, or
     /// samples without scatter.
     pub fn line(&self, x: &[f64]) -> Option<Line> {
         let count = self.values.len();
@@ -96,8 +96,8 @@ impl Means {
         })
     }
 
-    /// The w of a + b hʷ with the least χ², for h of at least three levels. `None` if noise hides it: an end of its interval
-    /// outside ¼ to 4, or a slope within two standard errors of 0.
+    /// The w of a + b hʷ with the least χ², for h of at least three levels. `None` if noise hides it: an end of its
+    /// interval outside ¼ to 4, or a slope within two standard errors of 0.
     pub fn order(&self, h: &[f64]) -> Option<Order> {
         if h.len() < 3 {
             return None;
@@ -122,10 +122,7 @@ impl Means {
             let (mut inside, mut outside) = (best, outer);
             for _ in 0..50 {
                 let middle = 0.5 * (inside + outside);
-                match chi_square(middle) < limit {
-                    true => inside = middle,
-                    false => outside = middle,
-                }
+                if chi_square(middle) < limit { inside = middle } else { outside = middle }
             }
             inside
         };
@@ -184,8 +181,7 @@ mod tests {
 
     #[test]
     fn the_line_s_errors_are_those_of_repeats() {
-        let lines: Vec<_> =
-            (0..300).map(|seed| Means::of(&samples(1.0, 0.05, seed)).line(&H).unwrap()).collect();
+        let lines: Vec<_> = (0..300).map(|seed| Means::of(&samples(1.0, 0.05, seed)).line(&H).unwrap()).collect();
         let slopes: Vec<_> = lines.iter().map(|line| line.slope).collect();
         let Estimate { value: mean, se } = Estimate::mean_of(&slopes);
         assert!((mean - 1.0).abs() < 4.0 * se, "{mean} {se}");

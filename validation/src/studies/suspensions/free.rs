@@ -1,5 +1,5 @@
-//! Free suspensions: the error of X̄₁ against the rods and the run time, for every way to choose initial directions. No time
-//! step is needed: the remaining error is that of the sample.
+//! Free suspensions: the error of X̄₁ against the rods and the run time, for every way to choose initial directions. No
+//! time step is needed: the remaining error is that of the sample.
 
 use crate::methods::starts::{self, Rod, Start};
 use crate::oracle::isotropic;
@@ -51,8 +51,8 @@ pub struct StartCurve {
     pub start: &'static str,
     /// The exponent by theory.
     pub theory: f64,
-    /// The exponent found over the points with 10³ rods and more: with fewer, the lattice does not resolve the stretched
-    /// rods yet.
+    /// The exponent found over the points with 10³ rods and more: with fewer, the lattice does not resolve the
+    /// stretched rods yet.
     pub exponent: f64,
     /// The standard error of `exponent`, over groups of trials.
     pub exponent_se: f64,
@@ -179,8 +179,7 @@ pub fn exponents(tried: &[(usize, Vec<f64>)], groups: usize) -> Vec<f64> {
             let size = errors.len() / groups;
             root_mean_square(&errors[group * size..][..size]).ln()
         };
-        let points: Vec<_> =
-            (tried.iter()).map(|(rods, errors)| ((*rods as f64).ln(), of_group(errors))).collect();
+        let points: Vec<_> = (tried.iter()).map(|(rods, errors)| ((*rods as f64).ln(), of_group(errors))).collect();
         super::slope(&points)
     };
     (0..groups).map(slope).collect()

@@ -99,8 +99,7 @@ fn figure(bench: &Bench) -> ReportFigure {
         let label = format!("{}: slope {:+.2} ± {:.2}", curve.start, curve.exponent, curve.exponent_se);
         Curve::of(label, &curve.points, |point| (point.seconds.least, point.error))
     };
-    let title =
-        format!("Free rods, r_e = {}, σ = {} %: error against run time", free.aspect_ratio, free.sd_percent);
+    let title = format!("Free rods, r_e = {}, σ = {} %: error against run time", free.aspect_ratio, free.sd_percent);
     ReportFigure::new(
         [&format!("suspension-starts-{}", free.scene), &title],
         format!(

@@ -1,4 +1,5 @@
-//! The study of an interacting scene: its law of errors, constants, cheapest splits and their realised errors, coupled estimates.
+//! The study of an interacting scene: its law of errors, constants, cheapest splits and their realised errors, coupled
+//! estimates.
 
 use super::coupled::{self, Coupled};
 use super::job::Job;
@@ -149,8 +150,7 @@ fn measure(amount: Amount, budget: Budget) -> Result<Interacting, String> {
         for (target, repeats) in TARGETS.into_iter().zip(amount.repeats) {
             let split = constants.cheapest(scope, target);
             // A reference cannot judge errors as small as its own.
-            let judge = reference
-                .filter(|reference| repeats > 0 && off_at_most(&constants, scope, reference) < target);
+            let judge = reference.filter(|reference| repeats > 0 && off_at_most(&constants, scope, reference) < target);
             let realised = judge.map(|reference| {
                 let reference = Estimate { value: reference.x1, se: reference.se };
                 split.realise(&scene, repeats, reference)
@@ -181,9 +181,8 @@ fn off_at_most(constants: &Constants, scope: Scope, reference: &JobMean) -> f64 
 }
 
 fn splits_csv(study: &Interacting) -> Result<String, String> {
-    let realised = |name: &str, of: fn(&Realised) -> f64| {
-        field(name, move |answer: &Answer| answer.realised.as_ref().map(of))
-    };
+    let realised =
+        |name: &str, of: fn(&Realised) -> f64| field(name, move |answer: &Answer| answer.realised.as_ref().map(of));
     let columns = vec![
         words("scene", |_: &Answer| study.scene.as_str()),
         field("target", |answer: &Answer| answer.split.target),
@@ -210,8 +209,10 @@ fn splits_csv(study: &Interacting) -> Result<String, String> {
 /// The rule with the measured constants, in words.
 fn rule(constants: &Constants) -> String {
     format!(
-        "Mean-square error = (b/S + c N^(−1/3))² + v/(N M) for S steps per period, N rods and M replicas, with b = {:.2} \
-         for S ≥ {}, c = {:.3} (each the largest that its standard error allows: estimate + 2 se) and v = {:.3}; cost = \
+        "Mean-square error = (b/S + c N^(−1/3))² + v/(N M) for S steps per period, N rods and M replicas, with b = \
+            {:.2} \
+         for S ≥ {}, c = {:.3} (each the largest that its standard error allows: estimate + 2 se) and v = {:.3}; cost \
+         = \
          N M S. With the scene's own rods S = √3 b/ε and N M = 3v/(2ε²), or the fewest steps and N M = \
          v/(ε² − (b/S)²) where that is more; without faces as many rods in as few replicas as there may be.",
         constants.steps_bias, constants.fewest_steps, constants.rods_bias, constants.variance_per_rod
@@ -249,11 +250,7 @@ fn answers(study: &Interacting) -> ReportTable {
     let realised = |answer: &Answer| match &answer.realised {
         Some(realised) => format!(
             "{:.1e} (bias {:+.1e} ± {:.0e}, scatter {:.1e} ± {:.0e})",
-            realised.error,
-            realised.bias.value,
-            realised.bias.se,
-            realised.scatter.value,
-            realised.scatter.se
+            realised.error, realised.bias.value, realised.bias.se, realised.scatter.value, realised.scatter.se
         ),
         None => "– (not run)".into(),
     };
@@ -274,7 +271,8 @@ fn answers(study: &Interacting) -> ReportTable {
             &format!("Interacting rods ({}): the cheapest split for an error of X̄₁ at t/T = 1", study.scene),
         ],
         format!(
-            "{} A rod's step takes {} on one core. The error includes the bias of the steps; the second half counts that \
+            "{} A rod's step takes {} on one core. The error includes the bias of the steps; the second half counts \
+                that \
              of the faces too. Realised errors are counted from {} (`cheapest-split`).",
             rule(&study.constants),
             time(study.rod_step_s),

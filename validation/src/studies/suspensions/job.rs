@@ -49,22 +49,15 @@ pub fn x1(traces: &[Trace]) -> Vec<f64> {
 }
 
 impl Job {
-    /// The scene's replicas 0 to `replicas` with `rods` rods and `steps_per_period` steps a period, evaluated after whole periods.
+    /// The scene's replicas 0 to `replicas` with `rods` rods and `steps_per_period` steps a period, evaluated after
+    /// whole periods.
     pub fn new(scene: &Scene, steps_per_period: u64, rods: usize, replicas: u64, periods: u64) -> Self {
         let mut scene = scene.clone();
-        scene.time = Time {
-            steps_per_unit: Some(steps_per_period),
-            outputs_per_unit: Some(1),
-            ..Time::periods(periods as f64)
-        };
+        scene.time =
+            Time { steps_per_unit: Some(steps_per_period), outputs_per_unit: Some(1), ..Time::periods(periods as f64) };
         scene.set_count(rods);
         scene.output.drop_rods();
-        Self {
-            scene,
-            replicas,
-            marks: (1..=periods).map(|period| period * steps_per_period).collect(),
-            followed: 0,
-        }
+        Self { scene, replicas, marks: (1..=periods).map(|period| period * steps_per_period).collect(), followed: 0 }
     }
 
     /// The cost: rods times steps over all replicas.
@@ -87,8 +80,7 @@ impl Job {
     }
 
     fn trace(&self, plan: &Plan, replica: u64) -> Result<Trace, String> {
-        let mut suspension =
-            Suspension::new(plan, replica).ok_or("no rod can meet another: no steps to take")?;
+        let mut suspension = Suspension::new(plan, replica).ok_or("no rod can meet another: no steps to take")?;
         let mut looks = Vec::with_capacity(self.marks.len());
         for mark in &self.marks {
             while suspension.tick() < *mark {
@@ -96,9 +88,10 @@ impl Job {
             }
             looks.push(Look::at(&suspension));
         }
-        let directions = match replica < self.followed {
-            true => suspension.directions().into_iter().map(Into::into).collect(),
-            false => Vec::new(),
+        let directions = if replica < self.followed {
+            suspension.directions().into_iter().map(Into::into).collect()
+        } else {
+            Vec::new()
         };
         Ok(Trace { looks, directions })
     }

@@ -73,7 +73,8 @@ pub struct Change {
     pub x1: Estimate,
     /// The correlation of X̄₁ between the two; its standard error is that for normal variables.
     pub correlation: Estimate,
-    /// The change of the share of rods with |p_1| below 0.1, 0.2, … 0.9, for the bound where it is largest in standard errors.
+    /// The change of the share of rods with |p_1| below 0.1, 0.2, … 0.9, for the bound where it is largest in standard
+    /// errors.
     pub p1_distribution: Estimate,
     /// The same change for C_b.
     pub orbit_distribution: Estimate,
@@ -160,9 +161,8 @@ pub fn read(scene: &Scene, jobs: &[Job], found: &[Vec<Trace>]) -> Law {
 
     let (means, h) = (of(&steps), steps.iter().map(|k| 1.0 / jobs[*k].scene.steps_per_unit() as f64));
     let h: Vec<f64> = h.collect();
-    let changes: Vec<_> = (steps.windows(2).enumerate())
-        .map(|(k, pair)| change(&means, k, &found[pair[0]], &found[pair[1]]))
-        .collect();
+    let changes: Vec<_> =
+        (steps.windows(2).enumerate()).map(|(k, pair)| change(&means, k, &found[pair[0]], &found[pair[1]])).collect();
     let strain = strain_per_period(scene.particles.aspect_ratio);
     let resolved_from = h.iter().position(|h| strain * h <= 1.0).unwrap_or(h.len().saturating_sub(1));
     let known = changes[resolved_from.min(changes.len())..].iter().filter(|change| change.x1.readable());
@@ -207,7 +207,8 @@ fn sample(job: &Job, x1: &[f64]) -> JobMean {
     }
 }
 
-/// The line a + b/S over the resolved levels, or from a finer level if the line is refuted (p < 0.001), with its first level.
+/// The line a + b/S over the resolved levels, or from a finer level if the line is refuted (p < 0.001), with its first
+/// level.
 fn first_order(means: &Means, h: &[f64], resolved_from: usize) -> (usize, Option<Line>) {
     let lines = (resolved_from..h.len().saturating_sub(2))
         .filter_map(|first| Some((first, means.from(first).line(&h[first..])?)));
@@ -224,10 +225,7 @@ fn change(means: &Means, level: usize, coarse: &[Trace], fine: &[Trace]) -> Chan
     let [apart_rad, unrelated_rad] = [0, 1].map(|shift| apart(coarse, fine, shift));
     Change {
         x1: Estimate { value, se },
-        correlation: Estimate {
-            value: correlation,
-            se: (1.0 - correlation * correlation) / (count as f64).sqrt(),
-        },
+        correlation: Estimate { value: correlation, se: (1.0 - correlation * correlation) / (count as f64).sqrt() },
         p1_distribution: furthest(coarse, fine, |trace, k| trace.looks[0].p1_below[k]),
         orbit_distribution: furthest(coarse, fine, |trace, k| trace.looks[0].orbit_below[k]),
         apart_rad,

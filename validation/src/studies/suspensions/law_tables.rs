@@ -23,12 +23,10 @@ fn order_in_words(law: &Law) -> String {
         Some(line) => {
             let from = law.steps.get(law.line_from).map_or(0, |s| s.steps_per_period);
             let fits = line.p.map_or("–".into(), |p| format!("{p:.2}"));
-            let read = match line.slope.abs() >= 2.0 * line.slope_se {
-                true => "",
-                false => " (not readable)",
-            };
+            let read = if line.slope.abs() >= 2.0 * line.slope_se { "" } else { " (not readable)" };
             format!(
-                " A first-order bias b/S fits from {from} steps on with b = {:+.3} ± {:.3}{read}, p = {fits}; at Δt = 0 X̄₁ = \
+                " A first-order bias b/S fits from {from} steps on with b = {:+.3} ± {:.3}{read}, p = {fits}; at Δt = \
+                    0 X̄₁ = \
                  {:.5} ± {:.5}.",
                 line.slope, line.slope_se, line.intercept, line.intercept_se
             )
@@ -50,7 +48,8 @@ fn steps(law: &Law, strain: f64) -> ReportTable {
     ReportTable::new(
         ["steps", "X̄₁ at t/T = 1 against the steps per period: convergence in law"],
         format!(
-            "Differences are to the next finer step at the same seeds; not readable: below two standard errors. The last \
+            "Differences are to the next finer step at the same seeds; not readable: below two standard errors. The \
+                last \
              two columns: the difference of the distribution functions of |p_1| and of C_b, of nine places where it is \
              largest in its standard errors (below 2.8 of them it is chance, 19 times in 20). {}",
             order_in_words(law)
@@ -81,15 +80,11 @@ fn paths(law: &Law) -> ReportTable {
          (`paths-do-not-converge`).",
         law.steps.windows(2).zip(&law.changes),
         vec![
-            words("steps per period", |r: &Row| {
-                format!("{} and {}", r.0[0].steps_per_period, r.0[1].steps_per_period)
-            }),
+            words("steps per period", |r: &Row| format!("{} and {}", r.0[0].steps_per_period, r.0[1].steps_per_period)),
             number("same rod apart (rad, rms)", decimals(3), |r: &Row| r.1.apart_rad),
             number("other rods", decimals(3), |r: &Row| r.1.unrelated_rad),
             estimate("correlation of X̄₁", |r: &Row| r.1.correlation),
-            number("variance of the difference / variance", decimals(2), |r: &Row| {
-                2.0 * (1.0 - r.1.correlation.value)
-            }),
+            number("variance of the difference / variance", decimals(2), |r: &Row| 2.0 * (1.0 - r.1.correlation.value)),
         ],
     )
 }

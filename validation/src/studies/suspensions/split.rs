@@ -20,7 +20,8 @@ const FEWEST_REPLICAS: u64 = 8;
 /// The constants of a scene's error.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Constants {
-    /// b: the bias of the steps is at most b/S. The largest value that the measurement allows: |slope| + 2 standard errors.
+    /// b: the bias of the steps is at most b/S. The largest value that the measurement allows: |slope| + 2 standard
+    /// errors.
     pub steps_bias: f64,
     /// The smallest number of steps per period for which that holds.
     pub fewest_steps: u64,
@@ -140,10 +141,7 @@ impl Constants {
                 let (mut low, mut high) = (0.0f64, 100.0f64);
                 for _ in 0..60 {
                     let middle = 0.5 * (low + high);
-                    match split(middle.exp(), fewest).error() > target {
-                        true => low = middle,
-                        false => high = middle,
-                    }
+                    if split(middle.exp(), fewest).error() > target { low = middle } else { high = middle }
                 }
                 split(high.exp().ceil(), fewest)
             }
@@ -196,12 +194,11 @@ pub fn reference(scene: &Scene, steps: u64, rods: usize, replicas: u64) -> Resul
     let mut job = Job::new(scene, steps, rods, replicas, 1);
     job.scene.ensemble.seed = scene.ensemble.seed + 1_000_000;
     let x1 = x1(&job.run(&|| ())?);
-    let found = match replicas < 100 {
-        true => Estimate::mean_of(&x1),
-        false => {
-            let free = coupled::at(&coupled::free(&job.scene, 4, replicas)?, 3);
-            coupled::controlled(&x1, &free, coupled::free_mean(scene, 1.0))
-        }
+    let found = if replicas < 100 {
+        Estimate::mean_of(&x1)
+    } else {
+        let free = coupled::at(&coupled::free(&job.scene, 4, replicas)?, 3);
+        coupled::controlled(&x1, &free, coupled::free_mean(scene, 1.0))
     };
     Ok(JobMean { steps_per_period: steps, rods, replicas, x1: found.value, se: found.se })
 }

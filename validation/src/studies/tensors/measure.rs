@@ -104,7 +104,8 @@ pub struct Fitted {
     pub c_i: f64,
 }
 
-/// A measured a_22 of polycarbonate with 30 % of glass by weight, from `FitCI.mlx` of charlestucker3/Fiber-Orientation-Tools.
+/// A measured a_22 of polycarbonate with 30 % of glass by weight, from `FitCI.mlx` of
+/// charlestucker3/Fiber-Orientation-Tools.
 pub const MEASURED: f64 = 0.8261;
 
 /// The fitted C_I with each closure, and with the distribution itself.
@@ -118,7 +119,8 @@ pub fn fitted() -> Vec<Fitted> {
     std::iter::once(of("exact", root(exact))).chain(closures).flatten().collect()
 }
 
-/// The C_I from 10⁻³ to 10⁻¹ at which a_22, which falls with C_I, is the measured one, to 10⁻⁶. `None` if it is not in this range.
+/// The C_I from 10⁻³ to 10⁻¹ at which a_22, which falls with C_I, is the measured one, to 10⁻⁶. `None` if it is not in
+/// this range.
 fn root(a22: impl Fn(f64) -> Option<f64>) -> Option<f64> {
     let (mut low, mut high) = (1e-3f64, 1e-1f64);
     if a22(low)? < MEASURED || a22(high)? > MEASURED {
@@ -154,11 +156,7 @@ mod tests {
         assert!(rows.iter().all(|row| row.error > 1e-5), "{rows:?}");
         let of = |name: &str| rows.iter().find(|row| row.flow == "shear" && row.closure == name).unwrap();
         for (name, a22) in [("IBOF", 0.6493761450), ("ORE", 0.6498566623), ("hybrid", 0.7738101787)] {
-            assert!(
-                (of(name).a22 - a22).abs() < 1e-9 && (of(name).exact_a22 - 0.6271).abs() < 5e-5,
-                "{:?}",
-                of(name)
-            );
+            assert!((of(name).a22 - a22).abs() < 1e-9 && (of(name).exact_a22 - 0.6271).abs() < 5e-5, "{:?}", of(name));
         }
     }
 }

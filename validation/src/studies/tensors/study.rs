@@ -20,9 +20,8 @@ pub const STUDY: Study = Study {
 };
 
 fn run(request: &Request) -> Result<Option<Findings>, String> {
-    let c_i: &[f64] = request
-        .effort
-        .pick(&[1e-3, 0.0053, 0.0311, 0.1], &[1e-4, 3e-4, 1e-3, 0.0053, 0.01, 0.0311, 0.1, 0.3, 1.0]);
+    let c_i: &[f64] =
+        request.effort.pick(&[1e-3, 0.0053, 0.0311, 0.1], &[1e-4, 3e-4, 1e-3, 0.0053, 0.01, 0.0311, 0.1, 0.3, 1.0]);
     let (rows, work, fitted) = (errors(c_i)?, work()?, fitted());
     let curve = |closure: Closure| {
         let of = rows.iter().filter(move |row| row.closure == closure.name() && row.flow == FLOWS[0].0);
@@ -30,7 +29,8 @@ fn run(request: &Request) -> Result<Option<Findings>, String> {
     };
     let map = ReportFigure::new(
         ["closures-error", "What a closure costs in steady shear"],
-        "The largest error of the steady a_ij, Λ = 1. No closure is exact with diffusion; the table has the other flows.",
+        "The largest error of the steady a_ij, Λ = 1. No closure is exact with diffusion; the table has the other \
+            flows.",
         ["log C_I", "log largest error of a_ij"],
     )
     .curves(Closure::ALL.map(curve))
@@ -41,7 +41,8 @@ fn run(request: &Request) -> Result<Option<Findings>, String> {
     };
     let price = ReportFigure::new(
         ["closures-work-precision", "Work and precision: closures and the exact solution"],
-        "a_ij at strains of 1 to 20 from isotropic rods, shear, C_I = 0.01. Tolerances of 10⁻² to 10⁻⁸ of Dormand & Prince's method; \
+        "a_ij at strains of 1 to 20 from isotropic rods, shear, C_I = 0.01. Tolerances of 10⁻² to 10⁻⁸ of Dormand & \
+            Prince's method; \
          the exact solution with its stated error. Smaller tolerances do not lower the error of a closure.",
         ["log time (ms)", "log largest error of a_ij"],
     )
@@ -50,7 +51,8 @@ fn run(request: &Request) -> Result<Option<Findings>, String> {
     .judged("Folgar & Tucker 1984", STUDY.cases);
     let table = ReportTable::new(
         [STUDY.name, "Steady tensors by closures"],
-        "Λ = 1. A closure is left out where no steady state of it was found: the linear one leaves the possible tensors where a flow \
+        "Λ = 1. A closure is left out where no steady state of it was found: the linear one leaves the possible \
+            tensors where a flow \
          stretches.",
         rows.iter().copied(),
         vec![
@@ -84,10 +86,7 @@ fn run(request: &Request) -> Result<Option<Findings>, String> {
         ("closures-fitted.csv", rows_csv(fitted.iter().copied())?),
         ("closures.csv", rows_csv(rows.iter().copied())?),
         ("closures-work-precision.csv", rows_csv(work.iter().copied())?),
-        (
-            "closures.json",
-            build::json(&serde_json::json!({ "errors": rows, "work": work, "fitted": fitted }))?,
-        ),
+        ("closures.json", build::json(&serde_json::json!({ "errors": rows, "work": work, "fitted": fitted }))?),
     ];
     Ok(Some(Findings::new(
         answer(&work, &fitted),
@@ -102,8 +101,10 @@ fn answer(work: &[Work], fitted: &[Fitted]) -> String {
     let quickest = closures().map(|row| row.seconds).fold(f64::INFINITY, f64::min);
     let of = |method: &str| fitted.iter().find(|row| row.method == method).map_or(f64::NAN, |row| row.c_i);
     format!(
-        "In the start-up of shear at C_I = 0.01 no closure comes nearer to a_ij than {least:.1e}, whatever its tolerance. The quickest \
-         takes {:.2} ms, the exact solution {:.0} ms: affordable for single histories, not for each cell of a flow solver. A C_I \
+        "In the start-up of shear at C_I = 0.01 no closure comes nearer to a_ij than {least:.1e}, whatever its \
+            tolerance. The quickest \
+         takes {:.2} ms, the exact solution {:.0} ms: affordable for single histories, not for each cell of a flow \
+         solver. A C_I \
          fitted through a closure is not D_r/γ̇: {:.4} by IBOF where the distribution has {:.4}.",
         1e3 * quickest,
         1e3 * work[0].seconds,

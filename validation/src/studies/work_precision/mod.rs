@@ -110,7 +110,8 @@ impl Point {
 }
 
 impl IntegratorCurve {
-    /// The cheapest point with at most this error. The next finer one must have it too, to exclude accidental crossings.
+    /// The cheapest point with at most this error. The next finer one must have it too, to exclude accidental
+    /// crossings.
     pub fn cheapest(&self, error_rad: f64) -> Option<&Point> {
         let reaches = |k: usize| self.points.get(k).is_none_or(|point| point.error_rad() <= error_rad);
         (0..self.points.len())
@@ -132,11 +133,7 @@ impl IntegratorCurve {
 
 impl Bench {
     /// The cheapest point with at most this error, and its curve, of the curves whose theory `which` accepts.
-    pub fn cheapest(
-        &self,
-        error_rad: f64,
-        which: impl Fn(Theory) -> bool,
-    ) -> Option<(&IntegratorCurve, &Point)> {
+    pub fn cheapest(&self, error_rad: f64, which: impl Fn(Theory) -> bool) -> Option<(&IntegratorCurve, &Point)> {
         (self.curves.iter())
             .filter(|curve| which(curve.theory))
             .filter_map(|curve| Some((curve, curve.cheapest(error_rad)?)))
@@ -159,12 +156,8 @@ mod tests {
     const QUICK: Budget = Budget { seconds_per_run: 1e-4, runs: 1 };
 
     fn point(error: Option<f64>, seconds: f64) -> Point {
-        let errors = error.map(|orientation_rad| Errors {
-            orientation_rad,
-            orbit_constant: 0.0,
-            phase_turns: 0.0,
-            length: 0.0,
-        });
+        let errors =
+            error.map(|orientation_rad| Errors { orientation_rad, orbit_constant: 0.0, phase_turns: 0.0, length: 0.0 });
         Point { setting: Setting::Once, errors, failure: None, seconds: Seconds::same(seconds) }
     }
 
@@ -195,8 +188,7 @@ mod tests {
         assert_eq!(found.points[0].failure.as_deref(), Some("not finite"));
         let idle = Integrator::in_p("synthetic", 1, |_, p, _| std::hint::black_box(p)).keeping_length();
         assert!(curve(&idle, 2.0, QUICK).points.len() < 26, "the budget ends it");
-        let refuses =
-            Integrator::new("synthetic", Theory::Adaptive, |_, _, _| Err(Failure::Gave("too stiff".into())));
+        let refuses = Integrator::new("synthetic", Theory::Adaptive, |_, _, _| Err(Failure::Gave("too stiff".into())));
         let found = curve(&refuses, 2.0, QUICK);
         assert_eq!((found.points.len(), found.failures()), (13, 13));
 
@@ -206,9 +198,7 @@ mod tests {
         let csv = rows::bench_csv(&benches).unwrap();
         assert_eq!(csv.matches(",too stiff,").count(), 13, "{csv}");
         assert!(
-            crate::files::build::json(&benches[0].curves[0].points[0])
-                .unwrap()
-                .contains("\"failure\": \"too stiff\"")
+            crate::files::build::json(&benches[0].curves[0].points[0]).unwrap().contains("\"failure\": \"too stiff\"")
         );
         let tables = study::cheapest(&benches).text() + &study::every_subject(&benches[0]).text();
         assert!(tables.contains("not reached") && tables.contains("13 of 13"), "{tables}");

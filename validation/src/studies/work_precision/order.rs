@@ -91,8 +91,8 @@ pub fn of_rod(aspect_ratio: f64) -> Orders {
     of_all(aspect_ratio, 0.2, 1.0, 1.0, "as in the benches")
 }
 
-/// Convergence on a scene of free rods in plane Couette flow: one rod of its mean aspect ratio from its own start, for its own
-/// number of periods. `None` for other flows, and if the time is given as a strain.
+/// Convergence on a scene of free rods in plane Couette flow: one rod of its mean aspect ratio from its own start, for
+/// its own number of periods. `None` for other flows, and if the time is given as a strain.
 pub fn of_scene(scene: &Scene) -> Option<Orders> {
     let shear_rate = scene.flow.shear_rate_per_s()?;
     let periods = Some(scene.time.duration).filter(|_| scene.time.unit == TimeUnit::Period)?;
@@ -113,7 +113,8 @@ fn of_all(aspect_ratio: f64, phi: f64, theta: f64, turns: f64, whose: &str) -> O
     let doublings = 22u32.saturating_sub(coarsest(&problem).ilog2()).clamp(4, 12);
     Orders {
         problem: format!(
-            "One rod of r_e = {aspect_ratio} from φ = {phi:.4} and θ = {theta:.4} rad ({whose}) over {:.5} periods, into a flip, \
+            "One rod of r_e = {aspect_ratio} from φ = {phi:.4} and θ = {theta:.4} rad ({whose}) over {:.5} periods, \
+                into a flip, \
              to φ = 1 rad",
             problem.turns
         ),
@@ -150,9 +151,7 @@ pub fn study(
             steps,
             errors,
             value: value.map(|p| p.x.abs() / p.norm()),
-            order: errors
-                .zip(before)
-                .map(|(now, before)| (before.orientation_rad / now.orientation_rad).log2()),
+            order: errors.zip(before).map(|(now, before)| (before.orientation_rad / now.orientation_rad).log2()),
         });
     }
     let floor = round_off(problem);
@@ -169,16 +168,17 @@ pub fn study(
     })
 }
 
-/// The largest error that is round-off of most integrators: the time has the relative error ε, φ moves by max(r_e, 1/r_e) times the phase,
-/// and thousands of steps add up.
+/// The largest error that is round-off of most integrators: the time has the relative error ε, φ moves by max(r_e,
+/// 1/r_e) times the phase, and thousands of steps add up.
 fn round_off(problem: &RodProblem) -> f64 {
     let r = problem.aspect_ratio;
     1000.0 * f64::EPSILON * r.max(1.0 / r) * problem.turns.max(1.0)
 }
 
-/// The largest error that may be round-off of any integrator after this many steps. While the rod lies along the flow (a disc across it),
-/// an error of φ shifts the phase by max(r_e, 1/r_e) times as much, and the flip multiplies that by the same factor: so in angles and by
-/// rotations. Roundings of steps that differ grow as their root; a sphere turns equally in every step, with the same rounding.
+/// The largest error that may be round-off of any integrator after this many steps. While the rod lies along the flow
+/// (a disc across it), an error of φ shifts the phase by max(r_e, 1/r_e) times as much, and the flip multiplies that by
+/// the same factor: so in angles and by rotations. Roundings of steps that differ grow as their root; a sphere turns
+/// equally in every step, with the same rounding.
 fn most_round_off(problem: &RodProblem, steps: u64) -> f64 {
     let (r, steps) = (problem.aspect_ratio, steps as f64);
     let of_steps = if r == 1.0 { 10.0 * steps } else { 100.0 * steps.sqrt() };
@@ -200,8 +200,8 @@ fn is_above(halving: &Halving, round_off: impl Fn(u64) -> f64) -> bool {
     halving.errors.is_some_and(|errors| errors.orientation_rad > round_off(halving.steps))
 }
 
-/// Compares the judged orders with theory. If they do not hold, the last two after each other that do, if all errors beyond them may be
-/// round-off; else the last three above it. Returns the orders that settle it, too.
+/// Compares the judged orders with theory. If they do not hold, the last two after each other that do, if all errors
+/// beyond them may be round-off; else the last three above it. Returns the orders that settle it, too.
 fn compare(
     halvings: &[Halving],
     judged: &[f64],
@@ -222,9 +222,7 @@ fn compare(
     let above = orders_above(halvings, &most_round_off);
     let last = above[above.len().saturating_sub(3)..].to_vec();
     let found = match *last {
-        [first, second, last] if off(first) > off(second) && 0.6 * off(second) > off(last) => {
-            OrderVerdict::Unsettled
-        }
+        [first, second, last] if off(first) > off(second) && 0.6 * off(second) > off(last) => OrderVerdict::Unsettled,
         [_, _] | [_, _, _] => OrderVerdict::Not,
         _ => OrderVerdict::RoundOff,
     };
@@ -258,8 +256,7 @@ mod tests {
     use super::*;
 
     fn synthetic(errors: &[f64]) -> Vec<Halving> {
-        let of =
-            |orientation_rad| Errors { orientation_rad, orbit_constant: 0.0, phase_turns: 0.0, length: 0.0 };
+        let of = |orientation_rad| Errors { orientation_rad, orbit_constant: 0.0, phase_turns: 0.0, length: 0.0 };
         (0..errors.len())
             .map(|k| Halving {
                 steps: 8 << k,
@@ -282,7 +279,8 @@ mod tests {
         assert_eq!(found(&[1e-9, 6e-11, 4e-12, 1e-15, 2e-14], 4), OrderVerdict::AsTheory);
         assert_eq!(found(&[1e-9, 1e-15, 1e-9, 1e-9], 4), OrderVerdict::RoundOff);
         assert_eq!(found(&[f64::NAN, 0.1, f64::NAN], 4), OrderVerdict::RoundOff);
-        // Below what may be round-off an order may still hold, and end in noise; above it, a lower order at the end is one.
+        // Below what may be round-off an order may still hold, and end in noise; above it, a lower order at the end is
+        // one.
         assert_eq!(found(&[1.6e-12, 1e-13, 6e-15, 1e-15, 3e-15], 4), OrderVerdict::AsTheory);
         assert_eq!(found(&[1e-4, 6.3e-6, 4e-7, 1e-7, 5e-8, 2.5e-8], 4), OrderVerdict::Not);
         assert_eq!(found(&[0.4, 0.15, 0.058, 0.025], 1), OrderVerdict::Unsettled);

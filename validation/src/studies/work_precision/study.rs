@@ -47,10 +47,8 @@ fn run(request: &Request) -> Result<Option<Findings>, String> {
         cheapest(&benches).into(),
         ratio(&benches).into(),
     ]);
-    let files = [
-        ("bench.csv", bench_csv(&benches)?),
-        ("bench.json", build::json(&BTreeMap::from([("benches", &benches)]))?),
-    ];
+    let files =
+        [("bench.csv", bench_csv(&benches)?), ("bench.json", build::json(&BTreeMap::from([("benches", &benches)]))?)];
     Ok(Some(Findings::new(answer(&benches, &orders), exhibits, files)))
 }
 
@@ -83,8 +81,7 @@ fn drawn(errors: Option<Errors>) -> f64 {
 /// Error against run time: curves of methods with steps, points of exact methods and of failed runs.
 pub(super) fn figure(bench: &Bench) -> ReportFigure {
     let place = |point: &Point| (point.seconds.least, drawn(point.errors));
-    let (exact, stepped): (Vec<_>, Vec<_>) =
-        (bench.curves.iter()).partition(|curve| curve.theory == Theory::Exact);
+    let (exact, stepped): (Vec<_>, Vec<_>) = (bench.curves.iter()).partition(|curve| curve.theory == Theory::Exact);
     let runs = bench.curves.iter().flat_map(|curve| &curve.points);
     let failed = runs.filter(|point| point.errors.is_none());
     let failed = Points::of("failed", failed, |point| (point.seconds.least, FAILED));
@@ -174,8 +171,7 @@ fn ratio(benches: &[Bench]) -> ReportTable {
                 exact(b).map(|point| point.error_rad())
             })
             .or(NOT_REACHED),
-            number("its time", time, move |b: &Bench| exact(b).map(|point| point.seconds.least))
-                .or(NOT_REACHED),
+            number("its time", time, move |b: &Bench| exact(b).map(|point| point.seconds.least)).or(NOT_REACHED),
             words("adaptive, for 1e-6", move |b: &Bench| adaptive(b).0),
             number("its time for 1e-6", time, move |b: &Bench| adaptive(b).1).or(NOT_REACHED),
             number("ratio", |ratio| format!("1/{:.0}", 1.0 / ratio), |b: &Bench| b.exact_over_adaptive()),
@@ -186,8 +182,7 @@ fn ratio(benches: &[Bench]) -> ReportTable {
 /// The time of every integrator of a bench for each error, then its smallest error.
 pub(super) fn every_subject(bench: &Bench) -> ReportTable {
     let best = |curve: &IntegratorCurve| Some((curve.best()?.clone(), curve.best()?.errors?));
-    let mut columns: Vec<Column<IntegratorCurve>> =
-        vec![words("subject", |c: &IntegratorCurve| c.subject.clone())];
+    let mut columns: Vec<Column<IntegratorCurve>> = vec![words("subject", |c: &IntegratorCurve| c.subject.clone())];
     columns.extend(TARGETS_RAD.map(|target| {
         number(format!("{target:.0e} rad"), time, move |c: &IntegratorCurve| {
             c.cheapest(target).map(|point| point.seconds.least)
@@ -198,9 +193,7 @@ pub(super) fn every_subject(bench: &Bench) -> ReportTable {
         number("best (rad)", powers(1), move |c: &IntegratorCurve| best(c).map(|b| b.1.orientation_rad)),
         number("C_b", powers(1), move |c: &IntegratorCurve| best(c).map(|b| b.1.orbit_constant)),
         number("t/T", powers(1), move |c: &IntegratorCurve| best(c).map(|b| b.1.phase_turns)),
-        words("setting", move |c: &IntegratorCurve| {
-            best(c).map_or("failed".into(), |b| b.0.setting.to_string())
-        }),
+        words("setting", move |c: &IntegratorCurve| best(c).map_or("failed".into(), |b| b.0.setting.to_string())),
         words("time", move |c: &IntegratorCurve| {
             let seconds = best(c).map(|b| b.0.seconds);
             seconds.map_or(NONE.into(), |s| format!("{} to {}", time(s.least), time(s.most)))
@@ -208,10 +201,7 @@ pub(super) fn every_subject(bench: &Bench) -> ReportTable {
         words("failed", |c: &IntegratorCurve| format!("{} of {}", c.failures(), c.points.len())),
     ]);
     ReportTable::new(
-        [
-            &format!("work-precision-{}", bench.name),
-            &format!("Every integrator at r_e = {}", bench.aspect_ratio),
-        ],
+        [&format!("work-precision-{}", bench.name), &format!("Every integrator at r_e = {}", bench.aspect_ratio)],
         "Times for an error, then the smallest error found: the angle, C_b and the phase at one setting.",
         &bench.curves,
         columns,
@@ -237,7 +227,8 @@ pub fn orders_table(orders: &Orders) -> ReportTable {
     ReportTable::new(
         ["orders", "Observed order, Richardson's value and grid convergence index"],
         format!(
-            "{}. The core itself takes no step for a free rod: these are the orders of integrators that do. Orders of the \
+            "{}. The core itself takes no step for a free rod: these are the orders of integrators that do. Orders of \
+                the \
              angle's error on the last two pairs before round-off, negative where it grows; the rest is of |p_1|, from \
              three grids: its index is to bound its error.",
             orders.problem

@@ -45,10 +45,7 @@ const SHORTEST: f64 = 2e-5;
 pub(crate) fn measure<T>(budget: Budget, run: impl Fn() -> T) -> Seconds {
     let once = clock(1, &run);
     let repeats = (SHORTEST / once.max(1e-9)).ceil().clamp(1.0, 1e4) as u32;
-    let runs = match once > 0.1 * budget.seconds_per_run {
-        true => budget.runs.min(3),
-        false => budget.runs,
-    };
+    let runs = if once > 0.1 * budget.seconds_per_run { budget.runs.min(3) } else { budget.runs };
     let times: Vec<_> = (0..runs.max(1)).map(|_| clock(repeats, &run)).collect();
     Seconds {
         least: times.iter().copied().fold(f64::INFINITY, f64::min),

@@ -10,7 +10,8 @@ fn the_scatter_of_rods_in_u_is_asked_for_and_its_effect_said() {
     let dir = folder();
     let run = shearbed(
         dir.path(),
-        "run small.toml --set interaction.alpha=0.8 --set particles.count=100 --set time.outputs_per_period=20 --seed 7 --replicas 1 \
+        "run small.toml --set interaction.alpha=0.8 --set particles.count=100 --set time.outputs_per_period=20 --seed \
+            7 --replicas 1 \
          --out one",
     );
     assert_eq!(run.code, Some(0), "{}", run.stderr);
@@ -25,7 +26,8 @@ fn the_scatter_of_rods_in_u_is_asked_for_and_its_effect_said() {
         let done = shearbed(
             dir.path(),
             &format!(
-                "fit small.toml --data points.csv --over interaction.alpha=0.05:5 --replicas 50 --out fit --force {flags}"
+                "fit small.toml --data points.csv --over interaction.alpha=0.05:5 --replicas 50 --out fit --force \
+                    {flags}"
             ),
         );
         assert_eq!(done.code, Some(0), "{flags}: {}", done.stderr);
@@ -45,10 +47,7 @@ fn the_scatter_of_rods_in_u_is_asked_for_and_its_effect_said() {
     ] {
         assert!(unsaid.contains(named), "{unsaid}");
     }
-    assert!(
-        twice.contains("times the scatter of 100 rods, but counts as the error of reading alone"),
-        "{twice}"
-    );
+    assert!(twice.contains("times the scatter of 100 rods, but counts as the error of reading alone"), "{twice}");
     assert!(!independent.contains("u is") && !said.contains("u is"), "{independent}\n{said}");
     // What moves all points together is not averaged away by their number.
     assert!(1.5 * least < right && 1.5 * least < most && least == taken, "{least} {taken} {right} {most}");

@@ -50,7 +50,8 @@ fn a_design_lists_what_each_further_point_would_leave() {
     assert_eq!((&steps[1]["added"]["set"], &steps[4]["added"]["set"]), (&1.into(), &1.into()));
     assert_eq!(record["residuals"][0]["set"], 1);
     assert_eq!((u(&steps[4]), steps[4]["added"]["time"].as_f64().unwrap()), best);
-    // Points that are means over as many rods as the scene has scatter as its replicas do, more at some times than at others.
+    // Points that are means over as many rods as the scene has scatter as its replicas do, more at some times than at
+    // others.
     assert_eq!(
         shearbed(dir.path(), &format!("{} --design --rods 20", fit.replace("out own", "out rods"))).code,
         Some(0)
@@ -103,8 +104,7 @@ fn rods_that_start_as_a_file_says_are_fitted() {
     assert_eq!(other.code, Some(2));
     assert!(other.stderr.contains("start"), "{}", other.stderr);
     // A file that is not as the scene needs it, with what is wrong.
-    fs::write(dir.path().join("scenes/start.csv"), rows.lines().take(count).collect::<Vec<_>>().join("\n"))
-        .unwrap();
+    fs::write(dir.path().join("scenes/start.csv"), rows.lines().take(count).collect::<Vec<_>>().join("\n")).unwrap();
     let short = shearbed(dir.path(), &format!("{fit} --out other"));
     assert_eq!(short.code, Some(2));
     assert!(short.stderr.contains("has 19 rows"), "{}", short.stderr);

@@ -4,14 +4,14 @@ use super::{json, points_of};
 use crate::common::{folder, shearbed};
 use std::fs;
 
-/// Twenty synthetic points of `fig4-n50` with α = 0.8 and m = 3, noise 0.01 (400 replicas of seed 7). A fit whose inner minima stayed in one
-/// valley answered here with low_68 = low_95 = 0.057 for α, inside its range, and m = 6.
+/// Twenty synthetic points of `fig4-n50` with α = 0.8 and m = 3, noise 0.01 (400 replicas of seed 7). A fit whose inner
+/// minima stayed in one valley answered here with low_68 = low_95 = 0.057 for α, inside its range, and m = 6.
 #[test]
 fn two_parameters_have_intervals_that_end_apart_or_no_answer() {
     let dir = folder();
     let values = [
-        0.11383, 0.03341, 0.05129, 0.10746, 0.36955, 0.11839, 0.0717, 0.06302, 0.16152, 0.28924, 0.16126,
-        0.07255, 0.06969, 0.16231, 0.23793, 0.16313, 0.09786, 0.09364, 0.15912, 0.24259,
+        0.11383, 0.03341, 0.05129, 0.10746, 0.36955, 0.11839, 0.0717, 0.06302, 0.16152, 0.28924, 0.16126, 0.07255,
+        0.06969, 0.16231, 0.23793, 0.16313, 0.09786, 0.09364, 0.15912, 0.24259,
     ];
     let mut text = "t_over_T,x1,x1_u\n".to_owned();
     for (k, value) in values.iter().enumerate() {
@@ -20,7 +20,8 @@ fn two_parameters_have_intervals_that_end_apart_or_no_answer() {
     fs::write(dir.path().join("twenty.csv"), text).unwrap();
     let done = shearbed(
         dir.path(),
-        "fit fig4-n50 --data twenty.csv --over interaction.alpha=0.05:5 --over interaction.m=1:6 --set particles.count=50 \
+        "fit fig4-n50 --data twenty.csv --over interaction.alpha=0.05:5 --over interaction.m=1:6 --set \
+            particles.count=50 \
          --out out --quiet",
     );
     if done.code == Some(2) {
@@ -40,7 +41,8 @@ fn two_parameters_have_intervals_that_end_apart_or_no_answer() {
     }
 }
 
-/// Points of rods of one r_e, fitted by rods whose r_e scatters: they dephase without a collision, so that α comes out small.
+/// Points of rods of one r_e, fitted by rods whose r_e scatters: they dephase without a collision, so that α comes out
+/// small.
 #[test]
 fn a_spread_that_is_taken_as_known_is_said_where_it_counts() {
     let dir = folder();

@@ -14,9 +14,8 @@ use std::time::Duration;
 fn a_full_disk_is_found_before_the_work() {
     let dir = folder();
     // Hours of work.
-    let long = SMALL
-        .replace("replicas = 3", "replicas = 1000000")
-        .replace("steps_per_period = 20", "steps_per_period = 2000");
+    let long =
+        SMALL.replace("replicas = 3", "replicas = 1000000").replace("steps_per_period = 20", "steps_per_period = 2000");
     fs::write(dir.path().join("long.toml"), long).unwrap();
     for arguments in [
         "run long.toml --out x",
@@ -34,13 +33,12 @@ fn a_full_disk_is_found_before_the_work() {
     }
 }
 
-/// A limit on the size of files that the largest file alone meets, after all work: the system would kill without a word.
+/// A limit on the size of files that the largest file alone meets, after all work: the system would kill without a
+/// word.
 #[test]
 fn a_file_that_is_too_large_is_an_error() {
     let dir = folder();
-    for arguments in
-        ["problems export x --quiet", "reference --aspect-ratio 5 --times 0:9:20000 --out x/a.csv"]
-    {
+    for arguments in ["problems export x --quiet", "reference --aspect-ratio 5 --times 0:9:20000 --out x/a.csv"] {
         let ended = limited(dir.path(), "ulimit -f 40", arguments);
         assert_eq!(ended.code, Some(2), "{arguments}: {}", ended.stderr);
         assert!(ended.stderr.contains("cannot be written: "), "{}", ended.stderr);
@@ -87,8 +85,7 @@ fn no_umask_leaves_half_a_folder() {
     let dir = folder();
     fs::set_permissions(dir.path(), std::os::unix::fs::PermissionsExt::from_mode(0o777)).unwrap();
     assert_eq!(shearbed(dir.path(), "run small.toml --quiet --out there").code, Some(0));
-    fs::set_permissions(dir.path().join("there"), std::os::unix::fs::PermissionsExt::from_mode(0o777))
-        .unwrap();
+    fs::set_permissions(dir.path().join("there"), std::os::unix::fs::PermissionsExt::from_mode(0o777)).unwrap();
     let before = files(dir.path());
     // Root may do all: it becomes somebody else.
     let is_root = rustix::process::geteuid().is_root();
@@ -107,8 +104,7 @@ fn no_umask_leaves_half_a_folder() {
             "reference --aspect-ratio 5 --times 1 --out r.csv",
         ] {
             let script = format!("umask {umask}; exec {other} {} {arguments}", copy.display());
-            let ended =
-                std::process::Command::new("bash").args(["-c", &script]).current_dir(dir.path()).ended();
+            let ended = std::process::Command::new("bash").args(["-c", &script]).current_dir(dir.path()).ended();
             let said = String::from_utf8_lossy(&ended.stderr);
             assert_eq!(ended.status.code(), Some(2), "{umask} {arguments}: {said}");
             assert!(said.contains("cannot be written: "), "{umask} {arguments}: {said}");
@@ -127,8 +123,9 @@ const COMMANDS: [&str; 6] = [
     "validate --case jeffery-period --case kick-bound --quiet --checkpoint cases --out report",
 ];
 
-/// Kills commands: at a random moment, when a hidden folder appears, when the record of a folder changes. Then nothing of the user's is
-/// lost, a folder is the old or the new one or says that it is incomplete, and the same command works. `SHEARBED_KILLS` sets their number.
+/// Kills commands: at a random moment, when a hidden folder appears, when the record of a folder changes. Then nothing
+/// of the user's is lost, a folder is the old or the new one or says that it is incomplete, and the same command works.
+/// `SHEARBED_KILLS` sets their number.
 #[test]
 fn a_command_killed_at_any_moment_loses_nothing_and_works_again() {
     let dir = folder();
@@ -142,8 +139,7 @@ fn a_command_killed_at_any_moment_loses_nothing_and_works_again() {
         let record = || fs::read(out.join(RECORD)).unwrap_or_default();
         let hidden = |at: &Path| at.is_dir() && names(at).iter().any(|name| name.starts_with(".shearbed-"));
         let before = record();
-        let mut child =
-            command(dir.path(), &line).stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+        let mut child = command(dir.path(), &line).stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
         let moment = random.random_range(0..3);
         while child.try_wait().unwrap().is_none() {
             let seen = match moment {
@@ -161,11 +157,9 @@ fn a_command_killed_at_any_moment_loses_nothing_and_works_again() {
         end(&line, child);
 
         if let Ok(Some(record)) = Record::read(&out) {
-            let sums: Vec<_> = (record.files.keys())
-                .map(|name| fs::read(out.join(name)).map(|bytes| Sum::of(&bytes)).ok())
-                .collect();
-            let whole =
-                sums.iter().zip(record.files.values()).all(|(found, listed)| found.as_ref() == Some(listed));
+            let sums: Vec<_> =
+                (record.files.keys()).map(|name| fs::read(out.join(name)).map(|bytes| Sum::of(&bytes)).ok()).collect();
+            let whole = sums.iter().zip(record.files.values()).all(|(found, listed)| found.as_ref() == Some(listed));
             let says_so = record.files.iter().all(|(name, sum)| record.check(name, sum).is_err());
             assert!(whole || says_so, "{kill}: {line}");
             incomplete += usize::from(says_so && !record.files.is_empty());
@@ -175,11 +169,7 @@ fn a_command_killed_at_any_moment_loses_nothing_and_works_again() {
         }
         let ended = shearbed(dir.path(), &line);
         assert_eq!(ended.code, Some(0), "{kill}: {line}: {}", ended.stderr);
-        assert!(
-            ended.stderr.lines().all(|line| line.contains("that was killed left this folder")),
-            "{}",
-            ended.stderr
-        );
+        assert!(ended.stderr.lines().all(|line| line.contains("that was killed left this folder")), "{}", ended.stderr);
         for place in [dir.path(), &out, out.parent().unwrap()].into_iter().filter(|place| place.is_dir()) {
             remove_left(place);
         }

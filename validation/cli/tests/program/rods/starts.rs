@@ -50,11 +50,7 @@ fn rods_that_were_written_go_on_as_they_would_have() {
         one_time(&at("whole/rods.csv"), &at("start.csv"), 20);
         let done = shearbed(dir.path(), "run rest.toml --out rest --quiet");
         assert_eq!(done.code, Some(2));
-        assert!(
-            done.stderr.contains("rest.toml: particles.rods: start.csv: has crc32 = "),
-            "{}",
-            done.stderr
-        );
+        assert!(done.stderr.contains("rest.toml: particles.rods: start.csv: has crc32 = "), "{}", done.stderr);
         // Without the digest in the scene the run says that its start is another one.
         fs::write(at("rest.toml"), &rest).unwrap();
         let done = shearbed(dir.path(), "run rest.toml --out rest");
@@ -138,13 +134,9 @@ fn a_suspension_of_unequal_rods_begins_again_from_its_own_table() {
     let (ended, begun) = (&all[40..], &again[..20]);
     let mut lengths = Vec::new();
     for (ended, begun) in ended.iter().zip(begun) {
-        for (name, room) in [
-            ("aspect_ratio", 0.0),
-            ("length_mm", 1e-15),
-            ("x1_mm", 1e-14),
-            ("x2_mm", 1e-14),
-            ("x3_mm", 1e-14),
-        ] {
+        for (name, room) in
+            [("aspect_ratio", 0.0), ("length_mm", 1e-15), ("x1_mm", 1e-14), ("x2_mm", 1e-14), ("x3_mm", 1e-14)]
+        {
             let (a, b) = (number(ended, name), number(begun, name));
             assert!((a - b).abs() <= room * a.abs(), "{name}: {a} {b}");
         }
@@ -190,14 +182,10 @@ fn other_numbers_of_rods_have_the_concentration_of_the_box() {
     let cube = asked().replace("rods_at = [0, 0.5, 1]", "rods_at = [0, 0.5]");
     for (name, interaction) in [
         ("box", "box_mm = [7.368062997280773, 7.368062997280773, 7.368062997280773]"),
-        (
-            "both",
-            "concentration_per_cm3 = 50\nbox_mm = [7.368062997280773, 7.368062997280773, 7.368062997280773]",
-        ),
+        ("both", "concentration_per_cm3 = 50\nbox_mm = [7.368062997280773, 7.368062997280773, 7.368062997280773]"),
         ("cube", "concentration_per_cm3 = 50"),
     ] {
-        fs::write(at(&format!("{name}.toml")), cube.replace("concentration_per_cm3 = 50", interaction))
-            .unwrap();
+        fs::write(at(&format!("{name}.toml")), cube.replace("concentration_per_cm3 = 50", interaction)).unwrap();
         let done = shearbed(dir.path(), &format!("converge {name}.toml --replicas 2 --out {name} --quiet"));
         assert_eq!(done.code, Some(0), "{name}: {}", done.stderr);
     }
@@ -238,31 +226,22 @@ fn rods_at_a_face_and_results_beside_their_input() {
     let kept = fs::read(at("rods.csv")).unwrap();
     let done = shearbed(dir.path(), "run s.toml --out . --force --quiet");
     assert!(
-        done.code == Some(2)
-            && done.stderr.contains("rods.csv, which this command reads: choose another --out"),
+        done.code == Some(2) && done.stderr.contains("rods.csv, which this command reads: choose another --out"),
         "{}",
         done.stderr
     );
     assert_eq!(fs::read(at("rods.csv")).unwrap(), kept);
     // Three rods in a corner of a large box; and keys that the file makes idle.
     let plan = |words: &str| shearbed(dir.path(), &format!("plan s.toml {words}")).stdout;
-    fs::write(
-        at("rods.csv"),
-        "x1_mm,x2_mm,x3_mm,length_mm\n0.4,0.4,0.4,1\n".to_owned() + &"0.4,0.4,0.4,2\n".repeat(2),
-    )
-    .unwrap();
+    fs::write(at("rods.csv"), "x1_mm,x2_mm,x3_mm,length_mm\n0.4,0.4,0.4,1\n".to_owned() + &"0.4,0.4,0.4,2\n".repeat(2))
+        .unwrap();
     let told = plan("--set interaction.box_mm=[1000,10,10]");
     assert!(
-        told.contains(
-            "reach only 0.4 of 1000 mm along axis 1: check that they belong to this control volume"
-        ),
+        told.contains("reach only 0.4 of 1000 mm along axis 1: check that they belong to this control volume"),
         "{told}"
     );
     let told = plan("--set particles.length_sd_percent=5");
-    assert!(
-        told.contains("particles.length_sd_percent has no effect: particles.rods gives it for each rod"),
-        "{told}"
-    );
+    assert!(told.contains("particles.length_sd_percent has no effect: particles.rods gives it for each rod"), "{told}");
     let told = plan("--set interaction.box_mm=[100,100,0.5]");
     assert!(told.contains("0.5 mm is less than a rod's length, 0.72 mm"), "{told}");
 }

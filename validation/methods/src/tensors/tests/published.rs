@@ -52,8 +52,7 @@ impl Row {
             "mrd" => Model::Mrd { c_i: p[0], d: [p[1], p[2], p[3]] },
             other => panic!("{other}"),
         };
-        let equation =
-            Equation { gradient_per_s: matrix(SHEAR), shape_factor: 1.0, closure: self.closure, model };
+        let equation = Equation { gradient_per_s: matrix(SHEAR), shape_factor: 1.0, closure: self.closure, model };
         // An isotropic a has no axes of its own: MRD and pARD start slightly off it.
         let start = match model {
             Model::Mrd { .. } | Model::Pard { .. } => isotropic() * 0.99 + turned([0.6, 0.3, 0.1]) * 0.01,
@@ -67,8 +66,8 @@ impl Row {
     }
 }
 
-/// Tolerances: 10⁻⁹ for rows of ten digits, half a unit for seven digits, 10⁻⁴ for drifting rows; for fitted rows, what the printed
-/// digits of parameters and value allow.
+/// Tolerances: 10⁻⁹ for rows of ten digits, half a unit for seven digits, 10⁻⁴ for drifting rows; for fitted rows, what
+/// the printed digits of parameters and value allow.
 #[test]
 fn results_of_others_are_met() {
     let mut seen = 0;

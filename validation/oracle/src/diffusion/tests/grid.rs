@@ -15,13 +15,10 @@ fn apart(gradient: [[f64; 3]; 3], r: f64, c_i: f64, rings: usize, time: f64) -> 
     let d = Matrix3::from_fn(|i, j| 0.5 * (gradient[i][j] + gradient[j][i]));
     let square = r * r;
     let shape = if r.is_infinite() { 1.0 } else { (square - 1.0) / (square + 1.0) };
-    let grid =
-        angle_grid::means(gradient, shape, c_i * (2.0 * d.norm_squared()).sqrt(), rings, time).unwrap();
+    let grid = angle_grid::means(gradient, shape, c_i * (2.0 * d.norm_squared()).sqrt(), rings, time).unwrap();
     move |motion| {
-        let found = match time.is_finite() {
-            true => at(motion, Start::Isotropic, &[time]).unwrap()[0],
-            false => steady(motion).unwrap(),
-        };
+        let found =
+            if time.is_finite() { at(motion, Start::Isotropic, &[time]).unwrap()[0] } else { steady(motion).unwrap() };
         off(&grid.second, &found.second)
             .max(off(&grid.fourth, &found.fourth))
             .max((grid.third_projection - found.projections[2]).abs())
@@ -47,25 +44,18 @@ fn both_methods_agree() {
         let stated = at(&motion, Start::Isotropic, &[2.0]).unwrap()[0].error;
         assert!(stated > 0.0 && stated < CLAIMED, "two solutions, or one twice: {stated:e}");
         for (name, wrong) in mistakes(motion) {
-            assert!(
-                (name.contains("vorticity") && motion.spin.norm() == 0.0) || error(&wrong) > 1e-5,
-                "{name}"
-            );
+            assert!((name.contains("vorticity") && motion.spin.norm() == 0.0) || error(&wrong) > 1e-5, "{name}");
         }
     }
 }
 
-/// Values that four further programs agree on (issue of 2026-11-26): even orders alone, at a peak as narrow as a problem's.
+/// Values that four further programs agree on (issue of 2026-11-26): even orders alone, at a peak as narrow as a
+/// problem's.
 #[test]
 fn extension_has_the_values_that_others_found() {
-    let of = |gradient, r, c_i, time| {
-        at(&Motion::new(gradient, r, c_i), Start::Isotropic, &[time]).unwrap()[0].second
-    };
+    let of = |gradient, r, c_i, time| at(&Motion::new(gradient, r, c_i), Start::Isotropic, &[time]).unwrap()[0].second;
     let planar = [8.0, 16.0].map(|time| of(PLANAR, f64::INFINITY, 0.01, time));
-    assert!(
-        (planar[0][1] - 0.849_603_7).abs() < 1e-7 && (planar[0][2] - 0.133_251_8).abs() < 1e-7,
-        "{planar:?}"
-    );
+    assert!((planar[0][1] - 0.849_603_7).abs() < 1e-7 && (planar[0][2] - 0.133_251_8).abs() < 1e-7, "{planar:?}");
     assert!((planar[1][2] - 0.039_547_5).abs() < 1e-7, "{planar:?}");
     let discs = of(ALONG_FIRST, 0.3, 0.03, 8.0);
     assert!((discs[0] - 0.041_867_0).abs() < 1e-7, "{discs:?}");

@@ -9,7 +9,8 @@ use rand::SeedableRng;
 use rand_distr::{Distribution, StandardNormal};
 use rand_pcg::Pcg64;
 
-/// At rest the part of degree l decays as e^{−l(l+1)D_r t}: a_ij − δ/3 as e^{−6D_r t}, and one part of a₄ as e^{−20D_r t}.
+/// At rest the part of degree l decays as e^{−l(l+1)D_r t}: a_ij − δ/3 as e^{−6D_r t}, and one part of a₄ as e^{−20D_r
+/// t}.
 #[test]
 fn diffusion_alone_has_the_known_decay() {
     let start = |p: [f64; 3]| 1.0 + (p[0] * p[1]).powi(2) + 0.5 * p[2] * (p[2] + p[0]);
@@ -32,17 +33,13 @@ fn diffusion_alone_has_the_known_decay() {
     let left: Vec<f64> = left.iter().map(|means| means.second[2] - 1.0 / 3.0).collect();
     assert!((left[1] / left[0] / (-21f64).exp() - 1.0).abs() < 1e-5 && left[2].abs() < 1e-15, "{left:?}");
     assert!(error(&Motion { diffusivity: 0.31, ..still }) > 1e-4);
-    assert!(
-        error(&Motion { strain: Matrix3::new(0.01, 0.0, 0.0, 0.0, -0.01, 0.0, 0.0, 0.0, 0.0), ..still })
-            > 1e-4
-    );
+    assert!(error(&Motion { strain: Matrix3::new(0.01, 0.0, 0.0, 0.0, -0.01, 0.0, 0.0, 0.0, 0.0), ..still }) > 1e-4);
 }
 
 /// C_I → 0 gives free rods, whose means are elliptic integrals.
 #[test]
 fn without_diffusion_rods_are_free() {
-    for (gradient, aspect_ratio) in
-        [(COUETTE, 3.0), (ASKEW, 0.4), ([[0.0, -0.7, 0.0], [0.2, 0.0, 0.0], [0.0; 3]], 8.0)]
+    for (gradient, aspect_ratio) in [(COUETTE, 3.0), (ASKEW, 0.4), ([[0.0, -0.7, 0.0], [0.2, 0.0, 0.0], [0.0; 3]], 8.0)]
     {
         let times = [0.4, 1.2];
         let free = Free { gradient_per_s: gradient, aspect_ratio };
@@ -80,8 +77,7 @@ fn second_moments_change_by_their_own_equation() {
                 0 | STEPS => 1.0,
                 k => 2.0 + 2.0 * (k % 2) as f64,
             };
-            let rates =
-                all.iter().enumerate().map(|(k, means)| rate(by, means) * (weight(k) / (3.0 * STEPS as f64)));
+            let rates = all.iter().enumerate().map(|(k, means)| rate(by, means) * (weight(k) / (3.0 * STEPS as f64)));
             (matrix(all[STEPS].second) - matrix(all[0].second) - rates.sum::<Matrix3<f64>>()).amax()
         };
         // h⁴/180 of a fourth derivative of about 10: 3·10⁻⁹.
@@ -92,7 +88,8 @@ fn second_moments_change_by_their_own_equation() {
     }
 }
 
-/// Single rods, with half the diffusion before and half after Jeffery's motion in each step; the tolerance is four standard errors.
+/// Single rods, with half the diffusion before and half after Jeffery's motion in each step; the tolerance is four
+/// standard errors.
 #[test]
 fn rods_one_by_one_agree() {
     const RODS: usize = 20_000;
@@ -103,8 +100,7 @@ fn rods_one_by_one_agree() {
     let map = ((motion.strain + motion.spin.cross_matrix()) * step).exp();
     let mut random = Pcg64::seed_from_u64(33);
     let mut normal = |_: usize| -> f64 { StandardNormal.sample(&mut random) };
-    let mut rods: Vec<Vector3<f64>> =
-        (0..RODS).map(|_| Vector3::from_fn(|i, _| normal(i)).normalize()).collect();
+    let mut rods: Vec<Vector3<f64>> = (0..RODS).map(|_| Vector3::from_fn(|i, _| normal(i)).normalize()).collect();
     // A step across p has the variance 2D_r h in each direction; the error of its length is of the order of D_r²h.
     let size = (motion.diffusivity * step).sqrt();
     for _ in 0..STEPS {

@@ -72,8 +72,7 @@ fn flow() -> impl Strategy<Value = (Matrix3<f64>, Option<Vector3<f64>>)> {
 }
 
 fn rods() -> impl Strategy<Value = Rods> {
-    let aspect_ratio =
-        prop_oneof![4 => (-4.6..4.6f64).prop_map(f64::exp), 1 => Just(f64::INFINITY), 1 => Just(1.0)];
+    let aspect_ratio = prop_oneof![4 => (-4.6..4.6f64).prop_map(f64::exp), 1 => Just(f64::INFINITY), 1 => Just(1.0)];
     let c_i = (-11.5..2.3f64).prop_map(f64::exp);
     (flow(), aspect_ratio, c_i, 0.3..6.0).prop_map(|((l, axis), aspect_ratio, c_i, time)| {
         // Weak diffusion makes peaks as narrow as the strain, and long to resolve.
@@ -83,8 +82,7 @@ fn rods() -> impl Strategy<Value = Rods> {
 }
 
 fn turned(means: &Means, axes: &Matrix3<f64>) -> (Matrix3<f64>, [f64; 15]) {
-    let whole: Vec<f64> =
-        (0..81).map(|n| entry(&means.fourth, [n / 27, n / 9 % 3, n / 3 % 3, n % 3])).collect();
+    let whole: Vec<f64> = (0..81).map(|n| entry(&means.fourth, [n / 27, n / 9 % 3, n / 3 % 3, n % 3])).collect();
     let fourth = QUADRUPLES.map(|q| {
         let weight = |n: usize| {
             axes[(q[0] - 1, n / 27)]
@@ -134,8 +132,8 @@ fn broken(rods: &Rods, axes: &Matrix3<f64>, solve: Solve) -> Option<Vec<(&'stati
         let other = solve(&mirrored)?;
         laws.push(("discs are rods in −Lᵀ", beside(&other, apart(&plain(&found), &plain(&other)))));
     }
-    // ∂⟨f⟩/∂ṗ is ∫ ⟨∇u·δṗ⟩ ds with u = f carried back by s: |∇u| ≤ e^(λs), λ the rate at which directions part at the most; ∂⟨f⟩/∂D_r
-    // is ∫ ⟨∇²u⟩ ds, |∇²u| ≤ 8(1 + |ΛD|s)e^(2λs).
+    // ∂⟨f⟩/∂ṗ is ∫ ⟨∇u·δṗ⟩ ds with u = f carried back by s: |∇u| ≤ e^(λs), λ the rate at which directions part at the
+    // most; ∂⟨f⟩/∂D_r is ∫ ⟨∇²u⟩ ds, |∇²u| ≤ 8(1 + |ΛD|s)e^(2λs).
     let rates = SymmetricEigen::new((rods.l + rods.l.transpose()) * 0.5).eigenvalues;
     let parting = ((rates.max() - rates.min()) * rods.time).exp();
     let nudge = Matrix3::new(0.3, -0.2, 0.5, 0.1, 0.4, 0.2, -0.6, 0.1, -0.7) * (1e-9 * rods.l.norm());
@@ -171,13 +169,11 @@ fn broken(rods: &Rods, axes: &Matrix3<f64>, solve: Solve) -> Option<Vec<(&'stati
         "a is positive, and so is ⟨p_i²p_j²⟩",
         beside(&found, squares.into_iter().fold(-least, |worst, square| worst.max(-square))),
     ));
-    // d|a − δ/3|/dt ≤ −6D_r |a − δ/3| + |ΛD|, by the equation of a: turns keep the norm, and |Λ(D·pp + pp·D − 2 D:pppp)| ≤ |ΛD|.
+    // d|a − δ/3|/dt ≤ −6D_r |a − δ/3| + |ΛD|, by the equation of a: turns keep the norm, and |Λ(D·pp + pp·D − 2
+    // D:pppp)| ≤ |ΛD|.
     let strain = before.strain.norm();
     let by = (second - Matrix3::identity() / 3.0).norm() - strain / (6.0 * before.diffusivity);
-    laws.push((
-        "diffusion keeps a near δ/3",
-        if before.diffusivity > 0.0 { beside(&found, by.max(0.0)) } else { 0.0 },
-    ));
+    laws.push(("diffusion keeps a near δ/3", if before.diffusivity > 0.0 { beside(&found, by.max(0.0)) } else { 0.0 }));
     Some(laws)
 }
 
@@ -201,17 +197,13 @@ proptest! {
 fn every_law_is_broken_by_a_mistake() {
     let extension = Matrix3::from_diagonal(&Vector3::new(0.5, -0.25, -0.25));
     let discs = Rods { l: extension, aspect_ratio: 0.3, c_i: 0.03, time: 8.0, axis: Some(Vector3::x()) };
-    let askew =
-        Rods { l: Matrix3::from_fn(|i, j| ASKEW[i][j]), aspect_ratio: 3.0, c_i: 0.1, time: 2.0, axis: None };
+    let askew = Rods { l: Matrix3::from_fn(|i, j| ASKEW[i][j]), aspect_ratio: 3.0, c_i: 0.1, time: 2.0, axis: None };
     let diffuse = Rods { c_i: 5.0, ..discs };
     let axes = Rotation3::from_euler_angles(0.4, 1.0, -0.3).into_inner();
     let mistakes: [(&str, Rods, &str, Solve); 11] = [
-        (
-            "odd orders alone beyond a size",
-            discs,
-            "a flow alike about an axis has an answer alike about it",
-            |rods| added(rods, [0.0, 1e-9, -1e-9, 0.0, 0.0, 0.0]),
-        ),
+        ("odd orders alone beyond a size", discs, "a flow alike about an axis has an answer alike about it", |rods| {
+            added(rods, [0.0, 1e-9, -1e-9, 0.0, 0.0, 0.0])
+        }),
         (
             "an error in flows without spin",
             Rods { time: 2.0, ..discs },
@@ -257,8 +249,7 @@ fn every_law_is_broken_by_a_mistake() {
         }),
     ];
     for (name, rods, law, solve) in mistakes {
-        let by =
-            |solve| broken(&rods, &axes, solve).unwrap().into_iter().find(|(of, _)| *of == law).unwrap().1;
+        let by = |solve| broken(&rods, &axes, solve).unwrap().into_iter().find(|(of, _)| *of == law).unwrap().1;
         assert!(by(right) <= 1.0, "{law}: {}", by(right));
         assert!(by(solve) > 1.0, "{name}: {law}: {}", by(solve));
     }

@@ -43,8 +43,8 @@ fn contracted(fourth: [f64; 15], d: &Matrix3<f64>) -> Matrix3<f64> {
     Matrix3::from_fn(|i, j| (0..9).map(|n| entry(i, j, n / 3, n % 3) * d[(n / 3, n % 3)]).sum())
 }
 
-/// da_ij/dt by the equation of the second moments (Folgar & Tucker 1984, Advani & Tucker 1987), which needs a_ijkl and is
-/// exact: W a − a W + Λ(D a + a D − 2 D:a₄) + 2D_r(1 − 3a).
+/// da_ij/dt by the equation of the second moments (Folgar & Tucker 1984, Advani & Tucker 1987), which needs a_ijkl and
+/// is exact: W a − a W + Λ(D a + a D − 2 D:a₄) + 2D_r(1 − 3a).
 fn rate(motion: &Motion, means: &Means) -> Matrix3<f64> {
     let (a, w, d) = (matrix(means.second), motion.spin.cross_matrix(), motion.strain);
     w * a - a * w + d * a + a * d - 2.0 * contracted(means.fourth, &d)

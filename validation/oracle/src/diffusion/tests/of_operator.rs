@@ -74,10 +74,9 @@ fn a_manufactured_solution_has_the_rate_that_is_worked_out_by_hand() {
 /// A symmetric flow in the laboratory's axes with all harmonics, compared with cosines in its own axes.
 #[test]
 fn axes_and_reflections_change_no_mean() {
-    for motion in [
-        Motion::new(COUETTE, 4.0, 0.1),
-        Motion::new([[1.0, 0.3, 0.0], [0.5, -0.6, 0.0], [0.0, 0.0, -0.4]], 0.3, 0.2),
-    ] {
+    for motion in
+        [Motion::new(COUETTE, 4.0, 0.1), Motion::new([[1.0, 0.3, 0.0], [0.5, -0.6, 0.0], [0.0, 0.0, -0.4]], 0.3, 0.2)]
+    {
         let own = Frame::of(&motion);
         assert!(own.even);
         let (c, s) = (0.6, 0.8);
@@ -85,8 +84,7 @@ fn axes_and_reflections_change_no_mean() {
         let spin = axes * motion.spin;
         let plain = Motion { strain: axes * motion.strain * axes.transpose(), spin, ..motion };
         let with = |frame: &Frame| {
-            crate::diffusion::settled::steady(frame, Basis { degree: 60, order: 60, even: frame.even })
-                .unwrap()
+            crate::diffusion::settled::steady(frame, Basis { degree: 60, order: 60, even: frame.even }).unwrap()
         };
         let (found, expected) = (with(&Frame { axes, motion: plain, even: false }), with(&own));
         assert!(off(&found, &expected) < 1e-13, "{:e}", off(&found, &expected));

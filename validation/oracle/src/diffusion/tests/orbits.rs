@@ -38,7 +38,8 @@ fn moments_of_an_orbit_are_those_of_its_phases() {
     }
 }
 
-/// Reversing the flow changes the sign of C_I in a_ii, so a_ii = a_ii(0) + O(C_I²): two values of C_I leave an error ∝ C_I⁴.
+/// Reversing the flow changes the sign of C_I in a_ii, so a_ii = a_ii(0) + O(C_I²): two values of C_I leave an error ∝
+/// C_I⁴.
 #[test]
 fn weak_diffusion_is_the_limit_of_the_fokker_planck_equation() {
     for r in [0.3, 2.0, 3.0] {
@@ -55,9 +56,7 @@ fn weak_diffusion_is_the_limit_of_the_fokker_planck_equation() {
         let free = [0, 1, 2].map(|i| {
             let of_c = |c_b: f64| {
                 let c = c_b / (1.0 - c_b);
-                crate::closed_form::orbit_constant_density(c, r)
-                    * second_moments_of_orbit(c, r)[i]
-                    * (1.0 + c).powi(2)
+                crate::closed_form::orbit_constant_density(c, r) * second_moments_of_orbit(c, r)[i] * (1.0 + c).powi(2)
             };
             crate::quadrature::integrate(of_c, &[1e-9, 0.1, 0.5, 0.9, 1.0 - 1e-9], 1e-12).value
         });

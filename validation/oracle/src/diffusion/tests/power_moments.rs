@@ -5,12 +5,13 @@ use nalgebra::{DMatrix, DVector};
 
 const DEGREE: usize = 40;
 
-/// a₁₁, a₂₂, a₁₂ and a₁₁₂₂ of a steady plane flow with the in-plane generator `g` of Jeffery's motion (ṗ = g p − p p·gp).
+/// a₁₁, a₂₂, a₁₂ and a₁₁₂₂ of a steady plane flow with the in-plane generator `g` of Jeffery's motion (ṗ = g p − p
+/// p·gp).
 ///
-/// d⟨p₁^a p₂^b⟩/dt = ⟨∇(p₁^a p₂^b)·ṗ⟩ + D_r⟨∇²p₁^a p₂^b⟩ for each power. Moments above the degree are those of isotropic rods.
+/// d⟨p₁^a p₂^b⟩/dt = ⟨∇(p₁^a p₂^b)·ṗ⟩ + D_r⟨∇²p₁^a p₂^b⟩ for each power. Moments above the degree are those of
+/// isotropic rods.
 fn moments(g: [[f64; 2]; 2], diffusivity: f64) -> [f64; 4] {
-    let powers: Vec<(usize, usize)> =
-        (0..=DEGREE).step_by(2).flat_map(|n| (0..=n).map(move |a| (a, n - a))).collect();
+    let powers: Vec<(usize, usize)> = (0..=DEGREE).step_by(2).flat_map(|n| (0..=n).map(move |a| (a, n - a))).collect();
     let place = |a: usize, b: usize| powers.iter().position(|power| *power == (a, b));
     let size = powers.len();
     let (mut matrix, mut right) = (DMatrix::zeros(size, size), DVector::zeros(size));
@@ -44,9 +45,10 @@ fn moments(g: [[f64; 2]; 2], diffusivity: f64) -> [f64; 4] {
 /// ⟨p₁^a p₂^b⟩ over isotropic directions: (a − 1)!!(b − 1)!!/(a + b + 1)!! for even powers.
 fn isotropic(a: usize, b: usize) -> f64 {
     let odd = |n: usize| (1..=n).step_by(2).map(|k| k as f64).product::<f64>();
-    match a.is_multiple_of(2) && b.is_multiple_of(2) {
-        true => odd(a.saturating_sub(1)) * odd(b.saturating_sub(1)) / odd(a + b + 1),
-        false => 0.0,
+    if a.is_multiple_of(2) && b.is_multiple_of(2) {
+        odd(a.saturating_sub(1)) * odd(b.saturating_sub(1)) / odd(a + b + 1)
+    } else {
+        0.0
     }
 }
 

@@ -9,14 +9,10 @@ use crate::quadrature::integrate;
 /// In flows without vorticity of any strength, ψ ∝ exp(p·(ΛD)p/2D_r) exactly.
 #[test]
 fn extension_has_the_density_of_bingham() {
-    for (rate, aspect_ratio, c_i) in
-        [(1.0, f64::INFINITY, 0.02), (-0.7, 5.0, 0.01), (2.0, 0.2, 0.3), (1.0, 11.6, 1e-4)]
+    for (rate, aspect_ratio, c_i) in [(1.0, f64::INFINITY, 0.02), (-0.7, 5.0, 0.01), (2.0, 0.2, 0.3), (1.0, 11.6, 1e-4)]
     {
-        let motion = Motion::new(
-            [[-0.5 * rate, 0.0, 0.0], [0.0, -0.5 * rate, 0.0], [0.0, 0.0, rate]],
-            aspect_ratio,
-            c_i,
-        );
+        let motion =
+            Motion::new([[-0.5 * rate, 0.0, 0.0], [0.0, -0.5 * rate, 0.0], [0.0, 0.0, rate]], aspect_ratio, c_i);
         // p·Dp = rate (3z² − 1)/2.
         let r = aspect_ratio.min(1e8);
         let shape = (r * r - 1.0) / (r * r + 1.0);
@@ -135,8 +131,8 @@ fn strong_diffusion_has_its_series() {
     assert_eq!(steady(&Motion::new(ASKEW, 4.0, f64::INFINITY)).unwrap().second[3], 0.0);
 }
 
-/// Findings of others: the natural closure needs C_I = 0.0053 for A11 = 0.8261, where the distribution has a lower value; at
-/// C_I = 0.0311 IBOF has 0.6494, and the distribution is lower by 0.022.
+/// Findings of others: the natural closure needs C_I = 0.0053 for A11 = 0.8261, where the distribution has a lower
+/// value; at C_I = 0.0311 IBOF has 0.6494, and the distribution is lower by 0.022.
 #[test]
 fn closures_are_above_the_distribution() {
     let along = |c_i| steady(&Motion::new(COUETTE, f64::INFINITY, c_i)).unwrap().second[1];

@@ -17,8 +17,8 @@ fn mean(values: impl Iterator<Item = f64>) -> f64 {
     values.iter().sum::<f64>() / values.len() as f64
 }
 
-/// By hand: u_2 = x_1 brings liquid in only at x_2 = 0, with a density proportional to x_1 (mean 2/3 of the edge), and it has moved by
-/// a uniform share of x_1 dt.
+/// By hand: u_2 = x_1 brings liquid in only at x_2 = 0, with a density proportional to x_1 (mean 2/3 of the edge), and
+/// it has moved by a uniform share of x_1 dt.
 #[test]
 fn shear_brings_rods_in_as_it_does_liquid() {
     let shear = [[0.0; 3], [1.0, 0.0, 0.0], [0.0; 3]];
@@ -45,7 +45,8 @@ fn shear_brings_rods_in_as_it_does_liquid() {
     assert!(x[0] <= x[1] * DT_S * (1.0 + 1e-12));
 }
 
-/// By hand: u = (x_1, −x_2/2, −x_3/2) comes in at both far faces, 1·4 mm² at 1 mm/s and 1·2 mm² at 2 mm/s: equal shares.
+/// By hand: u = (x_1, −x_2/2, −x_3/2) comes in at both far faces, 1·4 mm² at 1 mm/s and 1·2 mm² at 2 mm/s: equal
+/// shares.
 #[test]
 fn extension_brings_rods_in_through_both_faces() {
     let extension = [[1.0, 0.0, 0.0], [0.0, -0.5, 0.0], [0.0, 0.0, -0.5]];

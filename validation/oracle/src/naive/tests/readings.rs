@@ -36,8 +36,7 @@ fn candidates_may_be_taken_in_the_order_of_rods() {
 #[test]
 fn contact_lines_may_end_with_the_rods() {
     // arms of 2 and 3 mm
-    let collisions =
-        |lines, length_mm| hand_pair(|p| (p.reading.lines, p.length_mm) = (lines, length_mm)).collisions;
+    let collisions = |lines, length_mm| hand_pair(|p| (p.reading.lines, p.length_mm) = (lines, length_mm)).collisions;
     let lengths = [3.9, 5.999999, 6.0, 6.000001];
     assert_eq!(lengths.map(|a| collisions(Lines::CutAtEnds, a)), [0, 0, 1, 1]);
     assert_eq!(lengths.map(|a| collisions(Lines::Infinite, a)), [1; 4]);

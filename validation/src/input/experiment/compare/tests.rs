@@ -9,16 +9,9 @@ fn synthetic(y: [f64; 3]) -> MeasuredCurve {
         calibration: vec![0.0, 100.0],
         standard_uncertainty: 0.5,
     };
-    let axis_y =
-        Axis { quantity: Projection::Fraction, calibration: vec![0.0, 1.0], standard_uncertainty: 0.005 };
-    let point = |(x, y): (f64, f64)| Measured {
-        label: "synthetic".to_owned(),
-        observable: "x2",
-        x,
-        y,
-        u_x: 0.003,
-        u_y: 0.005,
-    };
+    let axis_y = Axis { quantity: Projection::Fraction, calibration: vec![0.0, 1.0], standard_uncertainty: 0.005 };
+    let point =
+        |(x, y): (f64, f64)| Measured { label: "synthetic".to_owned(), observable: "x2", x, y, u_x: 0.003, u_y: 0.005 };
     MeasuredCurve {
         scene: "fig4-n100",
         channel: 1,
@@ -51,10 +44,7 @@ fn input(name: &str) -> usize {
 #[test]
 fn a_goodness_of_fit_by_hand() {
     // V = [2 1; 1 2], V⁻¹ = [2 −1; −1 2]/3: χ² = (2 − 4 + 8)/3 = 2, and for two points P(χ² > 2) = exp(−1).
-    let v = Covariance {
-        own: DVector::from_vec(vec![1.0, 1.0]),
-        shared: DMatrix::from_row_slice(1, 2, &[1.0, 1.0]),
-    };
+    let v = Covariance { own: DVector::from_vec(vec![1.0, 1.0]), shared: DMatrix::from_row_slice(1, 2, &[1.0, 1.0]) };
     let (chi_square, p) = goodness_of_fit(&DVector::from_vec(vec![1.0, 2.0]), v.solver().as_ref());
     assert_relative_eq!(chi_square, 2.0, max_relative = 1e-12);
     assert_relative_eq!(p, (-1.0_f64).exp(), max_relative = 1e-12);
@@ -103,8 +93,7 @@ fn each_source_of_uncertainty_counts() {
     let sharp_in_y = u_d(&|curve| curve.points[2].u_y = 1e-9);
     assert_relative_eq!(none, sharp_in_time + sharp_in_y, max_relative = 1e-6);
     assert_eq!(u(&|_| {}, |point| point.u_input), 0.0);
-    let u_input =
-        |sd: f64| u(&|curve| curve.provenance.inputs = vec![(input("alpha"), sd)], |point| point.u_input);
+    let u_input = |sd: f64| u(&|curve| curve.provenance.inputs = vec![(input("alpha"), sd)], |point| point.u_input);
     assert_relative_eq!(u_input(0.2), 2.0 * u_input(0.1), max_relative = 1e-9);
 }
 

@@ -42,11 +42,8 @@ fn a_pdf_shows_what_the_svg_does() {
         for look in &looks(&figure)[..figure.curves.len()] {
             // The curve and its sample in the legend.
             assert!(strokes(&operators, *look) >= 2, "{}: look {look}", figure.title);
-            let stripped: String = operators
-                .lines()
-                .filter(|line| !line.ends_with(" RG"))
-                .map(|line| format!("{line}\n"))
-                .collect();
+            let stripped: String =
+                operators.lines().filter(|line| !line.ends_with(" RG")).map(|line| format!("{line}\n")).collect();
             // Control: a page without colours.
             assert_eq!(strokes(&stripped, *look), 0);
         }

@@ -57,8 +57,7 @@ fn a_png_shows_what_the_svg_does() {
 #[test]
 fn a_picture_in_bands_is_the_whole_but_for_some_edges_of_ink() {
     for figure in [synthetic(), many()] {
-        let [whole, bands] =
-            [u32::MAX, 1 << 18].map(|at_once| read(&in_bands(&figure, at_once).unwrap().bytes));
+        let [whole, bands] = [u32::MAX, 1 << 18].map(|at_once| read(&in_bands(&figure, at_once).unwrap().bytes));
         assert!(whole.0 * whole.1 > 8 << 18, "several bands");
         assert_eq!((whole.0, whole.1), (bands.0, bands.1));
         let differ = |rows: usize| {
@@ -66,11 +65,7 @@ fn a_picture_in_bands_is_the_whole_but_for_some_edges_of_ink() {
             1000 * pairs.filter(|(a, b)| a != b).count()
         };
         let [in_place, shifted] = [0, 1].map(differ);
-        assert!(
-            in_place < whole.2.len() && shifted > whole.2.len(),
-            "{in_place} {shifted} of {}",
-            whole.2.len()
-        );
+        assert!(in_place < whole.2.len() && shifted > whole.2.len(), "{in_place} {shifted} of {}", whole.2.len());
     }
     let largest = Band::new(16_000, 16_000, 0, AT_ONCE).unwrap();
     assert!(largest.pixels.pixels().len() <= AT_ONCE as usize);
@@ -89,12 +84,7 @@ fn letters_are_drawn_or_named() {
 
 #[test]
 fn a_dashed_curve_has_gaps() {
-    let level = |label: &str, y: f64| Curve {
-        label: label.into(),
-        x: vec![0.0, 1.0],
-        y: vec![y, y],
-        half_band: None,
-    };
+    let level = |label: &str, y: f64| Curve { label: label.into(), x: vec![0.0, 1.0], y: vec![y, y], half_band: None };
     let figure = Figure { curves: vec![level("whole", 0.2), level("dashed", 0.8)], ..Figure::default() };
     let (_, _, pixels) = read(&png(&figure).unwrap().bytes);
     let looks = looks(&figure);

@@ -45,7 +45,8 @@ fn html_stands_alone() {
 
 #[test]
 fn hostile_texts_are_harmless_in_every_writing() {
-    let hostile = "\u{1b}]0;x\u{7}\u{9b}2J\u{fffe}\u{202e}</title></svg><script>x</script> `|` ```` [a](javascript:b) *c*";
+    let hostile =
+        "\u{1b}]0;x\u{7}\u{9b}2J\u{fffe}\u{202e}</title></svg><script>x</script> `|` ```` [a](javascript:b) *c*";
     let mut report = synthetic();
     let case = &mut report.cases[0];
     let line = &mut case.evidence[0];

@@ -14,12 +14,7 @@ pub fn synthetic() -> Report {
             &caught,
         ),
         outcome("synthetic-p-value", Verdict::Pass, vec![p_value(0.31)], &caught),
-        outcome(
-            "synthetic-fail",
-            Verdict::Fail,
-            vec![within(0.9e-12), within(f64::NAN), within(3e-12)],
-            &caught,
-        ),
+        outcome("synthetic-fail", Verdict::Fail, vec![within(0.9e-12), within(f64::NAN), within(3e-12)], &caught),
         outcome(
             "synthetic-blind",
             Verdict::Fail,
@@ -53,10 +48,7 @@ pub fn synthetic() -> Report {
         ["synthetic", "Synthetic numbers"],
         "What to see: `synthetic-pass`.",
         [1.0, 2.5],
-        vec![
-            number("x (s)", |x| format!("{x:.1}"), |x: &f64| *x),
-            words("in words", |x: &f64| format!("<{x}>")),
-        ],
+        vec![number("x (s)", |x| format!("{x:.1}"), |x: &f64| *x), words("in words", |x: &f64| format!("<{x}>"))],
     );
     let mut study = ReportStudy::default();
     for (field, text) in [

@@ -14,7 +14,8 @@ pub struct Known {
     pub own: DVector<f64>,
     /// Values less their mean, times the root of the weight: places × candidates.
     values: Arc<DMatrix<f64>>,
-    /// For each point that was added: its covariances with all candidates, and its variance including the error of measurement.
+    /// For each point that was added: its covariances with all candidates, and its variance including the error of
+    /// measurement.
     measured: Vec<(DVector<f64>, f64)>,
 }
 
@@ -35,10 +36,7 @@ impl Known {
         Self {
             parameters: theta.tr_mul(&theta),
             cross: theta.tr_mul(&values),
-            own: DVector::from_iterator(
-                values.ncols(),
-                values.column_iter().map(|column| column.norm_squared()),
-            ),
+            own: DVector::from_iterator(values.ncols(), values.column_iter().map(|column| column.norm_squared())),
             values: Arc::new(values),
             measured: Vec::new(),
         }
@@ -64,7 +62,8 @@ impl Known {
         self.measured.push((with_all, whole));
     }
 
-    /// The candidate that leaves the smallest determinant of the parameters' covariance; `variance` gives each error variance.
+    /// The candidate that leaves the smallest determinant of the parameters' covariance; `variance` gives each error
+    /// variance.
     pub fn best(&self, variance: impl Fn(usize) -> f64) -> Option<usize> {
         let information = self.parameters.clone().try_inverse()?;
         // The share by which a candidate reduces the determinant.

@@ -1,4 +1,5 @@
-//! Tests of hypotheses: against the textbook for a straight model, and the rate at which a true one is rejected for a curved model.
+//! Tests of hypotheses: against the textbook for a straight model, and the rate at which a true one is rejected for a
+//! curved model.
 
 use super::super::search::{Measured, fitted, values};
 use super::super::tests::{enough, mean, normal};
@@ -97,8 +98,9 @@ fn a_straight_model_has_the_tests_of_the_textbook() {
     assert!(far.beyond_the_box && far.p_value == 1e-6, "{far:?}");
 }
 
-/// The rise of χ² under a true hypothesis has the law of χ² with one degree of freedom: its mean is 1 and its variance 2, which shows
-/// a wrong rise in half as many fits as the share of them that is rejected. A wrong hypothesis is rejected nearly always.
+/// The rise of χ² under a true hypothesis has the law of χ² with one degree of freedom: its mean is 1 and its variance
+/// 2, which shows a wrong rise in half as many fits as the share of them that is rejected. A wrong hypothesis is
+/// rejected nearly always.
 #[test]
 fn a_true_hypothesis_is_rejected_as_often_as_the_level_says() {
     // A rise twice as large, with which 16 % of true hypotheses would be rejected at the level of 5 %.

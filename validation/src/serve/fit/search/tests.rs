@@ -10,8 +10,7 @@ fn a_closer_box_is_three_quarters_as_wide() {
         let value = values[0];
         Ok(Replica::whole(move |_| Ok(vec![[value; 3]; 4])))
     };
-    let data: Vec<_> =
-        (0..4).map(|k| Datum { value: 0.0, u: 0.2, ..Datum::place(0, "x1", f64::from(k)) }).collect();
+    let data: Vec<_> = (0..4).map(|k| Datum { value: 0.0, u: 0.2, ..Datum::place(0, "x1", f64::from(k)) }).collect();
     let measured = Measured { data: &data, ranges: &ranges, rods: &Rods::none(1) };
     let fit = search(&FitProblem { measured, model: &model, most_replicas: 3 }, &Watch::SILENT).unwrap();
     let width = |far: f64| {
@@ -19,12 +18,7 @@ fn a_closer_box_is_three_quarters_as_wide() {
         sides[0].1 - sides[0].0
     };
     // Five standard deviations of 0.1 to either side, and 3.75.
-    assert!(
-        (width(FAR) - 1.0).abs() < 1e-3 && (width(NEAR) - 0.75).abs() < 1e-3,
-        "{} {}",
-        width(FAR),
-        width(NEAR)
-    );
+    assert!((width(FAR) - 1.0).abs() < 1e-3 && (width(NEAR) - 0.75).abs() < 1e-3, "{} {}", width(FAR), width(NEAR));
 }
 
 /// A share s of the variance at n replicas becomes s/(s + (1 − s) k) at k n replicas.

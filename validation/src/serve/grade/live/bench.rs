@@ -33,7 +33,8 @@ pub struct Bench {
     pub ours: Vec<IntegratorCurve>,
 }
 
-/// Answers every request with its start until the input ends: this measures the cost of the pipe and the protocol alone.
+/// Answers every request with its start until the input ends: this measures the cost of the pipe and the protocol
+/// alone.
 pub fn echo(protocol: Protocol, mut input: impl BufRead, mut output: impl Write) -> Result<(), String> {
     loop {
         let line = next_line(&mut input).map_err(|error| error.to_string())?;
@@ -58,8 +59,7 @@ fn pipe_s(echo: &str, protocol: Protocol, timeout: Duration) -> Option<f64> {
         start: vec![[0.36, 0.48, 0.8]],
         end_s: 1.0,
     };
-    let times: Option<Vec<_>> =
-        (0..ECHOES).map(|_| Some(program.ask(&question, Setting::Steps(1)).ok()?.1)).collect();
+    let times: Option<Vec<_>> = (0..ECHOES).map(|_| Some(program.ask(&question, Setting::Steps(1)).ok()?.1)).collect();
     times?.into_iter().min().map(|least| least.as_secs_f64())
 }
 
@@ -75,7 +75,8 @@ pub fn bench(program: &Program, echo: &str) -> Bench {
 }
 
 impl Bench {
-    /// The program's curve without the pipe's cost; times that do not exceed a tenth more than it are set to a tenth of it.
+    /// The program's curve without the pipe's cost; times that do not exceed a tenth more than it are set to a tenth of
+    /// it.
     pub fn without_pipe(&self) -> IntegratorCurve {
         let pipe = self.pipe_s.unwrap_or(0.0);
         let mut program = self.program.clone();

@@ -28,7 +28,8 @@ pub(super) fn start(command: &mut Command) -> io::Result<Child> {
     Ok(child)
 }
 
-/// Kills a program with its descendants. Returns its status, unless it does not end, and a message on each process that is left.
+/// Kills a program with its descendants. Returns its status, unless it does not end, and a message on each process that
+/// is left.
 pub(super) fn end(child: &mut Child) -> (Option<ExitStatus>, Vec<String>) {
     let mut running = running();
     running.remove(&child.id());
@@ -129,8 +130,7 @@ mod family {
             let late = Instant::now() > deadline;
             let (mut left, mut may_end) = (Vec::new(), false);
             for found in alive(id, others) {
-                let sent =
-                    Pid::from_raw(found.cast_signed()).map_or(Ok(()), |id| kill_process(id, Signal::KILL));
+                let sent = Pid::from_raw(found.cast_signed()).map_or(Ok(()), |id| kill_process(id, Signal::KILL));
                 match sent {
                     Ok(()) if late => left.push(message(found, "it does not end")),
                     Ok(()) => may_end = true,
@@ -145,7 +145,8 @@ mod family {
         }
     }
 
-    /// The descendants of a program, and itself, that have not ended. Where no other program runs, adopted processes are its own.
+    /// The descendants of a program, and itself, that have not ended. Where no other program runs, adopted processes
+    /// are its own.
     fn alive(id: u32, others: &BTreeSet<u32>) -> BTreeSet<u32> {
         let all = all();
         let mut found = BTreeSet::from([id]);
@@ -156,11 +157,8 @@ mod family {
         }
         let mut new = found.clone();
         while !new.is_empty() {
-            new = new
-                .iter()
-                .flat_map(|parent| children(*parent, &all))
-                .filter(|child| !found.contains(child))
-                .collect();
+            new =
+                new.iter().flat_map(|parent| children(*parent, &all)).filter(|child| !found.contains(child)).collect();
             found.extend(&new);
         }
         let zombie = |id: &u32| all.get(id).is_none_or(|process| process.zombie);
@@ -177,11 +175,8 @@ mod family {
         let folder = format!("/proc/{id}");
         let name = bounded::bytes(&Path::new(&folder).join("comm"), MOST).unwrap_or_default();
         let name = text::line(String::from_utf8_lossy(&name).trim());
-        let user =
-            fs::metadata(folder).map_or_else(|_| "unknown".to_owned(), |folder| folder.uid().to_string());
-        format!(
-            "process {id} ({name}, user id {user}) cannot be stopped: {why}; end it by hand: kill -9 {id}"
-        )
+        let user = fs::metadata(folder).map_or_else(|_| "unknown".to_owned(), |folder| folder.uid().to_string());
+        format!("process {id} ({name}, user id {user}) cannot be stopped: {why}; end it by hand: kill -9 {id}")
     }
 }
 

@@ -27,8 +27,8 @@ pub enum Mode {
     Tolerance,
 }
 
-/// Asks for a rod of r_e = 2 over a short time, with steps; if the program returns an error there and none with a tolerance, its mode is
-/// the tolerance.
+/// Asks for a rod of r_e = 2 over a short time, with steps; if the program returns an error there and none with a
+/// tolerance, its mode is the tolerance.
 pub fn mode(program: &Program) -> Mode {
     program.during("the first request");
     let question = Question {
@@ -39,10 +39,7 @@ pub fn mode(program: &Program) -> Mode {
     };
     let refuses = |setting| matches!(program.ask(&question, setting), Err(super::program::Asked::Says(_)));
     // What breaks at the tolerance is shown by the ladder of tolerances.
-    match refuses(Setting::Steps(8)) && !refuses(Setting::Tolerance(1e-3)) {
-        true => Mode::Tolerance,
-        false => Mode::Steps,
-    }
+    if refuses(Setting::Steps(8)) && !refuses(Setting::Tolerance(1e-3)) { Mode::Tolerance } else { Mode::Steps }
 }
 
 /// One setting with its answer.

@@ -48,10 +48,9 @@ impl std::fmt::Display for Trouble {
                 write!(f, "the program ended: {how}; its last words on standard error: {words}")
             }
             Self::Closed => write!(f, "it closed its standard output and went on; it was stopped"),
-            Self::TooLong(line) => write!(
-                f,
-                "line {line} of standard output is longer than {LONGEST_LINE} bytes; the program was stopped"
-            ),
+            Self::TooLong(line) => {
+                write!(f, "line {line} of standard output is longer than {LONGEST_LINE} bytes; the program was stopped")
+            }
         }
     }
 }
@@ -81,8 +80,7 @@ impl Pipe {
         let (program, arguments) = words.split_first().ok_or("the command is empty")?;
         let mut command = Command::new(program);
         command.args(arguments).stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
-        let mut child =
-            kill::start(&mut command).map_err(|error| format!("{program}: cannot be started: {error}"))?;
+        let mut child = kill::start(&mut command).map_err(|error| format!("{program}: cannot be started: {error}"))?;
         let (stdin, stdout, stderr) = (child.stdin.take(), child.stdout.take(), child.stderr.take());
         let (requests, to_write) = mpsc::channel();
         let (heard, lines) = mpsc::sync_channel(LINES_HELD);
@@ -153,9 +151,7 @@ impl Pipe {
             thread::sleep(Duration::from_millis(5));
             if Instant::now() > deadline {
                 let grace = GRACE.as_secs();
-                return Err(format!(
-                    "it did not end within {grace} s of the end of its input and was stopped"
-                ));
+                return Err(format!("it did not end within {grace} s of the end of its input and was stopped"));
             }
         }
         // Its last output may still be on the way; a child process may hold standard output open.
@@ -168,9 +164,7 @@ impl Pipe {
             return Ok(());
         };
         match self.counted(heard) {
-            Ok((line, text)) => {
-                Err(format!("line {line} of standard output answers nothing: {}", excerpt(&text)))
-            }
+            Ok((line, text)) => Err(format!("line {line} of standard output answers nothing: {}", excerpt(&text))),
             Err(trouble) => Err(trouble.to_string()),
         }
     }

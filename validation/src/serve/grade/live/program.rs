@@ -83,8 +83,7 @@ impl std::fmt::Display for Asked {
 impl Program {
     /// Starts the command. `Err` when it cannot be started at all.
     pub fn start(command: &str, protocol: Protocol, timeout: Duration) -> Result<Self, String> {
-        let words =
-            shlex::split(command).ok_or_else(|| format!("--command {command}: a quote is not closed"))?;
+        let words = shlex::split(command).ok_or_else(|| format!("--command {command}: a quote is not closed"))?;
         let pipe = Pipe::start(&words).map_err(|error| format!("--command {error}"))?;
         Ok(Self {
             words,
@@ -137,10 +136,7 @@ impl Program {
         let mut state = self.state();
         if let Some(reason) = &state.given_up {
             let words = format!("not asked: {reason}");
-            return Err(match state.late {
-                true => Asked::Late(words),
-                false => Asked::Breach(words),
-            });
+            return Err(if state.late { Asked::Late(words) } else { Asked::Breach(words) });
         }
         if state.deadline.is_some_and(|deadline| Instant::now() > deadline) {
             return Err(Asked::Late("not asked: out of time".to_owned()));
@@ -153,8 +149,8 @@ impl Program {
         }
     }
 
-    /// Runs a study that may ask for as long as one answer may take, and then for the current answer. `None` if that was too
-    /// short, the program broke the protocol, or it was given up.
+    /// Runs a study that may ask for as long as one answer may take, and then for the current answer. `None` if that
+    /// was too short, the program broke the protocol, or it was given up.
     pub fn within_time<T>(&self, what: &str, study: impl FnOnce() -> T) -> Option<T> {
         self.during(what);
         let deadline = Instant::now() + self.timeout;
@@ -251,7 +247,8 @@ impl State {
         })
     }
 
-    /// Stops the program, notes the breach with what could not be stopped, and describes it; after too many the program is given up.
+    /// Stops the program, notes the breach with what could not be stopped, and describes it; after too many the program
+    /// is given up.
     fn breached(&mut self, Breach { mut what, trouble }: Breach) -> Asked {
         let left = self.pipe.take().map(Pipe::left).unwrap_or_default();
         left.iter().for_each(|left| what += &format!("; {left}"));

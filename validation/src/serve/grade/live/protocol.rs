@@ -126,9 +126,7 @@ pub fn read(line: &str, id: u64, rods: usize) -> Result<Answer, String> {
             all.map(Answer::Directions)
         }
         Some(Value::Array(found)) => Err(format!("{} rods where {rods} were asked", found.len())),
-        Some(other) => {
-            Err(format!("\"p\" is {}; a list of directions is allowed", excerpt(&other.to_string())))
-        }
+        Some(other) => Err(format!("\"p\" is {}; a list of directions is allowed", excerpt(&other.to_string()))),
         None => Err(format!("neither \"p\" nor \"error\": {}", excerpt(line))),
     }
 }
@@ -207,11 +205,8 @@ mod tests {
         assert_eq!(read(r#"{"id": 3, "p": [[1, 0.0, -2.5]], "more": {}}"#, 3, 1), Ok(p));
         let refused = Ok(Answer::Error("too stiff".into()));
         assert_eq!(read(r#"{"id": 3, "error": "too stiff"}"#, 3, 1), refused);
-        for line in [
-            r#"{"id":3,"p":[[NaN,0,1]]}"#,
-            r#"{"id":3,"p":[[-Infinity,0,1]]}"#,
-            r#"{"id":3,"p":[[null,0,1]]}"#,
-        ] {
+        for line in [r#"{"id":3,"p":[[NaN,0,1]]}"#, r#"{"id":3,"p":[[-Infinity,0,1]]}"#, r#"{"id":3,"p":[[null,0,1]]}"#]
+        {
             let Ok(Answer::Directions(p)) = read(line, 3, 1) else { panic!("{line}") };
             assert!(p[0][0].is_nan() && p[0][2] == 1.0);
         }

@@ -1,4 +1,5 @@
-//! Studies of a program beyond a verdict, as for the project's integrators: work–precision, longest steps, a stability map.
+//! Studies of a program beyond a verdict, as for the project's integrators: work–precision, longest steps, a stability
+//! map.
 
 use super::bench::{self, Bench};
 use super::program::Program;
@@ -92,10 +93,8 @@ fn rows(program: &Program) -> Vec<MapRow> {
         }
         run.of(&subject).found
     };
-    let row = |aspect_ratio: f64| MapRow {
-        aspect_ratio,
-        found: (0..STEPS.len()).map(|k| cell(aspect_ratio, k)).collect(),
-    };
+    let row =
+        |aspect_ratio: f64| MapRow { aspect_ratio, found: (0..STEPS.len()).map(|k| cell(aspect_ratio, k)).collect() };
     MAP_RATIOS.map(row).into()
 }
 
@@ -103,8 +102,7 @@ impl Studies {
     /// The measurements as tables.
     pub fn tables(&self) -> Vec<ReportTable> {
         let mut tables: Vec<_> = self.work_precision.iter().map(Bench::table).collect();
-        tables
-            .extend(self.limits.iter().filter(|limits| !limits.is_empty()).map(|limits| limit_table(limits)));
+        tables.extend(self.limits.iter().filter(|limits| !limits.is_empty()).map(|limits| limit_table(limits)));
         tables.extend(self.map.iter().map(|rows| self.map_table(rows)));
         tables
     }
@@ -119,19 +117,17 @@ impl Studies {
         let left_out = parts.into_iter().filter(|(_, is)| *is);
         left_out
             .map(|(what, _)| {
-                format!(
-                    "{what}: not measured, as the program needs longer for it than --timeout, or broke off"
-                )
+                format!("{what}: not measured, as the program needs longer for it than --timeout, or broke off")
             })
             .collect()
     }
 
     fn map_table(&self, rows: &[MapRow]) -> ReportTable {
-        let adaptive =
-            (self.work_precision.as_ref()).is_some_and(|bench| bench.program.theory == Theory::Adaptive);
-        let (what, heads): (_, Vec<_>) = match adaptive {
-            true => ("tolerance", TOLERANCES.iter().map(|tolerance| format!("{tolerance:.0e}")).collect()),
-            false => ("Δt", STEPS.iter().map(|step| format!("{step} T")).collect()),
+        let adaptive = (self.work_precision.as_ref()).is_some_and(|bench| bench.program.theory == Theory::Adaptive);
+        let (what, heads): (_, Vec<_>) = if adaptive {
+            ("tolerance", TOLERANCES.iter().map(|tolerance| format!("{tolerance:.0e}")).collect())
+        } else {
+            ("Δt", STEPS.iter().map(|step| format!("{step} T")).collect())
         };
         let row = |row: &MapRow| {
             let signs = row.found.iter().map(|found| found.sign().to_owned());
@@ -140,7 +136,8 @@ impl Studies {
         let mut map = of_words(
             "grade-stability",
             "What becomes of a rod",
-            "= at round-off, + within 10⁻² rad, w stable but wrong, L length lost, N not finite, R refused with an error.",
+            "= at round-off, + within 10⁻² rad, w stable but wrong, L length lost, N not finite, R refused with an \
+                error.",
             &[&format!("r_e, by {what}")],
             rows.iter().map(row).collect(),
         );

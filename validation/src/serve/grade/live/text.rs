@@ -1,10 +1,11 @@
-//! Requests and answers as lines of numbers separated by blanks, for programs without JSON (`docs/src/user/grading.md`).
+//! Requests and answers as lines of numbers separated by blanks, for programs without JSON
+//! (`docs/src/user/grading.md`).
 
 use super::pipe::excerpt;
 use super::protocol::{Answer, Request};
 
-/// The request as one line: `id`, the nine ∂u_i/∂x_j row by row, r_e, the time in s, the number of steps or 0, the tolerance
-/// or 0, the number of rods, and three numbers for each rod.
+/// The request as one line: `id`, the nine ∂u_i/∂x_j row by row, r_e, the time in s, the number of steps or 0, the
+/// tolerance or 0, the number of rods, and three numbers for each rod.
 pub fn write(request: &Request<'_>) -> String {
     let gradient = request.gradient_per_s.iter().flatten();
     let numbers = gradient.chain([&request.aspect_ratio, &request.end_s]);
@@ -70,8 +71,7 @@ mod tests {
             steps: Some(64),
             tolerance: None,
         };
-        let expected =
-            "7 0e0 0e0 0e0 5e-1 0e0 0e0 0e0 0e0 -1e-7 1.16e1 2e0 64 0e0 2 1e0 0e0 0e0 6e-1 8e-1 0e0";
+        let expected = "7 0e0 0e0 0e0 5e-1 0e0 0e0 0e0 0e0 -1e-7 1.16e1 2e0 64 0e0 2 1e0 0e0 0e0 6e-1 8e-1 0e0";
         assert_eq!(write(&request), expected);
         let request = Request { steps: None, tolerance: Some(1e-6), ..request };
         assert_eq!(write(&request), expected.replace(" 64 0e0 ", " 0 1e-6 "));

@@ -44,10 +44,7 @@ pub(super) fn inverse(formula: fn(f64) -> f64, value: f64) -> f64 {
         if middle <= low || middle >= high {
             break;
         }
-        match formula(middle) < value {
-            true => low = middle,
-            false => high = middle,
-        }
+        if formula(middle) < value { low = middle } else { high = middle }
     }
     0.5 * (low + high)
 }

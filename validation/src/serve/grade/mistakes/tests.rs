@@ -44,10 +44,7 @@ fn every_mistake_differs_from_the_truth_somewhere_and_from_the_others() {
     let curve_of = |mistake: &Mistake| -> Vec<Option<Vector3<f64>>> {
         settings.iter().flat_map(|s| [1.0, 7.3, 19.0].map(|t| mistake.direction(s, &p, t))).collect()
     };
-    let truth = Mistake {
-        name: "none".into(),
-        ..components(String::new(), Matrix3::identity(), Matrix3::identity())
-    };
+    let truth = Mistake { name: "none".into(), ..components(String::new(), Matrix3::identity(), Matrix3::identity()) };
     let mut all = all();
     all.push(truth);
     let curves: Vec<_> = all.iter().map(curve_of).collect();

@@ -98,8 +98,7 @@ fn a_claim_that_is_too_low_fails_where_no_problem_shows_it_and_none_explains_it(
 fn an_error_that_stays_is_not_blamed_on_the_order() {
     let loaded = crate::serve::problems::named("spiral").unwrap().loaded("spiral".into());
     let said = |order: f64| {
-        let graded =
-            Graded { observed_order: Some(order), error: Some(3.1e-3), ..Graded::without_answer(&loaded) };
+        let graded = Graded { observed_order: Some(order), error: Some(3.1e-3), ..Graded::without_answer(&loaded) };
         other(&graded, 4.0)
     };
     for order in [0.0, 0.19, -0.19] {
@@ -116,13 +115,13 @@ fn one_wild_answer_is_found_and_a_small_error_by_chance_is_none() {
         let errors: Vec<_> = (0..).map(|k| 100u64 << k).zip(errors.iter().copied()).collect();
         wild(&errors, 1e-8)
     };
-    let said =
-        "off by 7.0e-1 with 400 steps, by 6.0e-4 with 200 and 2.5e-6 with 800: no method has such errors";
+    let said = "off by 7.0e-1 with 400 steps, by 6.0e-4 with 200 and 2.5e-6 with 800: no method has such errors";
     assert_eq!(wild(&[1e-2, 6e-4, 0.7, 2.5e-6]).as_deref(), Some(said));
     for wrong in [
         &[5e-3, 0.3, 2e-5, 1e-6][..],
         &[1e-4, f64::NAN, 1e-6],
-        // Less than the coarsest error; the finest answer, after three and after two; between answers that do not exist.
+        // Less than the coarsest error; the finest answer, after three and after two; between answers that do not
+        // exist.
         &[9e-3, 6e-4, 4e-5, 1e-3, 1.5e-7],
         &[9e-3, 6e-4, 4e-5, 1e-2],
         &[1e-4, 6e-6, 0.05],

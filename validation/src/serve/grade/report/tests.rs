@@ -94,12 +94,8 @@ fn the_terminal_has_80_columns_and_one_line_for_all_that_is_missing() {
     assert!(longest <= 80, "{longest}: {text}");
     assert_eq!(text.matches("MISSING").count(), 2, "the headline and one line: {text}");
     assert!(text.contains("21 MISSING, no answer: c, missing-0, missing-1"), "{text}");
-    let short = Report {
-        problems: vec![report.problems[0].clone()],
-        diagnosis: vec![],
-        remarks: vec![],
-        ..report.clone()
-    };
+    let short =
+        Report { problems: vec![report.problems[0].clone()], diagnosis: vec![], remarks: vec![], ..report.clone() };
     for text in [&text, &terminal(&short)] {
         assert!(!text.contains("\n\n\n") && text.ends_with('\n') && !text.ends_with("\n\n"), "{text:?}");
     }
@@ -129,11 +125,7 @@ fn what_several_problems_say_alike_stands_once() {
     for name in ["e", "f"] {
         report.problems.push(Graded { name: name.into(), ..report.problems[1].clone() });
     }
-    report.problems.push(Graded {
-        name: "g".into(),
-        verdict: Verdict::NotReached,
-        ..report.problems[1].clone()
-    });
+    report.problems.push(Graded { name: "g".into(), verdict: Verdict::NotReached, ..report.problems[1].clone() });
     let said: Vec<_> = lines(&report).into_iter().filter(|line| line.contains("curve of")).collect();
     assert!(
         said.len() == 2 && said[0].starts_with("FAIL b, e, f: ") && said[1].starts_with("NOT REACHED g: "),

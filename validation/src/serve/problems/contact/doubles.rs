@@ -1,7 +1,8 @@
-//! The contact rule in double precision, correct or with a known mistake: for condition numbers and for the effect of mistakes.
+//! The contact rule in double precision, correct or with a known mistake: for condition numbers and for the effect of
+//! mistakes.
 //!
-//! The rule changes only the component along the contact line ℓ ∝ p_a × p_b: ṗ′ = ṗ + ℓ (v̄ − v)/r for each rod, v = ℓ·V_c the
-//! velocity of its contact point x + r p along ℓ, v̄ the mean of both.
+//! The rule changes only the component along the contact line ℓ ∝ p_a × p_b: ṗ′ = ṗ + ℓ (v̄ − v)/r for each rod, v =
+//! ℓ·V_c the velocity of its contact point x + r p along ℓ, v̄ the mean of both.
 
 use nalgebra::{Matrix3, Vector3};
 
@@ -14,8 +15,8 @@ pub(crate) struct Variant {
     pub(crate) printed: bool,
 }
 
-/// ṗ′ in 1/s for rods a and b of `pair` (centre in mm, axis and r_e of each), or with Δt in s the four numbers of A.13 and
-/// A.14.
+/// ṗ′ in 1/s for rods a and b of `pair` (centre in mm, axis and r_e of each), or with Δt in s the four numbers of A.13
+/// and A.14.
 pub(crate) fn answers(
     gradient_per_s: &Matrix3<f64>,
     pair: &[f64],
@@ -51,8 +52,7 @@ pub(super) fn geometry(pair: &[f64]) -> Geometry {
 fn rates(gradient: &Matrix3<f64>, pair: &[f64], kick: f64) -> [(Vector3<f64>, Vector3<f64>); 2] {
     let (w, d) = (0.5 * (gradient - gradient.transpose()), 0.5 * (gradient + gradient.transpose()));
     let rod = |of: &[f64]| {
-        let (x, p, r_e) =
-            (Vector3::from_row_slice(&of[..3]), Vector3::from_row_slice(&of[3..6]).normalize(), of[6]);
+        let (x, p, r_e) = (Vector3::from_row_slice(&of[..3]), Vector3::from_row_slice(&of[3..6]).normalize(), of[6]);
         let shape = (r_e * r_e - 1.0) / (r_e * r_e + 1.0);
         let free = w * p + shape * (d * p - p * p.dot(&(d * p)));
         (x, p, free)
@@ -60,9 +60,8 @@ fn rates(gradient: &Matrix3<f64>, pair: &[f64], kick: f64) -> [(Vector3<f64>, Ve
     let (a, b) = (rod(&pair[..7]), rod(&pair[7..14]));
     let line = a.1.cross(&b.1).normalize();
     let [arm_a, arm_b] = geometry(pair).arms;
-    let along = |(x, _, free): &(Vector3<f64>, Vector3<f64>, Vector3<f64>), arm: f64| {
-        line.dot(&(gradient * x + free * arm))
-    };
+    let along =
+        |(x, _, free): &(Vector3<f64>, Vector3<f64>, Vector3<f64>), arm: f64| line.dot(&(gradient * x + free * arm));
     let (v_a, v_b) = (along(&a, arm_a), along(&b, arm_b));
     let mean = 0.5 * (v_a + v_b);
     [(a.1, a.2 + line * (kick * (mean - v_a) / arm_a)), (b.1, b.2 + line * (kick * (mean - v_b) / arm_b))]
@@ -73,9 +72,10 @@ fn angles(p: &Vector3<f64>, rate: &Vector3<f64>, step_s: f64, printed: bool) -> 
     let (phi, theta) = (p.y.atan2(p.x), p.x.hypot(p.y).atan2(p.z));
     let around = -rate.x * phi.sin() + rate.y * phi.cos();
     let across = rate.x * phi.cos() + rate.y * phi.sin();
-    let (phi_rate, theta_rate) = match printed {
-        false => (around / theta.sin(), across * theta.cos() - rate.z * theta.sin()),
-        true => (around, across * theta.sin() - rate.z * theta.cos()),
+    let (phi_rate, theta_rate) = if !printed {
+        (around / theta.sin(), across * theta.cos() - rate.z * theta.sin())
+    } else {
+        (around, across * theta.sin() - rate.z * theta.cos())
     };
     vec![phi_rate, theta_rate, phi + phi_rate * step_s, theta + theta_rate * step_s]
 }

@@ -13,15 +13,8 @@ const RIGHT: Variant = Variant { kick: 1.0, printed: false };
 fn by_naive(pair: &Pair, sign: f64) -> [[f64; 3]; 2] {
     let vector = |at: usize| [pair[at], pair[at + 1], pair[at + 2]];
     let rate = |at: usize, r: f64| naive::jeffery(vector(at), r, COUETTE).map(|x| sign * x);
-    let contact = naive::collide(
-        vector(0),
-        vector(3),
-        rate(3, pair[6]),
-        vector(7),
-        vector(10),
-        rate(10, pair[13]),
-        COUETTE,
-    );
+    let contact =
+        naive::collide(vector(0), vector(3), rate(3, pair[6]), vector(7), vector(10), rate(10, pair[13]), COUETTE);
     let contact = contact.expect("no pair is parallel");
     [contact.pdot_a_per_s, contact.pdot_b_per_s]
 }
@@ -77,10 +70,7 @@ fn no_pair_is_near_where_it_would_be_kept_or_not() {
         assert!(exact.iter().all(|arm| !near(*arm, 0.1) && !near(*arm, 1.0)), "{exact:?}");
         assert!(!near(sine, 0.3) && [pair[5], pair[12]].iter().all(|p3| !near(p3.abs(), 0.978)));
         for (arm, exact) in doubles::geometry(&pair).arms.iter().zip(exact) {
-            assert!(
-                (arm.abs() / LENGTH_MM - exact).abs() <= 1e-13 * exact.max(1.0) / (sine * sine),
-                "{arm} {exact}"
-            );
+            assert!((arm.abs() / LENGTH_MM - exact).abs() <= 1e-13 * exact.max(1.0) / (sine * sine), "{arm} {exact}");
         }
     }
 }

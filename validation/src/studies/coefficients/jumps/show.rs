@@ -75,8 +75,10 @@ pub(in crate::studies::coefficients) fn tables(all: &[Compared], effort: &Effort
         .collect();
     let distances = ReportTable::new(
         ["steady-orbits", "How far kicks and diffusion are apart"],
-        "The largest difference between the two distribution functions, and the probability that the replicas dealt out at random \
-         are as far apart (999 deals, so 0.001 at least). The phase is atan(tan φ/r_e), through which free rods pass evenly.",
+        "The largest difference between the two distribution functions, and the probability that the replicas dealt \
+            out at random \
+         are as far apart (999 deals, so 0.001 at least). The phase is atan(tan φ/r_e), through which free rods pass \
+         evenly.",
         rows,
         vec![
             field("steps ×", |(one, ..): &(&Compared, _, _)| one.setting.finer),
@@ -91,16 +93,13 @@ pub(in crate::studies::coefficients) fn tables(all: &[Compared], effort: &Effort
 /// The mean share above each edge; NaN for a share of 0, which a logarithmic axis cannot show.
 fn curve(label: &str, all: &[Shares], quantity: Quantity) -> Curve {
     let mean = |edge: f64| Sample::of(&above(all, quantity, edge)).mean;
-    Curve::of(label, quantity.edges(), |edge| {
-        (edge, Some(mean(edge)).filter(|s| *s > 0.0).unwrap_or(f64::NAN))
-    })
+    Curve::of(label, quantity.edges(), |edge| (edge, Some(mean(edge)).filter(|s| *s > 0.0).unwrap_or(f64::NAN)))
 }
 
 /// The tail of the jumps, and the steady orbits.
 pub(in crate::studies::coefficients) fn figures(one: &Compared) -> [ReportFigure; 2] {
     let diffusion = format!("diffusion of C_I = {:.1e}", one.c_i.value);
-    let curves =
-        |quantity| [curve("kicks", &one.kicks, quantity), curve(&diffusion, &one.diffusion, quantity)];
+    let curves = |quantity| [curve("kicks", &one.kicks, quantity), curve(&diffusion, &one.diffusion, quantity)];
     let at = Sample::of(&above(&one.kicks, Quantity::Angle, 0.2)).mean * 0.2_f64.tan();
     let angles = (0..=60).map(|k| 10f64.powf(0.05 * f64::from(k) - 2.85));
     let theory = Curve::of("jumps κ with a tail 1/κ, theory", angles, |x| (x, at / x.tan()));
@@ -109,7 +108,8 @@ pub(in crate::studies::coefficients) fn figures(one: &Compared) -> [ReportFigure
     };
     let jumps = ReportFigure::new(
         ["kicks-and-diffusion", "Rods off Jeffery's motion after a strain of 1"],
-        "Kicks leave most rods alone and turn few far, diffusion of the same C_I turns all a little. Jumps κ with a tail ∝ 1/κ \
+        "Kicks leave most rods alone and turn few far, diffusion of the same C_I turns all a little. Jumps κ with a \
+            tail ∝ 1/κ \
          make cot x of the angles x between lines; its height is taken from the kicks at 0.2 rad.",
         ["log angle in rad", "log share of rods beyond it"],
     )
@@ -118,14 +118,22 @@ pub(in crate::studies::coefficients) fn figures(one: &Compared) -> [ReportFigure
     .spans(None, Some((1e-4, 1.0)));
     let orbits = ReportFigure::new(
         ["steady-orbits", "Steady orbits"],
-        "C_b = C/(1 + C) is 0 along the vorticity axis and 1 in the shear plane. Collisions leave more rods in high orbits than \
-         isotropic directions have, diffusion fewer: its rods follow the closed form of weak diffusion (Leal & Hinch 1971).",
+        "C_b = C/(1 + C) is 0 along the vorticity axis and 1 in the shear plane. Collisions leave more rods in high \
+            orbits than \
+         isotropic directions have, diffusion fewer: its rods follow the closed form of weak diffusion (Leal & Hinch \
+         1971).",
         ["C_b", "share of rods above it"],
     )
     .curves(curves(Quantity::Orbit))
-    .curves([closed("weak diffusion, closed form", cdf), closed("isotropic directions, closed form", orbit_constant_cdf)]);
+    .curves([
+        closed("weak diffusion, closed form", cdf),
+        closed(
+            "isotropic directions, closed \
+        form",
+            orbit_constant_cdf,
+        ),
+    ]);
     [jumps, orbits].map(|figure| {
-        figure
-            .judged("Folgar & Tucker 1984; eqs 5 to 10", &["kicks-are-no-diffusion", "orbits-of-collisions"])
+        figure.judged("Folgar & Tucker 1984; eqs 5 to 10", &["kicks-are-no-diffusion", "orbits-of-collisions"])
     })
 }

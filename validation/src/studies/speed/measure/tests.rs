@@ -12,8 +12,7 @@ fn a_step_is_measured_of_both() {
 #[test]
 fn ratios_are_of_the_same_number_of_rods() {
     let step = |rods, core_ns, naive_ns| Step { rods, concentration_per_cm3: 50.0, core_ns, naive_ns };
-    let steps =
-        [step(100, 20.0, Some(300.0)), step(10_000, 40.0, Some(30_000.0)), step(1_000_000, 50.0, None)];
+    let steps = [step(100, 20.0, Some(300.0)), step(10_000, 40.0, Some(30_000.0)), step(1_000_000, 50.0, None)];
     let measured: Vec<_> = against_naive(&steps).iter().map(|check| check.measured).collect();
     assert_eq!(measured, [15.0, 750.0, 2.5]);
 }

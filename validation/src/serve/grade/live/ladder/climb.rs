@@ -1,4 +1,5 @@
-//! From coarse settings to fine ones, until the answers are within the tolerance, prove that they will not be, or time is up.
+//! From coarse settings to fine ones, until the answers are within the tolerance, prove that they will not be, or time
+//! is up.
 
 use super::{Mode, Rung, errors};
 use crate::methods::integrators::Setting;
@@ -33,7 +34,8 @@ pub(super) enum End {
     OutOfTime(String),
 }
 
-/// Climbs, and returns the rungs and the end. If an order is claimed, it goes on until that is confirmed, refuted, or below round-off.
+/// Climbs, and returns the rungs and the end. If an order is claimed, it goes on until that is confirmed, refuted, or
+/// below round-off.
 pub(super) fn climb(
     problem: &LoadedProblem,
     mode: Mode,
@@ -90,26 +92,25 @@ pub(super) fn climb(
         }
     }
     // No finer setting can confirm the last one.
-    match within(&rungs, tolerance) {
-        true => (rungs, End::Reached),
-        false => (rungs, End::Wrong(says.unwrap_or_else(|| "there is no finer setting".to_owned()))),
+    if within(&rungs, tolerance) {
+        (rungs, End::Reached)
+    } else {
+        (rungs, End::Wrong(says.unwrap_or_else(|| "there is no finer setting".to_owned())))
     }
 }
 
-/// True if there is time for one more setting. A setting that would confirm an answer is allowed if it can finish within the timeout.
+/// True if there is time for one more setting. A setting that would confirm an answer is allowed if it can finish
+/// within the timeout.
 fn affordable(spent: Duration, took: Duration, timeout: Duration, confirms: bool) -> bool {
-    match confirms {
-        true => 2 * took <= timeout,
-        false => 4 * took <= timeout && spent <= timeout,
-    }
+    if confirms { 2 * took <= timeout } else { 4 * took <= timeout && spent <= timeout }
 }
 
 pub(super) fn within(rungs: &[Rung], tolerance: f64) -> bool {
     rungs.last().is_some_and(|rung| rung.error() <= tolerance)
 }
 
-/// True if two settings in a row are within the tolerance, or one to which the error fell by a steady order: a single one may be
-/// an accidental crossing.
+/// True if two settings in a row are within the tolerance, or one to which the error fell by a steady order: a single
+/// one may be an accidental crossing.
 pub(super) fn reached(rungs: &[Rung], tolerance: f64) -> bool {
     let within = |rung: &&Rung| rung.error() <= tolerance;
     match rungs.iter().rev().take_while(within).count() {
@@ -133,10 +134,7 @@ pub(super) fn hopeless(rungs: &[Rung], tolerance: f64, timeout: Duration) -> Opt
     let changes = [(third, second), (second, first), (first, last)];
     let changes = changes.map(|(coarse, fine)| coarse.answer.largest_change(&fine.answer));
     // A method that follows the motion, with any order above 0.02, changes by more than a hundredth of its error.
-    let still = match errors[3] < FOLLOWED {
-        true => 0.01 * errors[3],
-        false => 0.01 * tolerance,
-    };
+    let still = if errors[3] < FOLLOWED { 0.01 * errors[3] } else { 0.01 * tolerance };
     if changes.iter().all(|change| *change <= still) && errors[3] > tolerance {
         return Some(End::Wrong("finer ones no longer change the answer".to_owned()));
     }
@@ -148,14 +146,14 @@ pub(super) fn hopeless(rungs: &[Rung], tolerance: f64, timeout: Duration) -> Opt
     let doubles = first.took > Duration::from_millis(200) && last.took < 3 * first.took;
     let more = (errors[3] / tolerance).powf(1.0 / order);
     let needed_s = last.took.as_secs_f64() * more;
-    (doubles && needed_s > 4.0 * timeout.as_secs_f64()).then(|| {
-        End::OutOfTime(format!("those would take some {needed_s:.0e} s, which --timeout does not allow"))
-    })
+    (doubles && needed_s > 4.0 * timeout.as_secs_f64())
+        .then(|| End::OutOfTime(format!("those would take some {needed_s:.0e} s, which --timeout does not allow")))
 }
 
-/// True if the last five answers converge to another answer than the certified one: the changes between them shrink each time like
-/// those of a method of order 0.8 at least, and all further changes together are within a hundredth of the error. Where they have
-/// shrunk to a ten-millionth of the error, they may be rounding and need not shrink any more.
+/// True if the last five answers converge to another answer than the certified one: the changes between them shrink
+/// each time like those of a method of order 0.8 at least, and all further changes together are within a hundredth of
+/// the error. Where they have shrunk to a ten-millionth of the error, they may be rounding and need not shrink any
+/// more.
 fn converge_elsewhere(rungs: &[Rung]) -> bool {
     let Some(last) = rungs.last_chunk::<5>() else {
         return false;

@@ -1,9 +1,9 @@
 //! Judges every setting, not the finest alone: a method's error is a continuous function of its step.
 //!
-//! If a method follows the motion, its error falls by its order when the number of steps doubles. If an error falls by far more,
-//! the numbers of steps between the two are bisected down to neighbours N and N + 1. A method that is unstable with long steps,
-//! or misses the motion, becomes correct gradually, over many N. Answers that are wrong at N and right at N + 1 do not come from
-//! a method.
+//! If a method follows the motion, its error falls by its order when the number of steps doubles. If an error falls by
+//! far more, the numbers of steps between the two are bisected down to neighbours N and N + 1. A method that is
+//! unstable with long steps, or misses the motion, becomes correct gradually, over many N. Answers that are wrong at N
+//! and right at N + 1 do not come from a method.
 
 use super::Rung;
 use super::climb::End;
@@ -12,12 +12,12 @@ use crate::serve::grade::live::program::Asked;
 use crate::serve::grade::order::{FAR, HIGHEST};
 use std::f64::consts::FRAC_PI_2;
 
-/// An error in rad of a method that follows the motion closely: at larger errors a correct method may lose the motion from one
-/// number of steps to the next, as AB3 in angles does beside a pole.
+/// An error in rad of a method that follows the motion closely: at larger errors a correct method may lose the motion
+/// from one number of steps to the next, as AB3 in angles does beside a pole.
 const FOLLOWS: f64 = 1e-3;
 
-/// For a program that chooses its steps: the largest ratio of an error to the errors of both neighbouring tolerances. The
-/// error of a correct program is about proportional to its tolerance, which changes by ten.
+/// For a program that chooses its steps: the largest ratio of an error to the errors of both neighbouring tolerances.
+/// The error of a correct program is about proportional to its tolerance, which changes by ten.
 const OUTLIER: f64 = 1000.0;
 
 /// From this tolerance on a right program follows the motion; with larger ones its steps may pass over a flip.
@@ -43,9 +43,10 @@ pub(super) fn judged(rungs: &[Rung], tolerance: f64, ask: impl Fn(Setting) -> Re
         let found = match (rungs[k].setting, rungs[k + 1].setting) {
             (Setting::Steps(coarse), Setting::Steps(fine)) => {
                 let foretold = Foretold::from(&rungs[k + 1..], fine, tolerance, order);
-                match far(&rungs[k], foretold.at(coarse)) {
-                    true => jump([&rungs[k], &rungs[k + 1]], [coarse, fine], &foretold, &ask),
-                    false => Ok(None),
+                if far(&rungs[k], foretold.at(coarse)) {
+                    jump([&rungs[k], &rungs[k + 1]], [coarse, fine], &foretold, &ask)
+                } else {
+                    Ok(None)
                 }
             }
             _ => Ok(outlier(rungs, k, tolerance)),
@@ -65,17 +66,14 @@ struct Foretold {
 }
 
 impl Foretold {
-    /// The prediction from the next finer settings. As the first error may be small by chance, the second predicts it too.
+    /// The prediction from the next finer settings. As the first error may be small by chance, the second predicts it
+    /// too.
     fn from(finer: &[Rung], steps: u64, tolerance: f64, order: f64) -> Self {
         let second = finer.get(1).and_then(|rung| {
             let ratio = rung.setting.steps().ok()? as f64 / steps as f64;
             Some(capped(rung) * ratio.powf(order))
         });
-        Self {
-            steps: steps as f64,
-            error: capped(&finer[0]).max(second.unwrap_or(0.0)).max(tolerance),
-            order,
-        }
+        Self { steps: steps as f64, error: capped(&finer[0]).max(second.unwrap_or(0.0)).max(tolerance), order }
     }
 
     fn at(&self, steps: u64) -> f64 {
@@ -111,8 +109,8 @@ pub(super) fn falling_order(rungs: &[Rung], tolerance: f64) -> f64 {
     orders.get(orders.len() / 2).copied().unwrap_or(HIGHEST)
 }
 
-/// Asks for one step more than the coarsest setting from which on all follow the motion: a ladder that doubles asks for even numbers
-/// alone, and a program may lose the last of an odd number of steps.
+/// Asks for one step more than the coarsest setting from which on all follow the motion: a ladder that doubles asks for
+/// even numbers alone, and a program may lose the last of an odd number of steps.
 fn beside(
     rungs: &[Rung],
     tolerance: f64,
@@ -135,13 +133,14 @@ fn beside(
 
 fn jumping([one, other]: [u64; 2], [error, other_error]: [f64; 2]) -> String {
     format!(
-        "with {one} steps it is off by {error:.1e}, with {other} by {other_error:.1e}: a method's error does not jump so between two \
+        "with {one} steps it is off by {error:.1e}, with {other} by {other_error:.1e}: a method's error does not jump \
+            so between two \
          numbers of steps"
     )
 }
 
-/// Bisects from a number of steps whose answer is far off to one whose answer is not, and says where the answers jump. What was
-/// answered counts: the ends are not asked again, where a program might do better.
+/// Bisects from a number of steps whose answer is far off to one whose answer is not, and says where the answers jump.
+/// What was answered counts: the ends are not asked again, where a program might do better.
 fn jump(
     ends: [&Rung; 2],
     [mut bad, mut good]: [u64; 2],
@@ -152,17 +151,18 @@ fn jump(
     while good - bad > 1 {
         let middle = bad + (good - bad) / 2;
         let rung = ask(Setting::Steps(middle))?;
-        match far(&rung, foretold.at(middle)) {
-            true => (bad, bad_error) = (middle, capped(&rung)),
-            false => (good, good_error) = (middle, capped(&rung)),
+        if far(&rung, foretold.at(middle)) {
+            (bad, bad_error) = (middle, capped(&rung))
+        } else {
+            (good, good_error) = (middle, capped(&rung))
         }
     }
     let jumps = good_error < FOLLOWS && bad_error > FAR * good_error.max(foretold.at(good));
     Ok(jumps.then(|| jumping([bad, good], [bad_error, good_error])))
 }
 
-/// Of a program that chooses its steps: an error far above those of both neighbouring tolerances, or of the next smaller one where
-/// any right program follows the motion.
+/// Of a program that chooses its steps: an error far above those of both neighbouring tolerances, or of the next
+/// smaller one where any right program follows the motion.
 fn outlier(rungs: &[Rung], k: usize, tolerance: f64) -> Option<String> {
     let (own, finer) = (&rungs[k], &rungs[k + 1]);
     let above = |errors: f64| capped(own) > OUTLIER * errors.max(tolerance);
@@ -172,6 +172,5 @@ fn outlier(rungs: &[Rung], k: usize, tolerance: f64) -> Option<String> {
         return Some(format!("{off}, {}: an error is about proportional to its tolerance", named(finer)));
     }
     let coarser = &rungs[k.checked_sub(1)?];
-    above(capped(coarser).max(capped(finer)))
-        .then(|| format!("{off}, {} and {}", named(coarser), named(finer)))
+    above(capped(coarser).max(capped(finer))).then(|| format!("{off}, {} and {}", named(coarser), named(finer)))
 }

@@ -18,11 +18,7 @@ fn ladder(rungs: impl Fn(i32) -> (f64, f64)) -> Vec<Rung> {
 fn rung(setting: Setting, error: f64, seconds: f64) -> Rung {
     Rung {
         setting,
-        answer: Answer {
-            path: "a test".into(),
-            rows: vec![vec![error.cos(), error.sin(), 0.0]],
-            lines: vec![0],
-        },
+        answer: Answer { path: "a test".into(), rows: vec![vec![error.cos(), error.sin(), 0.0]], lines: vec![0] },
         compared: Compared {
             error,
             row: 0,
@@ -118,10 +114,7 @@ fn answers_that_converge_to_another_one_are_not_asked_on() {
 #[test]
 fn an_order_too_low_for_the_time_is_told_early() {
     let first = climbed(|k| (0.3 * 2f64.powi(-k), 1000.0 * seconds(k))).unwrap();
-    assert!(
-        first.starts_with("out of time") && first.contains("s, which --timeout does not allow"),
-        "{first}"
-    );
+    assert!(first.starts_with("out of time") && first.contains("s, which --timeout does not allow"), "{first}");
 }
 
 #[test]
@@ -135,7 +128,8 @@ fn what_may_yet_come_within_the_tolerance_is_asked_on() {
         if k < 9 { 1.5 + 1e-4 * f64::from(k) } else { second(k) }
     };
     assert_eq!(climbed(|k| (missed(k), seconds(k))), None);
-    // A rod that is stuck where coarse steps hold it, a little farther each time; changes that end to shrink for a while.
+    // A rod that is stuck where coarse steps hold it, a little farther each time; changes that end to shrink for a
+    // while.
     let stuck = |k: i32| {
         if k < 12 { 1.5 + 1e-10 * 2f64.powi(k) } else { second(k) }
     };
@@ -158,11 +152,7 @@ fn climbed_to(claimed: Option<f64>, rungs: impl Fn(i32) -> (f64, f64)) -> (Loade
     climbed_in(Mode::Steps, claimed, rungs)
 }
 
-fn climbed_in(
-    mode: Mode,
-    claimed: Option<f64>,
-    rungs: impl Fn(i32) -> (f64, f64),
-) -> (LoadedProblem, Vec<f64>, End) {
+fn climbed_in(mode: Mode, claimed: Option<f64>, rungs: impl Fn(i32) -> (f64, f64)) -> (LoadedProblem, Vec<f64>, End) {
     let problem = crate::serve::problems::named("mid-flip-2").unwrap().loaded("mid-flip-2".into());
     let asked = Cell::new(0);
     let ask = |setting: Setting| -> Result<Rung, Asked> {
@@ -195,9 +185,7 @@ fn an_order_is_no_answer_and_one_that_is_unclear_is_asked_on_to_round_off() {
 #[test]
 fn what_would_take_too_long_is_not_asked_unless_it_confirms() {
     let end = |error: f64, seconds: f64| climbed_to(None, |_| (error, seconds)).2;
-    assert!(
-        matches!(end(0.5, 16.0), End::OutOfTime(words) if words.contains("finer ones would take too long"))
-    );
+    assert!(matches!(end(0.5, 16.0), End::OutOfTime(words) if words.contains("finer ones would take too long")));
     // An answer within the tolerance is confirmed in twice its time.
     assert_eq!(end(1e-15, 29.0), End::Reached);
     assert!(matches!(end(1e-15, 31.0), End::OutOfTime(_)));
@@ -248,8 +236,7 @@ fn answers_that_are_wrong_at_some_numbers_of_steps_are_no_methods() {
         for wild in [1.2, f64::NAN] {
             let below = judged(|steps, _| if steps < 512 && steps > 8 { wild } else { right(steps) });
             assert!(jumps(below), "{order} {wild}");
-            let third =
-                judged(|steps, asked| if asked % 3 == 0 && steps > 100 { wild } else { right(steps) });
+            let third = judged(|steps, asked| if asked % 3 == 0 && steps > 100 { wild } else { right(steps) });
             assert!(order > 5.0 || jumps(third), "{order} {wild}");
         }
         let once = judged(|steps, _| if steps == 512 { 1.2 } else { right(steps) });
