@@ -7,7 +7,7 @@
 mod dying;
 
 use self::dying::{damped, dies_out, on_all_axes, undamped};
-use super::readings::LINE;
+use super::interpretations::LINE;
 use crate::judge::accept::Design;
 use crate::judge::case::{Case, Effort, Evidence};
 use crate::judge::lab::{self, Change, per_replica};

@@ -21,7 +21,7 @@ mod experiments;
 mod extreme_scenes;
 mod extremes;
 mod fit_covers;
-pub mod fit_readings;
+pub mod fit_interpretations;
 mod folgar_tucker;
 mod free_suspension;
 mod general_flows;
@@ -34,7 +34,7 @@ mod misprints;
 mod motion;
 mod orbits;
 mod published;
-mod readings;
+mod interpretations;
 mod reductions;
 mod reference;
 mod replacement;
@@ -79,7 +79,7 @@ pub fn all() -> Vec<Case> {
         extreme_scenes::cases(),
         reference::cases(),
         resolution::cases(),
-        readings::cases(),
+        interpretations::cases(),
         steady::cases(),
         subjects::cases(),
         integrator_claims::cases(),
@@ -92,7 +92,7 @@ pub fn all() -> Vec<Case> {
         statements::cases(),
         experiments::cases(),
         fit_covers::cases(),
-        fit_readings::cases(),
+        fit_interpretations::cases(),
         published::cases(),
         coefficients::cases(),
         folgar_tucker::cases(),

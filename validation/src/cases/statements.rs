@@ -1,7 +1,7 @@
 //! The paper's sentences as tests: each claim with the place of its sentence, a number and a confidence.
 //! The decay of oscillations is in `decay`. Effects and deviations come from pilots at seed 99.
 
-use super::readings::LINE;
+use super::interpretations::LINE;
 use crate::judge::accept::Design;
 use crate::judge::case::{Case, Effort, Evidence};
 use crate::judge::lab::{self, Change, per_replica};

@@ -12,7 +12,7 @@ pub mod cost;
 pub mod figures;
 pub mod integrators;
 pub mod kicks;
-pub mod readings;
+pub mod interpretations;
 pub mod speed;
 pub mod stability;
 pub mod suspensions;
@@ -24,7 +24,7 @@ use crate::present::study::Study;
 /// Every study, in the order of the report.
 pub const ALL: [Study; 11] = [
     figures::STUDY,
-    readings::STUDY,
+    interpretations::STUDY,
     kicks::study::STUDY,
     work_precision::study::STUDY,
     stability::study::STUDY,

@@ -4,7 +4,7 @@ use crate::judge::case::Effort;
 use crate::judge::lab;
 use crate::judge::statistics::Estimate;
 use crate::methods::coefficients::{Means, free, watched};
-use crate::studies::readings::damping_rate;
+use crate::studies::interpretations::damping_rate;
 use nalgebra::{Matrix3, UnitVector3};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Dxsm;

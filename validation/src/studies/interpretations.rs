@@ -20,18 +20,18 @@ use std::iter::once;
 
 /// The study of the paper's open choices.
 pub const STUDY: Study = Study {
-    name: "readings",
+    name: "interpretations",
     title: "What the paper leaves open",
     question: "What would other interpretations of the paper change?",
     cases: &[
-        "reading-who-draws",
-        "reading-order",
-        "reading-update",
-        "reading-shortest-arm",
-        "reading-contact-lines",
+        "interpretation-who-draws",
+        "interpretation-order",
+        "interpretation-update",
+        "interpretation-shortest-arm",
+        "interpretation-contact-lines",
         "faces-cost-collisions",
     ],
-    command: "cargo run --release -p shearbed-validation --example readings",
+    command: "cargo run --release -p shearbed-validation --example interpretations",
     parts: &[],
     shared: true,
     run,
@@ -41,26 +41,29 @@ fn run(request: &Request) -> Result<Option<Findings>, String> {
     let Some(rows) = measure(request.effort) else {
         return Ok(None);
     };
-    let change = |row: &ReadingRow| row.changes.as_ref().map_or(0.0, |changes| changes[0].value.abs());
+    let change = |row: &InterpretationRow| row.changes.as_ref().map_or(0.0, |changes| changes[0].value.abs());
     let largest = rows.iter().max_by(|a, b| change(a).total_cmp(&change(b)));
     let answer = largest.map_or(String::new(), |row| {
-        format!("X̄₁ at t/T = 1 changes most, by {:.3}, with {}: {}.", change(row), row.open, row.reading)
+        format!("X̄₁ at t/T = 1 changes most, by {:.3}, with {}: {}.", change(row), row.open, row.interpretation)
     });
     Ok(Some(Findings::new(answer, vec![table(&rows).into()], [])))
 }
 
 /// A row for each interpretation; for each quantity a column of its value and one of its change.
-pub fn table(rows: &[ReadingRow]) -> ReportTable {
+pub fn table(rows: &[InterpretationRow]) -> ReportTable {
     let replicas = rows.iter().map(|row| row.replicas).min().unwrap_or(0);
-    let mut columns =
-        vec![words("left open", |row: &ReadingRow| row.open), words("read as", |row: &ReadingRow| row.reading)];
+    let mut columns = vec![
+        words("left open", |row: &InterpretationRow| row.open),
+        words("read as", |row: &InterpretationRow| row.interpretation),
+    ];
     for (k, (name, _)) in QUANTITIES.iter().enumerate() {
-        columns.push(estimate(*name, move |row: &ReadingRow| row.values[k]));
-        columns
-            .push(difference("change", move |row: &ReadingRow| row.changes.as_ref().map(|changes| changes[k].into())));
+        columns.push(estimate(*name, move |row: &InterpretationRow| row.values[k]));
+        columns.push(difference("change", move |row: &InterpretationRow| {
+            row.changes.as_ref().map(|changes| changes[k].into())
+        }));
     }
     ReportTable::new(
-        ["readings", "What the alternatives change"],
+        ["interpretations", "What the alternatives change"],
         format!(
             "The rods of Fig. 7 at 50 per cm³ (N = 100, σ = 0, r_e = 11.6, α = 0.5, 200 steps a period): each \
                 alternative \
@@ -86,11 +89,11 @@ pub type Trace = [f64; QUARTERS + 2];
 
 /// The results of one interpretation.
 #[derive(Clone, Debug, PartialEq)]
-pub struct ReadingRow {
+pub struct InterpretationRow {
     /// The open choice.
     pub open: &'static str,
     /// The interpretation of it.
-    pub reading: &'static str,
+    pub interpretation: &'static str,
     /// Number of independent replicas.
     pub replicas: u64,
     /// The value of each of [`QUANTITIES`].
@@ -148,22 +151,22 @@ pub fn all() -> impl Iterator<Item = (&'static str, &'static str, Change)> {
 }
 
 /// The rows of the default and of every alternative, run over all ranks; `None` except on the root.
-pub fn measure(effort: &Effort) -> Option<Vec<ReadingRow>> {
+pub fn measure(effort: &Effort) -> Option<Vec<InterpretationRow>> {
     let replicas = effort.pick(40, 2000);
-    let readings: Vec<_> = all().collect();
-    let job = |k: usize| Ok::<_, Infallible>(traces(readings[k].2, replicas));
-    let Ok(shared) = cluster::share(readings.len(), job, |_, _| Ok(()));
+    let interpretations: Vec<_> = all().collect();
+    let job = |k: usize| Ok::<_, Infallible>(traces(interpretations[k].2, replicas));
+    let Ok(shared) = cluster::share(interpretations.len(), job, |_, _| Ok(()));
     let found = shared?;
     let default = found.first()?;
     let each = |estimate: &dyn Fn(Quantity) -> Estimate| QUANTITIES.map(|(_, q)| estimate(q)).to_vec();
-    let row = |k: usize| ReadingRow {
-        open: readings[k].0,
-        reading: readings[k].1,
+    let row = |k: usize| InterpretationRow {
+        open: interpretations[k].0,
+        interpretation: interpretations[k].1,
         replicas,
         values: each(&|quantity| value(quantity, &found[k])),
         changes: (k > 0).then(|| each(&|quantity| change(quantity, default, &found[k]))),
     };
-    Some((0..readings.len()).map(row).collect())
+    Some((0..interpretations.len()).map(row).collect())
 }
 
 /// The traces of the first `replicas` replicas of the paper's problem with `change`.

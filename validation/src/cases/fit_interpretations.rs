@@ -19,7 +19,7 @@ use crate::serve::fit::Range;
 use crate::serve::fit::data::TimeColumn;
 use crate::serve::fit::scenes::{AS_WRITTEN, Scenes};
 use crate::serve::fit::search::{Fit, Measured, fitted};
-use crate::studies::readings::Change;
+use crate::studies::interpretations::Change;
 use rand::{RngExt, SeedableRng};
 use rand_distr::StandardNormal;
 use rand_pcg::Pcg64Dxsm;

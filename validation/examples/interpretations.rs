@@ -2,7 +2,7 @@
 //! `--full`.
 
 use shearbed_validation::judge::case::{Effort, GATE_SEED};
-use shearbed_validation::studies::readings::{measure, table};
+use shearbed_validation::studies::interpretations::{measure, table};
 
 fn main() {
     let full = std::env::args().any(|argument| argument == "full");

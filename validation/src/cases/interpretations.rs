@@ -5,7 +5,7 @@ use crate::judge::case::{Case, Effort, Evidence};
 use crate::judge::lab::{self, per_replica};
 use crate::judge::statistics::Sample;
 use crate::oracle::naive::{Lines, Naive, NaiveProblem, Who, mean_projections};
-use crate::studies::readings::Change;
+use crate::studies::interpretations::Change;
 use rayon::prelude::*;
 use shearbed::observable::Channel;
 use shearbed::scene::{Interaction, Update};
@@ -72,19 +72,19 @@ pub fn cases() -> Vec<Case> {
     };
     let instead = |alternative, model| Alternative { model, ..alternative };
     vec![
-        Case::interpretation("reading-who-draws")
+        Case::interpretation("interpretation-who-draws")
             .claim("With one draw per mutual pair in place of two, rods are damped less: this interpretation matters.")
             .source("eqs 8, 9; whose R decides is left open")
             .subject(who_draws)
             .mistake("index order instead", instead(who_draws, index_order))
             .check(matters),
-        Case::interpretation("reading-order")
+        Case::interpretation("interpretation-order")
             .claim("Taking candidates in index order in place of closest first changes next to nothing.")
             .source("eqs 8, 9; the order is left open")
             .subject(index_order)
             .mistake("one draw per mutual pair instead", pair_draws)
             .check(does_not_matter),
-        Case::interpretation("reading-update")
+        Case::interpretation("interpretation-update")
             .claim(
                 "A.14 to the letter damps a little more than Jeffery's step and the kick: this interpretation matters.",
             )
@@ -92,7 +92,7 @@ pub fn cases() -> Vec<Case> {
             .subject(angles)
             .mistake("no contact at arms below a thousandth of the length instead", instead(angles, hardly_any_arm))
             .check(matters),
-        Case::interpretation("reading-shortest-arm")
+        Case::interpretation("interpretation-shortest-arm")
             .claim(
                 "Without contacts at arms below the rod's radius, rods are damped less: this interpretation matters.",
             )
@@ -100,7 +100,7 @@ pub fn cases() -> Vec<Case> {
             .subject(shortest_arm)
             .mistake("arms below a thousandth of the length instead", instead(shortest_arm, hardly_any_arm))
             .check(matters),
-        Case::interpretation("reading-contact-lines")
+        Case::interpretation("interpretation-contact-lines")
             .claim("With contact lines cut at the rods' ends, rods are damped less: this interpretation matters.")
             .source("A.7; Fig. 2, assumption ii")
             .subject(cut_lines)
@@ -124,7 +124,7 @@ fn matters(alternative: &Alternative, effort: &Effort) -> Vec<Evidence> {
 }
 
 fn does_not_matter(model: &Model, effort: &Effort) -> Vec<Evidence> {
-    // The control's pilot is that of `reading-who-draws`; index order itself changed −0.0004 ± 0.0105.
+    // The control's pilot is that of `interpretation-who-draws`; index order itself changed −0.0004 ± 0.0105.
     let design = Design::new(0.0214, 0.0395);
     vec![Evidence::new(
         "change of X̄₁ at t/T = ½",

@@ -1,12 +1,12 @@
-//! What α would be under each open reading of the paper, and what points of two suspensions tell of the readings, as
-//! Markdown tables. `cargo run --release -p shearbed-validation --example fit_readings -- 50` gives each value of α up
+//! What α would be under each open reading of the paper, and what points of two suspensions tell of the interpretations, as
+//! Markdown tables. `cargo run --release -p shearbed-validation --example fit_interpretations -- 50` gives each value of α up
 //! to 50 replicas in the first; in the second points and model have 10 000.
 
 use rand::SeedableRng;
 use rand_distr::{Distribution, StandardNormal};
 use rand_pcg::Pcg64Dxsm;
 use rayon::prelude::*;
-use shearbed_validation::cases::fit_readings::{model, one_alpha, points};
+use shearbed_validation::cases::fit_interpretations::{model, one_alpha, points};
 use shearbed_validation::judge::case::Effort;
 use shearbed_validation::methods::least_squares::Datum;
 use shearbed_validation::methods::least_squares::emulator::{Prediction, Replica};
@@ -14,7 +14,7 @@ use shearbed_validation::methods::least_squares::likelihood::Rods;
 use shearbed_validation::oracle::naive::{self, Naive, mean_projections};
 use shearbed_validation::serve::fit::Range;
 use shearbed_validation::serve::fit::search::{FitProblem, Measured, Watch, search};
-use shearbed_validation::studies::readings::{self, Change, SEED};
+use shearbed_validation::studies::interpretations::{self, Change, SEED};
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 const PLANTED: f64 = 0.8;
@@ -47,7 +47,7 @@ fn two_suspensions() -> Result<(), String> {
     println!("\n| points of | α of both | χ² − χ² of this project's | in standard deviations of χ² |");
     println!("| --- | ---: | ---: | ---: |");
     let mut own = None;
-    for (open, reading, change) in readings::all().filter(|(open, ..)| !open.contains("step")) {
+    for (open, reading, change) in interpretations::all().filter(|(open, ..)| !open.contains("step")) {
         let points = points(change, &effort, REPLICAS);
         let fit = one_alpha(&points, SMALL_NOISE, REPLICAS, &model)?;
         let found = fit.best.chi_square;
@@ -78,7 +78,7 @@ fn main() -> Result<(), String> {
     let law = ChiSquared::new((POINTS - 1) as f64).map_err(|error| error.to_string())?;
     println!("| open | reading | α | 95 % interval | χ² of {} | p |", POINTS - 1);
     println!("| --- | --- | ---: | --- | ---: | ---: |");
-    for (open, reading, change) in readings::all() {
+    for (open, reading, change) in interpretations::all() {
         let model = move |values: &[f64]| -> Result<Replica, String> {
             let alpha = values[0];
             Ok(Replica::whole(move |replica| Ok(curve(change, alpha, 1, replica))))
