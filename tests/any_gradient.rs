@@ -187,7 +187,7 @@ fn what_cannot_be_stepped_is_refused() {
             "[[1, 0, 0], [0, -1, 0], [0, 0, 1e-3]]",
             "strain = 1",
             "3: flow.gradient_per_s = [[1, 0, 0], [0, -1, 0], [0, 0, 1e-3]] is not allowed: where rods interact, a \
-                gradient with ∂u_1/∂x_1 + ∂u_2/∂x_2 + ∂u_3/∂x_3 = 0",
+             gradient with ∂u_1/∂x_1 + ∂u_2/∂x_2 + ∂u_3/∂x_3 = 0",
         ),
         (EXTENSION, "strain = 1\nsteps_per_strain = 12", ""),
         (

@@ -44,8 +44,7 @@ fn farthest(block: &Block, square: impl Fn(usize) -> f64) -> Fault {
         rod: Some(rod),
         cause: format!(
             "its direction came out as ({p1}, {p2}, {p3}), whose length is not 1: the motion of r_e = {} in this flow \
-                is \
-             out of reach of double precision",
+             is out of reach of double precision",
             block.aspect_ratio[rod]
         ),
     }

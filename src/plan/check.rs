@@ -187,7 +187,7 @@ fn check_interaction(scene: &Scene, interaction: &Interaction, flow: &VelocityGr
                 "interaction.box_mm",
                 format!("{sides:?}"),
                 "lengths for which the sides over the rods' length, their product and the concentration are finite \
-                    numbers > 0",
+                 numbers > 0",
             ),
             None => Invalid::new(
                 "interaction.concentration_per_cm3",
@@ -201,8 +201,7 @@ fn check_interaction(scene: &Scene, interaction: &Interaction, flow: &VelocityGr
         return Err(refused_gradient(
             scene,
             "where rods interact, a gradient with ∂u_1/∂x_1 + ∂u_2/∂x_2 + ∂u_3/∂x_3 = 0: any other changes the volume \
-                of the \
-             liquid and the concentration of the rods",
+             of the liquid and the concentration of the rods",
         ));
     }
     Ok(())

@@ -146,8 +146,7 @@ fn unknown(scene: &Scene, error: f64, of_start: f64) -> Invalid {
         scene.time.duration,
         format!(
             "a time after which directions are known to {MAX_ERROR_RAD:e} rad: of rods of r_e = {} in this flow they \
-                are \
-             known to {error:.1e} rad only, as {cause}; give a shorter time, another start or other rods",
+             are known to {error:.1e} rad only, as {cause}; give a shorter time, another start or other rods",
             scene.particles.aspect_ratio
         ),
     )
@@ -168,8 +167,7 @@ pub(crate) fn refused_direction(r: f64, error: f64, of_start: f64) -> String {
     let bound = if error.is_finite() { format!("{error:.2e} rad") } else { "infinite".into() };
     format!(
         "the bound on the error of its direction is {bound}, more than the {MAX_ERROR_RAD:e} rad allowed, at r_e = \
-            {r}: {}; \
-         give a shorter time, another start or other rods",
+         {r}: {}; give a shorter time, another start or other rods",
         cause(error, of_start)
     )
 }

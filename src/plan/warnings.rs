@@ -50,8 +50,8 @@ impl Plan {
                 "the strain per step"
             };
             format!(
-                "{} = {steps} does not resolve the motion: {what} is {motion:.3}, above {resolved:.3}; {} \
-                 steps a {} resolve it (the default)",
+                "{} = {steps} does not resolve the motion: {what} is {motion:.3}, above {resolved:.3}; {} steps a {} \
+                 resolve it (the default)",
                 self.scene.time.unit.steps_key(),
                 self.scene.resolving_steps(),
                 self.scene.time.unit
@@ -78,8 +78,7 @@ impl Plan {
         let turns = self.flow.shear_rate_per_s().is_none() && self.flow.turn_per_s() > 0.0;
         (self.runs(Stage::Contacts) && turns && update != Update::Kick).then(|| {
             "interaction.update turns colliding rods straight through a step, where free rods follow the liquid: an \
-                error ∝ Δt that \
-             adds up with time in flows that turn; \"kick\" has none"
+             error ∝ Δt that adds up with time in flows that turn; \"kick\" has none"
                 .to_owned()
         })
     }
@@ -108,12 +107,10 @@ impl Plan {
         let drawn = particles.aspect_ratio_sd_percent > 0.0 && own.aspect_ratio.is_none();
         (own.p.is_some() && replicas > 1).then(|| if self.runs(Stage::Contacts) || drawn { format!(
             "{replicas} replicas start with the directions in {file}: standard errors over replicas leave out the \
-                scatter of these \
-             rods, which those of one replica have"
+             scatter of these rods, which those of one replica have"
         ) } else { format!(
-            "the {replicas} replicas are alike: free rods start with the directions in {file}, and nothing is \
-                drawn that turns \
-             them; one replica says as much, with standard errors over its rods"
+            "the {replicas} replicas are alike: free rods start with the directions in {file}, and nothing is drawn \
+             that turns them; one replica says as much, with standard errors over its rods"
         ) })
     }
 
@@ -125,8 +122,7 @@ impl Plan {
         (!near).then(|| {
             format!(
                 "particles.aspect_ratio = {} sets only the period T and the output times: the rods in particles.rods \
-                    have a mean of \
-                 {mean:.4}",
+                 have a mean of {mean:.4}",
                 particles.aspect_ratio
             )
         })
@@ -159,7 +155,7 @@ impl Plan {
         let (axis, (farthest, side)) = (short.enumerate()).find(|(_, (farthest, side))| by_chance(farthest / side))?;
         Some(format!(
             "the places in particles.rods reach only {farthest} of {side} mm along axis {}: check that they belong to \
-                this control volume",
+             this control volume",
             axis + 1
         ))
     }
@@ -170,10 +166,8 @@ impl Plan {
         (self.runs(Stage::Contacts) && mean < RULE_OF_LINES).then(|| {
             format!(
                 "{}: the collision rule is for slender rods, r_e ≫ 1. Below {RULE_OF_LINES} it leaves out a diameter \
-                    of more than a \
-                 tenth of a rod's length. Lee & Springer leave out Okagawa & Mason's points of r_e = 3.96, and name a \
-                 lack of \
-                 slenderness as one possible reason (Results, after Fig. 5)",
+                 of more than a tenth of a rod's length. Lee & Springer leave out Okagawa & Mason's points of r_e = \
+                 3.96, and name a lack of slenderness as one possible reason (Results, after Fig. 5)",
                 self.mean_and_its_key()
             )
         })
@@ -195,8 +189,7 @@ impl Plan {
         (self.runs(Stage::Observe(Observable::ParticleStress)) && r < SLENDER).then(|| {
             format!(
                 "{}: particle_stress is the limit of slender rods, r_e ≫ 1. Below {SLENDER} the terms that it leaves \
-                    out are not \
-                 small; the observable \"stress\" has them (docs/src/theory/coefficients.md)",
+                 out are not small; the observable \"stress\" has them (docs/src/theory/coefficients.md)",
                 self.mean_and_its_key()
             )
         })

@@ -130,14 +130,13 @@ impl std::fmt::Display for Holds {
             Self::Steps => write!(
                 f,
                 "1 to {MAX_FLOW_STEPS} tables [[flow.steps]], each with strain (a finite number > 0) and \
-                    shear_rate_per_s (a finite \
-                 number other than 0) or gradient_per_s (three rows of three finite numbers, with a rate of strain)"
+                 shear_rate_per_s (a finite number other than 0) or gradient_per_s (three rows of three finite \
+                 numbers, with a rate of strain)"
             ),
             Self::Sides => f.write_str("[H1, H2, H3], three finite numbers > 0"),
             Self::Orientation => f.write_str(
                 "\"isotropic\" or { phi_deg = a finite number, theta_deg = a number from 0 to 180 }; rods of a file \
-                    are \
-                 given by rods = { file = a text }",
+                 are given by rods = { file = a text }",
             ),
             Self::Rods => f.write_str("{ file = a text }, of which crc32 may be given too"),
             Self::OneOf(words) => {
@@ -277,8 +276,8 @@ pub const TABLES: [Table; 7] = [
     of("liquid", "the liquid", "a table [liquid]", Other("its keys' defaults"), Liquid::KEYS),
     of("particles", "the rods", "a table [particles] with count, length_mm, aspect_ratio and \
         orientation", Required, Particles::KEYS),
-    of("interaction", "how rods meet", "a table [interaction] with concentration_per_cm3 or box_mm, and alpha, or \
-        none for free rods", Other("free rods"), Interaction::KEYS),
+    of("interaction", "how rods meet", "a table [interaction] with concentration_per_cm3 or box_mm, and alpha, or none \
+        for free rods", Other("free rods"), Interaction::KEYS),
     of("time", "how long, and how finely", "a table [time] with periods or strain", Required, TimeKeys::KEYS),
     of("ensemble", "replicas and seed", "a table [ensemble]", Other("its keys' defaults"), Ensemble::KEYS),
     of("output", "what is observed", "a table [output]", Other("its keys' defaults"), Output::KEYS),

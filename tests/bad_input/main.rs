@@ -197,8 +197,8 @@ const OTHER_MISTAKES: &[(&str, &str, &str, &str)] = &[
     // A table or a key that is missing.
     (INTERACTING, "title = \"t\"\n", "", "1: title is missing: expected a text in quotes"),
     (INTERACTING, "[flow]\nshear_rate_per_s = 0.5\n", "", "1: flow is missing: expected a table [flow] with "),
-    (INTERACTING, "shear_rate_per_s = 0.5", "", "2: flow.shear_rate_per_s is missing: shear_rate_per_s, \
-        gradient_per_s or steps"),
+    (INTERACTING, "shear_rate_per_s = 0.5", "", "2: flow.shear_rate_per_s is missing: shear_rate_per_s, gradient_per_s \
+        or steps"),
     (INTERACTING, "count = 10\n", "", "4: particles.count is missing: expected a whole number from 1 to 100000000"),
     (INTERACTING, "alpha = 0.5\n", "", "10: interaction.alpha is missing: expected a finite number ≥ 0"),
     (INTERACTING, "periods = 1\n", "", "16: time.periods is missing: periods or strain must be given"),
@@ -228,7 +228,7 @@ const OTHER_MISTAKES: &[(&str, &str, &str, &str)] = &[
      "3: flow.gradient_per_s = [[1e308, 0, 0], [0, -1e308, 0], [0, 0, 0]] is not allowed: such that the run"),
     (INTERACTING, "shear_rate_per_s = 0.5", "gradient_per_s = [\n  [1, 0, 0],\n  [0, -1, 0], [0, 0, 0.1]]",
      "3: flow.gradient_per_s = [ [1, 0, 0], [0, -1, 0], [0, 0, 0.1]] is not allowed: where rods interact, a gradient \
-         with ∂u_1/∂x_1 + "),
+      with ∂u_1/∂x_1 + "),
     (INTERACTING, "periods = 1", "periods = 1\nstrain = 1",
      "17: time.periods = 1 is not allowed: either periods or strain, not both"),
     (INTERACTING, "periods = 1\nsteps_per_period = 20", "periods = 101\nsteps_per_period = 10000000",
@@ -256,8 +256,8 @@ const OTHER_MISTAKES: &[(&str, &str, &str, &str)] = &[
     (EXTENSION, "outputs_per_strain = 10", "outputs_per_strain = 10\n[output]\nobservables = [\"orbit_constant\"]",
      "13: output.observables = [\"orbit_constant\"] is not allowed: orbit_constant needs plane Couette flow"),
     // The same shear in other axes, in which eq. 13 holds no more.
-    (EXTENSION, "[[-0.5, 0, 0], [0, 1, 0], [0, 0, -0.5]]", "[[0, 1, 0], [0, 0, 0], [0, 0, 0]]\n[output]\nobservables \
-        = [\"orbit_constant\"]",
+    (EXTENSION, "[[-0.5, 0, 0], [0, 1, 0], [0, 0, -0.5]]", "[[0, 1, 0], [0, 0, 0], [0, 0, 0]]\n[output]\nobservables = \
+        [\"orbit_constant\"]",
      "5: output.observables = [\"orbit_constant\"] is not allowed: orbit_constant needs plane Couette flow"),
     // Flows one after another.
     (REVERSED, "strain = 3, ", "", "3: flow.steps.strain is missing: expected a finite number > 0"),

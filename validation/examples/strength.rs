@@ -57,7 +57,7 @@ fn print(records: &BTreeMap<&str, Record>, scores: &mut [f64]) {
     }
     println!(
         "\n| case | judges | seeds | red | why | false alarm ≤ | s | controls: the least margin, its mean and \
-            deviation, miss |"
+         deviation, miss |"
     );
     println!("| --- | --- | ---: | ---: | --- | ---: | ---: | --- |");
     for (name, record) in records.iter().filter(|(_, record)| record.draws()) {

@@ -29,7 +29,7 @@ pub(super) fn check_shape(scene: &Scene) -> Result<(), Invalid> {
         None => {
             let allowed = format!(
                 "{} ({}) gives no valid r_e there: it is above r, or falls as r grows; choose another \
-                    shape_correlation",
+                 shape_correlation",
                 formula.name, formula.formula
             );
             Err(Invalid::new("particles.physical_aspect_ratio", r, allowed))
@@ -78,8 +78,8 @@ pub(super) fn check_particles(scene: &Scene) -> Result<(), Invalid> {
     }
     let length_sd = scene.particles.length_sd_percent;
     if length_sd >= 100.0 / 3.0 {
-        let allowed = "expected a number below 33.3333: with more, lengths ≤ 0 are less than three standard \
-            deviations from the mean";
+        let allowed = "expected a number below 33.3333: with more, lengths ≤ 0 are less than three standard deviations \
+            from the mean";
         return Err(Invalid::new("particles.length_sd_percent", length_sd, allowed));
     }
     // Three standard deviations: P(r_e ≤ 1) = 0.0013 per rod.
@@ -92,8 +92,7 @@ pub(super) fn check_particles(scene: &Scene) -> Result<(), Invalid> {
             sd,
             format!(
                 "expected a number below {widest:.4} with a mean of {r}: with more, r_e ≤ 1 (for discs: r_e ≥ 1 or ≤ \
-                    0) is less than \
-                 three standard deviations from the mean"
+                 0) is less than three standard deviations from the mean"
             ),
         ));
     }

@@ -81,8 +81,7 @@ pub(super) fn check_steps(scene: &Scene, flow: &VelocityGradient) -> Result<(), 
     if other_flow && (crossings.is_nan() || crossings > MAX_CROSSINGS * steps as f64) {
         return refused(format!(
             "at least {:.0}: in a step the liquid may cross the control volume {MAX_CROSSINGS} times at most; or a \
-                box_mm whose \
-             sides differ less",
+             box_mm whose sides differ less",
             (crossings / MAX_CROSSINGS).ceil()
         ));
     }
@@ -95,8 +94,7 @@ pub(super) fn check_steps(scene: &Scene, flow: &VelocityGradient) -> Result<(), 
     }
     refused(format!(
         "the error of a step's map, {error:.1e}, adds up to {all:.1e} rad at the end, more than {MAX_ERROR_RAD:e}: \
-            give a shorter \
-         time or other rods"
+         give a shorter time or other rods"
     ))
 }
 
@@ -110,9 +108,8 @@ fn check_default_steps(scene: &Scene, steps: u64) -> Result<(), Invalid> {
     let needed = scene.motion_per_unit() / resolved;
     let (unit, key) = (scene.time.unit, scene.time.unit.steps_key());
     let allowed = format!(
-        "at aspect_ratio = {r} some {needed:.1e} steps a {unit} resolve the motion (GΔt ≤ {resolved}), and at \
-         most {MAX_PER_UNIT} are allowed; set {} to take fewer, which do not resolve it, or a smaller \
-         aspect_ratio",
+        "at aspect_ratio = {r} some {needed:.1e} steps a {unit} resolve the motion (GΔt ≤ {resolved}), and at most \
+         {MAX_PER_UNIT} are allowed; set {} to take fewer, which do not resolve it, or a smaller aspect_ratio",
         key.trim_start_matches("time.")
     );
     Err(Invalid::missing(key, &allowed))

@@ -29,9 +29,8 @@ pub(super) fn check(checkpoint: &Path, out: &Path) -> Result<PathBuf, Failure> {
     let of_results = ENDINGS.iter().any(|end| file.extension().is_some_and(|own| own == *end));
     if of_results && file.starts_with(&folder) {
         return Err(refused(
-            "a result may have that name; choose a checkpoint outside the output folder, or a name without .csv, \
-                .svg, .json or \
-             the like at its end",
+            "a result may have that name; choose a checkpoint outside the output folder, or a name without .csv, .svg, \
+             .json or the like at its end",
         ));
     }
     let kept = path.clone();

@@ -266,7 +266,7 @@ fn moved_table(moved: Vec<Moved>) -> ReportTable {
         ["moved", "Errors that moved"],
         format!(
             "Means by more than {NOISE} standard errors of the two; other errors by more than {PART} of their \
-                tolerance."
+             tolerance."
         ),
         moved,
         vec![

@@ -53,8 +53,7 @@ pub(super) fn converge(args: &Args) -> Result<(), Failure> {
         let (key, steps) = (named.scene.time.unit.steps_key(), named.scene.steps_per_unit());
         return Err(Failure::Input(at(format!(
             "converge of interacting rods needs plane Couette flow, only ∂u_2/∂x_1 other than 0, time.periods and no \
-                particles.rods; \
-             else halve the time step and compare: sweep --over {key}={steps},{},{}",
+             particles.rods; else halve the time step and compare: sweep --over {key}={steps},{},{}",
             2 * steps,
             4 * steps
         ))));
@@ -136,7 +135,7 @@ fn other_end(scene: &Scene) -> Vec<String> {
     let other = (periods != 1.0).then(|| {
         format!(
             "time.periods = {periods} is not used: every run of this study ends after one period, whose means it \
-            compares"
+             compares"
         )
     });
     other.into_iter().collect()
@@ -151,8 +150,7 @@ fn coarse(scene: &Scene) -> String {
     let (first, last) = (law::STEPS_PER_PERIOD[0], law::STEPS_PER_PERIOD[coarse.max(1) - 1]);
     format!(
         "{first} to {last} steps a period (strain per step {:.3} to {:.3}) are coarser than the default step (strain \
-            per step at \
-         most {resolved:.3}): they are run on purpose, to show what a coarse step changes",
+         per step at most {resolved:.3}): they are run on purpose, to show what a coarse step changes",
         strain(first),
         strain(last),
     )

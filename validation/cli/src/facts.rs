@@ -115,8 +115,8 @@ pub(super) fn warnings(plan: &Plan) -> Vec<String> {
         };
         let lengths = if scene.particles.rods.is_some() { "rods" } else { "length_mm" };
         warnings.push(format!(
-            "interaction.{volume} and particles.{lengths} give n a³ = {shown}: {regime}. The model is for \
-             dilute suspensions, n a³ < 1, in which two rods meet at a time"
+            "interaction.{volume} and particles.{lengths} give n a³ = {shown}: {regime}. The model is for dilute \
+             suspensions, n a³ < 1, in which two rods meet at a time"
         ));
     }
     warnings.extend(thin_box(plan));
@@ -131,8 +131,7 @@ fn thin_box(plan: &Plan) -> Option<String> {
     (thinnest < length).then(|| {
         format!(
             "interaction.box_mm = {sides:?}: {thinnest} mm is less than a rod's length, {length} mm; rods near a face \
-                lack neighbours, and \
-             here all are near one"
+             lack neighbours, and here all are near one"
         )
     })
 }
@@ -146,8 +145,8 @@ fn cut_short(plan: &Plan) -> Option<String> {
     // An end that differs from an output by rounding is not between outputs.
     (last < end * (1.0 - 1e-12)).then(|| {
         format!(
-            "{key} = {end} ends between two outputs: the last one is at {last}; choose an output interval that \
-                divides {end}"
+            "{key} = {end} ends between two outputs: the last one is at {last}; choose an output interval that divides \
+             {end}"
         )
     })
 }

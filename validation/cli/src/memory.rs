@@ -148,8 +148,7 @@ fn fits(plan: &Plan, threads: u64, vtk: bool, free: u64, beside: u64) -> Result<
     };
     Err(format!(
         "particles.count = {}: {replicas} at a time of {} replicas, with {} outputs each, need {} of memory, and {} \
-            are \
-         free; allowed: {allowed}",
+         are free; allowed: {allowed}",
         plan.scene().particles.count,
         plan.scene().ensemble.replicas,
         plan.outputs(),

@@ -179,16 +179,13 @@ fn explained(asked: &Asked) -> String {
         Asked::Free(start) => (
             table::columns(*start),
             "Values are correctly rounded doubles at exactly the time in the unit of --unit; the other times are \
-                rounded. With \
-             --aspect-ratio-sd-percent they are rounded to eleven decimals.",
+             rounded. With --aspect-ratio-sd-percent they are rounded to eleven decimals.",
         ),
         Asked::Diffusing(rods) => (
             rods.columns(),
             "The density is that of rods with rotary diffusion C_I γ̇ (Folgar & Tucker 1984), without a closure. \
-                Values are rounded \
-             to the decimals that two solutions of different degree, order and step agree on, eleven at most. The \
-             last row of \
-             --steady has the time inf.",
+             Values are rounded to the decimals that two solutions of different degree, order and step agree on, \
+             eleven at most. The last row of --steady has the time inf.",
         ),
     };
     let line = |column: &table::Column| format!("{:<10} {:<4} {}\n", column.name, column.unit, column.equation);
@@ -206,8 +203,7 @@ fn write(path: &Path, text: String, force: bool) -> Result<(), Failure> {
 fn no_couette(flag: &str) -> Failure {
     Failure::Input(format!(
         "{flag}: this flow has none; plane Couette flow (--shear-rate-per-s G or a gradient with L21 alone) and a \
-            finite \
-         --aspect-ratio are allowed"
+         finite --aspect-ratio are allowed"
     ))
 }
 
@@ -223,35 +219,30 @@ fn refused(args: &Args, why: NoValue) -> Failure {
             args.c_i.unwrap_or_default()
         ),
         NoValue::Steady(why) => format!(
-            "--steady with --c-i {:?}: {why}; a larger C_I is allowed (in plane Couette flow from 1e-5 on, in any \
-                flow from \
-             about 1e-4 on)",
+            "--steady with --c-i {:?}: {why}; a larger C_I is allowed (in plane Couette flow from 1e-5 on, in any flow \
+             from about 1e-4 on)",
             args.c_i.unwrap_or_default()
         ),
         NoValue::Diffusion(why) => format!(
-            "--times with --c-i {:?}: {why}; a larger C_I or shorter --times are allowed (from C_I = 1e-4 on, a \
-                strain of 100; at 1e-5, of 10), and \
-             --steady",
+            "--times with --c-i {:?}: {why}; a larger C_I or shorter --times are allowed (from C_I = 1e-4 on, a strain \
+             of 100; at 1e-5, of 10), and --steady",
             args.c_i.unwrap_or_default()
         ),
         NoValue::Unit => format!(
             "--unit{}: this flow has no such unit of time; s is allowed, strain where it stretches, and period in \
-                plane Couette flow \
-             (--shear-rate-per-s G) of rods with a finite r_e",
+             plane Couette flow (--shear-rate-per-s G) of rods with a finite r_e",
             if args.unit.is_none() { " is missing, and periods are its default" } else { "" }
         ),
         NoValue::Strain => format!(
             "--times: |L|t is above {LARGEST_STRAIN}, the most that is allowed where rods have no period: in flows \
-                other than plane Couette flow, or \
-             at an infinite aspect ratio"
+             other than plane Couette flow, or at an infinite aspect ratio"
         ),
         NoValue::Time => {
             "--times: a time in s, strain or periods is no finite double; smaller times are allowed".into()
         }
         NoValue::Unequal => format!(
             "--aspect-ratio-sd-percent {}: is allowed in plane Couette flow, up to {LONGEST_TURNS} periods, without \
-                --fourth, for \
-             r_e from 1e-4 to 1e4 of which eight standard deviations do not reach 1 or 0",
+             --fourth, for r_e from 1e-4 to 1e4 of which eight standard deviations do not reach 1 or 0",
             args.aspect_ratio_sd_percent
         ),
     })
@@ -320,8 +311,7 @@ fn times(text: &str) -> Result<Times, String> {
     let refuse = || {
         format!(
             "FROM:TO:COUNT with finite FROM ≤ TO and a COUNT from 1 to {MOST}, or at most as many rising times \
-                T1,T2,…, are allowed; a time is \
-             0 or of a size from 5e-324 to 1.8e308"
+             T1,T2,…, are allowed; a time is 0 or of a size from 5e-324 to 1.8e308"
         )
     };
     let parts: Vec<_> = text.split(':').collect();

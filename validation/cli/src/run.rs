@@ -75,8 +75,7 @@ fn planned(args: &Args, named: &Named) -> Result<Plan, Failure> {
     if named.settings.iter().any(|setting| setting.key == "ensemble.replicas") {
         return Err(Failure::Input(format!(
             "{}: --until-se and a number of replicas (--replicas, or --set ensemble.replicas): --until-se finds the \
-                number; one of the \
-             two is allowed",
+             number; one of the two is allowed",
             named.source
         )));
     }
@@ -126,8 +125,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     if args.vtk && plan.rods_outputs().is_empty() {
         return Err(Failure::Input(format!(
             "{}: --vtk: output.rods_at is missing: the times at which rods are to be written; output.rods_every = 1 \
-                takes \
-             every output",
+             takes every output",
             named.source
         )));
     }
@@ -251,8 +249,7 @@ mod tests {
         assert_eq!(
             message,
             "my.toml: rod 7 would become non-finite in step 41 of replica 2, seed 3: a contact arm of 1e-320 rod \
-                lengths \
-             turned it by inf rad"
+             lengths turned it by inf rad"
         );
     }
 }

@@ -34,7 +34,7 @@ pub(super) fn shape(args: &Args) -> Result<(), Failure> {
         };
         text += &format!(
             "{value:>9}  {} ({key}): r_e = {}\n           valid for: {}\n           source: {}\n           quoted \
-                from: {}\n",
+             from: {}\n",
             formula.name, formula.formula, formula.range, formula.source, formula.read_in
         );
     }

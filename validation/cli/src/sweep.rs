@@ -202,9 +202,8 @@ fn tables_of(point: &Point) -> Result<Vec<Output>, String> {
 
 fn other_numbers(point: &Path) -> Failure {
     Failure::Input(format!(
-        "{}: run again, this point gives other numbers, so another build of the program wrote the folder; give \
-            another --out, \
-         or remove the folder; nothing of it was changed",
+        "{}: run again, this point gives other numbers, so another build of the program wrote the folder; give another \
+         --out, or remove the folder; nothing of it was changed",
         point.shown()
     ))
 }

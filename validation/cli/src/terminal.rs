@@ -49,8 +49,7 @@ pub(super) fn is_open() -> Result<(), Failure> {
     if both && null().unwrap_or(false) {
         Err(Failure::Input(
             "standard output: cannot be written: it is closed, or /dev/null opened for reading and writing; open it \
-            for writing alone \
-         (`> /dev/null`) to discard what this command prints"
+             for writing alone (`> /dev/null`) to discard what this command prints"
                 .to_owned(),
         ))
     } else {

@@ -99,7 +99,7 @@ impl Until {
         match plan.scene().output.rods_key() {
             Some(key) if !self.is_empty() => refused(format!(
                 "and {key}: how many rods rods.csv would list is not known before the run; give --replicas, or leave \
-                    {key} out"
+                 {key} out"
             )),
             _ => Ok(()),
         }
@@ -118,9 +118,8 @@ impl Until {
             String::new()
         } else {
             format!(
-                "replicas: {LEAST}, as planned here, and then an eighth more (at least 8) at a time until the \
-                standard errors hold: {}; \
-             how many that takes is not known before\n",
+                "replicas: {LEAST}, as planned here, and then an eighth more (at least 8) at a time until the standard \
+                 errors hold: {}; how many that takes is not known before\n",
                 rules.join(", ")
             )
         }
@@ -225,8 +224,7 @@ impl Ended {
         };
         Err(Failure::Failed(format!(
             "--until-se was not reached: {why}; {} after {} replicas, and {needed} are needed; the results of these \
-                replicas are \
-             written",
+             replicas are written",
             self.text(),
             self.replicas
         )))

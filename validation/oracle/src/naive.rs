@@ -8,6 +8,7 @@
 mod averaged;
 mod contact;
 mod inflow;
+mod mistake;
 mod motion;
 mod neighbour;
 mod problem;
@@ -18,17 +19,18 @@ mod tests;
 
 pub use contact::{Contact, collide};
 pub use inflow::{OtherFlow, carry};
+pub use mistake::Mistake;
 pub use motion::{jeffery, mean_projections};
 pub use neighbour::{collision_probability, expected_candidates, nearest};
-pub use problem::{Mistake, NaiveProblem, Start, Update};
+pub use problem::{NaiveProblem, Start, Update};
 pub use random::stream;
 pub use reading::{Images, Length, Lines, Reading, Replacement, Who};
 
 use contact::contact;
+use mistake::either;
 use motion::{axis, jeffery_matrix, matrix, moved_by_angles, rotated, shape_factor, sin_theta, turned, vector};
 use nalgebra::Matrix3;
 use neighbour::distance_mm;
-use problem::either;
 use rand_distr::{Distribution, Normal};
 use rand_pcg::Pcg64Dxsm;
 use random::{ASPECT_RATIOS, COLLISIONS, LENGTHS, ORIENTATIONS, POSITIONS, REPLACEMENTS, uniform};

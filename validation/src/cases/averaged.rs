@@ -19,8 +19,8 @@ pub fn cases() -> Vec<Case> {
     vec![
         Case::core("averaged-motion")
             .claim(
-                "With a shortest arm, the model tends to the averaged (P_c-weighted) motion as Δt → 0, \
-                 path by path; with arms of every size it does not.",
+                "With a shortest arm, the model tends to the averaged (P_c-weighted) motion as Δt → 0, path by path; \
+                 with arms of every size it does not.",
             )
             .source("eqs 7, 8, A.13, A.14; docs/src/theory/time-step.md")
             .subject(Limit { min_arm: 0.5, change: |_| {} })
@@ -32,8 +32,8 @@ pub fn cases() -> Vec<Case> {
             .check(averaged),
         Case::core("arm-pushed")
             .claim(
-                "A collision pushes a short arm away from 0 where the gap opens, and towards 0 where it \
-                 closes: dr/dt = h² ℓ·D·ℓ/(2 r sin²χ).",
+                "A collision pushes a short arm away from 0 where the gap opens, and towards 0 where it closes: dr/dt \
+                 = h² ℓ·D·ℓ/(2 r sin²χ).",
             )
             .source("A.13, A.14; docs/src/theory/time-step.md")
             .subject((|rates| rates[0]) as Kick)
@@ -43,8 +43,8 @@ pub fn cases() -> Vec<Case> {
             .check(pushed),
         Case::core("updates-in-the-limit")
             .claim(
-                "A kick of a given angle ends elsewhere by `angles` than by `rotation` however short the \
-                 step; at a given rate both are Jeffery's step up to (GΔt)².",
+                "A kick of a given angle ends elsewhere by `angles` than by `rotation` however short the step; at a \
+                 given rate both are Jeffery's step up to (GΔt)².",
             )
             .source("A.14; docs/src/theory/time-step.md")
             .subject([turn as Update, step_angles])
@@ -81,8 +81,8 @@ fn averaged(limit: &Limit, effort: &Effort) -> Vec<Evidence> {
     let [coarse, fine] = steps;
     vec![Evidence::new(
         format!(
-            "0.6 × the mean sin² between the two paths at {coarse} steps a period, less that at \
-             {fine}, over the sum of both; half a period"
+            "0.6 × the mean sin² between the two paths at {coarse} steps a period, less that at {fine}, over the sum \
+             of both; half a period"
         ),
         Sample::of(&falls).exceeds(
             0.0,
@@ -130,8 +130,7 @@ fn updates([rotation, angles]: &[Update; 2], _: &Effort) -> Vec<Evidence> {
     let order = |[one, two]: [f64; 2]| {
         if one > 0.0 { (two / one).log2() - 2.0 } else { f64::INFINITY }
     };
-    let because = "the next term of the series is GΔt = 10⁻⁴ times derivatives of a rate, of order 1/sin³ θ \
-                   < 20";
+    let because = "the next term of the series is GΔt = 10⁻⁴ times derivatives of a rate, of order 1/sin³ θ < 20";
     vec![
         Evidence::within(
             "how much the two ends of a kick of 1 rad come nearer as Δt goes from 10⁻² to 10⁻⁸",
@@ -150,8 +149,7 @@ fn updates([rotation, angles]: &[Update; 2], _: &Effort) -> Vec<Evidence> {
             because,
         ),
         Evidence::within(
-            "order in Δt of what a colliding rod is off Jeffery's path where the kick is 0, less 2; by \
-             rotation",
+            "order in Δt of what a colliding rod is off Jeffery's path where the kick is 0, less 2; by rotation",
             order(off_path[0]),
             2e-3,
             because,

@@ -15,9 +15,8 @@ pub fn cases() -> Vec<Case> {
     vec![
         Case::core("begun-again")
             .claim(
-                "Unequal rods that begin again at t = T with the length, r_e, direction and place that they had go \
-                    on, in law, as \
-                 the suspension that they were.",
+                "Unequal rods that begin again at t = T with the length, r_e, direction and place that they had go on, \
+                 in law, as the suspension that they were.",
             )
             .source("eqs 11, 12; the method of solution: what a suspension is")
             .subject((|_| ()) as Way)

@@ -14,8 +14,7 @@ pub fn markdown() -> String {
     };
     format!(
         "# Equations and their cases\n\nMade from the registry of {} cases. `shearbed validate --list` prints what \
-            each case claims; the \
-         report shows its evidence and the code of each equation.\n\n{}",
+         each case claims; the report shows its evidence and the code of each equation.\n\n{}",
         cases::all().len(),
         equations().into_iter().map(equation).collect::<String>(),
     )

@@ -25,10 +25,9 @@ pub fn cases() -> Vec<Case> {
     vec![
         Case::core("changing-flows")
             .claim(
-                "Where one flow follows another, each free rod moves by the product of their exponentials: a \
-                reversal takes \
-                    it back to its start, after an extension that aligns rods to 10⁻⁸ rad too, and \
-                    three flows take it where the oracle has it. The seconds are those of each flow's rate.",
+                "Where one flow follows another, each free rod moves by the product of their exponentials: a reversal \
+                 takes it back to its start, after an extension that aligns rods to 10⁻⁸ rad too, and three flows take \
+                 it where the oracle has it. The seconds are those of each flow's rate.",
             )
             .source("eqs 2, 3, A.1")
             .subject(run as Run)
@@ -148,8 +147,7 @@ fn changing_flows(run: &Run, effort: &Effort) -> Vec<Evidence> {
             off.fold(f64::NEG_INFINITY, larger),
             1e-12,
             "the oracle's direction is rounded to double between flows; they turn 10⁻¹⁶ rad into 10⁻¹³ at most, a \
-                rod's r_e of 13 \
-             times e^(½ of the strains)",
+             rod's r_e of 13 times e^(½ of the strains)",
         ),
         Evidence::within(
             "three flows: relative error of the seconds",

@@ -15,10 +15,7 @@ type Respell = fn(&mut Split);
 pub fn cases() -> Vec<Case> {
     vec![
         Case::program("cheapest-split")
-            .claim(
-                "Steps and replicas by the rule for an error of 0.02 give the bias and the scatter that it \
-                 says.",
-            )
+            .claim("Steps and replicas by the rule for an error of 0.02 give the bias and the scatter that it says.")
             .source("eq. 4")
             .subject((|_| {}) as Respell)
             .mistake("a quarter of the replicas, or less", |split| split.replicas /= 4)

@@ -36,8 +36,7 @@ pub fn cases() -> Vec<Case> {
     vec![
         Case::core("phase-means")
             .claim(
-                "The time means of |p_i| of a rod on the orbit C are an elliptic integral, an arcsinh and \
-                 an arcsine.",
+                "The time means of |p_i| of a rod on the orbit C are an elliptic integral, an arcsinh and an arcsine.",
             )
             .source("eqs 13, 17")
             .subject(exact as Motion)
@@ -48,10 +47,7 @@ pub fn cases() -> Vec<Case> {
             })
             .check(phase_means),
         Case::core("orbit-distribution")
-            .claim(
-                "Isotropic rods have the closed distribution of C, and free motion leaves every rod's C \
-                 alone.",
-            )
+            .claim("Isotropic rods have the closed distribution of C, and free motion leaves every rod's C alone.")
             .source("eqs 12, 13")
             .subject(orbit(|_| {}))
             .mistake("r_e 10 % longer", orbit(|scene| scene.particles.aspect_ratio *= 1.1))
@@ -68,10 +64,7 @@ pub fn cases() -> Vec<Case> {
             )
             .check(orbit_distribution),
         Case::core("free-plateau")
-            .claim(
-                "Free rods of Gaussian aspect ratio settle at the phase means averaged over isotropic \
-                 orbits.",
-            )
+            .claim("Free rods of Gaussian aspect ratio settle at the phase means averaged over isotropic orbits.")
             .source("eqs 16, 17")
             .subject((|_| {}) as Change)
             .mistake("no spread: the phases stay together", |scene| scene.particles.aspect_ratio_sd_percent = 0.0)
@@ -79,8 +72,8 @@ pub fn cases() -> Vec<Case> {
             .check(plateau),
         Case::core("spread-damping")
             .claim(
-                "A Gaussian spread damps the first harmonic of X̄_1 by 1/e at t/T = 1/(2√2 π s), s = \
-                 σ(r_e² − 1)/(r_e² + 1), to first order in σ.",
+                "A Gaussian spread damps the first harmonic of X̄_1 by 1/e at t/T = 1/(2√2 π s), s = σ(r_e² − 1)/(r_e² \
+                 + 1), to first order in σ.",
             )
             .source("eqs 11, 15; Fig. 9")
             .subject(1.0 as Factor)
@@ -88,8 +81,8 @@ pub fn cases() -> Vec<Case> {
             .check(spread_damping),
         Case::core("in-plane-start")
             .claim(
-                "Free rods started together in the shear plane follow |cos φ|, |sin φ| of A.4 and never \
-                 leave the plane.",
+                "Free rods started together in the shear plane follow |cos φ|, |sin φ| of A.4 and never leave the \
+                 plane.",
             )
             .source("eqs 4, 20, A.4")
             .subject((|_| {}) as Change)

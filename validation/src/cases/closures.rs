@@ -15,8 +15,7 @@ pub fn cases() -> Vec<Case> {
         Case::program("closures")
             .claim(
                 "Hybrid, ORE and IBOF leave the steady tensors at rest that others published for them; the natural \
-                    closure gives \
-                 a_ijkl of free rods that started isotropic.",
+                 closure gives a_ijkl of free rods that started isotropic.",
             )
             .source("Folgar & Tucker 1984; docs/src/theory/diffusion.md; validation/published/tensor-models")
             .subject((|closure, a| closure.fourth(a)) as Of)

@@ -16,8 +16,7 @@ pub fn cases() -> Vec<Case> {
         Case::core("fourth-moments")
             .claim(
                 "The 15 components of ⟨pppp⟩ of free rods that were isotropic are the closed integral, and in a \
-                    suspension \
-                 its trace over two indices is ⟨pp⟩.",
+                 suspension its trace over two indices is ⟨pp⟩.",
             )
             .source("docs/src/theory/coefficients.md")
             .subject(right)
@@ -37,8 +36,7 @@ pub fn cases() -> Vec<Case> {
         Case::core("particle-stress")
             .claim(
                 "The rods' stress over μ_fiber G, of free rods that were isotropic, is that of the closed integral \
-                    after a \
-                 fifth of a period and in the mean over half a period, where N₁ and N₂ vanish.",
+                 after a fifth of a period and in the mean over half a period, where N₁ and N₂ vanish.",
             )
             .source("Batchelor 1970; docs/src/theory/coefficients.md")
             .subject((|stress| stress) as Stress)
@@ -49,8 +47,7 @@ pub fn cases() -> Vec<Case> {
         Case::core("stress-in-pascals")
             .claim(
                 "The rods' stress in Pa is that of the same run's ⟨pp⟩ and ⟨pppp⟩, with the coefficients of spheroids \
-                    of r_e by \
-                 Jeffery's integrals, or of cylinders of r by Batchelor's series.",
+                 of r_e by Jeffery's integrals, or of cylinders of r by Batchelor's series.",
             )
             .source("Jeffery 1922; Leal & Hinch 1971; Batchelor 1970; docs/src/theory/coefficients.md")
             .subject(Pascals { change: |_| {}, stress: |stress| stress })

@@ -144,8 +144,7 @@ fn against_turning(rates: &AngleRates, _: &Effort) -> Vec<Evidence> {
             }
         }
     }
-    let because = "the central difference's own error: Δt²/6 times a third derivative of 8(|ṗ|/sin θ)³ ≤ \
-                   8·5³ at most";
+    let because = "the central difference's own error: Δt²/6 times a third derivative of 8(|ṗ|/sin θ)³ ≤ 8·5³ at most";
     ["error of φ̇′ in rad per unit time", "error of θ̇′ in rad per unit time"]
         .into_iter()
         .zip(worst)

@@ -67,8 +67,8 @@ pub fn cases() -> Vec<Case> {
     vec![
         Case::statement("free-amplitude")
             .claim(
-                "\"The amplitude of oscillations is approximately half the particle length and is \
-                 constant\" for free uniform rods.",
+                "\"The amplitude of oscillations is approximately half the particle length and is constant\" for free \
+                 uniform rods.",
             )
             .source("eq. 4; Results, before Fig. 6; Fig. 6 (top)")
             .subject((|_| {}) as Change)
@@ -94,8 +94,8 @@ pub fn cases() -> Vec<Case> {
             .check(faster),
         Case::statement("faster-with-concentration")
             .claim(
-                "\"The oscillations decay faster as the concentration (and consequently the number of \
-                 collisions) increases\".",
+                "\"The oscillations decay faster as the concentration (and consequently the number of collisions) \
+                 increases\".",
             )
             .source("eq. 4; Results, before Fig. 7; Fig. 7")
             .subject(concentration)
@@ -131,8 +131,8 @@ pub fn cases() -> Vec<Case> {
             .check(faster),
         Case::statement("faster-with-collisions")
             .claim(
-                "\"The amplitude decays much faster when collisions occur than in the absence of \
-                 particle-particle interactions\".",
+                "\"The amplitude decays much faster when collisions occur than in the absence of particle-particle \
+                 interactions\".",
             )
             .source("eq. 4; Results, after Fig. 10; Figs 6 and 10")
             .subject(
@@ -144,10 +144,9 @@ pub fn cases() -> Vec<Case> {
             .check(collisions_damp),
         Case::statement("dies-out")
             .claim(
-                "\"The oscillations die out … after a few rotations, in contrast to the undamped \
-                 oscillations\": with collisions and σ = 3.6 % to less than 1/e in four rotations, where less is left \
-                 than with σ = 3.6 % alone; with collisions alone they are smaller after one, two and four \
-                 rotations each time.",
+                "\"The oscillations die out … after a few rotations, in contrast to the undamped oscillations\": with \
+                 collisions and σ = 3.6 % to less than 1/e in four rotations, where less is left than with σ = 3.6 % \
+                 alone; with collisions alone they are smaller after one, two and four rotations each time.",
             )
             .source("eqs 4, 16; Results, after Fig. 6")
             .subject((|_| {}) as Change)
@@ -162,8 +161,8 @@ pub fn cases() -> Vec<Case> {
             .check(dies_out),
         Case::statement("other-axes-decay")
             .claim(
-                "\"The amplitudes of X̄_2 and X̄_3 decay in similar manner\" as that of X̄_1: at rates \
-                 that differ by less than a factor of two.",
+                "\"The amplitudes of X̄_2 and X̄_3 decay in similar manner\" as that of X̄_1: at rates that differ by \
+                 less than a factor of two.",
             )
             .source("eqs 4, 16; Results, after Fig. 10")
             .subject([damped as Change; 2] as Axes)

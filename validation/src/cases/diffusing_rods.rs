@@ -20,9 +20,9 @@ pub fn cases() -> Vec<Case> {
     vec![
         Case::oracle("diffusing-rods")
             .claim(
-                "The distribution of rods with rotary diffusion is exp(p·ΛD·p/2D_r) in extension, fulfils the \
-                    equation of its second \
-                 moments in any flow, is that of free rods for C_I = 0, and has the known orbits as C_I → 0.",
+                "The distribution of rods with rotary diffusion is exp(p·ΛD·p/2D_r) in extension, fulfils the equation \
+                 of its second moments in any flow, is that of free rods for C_I = 0, and has the known orbits as C_I \
+                 → 0.",
             )
             .source("eqs 13, A.1; Folgar & Tucker 1984; Leal & Hinch 1971")
             .subject((|(l, r, c)| Motion::new(l, r, c)) as Model)

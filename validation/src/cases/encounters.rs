@@ -12,8 +12,8 @@ pub fn cases() -> Vec<Case> {
     vec![
         Case::core("collision-probability")
             .claim(
-                "The reach of a draw R, which runs compare distances with, is the s at which P_c of eq. 7 \
-                 is R, for any α, m > 0.",
+                "The reach of a draw R, which runs compare distances with, is the s at which P_c of eq. 7 is R, for \
+                 any α, m > 0.",
             )
             .source("eqs 7, 10")
             .subject(reach as Formula)
@@ -102,10 +102,7 @@ fn frequency(change: &Change, effort: &Effort) -> Vec<Evidence> {
             })
             .collect();
         Evidence::new(
-            format!(
-                "candidates over the sum of P_c, {count} rods, α = {alpha}, m = {m}, n = {concentration} \
-                 per cm³"
-            ),
+            format!("candidates over the sum of P_c, {count} rods, α = {alpha}, m = {m}, n = {concentration} per cm³"),
             Sample::of(&ratios).is(
                 1.0,
                 0.0,

@@ -16,18 +16,15 @@ pub fn cases() -> Vec<Case> {
     vec![
         Case::measurement("okagawa-mason-1973")
             .claim(
-                "With α = 0.5 the mean projections are those that Okagawa & Mason measured, at n = 20, 50 \
-                 and 100 per cm³.",
+                "With α = 0.5 the mean projections are those that Okagawa & Mason measured, at n = 20, 50 and 100 per \
+                 cm³.",
             )
             .source("eq. 4; Fig. 4")
             .subject((|_| {}) as Change)
             .mistakes(controls())
             .check(|change, effort| agreement(&OKAGAWA_MASON, *change, effort)),
         Case::measurement("anczurowski-1967")
-            .claim(
-                "With α = 0.5 the mean projections up to t/T = 3 are those that Anczurowski, Cox & Mason \
-                 measured.",
-            )
+            .claim("With α = 0.5 the mean projections up to t/T = 3 are those that Anczurowski, Cox & Mason measured.")
             .source("eq. 4; Fig. 5")
             .subject((|_| {}) as Change)
             .mistakes(controls())
@@ -41,8 +38,8 @@ pub fn cases() -> Vec<Case> {
         Case::statement("in-plane-not-fitted")
             .claim(
                 "Curves of equal rods that start parallel in the shear plane, as the experiment at r_e = 3.96 had \
-                    them, do not depend on α, \
-                 and a fit of α to points of them is refused: \"not suitable for comparison with the model\".",
+                 them, do not depend on α, and a fit of α to points of them is refused: \"not suitable for comparison \
+                 with the model\".",
             )
             .source("eqs 4, 7; Results, the r_e = 3.96 experiment")
             .subject(90.0)
@@ -90,8 +87,8 @@ fn double_alpha(scene: &mut Scene) {
     }
 }
 
-const SUPPLY: &str = "put the digitised points (CSV) and their provenance (TOML) into the source's folder under \
-                      DIR and run `shearbed validate --data DIR`; docs/src/validation/points.md has the format";
+const SUPPLY: &str = "put the digitised points (CSV) and their provenance (TOML) into the source's folder under DIR \
+    and run `shearbed validate --data DIR`; docs/src/validation/points.md has the format";
 
 fn no_data(what: impl Into<String>) -> Vec<Evidence> {
     vec![Evidence::new(what, Rule::NoData { supply: SUPPLY.into() })]
@@ -163,8 +160,8 @@ fn fit(comparison: &Comparison, late: usize, source: &Source) -> Evidence {
         samples: n as u64,
         enough: 3,
         distance: None,
-        because: "χ² over all points with their full covariance; three points can tell a shape from a \
-                  shift, and the controls show the power"
+        because: "χ² over all points with their full covariance; three points can tell a shape from a shift, and the \
+            controls show the power"
             .into(),
     };
     Evidence::new(what, rule)
@@ -193,8 +190,7 @@ fn same_alpha(change: &Change, effort: &Effort) -> Result<Vec<Evidence>, String>
         0.0,
         0.0,
         1.0,
-        "points that would show α = 1.5 beside 0.5, a standard error of about 0.1; blunter ones \
-         say nothing",
+        "points that would show α = 1.5 beside 0.5, a standard error of about 0.1; blunter ones say nothing",
     );
     Ok(vec![Evidence::new(what, rule)])
 }

@@ -35,10 +35,10 @@ pub fn cases() -> Vec<Case> {
     vec![
         Case::program("extreme-suspensions")
             .claim(
-                "Interacting rods stay finite and |p| = 1 to 4 ulp: dense and thin, N = 1 and 2, α = 0 and \
-                    huge, m from 0.1 to 50, σ at its limit, G from 10⁻³⁰ to 10³⁰ 1/s, steps from 10⁻⁷ T to T, \
-                    parallel to one ulp, arms to the smallest normal number. A kick that overflows stops the \
-                    run and names rod, step, seed and arm.",
+                "Interacting rods stay finite and |p| = 1 to 4 ulp: dense and thin, N = 1 and 2, α = 0 and huge, m \
+                 from 0.1 to 50, σ at its limit, G from 10⁻³⁰ to 10³⁰ 1/s, steps from 10⁻⁷ T to T, parallel to one \
+                 ulp, arms to the smallest normal number. A kick that overflows stops the run and names rod, step, \
+                 seed and arm.",
             )
             .source("eqs 7, 14, A.13, A.14")
             .subject(CORE)
@@ -59,9 +59,9 @@ pub fn cases() -> Vec<Case> {
             .check(extreme_suspensions),
         Case::program("extreme-scenes")
             .claim(
-                "Scenes of free rods end with finite means and tr⟨pp⟩ = 1: G from 10⁻³⁰ to 10³⁰ 1/s, r_e \
-                    from 10⁻⁸ to 10⁸, σ at its limit, both poles, the flip, 10⁴ periods, and extension to a \
-                    strain of 10⁴ (10⁵ and 10⁶ in a full run), which aligns every rod.",
+                "Scenes of free rods end with finite means and tr⟨pp⟩ = 1: G from 10⁻³⁰ to 10³⁰ 1/s, r_e from 10⁻⁸ to \
+                 10⁸, σ at its limit, both poles, the flip, 10⁴ periods, and extension to a strain of 10⁴ (10⁵ and 10⁶ \
+                 in a full run), which aligns every rod.",
             )
             .source("eqs 3, 4, 11, 15")
             .subject(whole_run as Program)
@@ -103,8 +103,8 @@ fn extreme_suspensions(model: &Model, effort: &Effort) -> Vec<Evidence> {
         ),
         Evidence::exact("runs that stopped or had a mean that is not finite", stopped),
         Evidence::exact(
-            "pairs put down by hand that did not turn, or did not stop with rod, step, seed and arm \
-             where the kick overflows",
+            "pairs put down by hand that did not turn, or did not stop with rod, step, seed and arm where the kick \
+             overflows",
             unlike,
         ),
     ]

@@ -22,9 +22,9 @@ pub fn cases() -> Vec<Case> {
     vec![
         Case::core("extreme-motion")
             .claim(
-                "Free rods in plane Couette flow keep |p| = 1 to 4 ulp and C_b to 8, and are where the \
-                 closed form has them, for r_e from 10⁻⁸ to 10⁸, G from 10⁻³⁰ to 10³⁰ 1/s, 10⁻⁹ to 10⁸ \
-                 periods, at once and in a thousand steps, from any start.",
+                "Free rods in plane Couette flow keep |p| = 1 to 4 ulp and C_b to 8, and are where the closed form has \
+                 them, for r_e from 10⁻⁸ to 10⁸, G from 10⁻³⁰ to 10³⁰ 1/s, 10⁻⁹ to 10⁸ periods, at once and in a \
+                 thousand steps, from any start.",
             )
             .source("eqs 13, 15")
             .subject(corners::exact as Motion)
@@ -46,9 +46,9 @@ pub fn cases() -> Vec<Case> {
             .check(extreme_motion),
         Case::core("extreme-flows")
             .claim(
-                "In other flows rods keep |p| = 1 to 4 ulp up to a strain of 10⁶ and beyond, and end where \
-                 the flow leads, to 4 ulp too where its two fastest rates are equal or next to each other \
-                 and the start is 5·10⁻¹⁵ rad from the third axis.",
+                "In other flows rods keep |p| = 1 to 4 ulp up to a strain of 10⁶ and beyond, and end where the flow \
+                 leads, to 4 ulp too where its two fastest rates are equal or next to each other and the start is \
+                 5·10⁻¹⁵ rad from the third axis.",
             )
             .source("eqs 3, A.1")
             .subject((|flow, r, p, time_s| Propagator::new(flow, r).after(p, time_s).into_inner()) as FlowMotion)
@@ -115,8 +115,8 @@ fn extreme_motion(motion: &Motion, _: &Effort) -> Vec<Evidence> {
             "largest angle to the closed form over 16 ε(1 + 2π max(r_e, 1/r_e)|rest|)",
             angle,
             1.0,
-            "the phase without whole turns is rounded to ε, and φ moves by max(r_e, 1/r_e) times that; \
-             some sixteen roundings",
+            "the phase without whole turns is rounded to ε, and φ moves by max(r_e, 1/r_e) times that; some sixteen \
+             roundings",
         ),
     ]
 }
@@ -171,16 +171,15 @@ fn extreme_flows(motion: &FlowMotion, _: &Effort) -> Vec<Evidence> {
             "distance from the flow's axis at a strain of 10⁶ or more, times |p_1| at first",
             end,
             LENGTH,
-            "e^{−Λ·10⁶} is 0; the map is known to some ε, which a start near the dividing plane grows \
-             by 1/|p_1|",
+            "e^{−Λ·10⁶} is 0; the map is known to some ε, which a start near the dividing plane grows by 1/|p_1|",
         ),
         Evidence::within(
             "largest angle to p_i e^{ΛL_ii t} where two rates nearly meet, at a strain of 10² or more",
             apart_where_rates_meet(motion),
             LENGTH,
-            "the motion of uncoupled axes amplifies nothing: a component of the core's direction is rounded \
-             twice (ε), one of the closed form three times (2 ε), which turns either by half of that, and \
-             their cross product is rounded to ε",
+            "the motion of uncoupled axes amplifies nothing: a component of the core's direction is rounded twice (ε), \
+             one of the closed form three times (2 ε), which turns either by half of that, and their cross product is \
+             rounded to ε",
         ),
     ]
 }

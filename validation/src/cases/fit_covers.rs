@@ -240,9 +240,8 @@ fn covers(way: &Way, effort: &Effort) -> Result<Vec<Evidence>, String> {
     let rule = |k: usize| {
         let shares: Vec<f64> = found.iter().map(|fit| inside(fit, k)).collect();
         let what = format!("share of {:.0} % intervals that hold the planted α", 100.0 * CONFIDENCES[k]);
-        let because = "the level; the allowance is the error of a covariance estimated from 80 replicas; a curve \
-            taken for \
-                       exact, or half the length, misses more than the effect";
+        let because = "the level; the allowance is the error of a covariance estimated from 80 replicas; a curve taken \
+            for exact, or half the length, misses more than the effect";
         Evidence::new(what, Sample::of(&shares).is(CONFIDENCES[k], ALLOWANCE[k], EFFECT[k], because))
     };
     Ok(vec![rule(0), rule(1), outright::off(*way == Way::StraightLines, effort)?])

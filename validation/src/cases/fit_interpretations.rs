@@ -48,9 +48,8 @@ pub(super) fn cases() -> Vec<Case> {
     vec![
         Case::program("fit-tells-cut-lines")
             .claim(
-                "χ² of one α for two suspensions accepts points of whole contact lines and refuses points of lines \
-                    cut at the \
-                 rods' ends.",
+                "χ² of one α for two suspensions accepts points of whole contact lines and refuses points of lines cut \
+                 at the rods' ends.",
             )
             .source("eq. 5; docs/src/theory/fits.md")
             .subject((|_| ()) as Change)

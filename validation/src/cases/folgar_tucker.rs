@@ -18,8 +18,7 @@ pub fn cases() -> Vec<Case> {
         Case::program("effective-ci")
             .claim(
                 "J, summed over the steps of rods, gives the C_I that was put into synthetic rods (not measured, not \
-                    of this \
-                 model) with rotary diffusion, and is 0 for the core's free rods.",
+                 of this model) with rotary diffusion, and is 0 for the core's free rods.",
             )
             .source("Folgar & Tucker 1984; docs/src/theory/coefficients.md")
             .subject(Estimator { alone: |strain| free(LAMBDA, strain), of: Means::coefficient })
@@ -36,8 +35,8 @@ pub fn cases() -> Vec<Case> {
         Case::interpretation("folgar-tucker-seven")
             .claim(
                 "The seven C_I that Folgar & Tucker measured (second-hand; n a³ above 3, not dilute) rise with φ r_p, \
-                    as the \
-                 model's rises with n a³; at n a³ = 1, where the model ends, it is below a third of the least of them.",
+                 as the model's rises with n a³; at n a³ = 1, where the model ends, it is below a third of the least \
+                 of them.",
             )
             .source("Folgar & Tucker 1984; docs/src/theory/coefficients.md")
             .subject((|c| c) as fn(f64) -> f64)
@@ -46,9 +45,8 @@ pub fn cases() -> Vec<Case> {
             .check(seven),
         Case::interpretation("kicks-are-no-diffusion")
             .claim(
-                "At equal C_I, kicks leave far more rods alone than rotary diffusion does over a strain of 1, turn \
-                    far more of \
-                 them by more than 0.1 rad, and keep more of them in orbits of C_b > 1/2.",
+                "At equal C_I, kicks leave far more rods alone than rotary diffusion does over a strain of 1, turn far \
+                 more of them by more than 0.1 rad, and keep more of them in orbits of C_b > 1/2.",
             )
             .source("Folgar & Tucker 1984; eqs 5 to 10; docs/src/theory/coefficients.md")
             .subject(Turned::ByKicks(|_| {}))
@@ -155,8 +153,7 @@ fn effective(estimator: &Estimator, effort: &Effort) -> Vec<Evidence> {
                 0.01 * PLANTED,
                 design.effect,
                 "1 %: making a step's length 1 again changes its variance by 3·2C_I·0.05 = 0.3 %, and the split steps \
-                    by \
-                 0.05² = 0.25 %",
+                 by 0.05² = 0.25 %",
             ),
         ),
         Evidence::within(

@@ -11,10 +11,7 @@ use shearbed::scene::Scene;
 pub fn cases() -> Vec<Case> {
     vec![
         Case::core("free-isotropic")
-            .claim(
-                "Free rods of one aspect ratio, isotropic at first, have the mean projections of the \
-                 closed form.",
-            )
+            .claim("Free rods of one aspect ratio, isotropic at first, have the mean projections of the closed form.")
             .source("eqs 4, 12; Fig. 6 (top)")
             .subject((|_| {}) as Change)
             .mistake("r_e 5 % longer", |scene| scene.particles.aspect_ratio *= 1.05)
@@ -26,8 +23,7 @@ pub fn cases() -> Vec<Case> {
             .check(uniform_rods),
         Case::core("free-polydisperse")
             .claim(
-                "Free rods of Gaussian aspect ratio, isotropic at first, have the mean projections of the \
-                 quadrature.",
+                "Free rods of Gaussian aspect ratio, isotropic at first, have the mean projections of the quadrature.",
             )
             .source("eqs 4, 11; Fig. 6 (middle), Fig. 9")
             .subject((|_| {}) as Change)

@@ -20,10 +20,9 @@ pub fn cases() -> Vec<Case> {
     vec![
         Case::core("general-flows")
             .claim(
-                "In any flow, at r_e from 10⁻¹⁰⁰ to 10¹⁰⁰ and strains from 10⁻¹³ to 10⁶, a direction is \
-                    off the oracle's, of hundreds of bits, by no more than the bound that comes with it; \
-                    where that is above 10⁻⁶ rad, a scene is refused, and none that numbers of 106 bits can \
-                    answer.",
+                "In any flow, at r_e from 10⁻¹⁰⁰ to 10¹⁰⁰ and strains from 10⁻¹³ to 10⁶, a direction is off the \
+                 oracle's, of hundreds of bits, by no more than the bound that comes with it; where that is above 10⁻⁶ \
+                 rad, a scene is refused, and none that numbers of 106 bits can answer.",
             )
             .source("eqs 2, 3, A.1")
             .subject(core as Motion)
@@ -48,9 +47,9 @@ pub fn cases() -> Vec<Case> {
             .check(general_flows),
         Case::core("listed-scenes")
             .claim(
-                "Scenes that were wrong once end where the oracle has them, within the error that their \
-                    plan states: slow swirls to a strain of 3000, r_e = 10¹⁰⁰ and 10⁻¹⁰⁰ along an axis, flows \
-                    next to shear, Couette flow turned by 45° at r_e = 10⁸, a strain of 10⁻¹³ of a rotation.",
+                "Scenes that were wrong once end where the oracle has them, within the error that their plan states: \
+                 slow swirls to a strain of 3000, r_e = 10¹⁰⁰ and 10⁻¹⁰⁰ along an axis, flows next to shear, Couette \
+                 flow turned by 45° at r_e = 10⁸, a strain of 10⁻¹³ of a rotation.",
             )
             .source("eqs 3, 15, A.1")
             .subject(scenes::program as scenes::Run)

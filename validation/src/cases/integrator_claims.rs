@@ -25,8 +25,8 @@ pub fn cases() -> Vec<Case> {
     vec![
         Case::integrator("where-errors-show")
             .claim(
-                "A phase that is off by a tenth of a period shows as an angle of less than 1/r_e where a \
-                 long rod lies along the flow, and as more than ½ in its flip.",
+                "A phase that is off by a tenth of a period shows as an angle of less than 1/r_e where a long rod lies \
+                 along the flow, and as more than ½ in its flip.",
             )
             .source("A.4")
             .subject(1.0)
@@ -34,8 +34,8 @@ pub fn cases() -> Vec<Case> {
             .check(where_errors_show),
         Case::integrator("right-hand-side-digits")
             .claim(
-                "The right-hand sides of the integrators keep every digit of 1 − Λ, and with it the period, \
-                 up to r_e = 10⁸.",
+                "The right-hand sides of the integrators keep every digit of 1 − Λ, and with it the period, up to r_e \
+                 = 10⁸.",
             )
             .source("eqs 15, A.1")
             .subject((|problem: &RodProblem, p: &Vector3<f64>| problem.rate(p)) as Rate)
@@ -47,8 +47,8 @@ pub fn cases() -> Vec<Case> {
             .check(digits),
         Case::integrator("flip-not-stiff")
             .claim(
-                "No eigenvalue of Jeffery's equation in p is larger than (⅓ + Λ²)^½ G, or ½(1 + |Λ|) G \
-                 where |Λ| < ⅓: at most 2/√3 G, so the flip is short, but the equation is not stiff.",
+                "No eigenvalue of Jeffery's equation in p is larger than (⅓ + Λ²)^½ G, or ½(1 + |Λ|) G where |Λ| < ⅓: \
+                 at most 2/√3 G, so the flip is short, but the equation is not stiff.",
             )
             .source("A.1")
             .subject((|problem: &RodProblem, p: &Vector3<f64>| problem.rate_slope(p)) as Slope)
@@ -72,8 +72,8 @@ pub fn cases() -> Vec<Case> {
             .check(lose_length),
         Case::integrator("coarse-steps")
             .claim(
-                "At GΔt = 10 and r_e = 11.6 RK4 in p gives no finite direction, and projected RK4 a wrong \
-                 one of length 1.",
+                "At GΔt = 10 and r_e = 11.6 RK4 in p gives no finite direction, and projected RK4 a wrong one of \
+                 length 1.",
             )
             .source("A.1")
             .subject(10.0)
@@ -82,8 +82,7 @@ pub fn cases() -> Vec<Case> {
         Case::integrator("grid-convergence-index")
             .claim(
                 "At r_e = 11.6 the grid convergence index bounds the error of every fixed-step integrator on its \
-                    finest three \
-                 grids.",
+                 finest three grids.",
             )
             .source("A.4, A.5")
             .subject(crate::methods::integrators::own as Integrators)
@@ -108,8 +107,7 @@ fn where_errors_show(scale: &f64, _: &Effort) -> Vec<Evidence> {
             "largest angle between two directions along the flow, a tenth of a period apart, times r_e",
             along,
             1.0,
-            "A.4: π/2 − φ = cot(κ)/r_e, and cot κ changes by 2 cot 72° = 0.65 between the two, for the \
-             longest rods",
+            "A.4: π/2 − φ = cot(κ)/r_e, and cot κ changes by 2 cot 72° = 0.65 between the two, for the longest rods",
         ),
         Evidence::within(
             "½ over the smallest angle between the flip and a tenth of a period before",
@@ -171,8 +169,7 @@ fn eigenvalues(slope: &Slope, _: &Effort) -> Vec<Evidence> {
             }
         }
     }
-    let because = "eigenvalues of a matrix near 1, whose two largest are apart by 1.1 or more where they are \
-                   largest";
+    let because = "eigenvalues of a matrix near 1, whose two largest are apart by 1.1 or more where they are largest";
     vec![
         Evidence::within(
             "by how much the largest eigenvalue of ∂ṗ/∂p exceeds theory, over 1152 directions",

@@ -117,8 +117,8 @@ fn matters(alternative: &Alternative, effort: &Effort) -> Vec<Evidence> {
         Sample::of(&changes).exceeds(
             alternative.bound,
             alternative.design.effect,
-            "more than the width of a drawn line, 1 % of the amplitude ½ of free rods; for \"a \
-             little\" any change that is beyond chance",
+            "more than the width of a drawn line, 1 % of the amplitude ½ of free rods; for \"a little\" any change \
+             that is beyond chance",
         ),
     )]
 }

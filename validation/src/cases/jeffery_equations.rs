@@ -23,10 +23,7 @@ fn rate_in_a_run(p: &Vector3<f64>, r: f64, sign: f64) -> Vector3<f64> {
 pub fn cases() -> Vec<Case> {
     vec![
         Case::core("angular-velocity")
-            .claim(
-                "The ṗ that a run's collisions start from is ω × p with ω by A.1 in the body frame, r_e = \
-                 a/b.",
-            )
+            .claim("The ṗ that a run's collisions start from is ω × p with ω by A.1 in the body frame, r_e = a/b.")
             .source("eqs 1, A.1")
             .subject(rate_in_a_run as Rate)
             .mistake("b/a for a/b", |p, r, sign| rate_in_a_run(p, 1.0 / r, sign))
@@ -153,8 +150,7 @@ fn one_rod(change: &Change, effort: &Effort) -> Vec<Evidence> {
             }
         }
     }
-    let because = "a rounding of the phase, πε, grows by dφ/d(phase) ≤ max(r_e, 1/r_e); so does one of the \
-                   start";
+    let because = "a rounding of the phase, πε, grows by dφ/d(phase) ≤ max(r_e, 1/r_e); so does one of the start";
     vec![
         Evidence::within(
             "largest angle between the two directions over max(r_e, 1/r_e)",
@@ -172,8 +168,7 @@ fn one_rod(change: &Change, effort: &Effort) -> Vec<Evidence> {
             "largest error of C_b",
             worst[2],
             16.0 * f64::EPSILON,
-            "C_b ≤ 1 has slope ≤ ¼ in ln C, which is a ratio of lengths and a tangent known to some \
-             sixteen roundings",
+            "C_b ≤ 1 has slope ≤ ¼ in ln C, which is a ratio of lengths and a tangent known to some sixteen roundings",
         ),
     ]
 }

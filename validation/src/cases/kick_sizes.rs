@@ -19,8 +19,7 @@ pub fn cases() -> Vec<Case> {
             .check(heavy),
         Case::core("kick-bound")
             .claim(
-                "A kick is |g|Δt/(2|r|); with a shortest arm r_min it is at most ¼GΔt[(2 − Λ′)s/r_min + 2 \
-                 − Λ − Λ′].",
+                "A kick is |g|Δt/(2|r|); with a shortest arm r_min it is at most ¼GΔt[(2 − Λ′)s/r_min + 2 − Λ − Λ′].",
             )
             .source("eqs 6, A.7, A.10, A.13; docs/src/theory/time-step.md")
             .subject((kicks_rad as Angles, 1.0))
@@ -48,14 +47,12 @@ fn heavy((angles, min_arm): &(Angles, f64), effort: &Effort) -> Vec<Evidence> {
         (
             "fresh pairs, kicks > 2GΔt",
             tail::hill(tail::fresh(&fresh, of_fresh, *angles), 2.0),
-            "the tail is (1 − 1/(140Y²))/Y, from Y = 2: 0.0012 off; terms in 1 − Λ = 0.015 over Y² as \
-             much",
+            "the tail is (1 − 1/(140Y²))/Y, from Y = 2: 0.0012 off; terms in 1 − Λ = 0.015 over Y² as much",
         ),
         (
             "runs, kicks > 0.5 rad",
             tail::hill(tail::in_runs(&run, of_runs, *angles), 0.5),
-            "the tail is (1 − 1/(140Y²))/Y, from Y = 1.4: 0.0026 off; terms in 1 − Λ = 0.015 over Y² \
-             as much",
+            "the tail is (1 − 1/(140Y²))/Y, from Y = 1.4: 0.0026 off; terms in 1 − Λ = 0.015 over Y² as much",
         ),
     ];
     let evidence = hills.map(|(what, hill, because)| {

@@ -17,8 +17,8 @@ pub fn cases() -> Vec<Case> {
     vec![
         Case::core("kick-formula")
             .claim(
-                "Isotropic rods at random places are kicked by more than κ as often as P_c, the arm's \
-                 density at 0 and the gap's velocity say, whatever Δt is.",
+                "Isotropic rods at random places are kicked by more than κ as often as P_c, the arm's density at 0 and \
+                 the gap's velocity say, whatever Δt is.",
             )
             .source("eqs 7–10, A.7, A.10, A.13; docs/src/theory/time-step.md")
             .subject((|fresh, chance| 2.0 * fresh.chances * chance(1.0)) as Expected)
@@ -31,8 +31,8 @@ pub fn cases() -> Vec<Case> {
             .check(formula),
         Case::core("kick-memory")
             .claim(
-                "In runs, pairs whose gap closes are kicked as often as the formula says at any Δt; those \
-                 whose gap opens ever less often as Δt → 0.",
+                "In runs, pairs whose gap closes are kicked as often as the formula says at any Δt; those whose gap \
+                 opens ever less often as Δt → 0.",
             )
             .source("A.13, A.14; docs/src/theory/time-step.md")
             .subject(KICKS)
@@ -89,8 +89,8 @@ fn formula(expected: &Expected, effort: &Effort) -> Vec<Evidence> {
                 1.0,
                 0.003,
                 design.effect,
-                "left out, 10⁻³ each: the next term in GΔt/κ, terms in (1 − Λ)/Y², the cube's corners, to \
-                 which distant neighbours point; the nearest of the controls is 1 − π/4 = 0.21 off",
+                "left out, 10⁻³ each: the next term in GΔt/κ, terms in (1 − Λ)/Y², the cube's corners, to which \
+                 distant neighbours point; the nearest of the controls is 1 − π/4 = 0.21 off",
             ),
         )
     });
@@ -145,8 +145,7 @@ fn memory(counted: &Counted, effort: &Effort) -> Vec<Evidence> {
     let falls: Vec<_> =
         (coarse.iter().zip(&fine)).map(|(coarse, fine)| (coarse.opening[OVER] - fine.opening[OVER]) / both).collect();
     let mut evidence = vec![Evidence::new(
-        "kicks > 0.1 rad of opening pairs at 100 steps a period, less those at 800, over both; α = \
-         4",
+        "kicks > 0.1 rad of opening pairs at 100 steps a period, less those at 800, over both; α = 4",
         Sample::of(&falls).exceeds(
             0.1,
             fall.effect,
@@ -161,15 +160,14 @@ fn memory(counted: &Counted, effort: &Effort) -> Vec<Evidence> {
         let offs: Vec<_> = (counts.iter()).map(|c| (c.closing[OVER] - c.fresh_closing[OVER]) / fresh).collect();
         evidence.push(Evidence::new(
             format!(
-                "kicks > 0.1 rad of closing pairs over the formula's number, less 1; {steps} steps a \
-                 period, α = ½"
+                "kicks > 0.1 rad of closing pairs over the formula's number, less 1; {steps} steps a period, α = ½"
             ),
             Sample::of(&offs).is(
                 0.0,
                 0.05,
                 off.effect,
-                "the formula takes the separation to be independent of the directions; a pair that \
-                 collides is no longer so, by the share of P_c ≈ 0.05",
+                "the formula takes the separation to be independent of the directions; a pair that collides is no \
+                 longer so, by the share of P_c ≈ 0.05",
             ),
         ));
     }

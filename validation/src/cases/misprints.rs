@@ -17,8 +17,8 @@ pub fn cases() -> Vec<Case> {
     vec![
         Case::oracle("gradient-of-eq-2")
             .claim(
-                "With G_ij = ∂u_i/∂x_j a thread turns as the line between two points of the liquid does; \
-                 with the text's ∂u_i/∂x_i it does not.",
+                "With G_ij = ∂u_i/∂x_j a thread turns as the line between two points of the liquid does; with the \
+                 text's ∂u_i/∂x_i it does not.",
             )
             .source("eqs 2, 3")
             .subject((|u, i, j| slope(u, i, j)) as Gradient)
@@ -40,8 +40,8 @@ pub fn cases() -> Vec<Case> {
             .check(shadows),
         Case::oracle("who-moves-how")
             .claim(
-                "In a run, rods that move freely keep C (A.2–A.6) and colliding rods get a new one \
-                 (A.7–A.14), not the other way round.",
+                "In a run, rods that move freely keep C (A.2–A.6) and colliding rods get a new one (A.7–A.14), not the \
+                 other way round.",
             )
             .source("eqs 13, A.2, A.7; text after eqs 12 and 13")
             .subject((|collided| collided) as Reading)
@@ -83,8 +83,8 @@ fn gives_back_velocity(component: &Gradient, _: &Effort) -> Vec<Evidence> {
             })
             .fold(0.0, larger)
     };
-    let because = "RK4 on the field: (|G|h)⁴|G|t/120 = 10⁻¹³ at |G| = 6 and h = 2.5·10⁻⁴, and 2000 \
-                   roundings, both stretched e^{|G|t} = 20-fold; the thread's 1 − Λ is 2·10⁻¹⁸";
+    let because = "RK4 on the field: (|G|h)⁴|G|t/120 = 10⁻¹³ at |G| = 6 and h = 2.5·10⁻⁴, and 2000 roundings, both \
+        stretched e^{|G|t} = 20-fold; the thread's 1 − Λ is 2·10⁻¹⁸";
     fields
         .iter()
         .map(|(name, u)| {

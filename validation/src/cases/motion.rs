@@ -95,8 +95,8 @@ pub fn cases() -> Vec<Case> {
             .check(integrated_motion),
         Case::core("mean-angle-quadrature")
             .claim(
-                "⟨φ⟩ of a single rod, integrated over the φ(t) that a run has, is the dilogarithm, and \
-                 tends to π/2 as (2/π)(1 + ln r_e)/r_e for a thread.",
+                "⟨φ⟩ of a single rod, integrated over the φ(t) that a run has, is the dilogarithm, and tends to π/2 as \
+                 (2/π)(1 + ln r_e)/r_e for a thread.",
             )
             .source("eqs 18–20")
             .subject(angle_in_a_run as Angle)
@@ -177,8 +177,8 @@ fn orbit_constant(motion: &Motion, _: &Effort) -> Vec<Evidence> {
         "largest relative drift of C up to 10⁴ periods",
         worst,
         16.0 * f64::EPSILON,
-        "one evaluation, however many periods it spans: C is a ratio of lengths without \
-         cancellation, some sixteen roundings",
+        "one evaluation, however many periods it spans: C is a ratio of lengths without cancellation, some sixteen \
+         roundings",
     )]
 }
 
@@ -262,8 +262,7 @@ fn mean_angle(angle: &Angle, _: &Effort) -> Vec<Evidence> {
     vec![
         Evidence::within("difference of ⟨φ⟩ over the quadrature's tolerance, r_e from 1 to 1000", worst, 1.0, because),
         Evidence::within(
-            "difference of π/2 − ⟨φ⟩ and its first term, over that tolerance and the next term, r_e \
-             from 10⁵ to 10⁷",
+            "difference of π/2 − ⟨φ⟩ and its first term, over that tolerance and the next term, r_e from 10⁵ to 10⁷",
             thread,
             1.0,
             because,

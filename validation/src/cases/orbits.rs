@@ -29,9 +29,8 @@ pub fn cases() -> Vec<Case> {
     vec![
         Case::interpretation("orbits-of-collisions")
             .claim(
-                "Weak rotary diffusion leaves the closed form's 46.1 % of rods of r_e = 11.6 above C_b = ½; \
-                    collisions leave far \
-                 more there than isotropic directions have, 50.7 %.",
+                "Weak rotary diffusion leaves the closed form's 46.1 % of rods of r_e = 11.6 above C_b = ½; collisions \
+                 leave far more there than isotropic directions have, 50.7 %.",
             )
             .source("eq. 13; Leal & Hinch 1971; docs/src/theory/diffusion.md")
             .subject(right)

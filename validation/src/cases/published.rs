@@ -15,8 +15,7 @@ pub fn cases() -> Vec<Case> {
             .claim(
                 "Fibres that others simulated by smoothed particle hydrodynamics (not measured) make their first half \
                  turn in T/2 of an r_e that published formulas give for their shape; their later damping is outside \
-                 the \
-                 model.",
+                 the model.",
             )
             .source("eq. 15; Meyer et al. 2020; docs/src/validation/published.md")
             .subject(of_formulas as HalfTurn)

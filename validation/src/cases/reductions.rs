@@ -34,8 +34,8 @@ pub fn cases() -> Vec<Case> {
     vec![
         Case::core("reductions")
             .claim(
-                "α → 0, n → 0, m → ∞ and one rod give free rods to the bit; σ → 0 gives uniform rods and \
-                 r_e → 1 gives spheres to round-off.",
+                "α → 0, n → 0, m → ∞ and one rod give free rods to the bit; σ → 0 gives uniform rods and r_e → 1 gives \
+                 spheres to round-off.",
             )
             .source("eqs 7, 11")
             .subject(TAKEN)

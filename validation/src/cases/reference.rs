@@ -13,8 +13,8 @@ pub fn cases() -> Vec<Case> {
     vec![
         Case::core("naive-reference")
             .claim(
-                "The core and a naive O(N²) reference with the same draws have the same collisions and, to \
-                 round-off, the same rods, in shear and in other flows.",
+                "The core and a naive O(N²) reference with the same draws have the same collisions and, to round-off, \
+                 the same rods, in shear and in other flows.",
             )
             .source("eqs 5–9, 11, 12, 14, A.7–A.14; the method of solution")
             .subject(None)
@@ -137,8 +137,7 @@ fn against_reference(mistake: &Option<Mistake>, effort: &Effort) -> Vec<Evidence
             "round-off of 200 sums of lengths up to 100",
         ),
         Evidence::within(
-            "largest difference of directions after one step from the same state, over the condition \
-             of its contacts",
+            "largest difference of directions after one step from the same state, over the condition of its contacts",
             off.step,
             256.0 * f64::EPSILON,
             "some hundred roundings of the reference's tensors and frames; directions off by ε and places x by ε|x| \

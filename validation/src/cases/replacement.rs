@@ -14,8 +14,8 @@ pub fn cases() -> Vec<Case> {
     vec![
         Case::core("replacement")
             .claim(
-                "Replacement keeps every rod inside, new rods have x_1 = H√R and x_3 = HR, and the volume \
-                 stays evenly filled.",
+                "Replacement keeps every rod inside, new rods have x_1 = H√R and x_3 = HR, and the volume stays evenly \
+                 filled.",
             )
             .source("eqs 12, 14")
             .subject(Volume::Core { step: 1 })

@@ -70,8 +70,8 @@ pub fn cases() -> Vec<Case> {
     vec![
         Case::core("default-step-resolves")
             .claim(
-                "The default steps resolve the motion: even twice their length changes X̄₁ at \
-                 t/T = ½ by less than a drawn line, for r_e = 11.6 and 100.",
+                "The default steps resolve the motion: even twice their length changes X̄₁ at t/T = ½ by less than a \
+                 drawn line, for r_e = 11.6 and 100.",
             )
             .source("eq. 15; Fig. 7")
             .subject(Integrator { sizes: &SIZES, coarse: false })

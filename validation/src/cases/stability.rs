@@ -12,9 +12,9 @@ pub fn cases() -> Vec<Case> {
     vec![
         Case::integrator("stability-map")
             .claim(
-                "In every corner of the map every integrator ends, with a direction or with an error: the \
-                 exact propagator at round-off, A.4 and A.5 in angles within 4·10⁻⁵ rad, who keeps |p| \
-                 with |p| = 1, and orders 2 and 4 within 4 (GΔt)² rad over one period where GΔt ≤ ½.",
+                "In every corner of the map every integrator ends, with a direction or with an error: the exact \
+                 propagator at round-off, A.4 and A.5 in angles within 4·10⁻⁵ rad, who keeps |p| with |p| = 1, and \
+                 orders 2 and 4 within 4 (GΔt)² rad over one period where GΔt ≤ ½.",
             )
             .source("eqs 13, A.2–A.5")
             .subject(crate::methods::integrators::own as Integrators)
@@ -67,8 +67,8 @@ fn corners(subjects: &Integrators, effort: &Effort) -> Vec<Evidence> {
             "largest angle to the closed form, A.4 and A.5 in angles",
             angles,
             4e-5,
-            "the starting phase is added to t/T before whole turns are taken out: rounded to half an \
-             ulp of 10³, 6·10⁻¹⁴, times 2π r_e = 6·10⁸",
+            "the starting phase is added to t/T before whole turns are taken out: rounded to half an ulp of 10³, \
+             6·10⁻¹⁴, times 2π r_e = 6·10⁸",
         ),
         Evidence::within(
             "largest ||p| − 1| of who keeps it",
@@ -80,8 +80,8 @@ fn corners(subjects: &Integrators, effort: &Effort) -> Vec<Evidence> {
             "largest angle over (GΔt)² where 10⁻³ ≤ GΔt ≤ ½ and the order is 2 or 4, over one period",
             accurate,
             4.0,
-            "a step of order 2 is off by (GΔt)³/6 times a third derivative, 3 at most by A.2, and a \
-             flip lasts some 8/G: 4 (GΔt)²; order 4 is nearer; below 10⁻³ round-off is more",
+            "a step of order 2 is off by (GΔt)³/6 times a third derivative, 3 at most by A.2, and a flip lasts some \
+             8/G: 4 (GΔt)²; order 4 is nearer; below 10⁻³ round-off is more",
         ),
         Evidence::exact("cells without a direction and without an error", silent),
     ]

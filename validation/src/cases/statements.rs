@@ -14,8 +14,8 @@ pub fn cases() -> Vec<Case> {
     vec![
         Case::statement("period-unaffected")
             .claim(
-                "\"The period of oscillation is practically unaffected by collisions or by differences in \
-                 particle size\".",
+                "\"The period of oscillation is practically unaffected by collisions or by differences in particle \
+                 size\".",
             )
             .source("eq. 4; Results, before Fig. 7; Fig. 6")
             .subject((|_| {}) as Change)
@@ -35,8 +35,8 @@ pub fn cases() -> Vec<Case> {
             .check(enough_rods),
         Case::statement("steady-stays-put")
             .claim(
-                "\"According to the model, the mean axial projections should remain constant after their \
-                 steady state values are reached\".",
+                "\"According to the model, the mean axial projections should remain constant after their steady state \
+                 values are reached\".",
             )
             .source("eq. 4; Results, before Fig. 5; Fig. 5")
             .subject(6.0 as Periods)
@@ -81,8 +81,8 @@ fn period(change: &Change, effort: &Effort) -> Vec<Evidence> {
                     2.0,
                     0.04,
                     design.effect,
-                    "\"practically unaffected\": 2 %, a maximum at t/T = 2 that is 0.04 off on an axis of six \
-                 periods; |p_1| has the period T/2",
+                    "\"practically unaffected\": 2 %, a maximum at t/T = 2 that is 0.04 off on an axis of six periods; \
+                     |p_1| has the period T/2",
                 ),
             )
         })
@@ -146,8 +146,8 @@ fn enough_rods(count: &Count, effort: &Effort) -> Vec<Evidence> {
                 few.iter().map(|change| change[k]).sum::<f64>() / share as f64 - many[k]
             };
             let differences: Vec<f64> = few.chunks(share).zip(&many).map(difference).collect();
-            let because = "\"not significantly\": less than two curves are told apart by, twice the width of a \
-                           line; rods near a face have fewer neighbours";
+            let because = "\"not significantly\": less than two curves are told apart by, twice the width of a line; \
+                rods near a face have fewer neighbours";
             Evidence::new(
                 format!("bias of X̄₁ at t/T = {}, {count} rods against {MANY}", k + 1),
                 Sample::of(&differences).is(0.0, 2.0 * LINE, design.effect, because),
@@ -233,9 +233,8 @@ fn in_plane(theta_deg: &ThetaDeg, effort: &Effort) -> Vec<Evidence> {
     let most = found.iter().flatten().map(|(out_of_plane, _)| *out_of_plane).fold(0.0, larger);
     let kicked = found.iter().map(|[kick, ..]| kick.1).fold(0.0, larger);
     let fall: Vec<f64> = found.iter().map(|[_, coarse, fine]| 0.5 * coarse.1 - fine.1).collect();
-    let round_off = "cos 90° is 6·10⁻¹⁷, which kicks ∝ 1/r grow: 60-fold at most in ten times these steps, and x \
-        times that with a \
-                     probability ∝ 1/x";
+    let round_off = "cos 90° is 6·10⁻¹⁷, which kicks ∝ 1/r grow: 60-fold at most in ten times these steps, and x times \
+        that with a probability ∝ 1/x";
     vec![
         Evidence::within("largest |p_3| within one period", most, 1e-9, round_off),
         Evidence::within(

@@ -44,8 +44,8 @@ fn steady_angle(change: &Change, effort: &Effort) -> Vec<Evidence> {
                 closed_form::mean_angle(r),
                 0.01,
                 design.effect,
-                "\"agree closely\": 0.01 rad, the width of a line on an axis from 0 to π/2; collisions \
-                 bias the phase a little",
+                "\"agree closely\": 0.01 rad, the width of a line on an axis from 0 to π/2; collisions bias the phase \
+                 a little",
             ),
         ));
     }

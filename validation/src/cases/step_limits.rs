@@ -77,10 +77,7 @@ pub fn cases() -> Vec<Case> {
     let folded = |subjects, theory| Claimed { property: Property::Order, ..side(subjects, theory) };
     vec![
         Case::integrator("euler-step-limit")
-            .claim(
-                "Explicit Euler's step on A.2 lets one rod overtake another where GΔt > 1/Λ, and never \
-                    below.",
-            )
+            .claim("Explicit Euler's step on A.2 lets one rod overtake another where GΔt > 1/Λ, and never below.")
             .source("A.2; A.14 is such a step")
             .subject(order(euler))
             .mistake("half of the rate", order(half_euler))
@@ -89,8 +86,8 @@ pub fn cases() -> Vec<Case> {
             .check(agrees),
         Case::integrator("step-limit-turning")
             .claim(
-                "Explicit Euler and the Lie-group midpoint rule turn every rod in the plane of shear by \
-                    less than half a turn a step up to GΔt = π(1 + 1/r_e²), and not beyond.",
+                "Explicit Euler and the Lie-group midpoint rule turn every rod in the plane of shear by less than half \
+                 a turn a step up to GΔt = π(1 + 1/r_e²), and not beyond.",
             )
             .source("A.2; A.14 is such a step")
             .subject(turning(|| [euler(), own("Lie-group midpoint")].into_iter().flatten().collect()))
@@ -100,8 +97,8 @@ pub fn cases() -> Vec<Case> {
             .check(agrees),
         Case::integrator("rods-come-to-rest")
             .claim(
-                "Just above GΔt = π(1 + 1/r_e²) explicit Euler brings every rod in the plane of shear to \
-                    rest where there is no rest; just below it none stops.",
+                "Just above GΔt = π(1 + 1/r_e²) explicit Euler brings every rod in the plane of shear to rest where \
+                 there is no rest; just below it none stops.",
             )
             .source("A.2; A.14 is such a step")
             .subject(euler as Integrators)
@@ -117,8 +114,8 @@ pub fn cases() -> Vec<Case> {
             .check(agrees),
         Case::integrator("implicit-midpoint-order")
             .claim(
-                "The implicit midpoint rule keeps the order of rods in the plane of shear at every step \
-                    for r_e < 1 + √2, and for longer rods up to GΔt = 2/(Λ(1 − u²)^{3/2}), 2u³ − 3u + 1/Λ = 0.",
+                "The implicit midpoint rule keeps the order of rods in the plane of shear at every step for r_e < 1 + \
+                 √2, and for longer rods up to GΔt = 2/(Λ(1 − u²)^{3/2}), 2u³ − 3u + 1/Λ = 0.",
             )
             .source("A.2; A.14 is such a step")
             .subject(folded(implicit_midpoint, theory::implicit_midpoint_order))
@@ -134,8 +131,8 @@ pub fn cases() -> Vec<Case> {
             .check(agrees),
         Case::integrator("implicit-midpoint-side")
             .claim(
-                "The implicit midpoint rule lets no rod cross the plane of shear up to GΔt = 4/Λ or up to \
-                    where its order is lost, whichever is less, and not beyond.",
+                "The implicit midpoint rule lets no rod cross the plane of shear up to GΔt = 4/Λ or up to where its \
+                 order is lost, whichever is less, and not beyond.",
             )
             .source("A.3; A.14 is such a step")
             .subject(side(implicit_midpoint, theory::implicit_midpoint_one_solution))
@@ -145,8 +142,8 @@ pub fn cases() -> Vec<Case> {
             .check(agrees),
         Case::integrator("step-limit-at-least")
             .claim(
-                "Explicit methods of order p in angles keep the order of rods at least up to GΔtΛ = x, x + \
-                    … + xᵖ/p! = 1; in the plane of shear the Lie-group RKMK4 is RK4 in angles.",
+                "Explicit methods of order p in angles keep the order of rods at least up to GΔtΛ = x, x + … + xᵖ/p! = \
+                 1; in the plane of shear the Lie-group RKMK4 is RK4 in angles.",
             )
             .source("A.2; A.14 is such a step")
             .subject(
@@ -166,8 +163,8 @@ pub fn cases() -> Vec<Case> {
             .check(at_least),
         Case::integrator("rk4-near-a-sphere")
             .claim(
-                "As r_e → 1, RK4 in p turns every rod up to GΔt = 2√6 and its length is bounded up to 4√2, \
-                    its limit on the imaginary axis.",
+                "As r_e → 1, RK4 in p turns every rod up to GΔt = 2√6 and its length is bounded up to 4√2, its limit \
+                 on the imaginary axis.",
             )
             .source("A.1; A.14 is such a step")
             .subject((|| own("RK4 in p")) as Integrators)
@@ -179,8 +176,8 @@ pub fn cases() -> Vec<Case> {
             .check(near_a_sphere),
         Case::integrator("frozen-limit")
             .claim(
-                "RK4 in p loses its length before the limit that frozen coefficients give on the real \
-                    axis, GΔt = 2.785/Λ, for r_e from 1.5 to 100.",
+                "RK4 in p loses its length before the limit that frozen coefficients give on the real axis, GΔt = \
+                 2.785/Λ, for r_e from 1.5 to 100.",
             )
             .source("A.1; A.14 is such a step")
             .subject((|| own("RK4 in p")) as Integrators)
@@ -227,8 +224,8 @@ fn agrees(claimed: &Claimed, _: &Effort) -> Vec<Evidence> {
             format!("relative difference of the longest step and theory, {}", subject.name),
             worst.into_iter().fold(0.0, larger),
             claimed.found_late * (PI / 1024.0).powi(2),
-            "δ² times what stretches δ: of 512 rods one is within δ = π/1024 of the extreme one, where \
-             what is judged is flat",
+            "δ² times what stretches δ: of 512 rods one is within δ = π/1024 of the extreme one, where what is judged \
+             is flat",
         )
     };
     (claimed.subjects)().into_iter().map(judged).collect()

@@ -55,8 +55,8 @@ pub fn cases() -> Vec<Case> {
             .check(lengths),
         Case::integrator("exact-propagator-round-off")
             .claim(
-                "The exact propagator's error is round-off for r_e from 1.01 to 10⁶ and up to 10⁶ periods, \
-                 during a flip.",
+                "The exact propagator's error is round-off for r_e from 1.01 to 10⁶ and up to 10⁶ periods, during a \
+                 flip.",
             )
             .source("eqs 20, A.4, A.5")
             .subject((|| vec![exact_propagator()]) as Integrators)
@@ -65,8 +65,8 @@ pub fn cases() -> Vec<Case> {
             .check(round_off),
         Case::integrator("adaptive-subjects")
             .claim(
-                "At a tolerance of 10⁻¹¹ both adaptive integrators come as near as their steps, each off by \
-                 the tolerance, allow.",
+                "At a tolerance of 10⁻¹¹ both adaptive integrators come as near as their steps, each off by the \
+                 tolerance, allow.",
             )
             .source("A.4, A.5; Jeffery's equation in p")
             .subject((|| vec![dormand_prince(), radau()]) as Integrators)
@@ -101,8 +101,7 @@ fn orders(subjects: &Integrators, _: &Effort) -> Vec<Evidence> {
                 format!("observed order against theory, {}", subject.name),
                 worst,
                 ORDER_TOLERANCE,
-                "the next power of Δt is a tenth or less of the leading one on the last two pairs above \
-                 round-off",
+                "the next power of Δt is a tenth or less of the leading one on the last two pairs above round-off",
             ));
         }
     }
@@ -146,8 +145,8 @@ fn round_off(subjects: &Integrators, _: &Effort) -> Vec<Evidence> {
         "largest angle to the closed form",
         worst,
         32.0 * f64::EPSILON,
-        "near a whole turn the phase that is left is small, and its relative error ε moves φ by ε, \
-         not by r_e ε; a few dozen roundings of the propagator and the closed form",
+        "near a whole turn the phase that is left is small, and its relative error ε moves φ by ε, not by r_e ε; a few \
+         dozen roundings of the propagator and the closed form",
     )]
 }
 
@@ -163,15 +162,11 @@ fn adaptive(subjects: &Integrators, _: &Effort) -> Vec<Evidence> {
             let (problem, start) = RodProblem::mid_flip(r);
             let error = grade(&subject, &problem, &start, Setting::Tolerance(1e-11));
             evidence.push(Evidence::within(
-                format!(
-                    "angle to the closed form at a tolerance of 10⁻¹¹, r_e = {r}, \
-                    {}",
-                    subject.name
-                ), // A subject that gives up is off by as much as can be.
+                format!("angle to the closed form at a tolerance of 10⁻¹¹, r_e = {r}, {}", subject.name),
                 error.map_or(std::f64::consts::FRAC_PI_2, |errors| errors.orientation_rad),
                 steps * 1e-11 * r,
-                "each step is off by the tolerance, in a direction of its own; their sum is a phase, which \
-                 r_e magnifies",
+                "each step is off by the tolerance, in a direction of its own; their sum is a phase, which r_e \
+                 magnifies",
             ));
         }
     }

@@ -43,8 +43,8 @@ pub fn cases() -> Vec<Case> {
     vec![
         Case::core("symmetries")
             .claim(
-                "Whole runs keep the symmetries: rods in another order and units of length and time to the \
-                 bit, p → −p to round-off, the mirrored flow exactly for free rods.",
+                "Whole runs keep the symmetries: rods in another order and units of length and time to the bit, p → −p \
+                 to round-off, the mirrored flow exactly for free rods.",
             )
             .source("eq. 4")
             .subject(SYMMETRIC)

@@ -21,9 +21,8 @@ pub fn cases() -> Vec<Case> {
         Case::core("times-of-a-run")
             .claim(
                 "The seconds and the strain beside each t/T of a run are those of T = 2π(r_e + 1/r_e)/|G| in plane \
-                    Couette \
-                 flow, of 2π/ω in other flows in a plane that turn rods at ω, and of (2D:D)^½ where times are given \
-                 in strain.",
+                 Couette flow, of 2π/ω in other flows in a plane that turn rods at ω, and of (2D:D)^½ where times are \
+                 given in strain.",
             )
             .source("eqs 15, A.6")
             .subject(unit as UnitOf)

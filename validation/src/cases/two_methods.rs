@@ -48,8 +48,8 @@ const STRESS: &str = "coefficients of the stress: integrals over u, and over ln 
 pub fn cases() -> Vec<Case> {
     let mut case = Case::oracle("two-methods")
         .claim(
-            "Every number that is called certified is found by two methods that share nothing but what is said, to \
-            its last digit.",
+            "Every number that is called certified is found by two methods that share nothing but what is said, to its \
+             last digit.",
         )
         .source("eqs 4, 11, 12, A.1–A.12; Jeffery 1922; Folgar & Tucker 1984")
         .subject((|_, shipped| shipped.clone()) as Certified);
@@ -248,7 +248,7 @@ fn closed(full: bool) -> Vec<(Big, Big)> {
         let equation = closed.equation(&problem.gradient_per_s, problem.aspect_ratio);
         let found = tensors::second::at(&equation, &closed.start(), &problem.times_s);
         for (at, a) in found.iter().enumerate() {
-            let values = tensors::closures::PAIRS.map(|place| BITS.of(a[place]));
+            let values = tensors::fourth::PAIRS.map(|place| BITS.of(a[place]));
             pairs.extend(row(built, at).into_iter().zip(values));
         }
     }

@@ -21,8 +21,8 @@ pub fn cases() -> Vec<Case> {
     vec![
         Case::core("shape-of-the-volume")
             .claim(
-                "With thousands of rods, control volumes of equal H₁/H₂ give the same X̄₁, and one of eight times \
-                 that a lower one: the paper's replacement is part of the model.",
+                "With thousands of rods, control volumes of equal H₁/H₂ give the same X̄₁, and one of eight times that \
+                 a lower one: the paper's replacement is part of the model.",
             )
             .source("eqs 12, 14")
             .subject([FLAT, TALL])

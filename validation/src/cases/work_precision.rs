@@ -25,8 +25,8 @@ pub fn cases() -> Vec<Case> {
     vec![
         Case::integrator("free-suspension-rates")
             .claim(
-                "The error of a free suspension's X̄₁ falls as N^(−½) for random starts, N^(−1) for \
-                 stratified ones and N^(−5/4) for a Fibonacci lattice.",
+                "The error of a free suspension's X̄₁ falls as N^(−½) for random starts, N^(−1) for stratified ones \
+                 and N^(−5/4) for a Fibonacci lattice.",
             )
             .source("eqs 4, 12")
             .subject(starts::ALL.to_vec() as Starts)
@@ -56,8 +56,8 @@ pub fn cases() -> Vec<Case> {
             .check(replicas),
         Case::interpretation("faces-cost-collisions")
             .claim(
-                "What the control volume's faces take from the collisions of a rod falls as N^(−1/3), the \
-                 share of the volume near a face, and not as 1/N.",
+                "What the control volume's faces take from the collisions of a rod falls as N^(−1/3), the share of the \
+                 volume near a face, and not as 1/N.",
             )
             .source("eq. 8; 'the number of particles'")
             .subject(law::FACES as Exponent)
@@ -82,8 +82,7 @@ fn rates(starts: &Starts, effort: &Effort) -> Vec<Evidence> {
                 start.exponents[0],
                 0.05,
                 design.effect,
-                "0.05 for what is left of higher powers at 10³ rods; the controls' exponents are ½ off or \
-                 more",
+                "0.05 for what is left of higher powers at 10³ rods; the controls' exponents are ½ off or more",
             ),
         )
     };
@@ -115,8 +114,7 @@ fn replicas(number: &Number, effort: &Effort) -> Vec<Evidence> {
             -0.5,
             0.0,
             design.effect,
-            "independent replicas, in groups of 256; a deviation that is √2 as large from two on makes \
-             0.07",
+            "independent replicas, in groups of 256; a deviation that is √2 as large from two on makes 0.07",
         ),
     )]
 }
@@ -172,8 +170,8 @@ fn faces(exponent: &Exponent, effort: &Effort) -> Vec<Evidence> {
             0.0,
             0.02,
             design.effect,
-            "63 others are a density of n(1 − 1/64), 0.011 of the candidates; edges, where two faces \
-             take the same, ∝ N^(−2/3), 0.002 of them. 1/N would be off by three times the loss of 0.1",
+            "63 others are a density of n(1 − 1/64), 0.011 of the candidates; edges, where two faces take the same, ∝ \
+             N^(−2/3), 0.002 of them. 1/N would be off by three times the loss of 0.1",
         ),
     )]
 }

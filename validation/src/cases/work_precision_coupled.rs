@@ -25,8 +25,8 @@ pub fn cases() -> Vec<Case> {
     vec![
         Case::core("paths-do-not-converge")
             .claim(
-                "Halving the time step again and again does not bring a rod's paths together, because \
-                 kicks have no bound.",
+                "Halving the time step again and again does not bring a rod's paths together, because kicks have no \
+                 bound.",
             )
             .source("A.13, A.14; eq. 8 without Δt")
             .subject((|_| {}) as Change)
@@ -36,9 +36,8 @@ pub fn cases() -> Vec<Case> {
             .check(paths),
         Case::program("shared-random-numbers")
             .claim(
-                "The same rods without collisions say more of X̄₁ than a run at half the step, and their \
-                 mean is known; for a difference between two α, shared random numbers save a factor of \
-                 four at T/4.",
+                "The same rods without collisions say more of X̄₁ than a run at half the step, and their mean is \
+                 known; for a difference between two α, shared random numbers save a factor of four at T/4.",
             )
             .source("eqs 4, 7")
             .subject(same)
@@ -73,13 +72,11 @@ fn paths(change: &Change, effort: &Effort) -> Vec<Evidence> {
     let (coarse, fine) = (mean_squares(&scene, 100, replicas), mean_squares(&scene, 400, replicas));
     let kept: Vec<_> = (fine.iter().zip(&coarse)).map(|(fine, coarse)| fine - 0.5 * coarse).collect();
     vec![Evidence::new(
-        "mean square angle (rad²) between 400 and 800 steps a period, less half of that between \
-         100 and 200",
+        "mean square angle (rad²) between 400 and 800 steps a period, less half of that between 100 and 200",
         Sample::of(&kept).exceeds(
             0.0,
             design.effect,
-            "paths that converge with order ½ or more would bring a quarter or less; the mean square \
-             is some 0.035",
+            "paths that converge with order ½ or more would bring a quarter or less; the mean square is some 0.035",
         ),
     )]
 }

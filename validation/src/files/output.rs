@@ -1,6 +1,7 @@
 //! Writes sets of files such that a set appears as a whole or not at all, and that two processes do not mix their
 //! files.
 
+mod beneath;
 mod claim;
 mod folder;
 mod record;

@@ -136,7 +136,7 @@ mod tests {
             (
                 "aspect_ratio\n2\n1\n",
                 "start.csv:3: aspect_ratio = 1.0 is not allowed: expected a number > 1, up to 1e100, for interacting \
-                    rods",
+                 rods",
             ),
             ("x1_mm,x2_mm,x3_mm\n1,2,3\n3,4,1\n", "start.csv:3: x2_mm = 4.0 is not allowed: expected 0 to 3.41"),
             ("x1_mm,x2_mm,x3_mm\n1,2,-3\n3,1,1\n", "start.csv:2: x3_mm = -3.0 is not allowed"),

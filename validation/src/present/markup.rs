@@ -1,7 +1,5 @@
 //! Plain text for the writers: finds `code`, cited equations and figures, subscripts.
 
-use super::plot::power_of_ten;
-
 /// A part of a text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Piece<'a> {
@@ -178,6 +176,19 @@ pub(crate) fn powers(text: &str) -> String {
         }
     }
     typeset + rest
+}
+
+/// 10 with its exponent as a superscript.
+pub(crate) fn power_of_ten(exponent: i32) -> String {
+    let digits = exponent.to_string();
+    let raised = digits.chars().map(|c| match c {
+        '-' => '⁻',
+        '1' => '¹',
+        '2' => '²',
+        '3' => '³',
+        digit => char::from_u32('⁰' as u32 + digit.to_digit(10).unwrap_or(0)).unwrap_or(digit),
+    });
+    format!("10{}", raised.collect::<String>())
 }
 
 /// The text with subscripts as Unicode characters, if there are characters for all of a subscript.

@@ -78,8 +78,8 @@ fn run(request: &Request) -> Result<Option<Findings>, String> {
     };
     let figure = ReportFigure::new(
         [STUDY.name, "Error of X̄₁ at two periods against run time"],
-        "The rods of Fig. 7 at 50 per cm³, one core. Twice the accuracy takes four times the replicas, and steps \
-         whose own error is small enough.",
+        "The rods of Fig. 7 at 50 per cm³, one core. Twice the accuracy takes four times the replicas, and steps whose \
+         own error is small enough.",
         ["log run time (s)", "log error of X̄₁"],
     )
     .curves(std::iter::once(OWN).chain(programs).map(curve))
@@ -88,9 +88,9 @@ fn run(request: &Request) -> Result<Option<Findings>, String> {
     let table = ReportTable::new(
         [STUDY.name, "Run time to a stated error of X̄₁ at two periods"],
         format!(
-            "One core. The error is that of the step and one standard error over replicas, in quadrature. Replicas \
-                are independent: the \
-             time is theirs times that of one, measured with {USUAL} steps a period where it is not this program's. {}",
+            "One core. The error is that of the step and one standard error over replicas, in quadrature. Replicas are \
+             independent: the time is theirs times that of one, measured with {USUAL} steps a period where it is not \
+             this program's. {}",
             agreement(&steps, &measured)
         ),
         costs.iter().copied(),
@@ -110,7 +110,7 @@ fn run(request: &Request) -> Result<Option<Findings>, String> {
         ["cost-of-accuracy-steps", "The error of the time step"],
         format!(
             "X̄₁ at two periods over {replicas} replicas of 100 rods, by the update `kick`. The error is at most the \
-                difference from 800 steps and two of its standard errors."
+             difference from 800 steps and two of its standard errors."
         ),
         steps.iter().copied(),
         vec![

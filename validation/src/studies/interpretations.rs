@@ -66,12 +66,11 @@ pub fn table(rows: &[InterpretationRow]) -> ReportTable {
         ["interpretations", "What the alternatives change"],
         format!(
             "The rods of Fig. 7 at 50 per cm³ (N = 100, σ = 0, r_e = 11.6, α = 0.5, 200 steps a period): each \
-                alternative \
-             alone against this project's interpretation, then two of them with half the step. Mean ± standard error \
-             of \
-             {replicas} replicas, seed {SEED}, by the naive reference. A change is from pairs of replicas with the \
-             same random numbers. The damping rate is minus the slope, by least squares over four half periods, of \
-             ln A; A is the mean of two neighbouring maxima of X̄₁ (t/T = 0, ½, 1, 1½, 2) less the minimum between."
+             alternative alone against this project's interpretation, then two of them with half the step. Mean ± \
+             standard error of {replicas} replicas, seed {SEED}, by the naive reference. A change is from pairs of \
+             replicas with the same random numbers. The damping rate is minus the slope, by least squares over four \
+             half periods, of ln A; A is the mean of two neighbouring maxima of X̄₁ (t/T = 0, ½, 1, 1½, 2) less the \
+             minimum between."
         ),
         rows,
         columns,

@@ -76,8 +76,7 @@ fn figures(speed: &Speed) -> [ReportFigure; 2] {
     let by_concentration = ReportFigure::new(
         ["speed-concentration", "Time of a step against the concentration, 1000 rods"],
         "One core. In dilute suspensions few rods are near each other; in dense ones most rods have a candidate, and \
-            contacts \
-         take the time.",
+         contacts take the time.",
         axes("log n (per cm³)"),
     )
     .curves([Curve::of("core", &speed.by_concentration, |step| (step.concentration_per_cm3, step.core_ns))]);

@@ -30,8 +30,7 @@ fn other_evidence_tolerances_and_controls_are_listed() {
     assert_eq!(
         judged_otherwise(&before, &report("two", 1.0, false)),
         "Judged otherwise:\n  case: one: in A alone\n  case: two: in B alone\n  case: both: tolerance 1.000e-3 → \
-            1.000e0\n  \
-         case: sign: caught → not caught\n"
+         1.000e0\n  case: sign: caught → not caught\n"
     );
 }
 

@@ -62,7 +62,7 @@ pub(super) fn input(args: &Args) -> Result<Input, Failure> {
         if let Some(table) = NOT_FITTED.iter().find(|table| key.split('.').next() == Some(table)) {
             return Err(Failure::Input(format!(
                 "--over {key}: points do not determine keys of {table}; keys of flow, particles and interaction are \
-                    allowed"
+                 allowed"
             )));
         }
     }
@@ -120,9 +120,8 @@ pub(super) fn input(args: &Args) -> Result<Input, Failure> {
         };
         if let Some(first) = data[..k].iter().find(same) {
             return Err(Failure::Input(format!(
-                "{}:{}: {} = {} at {} is in {}:{} already: leave one out, or put all points of one scene into one \
-                    file if two experiments \
-                 gave it",
+                "{}:{}: {} = {} at {} is in {}:{} already: leave one out, or put all points of one scene into one file \
+                 if two experiments gave it",
                 files[point.set].shown(),
                 point.line,
                 point.column,

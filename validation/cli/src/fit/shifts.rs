@@ -52,8 +52,7 @@ pub(super) fn taken_as_known(report: &Report) -> Vec<String> {
             (moved.abs() > own && moved.abs() > CERTAIN * se).then(|| {
                 format!(
                     "{key}: with rods of one r_e it would be about {:.1} of its standard uncertainty {}, and χ² tells \
-                        little of that: \
-                     --over {SPREAD}=0:10 beside it lets the points say how far r_e scatters",
+                     little of that: --over {SPREAD}=0:10 beside it lets the points say how far r_e scatters",
                     moved.abs() / own,
                     if moved > 0.0 { "larger" } else { "smaller" },
                 )

@@ -100,7 +100,7 @@ impl Look {
         if figure.grid.is_some() && (self.size.is_some() || self.x_range.is_some() || self.y_range.is_some()) {
             return Err(Failure::Input(
                 "--size, --x-range, --y-range: this picture is a map, whose cells say how large it is; --title and \
-                    --theme are allowed"
+                 --theme are allowed"
                     .into(),
             ));
         }

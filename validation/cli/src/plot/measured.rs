@@ -25,8 +25,7 @@ pub(super) fn points(path: &Path, runs: &[Run], channel: &str) -> Result<Points,
     if let Some(k) = units.iter().position(|other| (other / unit - 1.0).abs() > 1e-9) {
         return Err(at(format!(
             "a point at one {} stands at different places of the curves: a unit of their axis is {unit} in {} and {} \
-                in {}; draw \
-             them one by one, or give the points' times in the unit of the axis",
+             in {}; draw them one by one, or give the points' times in the unit of the axis",
             read.time.name(),
             runs[0].label,
             units[k],

@@ -128,7 +128,7 @@ impl<R: Read> Table<R> {
             *left = left.checked_sub(1).ok_or_else(|| {
                 format!(
                     ":{line}: more than {MOST_ROWS} rows for one picture; fewer runs, or a smaller \
-                        time.outputs_per_period, are allowed"
+                     time.outputs_per_period, are allowed"
                 )
             })?;
             for (column, value) in columns.iter_mut().zip([time, mean, se]) {

@@ -191,8 +191,7 @@ fn validate_has_the_numbers_of_one_process() {
     let without = ["seconds", "origin", "command", "crc32"];
     let dir = folder();
     let cases = "validate --case jeffery-period --case contact-rule --case collision-frequency --case \
-        okagawa-mason-1973 \
-                 --case free-amplitude";
+        okagawa-mason-1973 --case free-amplitude";
     let [mut alone, mut shared] = both(dir.path(), 4, cases);
     assert_eq!(record(&mut shared, "report.json", &without), record(&mut alone, "report.json", &without));
 

@@ -23,9 +23,8 @@ fn the_page_of_commands_is_fresh() {
 #[test]
 fn the_page_of_keys_and_the_schema_of_scenes_are_fresh() {
     let head = "# Keys of a scene\n\nMade from the table of keys that the program reads by; `shearbed scenes --keys` \
-        prints it. A JSON Schema \
-                for editors is `validation/schemas/scene.json`. [Scenes](../user/scenes.md) shows how keys go \
-                together.\n\n";
+        prints it. A JSON Schema for editors is `validation/schemas/scene.json`. [Scenes](../user/scenes.md) shows how \
+        keys go together.\n\n";
     fresh("docs/src/reference/keys.md", &format!("{head}{}", scene_keys::markdown()));
     let schema = serde_json::to_string_pretty(&scene_keys::schema()).unwrap();
     fresh("validation/schemas/scene.json", &format!("{schema}\n"));

@@ -20,8 +20,8 @@ const PLANTED: &[(&str, &str, &str, &str)] = &[
     (
         "    q = start @",
         "    phi, theta = np.degrees(np.arctan2(start[:, 1], start[:, 0])), np.degrees(np.arccos(start[:, 2]))\n    \
-            start = np.column_stack([np.sin(theta) * np.cos(phi), np.sin(theta) * np.sin(phi), np.cos(theta)])\n    q \
-            = start @",
+         start = np.column_stack([np.sin(theta) * np.cos(phi), np.sin(theta) * np.sin(phi), np.cos(theta)])\n    q = \
+         start @",
         "mid-flip-11.6",
         "degrees for radians in the start",
     ),
@@ -50,9 +50,9 @@ const PLANTED: &[(&str, &str, &str, &str)] = &[
     (") / math.sin(theta)\n", ")\n", "contact-angles", ""),
     (
         "/ math.sin(theta)\n    theta_rate = (rate[0] * math.cos(phi) + rate[1] * math.sin(phi)) * math.cos(theta) - \
-            rate[2] * math.sin(theta)",
+         rate[2] * math.sin(theta)",
         "\n    theta_rate = (rate[0] * math.cos(phi) + rate[1] * math.sin(phi)) * math.sin(theta) - rate[2] * \
-            math.cos(theta)",
+         math.cos(theta)",
         "contact-angles",
         "A.13 as in the text",
     ),

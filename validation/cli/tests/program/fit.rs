@@ -152,8 +152,8 @@ fn a_spread_of_lengths_is_fitted_and_found_to_be_untold() {
     assert_eq!(done.code, Some(0), "{}", done.stderr);
     assert!(
         done.stderr.contains(
-            "particles.length_sd_percent: its 95 % interval is its whole range, 10 to 30: the points say nothing of \
-                it there"
+            "particles.length_sd_percent: its 95 % interval is its whole range, 10 to 30: the points say nothing of it \
+             there"
         ),
         "{}",
         done.stderr
@@ -205,10 +205,9 @@ fn two_sets_have_values_of_their_own() {
     let dir = folder();
     points(dir.path());
     points_of(dir.path(), "interaction.alpha=2.4", "more.csv");
-    let args = "fit small.toml --data points.csv --data small.toml=more.csv --over 1:interaction.alpha=0.4:1.4 \
-                --over 2:interaction.alpha=1.2:4.8 --replicas 20 --out own --test \
-                1:interaction.alpha=2:interaction.alpha \
-                --test 1:interaction.alpha=0.8";
+    let args = "fit small.toml --data points.csv --data small.toml=more.csv --over 1:interaction.alpha=0.4:1.4 --over \
+        2:interaction.alpha=1.2:4.8 --replicas 20 --out own --test 1:interaction.alpha=2:interaction.alpha --test \
+        1:interaction.alpha=0.8";
     let done = shearbed(dir.path(), args);
     assert_eq!(done.code, Some(0), "{}", done.stderr);
     assert!(done.stdout.starts_with("alpha_1 = ") && done.stdout.contains("; alpha_2 = "), "{}", done.stdout);
@@ -329,7 +328,7 @@ fn bad_input_ends_with_two_and_leaves_nothing() {
         (
             "--data vague.csv --over interaction.alpha=0.1:1".into(),
             "vague.csv:3: column t_over_T_u: `0.3` is not allowed: expected one standard deviation of at most a \
-                quarter of a period, 0.25",
+             quarter of a period, 0.25",
         ),
         (
             format!("{good} --data small.toml=./good.csv --over interaction.alpha=0.1:1"),

@@ -149,7 +149,7 @@ fn every_key_has_one_owner() {
         ("--over ensemble={replicas=5} --replicas 3", "--replicas and --over ensemble: both set ensemble.replicas"),
         (
             "--over particles.count=1,2 --over \
-                particles={count=7,length_mm=0.72,aspect_ratio=5,orientation=\"isotropic\"}",
+             particles={count=7,length_mm=0.72,aspect_ratio=5,orientation=\"isotropic\"}",
             "--over particles and --over particles.count: both set particles.count",
         ),
         ("--over ensemble={seed=5} --seed 3", "both set ensemble.seed"),

@@ -117,8 +117,8 @@ fn points_are_drawn_over_curves_and_flags_change_the_look() {
     let over = plot("--data points.csv");
     assert!(over.contains("X̄₁, measured ± u") && !bare.contains("measured"));
     let all = plot(
-        "--data points.csv --title Damped --x-label turns --y-label share --legend model --legend ours \
-         --x-range 0.05:0.4 --y-range 0.1:1 --log-y --size 700x500 --theme dark",
+        "--data points.csv --title Damped --x-label turns --y-label share --legend model --legend ours --x-range \
+         0.05:0.4 --y-range 0.1:1 --log-y --size 700x500 --theme dark",
     );
     for text in
         [">\nDamped\n<", ">\nturns\n<", ">\nshare\n<", ">\nmodel\n<", ">\nours\n<", "width=\"700\" height=\"500\""]

@@ -159,7 +159,7 @@ fn a_step_that_is_too_long_is_warned_of_wherever_it_is_used() {
     let coarse = UNEQUAL.replace("steps_per_period = 200", "steps_per_period = 100");
     fs::write(dir.path().join("coarse.toml"), coarse).unwrap();
     let warning = "time.steps_per_period = 100 does not resolve the motion: the strain per step is 0.734, above 0.370; \
-                   200 steps a period resolve it (the default)";
+        200 steps a period resolve it (the default)";
     let ended = shearbed(dir.path(), "plan coarse.toml");
     assert_eq!(ended.stdout.lines().last(), Some(format!("warning: {warning}").as_str()));
     let ended = shearbed(dir.path(), "run coarse.toml --quiet --out a");

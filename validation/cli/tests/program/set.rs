@@ -7,8 +7,8 @@ use std::fs;
 #[test]
 fn keys_are_set_on_the_command_line_as_a_file_would() {
     let dir = unequal();
-    let set = "--set interaction.alpha=0.25 --set particles.count=7 --set output.observables=[\"mean_angle\"] \
-               --set ensemble.seed=9 --set interaction.update=angles";
+    let set = "--set interaction.alpha=0.25 --set particles.count=7 --set output.observables=[\"mean_angle\"] --set \
+        ensemble.seed=9 --set interaction.update=angles";
     let ended = shearbed(dir.path(), &format!("run small.toml {set} --quiet --out a"));
     assert_eq!((ended.code, ended.stderr.as_str()), (Some(0), ""));
     let text = UNEQUAL
@@ -30,7 +30,7 @@ fn keys_are_set_on_the_command_line_as_a_file_would() {
         (
             "--set ensemble.seed=9223372036854775808",
             "ensemble.seed = 9.223372036854776e18 is not allowed: expected a whole number from 0 to \
-                9223372036854775807",
+             9223372036854775807",
         ),
         ("--set particles.count=1,2", "\"1,2\" is no value"),
         ("--set particles.count=1:3:3", "\"1:3:3\" is no value"),

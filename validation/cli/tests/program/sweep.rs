@@ -213,7 +213,7 @@ fn bad_input_is_refused_before_anything_runs() {
         (
             "particles.count=10:20:4",
             "small.toml: --over particles.count=13.333333333333334 (point 2 of 4): particles.count = \
-                13.333333333333334 is not allowed: expected a whole number from 1 to 100000000",
+             13.333333333333334 is not allowed: expected a whole number from 1 to 100000000",
         ),
         (
             "interaction.alpha=0.5:-0.5:3",
@@ -222,7 +222,7 @@ fn bad_input_is_refused_before_anything_runs() {
         (
             "interaction.update=rotation,angels",
             "(point 2 of 2): interaction.update = \"angels\" is not allowed: expected \"rotation\", \"angles\" or \
-                \"kick\"",
+             \"kick\"",
         ),
         ("interaction.alpa=1,2", "unknown key `alpa`, expected one of"),
         ("alpha=1,2", "unknown key `alpha`, expected one of"),

@@ -15,7 +15,7 @@ mod watched;
 pub use diffusing::{Diffusing, Diffusion, free};
 pub use watched::watched;
 
-use crate::tensors::closures::Fourth;
+use crate::tensors::fourth::Fourth;
 use crate::tensors::models::diffusion;
 use nalgebra::{Matrix2, Matrix3, Matrix6, Vector2};
 use shearbed_oracle::spheroid;

@@ -1,7 +1,7 @@
 //! J and the moments from every step of the rods of one replica.
 
 use super::Means;
-use crate::tensors::closures::PAIRS;
+use crate::tensors::fourth::PAIRS;
 use nalgebra::{Matrix3, Vector3, Vector6};
 
 /// Moments change little in a step: every tenth step's are taken.

@@ -5,15 +5,14 @@
 //! in `closeA4.m` of charlestucker3/Fiber-Orientation-Tools, commit 266a6ee (MIT), and are the same in fiberoripy,
 //! commit 08d401d (MIT).
 
-use super::closures::Fourth;
+use super::fourth::Fourth;
 use nalgebra::Matrix3;
 
 /// The exponents (of II, of III) of each row of `COEFFICIENTS`.
 #[rustfmt::skip]
 pub const POWERS: [(i32, i32); 21] = [
-    (0, 0), (1, 0), (2, 0), (0, 1), (0, 2), (1, 1), (2, 1), (1, 2), (3, 0), (0, 3), (3, 1), (2, 2), (1, 3), (4,
-        0), (0, 4), (4, 1),
-    (3, 2), (2, 3), (1, 4), (5, 0), (0, 5),
+    (0, 0), (1, 0), (2, 0), (0, 1), (0, 2), (1, 1), (2, 1), (1, 2), (3, 0), (0, 3), (3, 1), (2, 2), (1, 3), (4, 0), (0, 4),
+    (4, 1), (3, 2), (2, 3), (1, 4), (5, 0), (0, 5),
 ];
 
 /// The coefficients of β₃, β₄, β₆.

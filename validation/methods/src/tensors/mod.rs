@@ -4,6 +4,7 @@
 //! This code is graded, by published values and by the exact distribution; no oracle uses it.
 //! a is symmetric with trace 1; axes are as everywhere in this project, 1 = gradient, 2 = flow in shear.
 
+pub mod fourth;
 pub mod closures;
 pub mod ibof;
 mod integrate;
@@ -15,7 +16,8 @@ pub mod second;
 #[cfg(test)]
 mod tests;
 
-pub use closures::{Closure, Fourth};
+pub use closures::Closure;
+pub use fourth::Fourth;
 pub use integrate::{at, steady};
 pub use models::{Equation, Model};
 

@@ -3,7 +3,8 @@
 //! ȧ = Wa − aW + Λ(Da + aD − 2𝔸:D) + γ̇[2C − 2 tr(C) a − 5(Ca + aC) + 10𝔸:C] with a diffusivity C (1) of the model, γ̇
 //! = (2D:D)^½ (Phelps & Tucker 2009, J. Non-Newton. Fluid Mech. 156, 165). C = C_I δ is Folgar & Tucker's.
 
-use super::closures::{Closure, Fourth, principal};
+use super::closures::Closure;
+use super::fourth::{Fourth, principal};
 use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 
@@ -72,30 +73,26 @@ impl Model {
         match self {
             Self::FolgarTucker { .. } => {
                 "da/dt = Wa − aW + Λ(Da + aD − 2 a_ijkl D_kl) + 2 C_I γ̇ (δ − 3a), γ̇ = (2D:D)^½: Folgar & Tucker \
-                    1984; Advani & \
-                 Tucker 1987"
+                 1984; Advani & Tucker 1987"
             }
             Self::Rsc { .. } => {
                 "Folgar & Tucker's equation with the rates of a's eigenvalues times κ: Wang, O'Gara & Tucker 2008, J. \
-                    Rheol. 52, 1179"
+                 Rheol. 52, 1179"
             }
             Self::PhelpsTucker { .. } => {
                 "anisotropic diffusion, C = b1 δ + b2 a + b3 a² + b4 D/γ̇ + b5 D²/γ̇²: Phelps & Tucker 2009, J. \
-                    Non-Newton. Fluid \
-                 Mech. 156, 165"
+                 Non-Newton. Fluid Mech. 156, 165"
             }
             Self::Iard { .. } => {
                 "anisotropic diffusion, C = C_I (δ − 4 C_M D²/γ̇²): Tseng, Chang & Hsu 2016, J. Rheol. 60, 215"
             }
             Self::Pard { .. } => {
-                "anisotropic diffusion, C = C_I diag(1, Ω, 1 − Ω) in the axes of a from its largest eigenvalue: \
-                    Tseng, Chang & Hsu \
-                 2018, J. Rheol. 62, 313"
+                "anisotropic diffusion, C = C_I diag(1, Ω, 1 − Ω) in the axes of a from its largest eigenvalue: Tseng, \
+                 Chang & Hsu 2018, J. Rheol. 62, 313"
             }
             Self::Mrd { .. } => {
                 "anisotropic diffusion, C = C_I diag(D1, D2, D3) in the axes of a from its largest eigenvalue: \
-                    Bakharev, Yu, Speight \
-                 & Wang 2018, ANTEC"
+                 Bakharev, Yu, Speight & Wang 2018, ANTEC"
             }
         }
     }

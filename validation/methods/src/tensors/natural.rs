@@ -6,7 +6,7 @@
 //! of z, with the derivatives ∂a_i/∂z_j = a_i δ_ij − a_iijj: Newton's method finds z from a with only the fourth
 //! moments.
 
-use super::closures::{Fourth, principal};
+use super::fourth::{Fourth, principal};
 use nalgebra::{Matrix3, Vector3};
 
 /// The smallest eigenvalue distinguished from 0.

@@ -4,7 +4,7 @@
 //! The coefficients were read in `closeA4.m` of charlestucker3/Fiber-Orientation-Tools, commit 266a6ee (MIT); they are
 //! checked by results that others published with them (`published/tensor-models`).
 
-use super::closures::{Fourth, principal};
+use super::fourth::{Fourth, principal};
 use nalgebra::{Matrix3, Vector3};
 
 /// Rows: a_1111, a_2222, a_3333. Columns: 1, x, x², y, y², xy (Chung & Kwon 2001, Polym. Compos. 22, 636).

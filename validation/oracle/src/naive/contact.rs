@@ -1,7 +1,7 @@
 //! The contact of two rods and its effect on them (A.7 to A.13).
 
+use super::mistake::{Mistake, either};
 use super::motion::{matrix, vector};
-use super::problem::{Mistake, either};
 use nalgebra::{Matrix3, Unit, Vector3};
 
 /// Two rods in contact and their rates after the collision.

@@ -1,7 +1,7 @@
 //! Rods in any flow of constant volume: rods that leave come back with the liquid that came in.
 
+use super::mistake::{Mistake, either};
 use super::motion::{matrix, vector};
-use super::problem::{Mistake, either};
 use super::random::uniform;
 use nalgebra::Matrix3;
 use rand_pcg::Pcg64Dxsm;

@@ -1,6 +1,6 @@
 //! The rotation of an axis: Jeffery's motion, and the moves of a rod in a collision.
 
-use super::problem::{Mistake, either};
+use super::mistake::{Mistake, either};
 use nalgebra::{Matrix3, Rotation3, Unit, Vector3};
 
 pub(super) fn vector(x: [f64; 3]) -> Vector3<f64> {

@@ -9,9 +9,8 @@
 //! These are complete and incomplete elliptic integrals in plane Couette flow. adj M = x² + x(tr B − B) + Σ and
 //! det M = x³ + x² tr B + x tr Σ + 1 have no negative coefficient on their diagonals: nothing cancels.
 
-use super::big::{Big, Bits, double, each_power, number};
+use super::big::{Big, Bits, double, each_power};
 use super::motion::{Matrix, Motion, Unit, matrix, product};
-use super::twofold::Matrices;
 use std::sync::LazyLock;
 
 /// The six distinct entries of a symmetric matrix, in the order of the columns `a11,a22,a33,a12,a13,a23`.
@@ -25,7 +24,7 @@ pub const QUADRUPLES: [[usize; 4]; 15] = [
 ];
 
 /// Precision of the integrals in bits; their quadrature is good to 80.
-pub(super) const KEPT: Bits = Bits(160);
+pub(super) const PRECISION: Bits = Bits(160);
 
 /// The covariance Σ and its inverse B.
 #[derive(Clone, Debug, PartialEq)]
@@ -37,11 +36,11 @@ pub struct Covariance {
 impl Covariance {
     /// Σ at `time` of rods that were isotropic at t = 0; `None` if the unit is undefined in this flow.
     pub fn at(motion: &Motion, time: &Big, unit: Unit) -> Option<Self> {
-        let bits = motion.bits(double(time), unit, KEPT.0 + 48);
+        let bits = motion.bits(double(time), unit, PRECISION.0 + 48);
         let map = motion.map(time, unit, bits)?;
         if motion.only_turns() {
             // Exactly: products of the map's entries would leave their rounding in what is 0.
-            let one = || matrix(|i, j| KEPT.of(if i == j { 1.0 } else { 0.0 }));
+            let one = || matrix(|i, j| PRECISION.of(if i == j { 1.0 } else { 0.0 }));
             return Some(Self { sigma: one(), inverse: one() });
         }
         let transposed = |m: &Matrix| matrix(|i, j| m[j][i].clone());
@@ -51,7 +50,7 @@ impl Covariance {
             &map[a][c] * &map[b][d] - &map[a][d] * &map[b][c]
         };
         let back = matrix(|i, j| cofactor(j, i));
-        let kept = |m: Matrix| m.map(|row| row.map(|x| KEPT.round(x)));
+        let kept = |m: Matrix| m.map(|row| row.map(|x| PRECISION.round(x)));
         Some(Self { sigma: kept(product(&map, &transposed(&map))), inverse: kept(product(&transposed(&back), &back)) })
     }
 
@@ -61,7 +60,7 @@ impl Covariance {
             // x dx = x² d(ln x); (adj M)^½ x^{-½} x = (adj M · x)^½.
             [0, 1, 2].map(|i| (adjugate(i, i) * x).sqrt() / determinant)
         });
-        let pi = KEPT.pi();
+        let pi = PRECISION.pi();
         sums.map(|sum| sum / &pi)
     }
 
@@ -71,7 +70,7 @@ impl Covariance {
             let weight = x / (determinant * determinant.sqrt());
             PAIRS.map(|(i, j)| adjugate(i, j) * &weight)
         });
-        sums.map(|sum| sum / KEPT.of(2.0))
+        sums.map(|sum| sum / PRECISION.of(2.0))
     }
 
     /// a_ijkl = ⟨p_i p_j p_k p_l⟩, in the order of `QUADRUPLES`.
@@ -84,7 +83,7 @@ impl Covariance {
                 (&n[i][j] * &n[k][l] + &n[i][k] * &n[j][l] + &n[i][l] * &n[j][k]) * &weight
             })
         });
-        sums.map(|sum| sum / KEPT.of(4.0))
+        sums.map(|sum| sum / PRECISION.of(4.0))
     }
 
     /// ∫ f d(ln x) from 0 to ∞ for `f(x, adj M, det M)`, good to 80 bits of the largest entry of the same kind.
@@ -97,9 +96,9 @@ impl Covariance {
     fn integral<const N: usize>(&self, f: impl Fn(&Big, &dyn Fn(usize, usize) -> Big, &Big) -> [Big; N]) -> [Big; N] {
         let [trace_sigma, trace_inverse] = self.traces();
         let (left, right) = Self::steps(&trace_sigma, &trace_inverse);
-        let one = KEPT.of(1.0);
+        let one = PRECISION.of(1.0);
         let others = self.others();
-        let mut sums = [0; N].map(|_| KEPT.of(0.0));
+        let mut sums = [0; N].map(|_| PRECISION.of(0.0));
         let add = |x: &Big| {
             let determinant = ((x + &trace_inverse) * x + &trace_sigma) * x + &one;
             let adjugate = |i: usize, j: usize| {
@@ -110,7 +109,7 @@ impl Covariance {
                 *sum += value;
             }
         };
-        each_power(&one, &KEPT.of(1.25), left, right, add);
+        each_power(&one, &PRECISION.of(1.25), left, right, add);
         sums.map(|sum| sum * Self::step())
     }
 
@@ -127,7 +126,7 @@ impl Covariance {
 
     /// ln x from node to node.
     pub(super) fn step() -> Big {
-        static STEP: LazyLock<Big> = LazyLock::new(|| (KEPT.of(5.0) / KEPT.of(4.0)).ln());
+        static STEP: LazyLock<Big> = LazyLock::new(|| (PRECISION.of(5.0) / PRECISION.of(4.0)).ln());
         STEP.clone()
     }
 
@@ -142,26 +141,11 @@ impl Covariance {
         };
         (steps(ln(trace_sigma) + 117.0), steps(ln(trace_inverse) + 39.0))
     }
-
-    /// The doubles nearest to the means: ⟨|p_i|⟩, then a_ij in the order of `PAIRS`.
-    pub fn nearest(&self) -> [f64; 9] {
-        let matrices = Matrices::new(self);
-        let projections = matrices.as_ref().and_then(Matrices::projections);
-        let [x1, x2, x3] = projections.unwrap_or_else(|| self.projections().each_ref().map(number));
-        let second = matrices.as_ref().and_then(Matrices::second);
-        let [a, b, c, d, e, f] = second.unwrap_or_else(|| self.second().each_ref().map(number));
-        [x1, x2, x3, a, b, c, d, e, f]
-    }
-
-    /// The doubles nearest to a_ijkl, in the order of `QUADRUPLES`.
-    pub fn nearest_fourth(&self) -> [f64; 15] {
-        let settled = Matrices::new(self).and_then(|matrices| matrices.fourth());
-        settled.unwrap_or_else(|| self.fourth().each_ref().map(number))
-    }
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::twofold::Matrices;
     use super::*;
     use crate::isotropic::mean_projections;
     use crate::quadrature::{integrate, spread};
@@ -303,7 +287,7 @@ mod tests {
                 &fourth[place]
             };
             let most = 2f64.powi(-80);
-            let trace = &second[0] + &second[1] + &second[2] - KEPT.of(1.0);
+            let trace = &second[0] + &second[1] + &second[2] - PRECISION.of(1.0);
             assert!(double(&trace).abs() < most, "{r} {time} {:e}", double(&trace));
             for (found, (i, j)) in second.iter().zip(PAIRS) {
                 let contracted = [1, 2, 3].map(|k| entry([i + 1, j + 1, k, k]));

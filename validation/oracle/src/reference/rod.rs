@@ -31,7 +31,7 @@ pub struct Rod {
 }
 
 /// Bits of the answers: 80 more than may be lost.
-const KEPT: usize = 208;
+const PRECISION: usize = 208;
 
 /// Bits of angles, to which 100 and more are good.
 const OF_ANGLES: Bits = Bits(128);
@@ -52,8 +52,8 @@ pub struct At<'a> {
 impl<'a> At<'a> {
     /// A rod from its start, in the bits that the hardest of `times` needs.
     pub fn new(motion: &'a Motion, start: Direction, times: impl IntoIterator<Item = f64>, unit: Unit) -> Self {
-        let needed = times.into_iter().map(|time| motion.bits(time, unit, KEPT).0);
-        let bits = Bits(needed.max().unwrap_or(KEPT));
+        let needed = times.into_iter().map(|time| motion.bits(time, unit, PRECISION).0);
+        let bits = Bits(needed.max().unwrap_or(PRECISION));
         let start = Start::new(start, bits);
         let c_b = motion.couette().map(|_| OF_ANGLES.round(c_b(&start.p, motion.aspect_ratio, bits)));
         Self { motion, start, c_b, unit }
@@ -64,7 +64,7 @@ impl<'a> At<'a> {
     /// p by A.4 and A.5 in the form p = F p₀/|F p₀| (`motion.rs`), φ and θ by p = (sin θ cos φ, sin θ sin φ, cos θ),
     /// C = (r_e² p₁² + p₂²)^½/(r_e|p₃|) (eq. 13). Every number holds to 100 bits and more.
     pub fn time(&self, time: &Big) -> Option<Rod> {
-        let bits = self.motion.bits(double(time), self.unit, KEPT);
+        let bits = self.motion.bits(double(time), self.unit, PRECISION);
         let map = self.motion.map(time, self.unit, bits)?;
         let q = image(&map, &self.start.p);
         let long = length(&q);
@@ -92,7 +92,7 @@ fn angle(y: &Big, x: &Big) -> Big {
 
 /// p at t = 0, and C_b, which is constant in plane Couette flow and meaningless in others.
 pub fn orbit(motion: &Motion, start: Direction) -> ([Big; 3], Big) {
-    let bits = motion.bits(0.0, Unit::Period, KEPT);
+    let bits = motion.bits(0.0, Unit::Period, PRECISION);
     let start = Start::new(start, bits);
     let c_b = c_b(&start.p, motion.aspect_ratio, bits);
     (start.p, c_b)

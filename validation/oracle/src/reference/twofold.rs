@@ -6,8 +6,8 @@
 //! terms by 3000u² more: 2⁻⁹³ of the largest entry, while the quadrature itself holds 80 bits. Where 78 bits leave two
 //! doubles possible, there is no answer, and more bits decide.
 
-use super::big::{Big, Bits, double, each_power};
-use super::isotropic::{Covariance, KEPT, PAIRS, QUADRUPLES};
+use super::big::{Big, Bits, double, each_power, number};
+use super::isotropic::{Covariance, PAIRS, PRECISION, QUADRUPLES};
 use fearless_simd::{Level, Simd, dispatch, f64x8, prelude::*};
 use std::sync::LazyLock;
 
@@ -22,7 +22,7 @@ const ABOVE: usize = 304;
 static NODES: LazyLock<[Vec<f64>; 2]> = LazyLock::new(|| {
     let mut nodes = [vec![0.0; BELOW + ABOVE], vec![0.0; BELOW + ABOVE]];
     let mut place = (BELOW..BELOW + ABOVE).chain((0..BELOW).rev());
-    each_power(&KEPT.of(1.0), &KEPT.of(1.25), BELOW, ABOVE - 1, |x| {
+    each_power(&PRECISION.of(1.0), &PRECISION.of(1.25), BELOW, ABOVE - 1, |x| {
         let k = place.next().expect("as many places as powers");
         [nodes[0][k], nodes[1][k]] = pair(x);
     });
@@ -32,7 +32,7 @@ static NODES: LazyLock<[Vec<f64>; 2]> = LazyLock::new(|| {
 /// The nearest double, and what it leaves.
 fn pair(x: &Big) -> [f64; 2] {
     let hi = double(x);
-    [hi, double(&(x - KEPT.of(hi)))]
+    [hi, double(&(x - PRECISION.of(hi)))]
 }
 
 /// Eight numbers hi + lo, |lo| ≤ ½ ulp(hi).
@@ -110,7 +110,7 @@ impl<S: Simd> Eight<S> {
     /// The sum of the eight, exactly.
     fn total(self) -> Big {
         let parts = self.hi.as_slice().iter().chain(self.lo.as_slice());
-        parts.fold(KEPT.of(0.0), |sum, part| sum + KEPT.of(*part))
+        parts.fold(PRECISION.of(0.0), |sum, part| sum + PRECISION.of(*part))
     }
 }
 
@@ -179,7 +179,7 @@ impl Matrices {
     /// The doubles nearest to ⟨|p_i|⟩; `None` where pairs of doubles do not settle them.
     pub fn projections(&self) -> Option<[f64; 3]> {
         let sums = dispatch!(Level::new(), simd => self.sums_of_projections(simd));
-        nearest(sums.map(|sum| sum * Covariance::step() / KEPT.pi()))
+        nearest(sums.map(|sum| sum * Covariance::step() / PRECISION.pi()))
     }
 
     /// Those nearest to a_ij, in the order of [`PAIRS`].
@@ -264,16 +264,34 @@ fn nearest<const N: usize>(entries: [Big; N]) -> Option<[f64; N]> {
     Some(found)
 }
 
+impl Covariance {
+    /// The doubles nearest to the means: ⟨|p_i|⟩, then a_ij in the order of `PAIRS`.
+    pub fn nearest(&self) -> [f64; 9] {
+        let matrices = Matrices::new(self);
+        let projections = matrices.as_ref().and_then(Matrices::projections);
+        let [x1, x2, x3] = projections.unwrap_or_else(|| self.projections().each_ref().map(number));
+        let second = matrices.as_ref().and_then(Matrices::second);
+        let [a, b, c, d, e, f] = second.unwrap_or_else(|| self.second().each_ref().map(number));
+        [x1, x2, x3, a, b, c, d, e, f]
+    }
+
+    /// The doubles nearest to a_ijkl, in the order of `QUADRUPLES`.
+    pub fn nearest_fourth(&self) -> [f64; 15] {
+        let settled = Matrices::new(self).and_then(|matrices| matrices.fourth());
+        settled.unwrap_or_else(|| self.fourth().each_ref().map(number))
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
     fn a_number_beside_the_tie_of_two_doubles_is_left_to_more_bits() {
-        let beside = |bits: isize| KEPT.of(1.0) + (KEPT.of(1.0) >> 53) + (KEPT.of(1.0) >> bits);
-        assert_eq!(nearest([beside(90), KEPT.of(0.5)]), None);
-        assert_eq!(nearest([beside(70), KEPT.of(0.0)]), Some([1.0 + f64::EPSILON, 0.0]));
+        let beside = |bits: isize| PRECISION.of(1.0) + (PRECISION.of(1.0) >> 53) + (PRECISION.of(1.0) >> bits);
+        assert_eq!(nearest([beside(90), PRECISION.of(0.5)]), None);
+        assert_eq!(nearest([beside(70), PRECISION.of(0.0)]), Some([1.0 + f64::EPSILON, 0.0]));
         // The bound is that of the largest entry.
-        assert_eq!(nearest([beside(70), KEPT.of(1e3)]), None);
+        assert_eq!(nearest([beside(70), PRECISION.of(1e3)]), None);
     }
 }

@@ -79,8 +79,7 @@ pub(super) fn in_plane_start(change: &Change, effort: &Effort) -> Vec<Evidence> 
             "largest error of (X̄_1, X̄_2)",
             worst,
             4.0 * TAU * f64::EPSILON * r,
-            "a phase of two turns, 4π, rounded once here and once in the oracle, grows by r_e at the \
-             flip",
+            "a phase of two turns, 4π, rounded once here and once in the oracle, grows by r_e at the flip",
         ),
         Evidence::within(
             "largest X̄_3",

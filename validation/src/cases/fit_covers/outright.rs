@@ -84,7 +84,7 @@ pub fn off(straight: bool, effort: &Effort) -> Result<Evidence, String> {
             OFF,
             EFFECT,
             "a tenth costs a 68 % interval 0.3 % of its share; straight lines between the nodes are off by more than \
-                the effect",
+             the effect",
         ),
     ))
 }

@@ -22,8 +22,7 @@ pub(super) fn at_least(subjects: &Integrators, _: &Effort) -> Vec<Evidence> {
             RATIOS.iter().zip(found).map(above).fold(0.0, larger),
             1e-6,
             "a bound from below, and for explicit Euler the limit itself: too few rods find a step too long, which is \
-                no excuse; \
-             the bisection ends at 10⁻⁷",
+             no excuse; the bisection ends at 10⁻⁷",
         ));
         if order == 4 {
             let apart = |first: &f64, found: f64| (found / first - 1.0).abs();
@@ -56,15 +55,15 @@ pub(super) fn near_a_sphere(subjects: &Integrators, _: &Effort) -> Vec<Evidence>
             "relative difference of the longest step that turns and 2√6",
             off(found(Property::Turning, ONE_STEP), theory::rk4_turning_of_a_sphere()),
             2e-5,
-            "rates of rods of r_e = 1 + 10⁻⁵ differ by Λ = 10⁻⁵, and of 512 rods one is within δ = \
-             π/1024 of the fastest: δ² = 10⁻⁵",
+            "rates of rods of r_e = 1 + 10⁻⁵ differ by Λ = 10⁻⁵, and of 512 rods one is within δ = π/1024 of the \
+             fastest: δ² = 10⁻⁵",
         ));
         evidence.push(Evidence::within(
             "relative difference of the longest step with a bounded length and 4√2",
             off(found(Property::Length, TEN_PERIODS), theory::rk4_length_of_a_sphere()),
             3e-3,
-            "|R|² = 1 + 0.89(y² − 8): in the 22 steps of ten periods |p| grows to 1.5 at y² = 8.04, \
-             which is 0.26 % more",
+            "|R|² = 1 + 0.89(y² − 8): in the 22 steps of ten periods |p| grows to 1.5 at y² = 8.04, which is 0.26 % \
+             more",
         ));
     }
     evidence

@@ -70,15 +70,14 @@ impl Saved {
         if all < has {
             return Err(file.refused(&format!(
                 "has the sum of {has} replicas, of which the first {all} cannot be told apart; --replicas {has} or \
-                    more goes on \
-                 from it"
+                 more goes on from it"
             )));
         }
         let begun = has > 0 || !(saved.done.is_empty() && saved.halfway.is_empty());
         if all == 1 && saved.asked > 1 && begun {
             return Err(file.refused(
                 "is of several replicas and lacks the standard errors over the rods of one; --replicas 2 or more goes \
-                    on from it",
+                 on from it",
             ));
         }
         if all > 1 {

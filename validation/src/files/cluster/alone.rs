@@ -19,8 +19,8 @@ impl Joined {
             if size > 1 && set(format!("{launcher}_RANK")) == Some(0) {
                 complain(&format!(
                     "warning: {launcher}_SIZE = {size}: this build shares no work over ranks, and each of the {size} \
-                        processes runs \
-                     the whole command; start one, or build with --features mpi (docs/src/user/long-runs.md)\n"
+                     processes runs the whole command; start one, or build with --features mpi \
+                     (docs/src/user/long-runs.md)\n"
                 ));
             }
         }

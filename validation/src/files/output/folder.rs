@@ -1,7 +1,7 @@
 //! The rule for overwriting, for all commands: without `--force`, files that a command did not write itself, or wrote
 //! from other inputs, are left unchanged.
 
-use super::claim::beneath;
+use super::beneath::beneath;
 use super::record::{Origin, RECORD, Record, State, Sum};
 use super::{Claim, Output, PATIENCE, Refused, at};
 use crate::files::build::BUILD;

@@ -4,7 +4,7 @@
 //! overwriting ([`super::ResultFolder`]), and lets `plot` and `compare` detect files that were changed since.
 
 use super::Output;
-use super::claim::beneath;
+use super::beneath::beneath;
 use crate::files::bounded;
 use crate::files::difference::difference;
 use crate::files::text::shortened;
@@ -141,8 +141,8 @@ impl Record {
         match self.files.get(name) {
             Some(listed) if listed == sum => Ok(()),
             Some(_) => Err(format!(
-                "was changed after it was written: its checksum is not that of {RECORD}; run the command that wrote \
-                    it again, with --force"
+                "was changed after it was written: its checksum is not that of {RECORD}; run the command that wrote it \
+                 again, with --force"
             )),
             None => Err(format!("is not listed in the folder's {RECORD}")),
         }

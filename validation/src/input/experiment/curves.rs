@@ -161,8 +161,8 @@ fn on_axis<Q>(
         return Ok(());
     }
     let message = format!(
-        "{name} = {value} is not allowed: the axis is calibrated from {least} to {most} (three standard \
-         uncertainties beyond its ends are allowed)"
+        "{name} = {value} is not allowed: the axis is calibrated from {least} to {most} (three standard uncertainties \
+         beyond its ends are allowed)"
     );
     Err(DataError::at(file, line, message))
 }

@@ -187,8 +187,7 @@ fn own_aspect_ratio(all: &Keys<'_>, curves: &[Key]) -> Result<(), DataError> {
         let own = scene.map_or(f64::NAN, |scene| scene.particles.aspect_ratio);
         let allowed = format!(
             "the mean r_e of the measured rods, {own} in {}; the paper leaves its points of r_e = 3.96 out (Results, \
-                after Fig. 5): \
-             rods that start parallel in the shear plane do not disturb each other in this model",
+             after Fig. 5): rods that start parallel in the shear plane do not disturb each other in this model",
             key.scene
         );
         all.number("aspect_ratio", &allowed, |given| given == own)?;

@@ -43,8 +43,8 @@ pub(crate) fn commas(file: &str, text: &str) -> Result<(), DataError> {
         let apart = first.contains(separator) && (!first.contains(',') || first.split(separator).all(is_number));
         if apart {
             let message = format!(
-                "cells are separated by {name}; commas between cells and points in numbers are allowed: \
-                 sed 's/,/./g; s/{shell}/,/g' makes them of it"
+                "cells are separated by {name}; commas between cells and points in numbers are allowed: sed 's/,/./g; \
+                 s/{shell}/,/g' makes them of it"
             );
             return Err(DataError::at(file, index + 1, message));
         }

@@ -195,8 +195,7 @@ impl Order {
             {
                 return Err(format!(
                     "{line}: {} = {value} is not allowed: line {first_line} has {first}, and a start has the rods of \
-                        one \
-                     replica at one time; keep the rows of one",
+                     one replica at one time; keep the rows of one",
                     &head[*column]
                 ));
             }

@@ -1,5 +1,6 @@
 //! An axis: its range, its ticks and their labels.
 
+use super::power_of_ten;
 use super::style::{FINE, TEXT, text_width};
 use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, Ranged, ValueFormatter};
 use std::ops::Range;
@@ -175,19 +176,6 @@ fn logarithmic_label(factor: f64, exponent: i32, plain: bool) -> String {
     } else {
         format!("{factor}·{}", power_of_ten(exponent))
     }
-}
-
-/// 10 with its exponent as a superscript.
-pub(crate) fn power_of_ten(exponent: i32) -> String {
-    let digits = exponent.to_string();
-    let raised = digits.chars().map(|c| match c {
-        '-' => '⁻',
-        '1' => '¹',
-        '2' => '²',
-        '3' => '³',
-        digit => char::from_u32('⁰' as u32 + digit.to_digit(10).unwrap_or(0)).unwrap_or(digit),
-    });
-    format!("10{}", raised.collect::<String>())
 }
 
 fn minus(number: String) -> String {

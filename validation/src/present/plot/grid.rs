@@ -1,6 +1,6 @@
 //! Maps of classes, as small multiples: a cell for each row and column; classes differ by colour and glyph.
 
-use super::axis::power_of_ten;
+use super::power_of_ten;
 use super::style::{CLASSES, FINE, MARGIN, ROW, SMALL_BOLD, TEXT, class_ink, glyph, text, text_width};
 use super::{Backend, Drawn, Figure, Grid, Map};
 use plotters::coord::Shift;

@@ -21,8 +21,8 @@ mod theme;
 mod window;
 
 use crate::files::text::{escaped, readable};
+pub(crate) use crate::present::markup::power_of_ten;
 use crate::present::markup::{lowered, powers};
-pub(crate) use axis::power_of_ten;
 pub(crate) use grid::decade;
 use legend::Legend;
 use letters::{LOW, LOW_DROP, LOW_SIZE};
@@ -331,8 +331,8 @@ fn finish(figure: &Figure, drawing: &str, (width, height): (i32, i32)) -> String
         .collect();
     let spoken = |text: &str| escaped(&text.replace(LOW, ""));
     let open = format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" role=\"img\" width=\"{}\" height=\"{}\" \
-         viewBox=\"0 0 {width} {height}\">\n<title>{}</title>\n<desc>{}</desc>",
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" role=\"img\" width=\"{}\" height=\"{}\" viewBox=\"0 0 {width} \
+         {height}\">\n<title>{}</title>\n<desc>{}</desc>",
         width / FINE,
         height / FINE,
         spoken(&figure.title),

@@ -69,8 +69,7 @@ pub(super) fn detail(rule: &Rule) -> String {
                 allowance => format!(", allowance {}", number(allowance)),
             };
             format!(
-                "mean {} ± {} (standard error of {samples}), reference {}{allowance}; \
-                 sized to show {}",
+                "mean {} ± {} (standard error of {samples}), reference {}{allowance}; sized to show {}",
                 digits(*mean, 6),
                 number(*se),
                 digits(*reference, 6),

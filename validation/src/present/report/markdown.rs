@@ -14,9 +14,8 @@ pub(super) fn write(report: &Report) -> String {
     for case in &report.cases {
         text += &row(case);
     }
-    text += "\nError and tolerance are those of the worst line of evidence; for a goodness-of-fit test they are \
-             its p-value and the smallest allowed. To repeat one case: \
-             `cargo run --release -- validate --case NAME`.\n\n";
+    text += "\nError and tolerance are those of the worst line of evidence; for a goodness-of-fit test they are its \
+        p-value and the smallest allowed. To repeat one case: `cargo run --release -- validate --case NAME`.\n\n";
     text += &report.sections.studies.iter().map(study).collect::<String>();
     if !report.sections.equations.is_empty() {
         text += &section("##", &equation_table(&report.sections.equations));

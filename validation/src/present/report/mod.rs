@@ -168,8 +168,7 @@ impl Report {
         };
         format!(
             "Passed: {}. {} fail, {} under-powered. By chance alone statistical checks turn correct code red with a \
-                probability of \
-             at most {}{over}.",
+             probability of at most {}{over}.",
             parts.join("; "),
             summary.fail,
             summary.underpowered,

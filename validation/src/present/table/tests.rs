@@ -20,7 +20,7 @@ fn a_column_is_declared_once_and_written_everywhere() {
     assert_eq!(
         table.csv().unwrap(),
         "n,x (s),y,± y,less,± \
-            less,said\n1,0.30000000000000004,2.0,0.30000000000000004,-2.0,0.30000000000000004,'=1\n2,,,,,,\"a, b\"\n"
+         less,said\n1,0.30000000000000004,2.0,0.30000000000000004,-2.0,0.30000000000000004,'=1\n2,,,,,,\"a, b\"\n"
     );
     // 1, 0.3, 2.00 ± 0.30 with its sign and without, "a, b", and two between columns.
     assert_eq!(table.letters_across(), 1 + 3 + 11 + 12 + 4 + 5 * 2);

@@ -70,26 +70,24 @@ pub fn warning(
             (!said.is_empty()).then(|| {
                 format!(
                     "--rods is not given, so the points count as independent: {own} (95 %). The scatter of measured \
-                        rods moves all points of \
-                     a curve together{said}. Give --rods N if u is the reading alone, --rods N --u-contains rods if \
-                     it contains the scatter \
-                     of N rods, and --u-contains reading if the points share no rods"
+                     rods moves all points of a curve together{said}. Give --rods N if u is the reading alone, --rods \
+                     N --u-contains rods if it contains the scatter of N rods, and --u-contains reading if the points \
+                     share no rods"
                 )
             })
         }
         (Some(rods), None) if times > 0.7 => {
             let other = best(data, &fit.emulator, &self::rods(measured, Some(Contents::Rods), counts))?;
             Some(format!(
-                "u is {times:.1} times the scatter of {rods} rods, but counts as the error of reading alone: {own} \
-                    (95 %). If it contains \
-                 that scatter, --u-contains rods gives {}; --u-contains reading says that it does not",
+                "u is {times:.1} times the scatter of {rods} rods, but counts as the error of reading alone: {own} (95 \
+                 %). If it contains that scatter, --u-contains rods gives {}; --u-contains reading says that it does \
+                 not",
                 answer(fit, &other)
             ))
         }
         (Some(rods), Some(Contents::Rods)) if times < 0.7 => Some(format!(
             "--u-contains rods: u is only {times:.2} times the scatter of {rods} rods, and cannot contain it: check \
-                --rods, or give \
-             --u-contains reading"
+             --rods, or give --u-contains reading"
         )),
         _ => None,
     }

@@ -87,8 +87,7 @@ pub fn read(path: &Path, set: usize) -> Result<Points, DataError> {
         if let Some(name) = header.iter().find(like).filter(|_| here.is_empty()) {
             return Err(refused(format!(
                 "column `{name}` does not say its unit: `t_s` for seconds, `t_over_T` for periods and `strain` for Gt \
-                    are allowed; \
-                 rename it in this line"
+                 are allowed; rename it in this line"
             )));
         }
         let found = if here.is_empty() {
@@ -111,15 +110,13 @@ pub fn read(path: &Path, set: usize) -> Result<Points, DataError> {
         if let Some(value) = name.strip_suffix("_se").filter(|value| known.iter().any(|known| known == value)) {
             return Err(refused(format!(
                 "column `{name}`: a measured value's standard uncertainty is named `{value}_u`; rename the column if \
-                    that is what \
-                 it has"
+                 that is what it has"
             )));
         }
         if !known.iter().any(|known| known == value) {
             return Err(refused(format!(
                 "column `{name}` is not allowed: expected a time ({times}), x1, x2, x3 or another column of `shearbed \
-                    run` \
-                 (phi, c_b, a11, …), and after a name `_u` for its uncertainty"
+                 run` (phi, c_b, a11, …), and after a name `_u` for its uncertainty"
             )));
         }
         if !is_uncertainty {
@@ -157,7 +154,7 @@ pub fn read(path: &Path, set: usize) -> Result<Points, DataError> {
             if !(LEAST_U..=most - least).contains(&u) {
                 return Err(refused(format!(
                     "column {}_u: `{u:?}` is not allowed: expected one standard deviation from {LEAST_U:?} to {}, the \
-                        width of what {} can be",
+                     width of what {} can be",
                     dataset.name,
                     most - least,
                     dataset.name

@@ -61,8 +61,7 @@ pub fn look_elsewhere(problem: &FitProblem<'_>, fit: &Fit, watch: &Watch<'_>) ->
         if own.chi_square > emulated + emulated.max(NOISE) {
             return Err(format!(
                 "--over {}: at the best values, {:.4} for it, the model has χ² = {:.1} where the polynomials between \
-                    its runs \
-                 have {emulated:.1}, so they do not follow it over this range; give a narrower one",
+                 its runs have {emulated:.1}, so they do not follow it over this range; give a narrower one",
                 range.label(),
                 values[axis],
                 own.chi_square
@@ -110,8 +109,7 @@ pub fn look_elsewhere(problem: &FitProblem<'_>, fit: &Fit, watch: &Watch<'_>) ->
                 let why = why.unwrap_or_else(|| {
                     format!(
                         "χ² has minima at {both}; more --replicas tell noise from minima, and a narrower range leaves \
-                            out \
-                         impossible values"
+                         out impossible values"
                     )
                 });
                 return Err(format!("--over {}: {why}", range.label()));

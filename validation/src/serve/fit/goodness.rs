@@ -7,8 +7,7 @@ const IMPOSSIBLE: f64 = 1e-9;
 
 /// What to look at then.
 pub const CHECK: &str = "check their columns, units and uncertainties, the scene's other keys, and whether the range \
-    of --over \
-                         holds the value";
+    of --over holds the value";
 
 /// The probability of a larger χ² if the model were right.
 fn p_value(chi_square: f64, points: usize, parameters: usize) -> f64 {

@@ -6,7 +6,6 @@ use super::goodness::CHECK;
 use super::hypothesis::Tested;
 use super::range::Range;
 use super::search::{Fit, MOST_SHARE};
-use super::terminal::probability;
 use crate::input::experiment::{Bias, bias};
 use crate::methods::least_squares::Datum;
 use crate::methods::least_squares::likelihood::{EMULATOR, REPLICAS, correlation_of};
@@ -145,8 +144,7 @@ fn warnings(
         if let Some(k) = another_minimum(&fit.profiles[axis].rise) {
             all.push(format!(
                 "{}: {:.4} describes the points nearly as well as {:.4} (its χ² is {:.2} higher, with a ridge between \
-                    them): give the \
-                 whole interval, not the best value",
+                 them): give the whole interval, not the best value",
                 range.label(),
                 fit.value(axis, fit.profiles[axis].place[k]),
                 found.estimate,
@@ -166,7 +164,7 @@ fn warnings(
         for (_, side, edge) in ends.into_iter().filter(|(open, ..)| *open) {
             all.push(format!(
                 "{}: its 95 % interval reaches the {side} end of its range, {edge}: the points do not say where it \
-                    ends",
+                 ends",
                 range.label()
             ));
         }
@@ -175,8 +173,8 @@ fn warnings(
         for j in 0..i {
             if correlation[(i, j)].abs() > ALIKE {
                 all.push(format!(
-                    "{} and {}: these points hardly tell them apart (correlation {:.3}); --design shows \
-                     what further points would do",
+                    "{} and {}: these points hardly tell them apart (correlation {:.3}); --design shows what further \
+                     points would do",
                     fit.ranges[j].label(),
                     fit.ranges[i].label(),
                     correlation[(i, j)]
@@ -187,15 +185,14 @@ fn warnings(
     if p_value < NOT_DESCRIBED {
         all.push(format!(
             "p = {}: no value describes these points, or their uncertainties are too small; the intervals say nothing \
-                then; \
-             {CHECK}",
+             then; {CHECK}",
             probability(p_value)
         ));
     }
     if p_value > 1.0 - NOT_DESCRIBED {
         all.push(format!(
-            "p = {}: the points lie nearer to the curve than their uncertainties allow; are these too large, or in \
-                per cent?",
+            "p = {}: the points lie nearer to the curve than their uncertainties allow; are these too large, or in per \
+             cent?",
             probability(p_value)
         ));
     }
@@ -282,4 +279,14 @@ fn csv_of(rows: &[Vec<String>]) -> Result<String, String> {
 /// The confidence levels of the drawn profiles, each with its rise of χ².
 pub fn levels() -> [(f64, f64); 2] {
     [0.68, 0.95].map(|confidence| (confidence, rise_of(confidence)))
+}
+
+/// The probability as text: three decimals below 0.1, so that 0.046 does not become 0.05, and two digits below 0.01.
+pub(super) fn probability(p: f64) -> String {
+    match p {
+        0.0 => "0".to_owned(),
+        p if p < 0.01 => format!("{p:.1e}"),
+        p if p < 0.1 => format!("{p:.3}"),
+        p => format!("{p:.2}"),
+    }
 }

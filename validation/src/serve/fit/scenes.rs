@@ -107,11 +107,9 @@ impl Scenes {
         let fitted = self.ranges.iter().find(|range| range.is_of(set) && range.key.starts_with("interaction."));
         match (fitted, apart(scene)) {
             (Some(range), Some(why)) => Err(format!(
-                "{}: --over {}: {why}: such rods disturb each other in this model only by the error of a time step, \
-                    so their \
-                 points do not determine it. Lee & Springer leave such points out (r_e = 3.96; Results, after Fig. \
-                 5). Keys of particles \
-                 and flow are allowed",
+                "{}: --over {}: {why}: such rods disturb each other in this model only by the error of a time step, so \
+                 their points do not determine it. Lee & Springer leave such points out (r_e = 3.96; Results, after \
+                 Fig. 5). Keys of particles and flow are allowed",
                 self.sets[set].source,
                 range.label()
             )),
@@ -129,7 +127,7 @@ impl Scenes {
         self.ranges.iter().filter(of_shape).filter(in_periods).map(|range| {
             format!(
                 "{}: t_over_T counts periods of the fitted r_e, so the points move with it; times as t_s or strain do \
-                    not",
+                 not",
                 range.label()
             )
         })

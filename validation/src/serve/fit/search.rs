@@ -157,8 +157,7 @@ pub fn search(problem: &FitProblem<'_>, watch: &Watch<'_>) -> Result<Fit, String
             if fit.feigned() > NOTHING_ELSE {
                 return Err(format!(
                     "--over: {:.0} % of the apparent information in the points is noise of the model with {wanted} \
-                        replicas \
-                     at each value; give more --replicas, more rods in the scene, or one parameter less",
+                     replicas at each value; give more --replicas, more rods in the scene, or one parameter less",
                     100.0 * fit.feigned()
                 ));
             }
@@ -180,7 +179,7 @@ pub fn search(problem: &FitProblem<'_>, watch: &Watch<'_>) -> Result<Fit, String
             if !enclosed(&fit, &whole) {
                 return Err(format!(
                     "--over: the search did not enclose the best values in {rounds} boxes; give a narrower range near \
-                        {:?}",
+                     {:?}",
                     fit.values(&fit.best.place)
                 ));
             }
@@ -371,9 +370,8 @@ impl Fit {
             if valleys.len() > 1 {
                 let ends = valleys.iter().map(|(from, to)| format!("{from:.4} to {to:.4}"));
                 return Err(format!(
-                    "--over {}: χ² has several minima in this range, as low as the best or nearly: {}; give a \
-                        narrower one without \
-                     impossible values",
+                    "--over {}: χ² has several minima in this range, as low as the best or nearly: {}; give a narrower \
+                     one without impossible values",
                     range.label(),
                     ends.collect::<Vec<_>>().join(", ")
                 ));
@@ -387,8 +385,7 @@ impl Fit {
             {
                 return Err(format!(
                     "--over {}: χ² jumps along it where the other parameters change to another minimum, so that its \
-                        intervals have no end \
-                     there; a narrower range, or one parameter less, may do",
+                     intervals have no end there; a narrower range, or one parameter less, may do",
                     range.label()
                 ));
             }

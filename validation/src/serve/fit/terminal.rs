@@ -2,7 +2,7 @@
 
 use super::design::{Added, Step};
 use super::hypothesis::{LEAST_P, Tested};
-use super::report::Report;
+use super::report::{Report, probability};
 use super::search::Fit;
 
 /// One line with the estimate of each parameter and the goodness of fit.
@@ -70,16 +70,6 @@ pub fn tests(report: &Report) -> String {
         format!("{}: {found}\n{difference}", tested.hypothesis)
     };
     report.tests.iter().map(line).collect()
-}
-
-/// The probability as text: three decimals below 0.1, so that 0.046 does not become 0.05, and two digits below 0.01.
-pub(super) fn probability(p: f64) -> String {
-    match p {
-        0.0 => "0".to_owned(),
-        p if p < 0.01 => format!("{p:.1e}"),
-        p if p < 0.1 => format!("{p:.3}"),
-        p => format!("{p:.2}"),
-    }
 }
 
 /// The number rounded up to one digit, for an upper bound.

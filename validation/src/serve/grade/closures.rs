@@ -1,8 +1,8 @@
 //! Diagnosis of answers about rods with diffusion: the closure from which an answer comes.
 
 use super::answer::Answer;
-use super::diagnosis::{Diagnosis, NEARER};
-use crate::methods::tensors::closures::PAIRS;
+use super::nearness::{Diagnosis, NEARER};
+use crate::methods::tensors::fourth::PAIRS;
 use crate::methods::tensors::{Closure, Equation, Model, at, isotropic, steady};
 use crate::oracle::diffusion::{self, Motion, Start};
 use crate::serve::problems::{Closed, LoadedProblem, Problem};

@@ -149,7 +149,7 @@ fn snapshot(
             let [given, by_shape] = [given, by_shape].map(|axis| ["x", "y", "z"][axis]);
             let message = format!(
                 "--rod-axis {given}, but by shapex shapey shapez the rod lies along {by_shape}: leave --rod-axis out, \
-                    or correct it"
+                 or correct it"
             );
             return Err(lines.error(0, message));
         }

@@ -15,6 +15,7 @@ mod layout;
 mod lines;
 pub mod live;
 mod means;
+mod nearness;
 mod mistakes;
 mod order;
 mod overall;

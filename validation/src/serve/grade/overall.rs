@@ -123,7 +123,7 @@ mod tests {
         assert_eq!(
             found,
             ["one mistake explains 3 of 4 that do not pass: half the shear rate; its curve fits mid-flip-2, \
-                    mid-flip-11.6, spiral"]
+                mid-flip-11.6, spiral"]
         );
         // Curves that have come to rest name it in no problem.
         let mut resting = graded(&problems, &[(Fail, &[half], &[]), (Fail, &[half], &[])]);

@@ -2,8 +2,8 @@
 //! turned; in other flows, the rate is sought at which a correct rod comes nearest.
 
 use super::answer::Answer;
-use super::diagnosis::{apart, setting};
 use super::mistakes::{Motion, Setting, phase};
+use super::nearness::{apart, setting};
 use crate::judge::statistics::worst;
 use crate::serve::problems::{Kind, LoadedProblem};
 use nalgebra::{Matrix3, Vector3};

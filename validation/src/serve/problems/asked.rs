@@ -10,8 +10,7 @@ pub(super) const COUETTE: [[f64; 3]; 3] = [[0.0; 3], [SHEAR_RATE_PER_S, 0.0, 0.0
 
 /// Names of the axes, and conventions.
 pub(super) const AXES: &str = "1 = gradient, 2 = flow, 3 = vorticity of the plane Couette flow u_2 = G x_1; \
-    gradient_per_s[i][j] = du_i/dx_j; \
-     p = (sin θ cos φ, sin θ sin φ, cos θ); p and -p are the same rod";
+    gradient_per_s[i][j] = du_i/dx_j; p = (sin θ cos φ, sin θ sin φ, cos θ); p and -p are the same rod";
 
 /// The properties in which problems differ.
 pub(super) struct Asked {

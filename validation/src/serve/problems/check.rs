@@ -2,7 +2,7 @@
 //! must be in its range. The JSON Schema (`schemas/problem.schema.json`) has the same rules.
 
 use super::folgar_tucker::FOURTH;
-use super::table::ReadError;
+use super::table::{ReadError, cut};
 use super::{Ensemble, Kind, LoadedProblem, Metric, Problem};
 use std::path::Path;
 
@@ -312,11 +312,4 @@ fn certified(problem: &Problem, values: &[f64]) -> Result<(), String> {
 pub(super) fn unit(p: &[f64]) -> Result<(), String> {
     let length = p.iter().map(|x| x * x).sum::<f64>().sqrt();
     if (length - 1.0).abs() <= 4.0 * f64::EPSILON { Ok(()) } else { Err(format!("|p| = {length}; it must be 1")) }
-}
-
-/// The start of a foreign text, for messages.
-pub(super) fn cut(text: &str) -> String {
-    const MOST: usize = 300;
-    let start: String = text.chars().take(MOST).collect();
-    if start.len() < text.len() { start + "…" } else { start }
 }

@@ -3,7 +3,7 @@
 use super::asked::{AXES, COUETTE, SHEAR_RATE_PER_S};
 use super::table::twelve_decimals;
 use super::{Built, Closed, FORMAT, Kind, Metric, Problem, ProblemDef};
-use crate::methods::tensors::closures::PAIRS;
+use crate::methods::tensors::fourth::PAIRS;
 use crate::methods::tensors::{self, APART, Closure, Equation, Model, at};
 use nalgebra::Matrix3;
 
@@ -131,8 +131,7 @@ fn built(def: &ProblemDef, problem: &ClosureProblem) -> Built {
             title: def.title.into(),
             summary: format!(
                 "The orientation tensor a_ij(t) by the model {} with the {} closure of a_ijkl, {} The answer is that \
-                    of this closed \
-                 equation, not of the distribution of rods, which the problems folgar-tucker-* ask for.",
+                 of this closed equation, not of the distribution of rods, which the problems folgar-tucker-* ask for.",
                 model.name(),
                 closure.name(),
                 if problem.closed.start == RANDOM {
@@ -153,10 +152,8 @@ fn built(def: &ProblemDef, problem: &ClosureProblem) -> Built {
             metric: Metric::Absolute,
             tolerance: 1e-10,
             because: "A fourth-order method comes to about 10 ε^(4/5) = 3e-12 per unit of strain, and an error fades \
-                within some 17 \
-                      units: 5e-11; twice that is left. Certified values are good to 1e-12: two writings of the \
-                      equation with two \
-                      integrators agree to that. Closures differ from each other by 1e-4 to 1e-1."
+                within some 17 units: 5e-11; twice that is left. Certified values are good to 1e-12: two writings of \
+                the equation with two integrators agree to that. Closures differ from each other by 1e-4 to 1e-1."
                 .into(),
             equations: vec![model.source().into(), closure.source().into()],
             axes: AXES.into(),

@@ -40,8 +40,7 @@ static PROBLEMS: LazyLock<[ContactProblem; 2]> = LazyLock::new(|| {
             step_s: None,
             condition: 519.0,
             equation: "Jeffery's equation (A.1 of Lee & Springer 1982), their rule for two rods in contact (A.7 to \
-                A.12), \
-                       and ṗ′ = V′_r/r",
+                A.12), and ṗ′ = V′_r/r",
             table: include_str!("data/contact-rule.csv"),
         },
         ContactProblem {
@@ -50,8 +49,7 @@ static PROBLEMS: LazyLock<[ContactProblem; 2]> = LazyLock::new(|| {
             step_s: Some(period_s(ASPECT_RATIO) / 200.0),
             condition: 58.0,
             equation: "Jeffery's equation (A.1 of Lee & Springer 1982), their rule for two rods in contact (A.7 to \
-                A.12), \
-                       its rates of angles (A.13, corrected as the summary says), and the step A.14",
+                A.12), its rates of angles (A.13, corrected as the summary says), and the step A.14",
             table: include_str!("data/contact-angles.csv"),
         },
     ]
@@ -85,11 +83,10 @@ impl ContactProblem {
                 metric: Metric::Relative,
                 tolerance: rounded_up(100.0 * f64::EPSILON * self.condition),
                 because: format!(
-                    "100 ε κ, rounded up to one digit. κ = {} is the largest condition number of the snapshots: by \
-                        how much more an \
-                 answer changes, relatively, than the 14 numbers of its pair when each is changed by a small \
-                 fraction. A right code \
-                 takes about 100 roundings from the pair to the answer, none worse than such a change by ε.",
+                    "100 ε κ, rounded up to one digit. κ = {} is the largest condition number of the snapshots: by how \
+                     much more an answer changes, relatively, than the 14 numbers of its pair when each is changed by \
+                     a small fraction. A right code takes about 100 roundings from the pair to the answer, none worse \
+                     than such a change by ε.",
                     self.condition
                 ),
                 equations: vec![self.equation.into()],
@@ -107,21 +104,16 @@ fn summary(step_s: Option<f64>) -> String {
     let asked = match step_s {
         None => "Asked for is ṗ′ of each, V′_r/r of A.13, in 1/s.".into(),
         Some(step) => format!(
-            "Asked for are the rates of A.13 in its corrected form, φ̇′ = (-v_1 sin φ + v_2 cos φ)/(r sin θ) and θ̇′ \
-                = (v_1 cos θ cos φ + \
-             v_2 cos θ sin φ - v_3 sin θ)/r with v = V′_r, and the angles of A.14, φ + φ̇′Δt and θ + θ̇′Δt with Δt = \
-             {step} s, φ in \
-             (-π, π] before the step and not folded after it."
+            "Asked for are the rates of A.13 in its corrected form, φ̇′ = (-v_1 sin φ + v_2 cos φ)/(r sin θ) and θ̇′ = \
+             (v_1 cos θ cos φ + v_2 cos θ sin φ - v_3 sin θ)/r with v = V′_r, and the angles of A.14, φ + φ̇′Δt and θ \
+             + θ̇′Δt with Δt = {step} s, φ in (-π, π] before the step and not folded after it."
         ),
     };
     format!(
-        "{SNAPSHOTS} pairs of rods, a = {LENGTH_MM} mm long, in contact. The contact line is along p_a × p_b; r is \
-            the signed arm \
-         from a rod's centre along p to its contact point, which may lie beyond its end. V_c = L x + ṗ r, x the rod's \
-         centre (A.7), \
-         with ṗ by A.1. Both parts along the contact line become their mean, all else stays (A.8 to A.11), V′_r = \
-         V′_c - L x (A.12), \
-         made normal to p. {asked}"
+        "{SNAPSHOTS} pairs of rods, a = {LENGTH_MM} mm long, in contact. The contact line is along p_a × p_b; r is the \
+         signed arm from a rod's centre along p to its contact point, which may lie beyond its end. V_c = L x + ṗ r, x \
+         the rod's centre (A.7), with ṗ by A.1. Both parts along the contact line become their mean, all else stays \
+         (A.8 to A.11), V′_r = V′_c - L x (A.12), made normal to p. {asked}"
     )
 }
 

@@ -51,10 +51,9 @@ fn built(def: &ProblemDef, sd_percent: f64, table: &str) -> Built {
             name: def.name.into(),
             title: def.title.into(),
             summary: "The model of Lee & Springer (1982) with the paper's rods in plane Couette flow: free rods turn \
-                by Jeffery's \
-                      equation, neighbours collide at random, and the mean projections x_i = ⟨|p_i|⟩ oscillate and \
-                      die out. Your \
-                      answer is an average over replicas with standard errors, and is compared within both errors."
+                by Jeffery's equation, neighbours collide at random, and the mean projections x_i = ⟨|p_i|⟩ oscillate \
+                and die out. Your answer is an average over replicas with standard errors, and is compared within both \
+                errors."
                 .into(),
             kind: Kind::Ensemble,
             gradient_per_s: COUETTE,
@@ -68,18 +67,16 @@ fn built(def: &ProblemDef, sd_percent: f64, table: &str) -> Built {
             metric: Metric::StandardErrors,
             tolerance: critical,
             because: format!(
-                "Student's t with {} degrees of freedom ({LEAST} replicas, the fewest allowed) at the level at which \
-                    a right \
-                 answer fails one of the {} comparisons of both such problems with a probability of \
-                 {FALSE_ALARM_RATE:e}; rounded up \
-                 to hundredths.",
+                "Student's t with {} degrees of freedom ({LEAST} replicas, the fewest allowed) at the level at which a \
+                 right answer fails one of the {} comparisons of both such problems with a probability of \
+                 {FALSE_ALARM_RATE:e}; rounded up to hundredths.",
                 LEAST - 1,
                 2 * 3 * rows.len()
             ),
             equations: vec![format!(
                 "the model of Lee & Springer (1982), eqs 4 to 14 and A.1 to A.13; in the step of a collision a rod \
-                    turns about p × ṗ′ by |ṗ′|Δt. {REPLICAS} replicas of this \
-                 project's simulator with update = \"rotation\", seed 1982, judged by the independent naive reference"
+                 turns about p × ṗ′ by |ṗ′|Δt. {REPLICAS} replicas of this project's simulator with update = \
+                 \"rotation\", seed 1982, judged by the independent naive reference"
             )],
             axes: AXES.into(),
             ensemble: Some(Ensemble {

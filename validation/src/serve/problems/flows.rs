@@ -22,9 +22,8 @@ pub(super) fn extension(rates_per_s: [f64; 3], name: &str) -> Asked {
         times_s: vec![0.25, 1.0, 2.0, 4.0],
         summary: format!(
             "Five free rods of r_e = 11.6 in {name}, with rates in 1/s. Each turns to the stretched axis; those that \
-                start near the \
-             compressed plane or axis leave it slowly, and what is lost there grows. There is no rotation and no \
-             period."
+             start near the compressed plane or axis leave it slowly, and what is lost there grows. There is no \
+             rotation and no period."
         ),
         equations: ANY_FLOW,
     }
@@ -43,10 +42,8 @@ pub(super) fn turned() -> Asked {
         start: vec![direction(0.2, 1.0), direction(2.4, 1.9), direction(5.0, 0.4)],
         times_s: vec![0.1 * t, 0.35 * t, 0.5 * t, 1.05 * t],
         summary: "Three free rods of r_e = 5 in plane Couette flow whose axes lie askew: all nine entries of the \
-            gradient are \
-                  different from 0. The entries are rounded to doubles and taken as they are. A transposed gradient, \
-                  or axes of \
-                  the wrong hand, show here."
+            gradient are different from 0. The entries are rounded to doubles and taken as they are. A transposed \
+            gradient, or axes of the wrong hand, show here."
             .into(),
         equations: ANY_FLOW,
     }
@@ -61,8 +58,7 @@ pub(super) fn mirrored() -> Asked {
         start: vec![direction(0.2, 1.0), direction(2.4, 1.9), direction(5.0, 0.4)],
         times_s: vec![0.1 * t, 0.35 * t, 0.5 * t, 1.05 * t],
         summary: "Three free rods of r_e = 5 in u_1 = G x_2: plane Couette flow with the axes of gradient and flow \
-            exchanged, \
-                  which turns the other way round. A code that has its own flow built in fails here."
+            exchanged, which turns the other way round. A code that has its own flow built in fails here."
             .into(),
         equations: ANY_FLOW,
     }
@@ -75,8 +71,7 @@ pub(super) fn spiral() -> Asked {
         start: vec![direction(0.2, 1.0), direction(2.4, 1.9), direction(4.0, 1.57)],
         times_s: vec![0.5, 2.0, 5.0, 10.0],
         summary: "Three free rods of r_e = 3 in a flow that turns and stretches at once: W + ΛD has one real \
-            eigenvalue and a \
-                  complex pair, and rods spiral into an axis that is none of the coordinate axes."
+            eigenvalue and a complex pair, and rods spiral into an axis that is none of the coordinate axes."
             .into(),
         equations: ANY_FLOW,
     }

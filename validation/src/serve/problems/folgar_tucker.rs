@@ -160,10 +160,9 @@ fn built(def: &ProblemDef, problem: &DiffusionProblem, values: std::ops::Range<u
             title: def.title.into(),
             summary: format!(
                 "{moments} of infinitely many rods of {rods} with the rotary diffusivity D_r = C_I γ̇, C_I = {}, γ̇ = \
-                    (2D:D)^½, \
-                 {when}. The answer is that of the distribution, ∂ψ/∂t = D_r∇²ψ − ∇·(ṗψ) on the sphere with Jeffery's \
-                 ṗ, and not \
-                 of a closure: a code with a closure of a_ijkl misses it by what the closure costs.",
+                 (2D:D)^½, {when}. The answer is that of the distribution, ∂ψ/∂t = D_r∇²ψ − ∇·(ṗψ) on the sphere with \
+                 Jeffery's ṗ, and not of a closure: a code with a closure of a_ijkl misses it by what the closure \
+                 costs.",
                 problem.c_i
             ),
             kind: Kind::Tensor,
@@ -178,15 +177,12 @@ fn built(def: &ProblemDef, problem: &DiffusionProblem, values: std::ops::Range<u
             metric: Metric::Absolute,
             tolerance: 1e-9,
             because: "Diffusion makes every error on the way fade, so a fourth-order method comes to about 10 ε^(4/5) \
-                = 3e-12 per \
-                      unit of strain, 2e-10 for the longest time here; five times that is left for the number of \
-                      harmonics or cells. \
-                      Certified values are good to 4e-12. Closures miss by 1e-3 to 1e-1."
+                = 3e-12 per unit of strain, 2e-10 for the longest time here; five times that is left for the number of \
+                harmonics or cells. Certified values are good to 4e-12. Closures miss by 1e-3 to 1e-1."
                 .into(),
             equations: vec![
                 "Folgar & Tucker 1984, J. Reinf. Plast. Comp. 3, 98: the Fokker–Planck equation, by even spherical \
-                    harmonics; \
-                 A.1 for ṗ"
+                 harmonics; A.1 for ṗ"
                     .into(),
             ],
             axes: AXES.into(),

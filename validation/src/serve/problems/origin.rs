@@ -1,7 +1,6 @@
 //! The author of a problem in a folder: this program, as `problems export` writes it, or somebody else.
 
-use super::check::cut;
-use super::table::{ReadError, Table};
+use super::table::{ReadError, Table, cut, line_of};
 use super::{CORRECTED, LoadedProblem, Origin, named};
 use crate::files::difference::difference;
 use std::path::Path;
@@ -27,7 +26,7 @@ pub(super) fn origin(loaded: &LoadedProblem, json: &str) -> Result<Origin, ReadE
     }
     let record = |loaded: &LoadedProblem| serde_json::to_value(&loaded.problem).unwrap_or_default();
     if let Some((key, found, due)) = difference(&record(loaded), &record(&own)) {
-        let place = super::read::line_of(json, key.split('.').next().unwrap_or_default());
+        let place = line_of(json, key.split('.').next().unwrap_or_default());
         let (found, due) = (cut(&found.to_string()), cut(&due.to_string()));
         let message = format!("{key} = {found}: {}", differs(name, &due));
         return Err(ReadError::at(&path("problem.json"), place, 0, message));
@@ -50,8 +49,7 @@ pub(super) fn origin(loaded: &LoadedProblem, json: &str) -> Result<Origin, ReadE
 fn differs(name: &str, due: &str) -> String {
     format!(
         "{name} is a problem of this program, which has {due} there; `shearbed problems export` writes it afresh, and \
-            a problem \
-         of your own needs a name of its own"
+         a problem of your own needs a name of its own"
     )
 }
 

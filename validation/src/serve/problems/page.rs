@@ -17,8 +17,7 @@ pub(super) fn page(built: &Built) -> String {
     );
     page += &format!(
         "Write `answer.csv` with the columns `{}`, or one file a step size, `steps-100.csv`, `steps-200.csv` and so \
-            on, so \
-         that an order can be read off.\n\n",
+         on, so that an order can be read off.\n\n",
         problem.columns.join(",")
     );
     page += &format!(
@@ -48,8 +47,7 @@ fn asked(built: &Built) -> String {
     match problem.kind {
         Kind::Rods => format!(
             "The directions at t = {2} s of the {0} of `start.csv` (`rod,p1,p2,p3` at t = 0, of aspect ratio {1}). \
-                Numbers are \
-             doubles and are exact.",
+             Numbers are doubles and are exact.",
             match built.start.len() {
                 1 => "rod".into(),
                 count => format!("{count} rods"),
@@ -58,9 +56,8 @@ fn asked(built: &Built) -> String {
             times()
         ),
         Kind::Tensor if problem.closed.is_some() => format!(
-            "a_ij of the closed equation below, for rods of {}, at t = {} s. `closed` in problem.json has the \
-                closure, the model \
-             with its parameters, and a_ij at t = 0.",
+            "a_ij of the closed equation below, for rods of {}, at t = {} s. `closed` in problem.json has the closure, \
+             the model with its parameters, and a_ij at t = 0.",
             aspect_ratio(problem.aspect_ratio),
             times()
         ),
@@ -79,8 +76,8 @@ fn asked(built: &Built) -> String {
         ),
         Kind::Contact => format!(
             "What the contact rule makes of each of the {} pairs of rods in `inputs.csv`: centres in mm, axes p of \
-                length 1 and \
-             aspect ratios of rods a and b. Before the contact each rod turns by Jeffery's equation (A.1).{}",
+             length 1 and aspect ratios of rods a and b. Before the contact each rod turns by Jeffery's equation \
+             (A.1).{}",
             built.inputs.len(),
             match problem.time_step_s {
                 None => String::new(),
@@ -139,13 +136,12 @@ fn metric(metric: Metric) -> &'static str {
     match metric {
         Metric::Angle => {
             "The error of a row is the angle in rad between its axis and the certified one, or | |p| - 1 | if that is \
-                larger; p and -p are the same rod."
+             larger; p and -p are the same rod."
         }
         Metric::Absolute => "The error of a row is the largest difference from its certified values.",
         Metric::Relative => {
             "The error of a row is, for rod a and for rod b, the length of the difference from the certified numbers \
-                (the \
-             columns `a_…` or `b_…`) over the length of the certified ones."
+             (the columns `a_…` or `b_…`) over the length of the certified ones."
         }
         Metric::StandardErrors => {
             "The error of a value is its difference from the reference in units of (se² + reference se²)^(1/2)."

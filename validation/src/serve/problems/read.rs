@@ -2,7 +2,7 @@
 
 use super::check;
 use super::origin::origin;
-use super::table::{self, ReadError, Table};
+use super::table::{self, ReadError, Table, line_of};
 use super::{FORMAT, Kind, LoadedProblem, Origin, Problem};
 use std::fs;
 use std::path::Path;
@@ -65,21 +65,14 @@ fn read_one(dir: &Path) -> Result<LoadedProblem, ReadError> {
     Ok(loaded)
 }
 
-/// The line of a key in a JSON text, 0 if the key is missing.
-pub(super) fn line_of(json: &str, key: &str) -> u64 {
-    let key = format!("\"{key}\"");
-    let lines = json.lines().position(|line| line.contains(&key));
-    lines.map_or(0, |at| at as u64 + 1)
-}
-
 fn problem(path: &Path, text: &str) -> Result<Problem, ReadError> {
     let wrong = |error: serde_json::Error| {
-        ReadError::at(path, error.line() as u64, error.column() as u64, check::cut(&error.to_string()))
+        ReadError::at(path, error.line() as u64, error.column() as u64, table::cut(&error.to_string()))
     };
     // The version is checked first: another format may have other keys.
     let value: serde_json::Value = serde_json::from_str(text).map_err(wrong)?;
     if value["format"] != FORMAT {
-        let found = check::cut(&value["format"].to_string());
+        let found = table::cut(&value["format"].to_string());
         let message = format!("format = {found}; this program reads {FORMAT}");
         return Err(ReadError::at(path, line_of(text, "format"), 0, message));
     }

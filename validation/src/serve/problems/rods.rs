@@ -90,8 +90,7 @@ fn certified(motion: &Motion, time_s: f64, rod: usize, start: [f64; 3]) -> Vec<S
 
 const COUETTE_EQUATIONS: &[&str] = &[
     "the solution of Jeffery's equation in plane Couette flow, tan φ = r_e tan(2πt/T + const) and tan θ = C r_e/(r_e² \
-        cos² φ + \
-     sin² φ)^(1/2) (A.4 and A.5 of Lee & Springer 1982)",
+     cos² φ + sin² φ)^(1/2) (A.4 and A.5 of Lee & Springer 1982)",
     "its period T = 2π(r_e + 1/r_e)/G (eq. 15 of Lee & Springer 1982)",
 ];
 
@@ -107,12 +106,10 @@ fn mid_flip(aspect_ratio: f64) -> Asked {
         times_s: times.map(|turns| turns * period_s(aspect_ratio)).into(),
         summary: format!(
             "One free rod of r_e = {aspect_ratio} in plane Couette flow, from φ = 0.2, θ = 1 rad. It is asked for in \
-                the flip in \
-             which it starts, half a period later in the next, and a period later in the one after: near φ = 1 each \
-             time, where \
-             rods and discs alike turn at more than a quarter of their fastest rate. An error of the phase, or a flip \
-             that is \
-             stepped over, shows here and not while a long rod lies along the flow, which it does nearly always."
+             the flip in which it starts, half a period later in the next, and a period later in the one after: near φ \
+             = 1 each time, where rods and discs alike turn at more than a quarter of their fastest rate. An error of \
+             the phase, or a flip that is stepped over, shows here and not while a long rod lies along the flow, which \
+             it does nearly always."
         ),
         equations: COUETTE_EQUATIONS,
     }
@@ -126,10 +123,10 @@ fn log_rolling() -> Asked {
         aspect_ratio,
         start: vec![[0.0, 0.0, 1.0]],
         times_s: vec![0.25 * t, 0.5 * t, t],
-        summary: "One free rod of r_e = 11.6 along the vorticity axis of plane Couette flow. It turns about itself \
-            and points \
-                  where it did. In angles this is the pole θ = 0, where φ has no value and 1/sin θ is infinite."
-            .into(),
+        summary:
+            "One free rod of r_e = 11.6 along the vorticity axis of plane Couette flow. It turns about itself and \
+            points where it did. In angles this is the pole θ = 0, where φ has no value and 1/sin θ is infinite."
+                .into(),
         equations: COUETTE_EQUATIONS,
     }
 }
@@ -143,10 +140,8 @@ fn shear_plane() -> Asked {
         start: vec![[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.6, 0.8, 0.0], [0.6, -0.8, 0.0]],
         times_s: vec![0.02 * t, 0.25 * t, 0.51 * t, 1.02 * t],
         summary: "Four free rods of r_e = 11.6 in the shear plane of plane Couette flow: across the flow, along it, \
-            and on both \
-                  sides of it. p_3 stays exactly 0 and the orbit constant is infinite. Between flips the rods lie \
-                  along the flow; \
-                  the times are chosen so that each rod is seen in a flip."
+            and on both sides of it. p_3 stays exactly 0 and the orbit constant is infinite. Between flips the rods \
+            lie along the flow; the times are chosen so that each rod is seen in a flip."
             .into(),
         equations: COUETTE_EQUATIONS,
     }
@@ -166,12 +161,11 @@ fn poles() -> Asked {
         // After whole periods every rod is back, as would be a rod that never moved; a program that runs is asked at
         // the last time.
         times_s: vec![0.1 * t, 0.25 * t, 0.6 * t, 1.1 * t],
-        summary: "Eight free rods of r_e = 11.6 in plane Couette flow: one at each pole θ = 0 and θ = π of the \
-            angles, and three \
-                  10⁻⁶ rad beside each. Those at a pole stay, the others go round it on small ellipses. A code in φ \
-                  and θ divides \
-                  by sin θ here; nothing is singular in p."
-            .into(),
+        summary:
+            "Eight free rods of r_e = 11.6 in plane Couette flow: one at each pole θ = 0 and θ = π of the angles, \
+            and three 10⁻⁶ rad beside each. Those at a pole stay, the others go round it on small ellipses. A code in \
+            φ and θ divides by sin θ here; nothing is singular in p."
+                .into(),
         equations: COUETTE_EQUATIONS,
     }
 }
@@ -184,9 +178,8 @@ fn long() -> Asked {
         start: vec![direction(0.2, 1.0)],
         times_s: [1.1, 10.1, 100.1, 1000.1, 10000.1].map(|turns| turns * period_s(aspect_ratio)).into(),
         summary: "One free rod of r_e = 2 in plane Couette flow after 1.1, 10.1, 100.1, 1000.1 and 10000.1 periods: \
-            how the phase \
-                  and the orbit drift. The strain is 1.6·10⁵, and RK4 in p needs 60 to 110 steps per unit of strain \
-                  for the tolerance."
+            how the phase and the orbit drift. The strain is 1.6·10⁵, and RK4 in p needs 60 to 110 steps per unit of \
+            strain for the tolerance."
             .into(),
         equations: COUETTE_EQUATIONS,
     }

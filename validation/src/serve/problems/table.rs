@@ -1,8 +1,7 @@
 //! CSV tables of numbers, read strictly: an error names file, line and column.
 
-use super::check::cut;
 use crate::files::bounded;
-use crate::files::text::Shown;
+use crate::files::text::{Shown, start_of};
 use std::fmt;
 use std::path::{Path, PathBuf};
 
@@ -58,6 +57,18 @@ impl fmt::Display for ReadError {
 }
 
 impl std::error::Error for ReadError {}
+
+/// The start of a foreign text, for messages.
+pub(super) fn cut(text: &str) -> String {
+    start_of(text, 300)
+}
+
+/// The line of a key in a JSON text, 0 if the key is missing.
+pub(super) fn line_of(json: &str, key: &str) -> u64 {
+    let key = format!("\"{key}\"");
+    let lines = json.lines().position(|line| line.contains(&key));
+    lines.map_or(0, |at| at as u64 + 1)
+}
 
 /// The text of a file of at most 100 MB.
 pub(super) fn text(path: &Path) -> Result<String, ReadError> {

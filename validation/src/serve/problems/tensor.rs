@@ -48,19 +48,17 @@ fn moments(def: &ProblemDef, gradient_per_s: [[f64; 3]; 3], aspect_ratio: f64, t
         certified: times_s.iter().map(row).collect(),
         problem: Problem {
             summary: format!(
-                "The orientation tensor a_ij = ⟨p_i p_j⟩ of infinitely many free rods of r_e = {aspect_ratio} that \
-                    are isotropic at \
-                 t = 0, exact (elliptic integrals). A closure approximation of a_ijkl misses these values by the \
-                 error of the \
-                 closure; a code that follows rods needs a quadrature over their starts that has converged."
+                "The orientation tensor a_ij = ⟨p_i p_j⟩ of infinitely many free rods of r_e = {aspect_ratio} that are \
+                 isotropic at t = 0, exact (elliptic integrals). A closure approximation of a_ijkl misses these values \
+                 by the error of the closure; a code that follows rods needs a quadrature over their starts that has \
+                 converged."
             ),
             columns: ["time_s", "a11", "a22", "a33", "a12", "a13", "a23"].map(String::from).into(),
             because: because(of_rods),
             equations: vec![
                 "the solution of Jeffery's equation (A.4 and A.5 of Lee & Springer 1982), averaged over isotropic \
-                    starts (their \
-                 eq. 12): a_ij = ½∫ (adj M)_ij (det M)^(-3/2) dx, M = (F Fᵀ)⁻¹ + x, F = exp((W + ΛD)t), from x = 0 to \
-                 infinity"
+                 starts (their eq. 12): a_ij = ½∫ (adj M)_ij (det M)^(-3/2) dx, M = (F Fᵀ)⁻¹ + x, F = exp((W + ΛD)t), \
+                 from x = 0 to infinity"
                     .into(),
             ],
             ..problem(def, &motion, times_s, of_rods)
@@ -81,19 +79,16 @@ fn unequal_rods(def: &ProblemDef) -> Built {
         certified: unequal_table(),
         problem: Problem {
             summary: "Mean projections x_i = ⟨|p_i|⟩ of infinitely many free rods, isotropic at t = 0, whose r_e is \
-                Gaussian with mean \
-                      11.6 and a standard deviation of 3.6 % (the paper's): each has its own period, so the phases \
-                      mix and the \
-                      oscillation dies out without any collision. By quadrature over r_e."
+                Gaussian with mean 11.6 and a standard deviation of 3.6 % (the paper's): each has its own period, so \
+                the phases mix and the oscillation dies out without any collision. By quadrature over r_e."
                 .into(),
             aspect_ratio_sd_percent: SD_PERCENT,
             columns: ["time_s", "x1", "x2", "x3"].map(String::from).into(),
             because: because(of_rods),
             equations: vec![
                 "the solution of Jeffery's equation (A.4 and A.5 of Lee & Springer 1982), averaged over isotropic \
-                    starts (their \
-                 eq. 12): means of |p_i| (their eq. 4) are elliptic integrals; then averaged over a Gaussian r_e \
-                 (their eq. 11)"
+                 starts (their eq. 12): means of |p_i| (their eq. 4) are elliptic integrals; then averaged over a \
+                 Gaussian r_e (their eq. 11)"
                     .into(),
             ],
             ..problem(def, &motion, times_s, of_rods)
@@ -140,10 +135,9 @@ fn problem(def: &ProblemDef, motion: &Motion, times_s: Vec<f64>, tolerance: f64)
 fn because(tolerance: f64) -> String {
     format!(
         "A mean over rods is no worse than its worst rod, and |d(p_i p_j)| and |d|p_i|| are no more than the angle by \
-            which p is off. \
-         A right code in double precision has every rod to {tolerance:e} rad at the last time, by the rule of the \
-         problems of \
-         single rods, and weights of starts and aspect ratios that sum to 1 and have converged add nothing."
+         which p is off. A right code in double precision has every rod to {tolerance:e} rad at the last time, by the \
+         rule of the problems of single rods, and weights of starts and aspect ratios that sum to 1 and have converged \
+         add nothing."
     )
 }
 

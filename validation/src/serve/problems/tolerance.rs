@@ -30,12 +30,10 @@ pub fn couette(aspect_ratio: f64, strain: f64) -> f64 {
 pub fn because_couette(aspect_ratio: f64) -> String {
     format!(
         "A right code in double precision evaluates ṗ/G to about ε, and a fourth-order method comes to ε^(4/5) per \
-            radian \
-         turned, where its truncation (h⁴) and its rounding (ε/h) meet. An error made at strain s grows by \
-         φ̇(end)/φ̇(s), on \
-         average by ½(r_e + 1/r_e)² at most. So (2ε·½(r_e + 1/r_e)² + 10 ε^(4/5))·strain is allowed, with r_e = \
-         {aspect_ratio}: two roundings an evaluation, and 10 for what separates methods of one order; rounded up to \
-         one digit."
+         radian turned, where its truncation (h⁴) and its rounding (ε/h) meet. An error made at strain s grows by \
+         φ̇(end)/φ̇(s), on average by ½(r_e + 1/r_e)² at most. So (2ε·½(r_e + 1/r_e)² + 10 ε^(4/5))·strain is allowed, \
+         with r_e = {aspect_ratio}: two roundings an evaluation, and 10 for what separates methods of one order; \
+         rounded up to one digit."
     )
 }
 
@@ -67,12 +65,10 @@ pub fn general(motion: &Motion, start: &[[f64; 3]], end_s: f64) -> f64 {
 
 /// The reason for the tolerance of `general`.
 pub const BECAUSE_GENERAL: &str = "A right code in double precision evaluates ṗ, in units of |L|, to about ε, and a \
-    fourth-order \
-     method comes to ε^(4/5) per radian turned, where its truncation (h⁴) and its rounding (ε/h) meet. An error made \
-     on the way \
-     reaches the end multiplied by κ = |∂p(end)/∂p|. So the integral of κ(2ε + 10 ε^(4/5)|dp/ds|) over strain is \
-     allowed: two \
-     roundings an evaluation, and 10 for what separates methods of one order; rounded up to one digit.";
+    fourth-order method comes to ε^(4/5) per radian turned, where its truncation (h⁴) and its rounding (ε/h) meet. An \
+    error made on the way reaches the end multiplied by κ = |∂p(end)/∂p|. So the integral of κ(2ε + 10 ε^(4/5)|dp/ds|) \
+    over strain is allowed: two roundings an evaluation, and 10 for what separates methods of one order; rounded up to \
+    one digit.";
 
 /// |∂(Fp/|Fp|)/∂p| = |(1 − qq)F|/|Fp|, q = Fp/|Fp|, for changes of p across p.
 fn growth(map: &[[f64; 3]; 3], p: [f64; 3]) -> f64 {

@@ -185,7 +185,7 @@ mod tests {
     fn every_point_is_checked_as_a_scene_file_is() {
         let error = refused(&["particles.count=10:20:4"]);
         let expected = "--over particles.count=13.333333333333334 (point 2 of 4): particles.count = 13.333333333333334 \
-                        is not allowed: expected a whole number from 1 to 100000000";
+            is not allowed: expected a whole number from 1 to 100000000";
         assert_eq!(error, expected);
         let error = refused(&["interaction.alpa=1,2"]);
         assert!(error.contains("unknown key `alpa`, expected one of"), "{error}");

@@ -40,9 +40,9 @@ fn run(request: &Request) -> Result<Option<Findings>, String> {
     let answer = base.iter().find(|row| row.setting.n_a3 == 0.2).map_or(String::new(), |row| {
         format!(
             "C_I = {:.6} ± {:.6} at n a³ = 0.2, r_e = 11.6, α = 0.5 with update = \"kick\" and {FINER} times the \
-                default's steps, growing as \
-             (n a³)^{:.2}; a single C_I leaves a relative residual of {:.0} %. With \"rotation\" a colliding rod \
-             takes a straight step in place of Jeffery's, whose error hides C_I at the default's step.",
+             default's steps, growing as (n a³)^{:.2}; a single C_I leaves a relative residual of {:.0} %. With \
+             \"rotation\" a colliding rod takes a straight step in place of Jeffery's, whose error hides C_I at the \
+             default's step.",
             row.c_i.value,
             row.c_i.se,
             slope(&logarithms),
@@ -79,8 +79,7 @@ fn no_diffusion(one: &Compared) -> String {
     let per_cent = |all, edge| 100.0 * Sample::of(&above(all, Quantity::Angle, edge)).mean;
     format!(
         " Kicks are no diffusion: over a strain of {:.1}, diffusion of the same C_I turns {:.0} % of the rods off \
-            Jeffery's motion by \
-         more than 0.01 rad and {:.2} % by more than 0.2 rad, kicks {:.0} % and {:.2} %.",
+         Jeffery's motion by more than 0.01 rad and {:.2} % by more than 0.2 rad, kicks {:.0} % and {:.2} %.",
         one.strain,
         per_cent(&one.diffusion, 0.01),
         per_cent(&one.diffusion, 0.2),
@@ -139,15 +138,11 @@ fn coefficients(rows: &[Coefficients]) -> ReportTable {
         ["folgar-tucker", "The effective Folgar–Tucker coefficient"],
         format!(
             "Steady state of 100 rods, m = 3, {replicas} replicas (± a standard error, jackknife). C_I by least \
-                squares over \
-             all components of J, then by its diagonal components alone: where these differ, no single C_I describes \
-             the collisions, \
-             and the relative residual is in the next column. steps ×: time steps over those that resolve the motion. \
-             periods: before the window and in it. φ r_p: for cylinders, π n a³/(4 r_e). The decay of X̄₁'s \
-             oscillation is \
-             over the first two periods from isotropic directions. places anew: drawn at random before every step, so \
-             that no \
-             pair has a past."
+             squares over all components of J, then by its diagonal components alone: where these differ, no single \
+             C_I describes the collisions, and the relative residual is in the next column. steps ×: time steps over \
+             those that resolve the motion. periods: before the window and in it. φ r_p: for cylinders, π n a³/(4 \
+             r_e). The decay of X̄₁'s oscillation is over the first two periods from isotropic directions. places \
+             anew: drawn at random before every step, so that no pair has a past."
         ),
         rows,
         columns,
@@ -165,8 +160,8 @@ fn koch(rows: &[Coefficients]) -> ReportTable {
     ReportTable::new(
         ["koch", "Koch's anisotropic diffusivity in place of C_I"],
         "In the same runs: C = β_1 (D:⟨pppp⟩:D) δ/G² + β_2 D:⟨pppppp⟩:D/G² (Koch 1995) by least squares over all \
-            components of J, \
-         and the relative residual of that fit beside that of one C_I. Most of what both leave is J_12.",
+         components of J, and the relative residual of that fit beside that of one C_I. Most of what both leave is \
+         J_12.",
         rows,
         columns,
     )
@@ -189,14 +184,11 @@ fn stress(rows: &[Coefficients]) -> ReportTable {
     ReportTable::new(
         ["particle-stress", "What the rods add to the stress, steady"],
         "σ_ij = μ_fiber G ⟨p_i p_j p₁p₂⟩ of slender rods (Batchelor 1970), in the same runs. 1 is the gradient, 2 the \
-            flow; N₁ = \
-         σ₂₂ − σ₁₁, N₂ = σ₁₁ − σ₃₃. What forces between colliding rods add is not in it. μ_fiber is the leading order \
-         for slender rods; the next column has σ_12 of \
-         spheroids of that r_e with Jeffery's coefficients and their whole stress. The last two columns are what σ_12 \
-         would be \
-         without collisions, by closed forms: free rods that started isotropic, in the mean over a period, and rods \
-         in the orbits of \
-         weak rotary diffusion (Leal & Hinch 1971). Both have N₁ = N₂ = 0, for their phases are even.",
+         flow; N₁ = σ₂₂ − σ₁₁, N₂ = σ₁₁ − σ₃₃. What forces between colliding rods add is not in it. μ_fiber is the \
+         leading order for slender rods; the next column has σ_12 of spheroids of that r_e with Jeffery's coefficients \
+         and their whole stress. The last two columns are what σ_12 would be without collisions, by closed forms: free \
+         rods that started isotropic, in the mean over a period, and rods in the orbits of weak rotary diffusion (Leal \
+         & Hinch 1971). Both have N₁ = N₂ = 0, for their phases are even.",
         rows,
         columns,
     )
@@ -221,8 +213,7 @@ fn against_concentration(rows: &[Coefficients]) -> ReportFigure {
         ["effective-ci", "The effective Folgar–Tucker coefficient of the model"],
         format!(
             "Steady C_I with 95 % intervals, with `kick` at {FINER} times the default's time steps. It grows about as \
-                the square root of n a³, falls \
-             with r_e and grows nearly in proportion to α."
+             the square root of n a³, falls with r_e and grows nearly in proportion to α."
         ),
         ["log n a³", "log C_I"],
     )
@@ -236,8 +227,7 @@ fn beside_measured(base: &[&Coefficients]) -> ReportFigure {
     ReportFigure::new(
         ["folgar-tucker", "The effective Folgar–Tucker coefficient"],
         "Steady C_I of the model for n a³ up to 1, at the finer time step of its table, with 95 % intervals, beside \
-            seven measured values of suspensions that \
-         are not dilute (n a³ above 3, second-hand). Nothing is fitted.",
+         seven measured values of suspensions that are not dilute (n a³ above 3, second-hand). Nothing is fitted.",
         ["log φ r_p", "log C_I"],
     )
     .points([

@@ -57,8 +57,7 @@ fn fig4(runs: &Runs, effort: &Effort) -> Result<ReportFigure, String> {
     }
     figure.caption = format!(
         "The oscillation of X̄₁ about a plateau dies out, faster where n is larger. The maxima stay at multiples of \
-            T/2. \
-         {supplied}"
+         T/2. {supplied}"
     );
     Ok(figure)
 }
@@ -70,8 +69,7 @@ fn fig4_differences(runs: &Runs) -> Result<ReportFigure, String> {
     Ok(ReportFigure::new(
         ["fig4-differences", "Fig. 4: what a larger concentration changes in X̄₁"],
         "Where n is larger, the maxima are lower and the minima higher. Replicas with the same random numbers are \
-            compared, so \
-         that the band is narrower than those of the curves.",
+         compared, so that the band is narrower than those of the curves.",
         ["time t/T (periods)", "difference of X̄₁ (rod lengths)"],
     )
     .curves([50, 100].map(curve).into_iter().collect::<Result<Vec<_>, String>>()?)
@@ -89,8 +87,7 @@ pub(super) fn answer(runs: &Runs) -> Result<String, String> {
     };
     Ok(format!(
         "In Fig. 4 X̄₁ at its maximum at t/T = 2 is {}, {} and {} per cm³ (95 %); measured points are needed to say \
-            whether \
-         nature does so too.",
+         whether nature does so too.",
         at(20)?,
         at(50)?,
         at(100)?
@@ -104,8 +101,7 @@ fn fig5(runs: &Runs, effort: &Effort) -> Result<ReportFigure, String> {
     let supplied = measured("fig5", effort, &mut figure.figure)?;
     figure.caption = format!(
         "The oscillations are damped out by t/T = 3, and X̄₁ stays where it is. X̄₃ still falls slowly and X̄₂ rises: \
-            the \
-         orbits become steady later than the phases, and `steady-stays-put` judges what comes then. {supplied}"
+         the orbits become steady later than the phases, and `steady-stays-put` judges what comes then. {supplied}"
     );
     Ok(figure)
 }
@@ -121,8 +117,8 @@ fn fig6_overlaid(runs: &Runs) -> Result<ReportFigure, String> {
     Ok(against_time(
         ["fig6", "Fig. 6: X̄₁ without damping, with unequal sizes, with collisions"],
         "Fig. 6, eq. 4",
-        "The spread of r_e alone, and collisions alone, damp the oscillation; free rods of one size keep it. The \
-         three panels below have all projections.",
+        "The spread of r_e alone, and collisions alone, damp the oscillation; free rods of one size keep it. The three \
+         panels below have all projections.",
         (PROJECTION, 0.5),
         curves.into_iter().collect::<Result<_, String>>()?,
     ))
@@ -160,9 +156,8 @@ const AMPLITUDES: [(u32, Compared, &str, &str); 4] = [
         &[("fig7-n20", "n = 20 cm⁻³"), ("fig7-n50", "n = 50 cm⁻³"), ("fig7-n100", "n = 100 cm⁻³")],
         "A₁ and the concentration",
         "The amplitude decays faster where n is larger. A₁ is the height of a maximum of X̄₁ above the mean of the \
-            minima \
-         on its two sides: the paper defines it in a drawing that is not at hand, and this reading gives free rods of \
-         one size the \"approximately 1/2\" of its text.",
+         minima on its two sides: the paper defines it in a drawing that is not at hand, and this reading gives free \
+         rods of one size the \"approximately 1/2\" of its text.",
     ),
     (
         8,
@@ -216,8 +211,8 @@ fn fig11(runs: &Runs) -> Result<ReportFigure, String> {
     let ratios = (4..=220).map(|k| 0.25 * f64::from(k));
     let caption = format!(
         "The steady mean angle of interacting rods lies close to the time average of a single rod, π/4 at r_e = 1 and \
-         towards π/2 for long rods. Each point is the mean over the last {STEADY_PERIODS} periods of ten, with its \
-         95 % interval."
+         towards π/2 for long rods. Each point is the mean over the last {STEADY_PERIODS} periods of ten, with its 95 \
+         % interval."
     );
     Ok(ReportFigure::new(
         ["fig11", "Fig. 11: the steady mean angle and the aspect ratio"],
@@ -236,8 +231,8 @@ fn fig12(runs: &Runs) -> Result<ReportFigure, String> {
     Ok(against_time(
         ["fig12", "Fig. 12: planar projections, n = 50 cm⁻³, σ = 3.6 %"],
         "Fig. 12, eq. 21",
-        "Rods lie along the flow most of the time: their shadows on the two planes that hold axis 2 are long, \
-         and the third oscillates most. The paper's figure shows typical results only.",
+        "Rods lie along the flow most of the time: their shadows on the two planes that hold axis 2 are long, and the \
+         third oscillates most. The paper's figure shows typical results only.",
         ("planar projection (rod lengths)", 1.0),
         curves.into(),
     ))

@@ -173,9 +173,8 @@ fn steps(study: &Limit) -> ReportTable {
         ["kick-rates", "Kicks per rod and period against the step"],
         format!(
             "Scene {SCENE} (σ = 3.6 %), t/T from 0 to 2, {} replicas. A kick is |ṗ′ − ṗ|Δt. Kicks above 0.1 rad are \
-                also told \
-             apart by what the liquid does to the gap between the contact points, and stand beside the formula for \
-             fresh arms with the directions of the run. `kick-formula`, `kick-memory`",
+             also told apart by what the liquid does to the gap between the contact points, and stand beside the \
+             formula for fresh arms with the directions of the run. `kick-formula`, `kick-memory`",
             study.replicas[0]
         ),
         &study.steps,
@@ -209,8 +208,7 @@ fn periods(study: &Limit) -> ReportTable {
         ["kicks-by-period", "Kicks per rod and period as the rods align"],
         format!(
             "Scene {SCENE} (σ = 3.6 %) at {PERIODS_AT} steps a period, {} replicas. The rate follows the directions: \
-                the formula \
-             is evaluated with those of the run.",
+             the formula is evaluated with those of the run.",
             study.replicas[0]
         ),
         &study.periods,
@@ -223,8 +221,7 @@ fn exponents(study: &Limit) -> ReportTable {
     ReportTable::new(
         ["kick-tail", "The exponent of the kicks' tail, by Hill's estimate"],
         "Rods of Fig. 4 (σ = 3.6 %). From all kicks above a threshold chosen beforehand; the standard error is α over \
-            the root of their number. \
-         An arm of any size gives 1; a shortest arm cuts the tail off. `kick-tail`",
+         the root of their number. An arm of any size gives 1; a shortest arm cuts the tail off. `kick-tail`",
         &study.tails,
         vec![
             words("kicks", |t: &Tail| t.0.clone()),
@@ -263,8 +260,7 @@ fn update(study: &Limit) -> ReportTable {
         format!(
             "50 rods at 400 per cm³, r_e = 11.6, t/T = 1, {} replicas with the same draws. A kick of finite angle ends \
              elsewhere by either update, however short the step: with arms of every size the two have different \
-             limits. \
-             `updates-in-the-limit`",
+             limits. `updates-in-the-limit`",
             2 * study.replicas[1]
         ),
         &study.updates,
@@ -290,8 +286,7 @@ fn figure(study: &Limit) -> ReportFigure {
         format!(
             "Scene {SCENE}, t/T from 0 to 2, with 95 % bars. Kicks of closing pairs come at the formula's rate at any \
              step; those of opening pairs die out as Δt → 0, because a pair's earlier collisions push the arm away \
-             from \
-             0."
+             from 0."
         ),
         ["log steps per period", "kicks per rod and period"],
     )

@@ -160,8 +160,7 @@ fn free(what: &'static str, sd_percent: f64, target: Target, one: &rayon::Thread
         unit: "ns",
         behind: format!(
             "10⁴ rods, projections with standard errors, one core; {:.2} ns with the draws and 51 outputs; a root and \
-                a quotient alone \
-             take {:.2} ns",
+             a quotient alone take {:.2} ns",
             per_rod(few, 51.0),
             per_rod(roots, 100.0)
         ),
@@ -254,7 +253,7 @@ fn held() -> Check {
         unit: "bytes",
         behind: format!(
             "10⁶ rods; place, direction and its step are 52, the rest is the search and collisions; {:.1} with an r_e \
-                of its own",
+             of its own",
             bytes(3.6)
         ),
     }

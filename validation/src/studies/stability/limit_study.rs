@@ -33,8 +33,7 @@ const SHOWN: [Shown; 6] = [
         name: "step-limit-turning",
         title: "The longest step GΔt with which every rod turns",
         caption: "Of 512 rods in the plane of shear each turns forward in a step, by less than half a turn; half a \
-            turn is rest. \
-                  Exact motion has half a period.",
+            turn is rest. Exact motion has half a period.",
         property: Property::Turning,
         picture: Some(["The longest step with which every rod turns", "step-limit-turning"]),
     },
@@ -64,8 +63,7 @@ const SHOWN: [Shown; 6] = [
         name: "step-limit-orbit",
         title: "The longest step GΔt that keeps the orbit",
         caption: "C_b within 0.1 of its start after ten periods. The ladder's factor is 1.25: narrower gaps are not \
-            seen. There is \
-                  no closed form.",
+            seen. There is no closed form.",
         property: Property::Orbit,
         picture: None,
     },
@@ -132,9 +130,8 @@ fn figure(shown: &Shown, [title, case]: [&str; 2], subjects: &[&Integrator]) -> 
     });
     ReportFigure::new(
         [shown.name, &format!("{title}: theory and bisection")],
-        "Points by bisection between 512 rods; the numbers are in the table of the same name. A point that is \
-         missing has no limit up to GΔt = 941. Projected RK4 lies on RK4 in p, and in the plane of shear RKMK4 on RK4 \
-         in \
+        "Points by bisection between 512 rods; the numbers are in the table of the same name. A point that is missing \
+         has no limit up to GΔt = 941. Projected RK4 lies on RK4 in p, and in the plane of shear RKMK4 on RK4 in \
          angles.",
         ["log aspect ratio r_e", "log longest step GΔt"],
     )

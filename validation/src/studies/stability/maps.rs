@@ -85,12 +85,10 @@ fn steps(subjects: &[Integrator]) -> ReportFigure {
     figure(
         ["stability-steps", "Stability by step and aspect ratio"],
         format!(
-            "Runs end during a flip, at φ = 1 rad, after one period or twenty steps, whichever is more; at short \
-                steps after \
-             {MOST_STEPS} of them. Right: within 10⁻² rad of the closed form. The black line is theory's longest step \
-             without overtaking, where there is one: a step is inaccurate long before. The exact propagator takes no \
-             steps \
-             and is right everywhere."
+            "Runs end during a flip, at φ = 1 rad, after one period or twenty steps, whichever is more; at short steps \
+             after {MOST_STEPS} of them. Right: within 10⁻² rad of the closed form. The black line is theory's longest \
+             step without overtaking, where there is one: a step is inaccurate long before. The exact propagator takes \
+             no steps and is right everywhere."
         ),
         ["step GΔt", "aspect ratio r_e"],
         Grid {

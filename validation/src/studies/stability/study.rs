@@ -98,8 +98,7 @@ fn corners_table() -> ReportTable {
         ["stability-core", "The core in the corners of plane Couette flow"],
         format!(
             "The worst over G = 10⁻³⁰, ½ and 10³⁰ 1/s, {} durations from 10⁻⁹ to 10⁸ periods, and {} starts: both \
-                poles, \
-             the flip, C = 0, 10⁻³⁰⁰, 10³⁰⁰, ∞. ε = 2.2·10⁻¹⁶. Bounds: 4 ε, 8 ε, and 1.",
+             poles, the flip, C = 0, 10⁻³⁰⁰, 10³⁰⁰, ∞. ε = 2.2·10⁻¹⁶. Bounds: 4 ε, 8 ε, and 1.",
             corners::TURNS.len(),
             map::places(2.0).len()
         ),

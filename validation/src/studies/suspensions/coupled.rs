@@ -145,11 +145,10 @@ pub fn table(coupled: &Coupled) -> ReportTable {
         ["suspension-coupled", "Shared random numbers: the factor by which they save runs"],
         format!(
             "Levels in Δt ({} and {} steps per period, same seeds) are tied by their starts alone: the gain with \
-                coarse runs \
-             at an eighth of the cost, and the largest gain if coarse runs cost nothing; below 1 it costs more than \
-             it saves. The same rods without collisions, whose mean has a closed form, give more for less. Common \
-             random numbers pay for a difference, here between α and 0.8 α. {} replicas (`shared-random-numbers`, \
-             `paths-do-not-converge`).",
+             coarse runs at an eighth of the cost, and the largest gain if coarse runs cost nothing; below 1 it costs \
+             more than it saves. The same rods without collisions, whose mean has a closed form, give more for less. \
+             Common random numbers pay for a difference, here between α and 0.8 α. {} replicas \
+             (`shared-random-numbers`, `paths-do-not-converge`).",
             coupled.steps_per_period,
             2 * coupled.steps_per_period,
             coupled.replicas

@@ -210,11 +210,9 @@ fn splits_csv(study: &Interacting) -> Result<String, String> {
 fn rule(constants: &Constants) -> String {
     format!(
         "Mean-square error = (b/S + c N^(−1/3))² + v/(N M) for S steps per period, N rods and M replicas, with b = \
-            {:.2} \
-         for S ≥ {}, c = {:.3} (each the largest that its standard error allows: estimate + 2 se) and v = {:.3}; cost \
-         = \
-         N M S. With the scene's own rods S = √3 b/ε and N M = 3v/(2ε²), or the fewest steps and N M = \
-         v/(ε² − (b/S)²) where that is more; without faces as many rods in as few replicas as there may be.",
+         {:.2} for S ≥ {}, c = {:.3} (each the largest that its standard error allows: estimate + 2 se) and v = {:.3}; \
+         cost = N M S. With the scene's own rods S = √3 b/ε and N M = 3v/(2ε²), or the fewest steps and N M = v/(ε² − \
+         (b/S)²) where that is more; without faces as many rods in as few replicas as there may be.",
         constants.steps_bias, constants.fewest_steps, constants.rods_bias, constants.variance_per_rod
     )
 }
@@ -272,8 +270,7 @@ fn answers(study: &Interacting) -> ReportTable {
         ],
         format!(
             "{} A rod's step takes {} on one core. The error includes the bias of the steps; the second half counts \
-                that \
-             of the faces too. Realised errors are counted from {} (`cheapest-split`).",
+             that of the faces too. Realised errors are counted from {} (`cheapest-split`).",
             rule(&study.constants),
             time(study.rod_step_s),
             references.join(" and ")
@@ -312,8 +309,8 @@ fn figure(study: &Interacting) -> ReportFigure {
             "Interacting rods: total error of X̄₁ at t/T = 1 against run time",
         ],
         format!(
-            "Scene {}. With a fixed step and fixed rods, more replicas end at the bias, here counted from Δt → 0 and \
-             N → ∞; a realised error below its curve is a bias that is smaller than the largest that was allowed for.",
+            "Scene {}. With a fixed step and fixed rods, more replicas end at the bias, here counted from Δt → 0 and N \
+             → ∞; a realised error below its curve is a bias that is smaller than the largest that was allowed for.",
             study.scene
         ),
         ["log run time on one core (s)", "log rms error of X̄₁, bias at most"],

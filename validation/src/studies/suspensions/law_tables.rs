@@ -26,8 +26,7 @@ fn order_in_words(law: &Law) -> String {
             let read = if line.slope.abs() >= 2.0 * line.slope_se { "" } else { " (not readable)" };
             format!(
                 " A first-order bias b/S fits from {from} steps on with b = {:+.3} ± {:.3}{read}, p = {fits}; at Δt = \
-                    0 X̄₁ = \
-                 {:.5} ± {:.5}.",
+                 0 X̄₁ = {:.5} ± {:.5}.",
                 line.slope, line.slope_se, line.intercept, line.intercept_se
             )
         }
@@ -49,9 +48,8 @@ fn steps(law: &Law, strain: f64) -> ReportTable {
         ["steps", "X̄₁ at t/T = 1 against the steps per period: convergence in law"],
         format!(
             "Differences are to the next finer step at the same seeds; not readable: below two standard errors. The \
-                last \
-             two columns: the difference of the distribution functions of |p_1| and of C_b, of nine places where it is \
-             largest in its standard errors (below 2.8 of them it is chance, 19 times in 20). {}",
+             last two columns: the difference of the distribution functions of |p_1| and of C_b, of nine places where \
+             it is largest in its standard errors (below 2.8 of them it is chance, 19 times in 20). {}",
             order_in_words(law)
         ),
         rows,
@@ -110,8 +108,8 @@ fn rods(law: &Law) -> ReportTable {
         ["rods", "X̄₁ at t/T = 1 against the rods"],
         format!(
             "Rods near a face of the volume lack neighbours, and the share of the volume near faces is ∝ N^(−1/3) \
-             (`faces-cost-collisions`). {}; {}. p is the probability that a right line fits no better by chance. \
-             These points cannot distinguish N^(−1/2) from N^(−1/3).",
+             (`faces-cost-collisions`). {}; {}. p is the probability that a right line fits no better by chance. These \
+             points cannot distinguish N^(−1/2) from N^(−1/3).",
             line(0, "N^(−1/3)"),
             line(1, "N^(−1)")
         ),

@@ -40,7 +40,7 @@ fn equation(gradient: [[f64; 3]; 3], closure: Closure, c_i: f64) -> Equation {
 }
 
 fn apart(a: &Matrix3<f64>, exact: &Means) -> f64 {
-    crate::methods::tensors::closures::PAIRS
+    crate::methods::tensors::fourth::PAIRS
         .iter()
         .zip(exact.second)
         .map(|(place, x)| (a[*place] - x).abs())

@@ -30,7 +30,7 @@ fn run(request: &Request) -> Result<Option<Findings>, String> {
     let map = ReportFigure::new(
         ["closures-error", "What a closure costs in steady shear"],
         "The largest error of the steady a_ij, Λ = 1. No closure is exact with diffusion; the table has the other \
-            flows.",
+         flows.",
         ["log C_I", "log largest error of a_ij"],
     )
     .curves(Closure::ALL.map(curve))
@@ -42,8 +42,8 @@ fn run(request: &Request) -> Result<Option<Findings>, String> {
     let price = ReportFigure::new(
         ["closures-work-precision", "Work and precision: closures and the exact solution"],
         "a_ij at strains of 1 to 20 from isotropic rods, shear, C_I = 0.01. Tolerances of 10⁻² to 10⁻⁸ of Dormand & \
-            Prince's method; \
-         the exact solution with its stated error. Smaller tolerances do not lower the error of a closure.",
+         Prince's method; the exact solution with its stated error. Smaller tolerances do not lower the error of a \
+         closure.",
         ["log time (ms)", "log largest error of a_ij"],
     )
     .curves(Closure::ALL.map(beside))
@@ -52,8 +52,7 @@ fn run(request: &Request) -> Result<Option<Findings>, String> {
     let table = ReportTable::new(
         [STUDY.name, "Steady tensors by closures"],
         "Λ = 1. A closure is left out where no steady state of it was found: the linear one leaves the possible \
-            tensors where a flow \
-         stretches.",
+         tensors where a flow stretches.",
         rows.iter().copied(),
         vec![
             words("flow", |row: &Off| row.flow),
@@ -102,10 +101,9 @@ fn answer(work: &[Work], fitted: &[Fitted]) -> String {
     let of = |method: &str| fitted.iter().find(|row| row.method == method).map_or(f64::NAN, |row| row.c_i);
     format!(
         "In the start-up of shear at C_I = 0.01 no closure comes nearer to a_ij than {least:.1e}, whatever its \
-            tolerance. The quickest \
-         takes {:.2} ms, the exact solution {:.0} ms: affordable for single histories, not for each cell of a flow \
-         solver. A C_I \
-         fitted through a closure is not D_r/γ̇: {:.4} by IBOF where the distribution has {:.4}.",
+         tolerance. The quickest takes {:.2} ms, the exact solution {:.0} ms: affordable for single histories, not for \
+         each cell of a flow solver. A C_I fitted through a closure is not D_r/γ̇: {:.4} by IBOF where the \
+         distribution has {:.4}.",
         1e3 * quickest,
         1e3 * work[0].seconds,
         of("IBOF"),

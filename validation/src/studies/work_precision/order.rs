@@ -114,8 +114,7 @@ fn of_all(aspect_ratio: f64, phi: f64, theta: f64, turns: f64, whose: &str) -> O
     Orders {
         problem: format!(
             "One rod of r_e = {aspect_ratio} from φ = {phi:.4} and θ = {theta:.4} rad ({whose}) over {:.5} periods, \
-                into a flip, \
-             to φ = 1 rad",
+             into a flip, to φ = 1 rad",
             problem.turns
         ),
         studies: (integrators::all().iter())

@@ -91,8 +91,8 @@ pub(super) fn figure(bench: &Bench) -> ReportFigure {
             &format!("Error against run time, one rod, r_e = {}", bench.aspect_ratio),
         ],
         format!(
-            "One rod over {:.5} periods, into a flip; the least of repeated runs, on one core. \
-             An error of 0 is drawn at {LEAST:.0e}, a run that failed at {FAILED}.",
+            "One rod over {:.5} periods, into a flip; the least of repeated runs, on one core. An error of 0 is drawn \
+             at {LEAST:.0e}, a run that failed at {FAILED}.",
             bench.turns
         ),
         ["log run time (s)", "log angle to the closed form (rad)"],
@@ -228,9 +228,8 @@ pub fn orders_table(orders: &Orders) -> ReportTable {
         ["orders", "Observed order, Richardson's value and grid convergence index"],
         format!(
             "{}. The core itself takes no step for a free rod: these are the orders of integrators that do. Orders of \
-                the \
-             angle's error on the last two pairs before round-off, negative where it grows; the rest is of |p_1|, from \
-             three grids: its index is to bound its error.",
+             the angle's error on the last two pairs before round-off, negative where it grows; the rest is of |p_1|, \
+             from three grids: its index is to bound its error.",
             orders.problem
         ),
         &orders.studies,

@@ -11,8 +11,7 @@ fn the_scatter_of_rods_in_u_is_asked_for_and_its_effect_said() {
     let run = shearbed(
         dir.path(),
         "run small.toml --set interaction.alpha=0.8 --set particles.count=100 --set time.outputs_per_period=20 --seed \
-            7 --replicas 1 \
-         --out one",
+         7 --replicas 1 --out one",
     );
     assert_eq!(run.code, Some(0), "{}", run.stderr);
     let mut csv = csv::Reader::from_path(dir.path().join("one/projections.csv")).unwrap();
@@ -27,7 +26,7 @@ fn the_scatter_of_rods_in_u_is_asked_for_and_its_effect_said() {
             dir.path(),
             &format!(
                 "fit small.toml --data points.csv --over interaction.alpha=0.05:5 --replicas 50 --out fit --force \
-                    {flags}"
+                 {flags}"
             ),
         );
         assert_eq!(done.code, Some(0), "{flags}: {}", done.stderr);

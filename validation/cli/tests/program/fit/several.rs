@@ -21,8 +21,7 @@ fn two_parameters_have_intervals_that_end_apart_or_no_answer() {
     let done = shearbed(
         dir.path(),
         "fit fig4-n50 --data twenty.csv --over interaction.alpha=0.05:5 --over interaction.m=1:6 --set \
-            particles.count=50 \
-         --out out --quiet",
+         particles.count=50 --out out --quiet",
     );
     if done.code == Some(2) {
         assert!(done.stderr.contains("--over "), "{}", done.stderr);

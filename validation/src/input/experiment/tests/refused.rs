@@ -21,7 +21,7 @@ fn bad_points_are_refused_with_their_line() {
         (
             "t_over_T,x1,x1_u\n0.5,0.4,1e300\n",
             "a.csv:2: column x1_u: `1e300` is not allowed: expected one standard deviation from 6e-13 to 0.6, the \
-                width of the axis",
+             width of the axis",
         ),
         ("t_over_T,x1,x1_u\n0.5,0.4,1e-300\n", "a.csv:2: column x1_u: `1e-300` is not allowed"),
         ("t_over_T,x1\n0.5,0.4\n2.1,0.3\n", "a.csv:3: x = 2.1 is not allowed: the axis is calibrated from 0 to 2"),
@@ -78,7 +78,7 @@ fn bad_provenance_is_refused_with_its_line() {
             "csv = \"columns\"",
             "csv = \"columns\"\naspect_ratio = 3.96",
             "a.toml:7: aspect_ratio = 3.96 is not allowed: expected the mean r_e of the measured rods, 11.6 in \
-                fig4-n50; the paper leaves",
+             fig4-n50; the paper leaves",
         ),
         ("\"fraction\"", "\"a\"", "a.toml:12: y.quantity = \"a\" is not allowed: expected \"fraction\""),
         ("quantity = \"t_over_T\"\n", "", "a.toml:7: x.quantity is missing: expected \"t_over_T\""),

@@ -6,6 +6,7 @@ mod ladder;
 pub mod pipe;
 mod program;
 mod protocol;
+mod request;
 mod studies;
 mod text;
 

@@ -254,7 +254,5 @@ fn keep_last_words(mut stderr: ChildStderr, kept: &Mutex<Vec<u8>>) {
 
 /// The start of a text, for messages.
 pub fn excerpt(text: &str) -> String {
-    let start: String = text.chars().take(60).collect();
-    let more = if start.len() < text.len() { "…" } else { "" };
-    format!("`{}{more}`", text::line(&start))
+    format!("`{}`", text::line(&text::start_of(text, 60)))
 }

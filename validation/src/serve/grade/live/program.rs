@@ -1,7 +1,8 @@
 //! A program that answers requests, kept within its limits, and restarted after a breach of the protocol.
 
 use super::pipe::{Pipe, Trouble};
-use super::protocol::{Answer, Protocol, Request};
+use super::protocol::Protocol;
+use super::request::{Answer, Request};
 use crate::methods::integrators::{Failure, Integrator, RodProblem, Setting, Theory};
 use crate::serve::grade::Axes;
 use nalgebra::{UnitVector3, Vector3};

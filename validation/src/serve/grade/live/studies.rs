@@ -137,7 +137,7 @@ impl Studies {
             "grade-stability",
             "What becomes of a rod",
             "= at round-off, + within 10⁻² rad, w stable but wrong, L length lost, N not finite, R refused with an \
-                error.",
+             error.",
             &[&format!("r_e, by {what}")],
             rows.iter().map(row).collect(),
         );

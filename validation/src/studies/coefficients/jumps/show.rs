@@ -54,8 +54,8 @@ pub(in crate::studies::coefficients) fn tables(all: &[Compared], effort: &Effort
         ["kicks-and-diffusion", "Kicks and diffusion of the same C_I"],
         format!(
             "Per cent of the rods (± a standard error over {replicas} replicas) that a strain leaves off Jeffery's \
-             motion by more than an angle, or in another orbit by more than |ΔC_b|; last, those with C_b > ½. \
-             n a³ = 0.2, r_e = 11.6, α = 0.5, steady; diffusion of the C_I that was measured at the same time step."
+             motion by more than an angle, or in another orbit by more than |ΔC_b|; last, those with C_b > ½. n a³ = \
+             0.2, r_e = 11.6, α = 0.5, steady; diffusion of the C_I that was measured at the same time step."
         ),
         sides(all),
         columns,
@@ -76,9 +76,8 @@ pub(in crate::studies::coefficients) fn tables(all: &[Compared], effort: &Effort
     let distances = ReportTable::new(
         ["steady-orbits", "How far kicks and diffusion are apart"],
         "The largest difference between the two distribution functions, and the probability that the replicas dealt \
-            out at random \
-         are as far apart (999 deals, so 0.001 at least). The phase is atan(tan φ/r_e), through which free rods pass \
-         evenly.",
+         out at random are as far apart (999 deals, so 0.001 at least). The phase is atan(tan φ/r_e), through which \
+         free rods pass evenly.",
         rows,
         vec![
             field("steps ×", |(one, ..): &(&Compared, _, _)| one.setting.finer),
@@ -109,8 +108,7 @@ pub(in crate::studies::coefficients) fn figures(one: &Compared) -> [ReportFigure
     let jumps = ReportFigure::new(
         ["kicks-and-diffusion", "Rods off Jeffery's motion after a strain of 1"],
         "Kicks leave most rods alone and turn few far, diffusion of the same C_I turns all a little. Jumps κ with a \
-            tail ∝ 1/κ \
-         make cot x of the angles x between lines; its height is taken from the kicks at 0.2 rad.",
+         tail ∝ 1/κ make cot x of the angles x between lines; its height is taken from the kicks at 0.2 rad.",
         ["log angle in rad", "log share of rods beyond it"],
     )
     .curves(curves(Quantity::Angle))
@@ -119,19 +117,14 @@ pub(in crate::studies::coefficients) fn figures(one: &Compared) -> [ReportFigure
     let orbits = ReportFigure::new(
         ["steady-orbits", "Steady orbits"],
         "C_b = C/(1 + C) is 0 along the vorticity axis and 1 in the shear plane. Collisions leave more rods in high \
-            orbits than \
-         isotropic directions have, diffusion fewer: its rods follow the closed form of weak diffusion (Leal & Hinch \
-         1971).",
+         orbits than isotropic directions have, diffusion fewer: its rods follow the closed form of weak diffusion \
+         (Leal & Hinch 1971).",
         ["C_b", "share of rods above it"],
     )
     .curves(curves(Quantity::Orbit))
     .curves([
         closed("weak diffusion, closed form", cdf),
-        closed(
-            "isotropic directions, closed \
-        form",
-            orbit_constant_cdf,
-        ),
+        closed("isotropic directions, closed form", orbit_constant_cdf),
     ]);
     [jumps, orbits].map(|figure| {
         figure.judged("Folgar & Tucker 1984; eqs 5 to 10", &["kicks-are-no-diffusion", "orbits-of-collisions"])

@@ -134,8 +134,7 @@ fn beside(
 fn jumping([one, other]: [u64; 2], [error, other_error]: [f64; 2]) -> String {
     format!(
         "with {one} steps it is off by {error:.1e}, with {other} by {other_error:.1e}: a method's error does not jump \
-            so between two \
-         numbers of steps"
+         so between two numbers of steps"
     )
 }
 

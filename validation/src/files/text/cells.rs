@@ -1,0 +1,83 @@
+//! Cells of tables: on a terminal, and in CSV.
+
+use super::readable::readable;
+
+/// A number with four decimals, or as a power of ten where it would have hundreds of digits.
+pub fn four_decimals(x: f64) -> String {
+    if x.abs() < 1e12 { format!("{x:.4}") } else { format!("{x:.4e}") }
+}
+
+/// Rows of cells as lines of columns that are aligned on the left.
+pub fn left_aligned(rows: &[Vec<String>]) -> String {
+    aligned(rows, |cell, width| format!("{cell:<width$}"))
+}
+
+/// Rows of cells as lines of columns that are aligned on the right.
+pub fn right_aligned(rows: &[Vec<String>]) -> String {
+    aligned(rows, |cell, width| format!("{cell:>width$}"))
+}
+
+fn aligned(rows: &[Vec<String>], pad: impl Fn(&str, usize) -> String) -> String {
+    let columns = rows.iter().map(Vec::len).max().unwrap_or(0);
+    let width = |column: usize| {
+        let cells = rows.iter().filter_map(|row| row.get(column));
+        cells.map(|cell| cell.chars().count()).max().unwrap_or(0)
+    };
+    let widths: Vec<_> = (0..columns).map(width).collect();
+    let line = |row: &Vec<String>| {
+        let cells: Vec<_> = row.iter().zip(&widths).map(|(cell, width)| pad(cell, *width)).collect();
+        cells.join("  ").trim_end().to_owned() + "\n"
+    };
+    rows.iter().map(line).collect()
+}
+
+/// A CSV cell that no spreadsheet treats as a formula: a text that begins like a formula gets an apostrophe before it.
+/// Numbers are unchanged.
+pub(crate) fn cell(text: &str) -> String {
+    // Full-width forms too, which East Asian spreadsheets treat like the others.
+    let formula = text.starts_with(['=', '+', '-', '@', '\t', '\r', '\n', '|', '%', '＝', '＋', '－', '＠']);
+    let number = text.parse::<f64>().is_ok();
+    let mark = if formula && !number { "'" } else { "" };
+    format!("{mark}{}", readable(text))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn columns_are_as_wide_as_their_widest_cell() {
+        let rows = [vec!["α".to_owned(), "x1".to_owned()], vec!["0.25".to_owned(), "7".to_owned()]];
+        assert_eq!(left_aligned(&rows), "α     x1\n0.25  7\n");
+        assert_eq!(right_aligned(&rows), "   α  x1\n0.25   7\n");
+        assert_eq!(left_aligned(&[]), "");
+    }
+
+    #[test]
+    fn no_cell_is_a_formula() {
+        for (text, expected) in [
+            ("=cmd|' /C calc'!A0", "'=cmd|' /C calc'!A0"),
+            ("@SUM(1)", "'@SUM(1)"),
+            ("+1+2", "'+1+2"),
+            ("-2+3", "'-2+3"),
+            ("\t=1", "'\t=1"),
+            ("＝1+1", "'＝1+1"),
+            ("＋1", "'＋1"),
+            ("－1", "'－1"),
+            ("＠SUM(1)", "'＠SUM(1)"),
+            ("-1e-300", "-1e-300"),
+            ("+5", "+5"),
+            ("-inf", "-inf"),
+            ("rotation", "rotation"),
+            ("a\u{1b}b", r"a\u{1b}b"),
+        ] {
+            assert_eq!(cell(text), expected);
+        }
+    }
+
+    #[test]
+    fn no_number_has_hundreds_of_digits() {
+        let shown = [0.0, -2.5, 1e11, 1e12, -1e300].map(four_decimals);
+        assert_eq!(shown, ["0.0000", "-2.5000", "100000000000.0000", "1.0000e12", "-1.0000e300"]);
+    }
+}

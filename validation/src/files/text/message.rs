@@ -1,0 +1,130 @@
+//! Messages: short, and harmless on a terminal.
+
+use super::readable::{line, readable};
+use std::borrow::Cow;
+use std::io::Write;
+
+/// A message for the terminal: what commands one is written out, a number of many digits is a power of ten, the
+/// system's numbers of errors go, and the middle of a long text is left out.
+pub fn message(text: &str) -> String {
+    readable(&shortened(&with_short_numbers(&without_codes(text)))).into_owned()
+}
+
+/// Writes a text to standard error in one call: a reader of several processes' output joins the pieces as they arrive,
+/// possibly with another process's in between. Errors are ignored: then only the exit code and the files show the
+/// failure.
+pub fn complain(text: &str) {
+    let _ = std::io::stderr().write_all(text.as_bytes());
+}
+
+/// Limit of a message on the terminal, in characters.
+const MOST: usize = 8192;
+
+/// Limit of a value from a user's file in a message, in characters.
+const SNIPPET: usize = 40;
+
+/// At most `most` characters of a text, and `…` where it has more.
+pub fn start_of(text: &str, most: usize) -> String {
+    match text.char_indices().nth(most) {
+        Some((end, _)) => format!("{}…", &text[..end]),
+        None => text.to_owned(),
+    }
+}
+
+/// The start of a value in quotes, for a message: enough to find it in its file, and little of what may be private.
+pub fn snippet(value: &str) -> String {
+    format!("\"{}\"", line(&start_of(value, SNIPPET)).replace('"', "\\\""))
+}
+
+/// The text, with the middle left out if it is too long: the error is at the start of a message, and what is allowed at
+/// the end.
+pub(crate) fn shortened(text: &str) -> Cow<'_, str> {
+    let length = text.chars().count();
+    if length <= MOST {
+        return Cow::Borrowed(text);
+    }
+    let cut = |at: usize| text.char_indices().nth(at).map_or(text.len(), |(byte, _)| byte);
+    let (head, tail) = (&text[..cut(MOST / 4)], &text[cut(length - MOST / 4)..]);
+    let left_out = length - MOST / 4 * 2;
+    Cow::Owned(format!("{head} … ({left_out} characters are left out here) … {tail}"))
+}
+
+/// A text without ` (os error 2)` behind the system's words for it.
+fn without_codes(text: &str) -> String {
+    let mut parts = text.split(" (os error ");
+    let first = parts.next().unwrap_or_default().to_owned();
+    parts.fold(first, |text, part| {
+        let rest = part.trim_start_matches(|c: char| c.is_ascii_digit() || c == '-');
+        match rest.strip_prefix(')') {
+            Some(rest) if rest.len() + 1 < part.len() => text + rest,
+            _ => text + " (os error " + part,
+        }
+    })
+}
+
+/// The most characters of a number in a message.
+const DIGITS: usize = 24;
+
+/// A text in which a longer number is a power of ten. One that is cut, with `…` behind it, stays.
+fn with_short_numbers(text: &str) -> String {
+    let is_of_number = |c: char| c.is_ascii_digit() || c == '.';
+    let (mut short, mut rest) = (String::new(), text);
+    while let Some(start) = rest.find(is_of_number) {
+        let (before, from) = rest.split_at(start);
+        let (run, after) = from.split_at(from.find(|c| !is_of_number(c)).unwrap_or(from.len()));
+        // A full stop ends the sentence.
+        let number = run.trim_end_matches('.');
+        let value = number.parse::<f64>().ok().filter(|value| value.is_finite());
+        short += before;
+        match value {
+            Some(value) if number.len() > DIGITS && !after.trim_start().starts_with(['…', 'e']) => {
+                short += &format!("{value:e}{}", &run[number.len()..]);
+            }
+            _ => short += run,
+        }
+        rest = after;
+    }
+    short + rest
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_number_of_hundreds_of_digits_is_a_power_of_ten() {
+        for (text, short) in [
+            (format!("periods = {}: at most 1e6.", 1e300), "periods = 1e300: at most 1e6."),
+            (format!("-{} and {}.", 1.5e299, 1e-300), "-1.5e299 and 1e-300."),
+            ("0.1234567890123456789, 1.2.3, 2e5".into(), "0.1234567890123456789, 1.2.3, 2e5"),
+        ] {
+            assert_eq!(with_short_numbers(&text), short);
+        }
+        let kept = [format!("{} …", 1e30), format!("{}e5", 1e30), "9".repeat(400)];
+        kept.iter().for_each(|text| assert_eq!(with_short_numbers(text), *text));
+    }
+
+    #[test]
+    fn the_systems_words_have_no_number() {
+        let text = "a: Not found (os error 2); b: (os error ), c: denied (os error 13)\n";
+        assert_eq!(without_codes(text), "a: Not found; b: (os error ), c: denied\n");
+    }
+
+    #[test]
+    fn of_a_value_only_the_start_is_repeated() {
+        assert_eq!(snippet("zero"), "\"zero\"");
+        assert_eq!(snippet("a\nb\u{1b}\"c"), r#""a\nb\u{1b}\"c""#);
+        let secret = "x".repeat(40) + "the rest";
+        assert_eq!(snippet(&secret), format!("\"{}…\"", "x".repeat(40)));
+    }
+
+    #[test]
+    fn a_long_message_keeps_its_ends() {
+        let text = format!("key = {} is not allowed: ü", "é".repeat(1_000_000));
+        let short = shortened(&text);
+        assert!(short.chars().count() < 5000);
+        assert!(short.starts_with("key = é") && short.ends_with("is not allowed: ü"), "{short}");
+        assert!(short.contains("(995928 characters are left out here)"), "{short}");
+        assert_eq!(shortened("short"), "short");
+    }
+}

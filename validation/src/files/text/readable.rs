@@ -1,0 +1,115 @@
+//! Makes texts of other people harmless: on a terminal, in JSON, in XML.
+
+use std::borrow::Cow;
+use std::path::Path;
+
+/// True if a character controls a terminal, changes the direction of writing, is invisible, or is not allowed in HTML
+/// and SVG. Line feeds and tabulators are allowed.
+pub(super) fn commands(c: char) -> bool {
+    (c.is_control() && !matches!(c, '\n' | '\t'))
+        || matches!(c, '\u{2028}' | '\u{2029}' | '\u{fff9}'..='\u{fffb}' | '\u{fffe}' | '\u{ffff}')
+        || invisible(c)
+}
+
+/// True if fonts should draw nothing for a character (Unicode's Default_Ignorable_Code_Point), such as the zero-width
+/// space and those that change the direction of writing: names that differ only by such a character look the same.
+fn invisible(c: char) -> bool {
+    matches!(c,
+        '\u{ad}' | '\u{34f}' | '\u{61c}' | '\u{115f}' | '\u{1160}' | '\u{17b4}' | '\u{17b5}' | '\u{180b}'..='\u{180f}'
+        | '\u{200b}'..='\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2060}'..='\u{206f}' | '\u{3164}'
+        | '\u{fe00}'..='\u{fe0f}'
+        | '\u{feff}' | '\u{ffa0}' | '\u{fff0}'..='\u{fff8}' | '\u{1bca0}'..='\u{1bca3}' | '\u{1d173}'..='\u{1d17a}'
+        | '\u{e0000}'..='\u{e0fff}')
+}
+
+/// The text with every character of `commands` escaped, such as `\u{1b}`.
+pub fn readable(text: &str) -> Cow<'_, str> {
+    if !text.contains(commands) {
+        return Cow::Borrowed(text);
+    }
+    let written = |text: &mut String, c: char| if commands(c) { text.extend(c.escape_unicode()) } else { text.push(c) };
+    let mut all = String::new();
+    text.chars().for_each(|c| written(&mut all, c));
+    Cow::Owned(all)
+}
+
+/// JSON in which the characters that [`readable`] writes out are escaped too; it has the same values.
+pub(crate) fn json(text: &str) -> String {
+    let written = |text: &mut String, c: char| {
+        if commands(c) {
+            c.encode_utf16(&mut [0; 2]).iter().for_each(|unit| *text += &format!("\\u{unit:04x}"))
+        } else {
+            text.push(c)
+        }
+    };
+    let mut all = String::new();
+    text.chars().for_each(|c| written(&mut all, c));
+    all
+}
+
+/// A readable text inside XML or HTML, between tags or in quotes.
+pub(crate) fn escaped(text: &str) -> String {
+    let mut escaped = String::new();
+    for letter in readable(text).chars() {
+        match letter {
+            '&' => escaped += "&amp;",
+            '<' => escaped += "&lt;",
+            '>' => escaped += "&gt;",
+            '"' => escaped += "&quot;",
+            letter => escaped.push(letter),
+        }
+    }
+    escaped
+}
+
+/// A readable text on one line.
+pub fn line(text: &str) -> String {
+    readable(text).replace('\n', "\\n").replace('\t', " ")
+}
+
+/// A path in a message.
+pub trait Shown {
+    /// The path on one line, as [`line`] writes it.
+    fn shown(&self) -> String;
+}
+
+impl Shown for Path {
+    fn shown(&self) -> String {
+        line(&self.to_string_lossy())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_commands_a_terminal_is_written_out() {
+        assert_eq!(readable("α = 0.5\n\tX̄₁"), "α = 0.5\n\tX̄₁");
+        let hostile = "a\u{1b}]0;x\u{7}\u{9b}2J\rb\u{202e}c\u{7f}";
+        assert_eq!(readable(hostile), r"a\u{1b}]0;x\u{7}\u{9b}2J\u{d}b\u{202e}c\u{7f}");
+        assert_eq!(line("a\nerror: b\tc"), r"a\nerror: b c");
+        let unseen = "a\u{200b}b\u{ad}c\u{feff}d\u{2060}e\u{e0041}";
+        assert_eq!(readable(unseen), r"a\u{200b}b\u{ad}c\u{feff}d\u{2060}e\u{e0041}");
+        assert_eq!(readable("X̄₁, é, 中文, العربية"), "X̄₁, é, 中文, العربية");
+    }
+
+    #[test]
+    fn json_that_is_escaped_has_the_same_values() {
+        let value = serde_json::json!({ "a\u{202e}": "\u{9b}2J \u{1b} α\n\u{e0041}\u{7f}" });
+        let text = json(&serde_json::to_string_pretty(&value).unwrap());
+        assert!(!text.contains(commands) && text.contains("\\udb40\\udc41") && text.contains('α'), "{text}");
+        assert_eq!(serde_json::from_str::<serde_json::Value>(&text).unwrap(), value);
+    }
+
+    #[test]
+    fn a_path_stays_on_its_line() {
+        let path = Path::new("a\nerror: \u{200b}b.toml");
+        assert_eq!(path.shown(), r"a\nerror: \u{200b}b.toml");
+    }
+
+    #[test]
+    fn a_text_in_xml_is_no_markup() {
+        assert_eq!(escaped("<a href=\"x\">&\u{1}"), r"&lt;a href=&quot;x&quot;&gt;&amp;\u{1}");
+    }
+}

@@ -1,0 +1,33 @@
+//! What a program is asked, and what it answers.
+
+use serde::Serialize;
+
+/// A request: one line to the program.
+#[derive(Clone, Debug, Serialize)]
+pub struct Request<'a> {
+    /// The request's id, which ascends; the answer repeats it.
+    pub id: u64,
+    /// L in 1/s, row i and column j holding ∂u_i/∂x_j.
+    pub gradient_per_s: &'a [[f64; 3]; 3],
+    /// r_e.
+    pub aspect_ratio: f64,
+    /// The rods' directions at t = 0.
+    pub start: &'a [[f64; 3]],
+    /// The time in s of the directions to return.
+    pub end_s: f64,
+    /// The number of equal steps.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub steps: Option<u64>,
+    /// The relative and absolute tolerance, in place of steps.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub tolerance: Option<f64>,
+}
+
+/// The content of a well-formed answer.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Answer {
+    /// A direction for each rod; components that were NaN, infinite or null are NaN.
+    Directions(Vec<[f64; 3]>),
+    /// The program's own error.
+    Error(String),
+}
