@@ -5,7 +5,7 @@ mod tests;
 
 use super::{Amount, Check, Speed, Step, Target};
 use crate::judge::lab;
-use crate::methods::{plain_sum, sum_of_inverse_roots};
+use crate::methods::least_work::{plain_sum, sum_of_inverse_roots};
 use crate::oracle::naive::{Naive, NaiveProblem};
 use crate::oracle::reference::motion::{Motion, Unit};
 use crate::oracle::reference::table::{self, Start};
