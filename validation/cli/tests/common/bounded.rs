@@ -3,6 +3,7 @@
 
 #![allow(dead_code)] // Each test uses a part.
 
+use std::path::Path;
 use std::process::{Child, Command, Output, Stdio};
 use std::sync::mpsc::channel;
 use std::thread::spawn;
@@ -26,6 +27,15 @@ impl Bounded for Command {
         self.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
         end(&format!("{self:?}"), self.spawn().unwrap_or_else(|error| panic!("{self:?}: {error}")))
     }
+}
+
+/// Bash at commands in a folder; `shearbed` is the program of this build.
+pub fn bash(dir: &Path, commands: &str) -> Command {
+    let program = Path::new(env!("CARGO_BIN_EXE_shearbed")).parent().unwrap();
+    let mut bash = Command::new("bash");
+    bash.args(["-c", commands]).current_dir(dir);
+    bash.env("PATH", format!("{}:/usr/local/bin:/usr/bin:/bin", program.display()));
+    bash
 }
 
 /// Waits for the end of a process, and reads what it writes into pipes.

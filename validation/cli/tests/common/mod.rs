@@ -11,8 +11,9 @@ pub use bounded::PATIENCE;
 use bounded::Bounded;
 use std::collections::BTreeMap;
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::sync::LazyLock;
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 use tempfile::TempDir;
@@ -40,27 +41,12 @@ observables = ["projections", "mean_angle"]
 "#;
 
 /// The same with unequal rods and every observable of ⟨p⟩ and ⟨pp⟩.
-pub const UNEQUAL: &str = r#"title = "A small scene"
-[flow]
-shear_rate_per_s = 0.5
-[particles]
-count = 20
-length_mm = 0.72
-aspect_ratio = 11.6
-aspect_ratio_sd_percent = 3.6
-orientation = "isotropic"
-[interaction]
-concentration_per_cm3 = 50
-alpha = 0.5
-[time]
-periods = 1
-steps_per_period = 200
-outputs_per_period = 4
-[ensemble]
-replicas = 3
-[output]
-observables = ["projections", "planar_projections", "mean_angle", "orbit_constant", "orientation_tensor"]
-"#;
+pub static UNEQUAL: LazyLock<String> = LazyLock::new(|| {
+    SMALL.replace("= 11.6\n", "= 11.6\naspect_ratio_sd_percent = 3.6\n").replace(
+        "[\"projections\", \"mean_angle\"]",
+        r#"["projections", "planar_projections", "mean_angle", "orbit_constant", "orientation_tensor"]"#,
+    )
+});
 
 /// Free rods in random directions.
 pub const FREE: &str = r#"title = "Free rods"
@@ -75,19 +61,73 @@ orientation = "isotropic"
 periods = 1
 "#;
 
+/// A folder in which a test runs commands.
+pub struct Folder(TempDir);
+
+impl std::ops::Deref for Folder {
+    type Target = TempDir;
+
+    fn deref(&self) -> &TempDir {
+        &self.0
+    }
+}
+
+impl Folder {
+    pub fn at(&self, name: &str) -> PathBuf {
+        self.path().join(name)
+    }
+
+    pub fn write(&self, name: &str, text: impl AsRef<[u8]>) {
+        fs::create_dir_all(self.at(name).parent().unwrap()).unwrap();
+        fs::write(self.at(name), text).unwrap();
+    }
+
+    pub fn read(&self, name: &str) -> String {
+        read(&self.at(name))
+    }
+
+    pub fn json(&self, name: &str) -> serde_json::Value {
+        serde_json::from_str(&self.read(name)).unwrap()
+    }
+
+    pub fn files(&self, name: &str) -> BTreeMap<String, Vec<u8>> {
+        files(&self.at(name))
+    }
+
+    /// Runs a command that ends well.
+    pub fn runs(&self, arguments: &str) -> Ended {
+        let ended = shearbed(self.path(), arguments);
+        assert_eq!(ended.code, Some(0), "{arguments}: {}", ended.stderr);
+        ended
+    }
+
+    /// Runs a command that ends with 2 and a message with these words, and leaves every file as it was.
+    pub fn refuses(&self, arguments: &str, words: &str) {
+        let before = files(self.path());
+        let ended = shearbed(self.path(), arguments);
+        assert_eq!(ended.code, Some(2), "{arguments}: {}", ended.stderr);
+        assert!(ended.stderr.contains(words), "{arguments}: no {words:?} in {}", ended.stderr);
+        assert!(files(self.path()) == before, "{arguments}: files have changed");
+    }
+}
+
+pub fn empty_folder() -> Folder {
+    Folder(tempfile::tempdir().unwrap())
+}
+
 /// A folder with [`SMALL`] as `small.toml` in it.
-pub fn folder() -> TempDir {
+pub fn folder() -> Folder {
     folder_with(SMALL)
 }
 
 /// A folder with [`UNEQUAL`] as `small.toml` in it.
-pub fn unequal() -> TempDir {
-    folder_with(UNEQUAL)
+pub fn unequal() -> Folder {
+    folder_with(&UNEQUAL)
 }
 
-fn folder_with(scene: &str) -> TempDir {
-    let dir = tempfile::tempdir().unwrap();
-    fs::write(dir.path().join("small.toml"), scene).unwrap();
+fn folder_with(scene: &str) -> Folder {
+    let dir = empty_folder();
+    dir.write("small.toml", scene);
     dir
 }
 
@@ -107,16 +147,16 @@ pub struct Ended {
 
 /// Runs a command to its end.
 pub fn shearbed(dir: &Path, arguments: &str) -> Ended {
-    told(&mut command(dir, arguments))
+    ended(&mut command(dir, arguments))
 }
 
 /// The same under the limits that a shell sets first.
 pub fn limited(dir: &Path, limits: &str, arguments: &str) -> Ended {
     let script = format!("{limits}; exec {} {arguments}", env!("CARGO_BIN_EXE_shearbed"));
-    told(Command::new("bash").args(["-c", &script]).current_dir(dir))
+    ended(Command::new("bash").args(["-c", &script]).current_dir(dir))
 }
 
-fn told(command: &mut Command) -> Ended {
+fn ended(command: &mut Command) -> Ended {
     let output = command.ended();
     Ended {
         code: output.status.code(),
@@ -160,18 +200,30 @@ pub fn read(path: &Path) -> String {
     fs::read_to_string(path).unwrap()
 }
 
-/// Every file below a folder with its bytes.
+/// Every regular file below a folder with its bytes.
 pub fn files(dir: &Path) -> BTreeMap<String, Vec<u8>> {
-    let mut found = BTreeMap::new();
+    let mut all = BTreeMap::new();
     for entry in fs::read_dir(dir).unwrap() {
         let path = entry.unwrap().path();
         let name = path.file_name().unwrap().to_str().unwrap().to_owned();
         if path.is_dir() {
             let inner = files(&path).into_iter();
-            found.extend(inner.map(|(below, bytes)| (format!("{name}/{below}"), bytes)));
-        } else {
-            found.insert(name, fs::read(&path).unwrap());
+            all.extend(inner.map(|(below, bytes)| (format!("{name}/{below}"), bytes)));
+        } else if path.is_file() {
+            all.insert(name, fs::read(&path).unwrap());
         }
     }
-    found
+    all
+}
+
+/// All that a run leaves, and of `run.json` what is no time, thread, command or way by which the replicas were found.
+pub fn results(dir: &Path) -> (BTreeMap<String, Vec<u8>>, serde_json::Value) {
+    let mut all = files(dir);
+    let mut record: serde_json::Value = serde_json::from_slice(&all.remove("run.json").unwrap()).unwrap();
+    // It has the inputs, and the checksum of run.json.
+    all.remove("shearbed.json").unwrap();
+    for key in ["seconds", "threads", "command", "until_se"] {
+        record.as_object_mut().unwrap().remove(key);
+    }
+    (all, record)
 }

@@ -2,10 +2,9 @@
 //! runs where DOCS_SLOW is set, as in `.ci/run`; or `sh,no-run`, for what needs a network or another machine. A block
 //! `text` right after it is what it prints; `…` stands for anything.
 
-use crate::bounded::Bounded;
+use crate::bounded::{Bounded, bash};
 use crate::pages::{blocks, under};
 use std::path::Path;
-use std::process::{Command, Stdio};
 
 /// Commands, and what they are said to print.
 struct Step {
@@ -31,9 +30,7 @@ fn steps(page: &str) -> Vec<Step> {
 
 /// Runs the blocks of a page; what was wrong first.
 fn run(page: &str, slow: bool) -> Result<usize, String> {
-    let [dir, bin] = [(); 2].map(|()| tempfile::tempdir().unwrap());
-    std::os::unix::fs::symlink(env!("CARGO_BIN_EXE_shearbed"), bin.path().join("shearbed")).unwrap();
-    let path = format!("{}:/usr/local/bin:/usr/bin:/bin", bin.path().display());
+    let dir = tempfile::tempdir().unwrap();
     let mut number = 0;
     for step in steps(page) {
         match step.info.as_str() {
@@ -42,11 +39,11 @@ fn run(page: &str, slow: bool) -> Result<usize, String> {
             "sh,slow" | "sh,no-run" => continue,
             other => return Err(format!("```{other} is not one of sh, sh,slow and sh,no-run")),
         }
-        if let Some(tool) = missing_tool(&step.commands, &path) {
+        if let Some(tool) = missing_tool(&step.commands) {
             println!("skipped: {tool} is not here, and the rest of the page may need it");
             break;
         }
-        let (ended_well, printed) = shell(&step.commands, &path, dir.path());
+        let (ended_well, printed) = shell(&step.commands, dir.path());
         if !ended_well {
             return Err(format!("failed:\n{}\nprinted:\n{printed}", step.commands));
         }
@@ -59,20 +56,18 @@ fn run(page: &str, slow: bool) -> Result<usize, String> {
 }
 
 /// Whether the commands ended with 0, and what they printed: standard output, then standard error.
-fn shell(commands: &str, path: &str, dir: &Path) -> (bool, String) {
-    let mut shell = Command::new("bash");
-    shell.args(["-euo", "pipefail", "-c", commands]).current_dir(dir);
-    let ended = shell.env("PATH", path).stdin(Stdio::null()).ended();
+fn shell(commands: &str, dir: &Path) -> (bool, String) {
+    let ended = bash(dir, &format!("set -euo pipefail\n{commands}")).ended();
     let printed = [ended.stdout, ended.stderr].concat();
     (ended.status.success(), String::from_utf8_lossy(&printed).into_owned())
 }
 
 /// A tool that the commands start and this machine does not have.
-fn missing_tool(commands: &str, path: &str) -> Option<&'static str> {
+fn missing_tool(commands: &str) -> Option<&'static str> {
     let starts = |tool: &str| commands.split_whitespace().any(|word| word.trim_matches('"') == tool);
     ["python3", "cc", "c++", "gfortran"]
         .into_iter()
-        .find(|tool| starts(tool) && !shell(&format!("command -v {tool}"), path, Path::new("/")).0)
+        .find(|tool| starts(tool) && !shell(&format!("command -v {tool}"), Path::new("/")).0)
 }
 
 /// The first line of `shown` that is not printed after those before it.

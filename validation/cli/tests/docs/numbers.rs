@@ -1,12 +1,11 @@
 //! Numbers of the text: `0.326<!--=fig4.x1-->` is the value of `fig4.x1` in docs/numbers.tsv, which has the command
 //! that prints it. `docs/numbers.sh` makes the table afresh.
 
-use crate::bounded::Bounded;
+use crate::bounded::{Bounded, bash};
 use crate::pages::{Page, places, readmes, root, under};
 use pulldown_cmark::Event;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
-use std::process::Command;
 
 struct Number {
     value: String,
@@ -72,12 +71,8 @@ fn a_number_that_is_not_the_table_s_is_seen() {
 
 /// What a command prints now, with the program of this build.
 fn printed(command: &str) -> String {
-    let own = std::path::Path::new(env!("CARGO_BIN_EXE_shearbed")).parent().unwrap();
-    let path = format!("{}:{}", own.display(), std::env::var("PATH").unwrap());
     let dir = tempfile::tempdir().unwrap();
-    let mut shell = Command::new("bash");
-    let shell = shell.args(["-euo", "pipefail", "-c", command]).current_dir(dir.path());
-    let ended = shell.env("PATH", path).env("ROOT", root()).ended();
+    let ended = bash(dir.path(), &format!("set -euo pipefail\n{command}")).env("ROOT", root()).ended();
     assert!(ended.status.success(), "{command}: {}", String::from_utf8_lossy(&ended.stderr));
     String::from_utf8(ended.stdout).unwrap().trim().to_owned()
 }

@@ -2,17 +2,15 @@
 #![cfg(unix)]
 
 use crate::common::running::Running;
-use crate::common::{SMALL, command, files, folder, remove_left, shearbed};
+use crate::common::{Folder, SMALL, command, files, folder, remove_left, results, shearbed};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Dxsm;
-use std::collections::BTreeMap;
 use std::fs;
-use std::path::Path;
 
 /// About a second: of many replicas, of one, and of free rods.
-fn scenes(dir: &Path) -> [&'static str; 3] {
+fn scenes(dir: &Folder) -> [&'static str; 3] {
     let long = SMALL.replace("count = 20", "count = 300").replace("outputs_per_period = 4", "outputs_per_period = 1");
-    let write = |name: &str, text: String| fs::write(dir.join(format!("{name}.toml")), text).unwrap();
+    let write = |name: &str, text: String| dir.write(&format!("{name}.toml"), text);
     write("many", SMALL.replace("replicas = 3", "replicas = 700"));
     let one = long.replace("replicas = 3", "replicas = 1");
     let one = one.replace("[output]", "[output]\nrods_at = [0, 30, 60, 100]");
@@ -28,16 +26,6 @@ fn scenes(dir: &Path) -> [&'static str; 3] {
     ["many", "one", "free"]
 }
 
-/// What a run leaves but times, threads and the words it was called by.
-fn results(dir: &Path) -> (BTreeMap<String, Vec<u8>>, serde_json::Value) {
-    let mut all = files(dir);
-    let record = all.remove("run.json").unwrap();
-    // It has the checksum of run.json.
-    all.remove("shearbed.json").unwrap();
-    let record: serde_json::Value = serde_json::from_slice(&record).unwrap();
-    (all, serde_json::json!([record["counters"], record["scene"], record["seed"], record["files"]]))
-}
-
 /// Kills a run again and again and lets it end then: the same files. Each life is held where it first says that more of
 /// the run is kept, at its end at the latest: it cannot end before it is killed, however fast or loaded the machine is,
 /// unless all was kept before.
@@ -46,11 +34,11 @@ fn a_run_that_is_killed_goes_on_to_the_same_bits() {
     const LIVES: usize = 6;
     let dir = folder();
     let mut random = Pcg64Dxsm::seed_from_u64(1982);
-    for name in scenes(dir.path()) {
+    for name in scenes(&dir) {
         let whole = format!("run {name}.toml --quiet --out {name}-whole");
-        assert_eq!(shearbed(dir.path(), &whole).code, Some(0));
+        dir.runs(&whole);
         let run = format!("run {name}.toml --out {name} --checkpoint kept/{name}");
-        let (file, out) = (dir.path().join("kept").join(name), dir.path().join(name));
+        let (file, out) = (dir.at("kept").join(name), dir.path().join(name));
         for life in 0..LIVES {
             let every = random.random_range(0.01..0.05);
             let life_of = format!("{run} --every {every} --threads {}", 1 + life % 3);
@@ -86,11 +74,10 @@ fn a_run_that_is_killed_goes_on_to_the_same_bits() {
                 code => panic!("{name}, {signal}: {code:?}, {}", ended.stderr),
             }
             // Of what was left in the middle of writing the next life would warn first.
-            assert!(remove_left(&dir.path().join("kept")) == 0 || signal == "-KILL");
+            assert!(remove_left(&dir.at("kept")) == 0 || signal == "-KILL");
         }
         let goes_on = format!("goes on from kept/{name}: ");
-        let last = shearbed(dir.path(), &run);
-        assert_eq!(last.code, Some(0), "{name}: {}", last.stderr);
+        let last = dir.runs(&run);
         assert!(last.stdout.starts_with(&goes_on), "{}", last.stdout);
         assert_eq!(results(&dir.path().join(name)), results(&dir.path().join(format!("{name}-whole"))), "{name}");
         // What is done is kept: it need not run again.
@@ -102,7 +89,7 @@ fn a_run_that_is_killed_goes_on_to_the_same_bits() {
             again.stdout
         );
         assert_eq!(results(&dir.path().join(name)), results(&dir.path().join(format!("{name}-whole"))), "{name}");
-        let beside: Vec<_> = files(&dir.path().join("kept")).into_keys().filter(|file| file.contains('.')).collect();
+        let beside: Vec<_> = dir.files("kept").into_keys().filter(|file| file.contains('.')).collect();
         assert_eq!(beside, [""; 0], "nothing is left beside it");
     }
 }
@@ -110,7 +97,7 @@ fn a_run_that_is_killed_goes_on_to_the_same_bits() {
 #[test]
 fn a_signal_keeps_the_run_and_says_how_to_go_on() {
     let dir = folder();
-    scenes(dir.path());
+    scenes(&dir);
     // Hours of work, of which the signal comes when some is done.
     let run = "run many.toml --replicas 10000000 --checkpoint kept --every 0.01";
     let done = |progress: &str| -> u64 { progress.split_once(" of 10000000 ").unwrap().0.parse().unwrap() };
@@ -141,78 +128,35 @@ fn a_signal_keeps_the_run_and_says_how_to_go_on() {
 }
 
 #[test]
-fn a_checkpoint_of_other_work_is_refused() {
+fn a_damaged_checkpoint_is_refused() {
     let dir = folder();
-    let run = "run small.toml --checkpoint kept --out x";
-    assert_eq!(shearbed(dir.path(), run).code, Some(0));
-    let kept = fs::read(dir.path().join("kept")).unwrap();
-    for (change, key) in [
-        ("--seed 2", "scene.ensemble.seed was 1 and is 2 now"),
-        ("--set interaction.alpha=0.6", "scene.interaction.alpha was 0.5 and is 0.6 now"),
-    ] {
-        let other = shearbed(dir.path(), &format!("{run}2 {change}"));
-        assert_eq!(other.code, Some(2), "{}", other.stderr);
-        assert!(other.stderr.starts_with("error: --checkpoint kept: is of other work: "), "{}", other.stderr);
-        assert!(other.stderr.contains(key), "{}", other.stderr);
-    }
-    let other = shearbed(dir.path(), "validate --case jeffery-period --checkpoint kept --out x2");
-    assert!(other.stderr.contains("is of other work"), "{}", other.stderr);
-    assert_eq!((other.code, fs::read(dir.path().join("kept")).unwrap()), (Some(2), kept.clone()));
-    let mut damaged = kept;
+    dir.runs("run small.toml --checkpoint kept --out x");
+    let mut damaged = fs::read(dir.at("kept")).unwrap();
     let at = damaged.len() / 2;
     damaged[at] ^= 4;
-    fs::write(dir.path().join("kept"), &damaged).unwrap();
-    let other = shearbed(dir.path(), &run.replace("--out x", "--out x2"));
-    assert_eq!(other.code, Some(2));
-    assert!(other.stderr.contains("is damaged: its checksum is"), "{}", other.stderr);
-    assert!(!dir.path().join("x2").exists());
-    for (wrong, allowed) in [
-        ("--checkpoint k --every 0", "a number of seconds from 0.01 to 86400 is allowed"),
-        ("--checkpoint k --every NaN", "a number of seconds from 0.01 to 86400 is allowed"),
-        ("--every 5", "--checkpoint <FILE>"),
-        ("--checkpoint /proc/k", "/proc/k: cannot be written"),
-        ("--checkpoint .", "is --out x2, or a folder above it"),
-        ("--checkpoint x2", "is --out x2, or a folder above it"),
-        ("--checkpoint x2/run.json", "a result may have that name"),
-        ("--checkpoint no/../x2/a.csv", "a result may have that name"),
-        ("--checkpoint small.toml", "small.toml: is no checkpoint of shearbed"),
-    ] {
-        let refused = shearbed(dir.path(), &format!("run small.toml --out x2 {wrong}"));
-        assert_eq!(refused.code, Some(2), "{wrong}: {}", refused.stderr);
-        assert!(refused.stderr.contains(allowed), "{wrong}: {}", refused.stderr);
-    }
-    assert!(!dir.path().join("x2").exists() && !dir.path().join("k").exists());
-}
-
-/// Cases of a report without what differs from run to run.
-fn cases(dir: &Path) -> Vec<serde_json::Value> {
-    let report = fs::read(dir.join("report.json")).unwrap();
-    let report: serde_json::Value = serde_json::from_slice(&report).unwrap();
-    report["cases"].as_array().unwrap().clone()
+    dir.write("kept", &damaged);
+    dir.refuses("run small.toml --checkpoint kept --out x2", "is damaged: its checksum is");
 }
 
 #[test]
 fn finished_cases_are_not_run_again() {
     let dir = folder();
     let two = "validate --case jeffery-period --case gradient-of-eq-2 --checkpoint kept";
-    let first = shearbed(dir.path(), &format!("{two} --out first"));
-    assert_eq!(first.code, Some(0), "{}", first.stderr);
+    dir.runs(&format!("{two} --out first"));
     let more = shearbed(dir.path(), &format!("{two} --case kick-bound --out more"));
     assert!(more.stdout.contains("goes on from kept: finished cases: 2\n"), "{}", more.stdout);
-    let [first, more] = ["first", "more"].map(|out| cases(&dir.path().join(out)));
+    let cases = |out: &str| dir.json(&format!("{out}/report.json"))["cases"].as_array().unwrap().clone();
+    let [first, more] = ["first", "more"].map(cases);
     // Times too: they have not been taken again.
     assert_eq!(first.len() + 1, more.len());
     assert!(first.iter().all(|case| more.contains(case)), "{first:#?}\n{more:#?}");
-    let fresh = shearbed(dir.path(), "validate --case kick-bound --case jeffery-period --out fresh");
-    assert_eq!(fresh.code, Some(0));
-    for mut case in cases(&dir.path().join("fresh")) {
+    dir.runs("validate --case kick-bound --case jeffery-period --out fresh");
+    for mut case in cases("fresh") {
         let same = |other: &&serde_json::Value| other["name"] == case["name"];
         let mut kept = more.iter().find(same).unwrap().clone();
         kept["seconds"] = 0.into();
         case["seconds"] = 0.into();
         assert_eq!(kept, case);
     }
-    let other = shearbed(dir.path(), &format!("{two} --seed 2"));
-    assert_eq!(other.code, Some(2));
-    assert!(other.stderr.contains("seed was 1 and is 2 now"), "{}", other.stderr);
+    dir.refuses(&format!("{two} --seed 2"), "seed was 1 and is 2 now");
 }

@@ -1,10 +1,9 @@
 //! Every number of a run's tables, found by the heading of its column and compared with the closed form of one free rod
 //! (Jeffery 1922; A.4 and A.5 of Lee & Springer 1982).
 
-use crate::common::{names, read, shearbed};
+use crate::common::{empty_folder, names, read};
 use shearbed_validation::oracle::closed_form::{angles_at, orbit_constant_from_angles, period_s};
 use std::collections::BTreeMap;
-use std::fs;
 
 const R: f64 = 11.6;
 const RATE_PER_S: f64 = 0.5;
@@ -155,11 +154,10 @@ const ALLOWED: f64 = 4.0 * 2.0 * R * (2e-15 + 4.0 * f64::EPSILON);
 impl Run {
     /// The tables, by their names.
     fn written(&self) -> BTreeMap<String, String> {
-        let dir = tempfile::tempdir().unwrap();
-        fs::write(dir.path().join("alike.toml"), RODS.to_owned() + self.scene).unwrap();
-        let ended = shearbed(dir.path(), "run alike.toml --out out --quiet");
-        assert_eq!(ended.code, Some(0), "{}", ended.stderr);
-        let out = dir.path().join("out");
+        let dir = empty_folder();
+        dir.write("alike.toml", RODS.to_owned() + self.scene);
+        dir.runs("run alike.toml --out out --quiet");
+        let out = dir.at("out");
         let tables = names(&out).into_iter().filter(|name| name.ends_with(".csv"));
         tables.map(|name| (name.clone(), read(&out.join(name)))).collect()
     }

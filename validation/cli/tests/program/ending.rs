@@ -1,12 +1,14 @@
 //! How the program ends when it is told to, or when what it writes to has gone.
 #![cfg(unix)]
 
-use crate::common::bounded::Bounded;
+use crate::common::bounded::end;
 use crate::common::running::Running;
-use crate::common::{SMALL, command, files, folder, limited, shearbed};
+use crate::common::{SMALL, command, folder};
 use std::fs;
+use std::os::fd::OwnedFd;
+use std::os::unix::net::UnixDatagram;
 use std::path::Path;
-use std::process::Command;
+use std::process::Stdio;
 
 /// Hours of work, with a warning before it begins.
 fn long(dir: &Path) {
@@ -51,62 +53,8 @@ fn a_sweep_that_was_told_to_end_goes_on() {
         let ended = running.end();
         assert_eq!(ended.code, Some(143));
         assert!(ended.stderr.contains("the same command goes on"), "{}", ended.stderr);
-        let left = files(&dir.path().join("x"));
+        let left = dir.files("x");
         assert!(left.keys().all(|name| !name.contains("/.") && !name.starts_with('.')), "{:?}", left.keys());
-    }
-}
-
-#[test]
-fn a_reader_that_goes_away_is_no_error() {
-    let dir = folder();
-    let program = env!("CARGO_BIN_EXE_shearbed");
-    for arguments in ["scenes", "plan fig4-n50", "--help", "run small.toml", "scenes --show fig5"] {
-        // The reader is gone before the first line.
-        let script = format!("{program} {arguments} | true; echo ${{PIPESTATUS[0]}}");
-        let output = Command::new("bash").args(["-c", &script]).current_dir(dir.path()).ended();
-        assert_eq!(String::from_utf8(output.stdout).unwrap(), "0\n", "{arguments}");
-        assert_eq!(String::from_utf8(output.stderr).unwrap(), "", "{arguments}");
-    }
-    assert!(dir.path().join("out/small/run.json").exists());
-}
-
-#[cfg(target_os = "linux")]
-#[test]
-fn what_cannot_be_written_is_told() {
-    let dir = folder();
-    for arguments in [
-        "scenes",
-        "cite",
-        "problems",
-        "problems schema",
-        "plan small.toml",
-        "reference --aspect-ratio 5 --times 0:1:3",
-        "completions bash",
-        "shape --physical 5",
-        "--help",
-        "--version",
-        "help run",
-    ] {
-        // What only `clap` prints is looked for by programs that discard it.
-        let closed = if arguments.contains("help") || arguments.contains("version") { None } else { Some(">&-") };
-        for closed in closed.into_iter().chain(["> /dev/full"]) {
-            let ended = limited(dir.path(), &format!("exec {closed}"), arguments);
-            assert_eq!(ended.code, Some(2), "{arguments} {closed}: {}", ended.stderr);
-            assert!(ended.stderr.contains("standard output: cannot be written"), "{}", ended.stderr);
-        }
-        let ended = limited(dir.path(), "exec > /dev/null", arguments);
-        assert_eq!((ended.code, ended.stderr.as_str()), (Some(0), ""), "{arguments}");
-    }
-    // What writes files does so all the same.
-    let run = limited(dir.path(), "exec >&-", "run small.toml --out closed");
-    assert_eq!((run.code, run.stderr.as_str()), (Some(0), ""));
-    // Nobody, not even root, makes files there.
-    for arguments in ["run small.toml", "sweep small.toml --over interaction.alpha=1,2", "validate", "bench"] {
-        for out in ["/proc", "/proc/x"] {
-            let run = shearbed(dir.path(), &format!("{arguments} --out {out}"));
-            assert_eq!(run.code, Some(2), "{}", run.stderr);
-            assert!(run.stderr.contains(&format!("{out}: cannot be written")), "{}", run.stderr);
-        }
     }
 }
 
@@ -116,12 +64,35 @@ fn a_folder_that_vanishes_ends_a_sweep() {
     let sweep = "sweep small.toml --over interaction.alpha=0.1:2:12 --threads 1 --out x";
     // It waits where it says that its first point is finished.
     let mut running = Running::held_at_its_first_message(command(dir.path(), sweep));
-    let points = dir.path().join("x/points");
+    let points = dir.at("x/points");
     running.wait_for("the first point is finished", || points.join("01").exists());
-    fs::rename(dir.path().join("x"), dir.path().join("away")).unwrap();
+    fs::rename(dir.at("x"), dir.at("away")).unwrap();
     let ended = running.end();
     let message = ended.stderr;
     assert_eq!(ended.code, Some(2), "{message}");
     assert!(message.contains("x: cannot be written: the folder of the sweep has gone"), "{message}");
-    assert!(!dir.path().join("x").exists());
+    assert!(!dir.at("x").exists());
+}
+
+/// Ranks of a job write to one pipe, and what `mpirun` says may come between two writes: each line is one write, which
+/// a datagram keeps.
+#[test]
+fn a_message_is_written_in_one_piece() {
+    let dir = folder();
+    let first_piece = |arguments: &str| {
+        let (ours, theirs) = UnixDatagram::pair().unwrap();
+        let mut program = command(dir.path(), arguments);
+        let child = program.stdout(Stdio::null()).stderr(OwnedFd::from(theirs)).spawn().unwrap();
+        let status = end(arguments, child).status;
+        let mut piece = vec![0; 1 << 16];
+        let length = ours.recv(&mut piece).unwrap();
+        (status.code(), String::from_utf8(piece[..length].to_vec()).unwrap())
+    };
+    let warned = "run fig4-n50 --replicas 1 --set particles.aspect_ratio=5 --quiet --out x";
+    for (arguments, expected, start) in
+        [("run no.toml", 2, "error: no.toml: cannot be read: "), (warned, 0, "warning: fig4-n50: ")]
+    {
+        let (code, piece) = first_piece(arguments);
+        assert!(code == Some(expected) && piece.starts_with(start) && piece.ends_with('\n'), "{piece:?}");
+    }
 }

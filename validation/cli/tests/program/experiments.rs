@@ -2,6 +2,7 @@
 //! with noise of known size, and written where only these tests look.
 
 use crate::common::bounded::Bounded;
+use crate::common::{Folder, empty_folder};
 use rand::SeedableRng;
 use rand_distr::{Distribution, StandardNormal};
 use rand_pcg::Pcg64Dxsm;
@@ -15,7 +16,6 @@ use shearbed_validation::judge::case::{Effort, Outcome};
 use std::fs;
 use std::path::Path;
 use std::process::Command;
-use tempfile::TempDir;
 
 /// One standard deviation of reading off, in T and in the rod's length.
 const U_X: f64 = 0.004;
@@ -85,8 +85,8 @@ fn run(case: &str, data: Option<&Path>) -> Outcome {
 }
 
 /// A folder with a synthetic Fig. 4 of this α.
-fn okagawa(scenes: &[&str], alpha: f64) -> TempDir {
-    let dir = tempfile::tempdir().unwrap();
+fn okagawa(scenes: &[&str], alpha: f64) -> Folder {
+    let dir = empty_folder();
     for scene in scenes {
         synthesise(dir.path(), "okagawa-mason-1973", scene, &["x1"], alpha);
     }
@@ -95,7 +95,7 @@ fn okagawa(scenes: &[&str], alpha: f64) -> TempDir {
 
 /// Runs the program on a case in a folder of its own: its exit code, what it prints, its report.
 fn validate(case: &str, data: Option<&Path>) -> (Option<i32>, String, serde_json::Value) {
-    let dir = tempfile::tempdir().unwrap();
+    let dir = empty_folder();
     let mut command = Command::new(env!("CARGO_BIN_EXE_shearbed"));
     command.current_dir(dir.path()).args(["validate", "--case", case]);
     if let Some(data) = data {
@@ -103,7 +103,7 @@ fn validate(case: &str, data: Option<&Path>) -> (Option<i32>, String, serde_json
     }
     let ended = command.ended();
     let text = [ended.stdout, ended.stderr].concat();
-    let report = fs::read_to_string(dir.path().join("out/report/report.json")).unwrap_or("null".to_owned());
+    let report = fs::read_to_string(dir.at("out/report/report.json")).unwrap_or("null".to_owned());
     (ended.status.code(), String::from_utf8(text).unwrap(), serde_json::from_str(&report).unwrap())
 }
 
@@ -148,7 +148,7 @@ fn the_alpha_of_a_synthetic_experiment_is_found() {
 
 #[test]
 fn without_points_there_is_no_verdict_and_no_failure() {
-    let empty = tempfile::tempdir().unwrap();
+    let empty = empty_folder();
     for case in ["okagawa-mason-1973", "anczurowski-1967", "alpha-same-for-both"] {
         for data in [None, Some(empty.path())] {
             let outcome = run(case, data);
@@ -165,7 +165,7 @@ fn without_points_there_is_no_verdict_and_no_failure() {
 #[test]
 fn points_for_a_picture_are_in_the_models_units() {
     assert_eq!(experiment::points_for(None, "fig5").unwrap(), []);
-    let dir = tempfile::tempdir().unwrap();
+    let dir = empty_folder();
     synthesise(dir.path(), "anczurowski-cox-mason-1967", "fig5", &["x1", "x3"], 0.5);
     let points = experiment::points_for(Some(dir.path()), "fig5").unwrap();
     assert_eq!(points.len(), 2 * TIMES);
@@ -195,49 +195,4 @@ fn what_is_shipped_has_no_points() {
         assert!(shipped.join(source.folder).is_dir());
         assert_eq!(experiment::read(&shipped, source).unwrap(), []);
     }
-}
-
-/// The paper leaves out its points of r_e = 3.96: "not suitable for comparison with the model". The points are made up
-/// here and nobody's.
-#[test]
-fn points_of_rods_in_the_shear_plane_are_not_fitted() {
-    let dir = tempfile::tempdir().unwrap();
-    let scene = |orientation: &str, interaction: &str| {
-        format!(
-            "title = \"r_e = 3.96\"\n[flow]\nshear_rate_per_s = 0.5\n[particles]\ncount = 20\nlength_mm = \
-                0.72\naspect_ratio = 3.96\n\
-             aspect_ratio_sd_percent = 3\norientation = {orientation}\n{interaction}[time]\nperiods = \
-             1\nsteps_per_period = 40\n"
-        )
-    };
-    let interaction = "[interaction]\nconcentration_per_cm3 = 500\nalpha = 0.5\n";
-    let plane = "{ phi_deg = 0, theta_deg = 90 }";
-    fs::write(dir.path().join("plane.toml"), scene(plane, interaction)).unwrap();
-    fs::write(dir.path().join("free.toml"), scene(plane, "")).unwrap();
-    fs::write(dir.path().join("random.toml"), scene("\"isotropic\"", interaction)).unwrap();
-    let points = "t_over_T,x1,x1_u\n0.1,0.7,0.05\n0.2,0.5,0.05\n0.4,0.4,0.05\n";
-    fs::write(dir.path().join("points.csv"), points).unwrap();
-    let fit = |arguments: &str| {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_shearbed"));
-        let done = command
-            .args(["fit", "--data", "points.csv", "--replicas", "20", "--quiet", "--out", "out", "--force"])
-            .args(arguments.split_whitespace())
-            .current_dir(dir.path())
-            .ended();
-        (done.status.code(), String::from_utf8(done.stderr).unwrap())
-    };
-    for key in ["interaction.alpha=0.05:5", "interaction.m=1:6"] {
-        let (code, told) = fit(&format!("plane.toml --over {key}"));
-        assert_eq!(code, Some(2), "{told}");
-        let key = key.split('=').next().unwrap();
-        let said = format!("plane.toml: --over {key}: all rods start parallel in the shear plane");
-        assert!(told.contains(&said) && told.contains("(r_e = 3.96; Results, after Fig. 5)"), "{told}");
-        assert!(!dir.path().join("out").exists());
-    }
-    // What the points do tell is fitted; of random rods so short, with a warning.
-    let (code, told) = fit("free.toml --over particles.aspect_ratio=3:5");
-    assert!(code == Some(0) && !told.contains("3.96"), "{told}");
-    let (code, told) = fit("random.toml --over interaction.alpha=0.05:5");
-    assert_eq!(code, Some(0), "{told}");
-    assert!(told.contains("particles.aspect_ratio = 3.96: the collision rule is for slender rods"), "{told}");
 }

@@ -1,8 +1,7 @@
 //! Texts from files and names that mean harm: on the terminal, in pictures, in tables.
 
 use crate::common::bounded::Bounded;
-use crate::common::{SMALL, command, files, folder, limited, shearbed};
-use std::fs;
+use crate::common::{SMALL, command, folder, shearbed};
 
 /// A title that sets a terminal's title, clears it, turns the writing, and would end a tag.
 const TITLE: &str = r#"\u001B]0;owned\u0007\u009B2J</text><script>alert(1)</script>\u202E`|*\uFFFE"#;
@@ -17,8 +16,8 @@ fn titles_and_file_names_command_nothing() {
     let dir = folder();
     let scene = SMALL.replace("A small scene", TITLE);
     let name = "\u{1b}]0;x\u{7}=1.toml";
-    fs::write(dir.path().join(name), &scene).unwrap();
-    fs::write(dir.path().join("\u{1b}[2Jbad.toml"), scene.replace("count = 20", "count = 0")).unwrap();
+    dir.write(name, &scene);
+    dir.write("\u{1b}[2Jbad.toml", scene.replace("count = 20", "count = 0"));
     let sweep = ["sweep", name, "--over", "interaction.alpha=1,2", "--out", "s"];
     for (arguments, code) in [
         (&["run", name, "--out", "x"][..], 0),
@@ -36,11 +35,14 @@ fn titles_and_file_names_command_nothing() {
         (&["compare", "d\u{200b}\nFAKE: a", "e"][..], 2),
     ] {
         let output = command(dir.path(), "").args(arguments).ended();
-        let told = String::from_utf8(output.stdout).unwrap() + &String::from_utf8(output.stderr).unwrap();
-        assert_eq!(output.status.code(), Some(code), "{arguments:?}: {told:?}");
-        assert!(!told.is_empty() && !commands_a_terminal(&told) && !told.contains("\nFAKE"), "{arguments:?}: {told:?}");
+        let printed = String::from_utf8(output.stdout).unwrap() + &String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(code), "{arguments:?}: {printed:?}");
+        assert!(
+            !printed.is_empty() && !commands_a_terminal(&printed) && !printed.contains("\nFAKE"),
+            "{arguments:?}: {printed:?}"
+        );
     }
-    for (name, bytes) in files(&dir.path().join("x")) {
+    for (name, bytes) in dir.files("x") {
         let text = String::from_utf8(bytes).unwrap();
         if name.ends_with(".svg") {
             assert!(!commands_a_terminal(&text) && !text.contains('\u{fffe}'), "{name}: {text}");
@@ -55,16 +57,15 @@ fn no_cell_of_a_table_is_a_formula() {
     let titles = r#"title="=cmd|' /C calc'!A0","@SUM(A1)","+1+2","-3-4","plain\u001b""#;
     let output = command(dir.path(), "sweep small.toml --out x --over").arg(titles).ended();
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    let text = fs::read_to_string(dir.path().join("x/sweep.csv")).unwrap();
+    let text = dir.read("x/sweep.csv");
     let mut reader = csv::Reader::from_reader(text.as_bytes());
     let rows: Vec<_> = reader.records().map(Result::unwrap).collect();
     let titles: Vec<_> = rows.iter().map(|row| &row[0]).collect();
     let expected = ["'=cmd|' /C calc'!A0", "'@SUM(A1)", "'+1+2", "'-3-4", r"plain\u{1b}"];
     assert_eq!(titles, expected);
     // A negative number is a number.
-    let over =
-        "sweep extension --over particles.orientation={phi_deg=-30,theta_deg=60} --over ensemble.seed=1,2 --out y";
-    assert_eq!(shearbed(dir.path(), over).code, Some(0));
+    let over = "--over particles.orientation={phi_deg=-30,theta_deg=60} --over ensemble.seed=1,2";
+    dir.runs(&format!("sweep extension {over} --out y"));
 }
 
 #[test]
@@ -74,7 +75,7 @@ fn a_long_line_is_not_echoed_whole() {
     for (old, scene) in
         [("count = 20", format!("count = {long}")), ("[flow]", format!("[flow]\n{} = 1", "y".repeat(3_000_000)))]
     {
-        fs::write(dir.path().join("long.toml"), SMALL.replace(old, &scene)).unwrap();
+        dir.write("long.toml", SMALL.replace(old, &scene));
         let run = shearbed(dir.path(), "run long.toml");
         assert_eq!(run.code, Some(2));
         assert!(run.stderr.len() < 4000, "{}", run.stderr.len());
@@ -84,61 +85,10 @@ fn a_long_line_is_not_echoed_whole() {
 }
 
 #[test]
-fn threads_of_the_environment_have_the_limit_of_the_option() {
+fn threads_of_the_environment_are_used() {
     let dir = folder();
-    for arguments in ["run small.toml", "bench --case re11.6", "validate --case jeffery-period"] {
-        let output = command(dir.path(), arguments).env("RAYON_NUM_THREADS", "100000").ended();
-        let message = String::from_utf8(output.stderr).unwrap();
-        assert_eq!(output.status.code(), Some(2), "{arguments}: {message}");
-        assert!(message.contains("RAYON_NUM_THREADS = 100000 is not allowed"), "{message}");
-    }
     let output = command(dir.path(), "run small.toml").env("RAYON_NUM_THREADS", "3").ended();
     assert!(output.status.success());
-    let record = fs::read_to_string(dir.path().join("out/small/run.json")).unwrap();
+    let record = dir.read("out/small/run.json");
     assert!(record.contains("\"threads\": 3"), "{record}");
-}
-
-#[test]
-fn a_number_of_threads_that_is_none_is_refused() {
-    let dir = folder();
-    for text in ["abc", "-1", "1.5"] {
-        let output = command(dir.path(), "run small.toml").env("RAYON_NUM_THREADS", text).ended();
-        let message = String::from_utf8(output.stderr).unwrap();
-        assert_eq!(output.status.code(), Some(2), "{text}: {message}");
-        let expected = format!("RAYON_NUM_THREADS = {text} is not allowed: expected a whole number from 1 to 1024");
-        assert!(message.contains(&expected), "{message}");
-    }
-}
-
-/// The stack that a shell grants to the first thread is not the one that the work is done on.
-#[cfg(target_os = "linux")]
-#[test]
-fn a_small_stack_is_enough() {
-    let dir = folder();
-    for arguments in ["plan small.toml", "run small.toml", "validate --case jeffery-period"] {
-        let ended = limited(dir.path(), "ulimit -s 64", arguments);
-        assert_eq!(ended.code, Some(0), "{arguments}: {}", ended.stderr);
-    }
-}
-
-/// The address space that a shell grants is memory that there is not.
-#[cfg(target_os = "linux")]
-#[test]
-fn a_limit_on_memory_is_heeded_before_the_work() {
-    let dir = folder();
-    let big = SMALL.replace("count = 20", "count = 20000000");
-    fs::write(dir.path().join("big.toml"), big).unwrap();
-    for arguments in ["run big.toml", "converge big.toml", "plan big.toml"] {
-        let ended = limited(dir.path(), "ulimit -v 1000000", arguments);
-        let shown = ended.stdout.contains("\n20000000 rods, ");
-        assert_eq!(shown, arguments.starts_with("plan"), "{arguments}: {}", ended.stdout);
-        let message = ended.stderr;
-        assert_eq!(ended.code, Some(2), "{arguments}: {message}");
-        assert!(message.contains("particles.count = 20000000"), "{message}");
-        assert!(
-            (message.contains("of memory, and 0.") || message.contains("of memory, and 1.0"))
-                && message.contains("allowed: fewer"),
-            "{message}"
-        );
-    }
 }

@@ -23,16 +23,16 @@ mod plot;
 mod problems;
 mod provenance;
 mod reference;
-mod refused;
 mod report;
 mod reports;
 mod resources;
 mod rods;
 mod run;
-mod scenes;
 mod set;
 mod shape;
 mod studies;
 mod supply;
 mod sweep;
+#[cfg(target_os = "linux")]
+mod transcripts;
 mod until;

@@ -1,7 +1,7 @@
 //! Reference problems as files.
 
 use crate::common::bounded::Bounded;
-use crate::common::files;
+use crate::common::{empty_folder, files};
 use serde_json::Value;
 use shearbed_validation::serve::problems;
 use std::collections::BTreeMap;
@@ -28,8 +28,8 @@ fn write(dir: &Path) {
 
 #[test]
 fn an_export_is_what_is_read_and_is_not_written_over_what_it_did_not_write() {
-    let dir = tempfile::tempdir().unwrap();
-    let reference = dir.path().join("a/ref");
+    let dir = empty_folder();
+    let reference = dir.at("a/ref");
     let names = problems::export(&reference, false).unwrap();
     for name in ["mid-flip-2", "mid-flip-11.6", "mid-flip-100", "mid-flip-10000"] {
         assert!(names.contains(&name));
@@ -64,7 +64,7 @@ fn an_export_is_what_is_read_and_is_not_written_over_what_it_did_not_write() {
 
 #[test]
 fn spoilt_folders_are_refused_with_their_place() {
-    let dir = tempfile::tempdir().unwrap();
+    let dir = empty_folder();
     write(dir.path());
     let (start, certified) = (&FILES["poles/start.csv"], &FILES["poles/certified.csv"]);
     let json = &FILES["poles/problem.json"];
@@ -84,7 +84,7 @@ fn spoilt_folders_are_refused_with_their_place() {
         ("certified.csv", certified.replacen("e-1", "x", 1), ":", "no finite number"),
         ("certified.csv", String::new(), ":1:", "header"),
     ] {
-        let path = dir.path().join("poles").join(file);
+        let path = dir.at("poles").join(file);
         fs::write(&path, &spoilt).unwrap();
         let error = problems::read(dir.path()).unwrap_err().to_string();
         let expected = format!("{}{place}", path.display());
@@ -92,7 +92,7 @@ fn spoilt_folders_are_refused_with_their_place() {
         fs::write(&path, &FILES[&format!("poles/{file}")]).unwrap();
     }
     problems::read(dir.path()).unwrap();
-    let empty = tempfile::tempdir().unwrap();
+    let empty = empty_folder();
     let error = problems::read(empty.path()).unwrap_err().to_string();
     assert!(error.contains("no problems here"));
 }
@@ -100,8 +100,8 @@ fn spoilt_folders_are_refused_with_their_place() {
 /// A folder that was exported before its answer was corrected is refused as such, and no answer is graded by it.
 #[test]
 fn an_answer_that_has_been_corrected_since_is_said_to_have_been_wrong() {
-    let dir = tempfile::tempdir().unwrap();
-    let folder = dir.path().join("folgar-tucker-planar-extension");
+    let dir = empty_folder();
+    let folder = dir.at("folgar-tucker-planar-extension");
     fs::create_dir(&folder).unwrap();
     for file in ["problem.json", "certified.csv"] {
         let text = &FILES[&format!("folgar-tucker-planar-extension/{file}")];
@@ -137,8 +137,8 @@ fn exact_answers_have_more_digits_than_a_double() {
 /// With the tar and sha256sum of the machine, which know nothing of how the archive was made.
 #[test]
 fn an_archive_has_every_file_with_its_checksum_a_licence_and_a_citation() {
-    let dir = tempfile::tempdir().unwrap();
-    let file = dir.path().join("problems.tar");
+    let dir = empty_folder();
+    let file = dir.at("problems.tar");
     let exported = |more: &[&str]| {
         let mut shearbed = std::process::Command::new(env!("CARGO_BIN_EXE_shearbed"));
         shearbed.args(["problems", "export", "--archive"]).arg(&file).args(more).ended()

@@ -1,7 +1,7 @@
 //! Which build made a result, and the command that repeats it.
 
 use crate::common::bounded::Bounded;
-use crate::common::{FREE, command, folder, shearbed};
+use crate::common::{FREE, command, empty_folder, folder, shearbed};
 use serde_json::Value;
 use std::fs;
 use std::path::Path;
@@ -24,7 +24,7 @@ fn every_record_names_the_commit_of_the_build() {
     ] {
         git(dir.path(), arguments);
     }
-    fs::write(dir.path().join("free.toml"), FREE).unwrap();
+    dir.write("free.toml", FREE);
     let here = Path::new(env!("CARGO_MANIFEST_DIR"));
     let of_project = git(here, &["ls-files", "Cargo.toml"]).is_some_and(|found| !found.is_empty());
     let commit = git(here, &["rev-parse", "--short=12", "HEAD"]).filter(|_| of_project);
@@ -72,8 +72,8 @@ fn the_command_is_as_it_was_called_and_a_shell_repeats_it() {
 /// The build script by itself, in folders of its own.
 #[test]
 fn the_build_script_knows_its_own_checkout_alone() {
-    let dir = tempfile::tempdir().unwrap();
-    let script = dir.path().join("script");
+    let dir = empty_folder();
+    let script = dir.at("script");
     let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("../build.rs");
     let rustc = std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into());
     let built = Command::new(rustc).args(["--edition", "2024", "-o"]).arg(&script).arg(source).ended();
@@ -102,11 +102,11 @@ fn the_build_script_knows_its_own_checkout_alone() {
         git(root, &["rev-parse", "--short=12", "HEAD"]).unwrap()
     };
 
-    let package = dir.path().join("package");
+    let package = dir.at("package");
     project(&package);
     assert_eq!(commit(&package), "unknown");
 
-    let own = dir.path().join("own");
+    let own = dir.at("own");
     project(&own);
     let hash = committed(&own);
     assert_eq!(commit(&own), hash);
@@ -119,7 +119,7 @@ fn the_build_script_knows_its_own_checkout_alone() {
     assert_eq!(commit(&own), format!("{hash}-dirty"));
 
     // Inside somebody else's repository, tracked or not.
-    let other = dir.path().join("other");
+    let other = dir.at("other");
     project(&other.join("vendor/shearbed"));
     committed(&other);
     assert_eq!(commit(&other.join("vendor/shearbed")), "unknown");
@@ -130,10 +130,9 @@ fn the_build_script_knows_its_own_checkout_alone() {
 #[test]
 fn a_record_says_which_stages_ran_and_why_as_the_plan_does() {
     let dir = folder();
-    fs::write(dir.path().join("free.toml"), FREE).unwrap();
+    dir.write("free.toml", FREE);
     for (scene, out, moved) in [("small.toml", "a", true), ("free.toml", "b", false)] {
-        let run = shearbed(dir.path(), &format!("run {scene} --out {out}"));
-        assert_eq!(run.code, Some(0), "{}", run.stderr);
+        dir.runs(&format!("run {scene} --out {out}"));
         let text = fs::read_to_string(dir.path().join(out).join("run.json")).unwrap();
         let record: Value = serde_json::from_str(&text).unwrap();
         let stages = record["plan"].as_array().unwrap();

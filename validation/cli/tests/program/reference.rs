@@ -1,7 +1,6 @@
 //! `shearbed reference` as a user meets it.
 
 use crate::common::bounded::Bounded;
-use std::fs;
 use std::process::Command;
 
 /// Exit code, standard output and standard error.
@@ -114,89 +113,4 @@ fn diffusing_rods_have_the_columns_of_isotropic_starts_and_known_limits() {
     let fourth = numbers("--aspect-ratio 5 --c-i 0.05 --times 0.1:0.1:1 --fourth").remove(0);
     let second = numbers("--aspect-ratio 5 --c-i 0.05 --times 0.1:0.1:1").remove(0);
     assert!((fourth[3] + fourth[6] + fourth[8] - second[6]).abs() < 3e-11);
-}
-
-#[test]
-fn constants_and_explanations_name_their_equations() {
-    let constants = rows("--aspect-ratio 1 --constants --shear-rate-per-s 2");
-    let value = |name: &str| constants.iter().find(|row| row[0] == name).unwrap()[1].clone();
-    assert!(value("period").starts_with("6.283185307179586476925287e0"));
-    assert!(value("mean_angle").starts_with("7.85398163397448309615660"));
-    assert!(value("plateau_a22").starts_with("3.33333333333333333333"));
-    assert!(constants.iter().skip(1).all(|row| row[3].contains(char::is_numeric)));
-    for arguments in ["--aspect-ratio 3 --explain", "--aspect-ratio 3 --explain --start 0,0"] {
-        let (code, out, _) = reference(arguments);
-        assert!(code == Some(0) && out.contains("A.4") && out.contains("t_over_T"));
-    }
-}
-
-#[test]
-fn bad_input_is_refused_with_key_value_and_what_is_allowed() {
-    let times = "--times 0:1:2";
-    for (arguments, words) in [
-        ("--aspect-ratio 0 --times 0:1:2", ["'0'", "--aspect-ratio", "1e-100"]),
-        ("--aspect-ratio 1e101 --times 0:1:2", ["'1e101'", "--aspect-ratio", "1e100"]),
-        ("--aspect-ratio nan --times 0:1:2", ["'nan'", "--aspect-ratio", "allowed"]),
-        ("--aspect-ratio 3", ["--times", "required", "FROM:TO:COUNT"]),
-        ("--aspect-ratio 3 --times 0:1", ["'0:1'", "--times", "COUNT from 1"]),
-        ("--aspect-ratio 3 --times 1:0:3", ["'1:0:3'", "--times", "FROM ≤ TO"]),
-        ("--aspect-ratio 3 --times 0:1:0", ["'0:1:0'", "--times", "COUNT from 1"]),
-        ("--aspect-ratio 3 --times 0.5,0.5", ["'0.5,0.5'", "--times", "rising times"]),
-        ("--aspect-ratio 3 --times 0,,1", ["'0,,1'", "--times", "rising times"]),
-        ("--aspect-ratio 3 --times 0,inf", ["'0,inf'", "--times", "rising times"]),
-        ("--aspect-ratio 3 --times 0:inf:2", ["'0:inf:2'", "--times", "finite"]),
-        ("--aspect-ratio 3 --times 0:1:2 --unit h", ["'h'", "--unit", "strain"]),
-        ("--aspect-ratio 3 --times 0:1:2 --start 0,181", ["'0,181'", "--start", "0 to 180"]),
-        ("--aspect-ratio 3 --times 0:1:2 --start up", ["'up'", "--start", "isotropic"]),
-        ("--aspect-ratio 3 --times 0:1:2 --shear-rate-per-s 0", ["'0'", "--shear-rate", "1e-100"]),
-        ("--aspect-ratio 3 --times 0:1:2 --gradient-per-s 1,2", ["'1,2'", "--gradient", "nine"]),
-        ("--aspect-ratio 3 --times 0:1:2 --gradient-per-s 1,0,0,0,-1,0,0,0,0", ["--unit", "period", "allowed"]),
-        (
-            "--aspect-ratio 3 --times 0:1e9:2 --unit s --gradient-per-s 1,0,0,0,-1,0,0,0,0",
-            ["--times", "5000", "allowed"],
-        ),
-        ("--aspect-ratio 3 --times 0:1:2 --start 0,9 --fourth", ["--fourth", "isotropic", "allowed"]),
-        ("--aspect-ratio 1.1 --times 0:1:2 --aspect-ratio-sd-percent 2", ["sd-percent 2", "eight", "allowed"]),
-        ("--aspect-ratio 3 --times 0:1e308:2 --shear-rate-per-s 1e-9", ["--times", "finite", "allowed"]),
-        ("--aspect-ratio inf --times 0:1:2 --unit period", ["--unit", "finite r_e", "allowed"]),
-        ("--aspect-ratio inf --constants", ["--constants", "finite", "allowed"]),
-        ("--aspect-ratio=-inf --times 0:1:2", ["'-inf'", "--aspect-ratio", "inf"]),
-        ("--aspect-ratio 3 --times 0:1:2 --c-i -0.1", ["'-0.1'", "--c-i", "1e-9"]),
-        ("--aspect-ratio 3 --times 0:1:2 --c-i nan", ["'nan'", "--c-i", "allowed"]),
-        ("--aspect-ratio 3 --times -1:1:2 --c-i 0.1", ["--times", "from 0", "allowed"]),
-        ("--aspect-ratio 3 --times 0:1:2 --c-i 0.1 --start 0,9", ["--c-i 0.1", "isotropic", "allowed"]),
-        ("--aspect-ratio 3 --times 0:1:2 --c-i 0.1 --aspect-ratio-sd-percent 2", ["percent 2", "--c-i", "allowed"]),
-        ("--aspect-ratio 3 --c-i 0.1", ["--times", "required", "FROM:TO:COUNT"]),
-        ("--aspect-ratio 3 --steady", ["--c-i", "required", "--steady"]),
-        (
-            "--aspect-ratio 5 --c-i 0.01 --times 0:1e6:2 --steady",
-            ["--times with --c-i 0.01: this takes too much work", "shorter --times", "allowed"],
-        ),
-        ("--aspect-ratio 5 --c-i 1e-9 --steady", ["--steady with --c-i 1e-9: this takes too much", "1e-5", "allowed"]),
-        ("--aspect-ratio 3 --steady --c-i 0", ["--steady", "--c-i 0", "allowed"]),
-        (
-            "--aspect-ratio 3 --steady --c-i 0.1 --gradient-per-s 0,1,0,-1,0,0,0,0,0",
-            ["--steady", "--c-i 0.1", "strains"],
-        ),
-    ] {
-        let (code, out, error) = reference(arguments);
-        assert_eq!((code, out.as_str()), (Some(2), ""), "{arguments}");
-        assert!(words.iter().all(|word| error.contains(word)), "{arguments}: {error}");
-    }
-    // The same without a mistake.
-    assert_eq!(reference(&format!("--aspect-ratio 3 {times}")).0, Some(0));
-}
-
-#[test]
-fn a_file_appears_whole_or_not_at_all() {
-    let dir = tempfile::tempdir().unwrap();
-    let path = dir.path().join("values.csv");
-    let arguments = format!("--aspect-ratio 3 --times 0:1:3 --out {}", path.display());
-    let (code, out, _) = reference(&arguments);
-    assert_eq!((code, out.as_str()), (Some(0), ""));
-    assert_eq!(fs::read_to_string(&path).unwrap(), reference("--aspect-ratio 3 --times 0:1:3").1);
-    fs::remove_file(&path).unwrap();
-    fs::create_dir(&path).unwrap();
-    let (code, _, error) = reference(&arguments);
-    assert!(code == Some(2) && error.contains("values.csv"), "{error}");
 }

@@ -1,6 +1,5 @@
 //! A real report, with the figures of a few replicas, as its reader gets it.
 
-use crate::common::shearbed;
 use shearbed_validation::cases;
 use shearbed_validation::cases::catalogue;
 use shearbed_validation::files::output::ResultFolder;
@@ -33,20 +32,14 @@ static REPORT: LazyLock<Report> = LazyLock::new(|| {
 #[test]
 fn a_picture_of_a_report_is_drawn_anew() {
     let dir = crate::common::folder();
-    let folder = ResultFolder::new(&dir.path().join("report"), "validate", serde_json::json!({}), false);
+    let folder = ResultFolder::new(&dir.at("report"), "validate", serde_json::json!({}), false);
     folder.write(vec![("report.json".into(), REPORT.json())]).unwrap();
-    let drawn = shearbed(dir.path(), "plot report --y fig11 --out f.svg --title Mine");
-    assert_eq!(drawn.code, Some(0), "{}", drawn.stderr);
-    let svg = std::fs::read_to_string(dir.path().join("f.svg")).unwrap();
+    dir.runs("plot report --y fig11 --out f.svg --title Mine");
+    let svg = dir.read("f.svg");
     assert!(svg.contains("Mine") && svg.contains("aspect ratio"), "{svg}");
-    let other = shearbed(dir.path(), "plot report --y fig13 --out g.svg");
-    assert_eq!(other.code, Some(2));
-    assert!(other.stderr.contains("has no such picture") && other.stderr.contains("fig4, fig4-differences, fig5"));
-    let done = shearbed(dir.path(), "validate --case jeffery-period --quiet --out one");
-    assert_eq!(done.code, Some(0), "{}", done.stderr);
-    let none = shearbed(dir.path(), "plot one --out g.svg");
-    assert_eq!(none.code, Some(2));
-    assert!(none.stderr.contains("one: has no picture"), "{}", none.stderr);
+    dir.refuses("plot report --y fig13 --out g.svg", "has no such picture; there are fig4, fig4-differences, fig5");
+    dir.runs("validate --case jeffery-period --quiet --out one");
+    dir.refuses("plot one --out g.svg", "one: has no picture");
 }
 
 #[test]

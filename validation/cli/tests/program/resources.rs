@@ -1,35 +1,15 @@
 //! What the program says where there is too little memory, no thread, too long an input, or a launcher of ranks that it
 //! cannot use.
 
-use crate::common::{SMALL, folder, limited, shearbed};
+use crate::common::{folder, limited};
 use std::fs;
 use std::path::Path;
-
-#[test]
-fn a_scene_is_read_up_to_its_limit() {
-    let dir = folder();
-    fs::write(dir.path().join("large.toml"), format!("{SMALL}# {}", "x".repeat(4_000_000))).unwrap();
-    let run = limited(dir.path(), "ulimit -v 1000000", "run large.toml");
-    assert_eq!(run.code, Some(2), "{}", run.stderr);
-    assert!(run.stderr.contains("large.toml: cannot be read: it is longer than the 4 MB that are allowed"));
-}
-
-#[cfg(target_os = "linux")]
-#[test]
-fn a_request_without_an_end_is_refused() {
-    for protocol in ["json", "text"] {
-        let limits = "ulimit -v 1000000; exec </dev/zero";
-        let echo = limited(folder().path(), limits, &format!("grade --echo --protocol {protocol}"));
-        assert_eq!(echo.code, Some(2), "{}", echo.stderr);
-        assert!(echo.stderr.starts_with("error: --echo: a line is longer than 1048576 bytes"), "{}", echo.stderr);
-    }
-}
 
 #[cfg(target_os = "linux")]
 #[test]
 fn a_command_with_little_memory_does_its_work_or_is_refused() {
     let dir = folder();
-    assert_eq!(shearbed(dir.path(), "run small.toml --out x --quiet").code, Some(0));
+    dir.runs("run small.toml --out x --quiet");
     for arguments in [
         "problems export e",
         "grade --command cat --brief --problem sphere --timeout 1",
@@ -56,7 +36,7 @@ fn a_command_without_threads_is_refused() {
         return eprintln!("skipped: the limit of processes is set by root with setpriv alone");
     }
     let dir = folder();
-    let program = dir.path().join("program");
+    let program = dir.at("program");
     fs::copy(env!("CARGO_BIN_EXE_shearbed"), &program).unwrap();
     fs::set_permissions(dir.path(), fs::Permissions::from_mode(0o777)).unwrap();
     for arguments in [
@@ -80,7 +60,8 @@ fn a_command_without_threads_is_refused() {
 #[cfg(not(feature = "mpi"))]
 #[test]
 fn a_build_without_mpi_says_that_its_launcher_starts_it_several_times() {
-    use crate::common::{bounded::Bounded, command};
+    use crate::common::bounded::Bounded;
+    use crate::common::command;
     let dir = folder();
     for (launcher, size, rank, warned) in [
         ("OMPI_COMM_WORLD", "3", "0", true),

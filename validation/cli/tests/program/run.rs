@@ -1,39 +1,13 @@
 //! A run as a user meets it: what it prints and writes.
 
-use crate::common::{UNEQUAL, names, read, shearbed, unequal};
-use serde_json::Value;
-use std::fs;
-
-/// The text without the numbers and bars of its tables, which are not the same on every machine.
-fn without_means(text: &str) -> String {
-    let bars = |line: &str| line.trim_start().starts_with(|c| ('▁'..='█').contains(&c));
-    let lines = text.lines().map(|line| match line {
-        line if bars(line) => "       bars",
-        line if line.contains(" ± ") && !line.starts_with("Means") => line.get(..7).unwrap_or(line).trim_end(),
-        line => line.trim_end(),
-    });
-    lines.collect::<Vec<_>>().join("\n")
-}
+use crate::common::{UNEQUAL, names, unequal};
 
 #[test]
-fn a_run_writes_a_table_and_a_picture_of_each_observable_and_a_record() {
+fn a_run_lists_its_files() {
     let dir = unequal();
-    let ended = shearbed(dir.path(), "run small.toml");
-    assert_eq!((ended.code, ended.stderr.as_str()), (Some(0), ""));
-    insta::assert_snapshot!(without_means(&ended.stdout));
-    let out = dir.path().join("out/small");
-    let columns: Vec<_> = names(&out)
-        .into_iter()
-        .map(|name| {
-            if name.ends_with(".csv") {
-                format!("{name}: {}\n", read(&out.join(&name)).lines().next().unwrap())
-            } else {
-                name + "\n"
-            }
-        })
-        .collect();
-    insta::assert_snapshot!(columns.concat());
-    let record: Value = serde_json::from_str(&read(&out.join("run.json"))).unwrap();
+    dir.runs("run small.toml");
+    let out = dir.at("out/small");
+    let record = dir.json("out/small/run.json");
     let files: Vec<_> = record["files"].as_array().unwrap().iter().map(|name| name.as_str().unwrap()).collect();
     assert!(files.iter().all(|name| out.join(name).is_file()));
     // And run.json and shearbed.json.
@@ -43,8 +17,8 @@ fn a_run_writes_a_table_and_a_picture_of_each_observable_and_a_record() {
 #[test]
 fn what_a_run_prints_is_in_its_tables() {
     let dir = unequal();
-    let printed = shearbed(dir.path(), "run small.toml").stdout;
-    let table = read(&dir.path().join("out/small/projections.csv"));
+    let printed = dir.runs("run small.toml").stdout;
+    let table = dir.read("out/small/projections.csv");
     let x1: Vec<f64> = (table.lines().skip(1)).map(|line| line.split(',').nth(3).unwrap().parse().unwrap()).collect();
     let line = printed.lines().find(|line| line.starts_with("x1 ")).unwrap();
     let least = x1.iter().copied().fold(f64::INFINITY, f64::min);
@@ -53,15 +27,15 @@ fn what_a_run_prints_is_in_its_tables() {
     }
     // Five outputs: the one with the least mean is a quarter of a period in.
     assert!(line.contains(&format!("{least:.4} at 0.25")), "{line}");
-    let record: Value = serde_json::from_str(&read(&dir.path().join("out/small/run.json"))).unwrap();
+    let record = dir.json("out/small/run.json");
     assert_eq!(record["facts"]["regime"], "dilute");
 }
 
 #[test]
 fn the_scene_in_run_json_gives_the_same_bits() {
     let dir = unequal();
-    assert_eq!(shearbed(dir.path(), "run small.toml --replicas 4 --seed 7 --threads 2 --out a").code, Some(0));
-    let record: Value = serde_json::from_str(&read(&dir.path().join("a/run.json"))).unwrap();
+    dir.runs("run small.toml --replicas 4 --seed 7 --threads 2 --out a");
+    let record = dir.json("a/run.json");
     assert_eq!((&record["seed"], &record["threads"]), (&7.into(), &2.into()));
     let scene: shearbed::Scene = serde_json::from_value(record["scene"].clone()).unwrap();
     let plan = shearbed::Plan::new(&scene).unwrap();
@@ -116,13 +90,12 @@ const EXTREMES: &[&[(&str, &str)]] = &[
 fn extreme_scenes_end_well_with_finite_tables() {
     let dir = unequal();
     for (k, changes) in EXTREMES.iter().enumerate() {
-        let text = (changes.iter()).fold(UNEQUAL.to_owned(), |text, (old, new)| {
+        let text = (changes.iter()).fold(UNEQUAL.clone(), |text, (old, new)| {
             assert!(text.contains(old), "{old}");
             text.replace(old, new)
         });
-        fs::write(dir.path().join("extreme.toml"), text).unwrap();
-        let ended = shearbed(dir.path(), &format!("run extreme.toml --threads 1 --quiet --out {k}"));
-        assert_eq!(ended.code, Some(0), "{changes:?}: {}", ended.stderr);
+        dir.write("extreme.toml", text);
+        let ended = dir.runs(&format!("run extreme.toml --threads 1 --quiet --out {k}"));
         let known = [
             "warning: extreme.toml: time.steps_per_period ",
             "warning: extreme.toml: interaction has no effect: one rod has no neighbour",
@@ -142,38 +115,4 @@ fn extreme_scenes_end_well_with_finite_tables() {
             }
         }
     }
-}
-
-#[test]
-fn quiet_prints_nothing() {
-    let dir = unequal();
-    let ended = shearbed(dir.path(), "run extension --quiet");
-    assert_eq!((ended.code, ended.stdout + &ended.stderr), (Some(0), String::new()));
-    let table = read(&dir.path().join("out/extension/projections.csv"));
-    assert!(table.starts_with("strain,time_s,x1,x1_se,x2,x2_se,x3,x3_se\n0.0,0.0,"), "{table}");
-}
-
-#[test]
-fn a_step_that_is_too_long_is_warned_of_wherever_it_is_used() {
-    let dir = unequal();
-    let coarse = UNEQUAL.replace("steps_per_period = 200", "steps_per_period = 100");
-    fs::write(dir.path().join("coarse.toml"), coarse).unwrap();
-    let warning = "time.steps_per_period = 100 does not resolve the motion: the strain per step is 0.734, above 0.370; \
-        200 steps a period resolve it (the default)";
-    let ended = shearbed(dir.path(), "plan coarse.toml");
-    assert_eq!(ended.stdout.lines().last(), Some(format!("warning: {warning}").as_str()));
-    let ended = shearbed(dir.path(), "run coarse.toml --quiet --out a");
-    assert_eq!((ended.code, ended.stdout.as_str()), (Some(0), ""));
-    assert_eq!(ended.stderr, format!("warning: coarse.toml: {warning}\n"));
-    let json = |path: &str| -> Value { serde_json::from_str(&read(&dir.path().join(path))).unwrap() };
-    assert_eq!(json("a/run.json")["warnings"], serde_json::json!([warning]));
-
-    let sweep = "sweep coarse.toml --over time.steps_per_period=100,200 --quiet --out b";
-    let ended = shearbed(dir.path(), sweep);
-    let at_point = format!("--over time.steps_per_period=100: {warning}");
-    assert_eq!(ended.stderr, format!("warning: coarse.toml: {at_point}\n"));
-    assert_eq!(json("b/sweep.json")["warnings"], serde_json::json!([at_point]));
-
-    assert_eq!(shearbed(dir.path(), "run small.toml --quiet --out c").stderr, "");
-    assert_eq!(json("c/run.json")["warnings"], serde_json::json!([]));
 }

@@ -1,6 +1,6 @@
 //! `shearbed fit --design`, and fits of rods that start as a file says.
 
-use super::{json, points};
+use super::points;
 use crate::common::{folder, shearbed};
 use serde_json::Value;
 use std::fs;
@@ -8,19 +8,18 @@ use std::fs;
 #[test]
 fn a_design_lists_what_each_further_point_would_leave() {
     let dir = folder();
-    points(dir.path());
+    points(&dir);
     let fit = "fit small.toml --data points.csv --over interaction.alpha=0.05:5 --replicas 60 --out own";
-    let done = shearbed(dir.path(), &format!("{fit} --design"));
-    assert_eq!(done.code, Some(0), "{}", done.stderr);
+    let done = dir.runs(&format!("{fit} --design"));
     assert!(done.stdout.contains("best next point: x1 at t_over_T = "), "{}", done.stdout);
-    let record = json(&dir.path().join("own/fit.json"));
+    let record = dir.json("own/fit.json");
     let steps = record["design"].as_array().unwrap();
     let u = |step: &Value| step["u"][0].as_f64().unwrap();
     // One standard deviation of the likelihood, near that of the linear theory.
     let now = u(&steps[0]);
     let linear = record["parameters"]["interaction.alpha"]["standard_uncertainty"].as_f64().unwrap();
     assert!((now / linear - 1.0).abs() < 0.2, "{now} {linear}");
-    let mut csv = csv::Reader::from_path(dir.path().join("own/design.csv")).unwrap();
+    let mut csv = csv::Reader::from_path(dir.at("own/design.csv")).unwrap();
     let head = csv.headers().unwrap().clone();
     let (mut best, mut concentrations, mut rows) = ((f64::INFINITY, 0.0), Vec::new(), 0);
     let mut spreads = Vec::new();
@@ -52,27 +51,24 @@ fn a_design_lists_what_each_further_point_would_leave() {
     assert_eq!((u(&steps[4]), steps[4]["added"]["time"].as_f64().unwrap()), best);
     // Points that are means over as many rods as the scene has scatter as its replicas do, more at some times than at
     // others.
-    assert_eq!(
-        shearbed(dir.path(), &format!("{} --design --rods 20", fit.replace("out own", "out rods"))).code,
-        Some(0)
-    );
-    let mut csv = csv::Reader::from_path(dir.path().join("rods/design.csv")).unwrap();
+    dir.runs(&format!("{} --design --rods 20", fit.replace("out own", "out rods")));
+    let mut csv = csv::Reader::from_path(dir.at("rods/design.csv")).unwrap();
     let of_rods: Vec<f64> = csv.records().map(|row| row.unwrap()[5].parse().unwrap()).collect();
     let ends = of_rods.iter().fold((f64::INFINITY, 0.0), |(a, b): (f64, f64), u| (a.min(*u), b.max(*u)));
     assert!(ends.1 > 1.5 * ends.0 && ends.0 > 0.01, "{ends:?}");
     // The same fit without a list of points takes it away.
-    assert_eq!(shearbed(dir.path(), fit).code, Some(0));
-    assert!(!dir.path().join("own/design.csv").exists());
+    dir.runs(fit);
+    assert!(!dir.at("own/design.csv").exists());
 }
 
 #[test]
 fn rods_that_start_as_a_file_says_are_fitted() {
     let dir = folder();
-    let scene = fs::read_to_string(dir.path().join("small.toml")).unwrap();
+    let scene = dir.read("small.toml");
     let count: usize = 20;
     assert!(scene.contains("orientation = \"isotropic\""), "{scene}");
     let scene = scene.replace("orientation = \"isotropic\"", "rods = { file = \"start.csv\" }");
-    fs::write(dir.path().join("small.toml"), &scene).unwrap();
+    dir.write("small.toml", &scene);
     let mut rows = "p1,p2,p3\n".to_owned();
     for k in 0..count {
         // Evenly over the sphere, by the golden angle.
@@ -80,17 +76,16 @@ fn rods_that_start_as_a_file_says_are_fitted() {
         let r = (1.0 - z * z).sqrt();
         rows += &format!("{},{},{z}\n", r * angle.cos(), r * angle.sin());
     }
-    fs::write(dir.path().join("start.csv"), &rows).unwrap();
-    points(dir.path());
+    dir.write("start.csv", &rows);
+    points(&dir);
     // The file is beside the scene, wherever the program is started.
-    fs::create_dir(dir.path().join("scenes")).unwrap();
+    fs::create_dir(dir.at("scenes")).unwrap();
     for name in ["small.toml", "start.csv"] {
-        fs::rename(dir.path().join(name), dir.path().join("scenes").join(name)).unwrap();
+        fs::rename(dir.path().join(name), dir.at("scenes").join(name)).unwrap();
     }
     let fit = "fit scenes/small.toml --data points.csv --over interaction.alpha=0.1:5 --replicas 60";
-    let done = shearbed(dir.path(), &format!("{fit} --out own"));
-    assert_eq!(done.code, Some(0), "{}", done.stderr);
-    let record = json(&dir.path().join("own/fit.json"));
+    dir.runs(&format!("{fit} --out own"));
+    let record = dir.json("own/fit.json");
     let alpha = &record["parameters"]["interaction.alpha"];
     let number = |key: &str| alpha[key].as_f64().unwrap();
     // Correct code is outside four standard uncertainties at one seed in 16 000.
@@ -99,14 +94,12 @@ fn rods_that_start_as_a_file_says_are_fitted() {
     assert_eq!(record["shifts"].as_array().unwrap().len(), 1);
 
     // Another file of starts is another fit.
-    fs::write(dir.path().join("scenes/start.csv"), rows.replace("p1,p2,p3", "p2,p1,p3")).unwrap();
+    dir.write("scenes/start.csv", rows.replace("p1,p2,p3", "p2,p1,p3"));
     let other = shearbed(dir.path(), &format!("{fit} --out own"));
     assert_eq!(other.code, Some(2));
     assert!(other.stderr.contains("start"), "{}", other.stderr);
     // A file that is not as the scene needs it, with what is wrong.
-    fs::write(dir.path().join("scenes/start.csv"), rows.lines().take(count).collect::<Vec<_>>().join("\n")).unwrap();
-    let short = shearbed(dir.path(), &format!("{fit} --out other"));
-    assert_eq!(short.code, Some(2));
-    assert!(short.stderr.contains("has 19 rows"), "{}", short.stderr);
-    assert!(!dir.path().join("other").exists());
+    dir.write("scenes/start.csv", rows.lines().take(count).collect::<Vec<_>>().join("\n"));
+    dir.refuses(&format!("{fit} --out other"), "has 19 rows");
+    assert!(!dir.at("other").exists());
 }

@@ -1,8 +1,7 @@
 //! What a fit says where its points tell less than is asked of them.
 
-use super::{json, points_of};
+use super::points_of;
 use crate::common::{folder, shearbed};
-use std::fs;
 
 /// Twenty synthetic points of `fig4-n50` with α = 0.8 and m = 3, noise 0.01 (400 replicas of seed 7). A fit whose inner
 /// minima stayed in one valley answered here with low_68 = low_95 = 0.057 for α, inside its range, and m = 6.
@@ -17,7 +16,7 @@ fn two_parameters_have_intervals_that_end_apart_or_no_answer() {
     for (k, value) in values.iter().enumerate() {
         text += &format!("{},{value},0.01\n", (k + 1) as f64 / 10.0);
     }
-    fs::write(dir.path().join("twenty.csv"), text).unwrap();
+    dir.write("twenty.csv", text);
     let done = shearbed(
         dir.path(),
         "fit fig4-n50 --data twenty.csv --over interaction.alpha=0.05:5 --over interaction.m=1:6 --set \
@@ -25,11 +24,11 @@ fn two_parameters_have_intervals_that_end_apart_or_no_answer() {
     );
     if done.code == Some(2) {
         assert!(done.stderr.contains("--over "), "{}", done.stderr);
-        assert!(!dir.path().join("out").exists());
+        assert!(!dir.at("out").exists());
         return;
     }
     assert_eq!(done.code, Some(0), "{}", done.stderr);
-    let record = json(&dir.path().join("out/fit.json"));
+    let record = dir.json("out/fit.json");
     for (key, planted) in [("interaction.alpha", 0.8), ("interaction.m", 3.0)] {
         let found = &record["parameters"][key];
         let number = |key: &str| found[key].as_f64().unwrap();
@@ -45,21 +44,19 @@ fn two_parameters_have_intervals_that_end_apart_or_no_answer() {
 #[test]
 fn a_spread_that_is_taken_as_known_is_said_where_it_counts() {
     let dir = folder();
-    points_of(dir.path(), "interaction.alpha=0.8", "points.csv");
+    points_of(&dir, "interaction.alpha=0.8", "points.csv");
     let fit = "fit small.toml --data points.csv --over interaction.alpha=0.05:5 --replicas 100";
     let spread = "--set particles.aspect_ratio_sd_percent=";
-    let done = shearbed(dir.path(), &format!("{fit} {spread}3.6 --out one"));
-    assert_eq!(done.code, Some(0), "{}", done.stderr);
+    let done = dir.runs(&format!("{fit} {spread}3.6 --out one"));
     assert!(
         done.stderr.contains("interaction.alpha: with rods of one r_e it would be about")
             && done.stderr.contains("larger"),
         "{}",
         done.stderr
     );
-    let record = json(&dir.path().join("one/fit.json"));
+    let record = dir.json("one/fit.json");
     assert_eq!(record["shifts"][2]["change"], "rods of one r_e");
     // The control: nothing to be said of.
-    let done = shearbed(dir.path(), &format!("{fit} {spread}0 --out none"));
-    assert_eq!(done.code, Some(0), "{}", done.stderr);
+    let done = dir.runs(&format!("{fit} {spread}0 --out none"));
     assert!(!done.stderr.contains("one r_e"), "{}", done.stderr);
 }

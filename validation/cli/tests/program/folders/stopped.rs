@@ -1,7 +1,7 @@
-//! A full disk, and runs that were killed.
+//! Runs that were killed, and folders that cannot be written.
 
 use crate::common::bounded::{Bounded, end};
-use crate::common::{SMALL, command, files, folder, kill, limited, names, remove_left, shearbed, wait_for};
+use crate::common::{command, files, folder, kill, names, remove_left, wait_for};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Dxsm;
 use shearbed_validation::files::output::{RECORD, Record, Sum};
@@ -10,42 +10,6 @@ use std::path::Path;
 use std::process::Stdio;
 use std::time::Duration;
 
-#[test]
-fn a_full_disk_is_found_before_the_work() {
-    let dir = folder();
-    // Hours of work.
-    let long =
-        SMALL.replace("replicas = 3", "replicas = 1000000").replace("steps_per_period = 20", "steps_per_period = 2000");
-    fs::write(dir.path().join("long.toml"), long).unwrap();
-    for arguments in [
-        "run long.toml --out x",
-        "sweep long.toml --over interaction.alpha=1,2 --out x",
-        "converge long.toml --out x",
-        "validate --out x",
-        "bench --out x",
-    ] {
-        let ended = limited(dir.path(), "ulimit -f 100", arguments);
-        let message = ended.stderr;
-        assert_eq!(ended.code, Some(2), "{arguments}: {message}");
-        assert!(message.contains("x: cannot be written: File too large"), "{message}");
-        assert!(message.contains("MB are to be written there"), "{message}");
-        assert!(!dir.path().join("x").exists(), "{arguments}");
-    }
-}
-
-/// A limit on the size of files that the largest file alone meets, after all work: the system would kill without a
-/// word.
-#[test]
-fn a_file_that_is_too_large_is_an_error() {
-    let dir = folder();
-    for arguments in ["problems export x --quiet", "reference --aspect-ratio 5 --times 0:9:20000 --out x/a.csv"] {
-        let ended = limited(dir.path(), "ulimit -f 40", arguments);
-        assert_eq!(ended.code, Some(2), "{arguments}: {}", ended.stderr);
-        assert!(ended.stderr.contains("cannot be written: "), "{}", ended.stderr);
-        assert_eq!(names(dir.path()), ["small.toml"], "{arguments}");
-    }
-}
-
 /// What killed processes of other versions left, and what only looks so, is the user's to remove.
 #[test]
 fn hidden_names_of_others_stay_and_what_a_kill_left_is_reported() {
@@ -53,10 +17,9 @@ fn hidden_names_of_others_stay_and_what_a_kill_left_is_reported() {
     let run = "run small.toml --quiet --out x";
     let left = "x/.shearbed-0123456789abcdef";
     for name in [left, "x/.shearbed-ready", "x/.shearbed-mine", ".shearbed-part", ".x.shearbed-part"] {
-        fs::create_dir_all(dir.path().join(name)).unwrap();
-        fs::write(dir.path().join(name).join("projections.csv"), "mine").unwrap();
+        dir.write(&format!("{name}/projections.csv"), "mine");
     }
-    fs::write(dir.path().join("x/.shearbed-lock"), "mine").unwrap();
+    dir.write("x/.shearbed-lock", "mine");
     let before = files(dir.path());
     for arguments in [
         run,
@@ -64,12 +27,11 @@ fn hidden_names_of_others_stay_and_what_a_kill_left_is_reported() {
         "run small.toml --out .shearbed-mine --checkpoint .shearbed-c",
         run,
     ] {
-        let ended = shearbed(dir.path(), arguments);
-        assert_eq!(ended.code, Some(0), "{}", ended.stderr);
-        let said = format!("warning: {left}: a shearbed that was killed left this folder");
+        let said = dir.runs(arguments).stderr;
         let reported = usize::from(!arguments.contains(".shearbed-mine"));
-        assert_eq!(ended.stderr.matches(&said).count(), reported, "{}", ended.stderr);
-        assert_eq!(ended.stderr.matches("warning: ").count(), reported, "{}", ended.stderr);
+        for part in [&format!("warning: {left}: a shearbed that was killed left this folder"), "warning: "] {
+            assert_eq!(said.matches(part).count(), reported, "{said}");
+        }
     }
     let after = files(dir.path());
     for (name, bytes) in &before {
@@ -84,8 +46,8 @@ fn hidden_names_of_others_stay_and_what_a_kill_left_is_reported() {
 fn no_umask_leaves_half_a_folder() {
     let dir = folder();
     fs::set_permissions(dir.path(), std::os::unix::fs::PermissionsExt::from_mode(0o777)).unwrap();
-    assert_eq!(shearbed(dir.path(), "run small.toml --quiet --out there").code, Some(0));
-    fs::set_permissions(dir.path().join("there"), std::os::unix::fs::PermissionsExt::from_mode(0o777)).unwrap();
+    dir.runs("run small.toml --quiet --out there");
+    fs::set_permissions(dir.at("there"), std::os::unix::fs::PermissionsExt::from_mode(0o777)).unwrap();
     let before = files(dir.path());
     // Root may do all: it becomes somebody else.
     let is_root = rustix::process::geteuid().is_root();
@@ -167,8 +129,7 @@ fn a_command_killed_at_any_moment_loses_nothing_and_works_again() {
         for notes in own.iter().filter(|notes| notes.exists()) {
             assert_eq!(fs::read(notes).unwrap(), b"mine", "{kill}: {line}");
         }
-        let ended = shearbed(dir.path(), &line);
-        assert_eq!(ended.code, Some(0), "{kill}: {line}: {}", ended.stderr);
+        let ended = dir.runs(&line);
         assert!(ended.stderr.lines().all(|line| line.contains("that was killed left this folder")), "{}", ended.stderr);
         for place in [dir.path(), &out, out.parent().unwrap()].into_iter().filter(|place| place.is_dir()) {
             remove_left(place);
@@ -188,17 +149,17 @@ fn a_command_killed_at_any_moment_loses_nothing_and_works_again() {
 #[test]
 fn a_signal_before_the_checkpoint_is_opened_says_that_it_stays() {
     let dir = folder();
-    fs::create_dir(dir.path().join("x")).unwrap();
-    let lock = fs::File::open(dir.path().join("x")).unwrap();
+    fs::create_dir(dir.at("x")).unwrap();
+    let lock = fs::File::open(dir.at("x")).unwrap();
     lock.lock().unwrap();
     for (there, said) in [
         (true, "kept stays as it is, and the same command goes on from there"),
         (false, "`shearbed run` keeps nothing before it ends"),
     ] {
         if there {
-            fs::write(dir.path().join("kept"), "").unwrap();
+            dir.write("kept", "");
         } else {
-            fs::remove_file(dir.path().join("kept")).unwrap();
+            fs::remove_file(dir.at("kept")).unwrap();
         }
         let mut run = command(dir.path(), "run small.toml --out x --checkpoint kept");
         let child = run.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
