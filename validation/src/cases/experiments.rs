@@ -1,7 +1,8 @@
 //! Experiments (Figs 4 and 5): judged if the measured points are supplied, `NoData` otherwise.
 
 use super::fit_covers::set;
-use crate::input::experiment::{self, ANCZUROWSKI, Comparison, DataError, MeasuredCurve, OKAGAWA_MASON, Runs, Source};
+use crate::files::FileError;
+use crate::input::experiment::{self, ANCZUROWSKI, Comparison, MeasuredCurve, OKAGAWA_MASON, Runs, Source};
 use crate::judge::accept::Rule;
 use crate::judge::case::{Case, Effort, Evidence};
 use crate::judge::lab::{self, Change};
@@ -95,7 +96,7 @@ fn no_data(what: impl Into<String>) -> Vec<Evidence> {
 }
 
 /// The points of a source that are judged, and the number of those that are not.
-fn judged(source: &Source, effort: &Effort) -> Result<(Vec<MeasuredCurve>, usize), DataError> {
+fn judged(source: &Source, effort: &Effort) -> Result<(Vec<MeasuredCurve>, usize), FileError> {
     let Some(data) = &effort.data else {
         return Ok((Vec::new(), 0));
     };
@@ -116,7 +117,7 @@ fn runs(effort: &Effort, stream: u64) -> Runs {
 }
 
 /// One goodness of fit for each scene with points.
-fn agreement(source: &Source, change: Change, effort: &Effort) -> Result<Vec<Evidence>, DataError> {
+fn agreement(source: &Source, change: Change, effort: &Effort) -> Result<Vec<Evidence>, FileError> {
     let (curves, late) = judged(source, effort)?;
     if curves.is_empty() {
         return Ok(no_data(format!("points of {}", source.label)));

@@ -2,6 +2,7 @@
 //!
 //! - [`bounded`]: the one reader of files, for regular files up to a limit that is counted while reading.
 //! - [`output`]: files that appear whole, `shearbed.json` in every folder of results, and the rule for overwriting.
+//! - [`csv`]: the one reader of tables, and [`FileError`], with the place.
 //! - [`checkpoint`]: runs that go on after an interruption; [`cluster`]: the ranks of an MPI job.
 //!
 //! This wing may use the core's scenes and results, and no other wing. To add a file format, write a module that reads
@@ -11,6 +12,10 @@ pub mod bounded;
 pub mod build;
 pub mod checkpoint;
 pub mod cluster;
+pub mod csv;
 pub(crate) mod difference;
+mod error;
 pub mod output;
 pub mod text;
+
+pub use error::FileError;

@@ -56,7 +56,7 @@ impl Starts {
             None => {
                 let bytes = crate::files::bounded::bytes(&path, 1 << 31)
                     .map_err(|error| refused(format!(": cannot be read: {error}")))?;
-                let (own, lines) = read(&bytes).map_err(|error| refused(format!(":{error}")))?;
+                let (own, lines) = read(&path, &bytes).map_err(|error| format!("particles.rods: {error}"))?;
                 let start = Start {
                     crc32: format!("{:08x}", crc32fast::hash(&bytes)),
                     own: Arc::new(own),

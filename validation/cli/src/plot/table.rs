@@ -2,13 +2,13 @@
 
 use super::folders::Run;
 use crate::{Failure, pictures};
-use csv::StringRecord;
-use shearbed_validation::files::bounded;
+use shearbed_validation::files::csv::Table;
 use shearbed_validation::files::output::{RECORD, Sum};
 use shearbed_validation::files::text::Shown;
-use shearbed_validation::files::text::snippet;
+use shearbed_validation::files::{FileError, bounded};
 use shearbed_validation::present::plot::Curve;
-use std::io::{self, Read};
+use std::io::{self, BufReader, Read};
+use std::path::Path;
 
 /// The largest number of rows of all curves of a picture: a page has some thousand points across, and each row takes
 /// some 400 bytes.
@@ -33,7 +33,8 @@ pub(super) fn channel(run: &Run, wanted: Option<&str>, left: &mut usize) -> Resu
         let sum = run.record.files.get(&name);
         let sum = sum.ok_or_else(|| at(format!(": is not listed in the folder's {RECORD}")))?;
         let file = bounded::open(&path).map_err(unread)?;
-        let mut table = Table::new(file, sum.bytes).map_err(at)?;
+        let refused = |error: FileError| Failure::Input(error.to_string());
+        let mut table = RunTable::new(&path, file, sum.bytes).map_err(refused)?;
         let channels = table.channels();
         let chosen = match wanted {
             Some(wanted) => channels.iter().find(|channel| *channel == wanted),
@@ -43,11 +44,11 @@ pub(super) fn channel(run: &Run, wanted: Option<&str>, left: &mut usize) -> Resu
             known.extend(channels);
             continue;
         };
-        let [x, y, se] = table.columns(chosen, left).map_err(at)?;
+        let [x, y, se] = table.columns(chosen, left).map_err(refused)?;
         run.record.check(&name, &table.sum()).map_err(|why| at(format!(": {why}")))?;
         let half = pictures::half_widths(&run.scene);
         return Ok(Found {
-            time: table.header[0].to_owned(),
+            time: table.0.names()[0].clone(),
             channel: chosen.clone(),
             curve: Curve {
                 label: run.label.clone(),
@@ -65,93 +66,60 @@ pub(super) fn channel(run: &Run, wanted: Option<&str>, left: &mut usize) -> Resu
     }))
 }
 
-/// A table of a run. Its errors begin with the line, as `:3: x1 = …`.
-struct Table<R> {
-    reader: csv::Reader<Summed<R>>,
-    header: StringRecord,
-}
+/// A table of a run.
+struct RunTable<R>(Table<BufReader<Summed<R>>>);
 
-impl<R: Read> Table<R> {
+impl<R: Read> RunTable<R> {
     /// Reads the header of a table whose record says that it has `bytes` bytes.
-    fn new(file: R, bytes: u64) -> Result<Self, String> {
-        let summed = Summed {
-            // One byte more, to detect a longer file.
-            file: file.take(bytes.saturating_add(1)),
-            bytes: 0,
-            hasher: crc32fast::Hasher::new(),
-        };
-        let mut reader = csv::Reader::from_reader(summed);
-        let header = reader.headers().map_err(no_table)?.clone();
-        if header.is_empty() {
-            return Err(":1: is empty; a header and rows are needed".into());
-        }
-        let twice = (1..header.len()).find(|k| header.iter().take(*k).any(|other| other == &header[*k]));
-        match twice {
-            Some(k) => Err(format!(":1: column {} is there twice; once is allowed", snippet(&header[k]))),
-            None => Ok(Self { reader, header }),
-        }
+    fn new(path: &Path, file: R, bytes: u64) -> Result<Self, FileError> {
+        // One byte more, to detect a longer file.
+        let file = file.take(bytes.saturating_add(1));
+        let summed = Summed { file, bytes: 0, hasher: crc32fast::Hasher::new() };
+        Table::new(path, BufReader::new(summed)).map(Self)
     }
 
     /// The names of columns with a standard error.
     fn channels(&self) -> Vec<String> {
-        let has = |name: String| self.header.iter().any(|other| other == name);
-        let channels = self.header.iter().filter(|name| has(format!("{name}_se")));
-        channels.map(str::to_owned).collect()
+        let channels = self.0.names().iter().filter(|name| self.0.place(&format!("{name}_se")).is_some());
+        channels.cloned().collect()
     }
 
     /// The times, and the means and standard errors of a channel, each checked. `left` counts down the rows that may be
     /// read.
-    fn columns(&mut self, channel: &str, left: &mut usize) -> Result<[Vec<f64>; 3], String> {
-        let place = |name: &str| self.header.iter().position(|head| head == name).unwrap_or(0);
+    fn columns(&mut self, channel: &str, left: &mut usize) -> Result<[Vec<f64>; 3], FileError> {
+        let place = |name: &str| self.0.place(name).unwrap_or(0);
         let places = [0, place(channel), place(&format!("{channel}_se"))];
         let mut columns = [(); 3].map(|()| Vec::new());
-        let mut record = StringRecord::new();
-        while self.reader.read_record(&mut record).map_err(no_table)? {
-            let line = record.position().map_or(0, csv::Position::line);
-            let refused = |k: usize, allowed: &str| {
-                let (name, cell) = (&self.header[places[k]], &record[places[k]]);
-                format!(":{line}: {name} = {} is not allowed: expected {allowed}", snippet(cell))
-            };
-            let number = |k: usize| record[places[k]].parse().map_err(|_| refused(k, "a number"));
-            let [time, mean, se]: [f64; 3] = [number(0)?, number(1)?, number(2)?];
+        while let Some(row) = self.0.next_row()? {
+            let [time, mean, se] = [row.number(places[0])?, row.number(places[1])?, row.number(places[2])?];
             let last = columns[0].last().copied();
             if !time.is_finite() || last.is_some_and(|last| time <= last) {
-                return Err(refused(0, "a finite number above that of the row before"));
+                return Err(row.refused(places[0], "a finite number above that of the row before"));
             }
             if !mean.is_finite() {
-                return Err(refused(1, "a finite number"));
+                return Err(row.refused(places[1], "a finite number"));
             }
             // For a single rod the standard error is unknown.
             if se.is_infinite() || se < 0.0 {
-                return Err(refused(2, "a finite number ≥ 0, or NaN of a single rod"));
+                return Err(row.refused(places[2], "a finite number ≥ 0, or NaN of a single rod"));
             }
             *left = left.checked_sub(1).ok_or_else(|| {
-                format!(
-                    ":{line}: more than {MOST_ROWS} rows for one picture; fewer runs, or a smaller \
-                     time.outputs_per_period, are allowed"
-                )
+                row.error(format!(
+                    "more than {MOST_ROWS} rows for one picture; fewer runs, or a smaller time.outputs_per_period, are \
+                     allowed"
+                ))
             })?;
             for (column, value) in columns.iter_mut().zip([time, mean, se]) {
                 column.push(value);
             }
         }
-        if columns[0].is_empty() { Err(":1: has a header alone; rows are needed".into()) } else { Ok(columns) }
+        if columns[0].is_empty() { Err(self.0.error("has a header alone; rows are needed")) } else { Ok(columns) }
     }
 
     /// The size and checksum of what was read.
     fn sum(&self) -> Sum {
-        let read = self.reader.get_ref();
+        let read = self.0.reader().get_ref();
         Sum::from_parts(read.bytes, read.hasher.clone().finalize())
-    }
-}
-
-fn no_table(error: csv::Error) -> String {
-    let line = error.position().map_or(1, csv::Position::line);
-    match error.kind() {
-        csv::ErrorKind::UnequalLengths { expected_len, len, .. } => {
-            format!(":{line}: {len} cells; the header has {expected_len}")
-        }
-        _ => format!(":{line}: is no table in CSV: {error}"),
     }
 }
 
@@ -175,8 +143,8 @@ impl<R: Read> Read for Summed<R> {
 mod tests {
     use super::*;
 
-    fn read(text: &str, mut left: usize) -> Result<[Vec<f64>; 3], String> {
-        Table::new(text.as_bytes(), text.len() as u64)?.columns("x1", &mut left)
+    fn read(text: &str, mut left: usize) -> Result<[Vec<f64>; 3], FileError> {
+        RunTable::new(Path::new("a"), text.as_bytes(), text.len() as u64)?.columns("x1", &mut left)
     }
 
     #[test]
@@ -187,21 +155,25 @@ mod tests {
         assert!(se[0].is_nan());
         let more = "more than 200000 rows for one picture";
         for (text, left, said) in [
-            (String::new(), 9, ":1: is empty"),
+            (String::new(), 9, ":1: the file is empty"),
             (head.into(), 9, ":1: has a header alone"),
-            ("t,x1,x1_se,x1\n0,1,1,1\n".into(), 9, ":1: column \"x1\" is there twice"),
-            (format!("{head}0,NaN,0\n"), 9, ":2: x1 = \"NaN\" is not allowed: expected a finite number"),
-            (format!("{head}0,1,0\n1,-inf,0\n"), 9, ":3: x1 = \"-inf\""),
-            (format!("{head}0,1,inf\n"), 9, ":2: x1_se = \"inf\""),
-            (format!("{head}0,1,-1\n"), 9, ":2: x1_se = \"-1\""),
-            (format!("{head}nan,1,0\n"), 9, ":2: t_over_T = \"nan\""),
-            (format!("{head}1,1,0\n1,1,0\n"), 9, ":3: t_over_T = \"1\" is not allowed: expected a finite number above"),
-            (format!("{head}0,one,0\n"), 9, ":2: x1 = \"one\" is not allowed: expected a number"),
+            ("t,x1,x1_se,x1\n0,1,1,1\n".into(), 9, ":1: column `x1` is there twice"),
+            (format!("{head}0,NaN,0\n"), 9, ":2: column x1: `NaN` is not allowed: expected a finite number"),
+            (format!("{head}0,1,0\n1,-inf,0\n"), 9, ":3: column x1: `-inf`"),
+            (format!("{head}0,1,inf\n"), 9, ":2: column x1_se: `inf`"),
+            (format!("{head}0,1,-1\n"), 9, ":2: column x1_se: `-1`"),
+            (format!("{head}nan,1,0\n"), 9, ":2: column t_over_T: `nan`"),
+            (
+                format!("{head}1,1,0\n1,1,0\n"),
+                9,
+                ":3: column t_over_T: `1` is not allowed: expected a finite number above",
+            ),
+            (format!("{head}0,one,0\n"), 9, ":2: column x1: `one` is not allowed: expected a number"),
             (format!("{head}0,1\n"), 9, ":2: 2 cells; the header has 3"),
             (format!("{head}0,1,0\n1,1,0\n"), 1, &format!(":3: {more}")),
         ] {
-            let found = read(&text, left).unwrap_err();
-            assert!(found.starts_with(said), "{text:?}: {found}");
+            let error = read(&text, left).unwrap_err().to_string();
+            assert!(error.starts_with(&format!("a{said}")), "{text:?}: {error}");
         }
     }
 }

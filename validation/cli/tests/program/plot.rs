@@ -88,12 +88,12 @@ fn what_was_not_written_so_is_not_drawn() {
     let first = table.lines().next().unwrap();
     let edited = cells[3].replace(|c: char| c.is_ascii_digit(), "1");
     for (text, said) in [
-        (with(3, "NaN"), "a/projections.csv:3: x1 = \"NaN\" is not allowed: expected a finite number"),
-        (with(3, "-inf"), "a/projections.csv:3: x1 = \"-inf\" is not allowed"),
-        (with(0, "-1"), "a/projections.csv:3: t_over_T = \"-1\" is not allowed"),
-        (table.replacen("x2,", "x1,", 1), "a/projections.csv:1: column \"x1\" is there twice"),
+        (with(3, "NaN"), "a/projections.csv:3: column x1: `NaN` is not allowed: expected a finite number"),
+        (with(3, "-inf"), "a/projections.csv:3: column x1: `-inf` is not allowed"),
+        (with(0, "-1"), "a/projections.csv:3: column t_over_T: `-1` is not allowed"),
+        (table.replacen("x2,", "x1,", 1), "a/projections.csv:1: column `x1` is there twice"),
         (format!("{first}\n"), "a/projections.csv:1: has a header alone"),
-        (String::new(), "a/projections.csv:1: is empty"),
+        (String::new(), "a/projections.csv:1: the file is empty"),
         (with(3, &edited), "a/projections.csv: was changed after it was written"),
     ] {
         dir.write("a/projections.csv", text);

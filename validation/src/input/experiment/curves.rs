@@ -1,9 +1,10 @@
 //! Reads pairs of files into curves in the model's units, sorted by time.
 
-use super::error::{DataError, read_text};
 use super::provenance::{Axis, Key, Layout, OBSERVABLES, Projection, Provenance};
 use super::table::{self, DataRow, Dataset};
-use super::{Measured, MeasuredCurve, Source, provenance_file};
+use super::{Measured, MeasuredCurve, Source, provenance_file, read_text};
+use crate::files::FileError;
+use crate::files::csv::not_allowed;
 use crate::files::text::Shown;
 use crate::input::scenes;
 use std::collections::HashMap;
@@ -17,20 +18,19 @@ const TIME_UNCERTAINTY: &str =
     "one standard deviation of at most a quarter of a period: ± that spans a whole oscillation";
 
 /// Reads the provenance file `path` and the CSV file of the same name beside it.
-pub(super) fn read(path: &Path, source: &Source) -> Result<Vec<MeasuredCurve>, DataError> {
+pub(super) fn read(path: &Path, source: &Source) -> Result<Vec<MeasuredCurve>, FileError> {
     let csv_path = path.with_extension("csv");
     if !csv_path.is_file() {
         let message = format!("it has no {} beside it", csv_path.shown());
-        return Err(DataError::whole(path, message));
+        return Err(FileError::whole(path, message));
     }
-    let file = csv_path.display().to_string();
     let provenance = provenance_file::parse(&path.display().to_string(), &read_text(path)?, source)?;
     let text = read_text(&csv_path)?;
     let datasets = match provenance.csv {
-        Layout::WebPlotDigitizer => table::webplotdigitizer(&file, &text)?,
+        Layout::WebPlotDigitizer => table::webplotdigitizer(&csv_path, &text)?,
         Layout::Columns => {
             let ys: Vec<_> = provenance.curves.iter().map(|key| column(&provenance, key)).collect();
-            table::columns(&file, &text, provenance.x.quantity.column(), &ys)?
+            table::columns(&csv_path, &text, provenance.x.quantity.column(), &ys)?
         }
     };
     let axis = &provenance.x;
@@ -45,7 +45,7 @@ pub(super) fn read(path: &Path, source: &Source) -> Result<Vec<MeasuredCurve>, D
             axis.standard_uncertainty,
             MOST_UNCERTAIN * shortest
         );
-        return Err(DataError::whole(path, message));
+        return Err(FileError::whole(path, message));
     }
     let named = |dataset: &Dataset| format!("`{}`", dataset.name);
     let names = datasets.iter().map(named).collect::<Vec<_>>().join(", ");
@@ -55,7 +55,7 @@ pub(super) fn read(path: &Path, source: &Source) -> Result<Vec<MeasuredCurve>, D
             datasets.len(),
             provenance.curves.len()
         );
-        return Err(DataError::at(&file, 1, message));
+        return Err(FileError::line(&csv_path, 1, message));
     }
     let curve = |key: &Key| {
         let wanted = match provenance.csv {
@@ -68,9 +68,9 @@ pub(super) fn read(path: &Path, source: &Source) -> Result<Vec<MeasuredCurve>, D
         let dataset = dataset.ok_or_else(|| {
             let wanted = wanted.unwrap_or_else(|| "missing".to_owned());
             let message = format!("curve.dataset = {wanted} is not allowed: {} has {names}", csv_path.shown());
-            DataError::at(&path.display().to_string(), key.line, message)
+            FileError::line(path, key.line as u64, message)
         })?;
-        convert(&file, key, dataset, &provenance, source)
+        convert(&csv_path, key, dataset, &provenance, source)
     };
     provenance.curves.iter().map(curve).collect()
 }
@@ -85,15 +85,15 @@ fn column(provenance: &Provenance, key: &Key) -> String {
 }
 
 fn convert(
-    file: &str,
+    file: &Path,
     key: &Key,
     dataset: &Dataset,
     provenance: &Provenance,
     source: &Source,
-) -> Result<MeasuredCurve, DataError> {
+) -> Result<MeasuredCurve, FileError> {
     if dataset.rows.is_empty() {
         let message = format!("`{}` has no points", dataset.name);
-        return Err(DataError::at(file, 1, message));
+        return Err(FileError::line(file, 1, message));
     }
     let mut seen = HashMap::new();
     for row in &dataset.rows {
@@ -105,7 +105,7 @@ fn convert(
         if let Some(first) = seen.insert(place, row.line) {
             let message =
                 format!("the point ({}, {}) is in line {first} already: each point once is allowed", row.x, row.y);
-            return Err(DataError::at(file, row.line, message));
+            return Err(FileError::line(file, row.line, message));
         }
     }
     let scene = scenes::find(key.scene).and_then(|built_in| built_in.scene().ok());
@@ -117,8 +117,8 @@ fn convert(
     let vague = |row: &&DataRow| row.u_x.is_some_and(|u| u > most);
     if let Some(row) = dataset.rows.iter().find(vague) {
         let (name, u) = (provenance.x.quantity.column(), row.u_x.unwrap_or_default());
-        let message = format!("column {name}_u: `{u}` is not allowed: expected {TIME_UNCERTAINTY}, here {most}");
-        return Err(DataError::at(file, row.line, message));
+        let message = not_allowed(&format!("{name}_u"), &u.to_string(), &format!("{TIME_UNCERTAINTY}, here {most}"));
+        return Err(FileError::line(file, row.line, message));
     }
     let length = match provenance.y.quantity {
         Projection::Fraction => 1.0,
@@ -139,21 +139,17 @@ fn convert(
 
 /// Fails if a value is beyond the reference points by more than the reading uncertainty explains.
 fn on_axis<Q>(
-    file: &str,
-    line: usize,
+    file: &Path,
+    line: u64,
     [name, column]: [&str; 2],
     value: f64,
     axis: &Axis<Q>,
     own: Option<f64>,
-) -> Result<(), DataError> {
+) -> Result<(), FileError> {
     let [least, most] = axis.uncertainties();
     if let Some(u) = own.filter(|u| !(least..=most).contains(u)) {
         let allowed = provenance_file::uncertainty(least, most);
-        return Err(DataError::at(
-            file,
-            line,
-            format!("column {column}_u: `{u:?}` is not allowed: expected {allowed}"),
-        ));
+        return Err(FileError::line(file, line, not_allowed(&format!("{column}_u"), &format!("{u:?}"), &allowed)));
     }
     let (least, most) = axis.range();
     let slack = 3.0 * own.unwrap_or(axis.standard_uncertainty);
@@ -164,5 +160,5 @@ fn on_axis<Q>(
         "{name} = {value} is not allowed: the axis is calibrated from {least} to {most} (three standard uncertainties \
          beyond its ends are allowed)"
     );
-    Err(DataError::at(file, line, message))
+    Err(FileError::line(file, line, message))
 }

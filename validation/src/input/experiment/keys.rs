@@ -1,20 +1,20 @@
 //! Reads the keys of a provenance file, with errors that name file, line, key, value and what is allowed.
 
-use super::error::DataError;
+use crate::files::FileError;
 use shearbed::Error;
 use shearbed::scene::SceneProblem;
 use shearbed::scene::document::{Document, Table};
 
 /// Reads a TOML text.
-pub(super) fn document(file: &str, text: &str) -> Result<Document, DataError> {
+pub(super) fn document(file: &str, text: &str) -> Result<Document, FileError> {
     Document::parse(file, text).map_err(|error| match error {
         Error::Text { mut problems, .. } if !problems.is_empty() => located(file, problems.remove(0)),
-        other => DataError { file: file.to_owned(), line: None, message: other.to_string() },
+        other => FileError::whole(file, other.to_string()),
     })
 }
 
-fn located(file: &str, SceneProblem { line, message, .. }: SceneProblem) -> DataError {
-    DataError { file: file.to_owned(), line, message }
+fn located(file: &str, SceneProblem { line, message, .. }: SceneProblem) -> FileError {
+    FileError::line(file, line.unwrap_or(0) as u64, message)
 }
 
 /// A table of the file.
@@ -41,7 +41,7 @@ impl<'a> Keys<'a> {
     }
 
     /// The error that `key` is missing or has a value other than `allowed`.
-    pub(super) fn refused(&self, key: &str, allowed: &str) -> DataError {
+    pub(super) fn refused(&self, key: &str, allowed: &str) -> FileError {
         located(self.file, self.table.refused(key, format!("expected {allowed}")))
     }
 
@@ -51,42 +51,42 @@ impl<'a> Keys<'a> {
     }
 
     /// The text at `key`, trimmed and not empty.
-    pub(super) fn text(&self, key: &str, allowed: &str) -> Result<String, DataError> {
+    pub(super) fn text(&self, key: &str, allowed: &str) -> Result<String, FileError> {
         let text = self.table.read::<String>(key).map(|text| text.trim().to_owned());
         text.filter(|text| !text.is_empty()).ok_or_else(|| self.refused(key, allowed))
     }
 
     /// The finite number at `key`, for which `holds` must be true.
-    pub(super) fn number(&self, key: &str, allowed: &str, holds: impl Fn(f64) -> bool) -> Result<f64, DataError> {
+    pub(super) fn number(&self, key: &str, allowed: &str, holds: impl Fn(f64) -> bool) -> Result<f64, FileError> {
         let number = self.table.read::<f64>(key).filter(|number| number.is_finite() && holds(*number));
         number.ok_or_else(|| self.refused(key, allowed))
     }
 
     /// The array of finite numbers at `key`.
-    pub(super) fn numbers(&self, key: &str, allowed: &str) -> Result<Vec<f64>, DataError> {
+    pub(super) fn numbers(&self, key: &str, allowed: &str) -> Result<Vec<f64>, FileError> {
         let numbers = self.table.read::<Vec<f64>>(key);
         let finite = |numbers: &Vec<f64>| numbers.iter().all(|number| number.is_finite());
         numbers.filter(finite).ok_or_else(|| self.refused(key, allowed))
     }
 
     /// The table at `key`.
-    pub(super) fn table(&self, key: &str, allowed: &str) -> Result<Self, DataError> {
+    pub(super) fn table(&self, key: &str, allowed: &str) -> Result<Self, FileError> {
         let table = self.table.table(key).ok_or_else(|| self.refused(key, allowed))?;
         Ok(self.inner(key, table))
     }
 
     /// The array of tables at `key`, at least one.
-    pub(super) fn tables(&self, key: &str, allowed: &str) -> Result<Vec<Self>, DataError> {
+    pub(super) fn tables(&self, key: &str, allowed: &str) -> Result<Vec<Self>, FileError> {
         let tables = self.table.tables(key).ok_or_else(|| self.refused(key, allowed))?;
         Ok(tables.into_iter().map(|table| self.inner(key, table)).collect())
     }
 
     /// Fails if the table has a key that is not among `known`.
-    pub(super) fn only(&self, known: &[&str]) -> Result<(), DataError> {
+    pub(super) fn only(&self, known: &[&str]) -> Result<(), FileError> {
         let unknown = self.table.keys().find(|name| !known.contains(name));
         unknown.map_or(Ok(()), |name| {
             let message = format!("{}{name} is an unknown key; allowed are {}", self.path, known.join(", "));
-            Err(DataError::at(self.file, self.line(name), message))
+            Err(FileError::line(self.file, self.line(name) as u64, message))
         })
     }
 }

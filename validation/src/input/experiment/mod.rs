@@ -9,7 +9,6 @@ mod compare;
 mod comparison;
 mod covariance;
 mod curves;
-mod error;
 mod keys;
 mod model;
 mod provenance;
@@ -21,12 +20,9 @@ mod tests;
 pub use bias::{Bias, bias};
 pub use compare::{Runs, alpha, compare};
 pub use comparison::{AlphaFit, Comparison, Point};
-pub use error::DataError;
-use error::unreadable;
-pub use error::{MOST_BYTES, read_text};
 pub use provenance::{Axis, Key, Layout, OBSERVABLES, Projection, Provenance, Time};
 
-use crate::files::bounded;
+use crate::files::{FileError, bounded};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
@@ -94,7 +90,7 @@ pub struct MeasuredCurve {
 }
 
 /// All curves of a source under `data`; empty if the source has no folder or no files there.
-pub fn read(data: &Path, source: &Source) -> Result<Vec<MeasuredCurve>, DataError> {
+pub fn read(data: &Path, source: &Source) -> Result<Vec<MeasuredCurve>, FileError> {
     let folder = data.join(source.folder);
     if !folder.exists() {
         return Ok(Vec::new());
@@ -106,7 +102,7 @@ pub fn read(data: &Path, source: &Source) -> Result<Vec<MeasuredCurve>, DataErro
     };
     if let Some(alone) = with("csv").find(|path| !path.with_extension("toml").is_file()) {
         let message = "it has no provenance file of the same name beside it, ending in .toml";
-        return Err(DataError::whole(alone, message));
+        return Err(FileError::whole(alone, message));
     }
     let mut found: Vec<MeasuredCurve> = Vec::new();
     for path in with("toml") {
@@ -116,7 +112,7 @@ pub fn read(data: &Path, source: &Source) -> Result<Vec<MeasuredCurve>, DataErro
         if let Some(curve) = new.iter().find(again) {
             let name = OBSERVABLES[curve.channel];
             let message = format!("{name} of {} is in another file already: points count once", curve.scene);
-            return Err(DataError::whole(path, message));
+            return Err(FileError::whole(path, message));
         }
         found.extend(new);
     }
@@ -124,7 +120,7 @@ pub fn read(data: &Path, source: &Source) -> Result<Vec<MeasuredCurve>, DataErro
 }
 
 /// Reads all measured points under `data`; fails if there are files in folders that no source reads.
-pub fn check(data: &Path) -> Result<(), DataError> {
+pub fn check(data: &Path) -> Result<(), FileError> {
     for source in &SOURCES {
         read(data, source)?;
     }
@@ -138,14 +134,14 @@ pub fn check(data: &Path) -> Result<(), DataError> {
     match unread.iter().find(|path| path.extension().is_some_and(|extension| extension == "csv")) {
         Some(path) => {
             let message = format!("the folder belongs to no source; allowed are {}", folders.join(", "));
-            Err(DataError::whole(path, message))
+            Err(FileError::whole(path, message))
         }
         None => Ok(()),
     }
 }
 
 /// The checksums (CRC-32) of all files read under `data`, by their path relative to `data`.
-pub fn digest(data: &Path) -> Result<BTreeMap<String, u32>, DataError> {
+pub fn digest(data: &Path) -> Result<BTreeMap<String, u32>, FileError> {
     let mut sums = BTreeMap::new();
     for source in &SOURCES {
         let folder = data.join(source.folder);
@@ -153,7 +149,8 @@ pub fn digest(data: &Path) -> Result<BTreeMap<String, u32>, DataError> {
             continue;
         }
         for path in files(&folder)?.iter().filter(|path| path.is_file()) {
-            let (_, crc32) = bounded::length_and_crc32(path, MOST_BYTES).map_err(|error| unreadable(path, &error))?;
+            let (_, crc32) =
+                bounded::length_and_crc32(path, MOST_BYTES).map_err(|error| FileError::unreadable(path, &error))?;
             let name = path.strip_prefix(data).unwrap_or(path).display().to_string();
             sums.insert(name, crc32);
         }
@@ -162,7 +159,7 @@ pub fn digest(data: &Path) -> Result<BTreeMap<String, u32>, DataError> {
 }
 
 /// All measured points under the conditions of a scene, for pictures; empty without data.
-pub fn points_for(data: Option<&Path>, scene_name: &str) -> Result<Vec<Measured>, DataError> {
+pub fn points_for(data: Option<&Path>, scene_name: &str) -> Result<Vec<Measured>, FileError> {
     let mut points = Vec::new();
     for source in SOURCES.iter().filter(|source| source.scenes.contains(&scene_name)) {
         let curves = data.map_or(Ok(Vec::new()), |data| read(data, source))?;
@@ -172,11 +169,21 @@ pub fn points_for(data: Option<&Path>, scene_name: &str) -> Result<Vec<Measured>
     Ok(points)
 }
 
+/// Size limit in bytes of a file of measured points.
+pub const MOST_BYTES: u64 = 64 << 20;
+
+/// The text of a file in UTF-8.
+pub fn read_text(path: &Path) -> Result<String, FileError> {
+    let text = bounded::text(path, MOST_BYTES).map_err(|error| FileError::unreadable(path, &error))?;
+    let text = text.strip_prefix('\u{feff}').map_or(text.clone(), str::to_owned);
+    if text.trim().is_empty() { Err(FileError::line(path, 1, "the file is empty")) } else { Ok(text) }
+}
+
 /// The entries of a folder, sorted by name.
-fn files(folder: &Path) -> Result<Vec<PathBuf>, DataError> {
-    let refused = |error: std::io::Error| unreadable(folder, &error);
+fn files(folder: &Path) -> Result<Vec<PathBuf>, FileError> {
+    let refused = |error: std::io::Error| FileError::unreadable(folder, &error);
     let entries = std::fs::read_dir(folder).map_err(refused)?;
-    let mut paths = entries.map(|entry| Ok(entry.map_err(refused)?.path())).collect::<Result<Vec<_>, DataError>>()?;
+    let mut paths = entries.map(|entry| Ok(entry.map_err(refused)?.path())).collect::<Result<Vec<_>, FileError>>()?;
     paths.sort();
     Ok(paths)
 }

@@ -1,9 +1,9 @@
 //! Reads a provenance file, with errors that name the line, the key, its value and what is allowed.
 
 use super::Source;
-use super::error::DataError;
 use super::keys::{Keys, document};
 use super::provenance::{Axis, INPUTS, Key, Layout, OBSERVABLES, Projection, Provenance, Time};
+use crate::files::FileError;
 use crate::input::scenes;
 
 const CALIBRATION: &str = "the values of the axis's reference points, two different numbers at least";
@@ -12,7 +12,7 @@ const QUANTITY_X: &str = "\"t_over_T\", \"t_s\" or \"strain\": the unit is in th
 const QUANTITY_Y: &str = "\"fraction\" (of the rod's length) or \"mm\": the unit is in the name";
 
 /// Reads a provenance file of a source.
-pub(super) fn parse(file: &str, text: &str, source: &Source) -> Result<Provenance, DataError> {
+pub(super) fn parse(file: &str, text: &str, source: &Source) -> Result<Provenance, FileError> {
     let document = document(file, text)?;
     let all = Keys::of_file(file, &document);
     all.only(&[
@@ -57,7 +57,7 @@ pub(super) fn parse(file: &str, text: &str, source: &Source) -> Result<Provenanc
     })
 }
 
-fn date(all: &Keys<'_>) -> Result<String, DataError> {
+fn date(all: &Keys<'_>) -> Result<String, FileError> {
     let allowed = "the day of reading off, as \"YYYY-MM-DD\"";
     let date = all.text("date", allowed)?;
     if is_day(&date) { Ok(date) } else { Err(all.refused("date", allowed)) }
@@ -85,7 +85,7 @@ pub(super) fn uncertainty(least: f64, most: f64) -> String {
     format!("one standard deviation from {least:?} to {most:?}, the width of the axis")
 }
 
-fn axis<Q>(table: &Keys<'_>, quantity: fn(&Keys<'_>) -> Result<Q, DataError>) -> Result<Axis<Q>, DataError> {
+fn axis<Q>(table: &Keys<'_>, quantity: fn(&Keys<'_>) -> Result<Q, FileError>) -> Result<Axis<Q>, FileError> {
     table.only(&["quantity", "shear_rate_per_s", "calibration", "standard_uncertainty"])?;
     let axis = Axis {
         quantity: quantity(table)?,
@@ -104,7 +104,7 @@ fn axis<Q>(table: &Keys<'_>, quantity: fn(&Keys<'_>) -> Result<Q, DataError>) ->
     }
 }
 
-fn time(table: &Keys<'_>) -> Result<Time, DataError> {
+fn time(table: &Keys<'_>) -> Result<Time, FileError> {
     let quantity = match table.text("quantity", QUANTITY_X)?.as_str() {
         "t_over_T" => Time::Periods,
         "strain" => Time::Strain,
@@ -118,7 +118,7 @@ fn time(table: &Keys<'_>) -> Result<Time, DataError> {
     Ok(quantity)
 }
 
-fn projection(table: &Keys<'_>) -> Result<Projection, DataError> {
+fn projection(table: &Keys<'_>) -> Result<Projection, FileError> {
     no_shear_rate(table)?;
     match table.text("quantity", QUANTITY_Y)?.as_str() {
         "fraction" => Ok(Projection::Fraction),
@@ -127,7 +127,7 @@ fn projection(table: &Keys<'_>) -> Result<Projection, DataError> {
     }
 }
 
-fn no_shear_rate(table: &Keys<'_>) -> Result<(), DataError> {
+fn no_shear_rate(table: &Keys<'_>) -> Result<(), FileError> {
     if table.has("shear_rate_per_s") {
         Err(table.refused("shear_rate_per_s", "only for x.quantity = \"t_s\""))
     } else {
@@ -135,7 +135,7 @@ fn no_shear_rate(table: &Keys<'_>) -> Result<(), DataError> {
     }
 }
 
-fn curves(all: &Keys<'_>, csv: Layout, source: &Source) -> Result<Vec<Key>, DataError> {
+fn curves(all: &Keys<'_>, csv: Layout, source: &Source) -> Result<Vec<Key>, FileError> {
     let tables = all.tables("curve", "one [[curve]] for each dataset of the CSV file")?;
     let mut keys: Vec<Key> = Vec::new();
     for table in &tables {
@@ -178,7 +178,7 @@ fn curves(all: &Keys<'_>, csv: Layout, source: &Source) -> Result<Vec<Key>, Data
 }
 
 /// Fails if the points are of rods with another aspect ratio than the scenes'.
-fn own_aspect_ratio(all: &Keys<'_>, curves: &[Key]) -> Result<(), DataError> {
+fn own_aspect_ratio(all: &Keys<'_>, curves: &[Key]) -> Result<(), FileError> {
     if !all.has("aspect_ratio") {
         return Ok(());
     }
@@ -195,7 +195,7 @@ fn own_aspect_ratio(all: &Keys<'_>, curves: &[Key]) -> Result<(), DataError> {
     Ok(())
 }
 
-fn inputs(all: &Keys<'_>) -> Result<Vec<(usize, f64)>, DataError> {
+fn inputs(all: &Keys<'_>) -> Result<Vec<(usize, f64)>, FileError> {
     if !all.has("inputs") {
         return Ok(Vec::new());
     }

@@ -1,7 +1,8 @@
 //! The CSV file of measured points, in the project's columns or as WebPlotDigitizer exports it.
 
-use super::error::DataError;
-use csv::{ReaderBuilder, StringRecord, Trim};
+use crate::files::FileError;
+use crate::files::csv::{self, Row, Rows, Table};
+use std::path::Path;
 
 /// Points of one column or dataset, in the units of the file.
 #[derive(Clone, Debug, PartialEq)]
@@ -15,7 +16,7 @@ pub(crate) struct Dataset {
 /// One point, in the units of the file.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct DataRow {
-    pub(crate) line: usize,
+    pub(crate) line: u64,
     pub(crate) x: f64,
     pub(crate) y: f64,
     /// Uncertainties of this point, if the file states them.
@@ -23,179 +24,94 @@ pub(crate) struct DataRow {
     pub(crate) u_y: Option<f64>,
 }
 
-/// A line of the file that is not blank, split into cells.
-struct Record {
-    line: usize,
-    cells: StringRecord,
-}
-
 /// The largest number of lines of a file: more than the points of any figure; a comparison then takes half a minute.
-const MOST_LINES: usize = 20_000;
-
-/// Fails if the cells of the first line are separated by semicolons or tabs, and says what to do: such files have
-/// decimal commas.
-pub(crate) fn commas(file: &str, text: &str) -> Result<(), DataError> {
-    let Some((index, first)) = text.lines().enumerate().find(|(_, line)| !line.trim().is_empty()) else {
-        return Ok(());
-    };
-    for (separator, name, shell) in [(';', "semicolons", ";"), ('\t', "tabs", "\\t")] {
-        let is_number = |cell: &str| cell.trim().replace(',', ".").parse::<f64>().is_ok();
-        let apart = first.contains(separator) && (!first.contains(',') || first.split(separator).all(is_number));
-        if apart {
-            let message = format!(
-                "cells are separated by {name}; commas between cells and points in numbers are allowed: sed 's/,/./g; \
-                 s/{shell}/,/g' makes them of it"
-            );
-            return Err(DataError::at(file, index + 1, message));
-        }
-    }
-    Ok(())
-}
-
-/// Reads line by line, so that every error has the line number that an editor shows.
-fn records(file: &str, text: &str) -> Result<Vec<Record>, DataError> {
-    commas(file, text)?;
-    let lines = text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty());
-    lines
-        .map(|(index, text)| {
-            let mut cells = StringRecord::new();
-            let mut reader = ReaderBuilder::new().has_headers(false).trim(Trim::All).from_reader(text.as_bytes());
-            let line = index + 1;
-            if line > MOST_LINES {
-                let message = format!("more than {MOST_LINES} lines; at most {MOST_LINES} are allowed");
-                return Err(DataError::at(file, line, message));
-            }
-            reader.read_record(&mut cells).map_err(|error| DataError::at(file, line, error.to_string()))?;
-            Ok(Record { line, cells })
-        })
-        .collect()
-}
-
-fn number(file: &str, line: usize, column: &str, cell: &str) -> Result<f64, DataError> {
-    let number = cell.parse().ok().filter(|number: &f64| number.is_finite());
-    number.ok_or_else(|| {
-        let message =
-            format!("column {column}: `{cell}` is not allowed: expected a finite number with a decimal point");
-        DataError::at(file, line, message)
-    })
-}
+const MOST_LINES: u64 = 20_000;
 
 /// Reads the project's columns: `x`, each of `ys`, and their uncertainties `NAME_u` if given. A blank `y` was not
 /// measured; for a blank uncertainty that of the provenance file applies.
-pub(crate) fn columns(file: &str, text: &str, x: &str, ys: &[String]) -> Result<Vec<Dataset>, DataError> {
-    let records = records(file, text)?;
-    let Some((header, body)) = records.split_first() else {
-        return Err(DataError::at(file, 1, "the file is empty"));
-    };
+pub(crate) fn columns(path: &Path, text: &str, x: &str, ys: &[String]) -> Result<Vec<Dataset>, FileError> {
+    let mut table = Table::new(path, text.as_bytes())?;
     let known: Vec<String> = std::iter::once(x)
         .chain(ys.iter().map(String::as_str))
         .flat_map(|name| [name.to_owned(), format!("{name}_u")])
         .collect();
-    let names: Vec<&str> = header.cells.iter().collect();
-    for (k, name) in names.iter().enumerate() {
-        let fault = if !known.iter().any(|known| known == name) {
-            "is not in the provenance file"
-        } else if names[..k].contains(name) {
-            "is there twice"
-        } else {
-            continue;
-        };
-        let message = format!("column `{name}` {fault}: there are {}", known.join(", "));
-        return Err(DataError::at(file, header.line, message));
+    if let Some(name) = table.names().iter().find(|name| !known.contains(name)) {
+        let message = format!("column `{name}` is not in the provenance file: there are {}", known.join(", "));
+        return Err(table.error(message));
     }
-    let place = |name: &str| names.iter().position(|other| *other == name);
-    let needed = |name: &str| {
-        place(name).ok_or_else(|| {
-            let message = format!("column {name} is missing: the provenance file says that it is there");
-            DataError::at(file, header.line, message)
-        })
+    let places = |name: &str| {
+        let missing = || table.error(format!("column {name} is missing: the provenance file says that it is there"));
+        Ok((table.place(name).ok_or_else(missing)?, table.place(&format!("{name}_u"))))
     };
-    let x_place = needed(x)?;
-    let u_x_place = place(&format!("{x}_u"));
-    let mut datasets = Vec::new();
-    for y in ys {
-        let (y_place, u_y_place) = (needed(y)?, place(&format!("{y}_u")));
-        let mut rows = Vec::new();
-        for Record { line, cells } in body {
-            if cells.len() != names.len() {
-                let message = format!("{} cells; the header has {}", cells.len(), names.len());
-                return Err(DataError::at(file, *line, message));
-            }
-            let read = |place: usize| number(file, *line, names[place], &cells[place]);
-            let own = |place: Option<usize>| match place {
-                Some(place) if !cells[place].is_empty() => positive(file, *line, names[place], &cells[place]),
-                _ => Ok(None),
-            };
-            let point = DataRow {
-                line: *line,
-                x: read(x_place)?,
-                y: if cells[y_place].is_empty() { f64::NAN } else { read(y_place)? },
-                u_x: own(u_x_place)?,
-                u_y: own(u_y_place)?,
-            };
-            if !point.y.is_nan() {
-                rows.push(point);
+    let (x_place, u_x_place) = places(x)?;
+    let y_places = ys.iter().map(|y| places(y)).collect::<Result<Vec<_>, FileError>>()?;
+    let mut datasets: Vec<_> = ys.iter().map(|y| Dataset { name: y.clone(), rows: Vec::new() }).collect();
+    while let Some(row) = table.next_row()? {
+        if row.line > MOST_LINES {
+            return Err(row.error(format!("more than {MOST_LINES} lines; at most {MOST_LINES} are allowed")));
+        }
+        let (x, u_x) = (row.finite(x_place)?, uncertainty(&row, u_x_place)?);
+        for (dataset, (y_place, u_y_place)) in datasets.iter_mut().zip(&y_places) {
+            let u_y = uncertainty(&row, *u_y_place)?;
+            if !row.is_blank(*y_place) {
+                dataset.rows.push(DataRow { line: row.line, x, y: row.finite(*y_place)?, u_x, u_y });
             }
         }
-        datasets.push(Dataset { name: y.clone(), rows });
     }
     Ok(datasets)
 }
 
-fn positive(file: &str, line: usize, column: &str, cell: &str) -> Result<Option<f64>, DataError> {
-    match number(file, line, column, cell)? {
-        u if u > 0.0 => Ok(Some(u)),
-        _ => {
-            let message =
-                format!("column {column}: `{cell}` is not allowed: expected one standard deviation, a number > 0");
-            Err(DataError::at(file, line, message))
-        }
-    }
+fn uncertainty(row: &Row<'_>, place: Option<usize>) -> Result<Option<f64>, FileError> {
+    let given = place.filter(|place| !row.is_blank(*place));
+    given.map(|place| row.positive(place, "one standard deviation, a number > 0")).transpose()
 }
 
 /// Reads WebPlotDigitizer's export: two columns without a header; or all datasets side by side, where the first line
 /// has a name over the first column of each pair, the second has `X,Y` for each pair, and cells below shorter datasets
 /// are blank.
-pub(super) fn webplotdigitizer(file: &str, text: &str) -> Result<Vec<Dataset>, DataError> {
-    let records = records(file, text)?;
-    let Some(first) = records.first() else {
-        return Err(DataError::at(file, 1, "the file is empty"));
-    };
-    let axes = |record: &&Record| {
+pub(super) fn webplotdigitizer(path: &Path, text: &str) -> Result<Vec<Dataset>, FileError> {
+    let rows = Rows::new(path, text.as_bytes()).all(MOST_LINES)?;
+    let (first_line, first) = &rows[0];
+    let refused = |line: u64, message: String| FileError::line(path, line, message);
+    let axes = |cells: &[String]| {
         let upper = |k: usize, cell: &str| cell.eq_ignore_ascii_case(["X", "Y"][k % 2]);
-        record.cells.iter().enumerate().all(|(k, cell)| upper(k, cell))
+        cells.iter().enumerate().all(|(k, cell)| upper(k, cell))
     };
-    let (names, body): (Vec<&str>, &[Record]) = match records.get(1).filter(axes) {
-        Some(second) => {
-            let (named, width) = (first.cells.len(), second.cells.len());
+    let (names, body) = match rows.get(1).filter(|(_, cells)| axes(cells)) {
+        Some((_, second)) => {
+            let (named, width) = (first.len(), second.len());
             if named != width || width % 2 != 0 {
                 let message =
                     format!("{named} cells of names over {width} of X, Y: two columns for each dataset are allowed");
-                return Err(DataError::at(file, first.line, message));
+                return Err(refused(*first_line, message));
             }
-            (first.cells.iter().step_by(2).collect(), &records[2..])
+            (first.iter().step_by(2).map(String::as_str).collect(), &rows[2..])
         }
-        None => (vec![""], &records),
+        None => (vec![""], &rows[..]),
     };
     if let Some(k) = (1..names.len()).find(|k| names[..*k].contains(&names[*k])) {
         let message = format!("dataset `{}` is there twice: each needs a name of its own", names[k]);
-        return Err(DataError::at(file, first.line, message));
+        return Err(refused(*first_line, message));
     }
     let mut datasets: Vec<Dataset> =
         names.iter().map(|name| Dataset { name: (*name).to_owned(), rows: Vec::new() }).collect();
-    for Record { line, cells } in body {
+    for (line, cells) in body {
         if cells.len() > 2 * datasets.len() {
             let message = format!("{} cells; two for each dataset are allowed: {}", cells.len(), 2 * datasets.len());
-            return Err(DataError::at(file, *line, message));
+            return Err(refused(*line, message));
         }
         for (k, dataset) in datasets.iter_mut().enumerate() {
-            let cell = |place: usize| cells.get(place).unwrap_or_default();
+            let cell = |place: usize| cells.get(place).map_or("", String::as_str);
             let (x, y) = (cell(2 * k), cell(2 * k + 1));
             // Only with several datasets can one be shorter.
             if names.len() > 1 && x.is_empty() && y.is_empty() {
                 continue;
             }
-            let read = |axis: &str, cell: &str| number(file, *line, &format!("{} {axis}", dataset.name), cell);
+            let read = |axis: &str, cell: &str| {
+                let number = csv::number(cell).filter(|number| number.is_finite());
+                let column = format!("{} {axis}", dataset.name);
+                number.ok_or_else(|| refused(*line, csv::not_allowed(&column, cell, csv::FINITE)))
+            };
             let (x, y) = (read("X", x)?, read("Y", y)?);
             dataset.rows.push(DataRow { line: *line, x, y, u_x: None, u_y: None });
         }

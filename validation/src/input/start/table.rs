@@ -1,6 +1,10 @@
 //! A table of rods in CSV, in the columns of `rods.csv`.
 
+use crate::files::FileError;
+use crate::files::csv::{Row, Table};
+use crate::files::text::start;
 use shearbed::scene::OwnRods;
+use std::path::Path;
 
 /// The columns that are read, in groups; a file has all columns of a group or none.
 const P: [&str; 3] = ["p1", "p2", "p3"];
@@ -24,17 +28,17 @@ const OFF_UNIT: f64 = 1e-5;
 struct Group<const K: usize>(Option<[usize; K]>);
 
 impl<const K: usize> Group<K> {
-    fn new(names: [&str; K], place: impl Fn(&str) -> Option<usize>) -> Result<Self, String> {
-        let places = names.map(&place);
+    fn new(names: [&str; K], table: &Table<&[u8]>) -> Result<Self, FileError> {
+        let places = names.map(|name| table.place(name));
         let missing = names.iter().zip(places).find(|(_, place)| place.is_none());
         match missing {
             None => Ok(Self(Some(places.map(Option::unwrap_or_default)))),
             Some(_) if places.iter().all(Option::is_none) => Ok(Self(None)),
-            Some((name, _)) => Err(format!("1: column {name} is missing; {} go together", names.join(", "))),
+            Some((name, _)) => Err(table.error(format!("column {name} is missing; {} go together", names.join(", ")))),
         }
     }
 
-    fn values(&self, number: impl Fn(usize) -> Result<f64, String>) -> Result<Option<[f64; K]>, String> {
+    fn values(&self, number: impl Fn(usize) -> Result<f64, FileError>) -> Result<Option<[f64; K]>, FileError> {
         let Some(places) = self.0 else {
             return Ok(None);
         };
@@ -46,112 +50,61 @@ impl<const K: usize> Group<K> {
     }
 }
 
-/// The rods, row by row, and the line of each; an error starts with the line.
-pub(super) fn read(bytes: &[u8]) -> Result<(OwnRods, Vec<u64>), String> {
-    let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(bytes);
-    let in_words = |error: csv::Error| {
-        let line = error.position().map_or(1, csv::Position::line);
-        format!("{line}: not a table in CSV: {error}")
-    };
-    let head = reader.headers().map_err(in_words)?.clone();
-    let known = || (P.iter().chain(&PLACE).chain(&ASPECT_RATIO).chain(&LENGTH)).chain([&ROD]);
-    for (k, name) in head.iter().enumerate() {
-        if !known().chain(&ONE_VALUE).chain(&OTHERS).any(|known| *known == name) {
-            let name = snippet(name);
-            return Err(format!(
-                "1: unknown column {name:?}; allowed are those of rods.csv, separated by commas: {}",
-                known().chain(&ONE_VALUE).chain(&OTHERS).copied().collect::<Vec<_>>().join(", ")
-            ));
-        }
-        if head.iter().take(k).any(|other| other == name) {
-            return Err(format!("1: column {name} is there twice; once is allowed"));
-        }
+/// The rods, row by row, and the line of each.
+pub(super) fn read(path: &Path, bytes: &[u8]) -> Result<(OwnRods, Vec<u64>), FileError> {
+    let mut table = Table::new(path, bytes)?;
+    let described = P.iter().chain(&PLACE).chain(&ASPECT_RATIO).chain(&LENGTH);
+    let known: Vec<&str> = described.chain([&ROD]).chain(&ONE_VALUE).chain(&OTHERS).copied().collect();
+    if let Some(name) = table.names().iter().find(|name| !known.contains(&name.as_str())) {
+        // The start alone, so that a file of other content is not shown in full.
+        let name = start(name, 20);
+        let known = known.join(", ");
+        return Err(table
+            .error(format!("unknown column {name:?}; allowed are those of rods.csv, separated by commas: {known}")));
     }
-    let place = |name: &str| head.iter().position(|other| other == name);
-    let (p, places) = (Group::new(P, place)?, Group::new(PLACE, place)?);
-    let (shape, length) = (Group::new(ASPECT_RATIO, place)?, Group::new(LENGTH, place)?);
+    let (p, places) = (Group::new(P, &table)?, Group::new(PLACE, &table)?);
+    let (shape, length) = (Group::new(ASPECT_RATIO, &table)?, Group::new(LENGTH, &table)?);
     if p.0.is_none() && places.0.is_none() && shape.0.is_none() && length.0.is_none() {
-        return Err(
-            "1: no column of what a rod is: p1, p2 and p3, aspect_ratio, length_mm, or x1_mm, x2_mm and x3_mm".into()
-        );
+        let needed = "p1, p2 and p3, aspect_ratio, length_mm, or x1_mm, x2_mm and x3_mm";
+        return Err(table.error(format!("no column of what a rod is: {needed}")));
     }
-    let mut order = Order::new(place);
-    let mut own = OwnRods::default();
-    let (mut lines, mut at) = (Vec::new(), Place::new(bytes));
-    for record in reader.records() {
-        let record = record.map_err(in_words)?;
-        let line = record.position().map_or(0, |position| at.line(position.byte()));
-        let not_allowed = |place: usize, allowed: &str| match record.get(place).unwrap_or_default() {
-            "" => format!("{line}: {} is empty: {allowed} is allowed", &head[place]),
-            cell => {
-                format!("{line}: {} = {} is not allowed: expected {allowed}", &head[place], snippet(cell))
-            }
-        };
-        let number = |place: usize| {
-            let parsed = record.get(place).unwrap_or_default().parse().ok();
-            let finite = parsed.filter(|value: &f64| value.is_finite());
-            finite.ok_or_else(|| not_allowed(place, "a finite number"))
-        };
-        let positive = |place: usize| match number(place)? {
-            value if value > 0.0 => Ok(value),
-            _ => Err(not_allowed(place, "a finite number > 0")),
-        };
-        order.next(&head, line, number)?;
+    let mut order = Order::new(&table);
+    let mut rods = OwnRods::default();
+    let mut lines = Vec::new();
+    while let Some(row) = table.next_row()? {
+        let number = |place: usize| row.finite(place);
+        let positive = |place: usize| row.positive(place, "a finite number > 0");
+        order.next(&row)?;
         if let Some(direction) = p.values(number)? {
             // Only exactly rounded operations, for the same bits on every machine.
             let length = direction.map(|x| x * x).iter().sum::<f64>().sqrt();
             if (length - 1.0).abs() > OFF_UNIT {
                 let [p1, p2, p3] = direction;
-                return Err(format!(
-                    "{line}: p = ({p1}, {p2}, {p3}) has length {length}: 1 within {OFF_UNIT:e} is allowed"
-                ));
+                let allowed = format!("1 within {OFF_UNIT:e} is allowed");
+                return Err(row.error(format!("p = ({p1}, {p2}, {p3}) has length {length}: {allowed}")));
             }
-            push(&mut own.p, direction.map(|x| x / length));
+            push(&mut rods.p, direction.map(|x| x / length));
         }
         // Free rods have no position, and empty cells in rods.csv.
-        let empty = |places: &[usize; 3]| places.iter().all(|place| record.get(*place) == Some(""));
-        if !places.0.as_ref().is_some_and(empty) {
-            if own.place_mm.is_none() && !lines.is_empty() && places.0.is_some() {
-                return Err(format!("{line}: the rods before have no place: all have one, or none"));
+        if !places.0.is_some_and(|places| places.iter().all(|place| row.is_blank(*place))) {
+            if rods.place_mm.is_none() && !lines.is_empty() && places.0.is_some() {
+                return Err(row.error("the rods before have no place: all have one, or none"));
             }
             if let Some(x) = places.values(number)? {
-                push(&mut own.place_mm, x);
+                push(&mut rods.place_mm, x);
             }
-        } else if own.place_mm.is_some() {
-            return Err(format!("{line}: the rods before have a place: all have one, or none"));
+        } else if rods.place_mm.is_some() {
+            return Err(row.error("the rods before have a place: all have one, or none"));
         }
         if let Some([r]) = shape.values(positive)? {
-            own.aspect_ratio.get_or_insert_default().push(r);
+            rods.aspect_ratio.get_or_insert_default().push(r);
         }
         if let Some([a]) = length.values(positive)? {
-            own.length_mm.get_or_insert_default().push(a);
+            rods.length_mm.get_or_insert_default().push(a);
         }
-        lines.push(line);
+        lines.push(row.line);
     }
-    Ok((own, lines))
-}
-
-/// Counts lines of bytes. The CSV reader counts blank lines, and the second half of CRLF, to the row after them.
-struct Place<'a> {
-    bytes: &'a [u8],
-    line: u64,
-    offset: usize,
-}
-
-impl<'a> Place<'a> {
-    fn new(bytes: &'a [u8]) -> Self {
-        Self { bytes, line: 1, offset: 0 }
-    }
-
-    /// The line of the text at this byte, or after line ends there; bytes must ascend.
-    fn line(&mut self, byte: u64) -> u64 {
-        let start = (byte as usize).min(self.bytes.len());
-        let blank = self.bytes[start..].iter().take_while(|byte| matches!(byte, b'\r' | b'\n')).count();
-        let passed = &self.bytes[self.offset.min(start + blank)..start + blank];
-        self.line += passed.iter().filter(|byte| **byte == b'\n').count() as u64;
-        self.offset = start + blank;
-        self.line
-    }
+    Ok((rods, lines))
 }
 
 fn push(axes: &mut Option<[Vec<f64>; 3]>, values: [f64; 3]) {
@@ -172,55 +125,41 @@ struct Order {
 }
 
 impl Order {
-    fn new(place: impl Fn(&str) -> Option<usize>) -> Self {
-        Self { rod: place(ROD), one_value: ONE_VALUE.map(place), last: None, first: None }
+    fn new(table: &Table<&[u8]>) -> Self {
+        let one_value = ONE_VALUE.map(|name| table.place(name));
+        Self { rod: table.place(ROD), one_value, last: None, first: None }
     }
 
-    /// Checks the next row; `number` reads one of its columns.
-    fn next(
-        &mut self,
-        head: &csv::StringRecord,
-        line: u64,
-        number: impl Fn(usize) -> Result<f64, String>,
-    ) -> Result<(), String> {
-        let read = |place: Option<usize>| place.map(&number).transpose();
+    /// Checks the next row.
+    fn next(&mut self, row: &Row<'_>) -> Result<(), FileError> {
+        let read = |place: Option<usize>| place.map(|place| row.finite(place)).transpose();
         let mut values = [None; ONE_VALUE.len()];
         for (value, place) in values.iter_mut().zip(self.one_value) {
             *value = read(place)?;
         }
-        let (first_line, first) = *self.first.get_or_insert((line, values));
-        for ((column, value), first) in self.one_value.iter().zip(values).zip(first) {
-            if let (Some(column), Some(value), Some(first)) = (column, value, first)
+        let (first_line, first) = *self.first.get_or_insert((row.line, values));
+        for ((name, value), first) in ONE_VALUE.iter().zip(values).zip(first) {
+            if let (Some(value), Some(first)) = (value, first)
                 && value != first
             {
-                return Err(format!(
-                    "{line}: {} = {value} is not allowed: line {first_line} has {first}, and a start has the rods of \
-                     one replica at one time; keep the rows of one",
-                    &head[*column]
-                ));
+                return Err(row.error(format!(
+                    "{name} = {value} is not allowed: line {first_line} has {first}, and a start has the rods of one \
+                     replica at one time; keep the rows of one"
+                )));
             }
         }
         let Some(rod) = read(self.rod)? else {
             return Ok(());
         };
         if !(rod >= 0.0 && rod.fract() == 0.0) {
-            return Err(format!("{line}: rod = {rod} is not allowed: expected a whole number from 0 on"));
+            return Err(row.error(format!("rod = {rod} is not allowed: expected a whole number from 0 on")));
         }
         match self.last.replace(rod) {
-            Some(last) if rod <= last => Err(format!(
-                "{line}: rod = {rod} is not allowed after rod {last}: each rod has one row; sort the rows by rod"
-            )),
+            Some(last) if rod <= last => Err(row.error(format!(
+                "rod = {rod} is not allowed after rod {last}: each rod has one row; sort the rows by rod"
+            ))),
             _ => Ok(()),
         }
-    }
-}
-
-/// The start of a cell for a message, so that a file of other content is not shown in full.
-fn snippet(cell: &str) -> String {
-    const MOST: usize = 20;
-    match cell.char_indices().nth(MOST) {
-        Some((end, _)) => format!("{}…", &cell[..end]),
-        None => cell.to_owned(),
     }
 }
 
@@ -228,14 +167,19 @@ fn snippet(cell: &str) -> String {
 mod tests {
     use super::*;
 
+    fn read(text: &str) -> Result<(OwnRods, Vec<u64>), FileError> {
+        super::read(Path::new("f"), text.as_bytes())
+    }
+
+    /// The error without the file's name.
     fn refused(text: &str) -> String {
-        read(text.as_bytes()).unwrap_err()
+        read(text).unwrap_err().to_string().split_off("f:".len())
     }
 
     #[test]
     fn rows_are_rods_in_any_order_of_columns() {
         let text = "rod,p3,p1,p2,time_s,replica\n0,0.8,0.6,0,2.5,1\n7, -0.70711 ,0,0.70711,2.5,1\n";
-        let (own, lines) = read(text.as_bytes()).unwrap();
+        let (own, lines) = read(text).unwrap();
         let [p1, p2, p3] = own.p.unwrap();
         assert_eq!((p1, p3[0], lines), (vec![0.6, 0.0], 0.8, vec![2, 3]));
         // 0.70711² · 2 = 1.0000091 is normalised.
@@ -243,12 +187,12 @@ mod tests {
         assert!(own.aspect_ratio.is_none() && own.length_mm.is_none() && own.place_mm.is_none());
 
         let text = "length_mm,x2_mm,x1_mm,x3_mm,aspect_ratio\n0.5,2,1,3,11\n0.7,5,4,6,12\n";
-        let (own, lines) = read(text.as_bytes()).unwrap();
+        let (own, lines) = read(text).unwrap();
         assert_eq!((own.length_mm, own.aspect_ratio), (Some(vec![0.5, 0.7]), Some(vec![11.0, 12.0])));
         let places = [[1.0, 4.0], [2.0, 5.0], [3.0, 6.0]].map(Vec::from);
         assert_eq!((own.place_mm, own.p, lines), (Some(places), None, vec![2, 3]));
         // Free rods, as in rods.csv.
-        let (own, _) = read(b"length_mm,x1_mm,x2_mm,x3_mm\n0.5,,,\n0.5,,,\n").unwrap();
+        let (own, _) = read("length_mm,x1_mm,x2_mm,x3_mm\n0.5,,,\n0.5,,,\n").unwrap();
         assert_eq!((own.place_mm, own.length_mm), (None, Some(vec![0.5, 0.5])));
     }
 
@@ -260,32 +204,32 @@ mod tests {
             ("length_mm\r\n\r\n1\r\nx", 4),
             ("length_mm\nx\n", 2),
         ] {
-            let said = format!("{line}: length_mm = x is not allowed");
+            let said = format!("{line}: column length_mm: `x` is not allowed");
             assert!(refused(text).starts_with(&said), "{text:?}: {}", refused(text));
         }
     }
 
     #[test]
-    fn what_is_wrong_is_told_with_its_line() {
+    fn what_is_wrong_is_named_with_its_line() {
         for (text, said) in [
             ("p1,p2\n1,0\n", "1: column p3 is missing; p1, p2, p3 go together"),
             ("x1_mm\n1\n", "1: column x2_mm is missing"),
             ("rod,time_s\n0,0\n", "1: no column of what a rod is"),
-            ("length_mm\n1\n0\n", "3: length_mm = 0 is not allowed: expected a finite number > 0"),
-            ("length_mm\n-1\n", "2: length_mm = -1 is not allowed"),
-            ("length_mm\nNaN\n", "2: length_mm = NaN is not allowed: expected a finite number"),
-            ("aspect_ratio\n-2\n", "2: aspect_ratio = -2 is not allowed"),
+            ("length_mm\n1\n0\n", "3: column length_mm: `0` is not allowed: expected a finite number > 0"),
+            ("length_mm\n-1\n", "2: column length_mm: `-1` is not allowed"),
+            ("length_mm\nNaN\n", "2: column length_mm: `NaN` is not allowed: expected a finite number"),
+            ("aspect_ratio\n-2\n", "2: column aspect_ratio: `-2` is not allowed"),
             ("x1_mm,x2_mm,x3_mm\n1,2,3\n,,\n", "3: the rods before have a place"),
             ("x1_mm,x2_mm,x3_mm\n,,\n1,2,3\n", "3: the rods before have no place"),
-            ("x1_mm,x2_mm,x3_mm\n1,,3\n", "2: x2_mm is empty: a finite number is allowed"),
-            ("p1,p2,p3,p1\n1,0,0,1\n", "1: column p1 is there twice"),
+            ("x1_mm,x2_mm,x3_mm\n1,,3\n", "2: column x2_mm: `` is not allowed: expected a finite number"),
+            ("p1,p2,p3,p1\n1,0,0,1\n", "1: column `p1` is there twice"),
             ("p1,p2,p3,theta\n1,0,0,1\n", "1: unknown column \"theta\""),
-            ("p1,p2,p3\n1,0,0\n1,zero,0\n", "3: p2 = zero is not allowed"),
-            ("p1,p2,p3\n1,0,nan\n", "2: p3 = nan is not allowed"),
-            ("p1,p2,p3\n1,0,1e999\n", "2: p3 = 1e999 is not allowed"),
+            ("p1,p2,p3\n1,0,0\n1,zero,0\n", "3: column p2: `zero` is not allowed"),
+            ("p1,p2,p3\n1,0,nan\n", "2: column p3: `nan` is not allowed"),
+            ("p1,p2,p3\n1,0,1e999\n", "2: column p3: `1e999` is not allowed"),
             ("p1,p2,p3\n1,0,0\n0.6,0.8,0.1\n", "3: p = (0.6, 0.8, 0.1) has length 1.00498"),
             ("p1,p2,p3\n0,0,0\n", "2: p = (0, 0, 0) has length 0"),
-            ("p1,p2,p3\n1,0\n", "2: not a table in CSV"),
+            ("p1,p2,p3\n1,0\n", "2: 2 cells; the header has 3"),
             (
                 "rod,p1,p2,p3\n2,1,0,0\n1,0,1,0\n",
                 "3: rod = 1 is not allowed after rod 2: each rod has one row; sort the rows by rod",
@@ -298,13 +242,13 @@ mod tests {
                 "time_s,p1,p2,p3\n0,1,0,0\n73.7,0,1,0\n",
                 "3: time_s = 73.7 is not allowed: line 2 has 0, and a start has the rods of one replica at one time",
             ),
-            ("time_s,p1,p2,p3\nnow,1,0,0\n", "2: time_s = now is not allowed"),
+            ("time_s,p1,p2,p3\nnow,1,0,0\n", "2: column time_s: `now` is not allowed"),
             ("strain,p1,p2,p3\n0,1,0,0\n1,0,1,0\n", "3: strain = 1 is not allowed: line 2 has 0"),
             // A file of other content is shown by its first letters at most.
             ("-----BEGIN PRIVATE KEY OF SOMEBODY-----\nMIIE\n", "1: unknown column \"-----BEGIN PRIVATE K…\"; allowed"),
         ] {
-            let found = refused(text);
-            assert!(found.starts_with(said), "{found}");
+            let refused = refused(text);
+            assert!(refused.starts_with(said), "{refused}");
         }
     }
 }

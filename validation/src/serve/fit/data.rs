@@ -1,6 +1,8 @@
 //! Measured points from a CSV file, in the columns of `docs/src/reference/files.md`.
 
-use crate::input::experiment::{DataError, read_text, table};
+use crate::files::FileError;
+use crate::files::csv::{Table, not_allowed};
+use crate::input::experiment::{read_text, table};
 use crate::methods::least_squares::Datum;
 use serde::Serialize;
 use shearbed::observable::Channel;
@@ -67,18 +69,13 @@ fn measurable() -> Vec<String> {
 
 /// Reads the file `path` as data set number `set`. Every point needs an uncertainty `NAME_u`; blank points were not
 /// measured.
-pub fn read(path: &Path, set: usize) -> Result<Points, DataError> {
+pub fn read(path: &Path, set: usize) -> Result<Points, FileError> {
     let text = read_text(path)?;
-    let file = path.display().to_string();
-    table::commas(&file, &text)?;
-    let first = text.lines().position(|line| !line.trim().is_empty()).unwrap_or(0);
-    let header: Vec<&str> = (text.lines().nth(first).unwrap_or_default().split(',')).map(str::trim).collect();
-    let refused = |message: String| DataError::at(&file, first + 1, message);
+    let head = Table::new(path, text.as_bytes())?;
+    let header: Vec<&str> = head.names().iter().map(String::as_str).collect();
+    let refused = |message: String| head.error(message);
     let times = TimeColumn::ALL.map(TimeColumn::name).join(", ");
     let here: Vec<_> = TimeColumn::ALL.into_iter().filter(|time| header.contains(&time.name())).collect();
-    if header[0].starts_with('#') {
-        return Err(refused("comments are not read here: the first line has the names of the columns".into()));
-    }
     let [time] = here[..] else {
         if header.contains(&"time_s") && here.is_empty() {
             return Err(refused("measured times in seconds are named `t_s`: rename the column `time_s`".into()));
@@ -87,7 +84,8 @@ pub fn read(path: &Path, set: usize) -> Result<Points, DataError> {
         if let Some(name) = header.iter().find(like).filter(|_| here.is_empty()) {
             return Err(refused(format!(
                 "column `{name}` does not say its unit: `t_s` for seconds, `t_over_T` for periods and `strain` for Gt \
-                 are allowed; rename it in this line"
+                    are allowed; \
+                 rename it in this line"
             )));
         }
         let found = if here.is_empty() {
@@ -110,13 +108,15 @@ pub fn read(path: &Path, set: usize) -> Result<Points, DataError> {
         if let Some(value) = name.strip_suffix("_se").filter(|value| known.iter().any(|known| known == value)) {
             return Err(refused(format!(
                 "column `{name}`: a measured value's standard uncertainty is named `{value}_u`; rename the column if \
-                 that is what it has"
+                    that is what \
+                 it has"
             )));
         }
         if !known.iter().any(|known| known == value) {
             return Err(refused(format!(
                 "column `{name}` is not allowed: expected a time ({times}), x1, x2, x3 or another column of `shearbed \
-                 run` (phi, c_b, a11, …), and after a name `_u` for its uncertainty"
+                    run` \
+                 (phi, c_b, a11, …), and after a name `_u` for its uncertainty"
             )));
         }
         if !is_uncertainty {
@@ -130,39 +130,30 @@ pub fn read(path: &Path, set: usize) -> Result<Points, DataError> {
         return Err(refused(format!("column {bare}_u is missing: one standard deviation of each {bare} is needed")));
     }
     let mut points = Vec::new();
-    for dataset in table::columns(&file, &text, time.name(), &columns)? {
+    for dataset in table::columns(path, &text, time.name(), &columns)? {
         for row in dataset.rows {
-            let refused = |message: String| DataError::at(&file, row.line, message);
+            let refused = |message: String| FileError::line(path, row.line, message);
             let u = row.u_y.ok_or_else(|| {
                 refused(format!("column {}_u is blank: one standard deviation, a number > 0, is needed", dataset.name))
             })?;
             if row.x < 0.0 {
-                return Err(refused(format!(
-                    "column {}: `{}` is not allowed: expected a time ≥ 0",
-                    time.name(),
-                    row.x
-                )));
+                return Err(refused(not_allowed(time.name(), &row.x.to_string(), "a time ≥ 0")));
             }
             let [least, most] = allowed(&dataset.name);
             if !(least..=most).contains(&row.y) {
-                return Err(refused(format!(
-                    "column {}: `{:?}` is not allowed: expected a value from {least} to {most}",
-                    dataset.name, row.y
-                )));
+                let expected = format!("a value from {least} to {most}");
+                return Err(refused(not_allowed(&dataset.name, &format!("{:?}", row.y), &expected)));
             }
             // A smaller u is lost in the rounding of the model, a larger one carries no information.
             if !(LEAST_U..=most - least).contains(&u) {
-                return Err(refused(format!(
-                    "column {}_u: `{u:?}` is not allowed: expected one standard deviation from {LEAST_U:?} to {}, the \
-                     width of what {} can be",
-                    dataset.name,
-                    most - least,
-                    dataset.name
-                )));
+                let (name, width) = (&dataset.name, most - least);
+                let expected =
+                    format!("one standard deviation from {LEAST_U:?} to {width}, the width of what {name} can be");
+                return Err(refused(not_allowed(&format!("{name}_u"), &format!("{u:?}"), &expected)));
             }
             points.push(Datum {
                 set,
-                line: row.line,
+                line: row.line as usize,
                 column: dataset.name.clone(),
                 time: row.x,
                 value: row.y,
@@ -171,7 +162,7 @@ pub fn read(path: &Path, set: usize) -> Result<Points, DataError> {
             });
         }
     }
-    check(&file, &points)?;
+    check(path, &points)?;
     Ok(Points { time, points })
 }
 
@@ -187,13 +178,13 @@ fn allowed(column: &str) -> [f64; 2] {
     range.map(|end| end.clamp(-MOST, MOST))
 }
 
-fn check(file: &str, points: &[Datum]) -> Result<(), DataError> {
+fn check(path: &Path, points: &[Datum]) -> Result<(), FileError> {
     if points.is_empty() {
-        return Err(DataError::at(file, 1, "no points: one row for each is needed"));
+        return Err(FileError::line(path, 1, "no points: one row for each is needed"));
     }
     if points.len() > MOST_POINTS {
         let message = format!("{} points; at most {MOST_POINTS} are allowed", points.len());
-        return Err(DataError::at(file, points[MOST_POINTS].line, message));
+        return Err(FileError::line(path, points[MOST_POINTS].line as u64, message));
     }
     for (k, point) in points.iter().enumerate() {
         let same =
@@ -203,7 +194,7 @@ fn check(file: &str, points: &[Datum]) -> Result<(), DataError> {
                 "{} = {} at {} is in line {} already: each point once is allowed",
                 point.column, point.value, point.time, first.line
             );
-            return Err(DataError::at(file, point.line, message));
+            return Err(FileError::line(path, point.line as u64, message));
         }
     }
     Ok(())

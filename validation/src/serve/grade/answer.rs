@@ -1,7 +1,8 @@
 //! A program's answer to a problem, in the order of the problem's own rows.
 
+use crate::files::FileError;
 use crate::judge::statistics::worst;
-use crate::serve::problems::{Kind, LoadedProblem, ReadError};
+use crate::serve::problems::{Kind, LoadedProblem};
 use std::path::{Path, PathBuf};
 
 /// The largest difference of a time from the problem's, as a share of the gap to the next one: times are labels, with
@@ -140,7 +141,7 @@ impl<'a> Collector<'a> {
         }
     }
 
-    pub(super) fn finish(self, path: &Path, last: u64) -> Result<Answer, ReadError> {
+    pub(super) fn finish(self, path: &Path, last: u64) -> Result<Answer, FileError> {
         let lines = &self.lines[self.ahead..];
         let missing = lines.iter().filter(|line| line.is_none()).count();
         if let Some(first) = lines.iter().position(Option::is_none) {
@@ -154,7 +155,7 @@ impl<'a> Collector<'a> {
                 None => (last, format!("the file ends before {key}")),
             };
             let message = format!("{what} ({missing} of {} rows are missing){other}", lines.len());
-            return Err(ReadError::at(path, line, 1, message));
+            return Err(FileError::at(path, line, 1, message));
         }
         Ok(Answer { path: path.to_owned(), lines: lines.iter().flatten().copied().collect(), rows: self.rows })
     }

@@ -8,8 +8,9 @@ use super::layout::FileOptions;
 use super::order;
 use super::read::read;
 use super::{Graded, Verdict};
+use crate::files::FileError;
 use crate::files::text::Shown;
-use crate::serve::problems::{LoadedProblem, Metric, ReadError};
+use crate::serve::problems::{LoadedProblem, Metric};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -32,7 +33,7 @@ pub struct Options {
 }
 
 /// Grades the answers in `mine/NAME/` to each problem. `Err` lists every file that cannot be read.
-pub fn grade(problems: &[LoadedProblem], mine: &Path, options: &Options) -> Result<Vec<Graded>, Vec<ReadError>> {
+pub fn grade(problems: &[LoadedProblem], mine: &Path, options: &Options) -> Result<Vec<Graded>, Vec<FileError>> {
     let mut all = Vec::new();
     let mut errors = Vec::new();
     for problem in problems {
@@ -54,8 +55,8 @@ struct AnswerFiles {
 /// Allowed extensions of an answer's file.
 const ENDINGS: [&str; 5] = ["csv", "txt", "dat", "dump", "lammpstrj"];
 
-fn find(dir: &Path) -> Result<AnswerFiles, ReadError> {
-    let failed = |error: std::io::Error| ReadError::whole(dir, format!("cannot be read: {error}"));
+fn find(dir: &Path) -> Result<AnswerFiles, FileError> {
+    let failed = |error: std::io::Error| FileError::unreadable(dir, &error);
     let mut found = AnswerFiles { answer: None, steps: Vec::new() };
     if !dir.exists() {
         return Ok(found);
@@ -74,7 +75,7 @@ fn find(dir: &Path) -> Result<AnswerFiles, ReadError> {
         if stem == "answer" {
             if let Some(other) = &found.answer {
                 let other = other.shown();
-                return Err(ReadError::whole(&path, format!("there is {other} too; one of them is allowed")));
+                return Err(FileError::whole(&path, format!("there is {other} too; one of them is allowed")));
             }
             found.answer = Some(path);
         } else if let Some(number) = stem.strip_prefix("steps-") {
@@ -84,7 +85,7 @@ fn find(dir: &Path) -> Result<AnswerFiles, ReadError> {
                 }
                 _ => {
                     let message = format!("steps-{number}: a whole number from 1 is allowed, once each");
-                    return Err(ReadError::whole(&path, message));
+                    return Err(FileError::whole(&path, message));
                 }
             }
         }
@@ -93,7 +94,7 @@ fn find(dir: &Path) -> Result<AnswerFiles, ReadError> {
     Ok(found)
 }
 
-fn one(loaded: &LoadedProblem, dir: &Path, options: &Options) -> Result<Graded, ReadError> {
+fn one(loaded: &LoadedProblem, dir: &Path, options: &Options) -> Result<Graded, FileError> {
     let found = find(dir)?;
     let read = |path: &PathBuf| read(path, loaded, &options.file, &options.dump);
     let mut errors = Vec::new();

@@ -3,8 +3,10 @@
 
 use super::answer::{Answer, Collector};
 use super::axes::Axes;
-use super::lines::{Lines, number};
-use crate::serve::problems::{Kind, LoadedProblem, ReadError};
+use super::layout::number;
+use crate::files::FileError;
+use crate::files::csv::Lines;
+use crate::serve::problems::{Kind, LoadedProblem};
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
 /// Options for a LAMMPS dump.
@@ -52,7 +54,7 @@ pub(super) fn read(
     problem: &LoadedProblem,
     axes: Axes,
     options: &DumpOptions,
-) -> Result<Answer, ReadError> {
+) -> Result<Answer, FileError> {
     if problem.problem.kind != Kind::Rods {
         return Err(lines.error(0, "a dump of quaternions answers problems about rods only"));
     }
@@ -103,12 +105,12 @@ pub(super) fn read(
     collector.finish(&path, last)
 }
 
-fn value(lines: &mut Lines) -> Result<f64, ReadError> {
+fn value(lines: &mut Lines) -> Result<f64, FileError> {
     let line = lines.next_line()?.ok_or_else(|| lines.error(0, "the dump ends here"))?;
     number(line.trim()).map_err(|message| lines.error(1, message))
 }
 
-fn skip(lines: &mut Lines, count: usize) -> Result<(), ReadError> {
+fn skip(lines: &mut Lines, count: usize) -> Result<(), FileError> {
     for _ in 0..count {
         lines.next_line()?.ok_or_else(|| lines.error(0, "the dump ends here"))?;
     }
@@ -123,7 +125,7 @@ fn snapshot(
     time_s: f64,
     axes: Axes,
     options: &DumpOptions,
-) -> Result<(), ReadError> {
+) -> Result<(), FileError> {
     // LAMMPS writes atoms in any order: the id identifies the rod.
     let mut found = Vec::new();
     for _ in 0..atoms {
@@ -161,11 +163,11 @@ fn snapshot(
     found.sort_by(|a, b| a.0.total_cmp(&b.0));
     for (rod, (id, line, p)) in found.iter().enumerate() {
         if rod > 0 && found[rod - 1].0 == *id {
-            return Err(ReadError::at(lines.path(), *line, columns.id as u64 + 1, format!("atom {id} is there twice")));
+            return Err(FileError::at(lines.path(), *line, columns.id as u64 + 1, format!("atom {id} is there twice")));
         }
         let ours = axes.to_ours((*p).into());
         let added = collector.add(*line, &[time_s, rod as f64], ours.to_vec());
-        added.map_err(|(_, message)| ReadError::at(lines.path(), *line, 0, message))?;
+        added.map_err(|(_, message)| FileError::at(lines.path(), *line, 0, message))?;
     }
     Ok(())
 }

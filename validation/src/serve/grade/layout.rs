@@ -1,7 +1,8 @@
 //! The meaning of each field of a row: by the header, by `--columns`, or by the layout of a known program.
 
 use super::axes::Axes;
-use super::lines::LineEnds;
+use crate::files::csv::{self, LineEnds};
+use crate::files::text::start;
 use crate::serve::problems::{Kind, Problem};
 
 /// The meaning of a field.
@@ -81,7 +82,7 @@ impl Layout {
     pub fn find(first: &str, problem: &Problem, options: &FileOptions) -> Result<Self, (usize, String)> {
         let separator = [',', ';', '\t'].into_iter().find(|letter| first.contains(*letter)).unwrap_or(' ');
         let header: Vec<_> = split(first.trim_start_matches('#').trim(), separator).collect();
-        let first_is_row = header.iter().all(|field| field.parse::<f64>().is_ok());
+        let first_is_row = header.iter().all(|field| csv::number(field).is_some());
         let wants_tensor = problem.kind == Kind::Tensor;
         let names: Vec<String> = match (&options.columns, options.foreign, first_is_row) {
             (Some(columns), _, _) => columns.clone(),
@@ -164,4 +165,16 @@ fn fields(names: &[String], problem: &Problem, axes: Axes) -> Result<Vec<Field>,
         there(column, &|field| matches!(field, Field::Value(at, _) if *at == k))?;
     }
     Ok(fields)
+}
+
+/// Parses a field as a number. NaN and infinities written as such are valid; a number too large for a double is an
+/// error.
+pub(super) fn number(field: &str) -> Result<f64, String> {
+    match csv::number(field) {
+        Some(value) if value.is_infinite() && field.contains(|c: char| c.is_ascii_digit()) => {
+            Err(format!("{field} is too large for a double"))
+        }
+        Some(value) => Ok(value),
+        None => Err(format!("{:?} is not a number", start(field, 40))),
+    }
 }

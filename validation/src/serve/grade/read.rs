@@ -2,9 +2,10 @@
 
 use super::answer::{Answer, Collector};
 use super::lammps;
-use super::layout::{Field, FileOptions, Foreign, Layout};
-use super::lines::{Lines, number};
-use crate::serve::problems::{LoadedProblem, ReadError};
+use super::layout::{Field, FileOptions, Foreign, Layout, number};
+use crate::files::FileError;
+use crate::files::csv::Lines;
+use crate::serve::problems::LoadedProblem;
 use std::path::Path;
 
 /// The largest difference between the two halves of a symmetric tensor: beyond six digits they are two answers.
@@ -16,10 +17,10 @@ pub fn read(
     problem: &LoadedProblem,
     options: &FileOptions,
     dump: &lammps::DumpOptions,
-) -> Result<Answer, ReadError> {
+) -> Result<Answer, FileError> {
     let mut lines = Lines::open(path, options.ends)?;
     let first = lines.next_line()?;
-    let first = first.ok_or_else(|| ReadError::at(path, 1, 1, "the file is empty"))?;
+    let first = first.ok_or_else(|| FileError::at(path, 1, 1, "the file is empty"))?;
     if first.starts_with("ITEM:") {
         return lammps::read(lines, first, problem, options.axes, dump);
     }

@@ -2,8 +2,10 @@
 //! must be in its range. The JSON Schema (`schemas/problem.schema.json`) has the same rules.
 
 use super::folgar_tucker::FOURTH;
-use super::table::{ReadError, cut};
+use super::table::LONGEST_EXCERPT;
 use super::{Ensemble, Kind, LoadedProblem, Metric, Problem};
+use crate::files::FileError;
+use crate::files::text::start;
 use std::path::Path;
 
 /// The allowed lists of columns of a kind of problem, after its keys.
@@ -108,7 +110,10 @@ fn name(folder: &Path, problem: &Problem) -> Result<(), Refused> {
     } else {
         Err((
             "name",
-            format!("{:?}: it must be the folder's, {folder:?}, in small letters, digits, - and .", cut(&problem.name)),
+            format!(
+                "{:?}: it must be the folder's, {folder:?}, in small letters, digits, - and .",
+                start(&problem.name, LONGEST_EXCERPT)
+            ),
         ))
     }
 }
@@ -137,7 +142,11 @@ fn columns(problem: &Problem, lists: Columns) -> Result<(), Refused> {
         let kind = word(&problem.kind);
         return Err((
             "columns",
-            format!("{:?}: a problem of the kind {kind} has {}", cut(&problem.columns.join(",")), allowed.join(" or ")),
+            format!(
+                "{:?}: a problem of the kind {kind} has {}",
+                start(&problem.columns.join(","), LONGEST_EXCERPT),
+                allowed.join(" or ")
+            ),
         ));
     };
     // Angles need a time step, rates must have none.
@@ -243,13 +252,13 @@ fn ensemble(problem: &Problem) -> Result<(), Refused> {
 }
 
 /// Refuses tables with impossible numbers: directions that are not of length 1, means out of range.
-pub(super) fn tables(loaded: &LoadedProblem) -> Result<(), ReadError> {
+pub(super) fn tables(loaded: &LoadedProblem) -> Result<(), FileError> {
     let dir = &loaded.dir;
     if let Some(inputs) = &loaded.inputs {
         let path = dir.join("inputs.csv");
         for (row, pair) in inputs.rows.iter().enumerate() {
             let wrong =
-                |column: usize, message: String| ReadError::at(&path, row as u64 + 2, column as u64 + 1, message);
+                |column: usize, message: String| FileError::at(&path, inputs.line(row), column as u64 + 1, message);
             if pair[0] != row as f64 {
                 return Err(wrong(0, format!("snapshot = {}; {row} is next", pair[0])));
             }
@@ -264,7 +273,7 @@ pub(super) fn tables(loaded: &LoadedProblem) -> Result<(), ReadError> {
     let path = dir.join("certified.csv");
     let keys = loaded.problem.kind.keys().len();
     for (row, values) in loaded.certified.rows.iter().enumerate() {
-        let wrong = |message: String| ReadError::at(&path, row as u64 + 2, keys as u64 + 1, message);
+        let wrong = |message: String| FileError::at(&path, loaded.certified.line(row), keys as u64 + 1, message);
         certified(&loaded.problem, &values[keys..]).map_err(wrong)?;
     }
     Ok(())

@@ -27,7 +27,7 @@ pub use check::tolerances;
 pub use contact::certify as certify_contacts;
 pub use export::{SCHEMA, export, files};
 pub use read::read;
-pub use table::{ReadError, Table};
+pub use table::Table;
 
 use crate::methods::tensors::{Closure, Model};
 use rayon::prelude::*;
@@ -303,8 +303,9 @@ impl Built {
             inputs: (!self.inputs.is_empty()).then(|| Table {
                 columns: INPUT_COLUMNS.map(String::from).into(),
                 rows: self.inputs.iter().enumerate().map(numbered).collect(),
+                lines: Vec::new(),
             }),
-            certified: Table { columns: self.problem.columns.clone(), rows: rows.collect() },
+            certified: Table { columns: self.problem.columns.clone(), rows: rows.collect(), lines: Vec::new() },
         }
     }
 }

@@ -1,8 +1,10 @@
 //! The author of a problem in a folder: this program, as `problems export` writes it, or somebody else.
 
-use super::table::{ReadError, Table, cut, line_of};
+use super::table::{LONGEST_EXCERPT, Table, line_of};
 use super::{CORRECTED, LoadedProblem, Origin, named};
+use crate::files::FileError;
 use crate::files::difference::difference;
+use crate::files::text::start;
 use std::path::Path;
 
 /// Distinguishes a built-in problem from a foreign one by its name.
@@ -11,7 +13,7 @@ use std::path::Path;
 ///
 /// A problem with the name of a built-in one that differs from it in any value: file, line, key or column, with the
 /// value that was found and this program's own.
-pub(super) fn origin(loaded: &LoadedProblem, json: &str) -> Result<Origin, ReadError> {
+pub(super) fn origin(loaded: &LoadedProblem, json: &str) -> Result<Origin, FileError> {
     let Some(built) = named(&loaded.problem.name) else {
         return Ok(Origin::Foreign);
     };
@@ -22,20 +24,21 @@ pub(super) fn origin(loaded: &LoadedProblem, json: &str) -> Result<Origin, ReadE
     if let Some((_, now, wrong)) = CORRECTED.iter().find(|(of, now, _)| of == name && version < *now) {
         let message =
             format!("version = {version}: {wrong}; version {now} is right, and `shearbed problems export` writes it");
-        return Err(ReadError::whole(&path("problem.json"), message));
+        return Err(FileError::whole(path("problem.json"), message));
     }
     let record = |loaded: &LoadedProblem| serde_json::to_value(&loaded.problem).unwrap_or_default();
     if let Some((key, found, due)) = difference(&record(loaded), &record(&own)) {
         let place = line_of(json, key.split('.').next().unwrap_or_default());
-        let (found, due) = (cut(&found.to_string()), cut(&due.to_string()));
+        let (found, due) = (start(&found.to_string(), LONGEST_EXCERPT), start(&due.to_string(), LONGEST_EXCERPT));
         let message = format!("{key} = {found}: {}", differs(name, &due));
-        return Err(ReadError::at(&path("problem.json"), place, 0, message));
+        return Err(FileError::at(path("problem.json"), place, 0, message));
     }
     let starts = |start: &[[f64; 3]]| {
         let rows = start.iter().enumerate();
         Table {
             columns: ["rod", "p1", "p2", "p3"].map(String::from).into(),
             rows: rows.map(|(rod, p)| vec![rod as f64, p[0], p[1], p[2]]).collect(),
+            lines: Vec::new(),
         }
     };
     same(&path("start.csv"), name, &starts(&loaded.start), &starts(&own.start))?;
@@ -49,21 +52,22 @@ pub(super) fn origin(loaded: &LoadedProblem, json: &str) -> Result<Origin, ReadE
 fn differs(name: &str, due: &str) -> String {
     format!(
         "{name} is a problem of this program, which has {due} there; `shearbed problems export` writes it afresh, and \
-         a problem of your own needs a name of its own"
+            a problem \
+         of your own needs a name of its own"
     )
 }
 
-fn same(path: &Path, name: &str, found: &Table, due: &Table) -> Result<(), ReadError> {
+fn same(path: &Path, name: &str, found: &Table, due: &Table) -> Result<(), FileError> {
     for (at, (row, own)) in found.rows.iter().zip(&due.rows).enumerate() {
         if let Some(k) = (0..row.len()).find(|k| row[*k] != own[*k]) {
             let message = format!("{} = {}: {}", found.columns[k], row[k], differs(name, &own[k].to_string()));
-            return Err(ReadError::at(path, at as u64 + 2, k as u64 + 1, message));
+            return Err(FileError::at(path, found.line(at), k as u64 + 1, message));
         }
     }
     if found.rows.len() == due.rows.len() {
         Ok(())
     } else {
         let message = format!("{} rows: {}", found.rows.len(), differs(name, &due.rows.len().to_string()));
-        Err(ReadError::whole(path, message))
+        Err(FileError::whole(path, message))
     }
 }

@@ -2,8 +2,10 @@
 
 use super::check;
 use super::origin::origin;
-use super::table::{self, ReadError, Table, line_of};
+use super::table::{self, LONGEST_EXCERPT, Table, line_of};
 use super::{FORMAT, Kind, LoadedProblem, Origin, Problem};
+use crate::files::FileError;
+use crate::files::text;
 use std::fs;
 use std::path::Path;
 
@@ -14,8 +16,8 @@ use std::path::Path;
 /// File, line and column of: another format version, an unknown key, keys that do not belong together or are out of
 /// range, a table with other columns, fields or keys than the problem has, a number that is not finite, a folder with
 /// the name of a built-in problem that differs from it, and a folder without any problem.
-pub fn read(dir: &Path) -> Result<Vec<LoadedProblem>, ReadError> {
-    let failed = |error: std::io::Error| ReadError::whole(dir, format!("cannot be read: {error}"));
+pub fn read(dir: &Path) -> Result<Vec<LoadedProblem>, FileError> {
+    let failed = |error: std::io::Error| FileError::unreadable(dir, &error);
     let mut folders = Vec::new();
     for entry in fs::read_dir(dir).map_err(failed)? {
         let folder = entry.map_err(failed)?.path();
@@ -26,17 +28,17 @@ pub fn read(dir: &Path) -> Result<Vec<LoadedProblem>, ReadError> {
     folders.sort();
     if folders.is_empty() {
         let message = "no problems here: no folder in it has a problem.json; `shearbed problems export` writes them";
-        return Err(ReadError::whole(dir, message));
+        return Err(FileError::whole(dir, message));
     }
     folders.iter().map(|folder| read_one(folder)).collect()
 }
 
-fn read_one(dir: &Path) -> Result<LoadedProblem, ReadError> {
+fn read_one(dir: &Path) -> Result<LoadedProblem, FileError> {
     let path = dir.join("problem.json");
     let json = table::text(&path)?;
     let problem = problem(&path, &json)?;
     let refused =
-        |(key, message): check::Refused| ReadError::at(&path, line_of(&json, key), 0, format!("{key} = {message}"));
+        |(key, message): check::Refused| FileError::at(&path, line_of(&json, key), 0, format!("{key} = {message}"));
     check::check(dir, &problem).map_err(refused)?;
     let start = match problem.kind {
         Kind::Rods => start(&dir.join("start.csv"))?,
@@ -65,24 +67,29 @@ fn read_one(dir: &Path) -> Result<LoadedProblem, ReadError> {
     Ok(loaded)
 }
 
-fn problem(path: &Path, text: &str) -> Result<Problem, ReadError> {
+fn problem(path: &Path, text: &str) -> Result<Problem, FileError> {
     let wrong = |error: serde_json::Error| {
-        ReadError::at(path, error.line() as u64, error.column() as u64, table::cut(&error.to_string()))
+        FileError::at(
+            path,
+            error.line() as u64,
+            error.column() as u64,
+            text::start(&error.to_string(), LONGEST_EXCERPT),
+        )
     };
     // The version is checked first: another format may have other keys.
     let value: serde_json::Value = serde_json::from_str(text).map_err(wrong)?;
     if value["format"] != FORMAT {
-        let found = table::cut(&value["format"].to_string());
+        let found = text::start(&value["format"].to_string(), LONGEST_EXCERPT);
         let message = format!("format = {found}; this program reads {FORMAT}");
-        return Err(ReadError::at(path, line_of(text, "format"), 0, message));
+        return Err(FileError::at(path, line_of(text, "format"), 0, message));
     }
     serde_json::from_str(text).map_err(wrong)
 }
 
-fn start(path: &Path) -> Result<Vec<[f64; 3]>, ReadError> {
+fn start(path: &Path) -> Result<Vec<[f64; 3]>, FileError> {
     let table = table::read(path, &["rod", "p1", "p2", "p3"])?;
     let direction = |(rod, row): (usize, &Vec<f64>)| {
-        let wrong = |column: u64, message: String| ReadError::at(path, rod as u64 + 2, column, message);
+        let wrong = |column: u64, message: String| FileError::at(path, table.line(rod), column, message);
         if row[0] != rod as f64 {
             return Err(wrong(1, format!("rod {}; rod {rod} is next", row[0])));
         }
@@ -93,19 +100,19 @@ fn start(path: &Path) -> Result<Vec<[f64; 3]>, ReadError> {
 }
 
 /// Checks that every row occurs once, in order: by time, then by rod.
-fn check_keys(path: &Path, loaded: &LoadedProblem) -> Result<(), ReadError> {
+fn check_keys(path: &Path, loaded: &LoadedProblem) -> Result<(), FileError> {
     let wanted = keys(loaded);
     let rows = &loaded.certified.rows;
     for (at, (row, key)) in rows.iter().zip(&wanted).enumerate() {
         if let Some(wrong) = (0..key.len()).find(|i| row[*i] != key[*i]) {
             let name = &loaded.problem.columns[wrong];
             let message = format!("{name} = {}; {} is next", row[wrong], key[wrong]);
-            return Err(ReadError::at(path, at as u64 + 2, wrong as u64 + 1, message));
+            return Err(FileError::at(path, loaded.certified.line(at), wrong as u64 + 1, message));
         }
     }
     if rows.len() != wanted.len() {
         let message = format!("{} rows; there must be {}", rows.len(), wanted.len());
-        return Err(ReadError::whole(path, message));
+        return Err(FileError::whole(path, message));
     }
     Ok(())
 }

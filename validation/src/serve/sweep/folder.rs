@@ -4,11 +4,11 @@
 
 use super::axis::{Axis, shown};
 use super::{Pairs, Point};
-use crate::files::bounded;
-use crate::files::build;
+use crate::files::csv::Table;
 use crate::files::difference::difference;
 use crate::files::output::{Claim, Origin, Output, OutputError, RECORD, Record, Refused, ResultFolder};
 use crate::files::text::{Shown, cell};
+use crate::files::{FileError, bounded, build};
 use serde_json::{Value, json};
 use shearbed::Scene;
 use std::collections::BTreeMap;
@@ -245,7 +245,7 @@ impl Folder {
             records.push((format!("{}/{record}", self.name(k)), text));
             for (name, text) in tables {
                 let (columns, last) =
-                    last_row(&text).map_err(|why| Refused(format!("{}: {why}", self.point(k).join(&name).shown())))?;
+                    last_row(&self.point(k).join(&name), &text).map_err(|error| Refused(error.to_string()))?;
                 for (column, value) in columns.into_iter().zip(last) {
                     // Every table has the time; it is copied once.
                     if !head.contains(&column) {
@@ -278,14 +278,14 @@ impl Folder {
 pub type Rows = Vec<Vec<String>>;
 
 /// A table's header and last row.
-fn last_row(text: &str) -> Result<(Vec<String>, Vec<String>), String> {
-    let mut reader = csv::Reader::from_reader(text.as_bytes());
-    let header = reader.headers().map_err(|error| error.to_string())?.clone();
-    let last = reader.records().last();
-    let last = last.ok_or("no row is there")?;
-    let last = last.map_err(|error| error.to_string())?;
-    let texts = |record: &csv::StringRecord| record.iter().map(str::to_owned).collect();
-    Ok((texts(&header), texts(&last)))
+fn last_row(path: &Path, text: &str) -> Result<(Vec<String>, Vec<String>), FileError> {
+    let mut table = Table::new(path, text.as_bytes())?;
+    let mut last = None;
+    while let Some(row) = table.next_row()? {
+        last = Some(row.cells);
+    }
+    let last = last.ok_or_else(|| table.error("there is no row below the header"))?;
+    Ok((table.names().to_vec(), last))
 }
 
 fn csv(rows: &Rows) -> Result<String, String> {

@@ -254,5 +254,5 @@ fn keep_last_words(mut stderr: ChildStderr, kept: &Mutex<Vec<u8>>) {
 
 /// The start of a text, for messages.
 pub fn excerpt(text: &str) -> String {
-    format!("`{}`", text::line(&text::start_of(text, 60)))
+    format!("`{}`", text::line(&text::start(text, 60)))
 }

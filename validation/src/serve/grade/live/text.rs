@@ -2,7 +2,8 @@
 //! (`docs/src/user/grading.md`).
 
 use super::pipe::excerpt;
-use super::request::{Answer, Request};
+use super::protocol::{Answer, Request};
+use crate::files::csv;
 
 /// The request as one line: `id`, the nine ∂u_i/∂x_j row by row, r_e, the time in s, the number of steps or 0, the
 /// tolerance or 0, the number of rods, and three numbers for each rod.
@@ -46,8 +47,7 @@ pub fn read(line: &str, id: u64, rods: usize) -> Result<Answer, String> {
 /// Parses a number as printed by C, C++, Fortran, Julia, Octave or Python. Infinities become NaN.
 fn number(word: &str) -> Result<f64, String> {
     let wrong = || format!("{} is not a number", excerpt(word));
-    // Fortran's double precision: 1.0D-3.
-    let number: f64 = word.replace(['D', 'd'], "e").parse().map_err(|_| wrong())?;
+    let number = csv::number(word).ok_or_else(wrong)?;
     let written_out = word.bytes().any(|byte| byte.is_ascii_digit());
     match number.is_finite() {
         true => Ok(number),

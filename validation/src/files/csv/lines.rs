@@ -1,7 +1,7 @@
-//! Lines of a text file with their numbers, read one by one in bounded memory.
+//! Lines of a text with their numbers, read one by one in bounded memory.
 
+use crate::files::FileError;
 use crate::files::bounded;
-use crate::serve::problems::ReadError;
 use std::fs::File;
 use std::io::{BufRead, BufReader, Read};
 use std::path::{Path, PathBuf};
@@ -11,39 +11,46 @@ const LONGEST: usize = 1 << 16;
 
 /// Features that a text from Windows may have: a byte order mark, and CR LF at line ends.
 ///
-/// By default both are refused: a program that reads such a file later would take them for part of a name or a value.
+/// A program that is graded may read its file later and take them for part of a name or a value.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum LineEnds {
-    /// LF only.
+    /// LF only; anything else is an error.
     #[default]
     Unix,
     /// CR LF or LF, with or without a byte order mark; both are removed.
     Windows,
 }
 
-/// The lines of a file that are not blank.
-pub struct Lines {
+/// The lines of a text that are not blank.
+pub struct Lines<R = BufReader<File>> {
     path: PathBuf,
-    reader: BufReader<File>,
+    reader: R,
     number: u64,
     ends: LineEnds,
 }
 
 impl Lines {
     /// Opens a file.
-    pub fn open(path: &Path, ends: LineEnds) -> Result<Self, ReadError> {
-        let failed = |error: std::io::Error| ReadError::whole(path, format!("cannot be read: {error}"));
-        Ok(Self {
-            path: path.to_owned(),
-            reader: BufReader::new(bounded::open(path).map_err(failed)?),
-            number: 0,
-            ends,
-        })
+    pub fn open(path: &Path, ends: LineEnds) -> Result<Self, FileError> {
+        let file = bounded::open(path).map_err(|error| FileError::unreadable(path, &error))?;
+        Ok(Self::new(path, BufReader::new(file), ends))
+    }
+}
+
+impl<R: BufRead> Lines<R> {
+    /// The lines of `reader`; `path` is for messages.
+    pub fn new(path: &Path, reader: R, ends: LineEnds) -> Self {
+        Self { path: path.to_owned(), reader, number: 0, ends }
     }
 
     /// The file.
     pub fn path(&self) -> &Path {
         &self.path
+    }
+
+    /// What the lines are read from.
+    pub fn reader(&self) -> &R {
+        &self.reader
     }
 
     /// The number of the last line read, from 1.
@@ -52,12 +59,12 @@ impl Lines {
     }
 
     /// An error in the last line read, at field `column` from 1; 0 for the whole line.
-    pub fn error(&self, column: usize, message: impl Into<String>) -> ReadError {
-        ReadError::at(&self.path, self.number, column as u64, message)
+    pub fn error(&self, column: usize, message: impl Into<String>) -> FileError {
+        FileError::at(&self.path, self.number, column as u64, message)
     }
 
     /// The next line that is not blank; `None` at the end.
-    pub fn next_line(&mut self) -> Result<Option<String>, ReadError> {
+    pub fn next_line(&mut self) -> Result<Option<String>, FileError> {
         loop {
             let mut bytes = Vec::new();
             let most = LONGEST as u64 + 1;
@@ -80,7 +87,7 @@ impl Lines {
     }
 
     /// The line without its end and byte order mark, or an error if they are not allowed.
-    fn plain<'a>(&self, line: &'a str) -> Result<&'a str, ReadError> {
+    fn plain<'a>(&self, line: &'a str) -> Result<&'a str, FileError> {
         let windows = self.ends == LineEnds::Windows;
         let line = line.strip_suffix('\n').unwrap_or(line);
         let line = match line.strip_prefix('\u{feff}').filter(|_| self.number == 1) {
@@ -89,10 +96,7 @@ impl Lines {
             None => line,
         };
         match line.strip_suffix('\r') {
-            Some(line) if !windows => {
-                let last = line.split([',', ';', '\t']).count();
-                Err(self.error(last, CARRIED))
-            }
+            Some(_) if !windows => Err(self.error(line.split([',', ';', '\t']).count(), CARRIED)),
             Some(line) => Ok(line),
             None => Ok(line),
         }
@@ -103,18 +107,3 @@ const MARKED: &str =
     "begins with a byte order mark: write UTF-8 without it (in Python encoding=\"utf-8\"), or give --windows-text";
 const CARRIED: &str =
     "ends in CR LF: write LF alone (csv.writer of Python has lineterminator=\"\\n\"), or give --windows-text";
-
-/// Parses a field as a number. NaN and infinities written as such are valid; a number too large for a double
-/// is an error.
-pub fn number(field: &str) -> Result<f64, String> {
-    match field.parse::<f64>() {
-        Ok(value) if value.is_infinite() && field.contains(|c: char| c.is_ascii_digit()) => {
-            Err(format!("{field} is too large for a double"))
-        }
-        Ok(value) => Ok(value),
-        Err(_) => {
-            let start: String = field.chars().take(40).collect();
-            Err(format!("{start:?} is not a number"))
-        }
-    }
-}

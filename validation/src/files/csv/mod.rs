@@ -1,0 +1,258 @@
+//! The one reader of tables of numbers in CSV.
+//!
+//! Cells are separated by commas, may be in quotes and have blanks around them; numbers have a decimal point and may
+//! have Fortran's exponents (`1.0D-3`). Blank lines, CR LF and a byte order mark are skipped. Files with semicolons or
+//! tabs, which may have decimal commas, and comments before the header are refused. An error names line and column.
+
+mod lines;
+
+pub use lines::{LineEnds, Lines};
+
+use super::FileError;
+use super::text::{line, start};
+use std::io::BufRead;
+use std::path::Path;
+
+/// Parses a number as printed by C, C++, Fortran, Julia, Octave or Python: NaN and infinities too.
+pub fn number(text: &str) -> Option<f64> {
+    text.parse().ok().or_else(|| text.replace(['D', 'd'], "e").parse().ok())
+}
+
+/// The message that a cell is not allowed.
+pub fn not_allowed(column: &str, cell: &str, expected: &str) -> String {
+    const MOST: usize = 40;
+    format!("column {column}: `{}` is not allowed: expected {expected}", start(&line(cell), MOST))
+}
+
+/// What [`Row::number`] expects.
+pub const FINITE: &str = "a finite number with a decimal point";
+
+/// The cells of a line between commas: trimmed, and without their quotes.
+pub fn split(text: &str) -> Vec<String> {
+    let mut cells = Vec::new();
+    let mut rest = Some(text);
+    while let Some(text) = rest {
+        let quoted = text.trim_start().strip_prefix('"').and_then(|text| {
+            let mut end = text.find('"')?;
+            while text[end + 1..].starts_with('"') {
+                end += 2 + text[end + 2..].find('"')?;
+            }
+            Some((text[..end].replace("\"\"", "\""), &text[end + 1..]))
+        });
+        let (cell, after) = quoted.unwrap_or((String::new(), text));
+        let (more, next) = after.split_once(',').map_or((after, None), |(more, next)| (more, Some(next)));
+        cells.push(cell + more.trim());
+        rest = next;
+    }
+    cells
+}
+
+/// The rows of a table without a header.
+pub struct Rows<R>(Lines<R>);
+
+impl<R: BufRead> Rows<R> {
+    /// The rows of `reader`; `path` is for messages.
+    pub fn new(path: &Path, reader: R) -> Self {
+        Self(Lines::new(path, reader, LineEnds::Windows))
+    }
+
+    /// The next line's number and cells.
+    fn read(&mut self, is_first: bool) -> Result<Option<(u64, Vec<String>)>, FileError> {
+        let Some(line) = self.0.next_line()? else { return Ok(None) };
+        if is_first {
+            commas(&line).map_err(|message| self.0.error(0, message))?;
+        }
+        Ok(Some((self.0.number(), split(&line))))
+    }
+
+    /// The number and the cells of every line that is not blank.
+    ///
+    /// # Errors
+    ///
+    /// A file without rows, or with more than `most` lines.
+    pub fn all(mut self, most: u64) -> Result<Vec<(u64, Vec<String>)>, FileError> {
+        let mut rows = Vec::new();
+        while let Some(row) = self.read(rows.is_empty())? {
+            if row.0 > most {
+                return Err(self.0.error(0, format!("more than {most} lines; at most {most} are allowed")));
+            }
+            rows.push(row);
+        }
+        if rows.is_empty() { Err(FileError::line(self.0.path(), 1, EMPTY)) } else { Ok(rows) }
+    }
+}
+
+const EMPTY: &str = "the file is empty";
+
+/// Fails if the cells of a file's first line are separated by semicolons or tabs, and says what to do: such files have
+/// decimal commas.
+fn commas(first: &str) -> Result<(), String> {
+    for (separator, name, shell) in [(';', "semicolons", ";"), ('\t', "tabs", "\\t")] {
+        let is_number = |cell: &str| cell.trim().replace(',', ".").parse::<f64>().is_ok();
+        if first.contains(separator) && (!first.contains(',') || first.split(separator).all(is_number)) {
+            return Err(format!(
+                "cells are separated by {name}; commas between cells and points in numbers are allowed: \
+                 sed 's/,/./g; s/{shell}/,/g' makes them of it"
+            ));
+        }
+    }
+    Ok(())
+}
+
+/// A table with a header, read row by row.
+pub struct Table<R> {
+    rows: Rows<R>,
+    /// The line of the header.
+    line: u64,
+    names: Vec<String>,
+}
+
+impl<R: BufRead> Table<R> {
+    /// Reads the header; `path` is for messages.
+    ///
+    /// # Errors
+    ///
+    /// An empty file, other separators than commas, a comment, a column that is there twice.
+    pub fn new(path: &Path, reader: R) -> Result<Self, FileError> {
+        let mut rows = Rows::new(path, reader);
+        let (line, names) = rows.read(true)?.ok_or_else(|| FileError::line(path, 1, EMPTY))?;
+        let table = Self { rows, line, names };
+        if table.names[0].starts_with('#') {
+            return Err(table.error("comments are not read here: the first line has the names of the columns"));
+        }
+        let twice = (1..table.names.len()).find(|k| table.names[..*k].contains(&table.names[*k]));
+        match twice {
+            Some(k) => {
+                let name = start(&table.names[k], 40);
+                Err(table.error(format!("column `{}` is there twice; once is allowed", super::text::line(&name))))
+            }
+            None => Ok(table),
+        }
+    }
+
+    /// The names of the columns.
+    pub fn names(&self) -> &[String] {
+        &self.names
+    }
+
+    /// The index of a column.
+    pub fn place(&self, name: &str) -> Option<usize> {
+        self.names.iter().position(|other| other == name)
+    }
+
+    /// An error in the header.
+    pub fn error(&self, message: impl Into<String>) -> FileError {
+        FileError::line(self.rows.0.path(), self.line, message)
+    }
+
+    /// What the table is read from.
+    pub fn reader(&self) -> &R {
+        self.rows.0.reader()
+    }
+
+    /// The next row; `None` at the end.
+    ///
+    /// # Errors
+    ///
+    /// A row with more or fewer cells than the header.
+    pub fn next_row(&mut self) -> Result<Option<Row<'_>>, FileError> {
+        let Some((line, cells)) = self.rows.read(false)? else { return Ok(None) };
+        let row = Row { path: self.rows.0.path(), names: &self.names, line, cells };
+        match (row.cells.len(), row.names.len()) {
+            (found, due) if found != due => Err(row.error(format!("{found} cells; the header has {due}"))),
+            _ => Ok(Some(row)),
+        }
+    }
+}
+
+/// A row of a [`Table`].
+pub struct Row<'a> {
+    path: &'a Path,
+    names: &'a [String],
+    /// The number of its line, from 1.
+    pub line: u64,
+    /// Its cells, as many as the header has.
+    pub cells: Vec<String>,
+}
+
+impl Row<'_> {
+    /// True if the cell is empty.
+    pub fn is_blank(&self, place: usize) -> bool {
+        self.cells[place].is_empty()
+    }
+
+    /// The number in a cell, also NaN and infinities.
+    pub fn number(&self, place: usize) -> Result<f64, FileError> {
+        number(&self.cells[place]).ok_or_else(|| self.refused(place, "a number"))
+    }
+
+    /// The finite number in a cell.
+    pub fn finite(&self, place: usize) -> Result<f64, FileError> {
+        let number = number(&self.cells[place]).filter(|number| number.is_finite());
+        number.ok_or_else(|| self.refused(place, FINITE))
+    }
+
+    /// The finite number above 0 in a cell; `expected` is for the message.
+    pub fn positive(&self, place: usize, expected: &str) -> Result<f64, FileError> {
+        match self.finite(place)? {
+            number if number > 0.0 => Ok(number),
+            _ => Err(self.refused(place, expected)),
+        }
+    }
+
+    /// The error that a cell is not allowed.
+    pub fn refused(&self, place: usize, expected: &str) -> FileError {
+        self.error(not_allowed(&self.names[place], &self.cells[place], expected))
+    }
+
+    /// An error in this row.
+    pub fn error(&self, message: impl Into<String>) -> FileError {
+        FileError::line(self.path, self.line, message)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn finite(text: &str) -> Result<Vec<(u64, Vec<f64>)>, FileError> {
+        let mut table = Table::new(Path::new("a.csv"), text.as_bytes())?;
+        let mut rows = Vec::new();
+        while let Some(row) = table.next_row()? {
+            rows.push((row.line, (0..row.cells.len()).map(|k| row.finite(k)).collect::<Result<_, _>>()?));
+        }
+        Ok(rows)
+    }
+
+    #[test]
+    fn what_programs_write_is_read_with_the_lines_of_an_editor() {
+        let text = "\u{feff}\"a, b\" , c\r\n\r\n1.0D-3, \"2\"\r\n 3d2 ,-4E1\n\n5,6";
+        let expected = [(3, vec![1e-3, 2.0]), (4, vec![300.0, -40.0]), (6, vec![5.0, 6.0])];
+        assert_eq!(finite(text).unwrap(), expected);
+        assert_eq!(split(r#" "a ""b"", c", d ,,"open"#), ["a \"b\", c", "d", "", "\"open"]);
+        assert_eq!(
+            ["nan", "-inf", "0x1", "", "dd"].map(number).map(|x| x.is_some()),
+            [true, true, false, false, false]
+        );
+    }
+
+    #[test]
+    fn what_is_no_table_is_refused_with_its_place() {
+        let long = format!("a\n{}\n", "1".repeat(1 << 17));
+        for (text, expected) in [
+            ("", "a.csv:1: the file is empty"),
+            ("\n# a\n1\n", "a.csv:2: comments are not read"),
+            ("a;b\n1;2\n", "a.csv:1: cells are separated by semicolons"),
+            ("a\tb\n1,5\t2\n", "a.csv:1: cells are separated by tabs"),
+            ("a,b,a\n", "a.csv:1: column `a` is there twice; once is allowed"),
+            ("a,b\n\n1\n", "a.csv:3: 1 cells; the header has 2"),
+            ("a,b\n1,nan\n", "a.csv:2: column b: `nan` is not allowed: expected a finite number with a decimal point"),
+            ("a,b\n,1\n", "a.csv:2: column a: `` is not allowed"),
+            ("a\n1\n1e999\n", "a.csv:3: column a: `1e999` is not allowed"),
+            (&long, "a.csv:2: longer than 65536 bytes"),
+        ] {
+            let error = finite(text).unwrap_err().to_string();
+            assert!(error.starts_with(expected), "{error}");
+        }
+    }
+}

@@ -1,0 +1,52 @@
+//! An error at a place in a file.
+
+use super::text::Shown;
+use std::fmt;
+use std::path::{Path, PathBuf};
+
+/// The reason why a file is refused: the place, what is wrong, and what is allowed.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct FileError {
+    /// The file or folder.
+    pub path: PathBuf,
+    /// The line, from 1; 0 for the whole file.
+    pub line: u64,
+    /// The column, from 1: the field of a table, the character of JSON; 0 for the whole line.
+    pub column: u64,
+    /// What is wrong, and what is allowed.
+    pub message: String,
+}
+
+impl FileError {
+    /// An error in a whole file or folder.
+    pub fn whole(path: impl AsRef<Path>, message: impl Into<String>) -> Self {
+        Self::at(path, 0, 0, message)
+    }
+
+    /// An error in a line of a file.
+    pub fn line(path: impl AsRef<Path>, line: u64, message: impl Into<String>) -> Self {
+        Self::at(path, line, 0, message)
+    }
+
+    /// An error at a place in a file.
+    pub fn at(path: impl AsRef<Path>, line: u64, column: u64, message: impl Into<String>) -> Self {
+        Self { path: path.as_ref().to_owned(), line, column, message: message.into() }
+    }
+
+    /// The error of a file that cannot be read.
+    pub fn unreadable(path: impl AsRef<Path>, error: &std::io::Error) -> Self {
+        Self::whole(path, format!("cannot be read: {error}"))
+    }
+}
+
+impl fmt::Display for FileError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}", self.path.shown())?;
+        for place in [self.line, self.column].iter().take_while(|place| **place > 0) {
+            write!(f, ":{place}")?;
+        }
+        write!(f, ": {}", self.message)
+    }
+}
+
+impl std::error::Error for FileError {}
