@@ -1,14 +1,8 @@
-//! Messages: short, and harmless on a terminal.
+//! Messages on the terminal.
 
-use super::readable::{line, readable};
+use super::readable;
 use std::borrow::Cow;
 use std::io::Write;
-
-/// A message for the terminal: what commands one is written out, a number of many digits is a power of ten, the
-/// system's numbers of errors go, and the middle of a long text is left out.
-pub fn message(text: &str) -> String {
-    readable(&shortened(&with_short_numbers(&without_codes(text)))).into_owned()
-}
 
 /// Writes a text to standard error in one call: a reader of several processes' output joins the pieces as they arrive,
 /// possibly with another process's in between. Errors are ignored: then only the exit code and the files show the
@@ -19,22 +13,6 @@ pub fn complain(text: &str) {
 
 /// Limit of a message on the terminal, in characters.
 const MOST: usize = 8192;
-
-/// Limit of a value from a user's file in a message, in characters.
-const SNIPPET: usize = 40;
-
-/// At most `most` characters of a text, and `…` where it has more.
-pub fn start_of(text: &str, most: usize) -> String {
-    match text.char_indices().nth(most) {
-        Some((end, _)) => format!("{}…", &text[..end]),
-        None => text.to_owned(),
-    }
-}
-
-/// The start of a value in quotes, for a message: enough to find it in its file, and little of what may be private.
-pub fn snippet(value: &str) -> String {
-    format!("\"{}\"", line(&start_of(value, SNIPPET)).replace('"', "\\\""))
-}
 
 /// The text, with the middle left out if it is too long: the error is at the start of a message, and what is allowed at
 /// the end.
@@ -47,6 +25,12 @@ pub(crate) fn shortened(text: &str) -> Cow<'_, str> {
     let (head, tail) = (&text[..cut(MOST / 4)], &text[cut(length - MOST / 4)..]);
     let left_out = length - MOST / 4 * 2;
     Cow::Owned(format!("{head} … ({left_out} characters are left out here) … {tail}"))
+}
+
+/// A message for the terminal: what commands one is written out, a number of many digits is a power of ten, the
+/// system's numbers of errors go, and the middle of a long text is left out.
+pub fn message(text: &str) -> String {
+    readable(&shortened(&with_short_numbers(&without_codes(text)))).into_owned()
 }
 
 /// A text without ` (os error 2)` behind the system's words for it.
@@ -108,14 +92,6 @@ mod tests {
     fn the_systems_words_have_no_number() {
         let text = "a: Not found (os error 2); b: (os error ), c: denied (os error 13)\n";
         assert_eq!(without_codes(text), "a: Not found; b: (os error ), c: denied\n");
-    }
-
-    #[test]
-    fn of_a_value_only_the_start_is_repeated() {
-        assert_eq!(snippet("zero"), "\"zero\"");
-        assert_eq!(snippet("a\nb\u{1b}\"c"), r#""a\nb\u{1b}\"c""#);
-        let secret = "x".repeat(40) + "the rest";
-        assert_eq!(snippet(&secret), format!("\"{}…\"", "x".repeat(40)));
     }
 
     #[test]

@@ -1,6 +1,6 @@
-//! Words of a command line as a shell reads them.
+//! Command lines that a shell splits into the same words.
 
-use super::readable::commands;
+use super::commands;
 use std::ffi::OsStr;
 
 /// A command line that a POSIX shell splits into these words; a word that is not valid text is quoted in the form of

@@ -197,19 +197,6 @@ mod tests {
     }
 
     #[test]
-    fn lines_are_counted_as_an_editor_does() {
-        for (text, line) in [
-            ("length_mm\r\n1\r\n1\r\nx\r\n", 4),
-            ("length_mm\n1\n\n\n1\nx\n", 6),
-            ("length_mm\r\n\r\n1\r\nx", 4),
-            ("length_mm\nx\n", 2),
-        ] {
-            let said = format!("{line}: column length_mm: `x` is not allowed");
-            assert!(refused(text).starts_with(&said), "{text:?}: {}", refused(text));
-        }
-    }
-
-    #[test]
     fn what_is_wrong_is_named_with_its_line() {
         for (text, said) in [
             ("p1,p2\n1,0\n", "1: column p3 is missing; p1, p2, p3 go together"),

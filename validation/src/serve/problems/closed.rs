@@ -3,6 +3,7 @@
 use super::asked::{AXES, COUETTE, SHEAR_RATE_PER_S};
 use super::table::twelve_decimals;
 use super::{Built, Closed, FORMAT, Kind, Metric, Problem, ProblemDef};
+use crate::files::csv::split;
 use crate::methods::tensors::fourth::PAIRS;
 use crate::methods::tensors::{self, APART, Closure, Equation, Model, at};
 use nalgebra::Matrix3;
@@ -120,7 +121,7 @@ pub(super) fn problems() -> Vec<ProblemDef> {
 }
 
 fn built(def: &ProblemDef, problem: &ClosureProblem) -> Built {
-    let rows = TABLE.lines().map(|line| line.split(',').map(str::to_owned).collect::<Vec<_>>());
+    let rows = TABLE.lines().map(split);
     let Closed { closure, model, .. } = problem.closed;
     Built {
         certified: rows.filter(|row| row[0] == problem.name).map(|row| row[1..].into()).collect(),

@@ -3,6 +3,7 @@
 use super::asked::{AXES, COUETTE, direction, period_s};
 use super::tolerance::rounded_up;
 use super::{Built, FORMAT, Kind, Metric, Problem, ProblemDef};
+use crate::files::csv::split;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Dxsm;
 use std::f64::consts::TAU;
@@ -62,7 +63,7 @@ pub(super) fn problems() -> Vec<ProblemDef> {
 
 impl ContactProblem {
     fn built(&self) -> Built {
-        let mut rows = self.table.lines().map(|line| line.split(',').map(str::to_owned).collect());
+        let mut rows = self.table.lines().map(split);
         let columns = rows.next().unwrap_or_default();
         Built {
             problem: Problem {

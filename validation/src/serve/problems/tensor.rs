@@ -2,6 +2,7 @@
 
 use super::asked::{AXES, COUETTE, direction, period_s};
 use super::{Built, FORMAT, Kind, Metric, Problem, ProblemDef, tolerance};
+use crate::files::csv::split;
 use crate::oracle::reference::big::{Bits, digits};
 use crate::oracle::reference::isotropic::Covariance;
 use crate::oracle::reference::motion::{Motion, Unit};
@@ -102,8 +103,7 @@ fn unequal_rods(def: &ProblemDef) -> Built {
 const UNEQUAL: &str = include_str!("data/unequal-rods.csv");
 
 fn unequal_table() -> Vec<Vec<String>> {
-    let fields = |line: &str| line.split(',').map(str::to_owned).collect();
-    UNEQUAL.lines().skip(1).map(fields).collect()
+    UNEQUAL.lines().skip(1).map(split).collect()
 }
 
 /// The problem with the values that these problems share.

@@ -3,6 +3,7 @@
 use super::pipe::excerpt;
 use super::request::{Answer, Request};
 use super::text;
+use crate::files::text::start;
 use serde::Deserialize;
 use serde_json::Value;
 
@@ -75,7 +76,7 @@ pub fn read(line: &str, id: u64, rods: usize) -> Result<Answer, String> {
     match answer.id.as_ref().map(|found| (found, found.as_u64())) {
         Some((_, Some(found))) if found == id => {}
         Some((found, _)) => {
-            let found: String = found.to_string().chars().take(60).collect();
+            let found = start(&found.to_string(), 60);
             return Err(format!("it answers id {found} where {id} was asked"));
         }
         None => return Err(format!("it has no \"id\": {}", excerpt(line))),

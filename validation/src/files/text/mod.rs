@@ -1,11 +1,22 @@
-//! Makes texts of other people harmless: on a terminal, in JSON, in XML.
+//! Makes texts of other people harmless: on a terminal, in cells of a table, in a shell.
+
+mod cell;
+mod columns;
+mod message;
+mod shell;
+
+pub(crate) use cell::cell;
+pub use columns::{four_decimals, left_aligned, right_aligned};
+pub(crate) use message::shortened;
+pub use message::{complain, message};
+pub use shell::command;
 
 use std::borrow::Cow;
 use std::path::Path;
 
 /// True if a character controls a terminal, changes the direction of writing, is invisible, or is not allowed in HTML
 /// and SVG. Line feeds and tabulators are allowed.
-pub(super) fn commands(c: char) -> bool {
+fn commands(c: char) -> bool {
     (c.is_control() && !matches!(c, '\n' | '\t'))
         || matches!(c, '\u{2028}' | '\u{2029}' | '\u{fff9}'..='\u{fffb}' | '\u{fffe}' | '\u{ffff}')
         || invisible(c)
@@ -79,6 +90,22 @@ impl Shown for Path {
     }
 }
 
+/// Limit of a value from a user's file in a message, in characters.
+const SNIPPET: usize = 40;
+
+/// The first `most` characters of a text, with `…` if there are more.
+pub fn start(text: &str, most: usize) -> String {
+    match text.char_indices().nth(most) {
+        Some((end, _)) => format!("{}…", &text[..end]),
+        None => text.to_owned(),
+    }
+}
+
+/// The start of a value in quotes, for a message: enough to find it in its file, and little of what may be private.
+pub fn snippet(value: &str) -> String {
+    format!("\"{}\"", line(&start(value, SNIPPET)).replace('"', "\\\""))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -106,6 +133,14 @@ mod tests {
     fn a_path_stays_on_its_line() {
         let path = Path::new("a\nerror: \u{200b}b.toml");
         assert_eq!(path.shown(), r"a\nerror: \u{200b}b.toml");
+    }
+
+    #[test]
+    fn of_a_value_only_the_start_is_repeated() {
+        assert_eq!(snippet("zero"), "\"zero\"");
+        assert_eq!(snippet("a\nb\u{1b}\"c"), r#""a\nb\u{1b}\"c""#);
+        let secret = "x".repeat(40) + "the rest";
+        assert_eq!(snippet(&secret), format!("\"{}…\"", "x".repeat(40)));
     }
 
     #[test]

@@ -1,6 +1,4 @@
-//! Cells of tables: on a terminal, and in CSV.
-
-use super::readable::readable;
+//! Numbers and aligned columns for people.
 
 /// A number with four decimals, or as a power of ten where it would have hundreds of digits.
 pub fn four_decimals(x: f64) -> String {
@@ -31,16 +29,6 @@ fn aligned(rows: &[Vec<String>], pad: impl Fn(&str, usize) -> String) -> String 
     rows.iter().map(line).collect()
 }
 
-/// A CSV cell that no spreadsheet treats as a formula: a text that begins like a formula gets an apostrophe before it.
-/// Numbers are unchanged.
-pub(crate) fn cell(text: &str) -> String {
-    // Full-width forms too, which East Asian spreadsheets treat like the others.
-    let formula = text.starts_with(['=', '+', '-', '@', '\t', '\r', '\n', '|', '%', '＝', '＋', '－', '＠']);
-    let number = text.parse::<f64>().is_ok();
-    let mark = if formula && !number { "'" } else { "" };
-    format!("{mark}{}", readable(text))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -51,28 +39,6 @@ mod tests {
         assert_eq!(left_aligned(&rows), "α     x1\n0.25  7\n");
         assert_eq!(right_aligned(&rows), "   α  x1\n0.25   7\n");
         assert_eq!(left_aligned(&[]), "");
-    }
-
-    #[test]
-    fn no_cell_is_a_formula() {
-        for (text, expected) in [
-            ("=cmd|' /C calc'!A0", "'=cmd|' /C calc'!A0"),
-            ("@SUM(1)", "'@SUM(1)"),
-            ("+1+2", "'+1+2"),
-            ("-2+3", "'-2+3"),
-            ("\t=1", "'\t=1"),
-            ("＝1+1", "'＝1+1"),
-            ("＋1", "'＋1"),
-            ("－1", "'－1"),
-            ("＠SUM(1)", "'＠SUM(1)"),
-            ("-1e-300", "-1e-300"),
-            ("+5", "+5"),
-            ("-inf", "-inf"),
-            ("rotation", "rotation"),
-            ("a\u{1b}b", r"a\u{1b}b"),
-        ] {
-            assert_eq!(cell(text), expected);
-        }
     }
 
     #[test]
