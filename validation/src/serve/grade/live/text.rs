@@ -2,7 +2,7 @@
 //! (`docs/src/user/grading.md`).
 
 use super::pipe::excerpt;
-use super::protocol::{Answer, Request};
+use super::request::{Answer, Request};
 use crate::files::csv;
 
 /// The request as one line: `id`, the nine ∂u_i/∂x_j row by row, r_e, the time in s, the number of steps or 0, the
