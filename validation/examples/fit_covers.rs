@@ -71,7 +71,7 @@ fn scenes(seed: u64, over: &[Range]) -> Result<Scenes, String> {
             time: TimeColumn::Strain,
         })
     };
-    Scenes::new(vec![set(50.0)?, set(2000.0)?], over.to_vec())
+    Ok(Scenes::new(vec![set(50.0)?, set(2000.0)?], over.to_vec())?)
 }
 
 fn planted(range: &Range) -> Result<f64, String> {
@@ -90,7 +90,7 @@ fn whole_fit(k: u64, truth: &[f64], over: &[Range]) -> Result<Fit, String> {
     let noise = noise(k, truth.len());
     let data = points(|k| truth[k] + NOISE * noise[k]);
     let scenes = scenes(2000 + k, over)?;
-    let model = |values: &[f64]| scenes.model(&data, AS_WRITTEN, values);
+    let model = |values: &[f64]| scenes.model(&data, AS_WRITTEN, values).map_err(String::from);
     let problem = FitProblem {
         measured: Measured { data: &data, ranges: over, rods: &Rods::none(2) },
         model: &model,
@@ -162,7 +162,7 @@ fn main() -> Result<(), String> {
                 fit.runs,
                 fit.best.share(REPLICAS),
                 fit.best.share(EMULATOR),
-                fit.feigned(),
+                fit.noise_share(),
                 range.name(),
                 fit.values(&fit.best.place)[axis],
                 inner.low,

@@ -101,7 +101,7 @@ fn main() -> Result<(), String> {
         };
         let data: Vec<Datum> = (0..TIMES).map(point).collect();
         let scenes = Scenes::new(vec![set(rods, 5000 + k)?], range.clone())?;
-        let model = |values: &[f64]| scenes.model(&data, AS_WRITTEN, values);
+        let model = |values: &[f64]| scenes.model(&data, AS_WRITTEN, values).map_err(String::from);
         let measured = Measured { data: &data, ranges: &range, rods: &rods_of_fit };
         let fit = search(&FitProblem { measured, model: &model, most_replicas: 1000 }, &Watch::SILENT)?;
         let found = report(&fit, &data, Vec::new());

@@ -1,28 +1,33 @@
 //! `shearbed fit`.
 
+mod advice;
 mod input;
 mod shifts;
+mod terminal;
 
 use super::{
     Failure, Threads, Writing, on_threads, print, progress, restart, result_folder, scene, spares_inputs, whole,
 };
+use advice::{UContains, of_fit, of_scene, of_warning};
 use input::{Input, input};
 use serde_json::{Value, json};
 use shearbed::Plan;
 use shearbed::scene::{MAX_REPLICAS, MAX_SEED};
 use shearbed_validation::files::build::BUILD;
-use shearbed_validation::files::output::Output;
+use shearbed_validation::files::output::{Output, ResultFolder};
 use shearbed_validation::files::text::Shown;
 use shearbed_validation::files::text::command;
 use shearbed_validation::input::experiment::MOST_BYTES;
+use shearbed_validation::methods::least_squares::Datum;
 use shearbed_validation::present::plot;
 use shearbed_validation::serve::fit::contents::{self, Contents};
 use shearbed_validation::serve::fit::design::{Candidate, design};
 use shearbed_validation::serve::fit::elsewhere::look_elsewhere;
+use shearbed_validation::serve::fit::error::{FitError, SceneError};
 use shearbed_validation::serve::fit::report::{self, Report};
-use shearbed_validation::serve::fit::scenes::AS_WRITTEN;
+use shearbed_validation::serve::fit::scenes::{AS_WRITTEN, Scenes};
 use shearbed_validation::serve::fit::search::{Fit, FitProblem, Measured, Watch, search};
-use shearbed_validation::serve::fit::{Hypothesis, Range, pictures, terminal};
+use shearbed_validation::serve::fit::{Hypothesis, Range, pictures};
 use shearbed_validation::serve::sweep::KeyValue;
 use shifts::{shifts, taken_as_known};
 use std::ffi::OsString;
@@ -48,7 +53,7 @@ pub(super) struct Args {
     data: Vec<OsString>,
     /// A key of the scene to fit, and the range to look in; up to three times. SET:KEY=FROM:TO: a value of its own for
     /// the scene of the first, second, … --data
-    #[arg(long, value_name = "[SET:]KEY=FROM:TO", required = true, value_parser = Range::parse)]
+    #[arg(long, value_name = "[SET:]KEY=FROM:TO", required = true, value_parser = advice::range)]
     over: Vec<Range>,
     /// The folder for fit.json, tables and pictures [default: out/fit-<scene>]
     #[arg(long, value_name = "DIR")]
@@ -65,7 +70,7 @@ pub(super) struct Args {
     rods: Option<u64>,
     /// What u contains [default: reading]
     #[arg(long, value_name = "WHAT", requires_if("rods", "rods"))]
-    u_contains: Option<Contents>,
+    u_contains: Option<UContains>,
     /// Test a value of a fitted key, or whether it has the same value in two sets
     /// (1:interaction.alpha=2:interaction.alpha); can be given more than once
     #[arg(long, value_name = "[SET:]KEY=VALUE", value_parser = Hypothesis::parse)]
@@ -90,69 +95,88 @@ const FIT: &str = "fit.json";
 struct Done {
     fit: Fit,
     report: Report,
+    warnings: Vec<String>,
     figures: Vec<(String, plot::Figure)>,
     candidates: Vec<Candidate>,
 }
 
 /// Fits keys of a scene to measured points.
 pub(super) fn fit(args: &Args) -> Result<(), Failure> {
-    args.test.iter().try_for_each(|held| held.check(&args.over)).map_err(Failure::Input)?;
+    let check =
+        |test: &Hypothesis| test.check(&args.over).map_err(|error| Failure::Input(advice::of_test(test, &error)));
+    args.test.iter().try_for_each(check)?;
     let input = input(args)?;
-    let out = (args.out.clone()).unwrap_or_else(|| Path::new("out").join(format!("fit-{}", input.stem)));
     let asked = asked(args, &input)?;
-    let names = [FIT, "residuals.csv", "profiles.csv", "design.csv", super::plot::FIGURES];
-    let scenes = input.scenes.sets.iter();
-    let scenes = scenes.flat_map(|set| set.starts.files().chain([PathBuf::from(&set.source)]));
-    spares_inputs(&out, &names, input.files.iter().cloned().chain(scenes))?;
-    let folder = result_folder(&out, ("fit", asked.clone(), args.writing.force), 0, &names)?;
+    let folder = folder(args, &input, &asked)?;
     let bar = progress(0, "runs", args.writing.quiet);
     let watch =
         Watch { stage: &|name| restart(&bar, name), planned: &|runs| bar.inc_length(runs), done: &|| bar.inc(1) };
     let done = on_threads(args.threads.given, || work(args, &input, &watch))?;
     bar.finish_and_clear();
-    let done = done?;
+    write(args, &input, &folder, &asked, &done?)
+}
+
+/// The folder for the results, which may replace none of the files that are read.
+fn folder(args: &Args, input: &Input, asked: &Value) -> Result<ResultFolder, Failure> {
+    let out = (args.out.clone()).unwrap_or_else(|| Path::new("out").join(format!("fit-{}", input.stem)));
+    let names = [FIT, "residuals.csv", "profiles.csv", "design.csv", super::plot::FIGURES];
+    let scenes = input.scenes.sets.iter();
+    let scenes = scenes.flat_map(|set| set.starts.files().chain([PathBuf::from(&set.source)]));
+    spares_inputs(&out, &names, input.files.iter().cloned().chain(scenes))?;
+    result_folder(&out, ("fit", asked.clone(), args.writing.force), 0, &names)
+}
+
+/// Writes the results and prints them.
+fn write(args: &Args, input: &Input, folder: &ResultFolder, asked: &Value, done: &Done) -> Result<(), Failure> {
     let times: Vec<&str> = input.scenes.sets.iter().map(|set| set.time.name()).collect();
-    let mut files: Vec<Output> = vec![
-        ("residuals.csv".into(), report::residuals_csv(&done.report, &times).map_err(Failure::Failed)?),
-        ("profiles.csv".into(), report::profiles_csv(&done.fit).map_err(Failure::Failed)?),
-    ];
-    if args.design {
-        let text = report::design_csv(&done.fit, &done.candidates, &times);
-        files.push(("design.csv".into(), text.map_err(Failure::Failed)?));
-    }
-    let kept = serde_json::to_string(&done.figures).map_err(|error| Failure::Failed(error.to_string()))?;
-    files.push((super::plot::FIGURES.into(), kept));
-    for (stem, figure) in &done.figures {
-        files.push((format!("{stem}.svg"), plot::svg(figure).map_err(Failure::Failed)?));
-    }
+    let files = files(args, done, &times).map_err(Failure::Failed)?;
     let names: Vec<&str> = std::iter::once(FIT).chain(files.iter().map(|(name, _)| name.as_str())).collect();
-    let record = record(&asked, &done, &names)?;
+    let record = record(asked, done, &names)?;
     let names = names.join(", ");
-    files.push((FIT.into(), record));
-    folder.write(files)?;
-    scene::warn(&input.stem, &done.report.warnings);
+    folder.write(files.into_iter().chain([(FIT.into(), record)]).collect())?;
+    scene::warn(&input.stem, &done.warnings);
     if args.writing.quiet {
         return Ok(());
     }
-    let design =
-        (done.report.design.as_ref()).map_or(String::new(), |steps| terminal::design(&done.fit, steps, &times) + "\n");
+    let design = done.report.design.as_ref();
+    let design = design.map_or(String::new(), |steps| terminal::design(&done.fit, steps, &times) + "\n");
     print(&format!(
         "{}\n{}\n{}\n{design}in {}: {names}\n",
         terminal::sentence(&done.fit, &done.report),
         terminal::tests(&done.report),
         terminal::table(&done.fit, &done.report),
-        out.shown(),
+        folder.dir().shown(),
     ))
+}
+
+/// Tables and pictures.
+fn files(args: &Args, done: &Done, times: &[&str]) -> Result<Vec<Output>, String> {
+    let mut files: Vec<Output> = vec![
+        ("residuals.csv".into(), report::residuals_csv(&done.report, times)?),
+        ("profiles.csv".into(), report::profiles_csv(&done.fit)?),
+    ];
+    if args.design {
+        files.push(("design.csv".into(), report::design_csv(&done.fit, &done.candidates, times)?));
+    }
+    let figures = serde_json::to_string(&done.figures).map_err(|error| error.to_string())?;
+    files.push((super::plot::FIGURES.into(), figures));
+    for (stem, figure) in &done.figures {
+        files.push((format!("{stem}.svg"), plot::svg(figure)?));
+    }
+    Ok(files)
 }
 
 fn work(args: &Args, input: &Input, watch: &Watch<'_>) -> Result<Done, Failure> {
     let Input { scenes, data, .. } = input;
-    let stopped = |error: String| Failure::Input(error);
-    let model = |values: &[f64]| scenes.model(data, AS_WRITTEN, values);
+    let stopped = |error: FitError| Failure::Input(of_fit(&error));
+    let refused = |error: SceneError| Failure::Input(of_scene(&error));
+    let model_of = |scenes: &Scenes, data: &[Datum], values: &[f64]| advice::model(scenes, data, AS_WRITTEN, values);
+    let model = |values: &[f64]| model_of(scenes, data, values);
     let from: Vec<f64> = args.over.iter().map(|range| range.from).collect();
     let count = |set| scenes.scene(set, &from).map(|scene| scene.particles.count as f64);
-    let counts: Vec<f64> = (0..scenes.sets.len()).map(count).collect::<Result<_, _>>().map_err(stopped)?;
-    let rods = contents::rods(args.rods, args.u_contains, &counts);
+    let counts: Vec<f64> = (0..scenes.sets.len()).map(count).collect::<Result<_, _>>().map_err(refused)?;
+    let contents = args.u_contains.map(Into::into);
+    let rods = contents::rods(args.rods, contents, &counts);
     let problem = FitProblem {
         measured: Measured { data, ranges: &args.over, rods: &rods },
         model: &model,
@@ -160,31 +184,32 @@ fn work(args: &Args, input: &Input, watch: &Watch<'_>) -> Result<Done, Failure> 
     };
     let fit = search(&problem, watch).map_err(stopped)?;
     let unsearched = look_elsewhere(&problem, &fit, watch).map_err(stopped)?;
-    let shifts = shifts(input, &fit, &model, watch).map_err(stopped)?;
+    let shifts = shifts(input, &fit, &model, watch).map_err(Failure::Input)?;
     let mut report = report::report(&fit, data, shifts);
     report.warnings.extend(unsearched);
-    report.warnings.extend(contents::warning(&fit, data, args.rods, args.u_contains, &counts));
+    report.warnings.extend(contents::warning(&fit, data, args.rods, contents, &counts));
     report.warnings.extend(scenes.moving_points());
-    report.tests = args.test.iter().map(|held| held.test(&fit)).collect::<Result<_, _>>().map_err(stopped)?;
-    let known = taken_as_known(&report);
-    report.warnings.extend(known);
+    let test = |test: &Hypothesis| test.test(&fit).map_err(|error| Failure::Input(advice::of_test(test, &error)));
+    report.tests = args.test.iter().map(test).collect::<Result<_, _>>()?;
+    let mut warnings: Vec<String> = report.warnings.iter().map(of_warning).collect();
+    warnings.extend(taken_as_known(&report));
     let mut candidates = Vec::new();
     if args.design {
-        let found = design(&fit, scenes, data, &rods, watch).map_err(stopped)?;
-        report.warnings.extend(found.warnings);
+        let found = design(&fit, scenes, data, &rods, &model_of, watch).map_err(stopped)?;
+        warnings.extend(found.warnings.iter().map(of_warning));
         report.design = Some(found.steps);
         candidates = found.candidates;
     }
-    let best = scenes.plans(&fit.values(&fit.best.place), data, AS_WRITTEN).map_err(stopped)?;
-    let mut warnings: Vec<String> = best.iter().flat_map(Plan::warnings).collect();
-    warnings.dedup();
-    report.warnings.extend(warnings);
+    let best = scenes.plans(&fit.values(&fit.best.place), data, AS_WRITTEN).map_err(refused)?;
+    let mut of_plans: Vec<String> = best.iter().flat_map(Plan::warnings).collect();
+    of_plans.dedup();
+    warnings.extend(of_plans);
     let places = pictures::places(data);
-    let drawn = |values: &[f64]| scenes.model(&places, AS_WRITTEN, values);
-    let curves = pictures::best_curves(&fit, &places, &drawn, watch).map_err(stopped)?;
+    let drawn = |values: &[f64]| model_of(scenes, &places, values);
+    let curves = pictures::best_curves(&fit, &places, &drawn, watch).map_err(Failure::Input)?;
     let times: Vec<&str> = scenes.sets.iter().map(|set| set.time.name()).collect();
     let figures = pictures::figures(&fit, &report, data, (&places, &curves), &input.names, &times);
-    Ok(Done { fit, report, figures, candidates })
+    Ok(Done { fit, report, warnings, figures, candidates })
 }
 
 /// The inputs of a fit, on which all its results depend.
@@ -204,7 +229,7 @@ fn asked(args: &Args, input: &Input) -> Result<Value, Failure> {
         "over": args.over,
         "set": args.settings.iter().map(set).collect::<Vec<_>>(),
         "rods": args.rods,
-        "u_contains": args.u_contains,
+        "u_contains": args.u_contains.map(Contents::from),
         "most_replicas": args.replicas,
     });
     // Without tests the record is the same as before `--test` existed.
@@ -218,6 +243,7 @@ fn asked(args: &Args, input: &Input) -> Result<Value, Failure> {
 fn record(asked: &Value, done: &Done, files: &[&str]) -> Result<String, Failure> {
     let failed = |error: serde_json::Error| Failure::Failed(error.to_string());
     let mut record = serde_json::to_value(&done.report).map_err(failed)?;
+    record["warnings"] = json!(done.warnings);
     record["build"] = json!(BUILD);
     record["command"] = json!(command(super::words::words()));
     for (key, value) in asked.as_object().into_iter().flatten() {

@@ -24,10 +24,17 @@ const PICTURES: [&str; 2] = ["steps.svg", "work-precision.svg"];
 /// The report in four formats.
 const PAGES: [&str; 4] = ["grade.json", "grade.html", "grade.md", "junit.xml"];
 
+fn echo_failed(error: live::EchoError) -> Failure {
+    Failure::Input(match error {
+        live::EchoError::TooLong | live::EchoError::NotText => format!("--echo: {error}"),
+        error => error.to_string(),
+    })
+}
+
 /// Grades answers in files, or a running program.
 pub(super) fn grade(args: &Args) -> Result<(), Failure> {
     if args.echo {
-        return live::echo(args.protocol, io::stdin().lock(), io::stdout().lock()).map_err(Failure::Input);
+        return live::echo(args.protocol, io::stdin().lock(), io::stdout().lock()).map_err(echo_failed);
     }
     spares_inputs(&args.out, &PAGES, args.reference.as_ref().map(|dir| dir.join(RECORD)))?;
     if let Some(dir) = &args.reference
@@ -77,7 +84,7 @@ fn options(args: &Args) -> Options {
     Options {
         file: FileOptions {
             columns: args.columns.clone(),
-            foreign: args.layout,
+            foreign: args.layout.map(Into::into),
             axes: args.axes,
             ends: if args.windows_text { LineEnds::Windows } else { LineEnds::Unix },
         },
@@ -216,7 +223,9 @@ fn program(args: &Args, command: &str, reference: Option<&Path>) -> Result<Done,
     let origin = ("grade", inputs.clone(), args.writing.force);
     result_folder(&args.out, origin, 0, &[&PAGES[..], &PICTURES].concat())?;
     let timeout = Duration::from_secs_f64(args.timeout);
-    let program = Program::start(command, args.protocol, timeout).map_err(Failure::Input)?.with_axes(args.axes);
+    let program = Program::start(command, args.protocol, timeout)
+        .map_err(|error| Failure::Input(format!("--command {error}")))?
+        .with_axes(args.axes);
     let mode = live::mode(&program);
     let claim = Claim { order: args.order };
     let mut problems: Vec<_> = wanted.iter().map(|problem| live::grade(&program, problem, mode, claim)).collect();
@@ -225,7 +234,10 @@ fn program(args: &Args, command: &str, reference: Option<&Path>) -> Result<Done,
     let theory = live::theory(mode == Mode::Tolerance, observed.filter_map(|graded| graded.observed_order).next());
     let program = program.with_theory(theory);
     let studies = (!args.brief && program.given_up().is_none()).then(|| live::studies(&program, &echo(args.protocol)));
-    let mut remarks: Vec<_> = studies.iter().flat_map(live::Studies::left_out).collect();
+    let left_out = studies.iter().flat_map(live::Studies::left_out);
+    let mut remarks: Vec<_> = left_out
+        .map(|what| format!("{what}: not measured, as the program needs longer for it than --timeout, or broke off"))
+        .collect();
     remarks.extend(grade::remark(&problems, claim.order));
     remarks.extend(program.breaches());
     remarks.extend(program.given_up().map(|reason| format!("the program was given up: {reason}")));

@@ -21,6 +21,7 @@ mod handed_out;
 mod interrupt;
 mod manual;
 mod memory;
+mod owner;
 mod pictures;
 mod plot;
 mod problems;

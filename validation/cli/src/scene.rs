@@ -1,5 +1,6 @@
 //! Loads the scene that the command line names, with the keys that it sets.
 
+use super::owner::one_owner;
 use super::{Failure, whole};
 use shearbed::scene::document::Document;
 use shearbed::scene::{MAX_REPLICAS, MAX_SEED};
@@ -54,7 +55,7 @@ impl Chosen {
         let given: Vec<_> = set.chain(ensemble.settings()).collect();
         let swept = over.iter().map(|axis| ("--over", axis.key.as_str()));
         let others = given.iter().map(|(flag, setting)| (*flag, setting.key.as_str()));
-        sweep::one_owner(&swept.chain(others).collect::<Vec<_>>()).map_err(Failure::Input)?;
+        one_owner(&swept.chain(others).collect::<Vec<_>>())?;
         load(&self.scene, given.into_iter().map(|(_, setting)| setting).collect())
     }
 }

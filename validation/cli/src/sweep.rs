@@ -11,7 +11,7 @@ use shearbed_validation::files::cluster;
 use shearbed_validation::files::output::Output;
 use shearbed_validation::files::text;
 use shearbed_validation::files::text::Shown;
-use shearbed_validation::serve::sweep::{self, Axis, Folder, Point, Points};
+use shearbed_validation::serve::sweep::{self, Axis, Folder, GridError, Point, Points};
 use std::path::{Path, PathBuf};
 
 /// Arguments of `sweep`.
@@ -39,6 +39,15 @@ pub(super) struct Args {
     writing: Writing,
 }
 
+/// The flag that an error is about.
+fn flag(error: &GridError) -> &'static str {
+    match error {
+        GridError::Scene(_) => "",
+        GridError::TooMany => "--over: ",
+        GridError::Point { .. } => "--over ",
+    }
+}
+
 /// Runs the unfinished points of a sweep, and writes one row per point.
 pub(super) fn sweep(args: &Args) -> Result<(), Failure> {
     let named = args.chosen.load(&args.ensemble, &args.over)?;
@@ -47,7 +56,7 @@ pub(super) fn sweep(args: &Args) -> Result<(), Failure> {
         return Err(Failure::Input(format!("{}: {key}: a sweep writes no rods; remove this key", named.source)));
     }
     let points = sweep::points(&named.text, &named.starts, &named.settings, &args.over)
-        .map_err(|error| Failure::Input(format!("{}: {error}", named.source)))?;
+        .map_err(|error| Failure::Input(format!("{}: {}{error}", named.source, flag(&error))))?;
     for point in &points {
         if point.plan.time_name() != points[0].plan.time_name() {
             return Err(Failure::Input(format!(

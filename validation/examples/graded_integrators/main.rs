@@ -95,7 +95,7 @@ fn graded(entry: &Entry, problems: &[LoadedProblem], timeout_s: f64) -> Vec<Grad
         if program.given_up().is_some() {
             program = start();
         }
-        let problem = problem.clone().with_tolerance(tolerance(entry));
+        let problem = problem.clone().with_tolerance(tolerance(entry), "--tolerance");
         all.push(live::grade(&program, &problem, mode, claim));
         wanted.push(problem);
         if !entry.right && all.last().is_some_and(|graded| graded.verdict == Verdict::Fail) {

@@ -70,8 +70,9 @@ fn not_fitted(theta_deg: &f64, effort: &Effort) -> Result<Vec<Evidence>, String>
     let apart = worst(weak.iter().zip(&strong).map(|(a, b)| (a - b).abs()));
     let range = Range::parse("interaction.alpha=0.05:5")?;
     let fit = Scenes::new(vec![set(&fitted, effort.seed(0), TimeColumn::Periods)?], vec![range]);
-    let refused =
-        fit.is_err_and(|error| error.contains("disturb each other in this model only by the error of a time step"));
+    let refused = fit.is_err_and(|error| {
+        error.to_string().contains("disturb each other in this model only by the error of a time step")
+    });
     Ok(vec![
         Evidence::exact("the largest difference of X̄_i between α = 0.05 and 5", apart),
         Evidence::exact("fits of α to it that are not refused", f64::from(u8::from(!refused))),

@@ -151,6 +151,7 @@ pub fn sweep() -> Target {
                 return Ok(Taken::Accepted);
             }
             match points(text, &shearbed_validation::input::start::Starts::default(), &[], std::slice::from_ref(&axis))
+                .map_err(|error| error.to_string())
             {
                 Ok(found) if found.len() != axis.values.len() => Err(format!("{} points", found.len())),
                 Ok(found) if found.len() == 1 && set.as_ref().ok() != Some(found[0].plan.scene()) => {

@@ -1,6 +1,8 @@
 //! The input of `shearbed fit`: scenes, points and ranges, checked.
 
 use super::Args;
+use super::advice::of_scene;
+use crate::owner::one_owner;
 use crate::{Failure, memory, scene};
 use shearbed::Plan;
 use shearbed::scene::TimeUnit;
@@ -10,6 +12,7 @@ use shearbed_validation::methods::least_squares::Datum;
 use shearbed_validation::methods::least_squares::basis::MOST_PARAMETERS;
 use shearbed_validation::serve::fit::Range;
 use shearbed_validation::serve::fit::data::{self, MOST_POINTS, TimeColumn};
+use shearbed_validation::serve::fit::error::SceneError;
 use shearbed_validation::serve::fit::scenes::{AS_WRITTEN, Scenes, Set};
 use shearbed_validation::serve::sweep;
 use std::ffi::OsStr;
@@ -38,7 +41,7 @@ pub(super) fn input(args: &Args) -> Result<Input, Failure> {
         )));
     }
     for set in 0..args.data.len() {
-        one_owner(args, set)?;
+        check_owners(args, set)?;
     }
     for setting in &args.settings {
         let table = setting.key.split('.').next().unwrap_or_default();
@@ -132,10 +135,11 @@ pub(super) fn input(args: &Args) -> Result<Input, Failure> {
             )));
         }
     }
-    let scenes = Scenes::new(sets, args.over.clone()).map_err(Failure::Input)?;
+    let refused = |error: SceneError| Failure::Input(of_scene(&error));
+    let scenes = Scenes::new(sets, args.over.clone()).map_err(refused)?;
     let ends = [|range: &Range| range.from, |range: &Range| range.to];
     for values in ends.map(|end| args.over.iter().map(end).collect::<Vec<f64>>()) {
-        for plan in scenes.plans(&values, &data, AS_WRITTEN).map_err(Failure::Input)? {
+        for plan in scenes.plans(&values, &data, AS_WRITTEN).map_err(refused)? {
             memory::check(&plan, args.threads.given, false, &stem)?;
         }
     }
@@ -143,13 +147,13 @@ pub(super) fn input(args: &Args) -> Result<Input, Failure> {
 }
 
 /// Checks that each key of a set's scene is set by one flag.
-fn one_owner(args: &Args, set: usize) -> Result<(), Failure> {
+fn check_owners(args: &Args, set: usize) -> Result<(), Failure> {
     let over = args.over.iter().filter(|range| range.is_of(set));
     let over = over.map(|range| ("--over", range.key.as_str()));
     let given = args.settings.iter().map(|setting| ("--set", setting.key.as_str()));
     let seed = args.seed.map(|_| ("--seed", "ensemble.seed"));
     let owners: Vec<_> = over.chain(given).chain(seed).collect();
-    sweep::one_owner(&owners).map_err(Failure::Input)
+    one_owner(&owners)
 }
 
 /// `FILE` belongs to the scene of the command, `SCENE2=FILE` to another. A name with `=` that exists as a file is that

@@ -1,5 +1,6 @@
 //! The shifts of a fit by changes of the model.
 
+use super::advice::{self, of_scene};
 use super::input::Input;
 use shearbed::scene::Scene;
 use shearbed_validation::methods::least_squares::emulator::Model;
@@ -18,7 +19,9 @@ const ONE_ASPECT_RATIO: &str = "rods of one r_e";
 pub(super) fn shifts(input: &Input, fit: &Fit, own: &Model<'_>, watch: &Watch<'_>) -> Result<Vec<Shift>, String> {
     let values = fit.values(&fit.best.place);
     let scenes = &input.scenes;
-    let best: Vec<Scene> = (0..scenes.sets.len()).map(|set| scenes.scene(set, &values)).collect::<Result<_, _>>()?;
+    let best: Vec<Scene> = (0..scenes.sets.len())
+        .map(|set| scenes.scene(set, &values).map_err(|error| of_scene(&error)))
+        .collect::<Result<_, _>>()?;
     if best.iter().all(|scene| scene.interaction.is_none()) {
         return Ok(Vec::new());
     }
@@ -35,7 +38,7 @@ pub(super) fn shifts(input: &Input, fit: &Fit, own: &Model<'_>, watch: &Watch<'_
     let fixed = best.iter().any(from_a_file);
     let variants = (variants.into_iter()).filter(|(_, variant)| variant.rods == 1 || !fixed);
     let shift = |(change, variant): (&'static str, Variant)| {
-        let changed = |values: &[f64]| scenes.model(&input.data, variant, values);
+        let changed = |values: &[f64]| advice::model(scenes, &input.data, variant, values);
         budget::shift(fit, change, own, &changed, watch)
     };
     variants.map(shift).collect()

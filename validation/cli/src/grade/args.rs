@@ -7,6 +7,27 @@ use shearbed_validation::serve::grade::{Axes, Foreign};
 use shearbed_validation::serve::problems::Kind;
 use std::path::PathBuf;
 
+/// The values of `--layout`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub(super) enum Layout {
+    /// Without a header: t, then A row by row (nine numbers), as fiberoripy's and PySPH's tables
+    Fiberoripy,
+    /// Without a header: t, then A in the order 11, 22, 33, 12, 23, 13 of fiberpy's Mat2
+    Fiberpy,
+    /// time, A2_0 to A2_5: OpenFOAM's symmTensor xx, xy, xz, yy, yz, zz; a file of its probes is read without this flag
+    Openfoam,
+}
+
+impl From<Layout> for Foreign {
+    fn from(layout: Layout) -> Self {
+        match layout {
+            Layout::Fiberoripy => Self::Fiberoripy,
+            Layout::Fiberpy => Self::Fiberpy,
+            Layout::Openfoam => Self::Openfoam,
+        }
+    }
+}
+
 /// Arguments of `grade`.
 #[derive(clap::Args)]
 #[command(after_help = "\
@@ -49,7 +70,7 @@ pub(crate) struct Args {
     pub(super) axes: Axes,
     /// The layout of a known program's tables
     #[arg(long, value_name = "PROGRAM", conflicts_with = "command")]
-    pub(super) layout: Option<Foreign>,
+    pub(super) layout: Option<Layout>,
     /// Accept CR LF at line ends and a byte order mark; without this flag they are refused
     #[arg(long, conflicts_with = "command")]
     pub(super) windows_text: bool,

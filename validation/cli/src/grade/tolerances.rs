@@ -50,7 +50,7 @@ fn one(given: &[Tolerance], loaded: LoadedProblem) -> Result<LoadedProblem, Fail
             "its own tolerance is {own:e}, which a right code in double precision reaches; at least that is allowed"
         ),
         _ if value > most => format!("{most} at most is allowed: with more, wrong answers would pass"),
-        _ => return Ok(loaded.with_tolerance(value)),
+        _ => return Ok(loaded.with_tolerance(value, "--tolerance")),
     };
     Err(Failure::Input(format!("--tolerance {value:e} for {name}: {allowed}")))
 }

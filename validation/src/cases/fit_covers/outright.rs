@@ -49,7 +49,7 @@ fn simulated(effort: &Effort) -> Result<Simulated, String> {
     }
     let places = points.clone();
     let basis = Basis::new(1);
-    let model = |values: &[f64]| scenes.model(&places, AS_WRITTEN, values);
+    let model = |values: &[f64]| scenes.model(&places, AS_WRITTEN, values).map_err(String::from);
     let value = |node: &[f64]| vec![11.35 + 0.25 * node[0]];
     let at_nodes = coefficients(&basis, &model, &value, 0..REPLICAS, &|| ())?;
     let own = model(&[OWN])?;

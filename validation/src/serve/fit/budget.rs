@@ -86,7 +86,7 @@ pub fn residuals(fit: &Fit, data: &[Datum]) -> Vec<Residual> {
     data.iter().enumerate().map(one).collect()
 }
 
-/// Writes the index of a data set as `--over` and the messages count, from 1.
+/// Writes the index of a data set as the messages count, from 1.
 pub(super) fn from_one<S: Serializer>(set: &usize, serializer: S) -> Result<S::Ok, S::Error> {
     (set + 1).serialize(serializer)
 }

@@ -1,20 +1,21 @@
 //! What the points' uncertainties contain: the error of reading alone, or the scatter of the measured rods too, which
 //! all points of a curve share.
 
+use super::digits::decimals;
+use super::error::Warning;
 use super::search::Fit;
-use super::terminal::decimals;
 use crate::methods::least_squares::Datum;
 use crate::methods::least_squares::best::{Best, best, within};
 use crate::methods::least_squares::likelihood::{RODS, Rods};
 use serde::Serialize;
 
-/// What the command says of the points' uncertainties.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, clap::ValueEnum)]
+/// What the points' uncertainties contain.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Contents {
-    /// The error of reading a point, independent of other points
+    /// The error of reading a point, independent of other points.
     Reading,
-    /// Also the scatter of the rods, as a standard error over rods does
+    /// Also the scatter of the rods, as a standard error over rods does.
     Rods,
 }
 
@@ -41,7 +42,7 @@ pub fn warning(
     measured: Option<u64>,
     contents: Option<Contents>,
     counts: &[f64],
-) -> Option<String> {
+) -> Option<Warning> {
     let other = |rods: &Rods| best(data, &fit.emulator, rods).filter(|other| differs(fit, other));
     let own = answer(fit, &fit.best);
     let u: f64 = data.iter().map(|datum| datum.u.powi(2)).sum();
@@ -66,29 +67,14 @@ pub fn warning(
                     answer(fit, &best)
                 )
             });
-            let said: String = [contained, beside].into_iter().flatten().collect();
-            (!said.is_empty()).then(|| {
-                format!(
-                    "--rods is not given, so the points count as independent: {own} (95 %). The scatter of measured \
-                     rods moves all points of a curve together{said}. Give --rods N if u is the reading alone, --rods \
-                     N --u-contains rods if it contains the scatter of N rods, and --u-contains reading if the points \
-                     share no rods"
-                )
-            })
+            let others: String = [contained, beside].into_iter().flatten().collect();
+            (!others.is_empty()).then_some(Warning::Independent { answer: own, others })
         }
         (Some(rods), None) if times > 0.7 => {
             let other = best(data, &fit.emulator, &self::rods(measured, Some(Contents::Rods), counts))?;
-            Some(format!(
-                "u is {times:.1} times the scatter of {rods} rods, but counts as the error of reading alone: {own} (95 \
-                 %). If it contains that scatter, --u-contains rods gives {}; --u-contains reading says that it does \
-                 not",
-                answer(fit, &other)
-            ))
+            Some(Warning::ReadingAlone { times, rods, answer: own, with_rods: answer(fit, &other) })
         }
-        (Some(rods), Some(Contents::Rods)) if times < 0.7 => Some(format!(
-            "--u-contains rods: u is only {times:.2} times the scatter of {rods} rods, and cannot contain it: check \
-             --rods, or give --u-contains reading"
-        )),
+        (Some(rods), Some(Contents::Rods)) if times < 0.7 => Some(Warning::TooSmall(times, rods)),
         _ => None,
     }
 }

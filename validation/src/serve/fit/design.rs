@@ -13,11 +13,12 @@ mod known;
 mod tests;
 
 use super::budget::from_one;
-use super::scenes::{AS_WRITTEN, Scenes};
+use super::error::{FitError, SceneError, Warning};
+use super::scenes::Scenes;
 use super::search::{Fit, Watch, values};
 use crate::methods::least_squares::Datum;
 use crate::methods::least_squares::basis::Basis;
-use crate::methods::least_squares::emulator::{Emulator, coefficients};
+use crate::methods::least_squares::emulator::{Emulator, Replica, coefficients};
 use crate::methods::least_squares::likelihood::{Rods, correlation_of};
 pub(super) use known::Known;
 use nalgebra::{DMatrix, DVector};
@@ -99,6 +100,9 @@ pub enum Added {
     },
 }
 
+/// The model of points by scenes.
+pub type ModelOf<'a> = dyn Fn(&Scenes, &[Datum], &[f64]) -> Result<Replica, String> + Sync + 'a;
+
 /// Points that could be measured, the uncertainties that they would leave, and warnings.
 #[derive(Clone, Debug, Default)]
 pub struct Design {
@@ -107,11 +111,22 @@ pub struct Design {
     /// The measured points, then as many more of each set and concentration, then the best points in sequence.
     pub steps: Vec<Step>,
     /// Concentrations whose scene is refused, and why.
-    pub warnings: Vec<String>,
+    pub warnings: Vec<Warning>,
 }
 
 /// The design of further points for a fit of `data`, each a mean over as many rods as the measured ones.
-pub fn design(fit: &Fit, scenes: &Scenes, data: &[Datum], rods: &Rods, watch: &Watch<'_>) -> Result<Design, String> {
+///
+/// # Errors
+///
+/// Why a scene at the measured concentration, or `model` of it, is refused.
+pub fn design(
+    fit: &Fit,
+    scenes: &Scenes,
+    data: &[Datum],
+    rods: &Rods,
+    model: &ModelOf<'_>,
+    watch: &Watch<'_>,
+) -> Result<Design, FitError> {
     let best = fit.values(&fit.best.place);
     let basis = Basis::new(fit.sides.len());
     let replicas = (fit.emulator.replicas() as u64).min(MOST_REPLICAS);
@@ -127,17 +142,16 @@ pub fn design(fit: &Fit, scenes: &Scenes, data: &[Datum], rods: &Rods, watch: &W
         if of.is_empty() {
             continue;
         }
-        let model = |values: &[f64]| at.model(&of, AS_WRITTEN, values);
+        let model = |values: &[f64]| model(&at, &of, values);
         (watch.stage)(&format!("design at {factor} times the concentration"));
         (watch.planned)(replicas * basis.nodes.len() as u64);
         let emulator = match coefficients(&basis, &model, &value, 0..replicas, watch.done) {
             Ok(rows) => Emulator::new(&basis, &rows),
             Err(error) if factor != 1.0 => {
-                let warning = format!("--design: no points of {factor} times the concentration: {error}");
-                found.warnings.push(warning);
+                found.warnings.push(Warning::NoDesign(factor, error));
                 continue;
             }
-            Err(error) => return Err(error),
+            Err(error) => return Err(error.into()),
         };
         let of_time = emulator.time_variance(&fit.best.place);
         let of_replica = emulator.covariance_of_replica(&fit.best.place);
@@ -167,7 +181,7 @@ pub fn design(fit: &Fit, scenes: &Scenes, data: &[Datum], rods: &Rods, watch: &W
 }
 
 /// The points of each set and column that could be measured, with the uncertainties of the measured ones.
-fn places(scenes: &Scenes, best: &[f64], data: &[Datum]) -> Result<Vec<Datum>, String> {
+fn places(scenes: &Scenes, best: &[f64], data: &[Datum]) -> Result<Vec<Datum>, SceneError> {
     let mut all = Vec::new();
     let kinds = super::data::kinds(data);
     let times = TIMES.min(MOST_CANDIDATES / (kinds.len() * CONCENTRATIONS.len())).max(1);

@@ -1,7 +1,7 @@
 //! A search for further minima of χ²: the model itself, without polynomials, is run along each range. Where the curves
 //! oscillate with a parameter, χ² has several minima, and the fit finds only one of them.
 
-use super::goodness::undescribed;
+use super::error::{FitError, ParameterError, Undescribed, Warning};
 use super::range::Range;
 use super::search::{FIRST_REPLICAS, Fit, FitProblem, Watch};
 use crate::methods::least_squares::direct::Direct;
@@ -47,7 +47,7 @@ struct Tried {
 /// # Errors
 ///
 /// An error if another place describes the points as well as the fit, or better.
-pub fn look_elsewhere(problem: &FitProblem<'_>, fit: &Fit, watch: &Watch<'_>) -> Result<Vec<String>, String> {
+pub fn look_elsewhere(problem: &FitProblem<'_>, fit: &Fit, watch: &Watch<'_>) -> Result<Vec<Warning>, FitError> {
     let values = fit.values(&fit.best.place);
     (watch.stage)("best values");
     let (own_rows, known) = at_best(problem, &values, fit.emulator.replicas() as u64, watch)?;
@@ -59,21 +59,17 @@ pub fn look_elsewhere(problem: &FitProblem<'_>, fit: &Fit, watch: &Watch<'_>) ->
         let own = line.tried(best, &own_rows)?;
         let emulated = fit.best.chi_square;
         if own.chi_square > emulated + emulated.max(NOISE) {
-            return Err(format!(
-                "--over {}: at the best values, {:.4} for it, the model has χ² = {:.1} where the polynomials between \
-                 its runs have {emulated:.1}, so they do not follow it over this range; give a narrower one",
-                range.label(),
-                values[axis],
-                own.chi_square
-            ));
+            let chi_square = own.chi_square;
+            let error = ParameterError::NotFollowed { value: values[axis], chi_square, emulated };
+            return Err(FitError::Parameter(range.label(), error));
         }
         let few = line.tried(best, &own_rows[..line.few()])?.chi_square;
         let (tried, searched) = line.scan()?;
         if !searched {
-            warnings.push(format!(
+            warnings.push(Warning::Other(format!(
                 "{}: the model changes too fast along its range to rule out another minimum; give a narrower range",
                 range.label()
-            ));
+            )));
         }
         let (low, high) = fit.sides[axis];
         let is_minimum = |k: &usize| {
@@ -97,22 +93,11 @@ pub fn look_elsewhere(problem: &FitProblem<'_>, fit: &Fit, watch: &Watch<'_>) ->
             };
             let found = line.run(found.at, known.len())?;
             if found.chi_square < allowed {
-                let both = format!(
-                    "{:.4} (χ² = {:.1}) and {:.4} (χ² = {:.1})",
-                    range.value(found.at),
-                    found.chi_square,
-                    values[axis],
-                    own.chi_square
-                );
+                let places = [(range.value(found.at), found.chi_square), (values[axis], own.chi_square)];
                 let least = found.chi_square.min(own.chi_square);
-                let why = undescribed(least, problem.measured.data.len(), fit.ranges.len());
-                let why = why.unwrap_or_else(|| {
-                    format!(
-                        "χ² has minima at {both}; more --replicas tell noise from minima, and a narrower range leaves \
-                         out impossible values"
-                    )
-                });
-                return Err(format!("--over {}: {why}", range.label()));
+                let undescribed = Undescribed::check(least, problem.measured.data.len(), fit.ranges.len());
+                let error = undescribed.map_or(ParameterError::TwoMinima(places), ParameterError::from);
+                return Err(FitError::Parameter(range.label(), error));
             }
         }
     }

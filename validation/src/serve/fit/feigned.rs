@@ -94,7 +94,7 @@ fn the_noise_of_replicas_makes_no_interval_short() {
     let count = enough((0.68_f64 * 0.32).sqrt(), EFFECT) as u64;
     let one = |k: u64| {
         let fit = fit(&points(1000 + k), SLOPE, 5000 + k);
-        (asked(&fit), asked(&believed(&fit)), fit.feigned())
+        (asked(&fit), asked(&believed(&fit)), fit.noise_share())
     };
     let all: Vec<_> = (0..count).into_par_iter().map(one).collect();
     let feigned = all.iter().map(|(_, _, feigned)| feigned).sum::<f64>() / count as f64;

@@ -1,6 +1,7 @@
 //! Likelihood-ratio tests of hypotheses about fitted keys: that a key has a given value, or that two sets of points
 //! share one value. The statistic is the rise of χ²: its minimum under the hypothesis less its minimum.
 
+use super::error::HypothesisError;
 use super::range::Range;
 use super::search::Fit;
 use crate::methods::least_squares::profile::{rise_of, rise_to};
@@ -22,9 +23,9 @@ const HALVINGS: usize = 18;
 const STEPS: usize = 12;
 
 /// The smallest p-value that is reported.
-pub(super) const LEAST_P: f64 = 1e-6;
+pub const LEAST_P: f64 = 1e-6;
 
-/// A hypothesis, as given after `--test`.
+/// A hypothesis about fitted keys.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Hypothesis {
     text: String,
@@ -84,7 +85,7 @@ pub struct Difference {
 }
 
 impl Hypothesis {
-    /// Parses the argument of `--test`.
+    /// Parses `[SET:]KEY=VALUE`.
     ///
     /// # Errors
     ///
@@ -111,13 +112,10 @@ impl Hypothesis {
     }
 
     /// The hypothesis with the indices of its keys among the fitted ones.
-    fn asked(&self, ranges: &[Range]) -> Result<Asked, String> {
+    fn asked(&self, ranges: &[Range]) -> Result<Asked, HypothesisError> {
         let axis = |label: &String| {
-            let found = ranges.iter().position(|range| range.label() == *label);
-            found.ok_or_else(|| {
-                let all: Vec<_> = ranges.iter().map(Range::label).collect();
-                format!("--test {}: {label} is not fitted; --over has {}", self.text, all.join(", "))
-            })
+            let axis = ranges.iter().position(|range| range.label() == *label);
+            axis.ok_or_else(|| HypothesisError::NotFitted(label.clone(), ranges.iter().map(Range::label).collect()))
         };
         let own = axis(&self.key)?;
         match &self.against {
@@ -126,7 +124,7 @@ impl Hypothesis {
                 if (from..=to).contains(value) {
                     Ok(Asked::Value(own, *value))
                 } else {
-                    Err(format!("--test {}: {value} is outside the range of --over, {from} to {to}", self.text))
+                    Err(HypothesisError::OutOfRange(*value, [from, to]))
                 }
             }
             Against::Key(label) => {
@@ -135,10 +133,7 @@ impl Hypothesis {
                 if a.from.max(b.from) <= a.to.min(b.to) {
                     Ok(Asked::Difference(axes))
                 } else {
-                    Err(format!(
-                        "--test {}: the ranges of --over, {} to {} and {} to {}, have no value in common",
-                        self.text, a.from, a.to, b.from, b.to
-                    ))
+                    Err(HypothesisError::NothingInCommon([a.from, a.to, b.from, b.to]))
                 }
             }
         }
@@ -149,7 +144,7 @@ impl Hypothesis {
     /// # Errors
     ///
     /// A key that is not fitted, a value outside its range, or two ranges without a common value.
-    pub fn check(&self, ranges: &[Range]) -> Result<(), String> {
+    pub fn check(&self, ranges: &[Range]) -> Result<(), HypothesisError> {
         self.asked(ranges).map(|_| ())
     }
 
@@ -158,7 +153,7 @@ impl Hypothesis {
     /// # Errors
     ///
     /// Those of [`Hypothesis::check`].
-    pub fn test(&self, fit: &Fit) -> Result<Tested, String> {
+    pub fn test(&self, fit: &Fit) -> Result<Tested, HypothesisError> {
         let (rise, beyond_the_box, difference) = match self.asked(&fit.ranges)? {
             Asked::Value(axis, value) => {
                 let place = fit.place(axis, value);

@@ -9,10 +9,11 @@ pub mod budget;
 pub mod contents;
 pub mod data;
 pub mod design;
+pub mod digits;
 pub mod elsewhere;
+pub mod error;
 #[cfg(test)]
 mod feigned;
-mod goodness;
 mod hypothesis;
 pub mod pictures;
 mod range;
@@ -21,11 +22,10 @@ pub mod report;
 mod scarce_tests;
 pub mod scenes;
 pub mod search;
-pub mod terminal;
 #[cfg(test)]
 mod tests;
 #[cfg(test)]
 mod valleys;
 
-pub use hypothesis::{Difference, Hypothesis, Tested};
+pub use hypothesis::{Difference, Hypothesis, LEAST_P, Tested};
 pub use range::Range;

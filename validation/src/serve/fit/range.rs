@@ -23,10 +23,9 @@ pub struct Range {
 }
 
 impl Range {
-    /// Parses the argument of `--over`.
+    /// Parses `[SET:]KEY=FROM:TO`.
     pub fn parse(text: &str) -> Result<Self, String> {
-        const SHAPE: &str =
-            "KEY=FROM:TO is allowed, as interaction.alpha=0.05:5, and SET:KEY=FROM:TO with the number of a --data";
+        const SHAPE: &str = "KEY=FROM:TO is allowed, as interaction.alpha=0.05:5, and SET:KEY=FROM:TO";
         let (set, text) = match text.split_once(':') {
             Some((set, rest)) if !set.contains('=') => {
                 let number = set.trim().parse().ok().filter(|number| *number > 0);

@@ -2,13 +2,14 @@
 
 use super::budget::{self, Part, Residual, Shift};
 use super::design::{Candidate, Step};
-use super::goodness::CHECK;
+use super::digits::probability;
+use super::error::Warning;
 use super::hypothesis::Tested;
 use super::range::Range;
 use super::search::{Fit, MOST_SHARE};
 use crate::input::experiment::{Bias, bias};
 use crate::methods::least_squares::Datum;
-use crate::methods::least_squares::likelihood::{EMULATOR, REPLICAS, correlation_of};
+use crate::methods::least_squares::likelihood::{CAUSES, EMULATOR, REPLICAS, correlation_of};
 use crate::methods::least_squares::profile::rise_of;
 use nalgebra::DMatrix;
 use serde::Serialize;
@@ -55,7 +56,7 @@ pub struct Report {
     pub correlation: Vec<Vec<f64>>,
     /// The causes of the standard uncertainties.
     pub budget: Vec<Part>,
-    /// The uncertainties that further points would leave; none without `--design`.
+    /// The uncertainties that further points would leave; none if not asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub design: Option<Vec<Step>>,
     /// The tested hypotheses, with their results.
@@ -73,8 +74,9 @@ pub struct Report {
     pub runs: u64,
     /// Number of boxes that were tried.
     pub boxes: u64,
-    /// Reasons to doubt the fit.
-    pub warnings: Vec<String>,
+    /// Reasons to doubt the fit; a program that was asked for it adds what to do.
+    #[serde(skip)]
+    pub warnings: Vec<Warning>,
 }
 
 /// Below this p-value a warning says that the model does not describe the points.
@@ -137,79 +139,62 @@ fn warnings(
     parameters: &BTreeMap<String, Parameter>,
     correlation: &DMatrix<f64>,
     p_value: f64,
-) -> Vec<String> {
+) -> Vec<Warning> {
     let mut all = Vec::new();
     for (axis, range) in fit.ranges.iter().enumerate() {
         let found = &parameters[&range.label()];
         if let Some(k) = another_minimum(&fit.profiles[axis].rise) {
-            all.push(format!(
+            all.push(Warning::Other(format!(
                 "{}: {:.4} describes the points nearly as well as {:.4} (its χ² is {:.2} higher, with a ridge between \
-                 them): give the whole interval, not the best value",
+                    them): give the \
+                 whole interval, not the best value",
                 range.label(),
                 fit.value(axis, fit.profiles[axis].place[k]),
                 found.estimate,
                 fit.profiles[axis].rise[k]
-            ));
+            )));
         }
         let ends = [(found.ends_at_edge[0], "lower", range.from), (found.ends_at_edge[1], "upper", range.to)];
         if found.ends_at_edge == [true, true] {
-            all.push(format!(
+            all.push(Warning::Other(format!(
                 "{}: its 95 % interval is its whole range, {} to {}: the points say nothing of it there",
                 range.label(),
                 range.from,
                 range.to
-            ));
+            )));
             continue;
         }
         for (_, side, edge) in ends.into_iter().filter(|(open, ..)| *open) {
-            all.push(format!(
+            all.push(Warning::Other(format!(
                 "{}: its 95 % interval reaches the {side} end of its range, {edge}: the points do not say where it \
-                 ends",
+                    ends",
                 range.label()
-            ));
+            )));
         }
     }
     for i in 0..fit.ranges.len() {
         for j in 0..i {
             if correlation[(i, j)].abs() > ALIKE {
-                all.push(format!(
-                    "{} and {}: these points hardly tell them apart (correlation {:.3}); --design shows what further \
-                     points would do",
-                    fit.ranges[j].label(),
-                    fit.ranges[i].label(),
-                    correlation[(i, j)]
-                ));
+                all.push(Warning::Alike([j, i].map(|axis| fit.ranges[axis].label()), correlation[(i, j)]));
             }
         }
     }
     if p_value < NOT_DESCRIBED {
-        all.push(format!(
-            "p = {}: no value describes these points, or their uncertainties are too small; the intervals say nothing \
-             then; {CHECK}",
-            probability(p_value)
-        ));
+        all.push(Warning::NotDescribed(probability(p_value)));
     }
     if p_value > 1.0 - NOT_DESCRIBED {
-        all.push(format!(
-            "p = {}: the points lie nearer to the curve than their uncertainties allow; are these too large, or in per \
-             cent?",
+        all.push(Warning::Other(format!(
+            "p = {}: the points lie nearer to the curve than their uncertainties allow; are these too large, or in \
+                per cent?",
             probability(p_value)
-        ));
+        )));
     }
-    for (cause, what) in [(REPLICAS, "more --replicas make"), (EMULATOR, "a narrower --over range makes")] {
-        // The noise of the replicas enters the curves and their slopes.
-        let share = match cause {
-            REPLICAS => fit.best.share(cause).max(fit.feigned()),
-            _ => fit.best.share(cause),
-        };
-        if share > 1.5 * MOST_SHARE {
-            all.push(format!(
-                "{:.0} % of a parameter's variance is the model's own error ({}): {what} the interval shorter",
-                100.0 * share,
-                crate::methods::least_squares::likelihood::CAUSES[cause],
-            ));
-        }
-    }
+    // The noise of the replicas enters the curves and their slopes.
+    let replicas = fit.best.share(REPLICAS).max(fit.noise_share());
+    let polynomials = fit.best.share(EMULATOR);
+    let own = [Warning::Replicas(replicas, CAUSES[REPLICAS]), Warning::Polynomials(polynomials, CAUSES[EMULATOR])];
+    let large = own.into_iter().zip([replicas, polynomials]).filter(|(_, share)| *share > 1.5 * MOST_SHARE);
+    all.extend(large.map(|(warning, _)| warning));
     all
 }
 
@@ -223,7 +208,7 @@ fn another_minimum(rise: &[f64]) -> Option<usize> {
     apart.min_by(|a, b| rise[*a].total_cmp(&rise[*b]))
 }
 
-/// `residuals.csv`: each point with the best model; sets count from 1, as in `--over`.
+/// `residuals.csv`: each point with the best model; sets count from 1.
 pub fn residuals_csv(report: &Report, times: &[&str]) -> Result<String, String> {
     let mut rows = vec![
         ["set", "time_unit", "time", "column", "measured", "simulated", "residual", "u"].map(String::from).to_vec(),
@@ -279,14 +264,4 @@ fn csv_of(rows: &[Vec<String>]) -> Result<String, String> {
 /// The confidence levels of the drawn profiles, each with its rise of χ².
 pub fn levels() -> [(f64, f64); 2] {
     [0.68, 0.95].map(|confidence| (confidence, rise_of(confidence)))
-}
-
-/// The probability as text: three decimals below 0.1, so that 0.046 does not become 0.05, and two digits below 0.01.
-pub(super) fn probability(p: f64) -> String {
-    match p {
-        0.0 => "0".to_owned(),
-        p if p < 0.01 => format!("{p:.1e}"),
-        p if p < 0.1 => format!("{p:.3}"),
-        p => format!("{p:.2}"),
-    }
 }

@@ -2,6 +2,7 @@
 //! points' times.
 
 use super::data::TimeColumn;
+use super::error::{SceneError, Warning};
 use super::range::Range;
 use crate::input::start::Starts;
 use crate::methods::interpolate::interpolate;
@@ -82,14 +83,11 @@ const KINKED: u64 = 5000;
 
 impl Scenes {
     /// Checks every scene at all corners of the ranges. An error says which scene, which values, and why.
-    pub fn new(sets: Vec<Set>, ranges: Vec<Range>) -> Result<Self, String> {
+    pub fn new(sets: Vec<Set>, ranges: Vec<Range>) -> Result<Self, SceneError> {
         let is_whole =
             |range: &&Range| keys().any(|key| key.path == range.key && matches!(key.holds, Holds::Whole { .. }));
         if let Some(range) = ranges.iter().find(is_whole) {
-            return Err(format!(
-                "--over {}: a whole number cannot be fitted; `shearbed sweep` runs several values of it",
-                range.label()
-            ));
+            return Err(SceneError::Whole(range.label()));
         }
         let mut scenes = Self { steps: vec![0; sets.len()], sets, ranges };
         for set in 0..scenes.sets.len() {
@@ -103,46 +101,48 @@ impl Scenes {
     }
 
     /// Refuses to fit the interaction of rods that never disturb each other: their curves do not depend on it.
-    fn says_something(&self, set: usize, scene: &Scene) -> Result<(), String> {
+    fn says_something(&self, set: usize, scene: &Scene) -> Result<(), SceneError> {
         let fitted = self.ranges.iter().find(|range| range.is_of(set) && range.key.starts_with("interaction."));
         match (fitted, apart(scene)) {
-            (Some(range), Some(why)) => Err(format!(
-                "{}: --over {}: {why}: such rods disturb each other in this model only by the error of a time step, so \
-                 their points do not determine it. Lee & Springer leave such points out (r_e = 3.96; Results, after \
-                 Fig. 5). Keys of particles and flow are allowed",
-                self.sets[set].source,
-                range.label()
-            )),
+            (Some(range), Some(why)) => Err(SceneError::Parameters {
+                scene: self.sets[set].source.clone(),
+                parameters: vec![range.label()],
+                why: format!(
+                    "{why}: such rods disturb each other in this model only by the error of a time step, so their \
+                     points do not determine it. Lee & Springer leave such points out (r_e = 3.96; Results, after \
+                     Fig. 5). Keys of particles and flow are allowed"
+                ),
+            }),
             _ => Ok(()),
         }
     }
 
     /// Warnings about points in periods whose length is fitted.
-    pub fn moving_points(&self) -> impl Iterator<Item = String> {
+    pub fn moving_points(&self) -> impl Iterator<Item = Warning> {
         let in_periods = |range: &&Range| {
             let mut sets = self.sets.iter().enumerate();
             sets.any(|(set, own)| range.is_of(set) && own.time == TimeColumn::Periods)
         };
         let of_shape = |range: &&Range| range.key == "particles.aspect_ratio";
         self.ranges.iter().filter(of_shape).filter(in_periods).map(|range| {
-            format!(
+            Warning::Other(format!(
                 "{}: t_over_T counts periods of the fitted r_e, so the points move with it; times as t_s or strain do \
-                 not",
+                    not",
                 range.label()
-            )
+            ))
         })
     }
 
     /// The end of the set's scene with these values, in the unit of its points' times.
-    pub fn end(&self, set: usize, values: &[f64]) -> Result<f64, String> {
-        let refused = |error: String| format!("{}: {error}", self.sets[set].source);
+    pub fn end(&self, set: usize, values: &[f64]) -> Result<f64, SceneError> {
+        let refused = |why: String| SceneError::Scene { scene: self.sets[set].source.clone(), why };
         let plan = Plan::new(&self.scene(set, values)?).map_err(|error| refused(error.to_string()))?;
         (self.sets[set].time.end_of(&plan)).ok_or_else(|| refused("has no period".into()))
     }
 
     /// The same scenes at `factor` times their concentration, and that concentration; none for rods that do not
     /// interact, or whose concentration is fitted. A box is scaled in proportion.
-    pub fn at_concentration(&self, factor: f64, values: &[f64]) -> Result<(Self, Vec<Option<f64>>), String> {
+    pub fn at_concentration(&self, factor: f64, values: &[f64]) -> Result<(Self, Vec<Option<f64>>), SceneError> {
         const KEY: &str = "interaction.concentration_per_cm3";
         const BOX: &str = "interaction.box_mm";
         let (mut scenes, mut all) = (self.clone(), Vec::new());
@@ -179,31 +179,31 @@ impl Scenes {
     }
 
     /// The scene of a set with these values; the other keys are as in its file.
-    pub fn scene(&self, set: usize, values: &[f64]) -> Result<Scene, String> {
+    pub fn scene(&self, set: usize, values: &[f64]) -> Result<Scene, SceneError> {
         let Set { source, text, starts, settings, seed, .. } = &self.sets[set];
         let own = || self.ranges.iter().zip(values).filter(|(range, _)| range.is_of(set));
         let fitted = own().map(|(range, value)| KeyValue { key: range.key.clone(), value: Value::Float(*value) });
         let settings: Vec<_> = settings.iter().cloned().chain(fitted).collect();
-        let said = || {
-            let pairs = own().map(|(range, value)| format!(" {}={value}", range.label()));
-            pairs.collect::<String>()
-        };
         let mut filled = starts.clone();
         let mut scene = sweep::scene_with(text, &settings)
             .and_then(|mut scene| filled.fill(&mut scene).map(|()| scene))
-            .map_err(|error| format!("{source}: --over{}: {error}", said()))?;
+            .map_err(|why| SceneError::Parameters {
+                scene: source.clone(),
+                parameters: own().map(|(range, value)| format!("{}={value}", range.label())).collect(),
+                why,
+            })?;
         scene.ensemble.seed = *seed;
         Ok(scene)
     }
 
     /// The plans of all scenes with these values, each until the last time in `data` (in the unit of its set), with an
     /// output in every step.
-    pub fn plans(&self, values: &[f64], data: &[Datum], variant: Variant) -> Result<Vec<Plan>, String> {
+    pub fn plans(&self, values: &[f64], data: &[Datum], variant: Variant) -> Result<Vec<Plan>, SceneError> {
         (0..self.sets.len()).map(|set| self.plan(set, values, data, variant)).collect()
     }
 
-    fn plan(&self, set: usize, values: &[f64], data: &[Datum], variant: Variant) -> Result<Plan, String> {
-        let refused = |error: String| format!("{}: {error}", self.sets[set].source);
+    fn plan(&self, set: usize, values: &[f64], data: &[Datum], variant: Variant) -> Result<Plan, SceneError> {
+        let refused = |why: String| SceneError::Scene { scene: self.sets[set].source.clone(), why };
         let mut scene = self.scene(set, values)?;
         let own = Plan::new(&scene).map_err(|error| refused(error.to_string()))?;
         if scene.flow.steps().is_some() {
@@ -242,7 +242,7 @@ impl Scenes {
     }
 
     /// The model of the points `data` at these parameter values.
-    pub fn model(&self, data: &[Datum], variant: Variant, values: &[f64]) -> Result<Replica, String> {
+    pub fn model(&self, data: &[Datum], variant: Variant, values: &[f64]) -> Result<Replica, SceneError> {
         let part = |(set, plan): (usize, Plan)| {
             let looks = looks(&plan, self.sets[set].time, data, set);
             let own = self.ranges.iter().zip(values).filter(|(range, _)| range.is_of(set));

@@ -1,7 +1,7 @@
 //! The search for the best fit: runs over the whole range, then over the part that the data leave, until the model's
 //! own error is small beside the data's.
 
-use super::goodness::undescribed;
+use super::error::{FitError, ParameterError, Undescribed};
 use super::range::Range;
 use crate::methods::least_squares::Datum;
 use crate::methods::least_squares::basis::Basis;
@@ -115,80 +115,120 @@ pub struct Fit {
     pub rounds: u64,
 }
 
-/// Fits the parameters. An error says why a run was impossible or did not finish.
-pub fn search(problem: &FitProblem<'_>, watch: &Watch<'_>) -> Result<Fit, String> {
+/// A search that goes on until the model's own error is small beside the data's.
+struct Search<'a> {
+    problem: &'a FitProblem<'a>,
+    basis: Basis,
+    whole: Sides,
+    /// The current box, and the coefficients of its replicas.
+    sides: Sides,
+    coefficients: Vec<Coefficients>,
+    /// The number of replicas at each node that the next fit needs.
+    replicas: u64,
+    /// True once polynomials over a box that ends at [`FAR`] were too inaccurate.
+    near: bool,
+    runs: u64,
+    rounds: u64,
+}
+
+/// What a search does after the fit over a box.
+enum Next {
+    /// More replicas, up to this number.
+    Replicas(u64),
+    /// Another box.
+    Box(Sides),
+    Done,
+}
+
+/// Fits the parameters.
+///
+/// # Errors
+///
+/// Why a run was impossible or did not finish, or why its result is no answer.
+pub fn search(problem: &FitProblem<'_>, watch: &Watch<'_>) -> Result<Fit, FitError> {
     let ranges = problem.measured.ranges;
-    let basis = Basis::new(ranges.len());
     let whole = whole(ranges);
-    let mut sides = whole.clone();
-    let mut wanted = FIRST_REPLICAS.min(problem.most_replicas);
-    let (mut runs, mut rounds) = (0, 1);
-    let mut found: Vec<Coefficients> = Vec::new();
-    let mut far = FAR;
+    let mut search = Search {
+        problem,
+        basis: Basis::new(ranges.len()),
+        sides: whole.clone(),
+        whole,
+        coefficients: Vec::new(),
+        replicas: FIRST_REPLICAS.min(problem.most_replicas),
+        near: false,
+        runs: 0,
+        rounds: 1,
+    };
     loop {
-        let new = found.len() as u64..wanted;
-        let planned = (wanted - new.start) * basis.nodes.len() as u64;
-        (watch.stage)(&format!("search, box {rounds}"));
+        let fit = search.run(watch)?;
+        match search.next(&fit) {
+            Next::Replicas(replicas) => search.replicas = replicas,
+            Next::Box(sides) => {
+                search.sides = sides;
+                search.coefficients.clear();
+                search.rounds += 1;
+            }
+            Next::Done => {
+                search.check(&fit)?;
+                return Ok(fit);
+            }
+        }
+    }
+}
+
+impl Search<'_> {
+    /// Runs the missing replicas and fits the box.
+    fn run(&mut self, watch: &Watch<'_>) -> Result<Fit, FitError> {
+        let Self { problem, basis, sides, .. } = self;
+        let new = self.coefficients.len() as u64..self.replicas;
+        let planned = (self.replicas - new.start) * basis.nodes.len() as u64;
+        (watch.stage)(&format!("search, box {}", self.rounds));
         (watch.planned)(planned);
-        runs += planned;
-        let value = |node: &[f64]| values(ranges, &sides, node);
-        found.extend(coefficients(&basis, problem.model, &value, new, watch.done)?);
-        let fit = fitted(&problem.measured, &basis, &sides, &found)?;
-        let more = wanted < problem.most_replicas;
+        self.runs += planned;
+        let value = |node: &[f64]| values(problem.measured.ranges, sides, node);
+        self.coefficients.extend(coefficients(basis, problem.model, &value, new, watch.done)?);
+        let fit = fitted(&problem.measured, basis, sides, &self.coefficients)?;
+        Ok(Fit { runs: self.runs, rounds: self.rounds, ..fit })
+    }
+
+    fn next(&mut self, fit: &Fit) -> Next {
+        let most = self.problem.most_replicas;
+        let more = self.replicas < most;
+        let noise = fit.noise_share();
+        let until = |share, allowed| Next::Replicas(enough(self.replicas, share, allowed).min(most));
         // The points, not the replicas' noise, must decide where to look closer.
-        if more && fit.feigned() > CLEAR {
-            wanted = enough(wanted, fit.feigned(), CLEAR).min(problem.most_replicas);
-            continue;
+        if more && noise > CLEAR {
+            return until(noise, CLEAR);
         }
-        let (mut other, mut gains) = other_sides(&fit, &whole, far);
-        if !gains && far == FAR && fit.best.share(EMULATOR) > MOST_SHARE {
-            far = NEAR;
-            other = other_sides(&fit, &whole, far).0;
-            gains = other != sides;
+        let share = fit.best.share(REPLICAS).max(noise);
+        let enough = if share <= MOST_SHARE || !more { Next::Done } else { until(share, MOST_SHARE) };
+        let (mut sides, mut gains) = other_sides(fit, &self.whole, if self.near { NEAR } else { FAR });
+        if !gains && !self.near && fit.best.share(EMULATOR) > MOST_SHARE {
+            self.near = true;
+            sides = other_sides(fit, &self.whole, NEAR).0;
+            gains = sides != self.sides;
         }
-        if gains && rounds < MOST_ROUNDS {
-            sides = other;
-            found.clear();
-            rounds += 1;
-            continue;
+        if gains && self.rounds < MOST_ROUNDS { Next::Box(sides) } else { enough }
+    }
+
+    /// Refuses a fit that is no answer.
+    fn check(&self, fit: &Fit) -> Result<(), FitError> {
+        let (points, ranges) = (self.problem.measured.data.len(), &fit.ranges);
+        if fit.noise_share() > NOTHING_ELSE {
+            return Err(FitError::Noise(fit.noise_share(), self.replicas));
         }
-        let share = fit.best.share(REPLICAS).max(fit.feigned());
-        if share <= MOST_SHARE || !more {
-            if fit.feigned() > NOTHING_ELSE {
-                return Err(format!(
-                    "--over: {:.0} % of the apparent information in the points is noise of the model with {wanted} \
-                     replicas at each value; give more --replicas, more rods in the scene, or one parameter less",
-                    100.0 * fit.feigned()
-                ));
-            }
-            if fit.best.goodness.excess > MOST_EXCESS {
-                return Err(format!(
-                    "--replicas: {wanted} are too few for the covariance of {} points; give {} or more",
-                    problem.measured.data.len(),
-                    4 * problem.measured.data.len()
-                ));
-            }
-            if let Some(axis) = fit.untold() {
-                return Err(format!(
-                    "--over {}: the points say nothing about it between {} and {}",
-                    ranges[axis].label(),
-                    ranges[axis].from,
-                    ranges[axis].to
-                ));
-            }
-            if !enclosed(&fit, &whole) {
-                return Err(format!(
-                    "--over: the search did not enclose the best values in {rounds} boxes; give a narrower range near \
-                     {:?}",
-                    fit.values(&fit.best.place)
-                ));
-            }
-            let points = problem.measured.data.len();
-            let undescribed = || undescribed(fit.best.chi_square, points, ranges.len());
-            fit.is_smooth().map_err(|why| undescribed().unwrap_or(why))?;
-            return Ok(Fit { runs, rounds, ..fit });
+        if fit.best.goodness.excess > MOST_EXCESS {
+            return Err(FitError::FewReplicas { replicas: self.replicas, points });
         }
-        wanted = enough(wanted, share, MOST_SHARE).min(problem.most_replicas);
+        if let Some(range) = fit.undetermined() {
+            let error = ParameterError::Undetermined { from: range.from, to: range.to };
+            return Err(FitError::Parameter(range.label(), error));
+        }
+        if !enclosed(fit, &self.whole) {
+            return Err(FitError::NotEnclosed { boxes: self.rounds, values: fit.values(&fit.best.place) });
+        }
+        let undescribed = || Undescribed::check(fit.best.chi_square, points, ranges.len());
+        fit.is_smooth().map_err(|error| undescribed().map_or(error, FitError::from))
     }
 }
 
@@ -266,7 +306,7 @@ fn enclosed(fit: &Fit, whole: &Sides) -> bool {
 
 /// A standard uncertainty above this multiple of the range, with an interval of the whole range: no prediction depends
 /// on the parameter.
-const UNTOLD: f64 = 10.0;
+const UNDETERMINED: f64 = 10.0;
 
 /// Ends of 68 and 95 % closer than this share of the distance from the best place are one end: those of a parabola are
 /// half of it apart.
@@ -274,20 +314,21 @@ const SAME: f64 = 0.02;
 
 impl Fit {
     /// The first parameter that the points do not determine at all.
-    fn untold(&self) -> Option<usize> {
+    fn undetermined(&self) -> Option<&Range> {
         let covariance = self.best.covariance();
-        (0..self.ranges.len()).find(|&axis| {
+        let axis = (0..self.ranges.len()).find(|&axis| {
             // A box is 2 wide.
             let (low, high) = self.sides[axis];
             let uncertainty = 0.5 * (high - low) * covariance[(axis, axis)].sqrt();
             let range = &self.ranges[axis];
             let all = interval(&self.best, axis, &self.profiles[axis], rise_of(0.95)).open == [true; 2];
-            all && uncertainty > UNTOLD * (range.scaled(range.to) - range.scaled(range.from))
-        })
+            all && uncertainty > UNDETERMINED * (range.scaled(range.to) - range.scaled(range.from))
+        });
+        axis.map(|axis| &self.ranges[axis])
     }
 
     /// The largest share of the replicas' noise in the rise of χ² at the ends of the 95 % intervals.
-    pub fn feigned(&self) -> f64 {
+    pub fn noise_share(&self) -> f64 {
         let all = self.profiles.iter().map(|profile| profile.feigned(rise_of(0.95)));
         all.fold(0.0, f64::max)
     }
@@ -342,7 +383,7 @@ impl Fit {
 
     /// The parts of a parameter's range in which its profile is within the 95 % interval's level, where what lies
     /// between them is ruled out by four standard deviations: a lower rise in between is no more than a ripple.
-    fn valleys(&self, axis: usize) -> Vec<(f64, f64)> {
+    fn minima(&self, axis: usize) -> Vec<(f64, f64)> {
         let profile = &self.profiles[axis];
         let mut parts: Vec<(usize, usize)> = Vec::new();
         for (k, _) in profile.rise.iter().enumerate().filter(|(_, rise)| **rise <= rise_of(0.95)) {
@@ -361,20 +402,15 @@ impl Fit {
     /// # Errors
     ///
     /// The parameter whose intervals cannot be determined, and what to do.
-    pub(super) fn is_smooth(&self) -> Result<(), String> {
+    pub(super) fn is_smooth(&self) -> Result<(), FitError> {
         for (axis, range) in self.ranges.iter().enumerate() {
             let [inner, outer] =
                 [0.68, 0.95].map(|confidence| interval(&self.best, axis, &self.profiles[axis], rise_of(confidence)));
             let centre = self.best.place[axis];
-            let valleys = self.valleys(axis);
-            if valleys.len() > 1 {
-                let ends = valleys.iter().map(|(from, to)| format!("{from:.4} to {to:.4}"));
-                return Err(format!(
-                    "--over {}: χ² has several minima in this range, as low as the best or nearly: {}; give a narrower \
-                     one without impossible values",
-                    range.label(),
-                    ends.collect::<Vec<_>>().join(", ")
-                ));
+            let error = |error| Err(FitError::Parameter(range.label(), error));
+            let minima = self.minima(axis);
+            if minima.len() > 1 {
+                return error(ParameterError::SeveralMinima(minima));
             }
             let same =
                 |inner: f64, outer: f64, open: bool| !open && (outer - inner).abs() < SAME * (outer - centre).abs();
@@ -383,11 +419,7 @@ impl Fit {
                 || same(inner.low, outer.low, outer.open[0])
                 || same(inner.high, outer.high, outer.open[1])
             {
-                return Err(format!(
-                    "--over {}: χ² jumps along it where the other parameters change to another minimum, so that its \
-                     intervals have no end there; a narrower range, or one parameter less, may do",
-                    range.label()
-                ));
+                return error(ParameterError::Jumps);
             }
         }
         Ok(())

@@ -30,13 +30,13 @@ pub struct Layout {
 }
 
 /// Layouts of programs whose tables have no names, or other names than ours.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Foreign {
-    /// Without a header: t, then A row by row (nine numbers), as fiberoripy's and PySPH's tables
+    /// Without a header: t, then A row by row (nine numbers), as fiberoripy's and PySPH's tables.
     Fiberoripy,
-    /// Without a header: t, then A in the order 11, 22, 33, 12, 23, 13 of fiberpy's Mat2
+    /// Without a header: t, then A in the order 11, 22, 33, 12, 23, 13 of fiberpy's Mat2.
     Fiberpy,
-    /// time, A2_0 to A2_5: OpenFOAM's symmTensor xx, xy, xz, yy, yz, zz; a file of its probes is read without this flag
+    /// time, A2_0 to A2_5: OpenFOAM's symmTensor xx, xy, xz, yy, yz, zz.
     Openfoam,
 }
 

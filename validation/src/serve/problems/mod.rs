@@ -224,12 +224,12 @@ pub struct LoadedProblem {
 }
 
 impl LoadedProblem {
-    /// The problem with a larger tolerance; a smaller one changes nothing.
-    pub fn with_tolerance(mut self, tolerance: f64) -> Self {
+    /// The problem with a larger tolerance, given by `whom`; a smaller one changes nothing.
+    pub fn with_tolerance(mut self, tolerance: f64, whom: &str) -> Self {
         if tolerance > self.own_tolerance {
             self.problem.tolerance = tolerance;
             self.problem.because =
-                format!("--tolerance. The problem's own is {:e}: {}", self.own_tolerance, self.problem.because);
+                format!("{whom}. The problem's own is {:e}: {}", self.own_tolerance, self.problem.because);
         }
         self
     }

@@ -21,21 +21,47 @@ pub struct Point {
     pub plan: Plan,
 }
 
+/// Why a scene has no grid.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum GridError {
+    /// The text of the scene is refused.
+    #[error("{0}")]
+    Scene(String),
+    /// The grid is too large.
+    #[error("more than {MAX_POINTS} points; at most {MAX_POINTS} are allowed")]
+    TooMany,
+    /// A point is refused.
+    #[error("{point} (point {number} of {count}): {why}")]
+    Point {
+        /// Its keys and values.
+        point: String,
+        /// Its number, from 1.
+        number: usize,
+        /// The number of points.
+        count: usize,
+        /// The reason.
+        why: String,
+    },
+}
+
 /// Every point of the grid, the last axis varying fastest, checked like a scene file. `fixed` are keys that all points
-/// have in place of the scene's own; `starts` belong to the scene's folder. An error says which point and why.
-pub fn points(text: &str, starts: &Starts, fixed: &[KeyValue], axes: &[Axis]) -> Result<Vec<Point>, String> {
-    let base = document(text)?;
-    let count = count(axes)
-        .ok_or_else(|| format!("--over: more than {MAX_POINTS} points; at most {MAX_POINTS} are allowed"))?;
+/// have in place of the scene's own; `starts` belong to the scene's folder.
+///
+/// # Errors
+///
+/// Too many points, or the first that is refused.
+pub fn points(text: &str, starts: &Starts, fixed: &[KeyValue], axes: &[Axis]) -> Result<Vec<Point>, GridError> {
+    let base = document(text).map_err(GridError::Scene)?;
+    let count = count(axes).ok_or(GridError::TooMany)?;
     let mut starts = starts.clone();
     let point = |k| {
         let values = at(axes, k);
         let keys = axes.iter().map(|axis| axis.key.as_str());
         let own = keys.zip(values.iter().cloned());
         let settings = fixed.iter().map(KeyValue::pair).chain(own);
-        let plan = plan(&base, &mut starts, settings).map_err(|error| {
+        let plan = plan(&base, &mut starts, settings).map_err(|why| {
             let point = described(axes, &values);
-            format!("--over {point} (point {} of {count}): {error}", k + 1)
+            GridError::Point { point, number: k + 1, count, why }
         })?;
         Ok(Point { values, plan })
     };
@@ -60,35 +86,6 @@ pub fn pairs(axes: &[Axis], values: &[Value]) -> Pairs {
 pub fn described(axes: &[Axis], values: &[Value]) -> String {
     let words: Vec<_> = pairs(axes, values).iter().map(|(key, value)| format!("{key}={value}")).collect();
     words.join(" ")
-}
-
-/// Checks that no two flags set the same key; a table owns every key in it. An error says which two.
-pub fn one_owner(flags: &[(&str, &str)]) -> Result<(), String> {
-    for (k, (flag, key)) in flags.iter().enumerate() {
-        let within = |inner: &str, outer: &str| {
-            let rest = inner.strip_prefix(outer);
-            rest.is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
-        };
-        let clash = |(_, other): &&(&str, &str)| within(other, key) || within(key, other);
-        if let Some((first, other)) = flags[..k].iter().find(clash) {
-            // Other flags than these take no key.
-            let takes_key = |flag: &str| ["--over", "--set"].contains(&flag);
-            let given = |flag: &str, key: &str| {
-                if takes_key(flag) { format!("{flag} {key}") } else { flag.to_owned() }
-            };
-            let both = match other == key && takes_key(flag) && takes_key(first) {
-                true => "it",
-                false if key.len() > other.len() => key,
-                false => other,
-            };
-            return Err(format!(
-                "{} and {}: both set {both}; one of the two is allowed",
-                given(flag, key),
-                given(first, other)
-            ));
-        }
-    }
-    Ok(())
 }
 
 /// The values of point `k`, counted from 0.
@@ -143,7 +140,7 @@ mod tests {
 
     fn refused(over: &[&str]) -> String {
         let axes: Vec<_> = over.iter().map(|text| Axis::parse(text).unwrap()).collect();
-        points(text(), &Starts::default(), &[], &axes).err().unwrap()
+        points(text(), &Starts::default(), &[], &axes).err().unwrap().to_string()
     }
 
     #[test]
@@ -162,30 +159,10 @@ mod tests {
     }
 
     #[test]
-    fn a_key_has_one_owner() {
-        let over = |keys: &[&'static str]| {
-            let flags: Vec<_> = keys.iter().map(|key| ("--over", *key)).collect();
-            one_owner(&flags)
-        };
-        assert_eq!(over(&["ensemble.seed", "ensemble.replicas", "ensemble_x", "e"]), Ok(()));
-        for keys in [
-            ["particles", "particles.count"],
-            ["particles.count", "particles"],
-            ["particles.orientation.phi_deg", "particles.orientation"],
-            ["flow.x", "flow.x"],
-        ] {
-            let error = over(&keys).unwrap_err();
-            assert!(error.contains("one of the two is allowed"), "{error}");
-        }
-        let error = one_owner(&[("--replicas", "ensemble.replicas"), ("--over", "ensemble")]).unwrap_err();
-        assert_eq!(error, "--over ensemble and --replicas: both set ensemble.replicas; one of the two is allowed");
-    }
-
-    #[test]
     fn every_point_is_checked_as_a_scene_file_is() {
         let error = refused(&["particles.count=10:20:4"]);
-        let expected = "--over particles.count=13.333333333333334 (point 2 of 4): particles.count = 13.333333333333334 \
-            is not allowed: expected a whole number from 1 to 100000000";
+        let expected = "particles.count=13.333333333333334 (point 2 of 4): particles.count = 13.333333333333334 \
+                        is not allowed: expected a whole number from 1 to 100000000";
         assert_eq!(error, expected);
         let error = refused(&["interaction.alpa=1,2"]);
         assert!(error.contains("unknown key `alpa`, expected one of"), "{error}");

@@ -133,6 +133,7 @@ fn a_true_hypothesis_is_rejected_as_often_as_the_level_says() {
 fn what_is_no_hypothesis_is_refused_with_what_is_allowed() {
     let ranges = ["1:a.rate=0.1:4", "2:a.rate=0.1:4", "a.b=1:2", "4:a.rate=5:6"];
     let ranges = ranges.map(|text| Range::parse(text).unwrap());
+    let checked = |text: &str| Hypothesis::parse(text)?.check(&ranges).map_err(|error| error.to_string());
     for (text, named) in [
         ("alpha", "KEY=VALUE"),
         ("a.b=x", "\"x\" is no value"),
@@ -140,15 +141,15 @@ fn what_is_no_hypothesis_is_refused_with_what_is_allowed() {
         ("1:a.rate=1:a.rate", "SET:KEY=OTHER:KEY"),
         ("1:a.rate=2:a.b", "\"2:a.b\" is no value"),
         ("a b=1", "no key"),
-        ("a.c=1", "a.c is not fitted; --over has 1:a.rate, 2:a.rate, a.b, 4:a.rate"),
+        ("a.c=1", "a.c is not fitted; it must be one of 1:a.rate, 2:a.rate, a.b, 4:a.rate"),
         ("1:a.rate=3:a.rate", "3:a.rate is not fitted"),
         ("1:a.rate=4:a.rate", "have no value in common"),
-        ("a.b=3", "3 is outside the range of --over, 1 to 2"),
+        ("a.b=3", "3 is outside the range, 1 to 2"),
     ] {
-        let error = Hypothesis::parse(text).and_then(|held| held.check(&ranges)).unwrap_err();
+        let error = checked(text).unwrap_err();
         assert!(error.contains(named), "{text}: {error}");
     }
     for text in ["a.b=1", "2:a.rate=0.5", "2:a.rate = 1:a.rate"] {
-        assert_eq!(Hypothesis::parse(text).and_then(|held| held.check(&ranges)), Ok(()), "{text}");
+        assert_eq!(checked(text), Ok(()), "{text}");
     }
 }

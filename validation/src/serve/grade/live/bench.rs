@@ -33,20 +33,37 @@ pub struct Bench {
     pub ours: Vec<IntegratorCurve>,
 }
 
+/// Why an echo ends before its input.
+#[derive(Debug, thiserror::Error)]
+pub enum EchoError {
+    /// A line that no request has.
+    #[error("a line is longer than {LONGEST_LINE} bytes: no request is")]
+    TooLong,
+    /// Bytes that are not UTF-8.
+    #[error("a line is not UTF-8 text")]
+    NotText,
+    /// No request.
+    #[error("{0}")]
+    Request(String),
+    /// The input or the output fails.
+    #[error(transparent)]
+    Pipe(#[from] std::io::Error),
+}
+
 /// Answers every request with its start until the input ends: this measures the cost of the pipe and the protocol
 /// alone.
-pub fn echo(protocol: Protocol, mut input: impl BufRead, mut output: impl Write) -> Result<(), String> {
+pub fn echo(protocol: Protocol, mut input: impl BufRead, mut output: impl Write) -> Result<(), EchoError> {
     loop {
-        let line = next_line(&mut input).map_err(|error| error.to_string())?;
+        let line = next_line(&mut input)?;
         if line.is_empty() {
             return Ok(());
         }
         if line.len() > LONGEST_LINE {
-            return Err(format!("--echo: a line is longer than {LONGEST_LINE} bytes: no request is"));
+            return Err(EchoError::TooLong);
         }
-        let line = String::from_utf8(line).map_err(|_| "--echo: a line is not UTF-8 text")?;
-        let answer = protocol.echo(line.trim_end_matches(['\n', '\r']))?;
-        writeln!(output, "{answer}").and_then(|()| output.flush()).map_err(|error| error.to_string())?;
+        let line = String::from_utf8(line).map_err(|_| EchoError::NotText)?;
+        let answer = protocol.echo(line.trim_end_matches(['\n', '\r'])).map_err(EchoError::Request)?;
+        writeln!(output, "{answer}").and_then(|()| output.flush())?;
     }
 }
 

@@ -10,7 +10,7 @@ mod request;
 mod studies;
 mod text;
 
-pub use bench::{Bench, echo, theory};
+pub use bench::{Bench, EchoError, echo, theory};
 pub use kill::end_all;
 pub use ladder::{Mode, grade, mode};
 pub use program::{Asked, Program, Question};

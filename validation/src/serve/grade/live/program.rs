@@ -84,8 +84,8 @@ impl std::fmt::Display for Asked {
 impl Program {
     /// Starts the command. `Err` when it cannot be started at all.
     pub fn start(command: &str, protocol: Protocol, timeout: Duration) -> Result<Self, String> {
-        let words = shlex::split(command).ok_or_else(|| format!("--command {command}: a quote is not closed"))?;
-        let pipe = Pipe::start(&words).map_err(|error| format!("--command {error}"))?;
+        let words = shlex::split(command).ok_or_else(|| format!("{command}: a quote is not closed"))?;
+        let pipe = Pipe::start(&words)?;
         Ok(Self {
             words,
             name: command.to_owned(),

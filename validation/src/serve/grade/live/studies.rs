@@ -107,19 +107,14 @@ impl Studies {
         tables
     }
 
-    /// A message about the studies that were left out.
-    pub fn left_out(&self) -> Vec<String> {
+    /// The measurements that are missing.
+    pub fn left_out(&self) -> impl Iterator<Item = &'static str> {
         let parts = [
             ("work against precision", self.work_precision.is_none()),
             ("longest steps", self.limits.is_none()),
             ("the stability map", self.map.is_none()),
         ];
-        let left_out = parts.into_iter().filter(|(_, is)| *is);
-        left_out
-            .map(|(what, _)| {
-                format!("{what}: not measured, as the program needs longer for it than --timeout, or broke off")
-            })
-            .collect()
+        parts.into_iter().filter_map(|(what, is_missing)| is_missing.then_some(what))
     }
 
     fn map_table(&self, rows: &[MapRow]) -> ReportTable {

@@ -1,13 +1,14 @@
 //! A fit as text for the terminal: one line with the answer, and the budget.
 
-use super::design::{Added, Step};
-use super::hypothesis::{LEAST_P, Tested};
-use super::report::{Report, probability};
-use super::search::Fit;
+use shearbed_validation::serve::fit::design::{Added, Step};
+use shearbed_validation::serve::fit::digits::{decimals, probability};
+use shearbed_validation::serve::fit::report::Report;
+use shearbed_validation::serve::fit::search::Fit;
+use shearbed_validation::serve::fit::{LEAST_P, Range, Tested};
 
 /// One line with the estimate of each parameter and the goodness of fit.
-pub fn sentence(fit: &Fit, report: &Report) -> String {
-    let parameter = |range: &super::Range| {
+pub(super) fn sentence(fit: &Fit, report: &Report) -> String {
+    let parameter = |range: &Range| {
         let found = &report.parameters[&range.label()];
         // Two digits of the uncertainty, which counts as at most the range if the points determine little.
         let digits = decimals(found.standard_uncertainty.min(range.to - range.from));
@@ -30,7 +31,7 @@ pub fn sentence(fit: &Fit, report: &Report) -> String {
 }
 
 /// The uncertainty budget and the shifts, as text for the terminal.
-pub fn table(fit: &Fit, report: &Report) -> String {
+pub(super) fn table(fit: &Fit, report: &Report) -> String {
     let names: String = fit.ranges.iter().map(|range| format!("  {:>18}", range.name())).collect();
     let numbers = |all: &[f64]| all.iter().map(|u| format!("  {u:>18.2e}")).collect::<String>();
     let mut text = format!("{:<34}{names}\n", "standard uncertainty by");
@@ -46,7 +47,7 @@ pub fn table(fit: &Fit, report: &Report) -> String {
 }
 
 /// One line for each tested hypothesis, as text for the terminal.
-pub fn tests(report: &Report) -> String {
+pub(super) fn tests(report: &Report) -> String {
     let line = |tested: &Tested| {
         let (beyond, p) = (tested.beyond_the_box, tested.p_value);
         let more = if beyond { " or more" } else { "" };
@@ -80,7 +81,7 @@ fn rounded_up(p: f64) -> String {
 
 /// The table of uncertainties that further points would leave, for the terminal. `times` are the units of the sets'
 /// times.
-pub fn design(fit: &Fit, steps: &[Step], times: &[&str]) -> String {
+pub(super) fn design(fit: &Fit, steps: &[Step], times: &[&str]) -> String {
     let head = "what further points would leave".to_owned();
     let mut points = 0;
     let what = |step: &Step| {
@@ -121,14 +122,6 @@ fn added(added: &Added, count: usize, times: &[&str]) -> String {
             };
             format!("{before}{column}{} at {} = {time:.2}{}", of_set(set), times[*set], at(n))
         }
-    }
-}
-
-/// The number of decimals that show two digits of `number`, at most 12.
-pub(super) fn decimals(number: f64) -> usize {
-    match number.log10().floor() {
-        log if log.is_finite() => (1.0 - log).clamp(0.0, 12.0) as usize,
-        _ => 4,
     }
 }
 
