@@ -2,15 +2,9 @@
 
 use shearbed::Plan;
 use shearbed::plan::Stage;
+use shearbed_validation::studies::speed::{SECONDS_PER_DRAW, SECONDS_PER_OUTPUT, SECONDS_PER_ROD_AND_STEP};
 use shearbed_validation::studies::suspensions::job::Job;
 use shearbed_validation::studies::suspensions::law::{self, Replicas};
-
-/// A step of one rod takes 26 to 58 ns of one core, for 10² to 10⁶ rods (docs/src/developer/performance.md).
-const SECONDS_PER_ROD_AND_STEP: f64 = 40e-9;
-
-/// A free rod takes 2 to 5 ns for an output, and some 40 ns to be drawn.
-const SECONDS_PER_OUTPUT: f64 = 4e-9;
-const SECONDS_PER_DRAW: f64 = 40e-9;
 
 /// The text for a number of rods times steps: `4.0e9 rods × steps, some 3 min of one core`.
 fn text(rod_steps: f64) -> String {

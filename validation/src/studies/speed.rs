@@ -9,6 +9,15 @@ use crate::present::table::{ReportTable, decimals, number, words};
 pub use measure::measure;
 use serde::Serialize;
 
+/// Seconds of one core for a step of a rod: 26 to 58 ns, for 10² to 10⁶ rods (docs/src/developer/performance.md).
+pub const SECONDS_PER_ROD_AND_STEP: f64 = 40e-9;
+
+/// Seconds for an output of a free rod: 2 to 5 ns.
+pub const SECONDS_PER_OUTPUT: f64 = 4e-9;
+
+/// Seconds to draw a rod.
+pub const SECONDS_PER_DRAW: f64 = 40e-9;
+
 /// The study of the core's speed, with targets.
 pub const STUDY: Study = Study {
     name: "speed",

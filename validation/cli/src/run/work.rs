@@ -1,34 +1,71 @@
 //! The work of a run: its replicas, with a checkpoint or without, a given number or until a rule holds.
 
-use super::Args;
-use crate::until::{Ended, Look, Measure};
-use crate::{log, scene};
+use super::Run;
+use crate::until::{Ended, LEAST, Look, Measure};
+use crate::{Failure, log, on_threads, print, progress, scene};
 use indicatif::ProgressBar;
 use shearbed::run::ensemble::Tally;
-use shearbed::{Error, Plan, Results};
+use shearbed::{Error, Results};
 use shearbed_validation::files::checkpoint::{Progress, Replicas};
 use shearbed_validation::files::cluster;
 use shearbed_validation::files::output::OutputError;
 use shearbed_validation::files::text::Shown;
 use std::time::Instant;
 
-/// The results, and the choice of the number of replicas by `--until-se`; none without it.
-type Done = (Results, Option<Ended>);
+/// The results, and the choice of the number of replicas by rules for standard errors; none without them.
+pub(super) type Done = (Results, Option<Ended>);
 
-/// The input of a run's work.
-pub(super) struct Work<'a> {
-    pub(super) args: &'a Args,
-    pub(super) plan: &'a Plan,
-    pub(super) bar: &'a ProgressBar,
-    pub(super) threads: usize,
+/// A run with the bar that shows its progress.
+struct Work<'a> {
+    run: &'a Run<'a>,
+    bar: ProgressBar,
+}
+
+impl Run<'_> {
+    /// Runs the replicas, or those that the checkpoint lacks; the results on the root. A run that stops writes nothing,
+    /// so that earlier results stay.
+    pub(super) fn replicas(&self) -> Result<Option<Done>, Failure> {
+        if let Some(replicas) = &self.checkpoint {
+            self.begin(replicas)?;
+        }
+        let first = if self.args.until.is_empty() { self.plan.scene().ensemble.replicas } else { LEAST };
+        let work = Work { run: self, bar: progress(first, "replicas", self.args.writing.quiet) };
+        let results = match &self.checkpoint {
+            Some(replicas) => work.kept(replicas).map(Some),
+            None => on_threads(self.args.threads.given, || work.alone())?,
+        };
+        work.bar.finish_and_clear();
+        stopped(&self.named.source, results)
+    }
+
+    /// Writes the checkpoint for the first time, and prints how much of the run it contains.
+    fn begin(&self, replicas: &Replicas) -> Result<(), Failure> {
+        replicas.write()?;
+        let progress = replicas.progress();
+        let Progress { done, halfway, .. } = progress;
+        if self.args.writing.quiet || done == 0 && halfway == 0 {
+            return Ok(());
+        }
+        let progress = if self.args.until.is_empty() {
+            progress.to_string()
+        } else {
+            format!("{done} replicas are done, {halfway} halfway")
+        };
+        print(&format!("goes on from {}: {progress}\n", replicas.path().shown()))
+    }
+}
+
+/// Adds the scene's name to the error of a run that stopped.
+fn stopped<T>(source: &str, results: Result<T, Error>) -> Result<T, Failure> {
+    results.map_err(|error| Failure::Input(format!("{source}: {error}")))
 }
 
 impl Work<'_> {
     /// Runs the replicas on the threads of the current pool and all ranks; the results on the root.
-    pub(super) fn alone(&self) -> Result<Option<Done>, Error> {
-        let (plan, until) = (self.plan, &self.args.until);
+    fn alone(&self) -> Result<Option<Done>, Error> {
+        let Run { plan, args, .. } = self.run;
         let finished = || self.bar.inc(1);
-        if until.is_empty() {
+        if args.until.is_empty() {
             return Ok(cluster::ensemble(plan, finished)?.map(|results| (results, None)));
         }
         let mut tally = Tally::new(plan);
@@ -45,7 +82,7 @@ impl Work<'_> {
             }
             cluster::from_root(|| Ok(measure(&tally)))
         };
-        let ended = until.grow(plan, (0, self.args.time_limit), add, |ended| self.show(ended))?;
+        let ended = args.until.grow(plan, (0, args.time_limit), add, |ended| self.show(ended))?;
         Ok(cluster::is_root().then(|| (tally.results(plan), Some(ended))))
     }
 
@@ -55,24 +92,25 @@ impl Work<'_> {
         match deadline {
             None => target,
             Some(deadline) if done > 1 && Instant::now() >= deadline => done,
-            Some(_) => target.min(done + (self.threads * cluster::size()) as u64),
+            Some(_) => target.min(done + (self.run.threads * cluster::size()) as u64),
         }
     }
 
     /// Runs the replicas that are missing in a checkpoint.
-    pub(super) fn kept(&self, replicas: &Replicas) -> Result<Done, Error> {
-        let (plan, until) = (self.plan, &self.args.until);
+    fn kept(&self, replicas: &Replicas) -> Result<Done, Error> {
+        let Run { plan, args, .. } = self.run;
+        self.bar.inc(replicas.progress().done);
         let finished = || self.bar.inc(1);
         let saved = |saved| self.saved(replicas, saved);
-        if until.is_empty() {
-            return Ok((replicas.run(self.threads, finished, saved)?, None));
+        if args.until.is_empty() {
+            return Ok((replicas.run(self.run.threads, finished, saved)?, None));
         }
         let add = |target: u64, deadline: Option<Instant>, measure: &Measure| -> Result<Look, Error> {
-            replicas.run_to(self.threads, (target, deadline), finished, saved)?;
+            replicas.run_to(self.run.threads, (target, deadline), finished, saved)?;
             Ok(measure(&replicas.tally()))
         };
-        let from = (replicas.replicas(), self.args.time_limit);
-        let ended = until.grow(plan, from, add, |ended| self.show(ended))?;
+        let from = (replicas.replicas(), args.time_limit);
+        let ended = args.until.grow(plan, from, add, |ended| self.show(ended))?;
         Ok((replicas.tally().results(plan), Some(ended)))
     }
 
@@ -84,11 +122,38 @@ impl Work<'_> {
 
     fn saved(&self, replicas: &Replicas, saved: Result<Progress, OutputError>) {
         match saved {
-            Ok(progress) => log(&format!("kept in {}: {progress}", replicas.path().shown()), self.args.writing.quiet),
+            Ok(progress) => {
+                log(&format!("kept in {}: {progress}", replicas.path().shown()), self.run.args.writing.quiet)
+            }
             Err(error) => {
                 let lost = format!("{error}; the run goes on, and what comes is not kept");
                 scene::warn("--checkpoint", [&lost]);
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_run_that_stops_is_a_failure_that_names_the_rod() {
+        let error = Error::NonFinite {
+            rod: 7,
+            step: 41,
+            seed: 3,
+            replica: 2,
+            cause: "a contact arm of 1e-320 rod lengths turned it by inf rad".into(),
+        };
+        let failure = stopped::<()>("my.toml", Err(error)).expect_err("it stopped");
+        let (message, code) = failure.message_and_code();
+        assert_eq!(code, 2);
+        assert_eq!(
+            message,
+            "my.toml: rod 7 would become non-finite in step 41 of replica 2, seed 3: a contact arm of 1e-320 rod \
+                lengths \
+             turned it by inf rad"
+        );
     }
 }
