@@ -12,9 +12,11 @@ pub mod design;
 pub mod digits;
 pub mod elsewhere;
 pub mod error;
-#[cfg(test)]
-mod feigned;
 mod hypothesis;
+#[cfg(test)]
+mod minima_tests;
+#[cfg(test)]
+mod noise_tests;
 pub mod pictures;
 mod range;
 pub mod report;
@@ -24,8 +26,6 @@ pub mod scenes;
 pub mod search;
 #[cfg(test)]
 mod tests;
-#[cfg(test)]
-mod valleys;
 
 pub use hypothesis::{Difference, Hypothesis, LEAST_P, Tested};
 pub use range::Range;

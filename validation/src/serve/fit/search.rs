@@ -396,7 +396,7 @@ impl Fit {
         parts.into_iter().map(|(first, last)| (value(first), value(last))).collect()
     }
 
-    /// Checks that every profile has one valley in its intervals and no jump at their ends, and that the 68 % interval
+    /// Checks that every profile has one minimum in its intervals and no jump at their ends, and that the 68 % interval
     /// is within 95 %'s.
     ///
     /// # Errors

@@ -1,4 +1,4 @@
-//! Profiles of a model with several valleys.
+//! Profiles of a model with several minima.
 
 use super::range::Range;
 use super::search::{Fit, Measured, fitted};
@@ -33,7 +33,7 @@ fn of_two_signs() -> Fit {
 }
 
 #[test]
-fn a_profile_changes_to_the_valley_that_is_lower() {
+fn a_profile_changes_to_the_lower_minimum() {
     let fit = of_two_signs();
     let profile = &fit.profiles[0];
     assert!((fit.best.place[0] + 0.5).abs() < 1e-3, "{:?}", fit.best.place);
@@ -48,7 +48,7 @@ fn a_profile_changes_to_the_valley_that_is_lower() {
     assert!(ends.low < -0.5 && ends.high > 0.5, "{ends:?}");
 }
 
-/// The control: as if the inner minima beyond −0.4 had stayed in the valley of the best place.
+/// The control: as if the inner minima beyond −0.4 had stayed in the minimum of the best place.
 #[test]
 fn a_profile_that_jumps_is_no_answer() {
     let mut fit = of_two_signs();
@@ -62,15 +62,15 @@ fn a_profile_that_jumps_is_no_answer() {
         }
         fit.is_smooth()
     };
-    // The valley of the best place alone.
+    // The minimum of the best place alone.
     assert_eq!(beyond(0.0), Ok(()));
     let said = beyond(-0.4).unwrap_err().to_string();
     assert!(said.contains("a.a") && said.contains("jumps"), "{said}");
 }
 
-/// Values between two valleys are in no interval, and an interval from one valley to the other would contain them.
+/// Values between two minima are in no interval, and an interval from one minimum to the other would contain them.
 #[test]
-fn two_valleys_are_no_answer() {
+fn two_minima_are_no_answer() {
     let said = of_two_signs().is_smooth().unwrap_err().to_string();
     assert!(said.contains("a.a: χ² has several minima") && said.contains("-0.63"), "{said}");
 }

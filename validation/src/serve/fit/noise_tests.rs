@@ -97,8 +97,8 @@ fn the_noise_of_replicas_makes_no_interval_short() {
         (asked(&fit), asked(&believed(&fit)), fit.noise_share())
     };
     let all: Vec<_> = (0..count).into_par_iter().map(one).collect();
-    let feigned = all.iter().map(|(_, _, feigned)| feigned).sum::<f64>() / count as f64;
-    assert!((0.33..0.5).contains(&feigned), "{feigned}");
+    let noise = all.iter().map(|(_, _, noise)| noise).sum::<f64>() / count as f64;
+    assert!((0.33..0.5).contains(&noise), "{noise}");
     for (which, confidence) in [0.68, 0.95].into_iter().enumerate() {
         let own = share(all.iter().map(|(own, ..)| own.0[which]), confidence, ALLOWANCE, EFFECT);
         assert_eq!(judge(&own), Verdict::Pass, "{own:?}");
