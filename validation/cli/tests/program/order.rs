@@ -31,7 +31,7 @@ pub fn sources(folder: &Path) -> Vec<PathBuf> {
 
 /// The lines of a source out of its tests and comments.
 fn code(source: &str) -> impl Iterator<Item = &str> {
-    let code = source.split("#[cfg(test)]\nmod ").next().unwrap_or_default();
+    let code = source.split("#[cfg(test)]\nmod tests {").next().unwrap_or_default();
     code.lines().filter(|line| !line.trim_start().starts_with("//"))
 }
 

@@ -10,10 +10,12 @@ use super::model::{self, MeasuredAt, Model};
 use super::provenance::INPUTS;
 use super::{Measured, MeasuredCurve, OBSERVABLES};
 use crate::input::scenes;
-use crate::judge::lab::Change;
 use nalgebra::{DMatrix, DVector, RowDVector};
 use shearbed::Scene;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
+
+/// A deliberate change of a scene.
+type Change = fn(&mut Scene);
 
 /// Number of runs of the model, and their random numbers.
 #[derive(Clone, Copy, Debug)]
