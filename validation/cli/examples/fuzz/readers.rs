@@ -77,7 +77,12 @@ pub fn data() -> Target {
         take: Box::new(|folder, files| {
             put(&folder.join(SOURCES[0].folder), files)?;
             if let Err(error) = experiment::check(folder) {
-                return named(&error.message, (error.line > 0).then_some(error.line as usize), files, &error.path);
+                return named(
+                    &error.message,
+                    (error.line > 0).then_some(error.line as usize),
+                    files,
+                    &error.path.to_string_lossy(),
+                );
             }
             let curves =
                 experiment::read(folder, &SOURCES[0]).map_err(|error| format!("checked, and then: {error}"))?;

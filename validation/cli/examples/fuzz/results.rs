@@ -26,9 +26,12 @@ pub fn fits() -> Target {
                         .all(|p| [p.time, p.u_time, p.value, p.u].iter().all(|x| x.is_finite()) && p.u > 0.0),
                     "a point",
                 ),
-                Err(error) => {
-                    named(&error.message, (error.line > 0).then_some(error.line as usize), files, &error.path)
-                }
+                Err(error) => named(
+                    &error.message,
+                    (error.line > 0).then_some(error.line as usize),
+                    files,
+                    &error.path.to_string_lossy(),
+                ),
             }
         }),
     }

@@ -1,6 +1,7 @@
 mod published;
 
-use super::closures::{Closure, Fourth, PAIRS, principal};
+use super::closures::Closure;
+use super::fourth::{Fourth, PAIRS, principal};
 use super::models::{Equation, Model, diffusion};
 use super::{at, isotropic, steady};
 use nalgebra::{Matrix3, Rotation3, Vector3};

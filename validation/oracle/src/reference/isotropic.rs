@@ -145,6 +145,7 @@ impl Covariance {
 
 #[cfg(test)]
 mod tests {
+    use super::super::big::number;
     use super::super::twofold::Matrices;
     use super::*;
     use crate::isotropic::mean_projections;
