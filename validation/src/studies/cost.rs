@@ -11,9 +11,11 @@ use crate::present::table::{ReportTable, decimals, number, powers, rows_csv, wor
 use serde::{Deserialize, Serialize};
 use shearbed::run::{ensemble, run_replica};
 use shearbed::scene::{Scene, Update};
-use std::io::Write;
-use std::process::{Command, Stdio};
-use std::time::Instant;
+use std::io::{Read, Write};
+use std::process::{Child, Command, Stdio};
+use std::sync::mpsc::channel;
+use std::thread::spawn;
+use std::time::{Duration, Instant};
 
 /// The study of the cost of accuracy.
 pub const STUDY: Study = Study {
@@ -84,7 +86,7 @@ fn run(request: &Request) -> Result<Option<Findings>, String> {
     )
     .curves(std::iter::once(OWN).chain(programs).map(curve))
     .judged("eqs 5–14", STUDY.cases);
-    let of_own = |cost: &Cost| costs.iter().find(|own| own.program == OWN && own.error == cost.error);
+    let own = |cost: &Cost| costs.iter().find(|own| own.program == OWN && own.error == cost.error);
     let table = ReportTable::new(
         [STUDY.name, "Run time to a stated error of X̄₁ at two periods"],
         format!(
@@ -102,7 +104,7 @@ fn run(request: &Request) -> Result<Option<Findings>, String> {
             number("replicas", decimals(0), |cost: &Cost| cost.replicas as f64),
             number("run time (s)", decimals(2), |cost: &Cost| cost.seconds),
             number("times this program's", decimals(0), move |cost: &Cost| {
-                of_own(cost).map(|own| cost.seconds / own.seconds)
+                own(cost).map(|own| cost.seconds / own.seconds)
             }),
         ],
     );
@@ -166,34 +168,29 @@ fn scene(steps_per_period: u64) -> Scene {
 
 /// X̄₁ with steps of each length: replicas run on all cores, the time of a replica is measured on one.
 fn steps(replicas: u64) -> Result<Vec<Step>, String> {
-    let found: Result<Vec<_>, String> = STEPS
-        .into_iter()
-        .map(|steps_per_period| {
-            let mut scene = scene(steps_per_period);
-            scene.ensemble.replicas = replicas;
-            let plan = lab::plan(&scene);
-            let results = ensemble::run(&plan).map_err(|error| error.to_string())?;
-            let column = results.column("x1").ok_or("no x1")?;
-            let (x1, x1_se) = column.mean.last().zip(column.se.last()).ok_or("no output")?;
-            let start = Instant::now();
-            const TIMED: u64 = 32;
-            for replica in 0..TIMED {
-                run_replica(&plan, replica).map_err(|error| error.to_string())?;
-            }
-            let seconds = start.elapsed().as_secs_f64() / TIMED as f64;
-            let sd = x1_se * (replicas as f64).sqrt();
-            Ok(Step { steps_per_period, x1: *x1, x1_se: *x1_se, sd, step_error: 0.0, seconds })
-        })
-        .collect();
-    let mut found = found?;
-    let Some(finest) = found.last().copied() else { return Ok(found) };
-    for step in &mut found {
-        let se = step.x1_se.hypot(finest.x1_se);
-        step.step_error = (step.x1 - finest.x1).abs() + 2.0 * se;
+    const TIMED: u64 = 32;
+    let mut steps = Vec::new();
+    for steps_per_period in STEPS {
+        let mut scene = scene(steps_per_period);
+        scene.ensemble.replicas = replicas;
+        let plan = lab::plan(&scene);
+        let results = ensemble::run(&plan).map_err(|error| error.to_string())?;
+        let column = results.column("x1").ok_or("no x1")?;
+        let (x1, x1_se) = column.mean.last().zip(column.se.last()).ok_or("no output")?;
+        let start = Instant::now();
+        for replica in 0..TIMED {
+            run_replica(&plan, replica).map_err(|error| error.to_string())?;
+        }
+        let seconds = start.elapsed().as_secs_f64() / TIMED as f64;
+        let sd = x1_se * (replicas as f64).sqrt();
+        steps.push(Step { steps_per_period, x1: *x1, x1_se: *x1_se, sd, step_error: 0.0, seconds });
     }
-    // The finest has no measurable error, as it is compared with itself.
-    found.pop();
-    Ok(found)
+    // The finest is compared with itself: it has no measurable error.
+    let Some(finest) = steps.pop() else { return Ok(steps) };
+    for step in &mut steps {
+        step.step_error = (step.x1 - finest.x1).abs() + 2.0 * step.x1_se.hypot(finest.x1_se);
+    }
+    Ok(steps)
 }
 
 fn naive(replicas: u64) -> Measured {
@@ -209,7 +206,25 @@ fn naive(replicas: u64) -> Measured {
     Measured { program: "naive reference, compiled", x1, seconds: start.elapsed().as_secs_f64() / replicas as f64 }
 }
 
-/// The NumPy code in `peers/`; `None` without a python3 with NumPy.
+/// The longest wait for the NumPy code.
+const PATIENCE: Duration = Duration::from_secs(600);
+
+/// What a process writes to its piped standard output, which must end in time. The process is ended in any case.
+fn output_within(patience: Duration, mut child: Child) -> Option<Vec<u8>> {
+    let mut stdout = child.stdout.take()?;
+    let (sender, written) = channel();
+    spawn(move || {
+        let mut bytes = Vec::new();
+        sender.send(stdout.read_to_end(&mut bytes).map(|_| bytes))
+    });
+    let bytes = written.recv_timeout(patience);
+    // An error says that it has ended already.
+    let _ = child.kill();
+    let _ = child.wait();
+    bytes.ok()?.ok()
+}
+
+/// The NumPy code in `peers/`; `None` without a python3 with NumPy, or if it does not end within [`PATIENCE`].
 fn numpy(replicas: u64) -> Option<Measured> {
     #[derive(Deserialize)]
     struct Answer {
@@ -224,8 +239,10 @@ fn numpy(replicas: u64) -> Option<Measured> {
         .stderr(Stdio::null())
         .spawn()
         .ok()?;
-    python.stdin.take()?.write_all(include_bytes!("../../peers/numpy_suspension.py")).ok()?;
-    let answer: Answer = serde_json::from_slice(&python.wait_with_output().ok()?.stdout).ok()?;
+    let sent = python.stdin.take()?.write_all(include_bytes!("../../peers/numpy_suspension.py"));
+    let output = output_within(PATIENCE, python)?;
+    sent.ok()?;
+    let answer: Answer = serde_json::from_slice(&output).ok()?;
     let seconds = answer.seconds / replicas as f64;
     Some(Measured { program: "NumPy, as people write it", x1: Sample::of(&answer.x1), seconds })
 }
@@ -233,7 +250,7 @@ fn numpy(replicas: u64) -> Option<Measured> {
 /// A sentence that says if the other programs have the same answer: a faster wrong one would be no comparison.
 fn agreement(steps: &[Step], others: &[Measured]) -> String {
     let usual = steps.iter().find(|step| step.steps_per_period == USUAL);
-    let said = others.iter().filter_map(|other| {
+    let sentences = others.iter().filter_map(|other| {
         let usual = usual?;
         let off = (other.x1.mean - usual.x1).abs() / usual.x1_se.hypot(other.x1.se);
         Some(format!(
@@ -241,7 +258,7 @@ fn agreement(steps: &[Step], others: &[Measured]) -> String {
             other.program, other.x1.mean, other.x1.se
         ))
     });
-    said.collect::<Vec<_>>().join("; ") + "."
+    sentences.collect::<Vec<_>>().join("; ") + "."
 }
 
 fn answer(costs: &[Cost]) -> String {
@@ -258,6 +275,16 @@ mod tests {
 
     fn step(steps_per_period: u64, step_error: f64, seconds: f64) -> Step {
         Step { steps_per_period, x1: 0.3, x1_se: 1e-4, sd: 0.04, step_error, seconds }
+    }
+
+    #[test]
+    fn a_program_is_waited_for_with_a_bound() {
+        let run = |script: &str, patience| {
+            let child = Command::new("sh").args(["-c", script]).stdout(Stdio::piped()).spawn().unwrap();
+            output_within(patience, child)
+        };
+        assert_eq!(run("echo 1", PATIENCE).as_deref(), Some(&b"1\n"[..]));
+        assert_eq!(run("exec sleep 1000", Duration::from_millis(20)), None);
     }
 
     #[test]
