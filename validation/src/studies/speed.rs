@@ -6,8 +6,7 @@ use crate::files::build;
 use crate::present::plot::Curve;
 use crate::present::study::{Exhibit, Findings, ReportFigure, Request, Study};
 use crate::present::table::{ReportTable, decimals, number, words};
-pub use measure::measure;
-use serde::Serialize;
+use measure::{Amount, Check, Speed, Step, Target, measure};
 
 /// Seconds of one core for a step of a rod: 26 to 58 ns, for 10² to 10⁶ rods (docs/src/developer/performance.md).
 pub const SECONDS_PER_ROD_AND_STEP: f64 = 40e-9;
@@ -97,98 +96,6 @@ fn answer(checks: &[Check]) -> String {
     let judged = checks.iter().filter(|check| check.target != Target::None);
     let (met, all) = judged.fold((0, 0), |(met, all), check| (met + usize::from(check.met()), all + 1));
     format!("{met} of {all} targets are met on this machine; times depend on what else runs on it.")
-}
-
-/// The size of the study.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Amount {
-    /// Number of measurements; the least of them counts.
-    repeats: usize,
-    /// Number of rods for the memory rate.
-    free_rods: usize,
-    /// Number of rods of one run over all cores.
-    large_run: usize,
-    /// Approximate duration of the steps of one measurement, s.
-    seconds: f64,
-}
-
-impl Amount {
-    /// The amount for `shearbed bench`.
-    pub const FULL: Self = Self { repeats: 7, free_rods: 10_000_000, large_run: 1_000_000, seconds: 0.2 };
-    /// The amount for daily reports.
-    pub const QUICK: Self = Self { repeats: 3, free_rods: 2_000_000, large_run: 300_000, seconds: 0.02 };
-}
-
-/// The results of the study.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Speed {
-    /// Number of threads of the runs on all cores.
-    pub threads: usize,
-    /// The measurements with their targets.
-    pub checks: Vec<Check>,
-    /// Time of a step of the paper's suspension against the number of rods, on one core.
-    pub by_rods: Vec<Step>,
-    /// Time of a step against the concentration, from dilute to dense, on one core.
-    pub by_concentration: Vec<Step>,
-}
-
-/// A measurement with its target.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Check {
-    /// The subject of the measurement.
-    pub what: &'static str,
-    /// The measured number.
-    pub measured: f64,
-    /// The target for the measured number.
-    pub target: Target,
-    /// The unit of both.
-    pub unit: &'static str,
-    /// The numbers from which it is computed.
-    pub behind: String,
-}
-
-/// The target of a measured number.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Target {
-    /// No larger than this.
-    AtMost(f64),
-    /// No smaller than this.
-    AtLeast(f64),
-    /// No target.
-    None,
-}
-
-impl Check {
-    /// The measured number over its target.
-    fn over_target(&self) -> Option<f64> {
-        match self.target {
-            Target::AtMost(target) | Target::AtLeast(target) => Some(self.measured / target),
-            Target::None => None,
-        }
-    }
-
-    /// True if the target is met, or there is none.
-    pub fn met(&self) -> bool {
-        match self.target {
-            Target::AtMost(most) => self.measured <= most,
-            Target::AtLeast(least) => self.measured >= least,
-            Target::None => true,
-        }
-    }
-}
-
-/// The time of a step of interacting rods.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Step {
-    /// Rods in the control volume.
-    pub rods: usize,
-    /// n, rods per cm³.
-    pub concentration_per_cm3: f64,
-    /// The core's time per rod and step in ns.
-    pub core_ns: f64,
-    /// The naive reference's time per rod and step in ns, if it was measured.
-    pub naive_ns: Option<f64>,
 }
 
 #[cfg(test)]

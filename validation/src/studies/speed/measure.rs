@@ -1,21 +1,94 @@
 //! The measurements: each is the least of several, after one for warming up.
 
-#[cfg(test)]
-mod tests;
-
-use super::{Amount, Check, Speed, Step, Target};
+use crate::judge::case::Effort;
 use crate::judge::lab;
 use crate::methods::least_work::{plain_sum, sum_of_inverse_roots};
 use crate::oracle::naive::{Naive, NaiveProblem};
 use crate::oracle::reference::motion::{Motion, Unit};
 use crate::oracle::reference::table::{self, Start};
 use rayon::prelude::*;
-use shearbed::run::run_replica;
-use shearbed::run::{ensemble, memory};
+use serde::Serialize;
+use shearbed::run::{ensemble, memory, run_replica};
 use shearbed::scene::Scene;
 use shearbed::{Plan, Suspension};
 use std::hint::black_box;
 use std::time::Instant;
+
+/// The size of the study.
+#[derive(Clone, Copy)]
+pub(super) struct Amount {
+    /// Number of measurements; the least of them counts.
+    repeats: usize,
+    /// Number of rods for the memory rate.
+    free_rods: usize,
+    /// Number of rods of one run over all cores.
+    large_run: usize,
+    /// Approximate duration of the steps of one measurement, s.
+    seconds: f64,
+}
+
+impl Amount {
+    pub const FULL: Self = Self { repeats: 7, free_rods: 10_000_000, large_run: 1_000_000, seconds: 0.2 };
+    pub const QUICK: Self = Self { repeats: 3, free_rods: 2_000_000, large_run: 300_000, seconds: 0.02 };
+}
+
+#[derive(Serialize)]
+pub(super) struct Speed {
+    pub threads: usize,
+    pub checks: Vec<Check>,
+    /// Time of a step of the paper's suspension against the number of rods, on one core.
+    pub by_rods: Vec<Step>,
+    /// Time of a step against the concentration, from dilute to dense, on one core.
+    pub by_concentration: Vec<Step>,
+}
+
+/// A measurement with its target.
+#[derive(Serialize)]
+pub(super) struct Check {
+    pub what: &'static str,
+    pub measured: f64,
+    pub target: Target,
+    pub unit: &'static str,
+    /// The numbers from which it is computed.
+    pub behind: String,
+}
+
+#[derive(Clone, Copy, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub(super) enum Target {
+    AtMost(f64),
+    AtLeast(f64),
+    None,
+}
+
+impl Check {
+    pub fn over_target(&self) -> Option<f64> {
+        match self.target {
+            Target::AtMost(target) | Target::AtLeast(target) => Some(self.measured / target),
+            Target::None => None,
+        }
+    }
+
+    /// True if the target is met, or there is none.
+    pub fn met(&self) -> bool {
+        match self.target {
+            Target::AtMost(most) => self.measured <= most,
+            Target::AtLeast(least) => self.measured >= least,
+            Target::None => true,
+        }
+    }
+}
+
+/// The time of a step of interacting rods.
+#[derive(Clone, Copy, Serialize)]
+pub(super) struct Step {
+    pub rods: usize,
+    pub concentration_per_cm3: f64,
+    /// The core's time per rod and step in ns.
+    pub core_ns: f64,
+    /// The naive reference's time per rod and step in ns, if it was measured.
+    pub naive_ns: Option<f64>,
+}
 
 const RODS: [usize; 6] = [30, 100, 1_000, 10_000, 100_000, 1_000_000];
 const CONCENTRATIONS_PER_CM3: [f64; 6] = [0.5, 5.0, 50.0, 500.0, 5_000.0, 50_000.0];
@@ -23,7 +96,7 @@ const CONCENTRATIONS_PER_CM3: [f64; 6] = [0.5, 5.0, 50.0, 500.0, 5_000.0, 50_000
 const NAIVE_RODS: usize = 10_000;
 
 /// Runs all measurements; ignores the number of threads of the caller.
-pub fn measure(amount: Amount) -> Result<Speed, String> {
+pub(super) fn measure(amount: Amount) -> Result<Speed, String> {
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
     let one = pool(1)?;
     let by_rods: Vec<_> =
@@ -39,7 +112,7 @@ pub fn measure(amount: Amount) -> Result<Speed, String> {
     checks.extend(against_naive(&by_rods));
     checks.push(replicas([&one, &all], amount)?);
     checks.push(one_large_run([&one, &all], amount)?);
-    checks.extend([held(), plan_of_a_scene(amount), certified(&all, amount)]);
+    checks.extend([memory_of_a_rod(), plan_of_a_scene(amount), certified(&all, amount)]);
     Ok(Speed { threads, checks, by_rods, by_concentration })
 }
 
@@ -62,17 +135,11 @@ fn seconds<T>(work: impl FnOnce() -> T) -> f64 {
 
 /// The time of a step, from a number of steps that takes about the time in `amount`.
 fn step(rods: usize, concentration_per_cm3: f64, amount: Amount) -> Result<Step, String> {
-    let mut scene = lab::interacting_scene(&crate::judge::case::Effort::gate());
+    let mut scene = lab::interacting_scene(&Effort::gate());
     scene.particles.count = rods;
     lab::interaction(&mut scene).concentration_per_cm3 = Some(concentration_per_cm3);
     let mut suspension = lab::suspension(&scene, 0);
-    let steps = |suspension: &mut Suspension, count: u64| {
-        (0..count).try_for_each(|_| {
-            suspension.step().map(|collisions| {
-                black_box(collisions.len());
-            })
-        })
-    };
+    let steps = |suspension: &mut Suspension, count: u64| (0..count).try_for_each(|_| suspension.step().map(|_| ()));
     // The first steps set up the buffers.
     let mut failed = steps(&mut suspension, 2).err();
     let once = seconds(|| suspension.step().map(<[_]>::len)).max(1e-7);
@@ -130,7 +197,7 @@ fn against_naive(by_rods: &[Step]) -> Vec<Check> {
 }
 
 fn free_plan(rods: usize, outputs: u64, sd_percent: f64) -> Plan {
-    let mut scene = lab::free_scene(&crate::judge::case::Effort::gate());
+    let mut scene = lab::free_scene(&Effort::gate());
     scene.particles.count = rods;
     scene.particles.aspect_ratio_sd_percent = sd_percent;
     scene.time.duration = 1.0;
@@ -196,7 +263,7 @@ fn memory_rate(all: &rayon::ThreadPool, amount: Amount) -> Check {
 /// The parallel efficiency of replicas.
 fn replicas(pools: [&rayon::ThreadPool; 2], amount: Amount) -> Result<Check, String> {
     let threads = pools[1].current_num_threads();
-    let mut scene = lab::interacting_scene(&crate::judge::case::Effort::gate());
+    let mut scene = lab::interacting_scene(&Effort::gate());
     scene.time.duration = 1.0;
     scene.ensemble.replicas = 64 * threads as u64;
     let what = "replicas over all cores: the time on one core over that on all, and over their number";
@@ -206,7 +273,7 @@ fn replicas(pools: [&rayon::ThreadPool; 2], amount: Amount) -> Result<Check, Str
 
 /// The parallel efficiency of one run of many rods.
 fn one_large_run(pools: [&rayon::ThreadPool; 2], amount: Amount) -> Result<Check, String> {
-    let mut scene = lab::interacting_scene(&crate::judge::case::Effort::gate());
+    let mut scene = lab::interacting_scene(&Effort::gate());
     scene.particles.count = amount.large_run;
     scene.time.duration = 0.04;
     scene.time.outputs_per_unit = Some(25);
@@ -238,9 +305,9 @@ fn efficiency(
 }
 
 /// The memory of a run of 10⁶ rods, which `tests/memory.rs` confirms to within 5 %.
-fn held() -> Check {
+fn memory_of_a_rod() -> Check {
     let bytes = |sd_percent: f64| {
-        let mut scene = lab::interacting_scene(&crate::judge::case::Effort::gate());
+        let mut scene = lab::interacting_scene(&Effort::gate());
         scene.particles.count = 1_000_000;
         scene.particles.aspect_ratio_sd_percent = sd_percent;
         scene.ensemble.replicas = 1;
@@ -261,7 +328,7 @@ fn held() -> Check {
 
 /// The time of checking and planning the paper's suspension, before it runs.
 fn plan_of_a_scene(amount: Amount) -> Check {
-    let scene = lab::interacting_scene(&crate::judge::case::Effort::gate());
+    let scene = lab::interacting_scene(&Effort::gate());
     Check {
         what: "a plan of 100 interacting rods",
         measured: 1e3 * least(amount, || seconds(|| Plan::new(&scene))),
@@ -284,5 +351,27 @@ fn certified(all: &rayon::ThreadPool, amount: Amount) -> Check {
         target: Target::AtMost(0.1),
         unit: "ms",
         behind: "nine means of r_e = 11.6, each the nearest double".into(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const TINY: Amount = Amount { repeats: 1, free_rods: 1000, large_run: 1000, seconds: 1e-5 };
+
+    #[test]
+    fn a_step_is_measured_of_both() {
+        let step = step(50, 50.0, TINY).unwrap();
+        assert!(step.core_ns > 0.0 && step.naive_ns.unwrap() > 0.0);
+        assert_eq!(super::step(50, 5.0, TINY).unwrap().naive_ns, None);
+    }
+
+    #[test]
+    fn ratios_are_of_the_same_number_of_rods() {
+        let step = |rods, core_ns, naive_ns| Step { rods, concentration_per_cm3: 50.0, core_ns, naive_ns };
+        let steps = [step(100, 20.0, Some(300.0)), step(10_000, 40.0, Some(30_000.0)), step(1_000_000, 50.0, None)];
+        let measured: Vec<_> = against_naive(&steps).iter().map(|check| check.measured).collect();
+        assert_eq!(measured, [15.0, 750.0, 2.5]);
     }
 }
