@@ -1,10 +1,6 @@
 //! Kicks compared with rotary diffusion of the same C_I: how far rods deviate from Jeffery's motion after a fixed
 //! strain, and their final orbits and phases.
 
-mod show;
-
-pub(super) use show::{figures, tables};
-
 use super::{Coefficients, Setting, scene};
 use crate::judge::case::Effort;
 use crate::judge::lab;
@@ -75,4 +71,4 @@ pub fn compared(rows: &[&Coefficients], effort: &Effort) -> Vec<Compared> {
 }
 
 /// The first stream of seeds for the study's diffusion.
-const STREAM: u64 = 1 << 20;
+pub(super) const STREAM: u64 = 1 << 20;

@@ -33,89 +33,49 @@ pub struct Setting {
 
 /// Whether a pair that has collided meets again in the next step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "lowercase")]
 pub enum Places {
     /// As the liquid carries the rods.
-    Kept,
-    /// Drawn anew before every step, so that no pair has a past: a broken model, which shows what the past does.
-    Anew,
+    #[serde(rename = "kept")]
+    Carried,
+    /// Drawn before every step, so that no pair has a past: a broken model, which shows what the past does.
+    #[serde(rename = "anew")]
+    Redrawn,
 }
 
 /// A suspension with `kick`.
 pub const fn kick(n_a3: f64, aspect_ratio: f64, alpha: f64, finer: u64) -> Setting {
-    Setting { n_a3, aspect_ratio, alpha, update: Update::Kick, finer, places: Places::Kept }
+    Setting { n_a3, aspect_ratio, alpha, update: Update::Kick, finer, places: Places::Carried }
 }
 
-/// The suspension in which updates and time steps are compared.
-const fn stepped(update: Update, finer: u64) -> Setting {
-    Setting { update, ..kick(0.2, 11.6, 0.5, finer) }
+/// The suspensions of the report, or all those of `shearbed bench`: updates and time steps first, then the rest at
+/// [`FINER`] steps.
+pub fn settings(full: bool) -> Vec<Setting> {
+    let base = kick(0.2, 11.6, 0.5, FINER);
+    let steps = |base: Setting, factors: &[u64]| -> Vec<Setting> {
+        factors.iter().map(|finer| Setting { finer: *finer, ..base }).collect()
+    };
+    let rotation = Setting { update: Update::Rotation, ..base };
+    let n_a3 = |n_a3| Setting { n_a3, ..base };
+    let r_e = |aspect_ratio| Setting { aspect_ratio, ..base };
+    let alpha = |alpha| Setting { alpha, ..base };
+    if !full {
+        let others = vec![n_a3(0.1), n_a3(0.5), n_a3(1.0), r_e(5.0), alpha(1.0)];
+        return [steps(base, &[1, 4]), steps(rotation, &[1, 4]), others].concat();
+    }
+    [
+        steps(base, &[1, 2, 4, 8, 16, 32]),
+        steps(rotation, &[1, 4, 32]),
+        steps(Setting { update: Update::Angles, ..base }, &[1, 4, 32]),
+        steps(Setting { places: Places::Redrawn, ..base }, &[1, 8, 32]),
+        [0.05, 0.1, 0.5, 1.0].map(n_a3).into(),
+        [5.0, 20.0, 30.0].map(r_e).into(),
+        [0.25, 1.0, 2.0].map(alpha).into(),
+    ]
+    .concat()
 }
-
-/// The suspension in which time steps are compared without a past.
-const fn anew(finer: u64) -> Setting {
-    Setting { places: Places::Anew, ..kick(0.2, 11.6, 0.5, finer) }
-}
-
-/// The suspensions of `shearbed bench`: updates and time steps first, then the rest at [`FINER`] steps.
-const FULL: [Setting; 25] = [
-    kick(0.2, 11.6, 0.5, 1),
-    kick(0.2, 11.6, 0.5, 2),
-    kick(0.2, 11.6, 0.5, 4),
-    kick(0.2, 11.6, 0.5, 8),
-    kick(0.2, 11.6, 0.5, 16),
-    kick(0.2, 11.6, 0.5, 32),
-    stepped(Update::Rotation, 1),
-    stepped(Update::Rotation, 4),
-    stepped(Update::Rotation, 32),
-    stepped(Update::Angles, 1),
-    stepped(Update::Angles, 4),
-    stepped(Update::Angles, 32),
-    anew(1),
-    anew(8),
-    anew(32),
-    kick(0.05, 11.6, 0.5, 4),
-    kick(0.1, 11.6, 0.5, 4),
-    kick(0.5, 11.6, 0.5, 4),
-    kick(1.0, 11.6, 0.5, 4),
-    kick(0.2, 5.0, 0.5, 4),
-    kick(0.2, 20.0, 0.5, 4),
-    kick(0.2, 30.0, 0.5, 4),
-    kick(0.2, 11.6, 0.25, 4),
-    kick(0.2, 11.6, 1.0, 4),
-    kick(0.2, 11.6, 2.0, 4),
-];
-
-/// The suspensions of the report.
-const QUICK: [Setting; 9] = [
-    kick(0.2, 11.6, 0.5, 1),
-    kick(0.2, 11.6, 0.5, 4),
-    stepped(Update::Rotation, 1),
-    stepped(Update::Rotation, 4),
-    kick(0.1, 11.6, 0.5, 4),
-    kick(0.5, 11.6, 0.5, 4),
-    kick(1.0, 11.6, 0.5, 4),
-    kick(0.2, 5.0, 0.5, 4),
-    kick(0.2, 11.6, 1.0, 4),
-];
 
 /// Factor on the number of time steps that resolves the motion, for the comparison of suspensions.
 pub const FINER: u64 = 4;
-
-/// The size of the study.
-#[derive(Clone, Copy, Debug)]
-pub struct Amount {
-    /// The suspensions.
-    pub settings: &'static [Setting],
-    /// Replicas of each suspension.
-    pub replicas: u64,
-}
-
-impl Amount {
-    /// The amount for the report.
-    pub const QUICK: Self = Self { settings: &QUICK, replicas: 12 };
-    /// The amount for `shearbed bench`.
-    pub const FULL: Self = Self { settings: &FULL, replicas: 48 };
-}
 
 /// The results for one suspension.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -153,9 +113,8 @@ pub struct Coefficients {
 const RODS: usize = 100;
 
 /// Measures the suspensions one after the other.
-pub fn rows(amount: Amount, effort: &Effort) -> Vec<Coefficients> {
-    let settings = amount.settings.iter();
-    settings.map(|setting| row(*setting, amount.replicas, effort)).collect()
+pub fn rows(settings: &[Setting], replicas: u64, effort: &Effort) -> Vec<Coefficients> {
+    settings.iter().map(|setting| row(*setting, replicas, effort)).collect()
 }
 
 /// Number of periods until the state is steady, and of the window: about equal numbers of collisions in each
@@ -194,7 +153,7 @@ fn window(scene: &Scene, places: Places, replica: u64) -> Option<(Means, [f64; 9
     let mut rods = lab::suspension(scene, replica);
     let mut rng = Pcg64Dxsm::seed_from_u64(scene.ensemble.seed ^ replica.rotate_left(32));
     let mut moved = |rods: &mut Suspension| {
-        if places == Places::Anew {
+        if places == Places::Redrawn {
             let sides = rods.sides_in_lengths();
             let axis = |side: f64| (0..RODS).map(|_| side * rng.random::<f64>()).collect();
             let directions: Vec<_> = rods.directions().into_iter().map(UnitVector3::new_unchecked).collect();
@@ -245,12 +204,12 @@ fn row(setting: Setting, replicas: u64, effort: &Effort) -> Coefficients {
 /// The decay of X̄₁'s oscillation from the mean over replicas, with an error by the jackknife.
 fn damping(quarters: &[[f64; 9]]) -> Option<Estimate> {
     let rate = |without: Option<usize>| {
-        let kept = || quarters.iter().enumerate().filter(|(k, _)| Some(*k) != without);
-        let count = kept().count() as f64;
-        let mean = |place: usize| kept().map(|(_, x)| x[place]).sum::<f64>() / count;
+        let others = || quarters.iter().enumerate().filter(|(k, _)| Some(*k) != without);
+        let count = others().count() as f64;
+        let mean = |place: usize| others().map(|(_, x)| x[place]).sum::<f64>() / count;
         damping_rate(&std::array::from_fn(|place| if place < 9 { mean(place) } else { 0.0 }))
     };
     let without: Vec<_> = (0..quarters.len()).map(|k| rate(Some(k))).collect();
-    let found = Estimate::jackknife(rate(None), &without);
-    (found.value.is_finite() && found.se.is_finite() && found.readable()).then_some(found)
+    let rate = Estimate::jackknife(rate(None), &without);
+    (rate.value.is_finite() && rate.se.is_finite() && rate.readable()).then_some(rate)
 }

@@ -1,7 +1,8 @@
 //! The study of the effective coefficients: C_I against concentration, shape and α, and how rods move at equal C_I.
 
+use super::comparison;
 use super::jumps::{self, Compared};
-use super::{Amount, Coefficients, FINER, Places, rows};
+use super::{Coefficients, FINER, Places, rows, settings};
 use crate::files::build;
 use crate::input::published::folgar_tucker;
 use crate::judge::statistics::{Estimate, Sample, slope, student};
@@ -34,7 +35,7 @@ pub const STUDY: Study = Study {
 const SOURCE: &str = "Folgar & Tucker 1984; eqs 5 to 10";
 
 fn run(request: &Request) -> Result<Option<Findings>, String> {
-    let rows = rows(request.effort.pick(Amount::QUICK, Amount::FULL), request.effort);
+    let rows = rows(&settings(request.effort.full), request.effort.pick(12, 48), request.effort);
     let base = base(&rows);
     let logarithms: Vec<_> = (base.iter()).map(|row| (row.setting.n_a3.ln(), row.c_i.value.ln())).collect();
     let answer = base.iter().find(|row| row.setting.n_a3 == 0.2).map_or(String::new(), |row| {
@@ -53,8 +54,8 @@ fn run(request: &Request) -> Result<Option<Findings>, String> {
         rows.iter().filter(|row| kicked(row) && kind(row) == (11.6, 0.5) && row.setting.n_a3 == 0.2).collect();
     let compared = jumps::compared(&same, request.effort);
     let finest = compared.iter().find(|one| one.setting.finer == FINER);
-    let [tail, apart] = jumps::tables(&compared, request.effort);
-    let [jumped, orbits] = finest.map(jumps::figures).map_or([None, None], |both| both.map(Some));
+    let [tail, apart] = comparison::tables(&compared, request.effort);
+    let [jumped, orbits] = finest.map(comparison::figures).map_or([None, None], |both| both.map(Some));
     let [table, koch] = [coefficients(&rows), koch(&rows)];
     let files = [
         ("folgar-tucker.csv", table.csv()?),
@@ -96,7 +97,7 @@ fn kind(row: &Coefficients) -> (f64, f64) {
 /// True if colliding rods take Jeffery's step and then the kick, and keep their places. With the other updates they
 /// take a straight step, whose error is as large as C_I at the default time step.
 fn kicked(row: &Coefficients) -> bool {
-    row.setting.update == Update::Kick && row.setting.places == Places::Kept
+    row.setting.update == Update::Kick && row.setting.places == Places::Carried
 }
 
 /// The suspensions of r_e = 11.6 and α = 0.5 with [`FINER`] times the default number of steps.
@@ -105,14 +106,14 @@ fn base(rows: &[Coefficients]) -> Vec<&Coefficients> {
     rows.iter().filter(chosen).collect()
 }
 
-fn settings<'a>() -> Vec<Column<'a, Coefficients>> {
+fn setting_columns<'a>() -> Vec<Column<'a, Coefficients>> {
     vec![
         field("n a³", |row: &Coefficients| row.setting.n_a3),
         field("r_e", |row: &Coefficients| row.setting.aspect_ratio),
         field("α", |row: &Coefficients| row.setting.alpha),
         words("update", |row: &Coefficients| {
-            let anew = if row.setting.places == Places::Anew { ", places anew" } else { "" };
-            format!("{:?}{anew}", row.setting.update).to_lowercase()
+            let redrawn = if row.setting.places == Places::Redrawn { ", places anew" } else { "" };
+            format!("{:?}{redrawn}", row.setting.update).to_lowercase()
         }),
         field("steps ×", |row: &Coefficients| row.setting.finer),
         field("periods", |row: &Coefficients| row.periods),
@@ -126,7 +127,7 @@ fn measured<'a>(name: &str, value: impl Fn(&Coefficients) -> Estimate + 'a) -> C
 /// C_I of each suspension, and the residual of a fit by a single C_I.
 fn coefficients(rows: &[Coefficients]) -> ReportTable {
     let replicas = rows.first().map_or(0, |row| row.replicas);
-    let mut columns = settings();
+    let mut columns = setting_columns();
     columns.push(number("φ r_p", decimals(4), |row: &Coefficients| row.phi_rp));
     columns.push(measured("C_I", |row| row.c_i));
     for (k, name) in ["of 11", "of 22", "of 33"].into_iter().enumerate() {
@@ -151,7 +152,7 @@ fn coefficients(rows: &[Coefficients]) -> ReportTable {
 
 /// Koch's two coefficients, and how much more of J they explain than one C_I.
 fn koch(rows: &[Coefficients]) -> ReportTable {
-    let mut columns = settings();
+    let mut columns = setting_columns();
     columns.push(measured("β_1", |row| row.koch[0]));
     columns.push(measured("β_2", |row| row.koch[1]));
     columns.push(measured("left by these", |row| row.koch_misfit));
@@ -169,7 +170,7 @@ fn koch(rows: &[Coefficients]) -> ReportTable {
 
 /// The rods' steady stress.
 fn stress(rows: &[Coefficients]) -> ReportTable {
-    let mut columns = settings();
+    let mut columns = setting_columns();
     for (k, name) in ["σ_12/(μ_fiber G)", "N_1/(μ_fiber G)", "N_2/(μ_fiber G)"].into_iter().enumerate() {
         columns.push(measured(name, move |row| row.stress[k]));
     }

@@ -1,6 +1,6 @@
 //! Kicks compared with diffusion, as tables and pictures.
 
-use super::Compared;
+use super::jumps::{Compared, STREAM};
 use crate::judge::case::Effort;
 use crate::judge::statistics::Sample;
 use crate::methods::coefficients::jumps::{Apart, Quantity, Shares, above, apart};
@@ -10,38 +10,24 @@ use crate::present::plot::Curve;
 use crate::present::study::ReportFigure;
 use crate::present::table::{Column, ReportTable, decimals, estimate, field, number, words};
 
-/// One of the two samples of a comparison.
-struct Sided<'a> {
-    of: &'a Compared,
-    turned_by: &'static str,
-    shares: &'a [Shares],
-}
-
-fn sides(all: &[Compared]) -> Vec<Sided<'_>> {
-    let both = |of| {
-        [
-            Sided { of, turned_by: "kicks", shares: &of.kicks },
-            Sided { of, turned_by: "diffusion", shares: &of.diffusion },
-        ]
-    };
-    all.iter().flat_map(both).collect()
-}
+/// One of the two samples of a comparison, and what turned its rods.
+type Side<'a> = (&'a Compared, &'static str, &'a [Shares]);
 
 /// A column of the share above an edge in per cent of the rods, with two digits of the standard error.
-fn per_cent<'a>(name: impl Into<String>, quantity: Quantity, edge: f64) -> Column<'a, Sided<'a>> {
-    estimate(name, move |side: &Sided<'_>| {
-        let Sample { mean, se, .. } = Sample::of(&above(side.shares, quantity, edge));
+fn per_cent<'a>(name: impl Into<String>, quantity: Quantity, edge: f64) -> Column<'a, Side<'a>> {
+    estimate(name, move |side: &Side| {
+        let Sample { mean, se, .. } = Sample::of(&above(side.2, quantity, edge));
         (100.0 * mean, 100.0 * se)
     })
 }
 
 /// The shares of rods above each edge, and the distances of the two samples.
-pub(in crate::studies::coefficients) fn tables(all: &[Compared], effort: &Effort) -> [ReportTable; 2] {
+pub(super) fn tables(all: &[Compared], effort: &Effort) -> [ReportTable; 2] {
     let replicas = all.first().map_or(0, |one| one.kicks.len());
     let mut columns = vec![
-        field("steps ×", |side: &Sided<'_>| side.of.setting.finer),
-        number("strain", decimals(2), |side: &Sided<'_>| side.of.strain),
-        words("turned by", |side: &Sided<'_>| side.turned_by),
+        field("steps ×", |side: &Side| side.0.setting.finer),
+        number("strain", decimals(2), |side: &Side| side.0.strain),
+        words("turned by", |side: &Side| side.1),
     ];
     for edge in [0.01, 0.1, 0.2, 0.5, 1.0] {
         columns.push(per_cent(format!("> {edge} rad"), Quantity::Angle, edge));
@@ -57,7 +43,7 @@ pub(in crate::studies::coefficients) fn tables(all: &[Compared], effort: &Effort
              motion by more than an angle, or in another orbit by more than |ΔC_b|; last, those with C_b > ½. n a³ = \
              0.2, r_e = 11.6, α = 0.5, steady; diffusion of the C_I that was measured at the same time step."
         ),
-        sides(all),
+        all.iter().flat_map(|one| [(one, "kicks", &one.kicks[..]), (one, "diffusion", &one.diffusion[..])]),
         columns,
     );
     let quantities = [
@@ -66,13 +52,10 @@ pub(in crate::studies::coefficients) fn tables(all: &[Compared], effort: &Effort
         (Quantity::Orbit, "C_b"),
         (Quantity::Phase, "the phase of φ"),
     ];
-    let rows = all.iter().flat_map(|one| quantities.map(|(quantity, name)| (one, quantity, name)));
-    let rows: Vec<_> = rows
-        .map(|(one, quantity, name)| {
-            let seed = effort.seed(super::STREAM - 1);
-            (one, name, apart(&one.kicks, &one.diffusion, quantity, seed))
-        })
-        .collect();
+    let seed = effort.seed(STREAM - 1);
+    let rows = all.iter().flat_map(|one| {
+        quantities.map(|(quantity, name)| (one, name, apart(&one.kicks, &one.diffusion, quantity, seed)))
+    });
     let distances = ReportTable::new(
         ["steady-orbits", "How far kicks and diffusion are apart"],
         "The largest difference between the two distribution functions, and the probability that the replicas dealt \
@@ -96,7 +79,7 @@ fn curve(label: &str, all: &[Shares], quantity: Quantity) -> Curve {
 }
 
 /// The tail of the jumps, and the steady orbits.
-pub(in crate::studies::coefficients) fn figures(one: &Compared) -> [ReportFigure; 2] {
+pub(super) fn figures(one: &Compared) -> [ReportFigure; 2] {
     let diffusion = format!("diffusion of C_I = {:.1e}", one.c_i.value);
     let curves = |quantity| [curve("kicks", &one.kicks, quantity), curve(&diffusion, &one.diffusion, quantity)];
     let at = Sample::of(&above(&one.kicks, Quantity::Angle, 0.2)).mean * 0.2_f64.tan();
