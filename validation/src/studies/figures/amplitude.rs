@@ -49,12 +49,12 @@ mod tests {
         let times: Vec<f64> = (0..=100).map(|k| f64::from(k) / 50.0).collect();
         let wave = |t: &f64| 0.3 + 0.2 * (-0.2 * t).exp() * (2.0 * TAU * (t - 0.02)).cos();
         let mean: Vec<f64> = times.iter().map(wave).collect();
-        let found: Vec<f64> = extremes(&times, &mean).iter().map(|k| times[*k]).collect();
+        let measured: Vec<f64> = extremes(&times, &mean).iter().map(|k| times[*k]).collect();
         // 0.27, 0.77 and so on lie between two outputs; damping moves maxima to a slightly earlier time.
         let expected = [0.02, 0.26, 0.52, 0.76, 1.02, 1.26, 1.52, 1.76, 2.0];
-        assert_eq!(found.len(), expected.len());
-        for (found, expected) in found.iter().zip(expected) {
-            assert!((found - expected).abs() < 0.025, "{found} {expected}");
+        assert_eq!(measured.len(), expected.len());
+        for (measured, expected) in measured.iter().zip(expected) {
+            assert!((measured - expected).abs() < 0.025, "{measured} {expected}");
         }
     }
 }

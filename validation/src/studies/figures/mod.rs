@@ -8,23 +8,8 @@ mod run;
 
 use crate::judge::case::Effort;
 use crate::present::study::{Exhibit, Findings, ReportFigure, Request, Study};
+pub use run::Replicas;
 use run::Runs;
-
-/// The number of replicas of each scene.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Replicas {
-    /// Replicas of a scene with interaction, usually of 100 rods each.
-    pub interacting: u64,
-    /// Replicas of a scene of free rods, usually of 10 000 rods each.
-    pub free: u64,
-}
-
-impl Replicas {
-    /// The number for a quick or a full run. The quick run of an interacting scene has the number in the scene's file.
-    pub fn of(effort: &Effort) -> Self {
-        Self { interacting: effort.pick(100, 1000), free: effort.pick(20, 200) }
-    }
-}
 
 /// The figures of the paper.
 pub const STUDY: Study = Study {

@@ -2,6 +2,7 @@
 
 use crate::files::cluster;
 use crate::input::scenes::{self, BuiltIn};
+use crate::judge::case::Effort;
 use crate::judge::statistics::Sample;
 use crate::present::plot::Curve;
 use crate::present::study::ScenePlan;
@@ -11,6 +12,22 @@ use shearbed::run::ensemble;
 use shearbed::{Plan, Scene};
 use std::collections::BTreeMap;
 use std::sync::Arc;
+
+/// The number of replicas of each scene.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Replicas {
+    /// Replicas of a scene with interaction, usually of 100 rods each.
+    pub interacting: u64,
+    /// Replicas of a scene of free rods, usually of 10 000 rods each.
+    pub free: u64,
+}
+
+impl Replicas {
+    /// The number for a quick or a full run. The quick run of an interacting scene has the number in the scene's file.
+    pub fn of(effort: &Effort) -> Self {
+        Self { interacting: effort.pick(100, 1000), free: effort.pick(20, 200) }
+    }
+}
 
 /// A scene's replicas.
 pub(super) struct Run {
@@ -89,14 +106,14 @@ impl Runs {
             (0..replicas).for_each(|_| finished());
             Ok(())
         };
-        let Some(found) = cluster::share(own.len(), job, arrived)? else {
+        let Some(results) = cluster::share(own.len(), job, arrived)? else {
             return Ok(None);
         };
         let run = |(k, replicas): (&usize, _)| {
             let plan = plans[*k].1.clone();
             (*k, Arc::new(Run { plan, replicas }))
         };
-        let runs: BTreeMap<usize, Arc<Run>> = own.iter().zip(found).map(run).collect();
+        let runs: BTreeMap<usize, Arc<Run>> = own.iter().zip(results).map(run).collect();
         let named = (0..plans.len()).filter_map(|k| Some((plans[k].0, runs.get(&first(k)?)?.clone())));
         Ok(Some(Self(named.collect())))
     }
@@ -121,7 +138,7 @@ fn same(a: &Scene, b: &Scene) -> bool {
 }
 
 /// The plans of the figures' scenes, with the number of replicas in `replicas`.
-pub(super) fn plans(replicas: super::Replicas) -> Result<Vec<(&'static str, Plan)>, String> {
+pub(super) fn plans(replicas: Replicas) -> Result<Vec<(&'static str, Plan)>, String> {
     let scenes = scenes::ALL.iter().filter(|scene| scene.name.starts_with("fig"));
     let plan = |built_in: &BuiltIn| {
         let mut scene = built_in.scene().map_err(|error| error.to_string())?;
