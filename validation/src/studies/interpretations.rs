@@ -5,9 +5,6 @@
 //! time step and replacement, two interpretations have the same rods at the same places with the same draws, and
 //! differ only in the effect of collisions. The errors of the differences rely on that.
 
-#[cfg(test)]
-mod tests;
-
 use crate::files::cluster;
 use crate::judge::case::Effort;
 use crate::judge::statistics::Estimate;
@@ -130,8 +127,7 @@ const ALTERNATIVES: [(&str, &str, Change); 17] = [
     ("replacement", "overshoot times x_1(new)/x_1(old)", |p| p.reading.replacement = Replacement::ScaledOvershoot),
     ("lengths", "scatter by 30 %", |p| p.length_sd_percent = 30.0),
     ("lengths", "30 %, P_c by the partner's", |p| (p.length_sd_percent, p.reading.length) = (30.0, Length::Partners)),
-    ("lengths", "30 %, P_c by the mean of \
-        both", |p| (p.length_sd_percent, p.reading.length) = (30.0, Length::MeanOfBoth)),
+    ("lengths", "30 %, P_c by the mean of both", |p| (p.length_sd_percent, p.reading.length) = (30.0, Length::MeanOfBoth)),
     ("box", "4 : ½ : ½ of the cube's sides", |p| p.box_mm = Some([4.0, 0.5, 0.5].map(|side| side * p.edges_mm()[0]))),
     ("time step", "halved: 400 steps a period", |p| p.steps_per_period *= 2),
     ("time step", "doubled: 100 steps a period", |p| p.steps_per_period /= 2),
@@ -155,15 +151,15 @@ pub fn measure(effort: &Effort) -> Option<Vec<InterpretationRow>> {
     let interpretations: Vec<_> = all().collect();
     let job = |k: usize| Ok::<_, Infallible>(traces(interpretations[k].2, replicas));
     let Ok(shared) = cluster::share(interpretations.len(), job, |_, _| Ok(()));
-    let found = shared?;
-    let default = found.first()?;
+    let traces = shared?;
+    let default = traces.first()?;
     let each = |estimate: &dyn Fn(Quantity) -> Estimate| QUANTITIES.map(|(_, q)| estimate(q)).to_vec();
     let row = |k: usize| InterpretationRow {
         open: interpretations[k].0,
         interpretation: interpretations[k].1,
         replicas,
-        values: each(&|quantity| value(quantity, &found[k])),
-        changes: (k > 0).then(|| each(&|quantity| change(quantity, default, &found[k]))),
+        values: each(&|quantity| value(quantity, &traces[k])),
+        changes: (k > 0).then(|| each(&|quantity| change(quantity, default, &traces[k]))),
     };
     Some((0..interpretations.len()).map(row).collect())
 }
@@ -226,4 +222,57 @@ fn means_without_one(traces: &[Trace]) -> Vec<Trace> {
     let (n, mean) = (traces.len() as f64, mean(traces));
     let without = |trace: &Trace| std::array::from_fn(|i| (n * mean[i] - trace[i]) / (n - 1.0));
     traces.iter().map(without).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_rate_of_an_exponential_is_exact() {
+        // Maxima at 0.4; each minimum lies below them by an amplitude A ∝ exp(−0.3 t/T).
+        let mut x1 = [0.4; QUARTERS + 2];
+        for k in [1, 3, 5, 7] {
+            x1[k] -= 0.2 * (-0.3 * k as f64 / 4.0).exp();
+        }
+        assert!((damping_rate(&x1) - 0.3).abs() < 1e-14);
+        // A linear drift, such as that of a changing plateau, does not count as damping.
+        let mut drifting = x1;
+        (0..=QUARTERS).for_each(|k| drifting[k] += 0.01 * k as f64);
+        assert!((damping_rate(&drifting) - 0.3).abs() < 1e-13);
+    }
+
+    #[test]
+    fn the_jackknife_of_a_mean_is_its_standard_error() {
+        // 1, 2, 6: mean 3, variance 7, standard error √(7/3)
+        let traces = [1.0, 2.0, 6.0].map(|x| [x; QUARTERS + 2]);
+        let default = [1.0, 1.0, 1.0].map(|x| [x; QUARTERS + 2]);
+        for (estimate, mean) in [(value(|x| x[4], &traces), 3.0), (change(|x| x[4], &default, &traces), 2.0)] {
+            assert!((estimate.value - mean).abs() < 1e-14);
+            assert!((estimate.se - (7.0f64 / 3.0).sqrt()).abs() < 1e-14);
+        }
+        let same = change(damping_rate, &default, &default);
+        assert!(same.value.is_nan(), "no oscillation has no rate");
+    }
+
+    #[test]
+    fn the_problem_is_that_of_fig_7() {
+        let scene = crate::input::scenes::find("fig7-n50").expect("built in").scene().expect("valid");
+        let (ours, rods) = (NaiveProblem::paper(SEED, 0), &scene.particles);
+        let theirs = scene.interaction.as_ref().expect("interacting");
+        assert_eq!(
+            [ours.length_mm, ours.aspect_ratio, ours.aspect_ratio_sd_percent, ours.alpha, ours.m, ours.min_contact_arm],
+            [
+                rods.length_mm,
+                rods.aspect_ratio,
+                rods.aspect_ratio_sd_percent,
+                theirs.alpha,
+                theirs.m,
+                theirs.min_contact_arm
+            ]
+        );
+        assert_eq!(scene.flow.shear_rate_per_s(), Some(ours.shear_rate_per_s));
+        assert_eq!(theirs.concentration_per_cm3, Some(ours.concentration_per_cm3));
+        assert_eq!((rods.count, scene.steps_per_unit() as usize), (ours.count, ours.steps_per_period));
+    }
 }
