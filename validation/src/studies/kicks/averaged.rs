@@ -63,9 +63,9 @@ pub struct AveragedStep {
 /// Runs `replicas` replicas with this step and shortest arm.
 pub fn row(effort: &Effort, steps_per_period: u64, min_contact_arm: f64, replicas: u64) -> AveragedStep {
     let scene = scene(effort, steps_per_period, min_contact_arm);
-    let found: Vec<_> =
+    let distances: Vec<_> =
         (0..replicas).into_par_iter().map(|replica| apart(&scene, steps_per_period, |_| {}, replica)).collect();
-    let sample = |value: fn(&Apart) -> f64| Sample::of(&found.iter().map(value).collect::<Vec<_>>());
+    let sample = |value: fn(&Apart) -> f64| Sample::of(&distances.iter().map(value).collect::<Vec<_>>());
     AveragedStep {
         steps_per_period,
         min_contact_arm,

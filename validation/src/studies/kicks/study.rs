@@ -62,62 +62,53 @@ fn answer(limit: &Limit) -> String {
     )
 }
 
-/// All measurements.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Limit {
+struct Limit {
     /// Kicks in the first two periods of Fig. 4's suspension against the step.
-    pub steps: Vec<StepCounts>,
+    steps: Vec<StepCounts>,
     /// Kicks in the first period of a suspension where rods collide often, against the step.
-    pub dense: Vec<StepCounts>,
+    dense: Vec<StepCounts>,
     /// Kicks in each period at one step.
-    pub periods: Vec<StepCounts>,
+    periods: Vec<StepCounts>,
     /// Exponents of the tail, each with a description of its kicks.
-    pub tails: Vec<(String, Exponent)>,
-    /// The model against the averaged motion.
-    pub averaged: Vec<averaged::AveragedStep>,
-    /// `angles` against `rotation`.
-    pub updates: Vec<averaged::BothUpdates>,
+    tails: Vec<(String, Exponent)>,
+    averaged: Vec<averaged::AveragedStep>,
+    updates: Vec<averaged::BothUpdates>,
     /// Replicas behind the counts, and behind the averaged motion.
-    pub replicas: [u64; 2],
+    replicas: [u64; 2],
 }
 
 /// The scene whose kicks are counted.
-pub const SCENE: &str = "fig4-n50";
+const SCENE: &str = "fig4-n50";
 
 /// The steps per period for the counts in single periods.
 const PERIODS_AT: u64 = 400;
 
-/// Measures everything: with a few replicas for the report of a quick run, with enough for the documents in a full one.
-pub fn measure(effort: &Effort) -> Result<Limit, String> {
+fn measure(effort: &Effort) -> Result<Limit, String> {
     let built_in = scenes::find(SCENE).ok_or("no such scene")?;
     let scene = built_in.scene().map_err(|error| error.to_string())?;
     let replicas = effort.pick([10, 8], [200, 100]);
     let finest = effort.pick(1600, 12_800);
-    let steps = [50, 100, 200, 400, 800, 1600, 3200, 6400, 12_800];
-    let steps = steps.into_iter().filter(|steps| *steps <= finest);
-    let averaged_finest = effort.pick(400, 6400);
-    let averaged_steps = [100, 200, 400, 800, 1600, 3200, 6400];
-    let averaged_steps = averaged_steps.into_iter().filter(|steps| *steps <= averaged_finest);
+    let doubled =
+        |coarsest: u64, finest: u64| (0u32..).map(move |k| coarsest << k).take_while(move |steps| *steps <= finest);
+    let averaged_steps = doubled(100, effort.pick(400, 6400));
     let mut dense = lab::interacting_scene(effort);
     let interaction = lab::interaction(&mut dense);
     (interaction.concentration_per_cm3, interaction.alpha) = (Some(400.0), 2.0);
-    let dense_steps = [100, 400, 1600, 6400, 25_600];
-    let dense_steps = (dense_steps.into_iter()).filter(|steps| *steps <= 2 * finest);
     // The second arm is the rods' radius.
     let arms = [0.25, 0.5 / 11.6, 0.0];
+    let each = |arm| averaged_steps.clone().map(move |steps| (steps, arm));
     Ok(Limit {
-        steps: steps.map(|steps| rates(&scene, steps, 0..2, replicas[0], KICKS)).collect(),
-        dense: dense_steps.map(|steps| rates(&dense, steps, 0..1, replicas[1], KICKS)).collect(),
+        steps: doubled(50, finest).map(|steps| rates(&scene, steps, 0..2, replicas[0], KICKS)).collect(),
+        dense: doubled(100, 2 * finest)
+            .step_by(2)
+            .map(|steps| rates(&dense, steps, 0..1, replicas[1], KICKS))
+            .collect(),
         periods: (0..6).map(|period| rates(&scene, PERIODS_AT, period..period + 1, replicas[0], KICKS)).collect(),
         tails: tails(&scene, replicas[0]),
-        averaged: arms
-            .into_iter()
-            .flat_map(|arm| averaged_steps.clone().map(move |steps| (steps, arm)))
+        averaged: (arms.into_iter().flat_map(each))
             .map(|(steps, arm)| averaged::row(effort, steps, arm, replicas[1]))
             .collect(),
-        updates: [0.25, 0.0]
-            .into_iter()
-            .flat_map(|arm| averaged_steps.clone().map(move |steps| (steps, arm)))
+        updates: ([0.25, 0.0].into_iter().flat_map(each))
             .map(|(steps, arm)| averaged::both_updates(effort, steps, arm, 2 * replicas[1]))
             .collect(),
         replicas,

@@ -61,10 +61,10 @@ mod tests {
         for alpha in [0.5, 1.0, 2.0] {
             // x = (1 − u)^(−1/α) has the tail x^−α.
             let values = (0..100_000).map(|k| ((f64::from(k) + 0.5) / 1e5).powf(-1.0 / alpha));
-            let found = hill(values, 1.0);
-            assert_eq!(found.count, 100_000);
-            assert!((found.alpha / alpha - 1.0).abs() < 1e-4, "{found:?}");
-            assert!((found.se - found.alpha / 1e5f64.sqrt()).abs() < 1e-15);
+            let exponent = hill(values, 1.0);
+            assert_eq!(exponent.count, 100_000);
+            assert!((exponent.alpha / alpha - 1.0).abs() < 1e-4, "{exponent:?}");
+            assert!((exponent.se - exponent.alpha / 1e5f64.sqrt()).abs() < 1e-15);
         }
         assert!(hill([f64::NAN], 1.0).alpha.is_nan(), "a run that stopped is no tail");
     }
