@@ -14,6 +14,7 @@ use rand_pcg::Pcg64Dxsm;
 use rayon::prelude::*;
 use shearbed_validation::input::scenes;
 use shearbed_validation::input::start::Starts;
+use shearbed_validation::judge::statistics::Sample;
 use shearbed_validation::methods::least_squares::Datum;
 use shearbed_validation::methods::least_squares::likelihood::{EMULATOR, REPLICAS, Rods};
 use shearbed_validation::serve::fit::Range;
@@ -75,8 +76,8 @@ fn scenes(seed: u64, over: &[Range]) -> Result<Scenes, String> {
 }
 
 fn planted(range: &Range) -> Result<f64, String> {
-    let found = PLANTED.iter().find(|(key, _)| *key == range.key);
-    found.map(|(_, value)| *value).ok_or_else(|| format!("{}: no planted value", range.key))
+    let value = PLANTED.iter().find(|(key, _)| *key == range.key);
+    value.map(|(_, value)| *value).ok_or_else(|| format!("{}: no planted value", range.key))
 }
 
 /// The noise of the points of one fit, in standard deviations.
@@ -131,8 +132,7 @@ fn main() -> Result<(), String> {
     let mut differences: Vec<f64> = Vec::new();
     let mut refused: BTreeMap<String, u32> = BTreeMap::new();
     println!(
-        "repeat,chi2,p,replicas,runs,share_of_replicas,share_of_emulator,\
-        feigned,key,estimate,low_68,high_68,low_95,high_95"
+        "repeat,chi2,p,replicas,runs,share_of_replicas,share_of_emulator,feigned,key,estimate,low_68,high_68,low_95,high_95"
     );
     for k in repeats.clone() {
         let fit = match whole_fit(k, &truth, &over) {
@@ -144,10 +144,10 @@ fn main() -> Result<(), String> {
                 continue;
             }
         };
-        let found = fit.best.goodness.chi_square_of_points();
-        let p = law.sf(found);
-        differences.push(found - noise(k, truth.len()).iter().map(|noise| noise * noise).sum::<f64>());
-        (answered, chi_square) = (answered + 1, chi_square + found);
+        let chi2 = fit.best.goodness.chi_square_of_points();
+        let p = law.sf(chi2);
+        differences.push(chi2 - noise(k, truth.len()).iter().map(|noise| noise * noise).sum::<f64>());
+        (answered, chi_square) = (answered + 1, chi_square + chi2);
         (low_p, high_p) = (low_p + u32::from(p < 0.05), high_p + u32::from(p > 0.95));
         for (axis, range) in over.iter().enumerate() {
             let ends = [0.68, 0.95].map(|confidence| fit.interval(axis, confidence));
@@ -157,7 +157,7 @@ fn main() -> Result<(), String> {
             let [inner, outer] = ends;
             println!(
                 "{k},{:.2},{p:.3},{},{},{:.3},{:.3},{:.3},{},{:.4},{:.4},{:.4},{:.4},{:.4}",
-                found,
+                chi2,
                 fit.emulator.replicas(),
                 fit.runs,
                 fit.best.share(REPLICAS),
@@ -180,9 +180,7 @@ fn main() -> Result<(), String> {
         share(low_p),
         share(high_p)
     );
-    let mean = differences.iter().sum::<f64>() / differences.len() as f64;
-    let squares = differences.iter().map(|one| (one - mean).powi(2)).sum::<f64>();
-    let se = (squares / (differences.len() * (differences.len() - 1)) as f64).sqrt();
+    let Sample { mean, se, .. } = Sample::of(&differences);
     println!("# χ² less that of the drawn noise: {mean:.2} ± {se:.2}, where −{} is due", over.len());
     for (range, [inner, outer]) in over.iter().zip(&inside) {
         println!(

@@ -104,15 +104,15 @@ fn main() -> Result<(), String> {
         let model = |values: &[f64]| scenes.model(&data, AS_WRITTEN, values).map_err(String::from);
         let measured = Measured { data: &data, ranges: &range, rods: &rods_of_fit };
         let fit = search(&FitProblem { measured, model: &model, most_replicas: 1000 }, &Watch::SILENT)?;
-        let found = report(&fit, &data, Vec::new());
-        let ends = &found.parameters["interaction.alpha"];
+        let report = report(&fit, &data, Vec::new());
+        let ends = &report.parameters["interaction.alpha"];
         let inside = [(ends.low_68, ends.high_68), (ends.low_95, ends.high_95)]
             .map(|(low, high)| (low..=high).contains(&PLANTED));
         println!(
             "{k},{:.2},{:.4},{},{:.3},{:.3},{:.4},{:.4},{:.4},{:.4},{:.4}",
-            found.chi2,
-            found.p_value,
-            found.replicas,
+            report.chi2,
+            report.p_value,
+            report.replicas,
             fit.best.goodness.excess,
             fit.best.causes[RODS].trace() / data.iter().map(|datum| datum.u.powi(2)).sum::<f64>(),
             ends.estimate,
@@ -121,7 +121,7 @@ fn main() -> Result<(), String> {
             ends.low_95,
             ends.high_95
         );
-        Ok((inside, found.chi2 / found.degrees_of_freedom as f64, found.p_value))
+        Ok((inside, report.chi2 / report.degrees_of_freedom as f64, report.p_value))
     };
     let fits: Vec<_> = (0..sets).into_par_iter().map(one).collect::<Result<_, _>>()?;
     let n = fits.len() as f64;

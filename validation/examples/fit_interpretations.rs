@@ -50,8 +50,8 @@ fn two_suspensions() -> Result<(), String> {
     for (open, reading, change) in interpretations::all().filter(|(open, ..)| !open.contains("step")) {
         let points = points(change, &effort, REPLICAS);
         let fit = one_alpha(&points, SMALL_NOISE, REPLICAS, &model)?;
-        let found = fit.best.chi_square;
-        let more = found - *own.get_or_insert(found);
+        let chi_square = fit.best.chi_square;
+        let more = chi_square - *own.get_or_insert(chi_square);
         println!(
             "| {open}: {reading} | {:.3} | {more:.0} | {:.1} |",
             fit.values(&fit.best.place)[0],

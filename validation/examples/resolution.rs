@@ -33,8 +33,8 @@ fn main() {
             scene.particles.aspect_ratio_sd_percent = sd;
             let fine = x1(&scene, steps(r, FINE), replicas);
             let changes = STRAINS.map(|strain| {
-                let found = change(&x1(&scene, steps(r, strain), replicas), &fine);
-                format!("{:+.4} ± {:.4}", found.mean, found.se)
+                let change = change(&x1(&scene, steps(r, strain), replicas), &fine);
+                format!("{:+.4} ± {:.4}", change.mean, change.se)
             });
             let fine = Sample::of(&fine);
             println!("| {r} | {sd} % | {n} | {:.4} ± {:.4} | {} |", fine.mean, fine.se, changes.join(" | "));

@@ -7,8 +7,8 @@ use shearbed_validation::studies::kicks::study::STUDY;
 fn main() -> Result<(), String> {
     let full = std::env::args().any(|argument| argument == "full");
     let effort = Effort { full, seed: GATE_SEED, data: None };
-    let found = STUDY.found(&Request { effort: &effort, wanted: &|_| true, finished: &|| () })?;
-    let tables = found.into_iter().flat_map(|found| found.exhibits).filter_map(|exhibit| exhibit.table);
+    let findings = STUDY.found(&Request { effort: &effort, wanted: &|_| true, finished: &|| () })?;
+    let tables = findings.into_iter().flat_map(|findings| findings.exhibits).filter_map(|exhibit| exhibit.table);
     tables.for_each(|table| println!("{}", table.markdown()));
     Ok(())
 }
