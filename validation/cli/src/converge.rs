@@ -123,7 +123,7 @@ fn free(scene: &Scene) -> Result<Done, Failure> {
     let (csv, json) = (orders_csv(&orders.studies), build::json(&orders));
     let wrong: Vec<_> = (orders.studies.iter())
         .filter(|study| study.found == OrderVerdict::Not)
-        .map(|study| study.subject.as_str())
+        .map(|study| study.integrator.as_str())
         .collect();
     let files = vec![("converge.csv", csv), ("converge.json", json)];
     Ok(Done { wrong: (!wrong.is_empty()).then(|| wrong.join(", ")), ..done(vec![orders_table(&orders)], files)? })

@@ -38,7 +38,7 @@ mod tests {
     fn a_guest_is_graded_and_breaks_no_case() {
         assert_eq!(all().len(), own().len() + 1);
         let studies = order::of_rod(2.0).studies;
-        let heun = studies.iter().find(|study| study.subject == NAME);
+        let heun = studies.iter().find(|study| study.integrator == NAME);
         assert_eq!(heun.unwrap().found, order::OrderVerdict::AsTheory);
         for case in crate::cases::all() {
             // The cases that ask for every integrator.

@@ -7,16 +7,17 @@
 //! it a place in [`ALL`]; `tests/program/example_study.rs` is a whole one. To add an integrator, add it to
 //! [`integrators`].
 
+mod bisect;
 pub mod coefficients;
-pub mod cost;
+mod cost;
 pub mod figures;
 pub mod integrators;
 pub mod kicks;
 pub mod interpretations;
-pub mod speed;
+mod speed;
 pub mod stability;
 pub mod suspensions;
-pub mod tensors;
+mod tensors;
 pub mod work_precision;
 
 use crate::present::study::Study;

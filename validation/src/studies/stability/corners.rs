@@ -43,11 +43,9 @@ pub fn worst(aspect_ratio: f64, motion: &Motion) -> Worst {
             let bound = map::round_off_at_once(aspect_ratio, turns);
             for shear_rate_per_s in SHEAR_RATES {
                 let p = motion(aspect_ratio, shear_rate_per_s, &start, turns);
-                let in_plane = p.x.hypot(p.y / aspect_ratio);
-                let orbit = in_plane / (in_plane + p.z.abs()) - end.bounded_orbit_constant();
                 let angle = crate::methods::integrators::apart_rad(&p, &end.direction(aspect_ratio));
                 worst.length = larger(worst.length, (p.norm() - 1.0).abs());
-                worst.orbit = larger(worst.orbit, orbit.abs());
+                worst.orbit = larger(worst.orbit, end.orbit_error(&p, aspect_ratio));
                 worst.angle = larger(worst.angle, angle / bound);
             }
         }

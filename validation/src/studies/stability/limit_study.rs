@@ -33,7 +33,7 @@ const SHOWN: [Shown; 6] = [
         name: "step-limit-turning",
         title: "The longest step GΔt with which every rod turns",
         caption: "Of 512 rods in the plane of shear each turns forward in a step, by less than half a turn; half a \
-            turn is rest. Exact motion has half a period.",
+                  turn is rest. Exact motion has half a period.",
         property: Property::Turning,
         picture: Some(["The longest step with which every rod turns", "step-limit-turning"]),
     },
@@ -63,35 +63,36 @@ const SHOWN: [Shown; 6] = [
         name: "step-limit-orbit",
         title: "The longest step GΔt that keeps the orbit",
         caption: "C_b within 0.1 of its start after ten periods. The ladder's factor is 1.25: narrower gaps are not \
-            seen. There is no closed form.",
+                  seen. There is no closed form.",
         property: Property::Orbit,
         picture: None,
     },
 ];
 
 /// A table for each property, with a picture if there is a theory.
-pub fn exhibits(subjects: &[Integrator]) -> impl Iterator<Item = Exhibit> {
-    let stepped: Vec<_> = subjects.iter().filter(|subject| matches!(subject.theory, Theory::Order(_))).collect();
+pub fn exhibits(integrators: &[Integrator]) -> impl Iterator<Item = Exhibit> {
+    let stepped: Vec<_> =
+        integrators.iter().filter(|integrator| matches!(integrator.theory, Theory::Order(_))).collect();
     SHOWN.iter().map(move |shown| Exhibit {
         figure: shown.picture.map(|picture| figure(shown, picture, &stepped)),
         table: Some(table(shown, &stepped)),
     })
 }
 
-fn table(shown: &Shown, subjects: &[&Integrator]) -> ReportTable {
+fn table(shown: &Shown, integrators: &[&Integrator]) -> ReportTable {
     let (ratios, ladder): (&[f64], Ladder) = match shown.property {
         Property::Length | Property::Orbit => (&LIMIT_RATIOS[..7], TEN_PERIODS),
         _ => (&LIMIT_RATIOS, ONE_STEP),
     };
     let mut rows = Vec::new();
-    for subject in subjects {
-        let search = |r: &f64| bisect(ladder, |h| holds(subject, shown.property, *r, h));
-        let found: Vec<_> = ratios.iter().map(search).collect();
-        if found.iter().all(|limit| matches!(limit, Limit::Beyond(_))) {
+    for integrator in integrators {
+        let search = |r: &f64| bisect(ladder, |h| holds(integrator, shown.property, *r, h));
+        let limits: Vec<_> = ratios.iter().map(search).collect();
+        if limits.iter().all(|limit| matches!(limit, Limit::Beyond(_))) {
             continue;
         }
-        rows.push([vec![subject.name.clone()], found.into_iter().map(text).collect()].concat());
-        let theory = THEORIES.iter().find(|theory| theory.0 == subject.name && theory.1 == shown.property);
+        rows.push([vec![integrator.name.clone()], limits.into_iter().map(text).collect()].concat());
+        let theory = THEORIES.iter().find(|theory| theory.0 == integrator.name && theory.1 == shown.property);
         if let Some((_, _, theory)) = theory {
             let expected = |r: &f64| match theory(*r) {
                 limit if limit.is_finite() => format!("{limit:.4}"),
@@ -114,19 +115,19 @@ fn text(limit: Limit) -> String {
     }
 }
 
-fn figure(shown: &Shown, [title, case]: [&str; 2], subjects: &[&Integrator]) -> ReportFigure {
+fn figure(shown: &Shown, [title, case]: [&str; 2], integrators: &[&Integrator]) -> ReportFigure {
     let theories = THEORIES.iter().filter(|theory| theory.1 == shown.property);
     let theories = theories.map(|(name, _, theory)| {
         let ratios = (0..=200).map(|k| 1.01 * 1e4f64.powf(f64::from(k) / 200.0));
         Curve::of(format!("{name}, theory"), ratios, |r| (r, theory(r)))
     });
-    let measured = subjects.iter().map(|subject| {
+    let measured = integrators.iter().map(|integrator| {
         let ratios = [1.01, 1.05, 1.2, 1.5, 2.0, 2.5, 3.0, 5.0, 11.6, 30.0, 100.0, 1e3, 1e4];
-        let limit = |r| match bisect(ONE_STEP, |h| holds(subject, shown.property, r, h)) {
+        let limit = |r| match bisect(ONE_STEP, |h| holds(integrator, shown.property, r, h)) {
             Limit::At(strain) => (r, strain),
             _ => (r, f64::NAN),
         };
-        Points::of(&subject.name, ratios, limit)
+        Points::of(&integrator.name, ratios, limit)
     });
     ReportFigure::new(
         [shown.name, &format!("{title}: theory and bisection")],

@@ -2,6 +2,7 @@
 
 use super::orbit::Place;
 use crate::methods::integrators::{Failure, Integrator, RodProblem, Setting, Theory, apart_rad};
+use crate::studies::work_precision::order::round_off;
 use nalgebra::Vector3;
 use serde::Serialize;
 use std::f64::consts::TAU;
@@ -29,7 +30,7 @@ pub enum Fate {
 /// The largest angle to the closed form, in rad, that counts as accurate.
 pub const ACCURATE_RAD: f64 = 1e-2;
 
-/// The largest ||p| − 1| that counts as kept.
+/// The largest ||p| − 1| that counts as unchanged.
 pub const LENGTH_KEPT: f64 = 1e-2;
 
 impl Fate {
@@ -98,22 +99,19 @@ pub fn round_off_at_once(aspect_ratio: f64, turns: f64) -> f64 {
 }
 
 impl Run {
-    /// The largest error of a direction by rounding alone. With steps the time itself is rounded, φ moves by max(r_e,
-    /// 1/r_e) times the phase, and thousands of roundings add up: 1000 ε max(r_e, 1/r_e) max(t/T, 1), as in
-    /// `work_precision::order`.
+    /// The largest error of a direction by rounding alone.
     pub fn round_off(&self) -> f64 {
-        let stretch = self.aspect_ratio.max(1.0 / self.aspect_ratio);
         match self.setting {
             Setting::Once => round_off_at_once(self.aspect_ratio, self.turns),
-            _ => 1000.0 * f64::EPSILON * stretch * self.turns.max(1.0),
+            _ => round_off(self.aspect_ratio, self.turns),
         }
     }
 
     /// Runs an integrator and returns the outcome.
-    pub fn of(&self, subject: &Integrator) -> Cell {
+    pub fn of(&self, integrator: &Integrator) -> Cell {
         let start = self.end.before(self.turns).direction(self.aspect_ratio);
         let problem = RodProblem::new(self.aspect_ratio, self.turns);
-        match subject.advance(&problem, &start, self.setting) {
+        match integrator.advance(&problem, &start, self.setting) {
             Ok(end) if end.iter().all(|component| component.is_finite()) => self.judged(&end),
             Ok(_) | Err(Failure::NotFinite) => Cell::without(Fate::NotFinite, None),
             Err(failure) => Cell::without(Fate::Refused, Some(failure.to_string())),
@@ -123,9 +121,7 @@ impl Run {
     fn judged(&self, end: &Vector3<f64>) -> Cell {
         let error = apart_rad(end, &self.end.direction(self.aspect_ratio));
         let length = (end.norm() - 1.0).abs();
-        let in_plane = end.x.hypot(end.y / self.aspect_ratio);
-        let orbit = in_plane / (in_plane + end.z.abs()) - self.end.bounded_orbit_constant();
-        let found = if length.is_nan() || length > LENGTH_KEPT {
+        let fate = if length.is_nan() || length > LENGTH_KEPT {
             Fate::LengthLost
         } else if error.is_nan() || error > ACCURATE_RAD {
             Fate::Wrong
@@ -134,7 +130,13 @@ impl Run {
         } else {
             Fate::Accurate
         };
-        Cell { found, error_rad: Some(error), length: Some(length), orbit: Some(orbit.abs()), reason: None }
+        Cell {
+            found: fate,
+            error_rad: Some(error),
+            length: Some(length),
+            orbit: Some(self.end.orbit_error(end, self.aspect_ratio)),
+            reason: None,
+        }
     }
 }
 

@@ -23,8 +23,8 @@ fn strain(quarter: i32) -> f64 {
 }
 
 /// The theoretical limit of the property `Order`, in columns and rows of the picture by steps.
-fn limit(subject: &str) -> Vec<(f64, f64)> {
-    let theory = (THEORIES.iter()).find(|theory| theory.0 == subject && theory.1 == Property::Order);
+fn limit(integrator: &str) -> Vec<(f64, f64)> {
+    let theory = (THEORIES.iter()).find(|theory| theory.0 == integrator && theory.1 == Property::Order);
     let Some((_, _, theory)) = theory else {
         return Vec::new();
     };
@@ -60,28 +60,27 @@ pub fn answer(figures: &[ReportFigure]) -> String {
 }
 
 /// The maps as pictures.
-pub fn figures(subjects: &[Integrator]) -> Vec<ReportFigure> {
-    vec![steps(subjects), tolerances(subjects), starts(subjects), durations(subjects)]
+pub fn figures(integrators: &[Integrator]) -> Vec<ReportFigure> {
+    vec![steps(integrators), tolerances(integrators), starts(integrators), durations(integrators)]
 }
 
-pub(super) fn of(subjects: &[Integrator], which: impl Fn(Theory) -> bool) -> Vec<&Integrator> {
-    subjects.iter().filter(|subject: &&Integrator| which(subject.theory)).collect()
+pub(super) fn with_theory(integrators: &[Integrator], which: impl Fn(Theory) -> bool) -> Vec<&Integrator> {
+    integrators.iter().filter(|integrator: &&Integrator| which(integrator.theory)).collect()
 }
 
-fn steps(subjects: &[Integrator]) -> ReportFigure {
-    let row = |subject: &Integrator, r: f64| {
+fn steps(integrators: &[Integrator]) -> ReportFigure {
+    let row = |integrator: &Integrator, r: f64| {
         let run = |quarter| {
             let step = strain(quarter) / strain_per_period(r);
-            map::by_step(subject.theory, r, step, MOST_STEPS).of(subject)
+            map::by_step(integrator.theory, r, step, MOST_STEPS).of(integrator)
         };
         classes(STRAINS.map(run))
     };
-    let map = |subject: &Integrator| Map {
-        title: subject.name.clone(),
-        cells: RODS.map(|r| row(subject, r)).into(),
-        limit: limit(&subject.name),
+    let map = |integrator: &Integrator| {
+        let cells = RODS.map(|r| row(integrator, r)).into();
+        Map { title: integrator.name.clone(), cells, limit: limit(&integrator.name) }
     };
-    let stepped = of(subjects, |theory| matches!(theory, Theory::Order(_)));
+    let stepped = with_theory(integrators, |theory| matches!(theory, Theory::Order(_)));
     figure(
         ["stability-steps", "Stability by step and aspect ratio"],
         format!(
@@ -111,18 +110,17 @@ pub(super) fn tolerances_from_fine() -> impl Iterator<Item = f64> {
     TOLERANCES.into_iter().rev()
 }
 
-pub(super) fn with_tolerance(subject: &Integrator, r: f64, tolerance: f64) -> Cell {
-    let run = map::by_duration(subject.theory, r, 1.0, Place::mid_flip(r), MOST_STEPS);
+pub(super) fn with_tolerance(integrator: &Integrator, r: f64, tolerance: f64) -> Cell {
+    let run = map::by_duration(integrator.theory, r, 1.0, Place::mid_flip(r), MOST_STEPS);
     let setting = Setting::Tolerance(tolerance);
-    run.map_or_else(Cell::not_run, |run| map::Run { setting, ..run }.of(subject))
+    run.map_or_else(Cell::not_run, |run| map::Run { setting, ..run }.of(integrator))
 }
 
-fn tolerances(subjects: &[Integrator]) -> ReportFigure {
-    let row = |subject: &Integrator, r| classes(tolerances_from_fine().map(|t| with_tolerance(subject, r, t)));
-    let map = |subject: &Integrator| Map {
-        title: subject.name.clone(),
-        cells: ASPECT_RATIOS.map(|r| row(subject, r)).into(),
-        limit: Vec::new(),
+fn tolerances(integrators: &[Integrator]) -> ReportFigure {
+    let row = |integrator: &Integrator, r| classes(tolerances_from_fine().map(|t| with_tolerance(integrator, r, t)));
+    let map = |integrator: &Integrator| {
+        let cells = ASPECT_RATIOS.map(|r| row(integrator, r)).into();
+        Map { title: integrator.name.clone(), cells, ..Default::default() }
     };
     figure(
         ["stability-tolerances", "Stability by tolerance and aspect ratio"],
@@ -132,7 +130,7 @@ fn tolerances(subjects: &[Integrator]) -> ReportFigure {
             columns: tolerances_from_fine().map(power).collect(),
             values: tolerances_from_fine().map(|t| format!("{t:e}")).collect(),
             rows: ASPECT_RATIOS.map(ratio).into(),
-            maps: of(subjects, |theory| theory == Theory::Adaptive).into_iter().map(map).collect(),
+            maps: with_theory(integrators, |theory| theory == Theory::Adaptive).into_iter().map(map).collect(),
             ..Default::default()
         },
     )
@@ -142,23 +140,23 @@ fn power(value: f64) -> String {
     decade(value.log10().round() as i32)
 }
 
-fn cell(subject: &Integrator, r: f64, periods: f64, end: Place, most_steps: u64) -> Cell {
-    map::by_duration(subject.theory, r, periods, end, most_steps).map_or_else(Cell::not_run, |run| run.of(subject))
+fn cell(integrator: &Integrator, r: f64, periods: f64, end: Place, most_steps: u64) -> Cell {
+    map::by_duration(integrator.theory, r, periods, end, most_steps)
+        .map_or_else(Cell::not_run, |run| run.of(integrator))
 }
 
-fn names(subjects: &[Integrator]) -> Vec<String> {
-    subjects.iter().map(|subject| subject.name.clone()).collect()
+fn names(integrators: &[Integrator]) -> Vec<String> {
+    integrators.iter().map(|integrator| integrator.name.clone()).collect()
 }
 
-fn starts(subjects: &[Integrator]) -> ReportFigure {
-    let row = |subject: &Integrator, r| {
-        let found = |(_, place)| cell(subject, r, 1.0, place, MOST_STEPS);
-        classes(map::places(r).into_iter().map(found))
+fn starts(integrators: &[Integrator]) -> ReportFigure {
+    let row = |integrator: &Integrator, r| {
+        let run = |(_, place)| cell(integrator, r, 1.0, place, MOST_STEPS);
+        classes(map::places(r).into_iter().map(run))
     };
-    let map = |r: f64| Map {
-        title: format!("r_e = {}", ratio(r)),
-        cells: subjects.iter().map(|subject| row(subject, r)).collect(),
-        limit: Vec::new(),
+    let map = |r: f64| {
+        let cells = integrators.iter().map(|integrator| row(integrator, r)).collect();
+        Map { title: format!("r_e = {}", ratio(r)), cells, ..Default::default() }
     };
     let places = map::places(2.0).into_iter().map(|(name, _)| name);
     figure(
@@ -173,20 +171,20 @@ fn starts(subjects: &[Integrator]) -> ReportFigure {
         Grid {
             columns: places.clone().enumerate().map(|(k, _)| (k + 1).to_string()).collect(),
             values: places.map(String::from).collect(),
-            rows: names(subjects),
+            rows: names(integrators),
             maps: [1e-8, 1.0 + 1e-12, 11.6, 1e8].map(map).into(),
             ..Default::default()
         },
     )
 }
 
-fn durations(subjects: &[Integrator]) -> ReportFigure {
+fn durations(integrators: &[Integrator]) -> ReportFigure {
     let r = 11.6;
-    let row = |subject: &Integrator| {
-        let found = |periods| cell(subject, r, periods, Place::mid_flip(r), 10 * MOST_STEPS);
-        classes(PERIODS.map(found))
+    let row = |integrator: &Integrator| {
+        let run = |periods| cell(integrator, r, periods, Place::mid_flip(r), 10 * MOST_STEPS);
+        classes(PERIODS.map(run))
     };
-    let map = Map { cells: subjects.iter().map(row).collect(), ..Default::default() };
+    let map = Map { cells: integrators.iter().map(row).collect(), ..Default::default() };
     figure(
         ["stability-durations", "Stability over up to 10⁸ periods at r_e = 11.6"],
         format!(
@@ -199,7 +197,7 @@ fn durations(subjects: &[Integrator]) -> ReportFigure {
         Grid {
             columns: PERIODS.map(power).into(),
             values: PERIODS.map(|periods| format!("{periods:e}")).into(),
-            rows: names(subjects),
+            rows: names(integrators),
             maps: vec![map],
             ..Default::default()
         },

@@ -40,6 +40,12 @@ impl Place {
         UnitVector3::new_normalize(p / p.amax())
     }
 
+    /// How far a direction of any length has left this orbit: the change of C_b.
+    pub fn orbit_error(&self, p: &Vector3<f64>, aspect_ratio: f64) -> f64 {
+        let in_plane = p.x.hypot(p.y / aspect_ratio);
+        (in_plane / (in_plane + p.z.abs()) - self.bounded_orbit_constant()).abs()
+    }
+
     /// C_b = C/(1 + C).
     pub fn bounded_orbit_constant(&self) -> f64 {
         self.c / (self.c + self.z.abs())

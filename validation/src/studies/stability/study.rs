@@ -3,7 +3,7 @@
 use super::corners::{self, Worst};
 use super::limit_study;
 use super::map::{self, ASPECT_RATIOS, Cell, STEPS};
-use super::maps::{self, MOST_STEPS, of, ratio, tolerances_from_fine, with_tolerance};
+use super::maps::{self, MOST_STEPS, ratio, tolerances_from_fine, with_theory, with_tolerance};
 use crate::methods::integrators::{Integrator, Theory};
 use crate::present::study::{Exhibit, Findings, Request, Study};
 use crate::present::table::{ReportTable, decimals, number, of_words};
@@ -34,14 +34,14 @@ pub const STUDY: Study = Study {
 };
 
 fn run(_: &Request) -> Result<Option<Findings>, String> {
-    let subjects = integrators::all();
-    let maps = maps::figures(&subjects);
+    let integrators = integrators::all();
+    let maps = maps::figures(&integrators);
     let answer = maps::answer(&maps);
     let mut exhibits: Vec<Exhibit> = maps.into_iter().map(Exhibit::from).collect();
-    for (exhibit, table) in exhibits.iter_mut().zip(ends(&subjects)) {
+    for (exhibit, table) in exhibits.iter_mut().zip(ends(&integrators)) {
         exhibit.table = Some(table);
     }
-    exhibits.extend(limit_study::exhibits(&subjects));
+    exhibits.extend(limit_study::exhibits(&integrators));
     exhibits.push(corners_table().into());
     Ok(Some(Findings::new(answer, exhibits, [])))
 }
@@ -56,20 +56,20 @@ fn leaves(cells: &[Cell], setting: impl Fn(usize) -> String) -> String {
 }
 
 /// The limits of each integrator, by the step in periods and by the tolerance: a row for each r_e.
-fn ends(subjects: &[Integrator]) -> [ReportTable; 2] {
-    let by_step = |subject: &Integrator, r: f64| {
-        let run = |step| map::by_step(subject.theory, r, step, MOST_STEPS).of(subject);
+fn ends(integrators: &[Integrator]) -> [ReportTable; 2] {
+    let by_step = |integrator: &Integrator, r: f64| {
+        let run = |step| map::by_step(integrator.theory, r, step, MOST_STEPS).of(integrator);
         leaves(&STEPS.map(run), |k| format!("{:.0e} T", STEPS[k]))
     };
-    let by_tolerance = |subject: &Integrator, r: f64| {
+    let by_tolerance = |integrator: &Integrator, r: f64| {
         let settings: Vec<f64> = tolerances_from_fine().collect();
-        let cells: Vec<_> = settings.iter().map(|t| with_tolerance(subject, r, *t)).collect();
+        let cells: Vec<_> = settings.iter().map(|t| with_tolerance(integrator, r, *t)).collect();
         leaves(&cells, |k| format!("{:.0e}", settings[k]))
     };
     let table = |words: [&str; 2], caption: &str, which: Vec<&Integrator>, end: &dyn Fn(&Integrator, f64) -> String| {
-        let names = which.iter().map(|subject| subject.name.clone());
+        let names = which.iter().map(|integrator| integrator.name.clone());
         let row = |r: f64| {
-            let ends = which.iter().map(|subject| end(subject, r));
+            let ends = which.iter().map(|integrator| end(integrator, r));
             std::iter::once(ratio(r)).chain(ends).collect()
         };
         let columns: Vec<_> = std::iter::once("r_e".to_owned()).chain(names).collect();
@@ -79,13 +79,13 @@ fn ends(subjects: &[Integrator]) -> [ReportTable; 2] {
         table(
             ["stability-steps-end", "The longest step that is right, and what comes after it"],
             "Of the steps 10⁻⁹, 10⁻⁸, … 10³ T; integrators without steps go the length of a step at once.",
-            of(subjects, |theory| theory != Theory::Adaptive),
+            with_theory(integrators, |theory| theory != Theory::Adaptive),
             &by_step,
         ),
         table(
             ["stability-tolerances-end", "The loosest tolerance that is right, and what comes after it"],
             "Of the tolerances 10⁻¹², 10⁻¹⁰, 10⁻⁸, 10⁻⁶, 10⁻⁴, 10⁻², 10⁻¹.",
-            of(subjects, |theory| theory == Theory::Adaptive),
+            with_theory(integrators, |theory| theory == Theory::Adaptive),
             &by_tolerance,
         ),
     ]

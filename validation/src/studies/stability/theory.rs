@@ -1,6 +1,7 @@
 //! Longest steps GΔt by theory, for some integrators and properties; derived in `docs/src/developer/step-limits.md`.
 
 use crate::methods::integrators::limits::Property;
+use crate::studies::bisect::bisect;
 use std::f64::consts::{FRAC_1_SQRT_2, PI};
 
 /// A theory of a limit: the integrator, its property, and GΔt against r_e.
@@ -48,7 +49,7 @@ pub fn implicit_midpoint_order(aspect_ratio: f64) -> f64 {
         return f64::INFINITY;
     }
     // The cubic falls on this interval.
-    let u = last(FRAC_1_SQRT_2, |u| cubic(u) > 0.0);
+    let u = bisect(0.0, FRAC_1_SQRT_2, 60, |u| cubic(u) > 0.0)[0];
     2.0 / (shape * (1.0 - u * u).powf(1.5))
 }
 
@@ -67,25 +68,14 @@ pub fn implicit_midpoint_one_solution(aspect_ratio: f64) -> f64 {
 /// GΔtΛ = x with x + … + xᵖ/p! = 1.
 pub fn runge_kutta_order_at_least(order: u32, aspect_ratio: f64) -> f64 {
     let growth = |x: f64| {
-        let mut term = 1.0;
-        (1..=order)
-            .map(|k| {
-                term *= x / f64::from(k);
-                term
-            })
-            .sum::<f64>()
+        let (mut sum, mut term) = (0.0, 1.0);
+        for k in 1..=order {
+            term *= x / f64::from(k);
+            sum += term;
+        }
+        sum
     };
-    last(1.0, |x| growth(x) < 1.0) / shape(aspect_ratio)
-}
-
-/// The largest x from 0 to `high` for which `holds`, which holds up to there and not beyond.
-fn last(mut high: f64, holds: impl Fn(f64) -> bool) -> f64 {
-    let mut low = 0.0;
-    for _ in 0..60 {
-        let middle = 0.5 * (low + high);
-        if holds(middle) { low = middle } else { high = middle }
-    }
-    low
+    bisect(0.0, 1.0, 60, |x| growth(x) < 1.0)[0] / shape(aspect_ratio)
 }
 
 /// As r_e → 1, RK4 in p turns every rod by less than half a turn up to 2√6: R(iy) is real at y = √6 = GΔt/2.

@@ -112,9 +112,9 @@ pub fn free(scene: &Scene, quarters: u64, replicas: u64) -> Result<Values, Strin
     (0..replicas)
         .into_par_iter()
         .map(|replica| {
-            let found = run_replica(&plan, replica).map_err(|error| error.to_string())?;
+            let means = run_replica(&plan, replica).map_err(|error| error.to_string())?;
             // The first output is the start.
-            let x1 = (1..plan.outputs()).map(|output| found.mean(Channel::X[0], output));
+            let x1 = (1..plan.outputs()).map(|output| means.mean(Channel::X[0], output));
             Ok(x1.map(|mean| mean.unwrap_or(f64::NAN)).collect())
         })
         .collect()

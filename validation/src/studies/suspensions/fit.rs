@@ -1,5 +1,6 @@
 //! Straight lines through means that share random numbers, and the observed order.
 
+use crate::studies::bisect::bisect;
 use nalgebra::{DMatrix, DVector};
 use serde::Serialize;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
@@ -82,14 +83,14 @@ impl Means {
         let design = DMatrix::from_fn(count, 2, |row, column| if column == 0 { 1.0 } else { x[row] });
         let y = DVector::from_column_slice(&self.values);
         let inverse = (design.transpose() * cholesky.solve(&design)).try_inverse()?;
-        let found = &inverse * design.transpose() * cholesky.solve(&y);
-        let rest = y - design * &found;
+        let solution = &inverse * design.transpose() * cholesky.solve(&y);
+        let rest = y - design * &solution;
         let chi_square = rest.dot(&cholesky.solve(&rest));
         let freedom = ChiSquared::new(count as f64 - 2.0).ok();
         Some(Line {
-            intercept: found[0],
+            intercept: solution[0],
             intercept_se: inverse[(0, 0)].sqrt(),
-            slope: found[1],
+            slope: solution[1],
             slope_se: inverse[(1, 1)].sqrt(),
             chi_square,
             p: freedom.map(|freedom| 1.0 - freedom.cdf(chi_square)),
@@ -109,23 +110,15 @@ impl Means {
         let chi_square = |order: f64| line(order).map_or(f64::INFINITY, |line| line.chi_square);
         let (low, high) = (0.25, 4.0);
         // On a coarse grid, then on a fine one around its best value.
-        let tried = (0..=375).map(|k| low + 0.01 * f64::from(k));
-        let near = tried.min_by(|a, b| chi_square(*a).total_cmp(&chi_square(*b)))?;
-        let tried = (-100..=100).map(|k| near + 1e-4 * f64::from(k));
-        let best = tried.min_by(|a, b| chi_square(*a).total_cmp(&chi_square(*b)))?;
+        let best_of = |tried: Vec<f64>| tried.into_iter().min_by(|a, b| chi_square(*a).total_cmp(&chi_square(*b)));
+        let near = best_of((0..=375).map(|k| low + 0.01 * f64::from(k)).collect())?;
+        let best = best_of((-100..=100).map(|k| near + 1e-4 * f64::from(k)).collect())?;
         let limit = chi_square(best) + 1.0;
         let flat = line(best).is_none_or(|line| line.slope.abs() < 2.0 * line.slope_se);
         if flat || chi_square(low) < limit || chi_square(high) < limit {
             return None;
         }
-        let end = |outer: f64| {
-            let (mut inside, mut outside) = (best, outer);
-            for _ in 0..50 {
-                let middle = 0.5 * (inside + outside);
-                if chi_square(middle) < limit { inside = middle } else { outside = middle }
-            }
-            inside
-        };
+        let end = |outer: f64| bisect(best, outer, 50, |order| chi_square(order) < limit)[0];
         Some(Order { order: best, se: 0.5 * (end(high) - end(low)) })
     }
 
@@ -173,8 +166,8 @@ mod tests {
     #[test]
     fn a_clear_order_is_found_and_a_hidden_one_is_not() {
         for order in [1.0, 2.0] {
-            let found = Means::of(&samples(order, 1e-4 * H[1].powf(order) / H[1], 1)).order(&H).unwrap();
-            assert!((found.order - order).abs() < 4.0 * found.se && found.se < 0.1, "{found:?}");
+            let fitted = Means::of(&samples(order, 1e-4 * H[1].powf(order) / H[1], 1)).order(&H).unwrap();
+            assert!((fitted.order - order).abs() < 4.0 * fitted.se && fitted.se < 0.1, "{fitted:?}");
         }
         assert_eq!(Means::of(&samples(1.0, 0.3, 1)).order(&H), None);
     }

@@ -61,34 +61,33 @@ fn run(request: &Request) -> Result<Option<Findings>, String> {
 }
 
 /// The built-in scene of the study: the paper's Fig. 7, rods of one size.
-pub const SCENE: &str = "fig7-n50";
+const SCENE: &str = "fig7-n50";
 
 /// The size of the study.
-#[derive(Clone, Copy, Debug)]
-pub struct Amount {
+struct Amount {
     /// Replicas of the jobs over steps and rods.
-    pub replicas: Replicas,
+    replicas: Replicas,
     /// Steps per period and replicas of the reference with the scene's own rods.
-    pub reference: (u64, u64),
+    reference: (u64, u64),
     /// Steps per period, rods and replicas of the reference without faces.
-    pub unbounded: Option<(u64, usize, u64)>,
+    unbounded: Option<(u64, usize, u64)>,
     /// The number of runs of the split for each of [`TARGETS`].
-    pub repeats: [u64; 3],
+    repeats: [u64; 3],
     /// Replicas of the coupled runs.
-    pub coupled: u64,
+    coupled: u64,
 }
 
 impl Amount {
-    /// The amount for daily reports: seconds.
-    pub const QUICK: Self = Self {
+    /// Takes seconds.
+    const QUICK: Self = Self {
         replicas: Replicas::Within { rod_steps: 10_000_000, most: 2000 },
         reference: (800, 400),
         unbounded: None,
         repeats: [16, 0, 0],
         coupled: 200,
     };
-    /// The amount for `shearbed bench` and full reports: a minute or two.
-    pub const FULL: Self = Self {
+    /// Takes a minute or two.
+    const FULL: Self = Self {
         replicas: Replicas::Within { rod_steps: 100_000_000, most: 20_000 },
         reference: (3200, 5000),
         unbounded: Some((800, 100_000, 8)),
@@ -98,35 +97,28 @@ impl Amount {
 }
 
 /// A split, its time, and its realised error if it was run.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Answer {
-    /// The split to run.
-    pub split: Split,
+#[derive(Serialize)]
+struct Answer {
+    split: Split,
     /// The split's time on one core, from the time of a rod's step.
-    pub seconds: f64,
-    /// The realised error.
-    pub realised: Option<Realised>,
+    seconds: f64,
+    realised: Option<Realised>,
 }
 
 /// The results of the study.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Interacting {
-    /// The scene's name.
-    pub scene: String,
-    /// G T: the strain of a period.
-    pub strain_per_period: f64,
-    /// The dependence on steps, rods and replicas.
-    pub law: Law,
-    /// The constants of the error.
-    pub constants: Constants,
+#[derive(Serialize)]
+struct Interacting {
+    scene: &'static str,
+    strain_per_period: f64,
+    law: Law,
+    constants: Constants,
     /// The time of one rod's step on one core in s, with the scene's own rods.
-    pub rod_step_s: f64,
+    rod_step_s: f64,
     /// For each of [`TARGETS`]: with the scene's own rods, and without faces.
-    pub answers: Vec<Answer>,
+    answers: Vec<Answer>,
     /// The references for realised errors: with the scene's own rods, and without faces.
-    pub references: Vec<JobMean>,
-    /// The savings by shared random numbers.
-    pub coupled: Coupled,
+    references: Vec<JobMean>,
+    coupled: Coupled,
 }
 
 /// Studies [`SCENE`] on the threads of the current pool; the time of a rod's step is measured on one core.
@@ -163,7 +155,7 @@ fn measure(amount: Amount, budget: Budget) -> Result<Interacting, String> {
         }
     }
     Ok(Interacting {
-        scene: SCENE.to_owned(),
+        scene: SCENE,
         strain_per_period: strain_per_period(scene.particles.aspect_ratio),
         coupled: coupled::measure(&scene, amount.coupled)?,
         law,
@@ -184,7 +176,7 @@ fn splits_csv(study: &Interacting) -> Result<String, String> {
     let realised =
         |name: &str, of: fn(&Realised) -> f64| field(name, move |answer: &Answer| answer.realised.as_ref().map(of));
     let columns = vec![
-        words("scene", |_: &Answer| study.scene.as_str()),
+        words("scene", |_: &Answer| study.scene),
         field("target", |answer: &Answer| answer.split.target),
         words("counted_from", |answer: &Answer| match answer.split.scope {
             Scope::OwnRods(_) => "own_rods",

@@ -11,6 +11,7 @@ use nalgebra::Vector3;
 use serde::Serialize;
 use shearbed::model::jeffery::strain_per_period;
 use shearbed::{Plan, Scene};
+use std::collections::BTreeSet;
 
 /// The numbers of steps per period that are tried.
 pub const STEPS_PER_PERIOD: [u64; 10] = [20, 50, 100, 200, 400, 800, 1600, 3200, 6400, 12800];
@@ -43,7 +44,7 @@ impl Replicas {
     /// The choice for `shearbed converge`: about three minutes of one core.
     pub const CONVERGE: Self = Self::Within { rod_steps: 400_000_000, most: 20_000 };
 
-    fn of(self, steps_per_period: u64, rods: usize) -> u64 {
+    fn of_job(self, steps_per_period: u64, rods: usize) -> u64 {
         match self {
             Self::Each(replicas) => replicas,
             Self::Within { rod_steps, most } => (rod_steps / (steps_per_period * rods as u64)).clamp(8, most),
@@ -124,16 +125,10 @@ pub fn judges(plan: &Plan) -> bool {
 /// The jobs of a scene: every number of steps, then every number of rods, each once.
 pub fn jobs(scene: &Scene, replicas: Replicas) -> Vec<Job> {
     let (own_steps, own_rods) = (scene.steps_per_unit(), scene.particles.count);
-    let job = |steps, rods| Job::new(scene, steps, rods, replicas.of(steps, rods), 1);
-    let with_own = |mut list: Vec<u64>, own: u64| {
-        list.push(own);
-        list.sort_unstable();
-        list.dedup();
-        list
-    };
-    let mut jobs: Vec<_> = with_own(STEPS_PER_PERIOD.into(), own_steps)
-        .into_iter()
-        .map(|steps| Job { followed: FOLLOWED.min(replicas.of(steps, own_rods)), ..job(steps, own_rods) })
+    let job = |steps, rods| Job::new(scene, steps, rods, replicas.of_job(steps, rods), 1);
+    let every_steps: BTreeSet<_> = STEPS_PER_PERIOD.into_iter().chain([own_steps]).collect();
+    let mut jobs: Vec<_> = (every_steps.into_iter())
+        .map(|steps| Job { followed: FOLLOWED.min(replicas.of_job(steps, own_rods)), ..job(steps, own_rods) })
         .collect();
     let rods = RODS.iter().filter(|rods| **rods != own_rods);
     jobs.extend(rods.map(|rods| job(own_steps, *rods)));
@@ -145,10 +140,10 @@ pub fn run(jobs: &[Job], finished: &(dyn Fn() + Sync)) -> Result<Vec<Vec<Trace>>
     jobs.iter().map(|job| job.run(finished)).collect()
 }
 
-/// Evaluates the results `found` of the jobs of [`jobs`].
-pub fn read(scene: &Scene, jobs: &[Job], found: &[Vec<Trace>]) -> Law {
+/// Evaluates the traces of the jobs of [`jobs`].
+pub fn read(scene: &Scene, jobs: &[Job], traces: &[Vec<Trace>]) -> Law {
     let (own_steps, own_rods) = (scene.steps_per_unit(), scene.particles.count);
-    let x1: Vec<_> = found.iter().map(|traces| x1(traces)).collect();
+    let x1: Vec<_> = traces.iter().map(|of_job| x1(of_job)).collect();
     let chosen = |which: &dyn Fn(&Job) -> bool| -> Vec<usize> {
         let mut chosen: Vec<_> = (0..jobs.len()).filter(|k| which(&jobs[*k])).collect();
         chosen.sort_by_key(|k| (jobs[*k].scene.particles.count, jobs[*k].scene.steps_per_unit()));
@@ -162,7 +157,7 @@ pub fn read(scene: &Scene, jobs: &[Job], found: &[Vec<Trace>]) -> Law {
     let (means, h) = (of(&steps), steps.iter().map(|k| 1.0 / jobs[*k].scene.steps_per_unit() as f64));
     let h: Vec<f64> = h.collect();
     let changes: Vec<_> =
-        (steps.windows(2).enumerate()).map(|(k, pair)| change(&means, k, &found[pair[0]], &found[pair[1]])).collect();
+        (steps.windows(2).enumerate()).map(|(k, pair)| change(&means, k, &traces[pair[0]], &traces[pair[1]])).collect();
     let strain = strain_per_period(scene.particles.aspect_ratio);
     let resolved_from = h.iter().position(|h| strain * h <= 1.0).unwrap_or(h.len().saturating_sub(1));
     let known = changes[resolved_from.min(changes.len())..].iter().filter(|change| change.x1.readable());
@@ -210,12 +205,10 @@ fn sample(job: &Job, x1: &[f64]) -> JobMean {
 /// The line a + b/S over the resolved levels, or from a finer level if the line is refuted (p < 0.001), with its first
 /// level.
 fn first_order(means: &Means, h: &[f64], resolved_from: usize) -> (usize, Option<Line>) {
-    let lines = (resolved_from..h.len().saturating_sub(2))
+    let mut lines = (resolved_from..h.len().saturating_sub(2))
         .filter_map(|first| Some((first, means.from(first).line(&h[first..])?)));
-    lines
-        .into_iter()
-        .find(|(_, line)| line.p.is_none_or(|p| p >= 1e-3))
-        .map_or((resolved_from, None), |(first, line)| (first, Some(line)))
+    let fitting = lines.find(|(_, line)| line.p.is_none_or(|p| p >= 1e-3));
+    fitting.map_or((resolved_from, None), |(first, line)| (first, Some(line)))
 }
 
 fn change(means: &Means, level: usize, coarse: &[Trace], fine: &[Trace]) -> Change {

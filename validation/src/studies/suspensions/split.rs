@@ -8,6 +8,7 @@ use super::Estimate;
 use super::coupled;
 use super::job::{Job, x1};
 use super::law::{FACES, JobMean, Law};
+use crate::studies::bisect::bisect;
 use serde::Serialize;
 use shearbed::Scene;
 
@@ -138,12 +139,8 @@ impl Constants {
             }
             Scope::Unbounded => {
                 // The error falls with N: bisects the interval of ln N.
-                let (mut low, mut high) = (0.0f64, 100.0f64);
-                for _ in 0..60 {
-                    let middle = 0.5 * (low + high);
-                    if split(middle.exp(), fewest).error() > target { low = middle } else { high = middle }
-                }
-                split(high.exp().ceil(), fewest)
+                let [_, enough] = bisect(0.0, 100.0, 60, |ln_n| split(ln_n.exp(), fewest).error() > target);
+                split(enough.exp().ceil(), fewest)
             }
         })
     }
@@ -194,13 +191,13 @@ pub fn reference(scene: &Scene, steps: u64, rods: usize, replicas: u64) -> Resul
     let mut job = Job::new(scene, steps, rods, replicas, 1);
     job.scene.ensemble.seed = scene.ensemble.seed + 1_000_000;
     let x1 = x1(&job.run(&|| ())?);
-    let found = if replicas < 100 {
+    let mean = if replicas < 100 {
         Estimate::mean_of(&x1)
     } else {
         let free = coupled::at(&coupled::free(&job.scene, 4, replicas)?, 3);
         coupled::controlled(&x1, &free, coupled::free_mean(scene, 1.0))
     };
-    Ok(JobMean { steps_per_period: steps, rods, replicas, x1: found.value, se: found.se })
+    Ok(JobMean { steps_per_period: steps, rods, replicas, x1: mean.value, se: mean.se })
 }
 
 #[cfg(test)]

@@ -68,8 +68,8 @@ pub fn errors(c_i: &[f64]) -> Result<Vec<Off>, String> {
 fn timed<T>(of: impl Fn() -> Option<T>) -> Option<(f64, T)> {
     let run = || {
         let begun = Instant::now();
-        let found = of()?;
-        Some((begun.elapsed().as_secs_f64(), found))
+        let result = of()?;
+        Some((begun.elapsed().as_secs_f64(), result))
     };
     (0..3).filter_map(|_| run()).min_by(|a, b| a.0.total_cmp(&b.0))
 }
@@ -84,12 +84,12 @@ pub fn work() -> Result<Vec<Work>, String> {
     let mut rows = vec![Work { method: "exact", tolerance: 4e-12, seconds, error }];
     for closure in Closure::ALL {
         for tolerance in [1e-2, 1e-4, 1e-6, 1e-8] {
-            let Some((seconds, found)) =
+            let Some((seconds, tensors)) =
                 timed(|| at(&equation(gradient, closure, c_i), &isotropic(), &TIMES, tolerance))
             else {
                 continue;
             };
-            let error = found.iter().zip(&exact).map(|(a, exact)| apart(a, exact)).fold(0.0, f64::max);
+            let error = tensors.iter().zip(&exact).map(|(a, exact)| apart(a, exact)).fold(0.0, f64::max);
             rows.push(Work { method: closure.name(), tolerance, seconds, error });
         }
     }

@@ -37,7 +37,8 @@ pub struct Point {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct IntegratorCurve {
     /// The integrator's name.
-    pub subject: String,
+    #[serde(rename = "subject")]
+    pub integrator: String,
     /// The theory of its error.
     pub theory: Theory,
     /// The points, from the coarsest setting to the finest that the budget allows.
@@ -63,24 +64,24 @@ pub fn name(aspect_ratio: f64) -> String {
 }
 
 /// Runs every integrator on a rod of this aspect ratio ([`RodProblem::mid_flip`]), on this thread alone.
-pub fn run(aspect_ratio: f64, subjects: &[Integrator], budget: Budget) -> Bench {
+pub fn run(aspect_ratio: f64, integrators: &[Integrator], budget: Budget) -> Bench {
     let (problem, _) = RodProblem::mid_flip(aspect_ratio);
     Bench {
         name: name(aspect_ratio),
         aspect_ratio,
         turns: problem.turns,
-        curves: (subjects.iter()).map(|subject| curve(subject, aspect_ratio, budget)).collect(),
+        curves: (integrators.iter()).map(|integrator| curve(integrator, aspect_ratio, budget)).collect(),
     }
 }
 
 /// An integrator's curve: settings from coarse to fine until a run takes longer than half the budget, as the next would
 /// take twice as long.
-pub fn curve(subject: &Integrator, aspect_ratio: f64, budget: Budget) -> IntegratorCurve {
+pub fn curve(integrator: &Integrator, aspect_ratio: f64, budget: Budget) -> IntegratorCurve {
     let (problem, start) = RodProblem::mid_flip(aspect_ratio);
     let mut points = Vec::new();
-    for setting in settings(subject.theory) {
-        let graded = grade(subject, &problem, &start, setting);
-        let seconds = time::measure(budget, || subject.advance(&problem, &start, setting));
+    for setting in settings(integrator.theory) {
+        let graded = grade(integrator, &problem, &start, setting);
+        let seconds = time::measure(budget, || integrator.advance(&problem, &start, setting));
         let (errors, failure) = match graded {
             Ok(errors) => (Some(errors), None),
             Err(failure) => (None, Some(failure.to_string())),
@@ -90,7 +91,7 @@ pub fn curve(subject: &Integrator, aspect_ratio: f64, budget: Budget) -> Integra
             break;
         }
     }
-    IntegratorCurve { subject: subject.name.clone(), theory: subject.theory, points }
+    IntegratorCurve { integrator: integrator.name.clone(), theory: integrator.theory, points }
 }
 
 /// The settings for a theory: 16, 32, … 2³⁰ steps, tolerances from 10⁻² to 10⁻¹⁴, or a single exact one.
@@ -164,7 +165,7 @@ mod tests {
     #[test]
     fn a_chance_crossing_does_not_count() {
         let curve = IntegratorCurve {
-            subject: "synthetic".into(),
+            integrator: "synthetic".into(),
             theory: Theory::Order(1),
             points: vec![
                 point(Some(1e-9), 1.0),
@@ -181,38 +182,38 @@ mod tests {
     }
 
     #[test]
-    fn a_failing_subject_is_kept_and_a_slow_one_stopped() {
+    fn a_failing_integrator_is_shown_and_a_slow_one_stopped() {
         let blows_up = Integrator::in_p("synthetic", 1, |_, p, _| p * f64::INFINITY);
-        let found = curve(&blows_up, 2.0, QUICK);
-        assert_eq!(found.failures(), found.points.len());
-        assert_eq!(found.points[0].failure.as_deref(), Some("not finite"));
+        let measured = curve(&blows_up, 2.0, QUICK);
+        assert_eq!(measured.failures(), measured.points.len());
+        assert_eq!(measured.points[0].failure.as_deref(), Some("not finite"));
         let idle = Integrator::in_p("synthetic", 1, |_, p, _| std::hint::black_box(p)).keeping_length();
         assert!(curve(&idle, 2.0, QUICK).points.len() < 26, "the budget ends it");
         let refuses = Integrator::new("synthetic", Theory::Adaptive, |_, _, _| Err(Failure::Gave("too stiff".into())));
-        let found = curve(&refuses, 2.0, QUICK);
-        assert_eq!((found.points.len(), found.failures()), (13, 13));
+        let measured = curve(&refuses, 2.0, QUICK);
+        assert_eq!((measured.points.len(), measured.failures()), (13, 13));
 
         // Failed runs appear in every form of output.
-        let bench = Bench { name: name(2.0), aspect_ratio: 2.0, turns: 1.0, curves: vec![found] };
+        let bench = Bench { name: name(2.0), aspect_ratio: 2.0, turns: 1.0, curves: vec![measured] };
         let benches = [bench];
         let csv = rows::bench_csv(&benches).unwrap();
         assert_eq!(csv.matches(",too stiff,").count(), 13, "{csv}");
         assert!(
             crate::files::build::json(&benches[0].curves[0].points[0]).unwrap().contains("\"failure\": \"too stiff\"")
         );
-        let tables = study::cheapest(&benches).text() + &study::every_subject(&benches[0]).text();
+        let tables = study::cheapest(&benches).text() + &study::every_integrator(&benches[0]).text();
         assert!(tables.contains("not reached") && tables.contains("13 of 13"), "{tables}");
         let figure = &study::figure(&benches[0]).figure;
         assert_eq!(figure.points[0].x.len(), 13);
     }
 
     #[test]
-    fn every_subject_is_in_every_table() {
+    fn every_integrator_is_in_every_table() {
         assert_eq!(ASPECT_RATIOS.map(name), PARTS);
-        let subjects = crate::studies::integrators::all();
-        let bench = run(2.0, &subjects, QUICK);
-        let table = study::every_subject(&bench);
+        let integrators = crate::studies::integrators::all();
+        let bench = run(2.0, &integrators, QUICK);
+        let table = study::every_integrator(&bench);
         let names: Vec<_> = table.rows.iter().map(|row| row[0].as_str()).collect();
-        assert!(names.iter().copied().eq(subjects.iter().map(|subject| subject.name.as_str())));
+        assert!(names.iter().copied().eq(integrators.iter().map(|integrator| integrator.name.as_str())));
     }
 }

@@ -62,7 +62,8 @@ pub struct Richardson {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Convergence {
     /// The integrator's name.
-    pub subject: String,
+    #[serde(rename = "subject")]
+    pub integrator: String,
     /// The order by theory.
     pub theory: u32,
     /// The runs, from coarse to fine.
@@ -118,7 +119,7 @@ fn of_all(aspect_ratio: f64, phi: f64, theta: f64, turns: f64, whose: &str) -> O
             problem.turns
         ),
         studies: (integrators::all().iter())
-            .filter_map(|subject| study(subject, &problem, &start, doublings))
+            .filter_map(|integrator| study(integrator, &problem, &start, doublings))
             .collect(),
     }
 }
@@ -130,12 +131,12 @@ fn coarsest(problem: &RodProblem) -> u64 {
 
 /// Halves the step `doublings` times, from GΔt of about 1. `None` for an integrator without equal steps.
 pub fn study(
-    subject: &Integrator,
+    integrator: &Integrator,
     problem: &RodProblem,
     start: &UnitVector3<f64>,
     doublings: u32,
 ) -> Option<Convergence> {
-    let Theory::Order(theory) = subject.theory else {
+    let Theory::Order(theory) = integrator.theory else {
         return None;
     };
     let coarsest = coarsest(problem);
@@ -143,8 +144,8 @@ pub fn study(
     for k in 0..=doublings {
         let steps = coarsest << k;
         let setting = Setting::Steps(steps);
-        let errors = grade(subject, problem, start, setting).ok();
-        let value = errors.and_then(|_| subject.advance(problem, start, setting).ok());
+        let errors = grade(integrator, problem, start, setting).ok();
+        let value = errors.and_then(|_| integrator.advance(problem, start, setting).ok());
         let before = halvings.last().and_then(|halving| halving.errors);
         halvings.push(Halving {
             steps,
@@ -153,13 +154,13 @@ pub fn study(
             order: errors.zip(before).map(|(now, before)| (before.orientation_rad / now.orientation_rad).log2()),
         });
     }
-    let floor = round_off(problem);
+    let floor = round_off(problem.aspect_ratio, problem.turns);
     let judged = judged(&halvings, floor);
-    let (found, observed) = compare(&halvings, &judged, theory, |steps| most_round_off(problem, steps));
+    let (verdict, observed) = compare(&halvings, &judged, theory, |steps| most_round_off(problem, steps));
     Some(Convergence {
-        subject: subject.name.clone(),
+        integrator: integrator.name.clone(),
         theory,
-        found,
+        found: verdict,
         observed,
         judged,
         richardson: richardson(&halvings, theory, problem.reference(start).x.abs(), floor),
@@ -167,11 +168,10 @@ pub fn study(
     })
 }
 
-/// The largest error that is round-off of most integrators: the time has the relative error ε, φ moves by max(r_e,
-/// 1/r_e) times the phase, and thousands of steps add up.
-fn round_off(problem: &RodProblem) -> f64 {
-    let r = problem.aspect_ratio;
-    1000.0 * f64::EPSILON * r.max(1.0 / r) * problem.turns.max(1.0)
+/// The largest error that is round-off of most integrators with steps: the time has the relative error ε, φ moves by
+/// max(r_e, 1/r_e) times the phase, and thousands of steps add up.
+pub(crate) fn round_off(aspect_ratio: f64, turns: f64) -> f64 {
+    1000.0 * f64::EPSILON * aspect_ratio.max(1.0 / aspect_ratio) * turns.max(1.0)
 }
 
 /// The largest error that may be round-off of any integrator after this many steps. While the rod lies along the flow
@@ -220,12 +220,12 @@ fn compare(
     }
     let above = orders_above(halvings, &most_round_off);
     let last = above[above.len().saturating_sub(3)..].to_vec();
-    let found = match *last {
+    let verdict = match *last {
         [first, second, last] if off(first) > off(second) && 0.6 * off(second) > off(last) => OrderVerdict::Unsettled,
         [_, _] | [_, _, _] => OrderVerdict::Not,
         _ => OrderVerdict::RoundOff,
     };
-    (found, last)
+    (verdict, last)
 }
 
 /// The extrapolation from the finest three grids whose differences are above round-off.
@@ -268,31 +268,31 @@ mod tests {
 
     #[test]
     fn an_order_keeps_its_sign_and_round_off_is_not_judged() {
-        let found = |errors: &[f64], theory| {
+        let verdict = |errors: &[f64], theory| {
             let halvings = synthetic(errors);
             compare(&halvings, &judged(&halvings, 1e-12), theory, |_| 1e-12).0
         };
-        assert_eq!(found(&[0.4, 0.1, 0.025, 0.00625], 2), OrderVerdict::AsTheory);
-        assert_eq!(found(&[0.00625, 0.025, 0.1, 0.4], 2), OrderVerdict::Not, "it diverges");
-        assert_eq!(found(&[0.4, 0.2, 0.1, 0.025], 2), OrderVerdict::Not);
-        assert_eq!(found(&[1e-9, 6e-11, 4e-12, 1e-15, 2e-14], 4), OrderVerdict::AsTheory);
-        assert_eq!(found(&[1e-9, 1e-15, 1e-9, 1e-9], 4), OrderVerdict::RoundOff);
-        assert_eq!(found(&[f64::NAN, 0.1, f64::NAN], 4), OrderVerdict::RoundOff);
+        assert_eq!(verdict(&[0.4, 0.1, 0.025, 0.00625], 2), OrderVerdict::AsTheory);
+        assert_eq!(verdict(&[0.00625, 0.025, 0.1, 0.4], 2), OrderVerdict::Not, "it diverges");
+        assert_eq!(verdict(&[0.4, 0.2, 0.1, 0.025], 2), OrderVerdict::Not);
+        assert_eq!(verdict(&[1e-9, 6e-11, 4e-12, 1e-15, 2e-14], 4), OrderVerdict::AsTheory);
+        assert_eq!(verdict(&[1e-9, 1e-15, 1e-9, 1e-9], 4), OrderVerdict::RoundOff);
+        assert_eq!(verdict(&[f64::NAN, 0.1, f64::NAN], 4), OrderVerdict::RoundOff);
         // Below what may be round-off an order may still hold, and end in noise; above it, a lower order at the end is
         // one.
-        assert_eq!(found(&[1.6e-12, 1e-13, 6e-15, 1e-15, 3e-15], 4), OrderVerdict::AsTheory);
-        assert_eq!(found(&[1e-4, 6.3e-6, 4e-7, 1e-7, 5e-8, 2.5e-8], 4), OrderVerdict::Not);
-        assert_eq!(found(&[0.4, 0.15, 0.058, 0.025], 1), OrderVerdict::Unsettled);
+        assert_eq!(verdict(&[1.6e-12, 1e-13, 6e-15, 1e-15, 3e-15], 4), OrderVerdict::AsTheory);
+        assert_eq!(verdict(&[1e-4, 6.3e-6, 4e-7, 1e-7, 5e-8, 2.5e-8], 4), OrderVerdict::Not);
+        assert_eq!(verdict(&[0.4, 0.15, 0.058, 0.025], 1), OrderVerdict::Unsettled);
     }
 
     #[test]
     fn richardson_is_exact_for_a_pure_power() {
         let halvings = synthetic(&[0.064, 0.016, 0.004, 0.001]);
-        let found = richardson(&halvings, 2, 0.5, 1e-12).unwrap();
-        assert_eq!(found.steps, 64);
-        assert!((found.order - 2.0).abs() < 1e-12 && found.error < 1e-15);
+        let extrapolated = richardson(&halvings, 2, 0.5, 1e-12).unwrap();
+        assert_eq!(extrapolated.steps, 64);
+        assert!((extrapolated.order - 2.0).abs() < 1e-12 && extrapolated.error < 1e-15);
         // For a pure power the index is the safety factor times the true error, relative to the finest value.
-        assert!((found.index / (0.001 / 0.501) - SAFETY).abs() < 1e-12);
+        assert!((extrapolated.index / (0.001 / 0.501) - SAFETY).abs() < 1e-12);
         assert!(richardson(&synthetic(&[0.1, 0.2, 0.4]), 2, 0.5, 1e-12).is_none());
         assert!(richardson(&synthetic(&[0.1, -0.2, 0.1]), 2, 0.5, 1e-12).is_none());
     }

@@ -37,10 +37,10 @@ pub const STUDY: Study = Study {
 fn run(request: &Request) -> Result<Option<Findings>, String> {
     let chosen = super::ASPECT_RATIOS.into_iter().filter(|r| (request.wanted)(&super::name(*r)));
     let budget = request.effort.pick(Budget::QUICK, Budget::FULL);
-    let subjects = integrators::all();
-    let benches: Vec<_> = chosen.map(|r| super::run(r, &subjects, budget)).collect();
+    let integrators = integrators::all();
+    let benches: Vec<_> = chosen.map(|r| super::run(r, &integrators, budget)).collect();
     let orders = order::of_rod(11.6);
-    let both = |bench| Exhibit::both(figure(bench), every_subject(bench));
+    let both = |bench| Exhibit::both(figure(bench), every_integrator(bench));
     let mut exhibits: Vec<Exhibit> = benches.iter().map(both).collect();
     exhibits.extend([
         Exhibit::both(orders_figure(&orders), orders_table(&orders)),
@@ -97,8 +97,8 @@ pub(super) fn figure(bench: &Bench) -> ReportFigure {
         ),
         ["log run time (s)", "log angle to the closed form (rad)"],
     )
-    .curves(stepped.iter().map(|curve| Curve::of(&curve.subject, &curve.points, place)))
-    .points(exact.iter().map(|curve| Points::of(&curve.subject, &curve.points, place)))
+    .curves(stepped.iter().map(|curve| Curve::of(&curve.integrator, &curve.points, place)))
+    .points(exact.iter().map(|curve| Points::of(&curve.integrator, &curve.points, place)))
     .points((!failed.x.is_empty()).then_some(failed))
     .spans(Some((1e-8, 0.1)), Some((LEAST, FAILED)))
     .judged("A.1 to A.5, eq. 20", &["subject-orders", "exact-propagator-round-off"])
@@ -107,7 +107,7 @@ pub(super) fn figure(bench: &Bench) -> ReportFigure {
 /// The error of every method with steps against the number of steps.
 fn orders_figure(orders: &Orders) -> ReportFigure {
     let curve = |study: &Convergence| {
-        Curve::of(&study.subject, &study.halvings, |halving| (halving.steps as f64, drawn(halving.errors)))
+        Curve::of(&study.integrator, &study.halvings, |halving| (halving.steps as f64, drawn(halving.errors)))
     };
     ReportFigure::new(
         ["orders", "Error against the number of steps"],
@@ -122,7 +122,7 @@ fn orders_figure(orders: &Orders) -> ReportFigure {
 type Chosen<'a> = Option<(&'a IntegratorCurve, &'a Point)>;
 
 fn named(chosen: Chosen) -> String {
-    chosen.map_or(NOT_REACHED.into(), |(curve, _)| curve.subject.clone())
+    chosen.map_or(NOT_REACHED.into(), |(curve, _)| curve.integrator.clone())
 }
 
 fn timed(chosen: Chosen) -> Option<f64> {
@@ -158,8 +158,8 @@ fn ratio(benches: &[Bench]) -> ReportTable {
         exact.and_then(|curve| curve.points.first().cloned())
     };
     let adaptive = |bench: &Bench| {
-        let found = bench.cheapest(1e-6, |theory| theory == Theory::Adaptive);
-        (named(found), timed(found))
+        let adaptive = bench.cheapest(1e-6, |theory| theory == Theory::Adaptive);
+        (named(adaptive), timed(adaptive))
     };
     ReportTable::new(
         ["exact-against-adaptive", "The exact propagator against the cheapest adaptive integrator"],
@@ -180,9 +180,9 @@ fn ratio(benches: &[Bench]) -> ReportTable {
 }
 
 /// The time of every integrator of a bench for each error, then its smallest error.
-pub(super) fn every_subject(bench: &Bench) -> ReportTable {
+pub(super) fn every_integrator(bench: &Bench) -> ReportTable {
     let best = |curve: &IntegratorCurve| Some((curve.best()?.clone(), curve.best()?.errors?));
-    let mut columns: Vec<Column<IntegratorCurve>> = vec![words("subject", |c: &IntegratorCurve| c.subject.clone())];
+    let mut columns: Vec<Column<IntegratorCurve>> = vec![words("subject", |c: &IntegratorCurve| c.integrator.clone())];
     columns.extend(TARGETS_RAD.map(|target| {
         number(format!("{target:.0e} rad"), time, move |c: &IntegratorCurve| {
             c.cheapest(target).map(|point| point.seconds.least)
@@ -210,7 +210,7 @@ pub(super) fn every_subject(bench: &Bench) -> ReportTable {
 
 /// The table of observed orders.
 pub fn orders_table(orders: &Orders) -> ReportTable {
-    let found = |study: &Convergence| match study.found {
+    let verdict = |study: &Convergence| match study.found {
         OrderVerdict::AsTheory => "as theory",
         OrderVerdict::Not => "NOT as theory",
         OrderVerdict::Unsettled => "coming nearer",
@@ -221,7 +221,7 @@ pub fn orders_table(orders: &Orders) -> ReportTable {
         observed.join(" ")
     };
     type Format<'a> = &'a dyn Fn(f64) -> String;
-    fn of<'a>(name: &str, format: Format<'a>, value: fn(&Richardson) -> f64) -> Column<'a, Convergence> {
+    fn extrapolated<'a>(name: &str, format: Format<'a>, value: fn(&Richardson) -> f64) -> Column<'a, Convergence> {
         number(name, format, move |study: &Convergence| study.richardson.as_ref().map(value))
     }
     ReportTable::new(
@@ -234,16 +234,16 @@ pub fn orders_table(orders: &Orders) -> ReportTable {
         ),
         &orders.studies,
         vec![
-            words("subject", |s: &Convergence| s.subject.clone()),
+            words("subject", |s: &Convergence| s.integrator.clone()),
             words("theory", |s: &Convergence| s.theory.to_string()),
             words("observed", observed),
-            words("verdict", found),
-            of("steps", &|steps| steps.to_string(), |r| r.steps as f64),
-            of("order of |p_1|", &|order| format!("{order:+.3}"), |r| r.order),
-            of("at Δt = 0", &decimals(12), |r| r.value),
-            of("off by", &powers(1), |r| r.error),
-            of("index", &powers(1), |r| r.index),
-            of("error", &powers(1), |r| r.true_error),
+            words("verdict", verdict),
+            extrapolated("steps", &|steps| steps.to_string(), |r| r.steps as f64),
+            extrapolated("order of |p_1|", &|order| format!("{order:+.3}"), |r| r.order),
+            extrapolated("at Δt = 0", &decimals(12), |r| r.value),
+            extrapolated("off by", &powers(1), |r| r.error),
+            extrapolated("index", &powers(1), |r| r.index),
+            extrapolated("error", &powers(1), |r| r.true_error),
         ],
     )
 }

@@ -108,7 +108,7 @@ impl Bench {
     /// The program's curve in bold and ours in grey, as SVG. A program that takes no steps has a dashed line.
     pub fn picture(&self) -> Result<String, String> {
         let mut program = self.without_pipe();
-        program.subject = PROGRAM.to_owned();
+        program.integrator = PROGRAM.to_owned();
         let line = |curve: &IntegratorCurve| {
             let points = || curve.points.iter().filter(|point| point.errors.is_some());
             let mut x: Vec<_> = points().map(|point| point.seconds.least).collect();
@@ -116,7 +116,7 @@ impl Bench {
             if let ([only], [error]) = (&x[..], &y[..]) {
                 (x, y) = (vec![*only, 1.5 * only], vec![*error; 2]);
             }
-            plot::Curve { label: curve.subject.clone(), x, y, half_band: None }
+            plot::Curve { label: curve.integrator.clone(), x, y, half_band: None }
         };
         plot::svg_of_one(&plot::Figure {
             title: format!("Error against run time, one rod, r_e = {}", self.aspect_ratio),
@@ -146,7 +146,7 @@ impl Bench {
             row
         };
         let program = row(&self.without_pipe(), PROGRAM.to_owned());
-        let ours = self.ours.iter().map(|curve| row(curve, curve.subject.clone()));
+        let ours = self.ours.iter().map(|curve| row(curve, curve.integrator.clone()));
         let pipe = match self.pipe_s {
             Some(seconds) => {
                 format!("The pipe itself, {} a request by an echo program, is taken off.", time(seconds))
