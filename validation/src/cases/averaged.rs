@@ -23,7 +23,7 @@ pub fn cases() -> Vec<Case> {
                  with arms of every size it does not.",
             )
             .source("eqs 7, 8, A.13, A.14; docs/src/theory/time-step.md")
-            .subject(Limit { min_arm: 0.5, change: |_| {} })
+            .under_test(Limit { min_arm: 0.5, change: |_| {} })
             .mistake("arms of every size", Limit { min_arm: 0.0, change: |_| {} })
             .mistake(
                 "an average without the push of collisions",
@@ -36,7 +36,7 @@ pub fn cases() -> Vec<Case> {
                  = h² ℓ·D·ℓ/(2 r sin²χ).",
             )
             .source("A.13, A.14; docs/src/theory/time-step.md")
-            .subject((|rates| rates[0]) as Kick)
+            .under_test((|rates| rates[0]) as Kick)
             .mistake("a kick of the wrong sign", |[kick, _]| -kick)
             .mistake("twice the kick: the sum of the contact points' velocities for their mean", |[kick, _]| 2.0 * kick)
             .mistake("the other rod's kick", |[_, other]| other)
@@ -47,7 +47,7 @@ pub fn cases() -> Vec<Case> {
                  given rate both are Jeffery's step up to (GΔt)².",
             )
             .source("A.14; docs/src/theory/time-step.md")
-            .subject([turn as Update, step_angles])
+            .under_test([turn as Update, step_angles])
             .mistake("twice the same update", [turn as Update, turn])
             .mistake("a turn by half the angle", [|p, rate, time| turn(p, rate, 0.5 * time), step_angles])
             .check(updates),

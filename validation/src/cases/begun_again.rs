@@ -19,7 +19,7 @@ pub fn cases() -> Vec<Case> {
                  in law, as the suspension that they were.",
             )
             .source("eqs 11, 12; the method of solution: what a suspension is")
-            .subject((|_| ()) as Way)
+            .under_test((|_| ()) as Way)
             .mistake("r_e drawn anew", (|own| own.aspect_ratio = None) as Way)
             .mistake(
                 "each direction to the next rod",

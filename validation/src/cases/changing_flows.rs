@@ -30,7 +30,7 @@ pub fn cases() -> Vec<Case> {
                  it where the oracle has it. The seconds are those of each flow's rate.",
             )
             .source("eqs 2, 3, A.1")
-            .subject(run as Run)
+            .under_test(run as Run)
             .mistake("the flows in the opposite order", |scene| run(&with(scene, |steps| steps.reverse())))
             .mistake("the last flow left out: the one before goes on", |scene| {
                 run(&with(scene, |steps| {

@@ -17,7 +17,7 @@ pub fn cases() -> Vec<Case> {
         Case::program("cheapest-split")
             .claim("Steps and replicas by the rule for an error of 0.02 give the bias and the scatter that it says.")
             .source("eq. 4")
-            .subject((|_| {}) as Respell)
+            .under_test((|_| {}) as Respell)
             .mistake("a quarter of the replicas, or less", |split| split.replicas /= 4)
             .mistake("two steps a period", |split| split.steps_per_period = 2)
             .check(realised),

@@ -39,7 +39,7 @@ pub fn cases() -> Vec<Case> {
                 "The time means of |p_i| of a rod on the orbit C are an elliptic integral, an arcsinh and an arcsine.",
             )
             .source("eqs 13, 17")
-            .subject(exact as Motion)
+            .under_test(exact as Motion)
             .mistake("r_e 1 % longer", |r, p, turns| exact(1.01 * r, p, turns))
             .mistake("φ growing evenly", |_, p, turns| {
                 let (phi, theta) = orientation::angles(p);
@@ -49,7 +49,7 @@ pub fn cases() -> Vec<Case> {
         Case::core("orbit-distribution")
             .claim("Isotropic rods have the closed distribution of C, and free motion leaves every rod's C alone.")
             .source("eqs 12, 13")
-            .subject(orbit(|_| {}))
+            .under_test(orbit(|_| {}))
             .mistake("r_e 10 % longer", orbit(|scene| scene.particles.aspect_ratio *= 1.1))
             .mistake(
                 "every rod at 45°",
@@ -66,7 +66,7 @@ pub fn cases() -> Vec<Case> {
         Case::core("free-plateau")
             .claim("Free rods of Gaussian aspect ratio settle at the phase means averaged over isotropic orbits.")
             .source("eqs 16, 17")
-            .subject((|_| {}) as Change)
+            .under_test((|_| {}) as Change)
             .mistake("no spread: the phases stay together", |scene| scene.particles.aspect_ratio_sd_percent = 0.0)
             .mistake("r_e 20 % longer", |scene| scene.particles.aspect_ratio *= 1.2)
             .check(plateau),
@@ -76,7 +76,7 @@ pub fn cases() -> Vec<Case> {
                  + 1), to first order in σ.",
             )
             .source("eqs 11, 15; Fig. 9")
-            .subject(1.0 as Factor)
+            .under_test(1.0 as Factor)
             .mistake("σ 25 % too wide", 1.25)
             .check(spread_damping),
         Case::core("in-plane-start")
@@ -85,7 +85,7 @@ pub fn cases() -> Vec<Case> {
                  plane.",
             )
             .source("eqs 4, 20, A.4")
-            .subject((|_| {}) as Change)
+            .under_test((|_| {}) as Change)
             .mistake("r_e 1 % longer", |scene| scene.particles.aspect_ratio *= 1.01)
             .mistake("1° out of the plane", |scene| {
                 scene.particles.orientation = Orientation::Given { phi_deg: 30.0, theta_deg: 89.0 };

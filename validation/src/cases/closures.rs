@@ -18,7 +18,7 @@ pub fn cases() -> Vec<Case> {
                  closure gives a_ijkl of free rods that started isotropic.",
             )
             .source("Folgar & Tucker 1984; docs/src/theory/diffusion.md; validation/published/tensor-models")
-            .subject((|closure, a| closure.fourth(a)) as Of)
+            .under_test((|closure, a| closure.fourth(a)) as Of)
             .mistake("f and 1 − f exchanged in the hybrid closure", |closure, a| match closure {
                 Closure::Hybrid => {
                     let f = 1.0 - 27.0 * a.determinant();

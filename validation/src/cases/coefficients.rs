@@ -19,7 +19,7 @@ pub fn cases() -> Vec<Case> {
                  suspension its trace over two indices is ⟨pp⟩.",
             )
             .source("docs/src/theory/coefficients.md")
-            .subject(right)
+            .under_test(right)
             .mistake(
                 "components 1222 and 1112 exchanged",
                 Read {
@@ -39,7 +39,7 @@ pub fn cases() -> Vec<Case> {
                  after a fifth of a period and in the mean over half a period, where N₁ and N₂ vanish.",
             )
             .source("Batchelor 1970; docs/src/theory/coefficients.md")
-            .subject((|stress| stress) as Stress)
+            .under_test((|stress| stress) as Stress)
             .mistake("N₁ as gradient less flow", |[s12, n1, n2]| [s12, -n1, n2])
             .mistake("D counted twice", |stress| stress.map(|s| 2.0 * s))
             .mistake("N₁ and N₂ exchanged", |[s12, n1, n2]| [s12, n2, n1])
@@ -50,7 +50,7 @@ pub fn cases() -> Vec<Case> {
                  of r_e by Jeffery's integrals, or of cylinders of r by Batchelor's series.",
             )
             .source("Jeffery 1922; Leal & Hinch 1971; Batchelor 1970; docs/src/theory/coefficients.md")
-            .subject(Pascals { change: |_| {}, stress: |stress| stress })
+            .under_test(Pascals { change: |_| {}, stress: |stress| stress })
             .mistake(
                 "viscosity in poise",
                 Pascals {

@@ -71,7 +71,7 @@ pub fn cases() -> Vec<Case> {
                  uniform rods.",
             )
             .source("eq. 4; Results, before Fig. 6; Fig. 6 (top)")
-            .subject((|_| {}) as Change)
+            .under_test((|_| {}) as Change)
             .mistake("nearly round: r_e = 3", |scene| scene.particles.aspect_ratio = 3.0)
             .mistake("unequal aspect ratios", |scene| scene.particles.aspect_ratio_sd_percent = 7.2)
             .mistake("rods in collision", |scene| lab::paper_interaction(scene).concentration_per_cm3 = Some(100.0))
@@ -79,7 +79,7 @@ pub fn cases() -> Vec<Case> {
         Case::statement("faster-with-spread")
             .claim("\"The oscillations decay faster … as the differences in the aspect ratios become larger\".")
             .source("eq. 4; Results, before Fig. 7; Fig. 9")
-            .subject(spread)
+            .under_test(spread)
             .mistake(
                 "σ shifts all rods alike",
                 instead(
@@ -98,7 +98,7 @@ pub fn cases() -> Vec<Case> {
                  increases\".",
             )
             .source("eq. 4; Results, before Fig. 7; Fig. 7")
-            .subject(concentration)
+            .under_test(concentration)
             .mistake(
                 "a volume with the side (N n)^⅓ in place of (N/n)^⅓, right at 50 per cm³",
                 instead(
@@ -114,7 +114,7 @@ pub fn cases() -> Vec<Case> {
         Case::statement("faster-with-length")
             .claim("\"The oscillations decay faster … as the particles become longer\" at fixed r_e.")
             .source("eq. 4; Results, before Fig. 7; Fig. 8")
-            .subject(length)
+            .under_test(length)
             .mistake(
                 "rods per a³ taken as n/a³ in place of n a³, right at 0.72 mm",
                 instead(
@@ -135,7 +135,7 @@ pub fn cases() -> Vec<Case> {
                  interactions\".",
             )
             .source("eq. 4; Results, after Fig. 10; Figs 6 and 10")
-            .subject(
+            .under_test(
                 (|scene| {
                     lab::paper_interaction(scene);
                 }) as Change,
@@ -149,7 +149,7 @@ pub fn cases() -> Vec<Case> {
                  alone; with collisions alone they are smaller after one, two and four rotations each time.",
             )
             .source("eqs 4, 16; Results, after Fig. 6")
-            .subject((|_| {}) as Change)
+            .under_test((|_| {}) as Change)
             .mistake("collisions without effect", |scene| {
                 if let Some(interaction) = &mut scene.interaction {
                     interaction.alpha = 0.0;
@@ -165,7 +165,7 @@ pub fn cases() -> Vec<Case> {
                  less than a factor of two.",
             )
             .source("eqs 4, 16; Results, after Fig. 10")
-            .subject([damped as Change; 2] as Axes)
+            .under_test([damped as Change; 2] as Axes)
             .mistake("X̄_2 and X̄_3 not damped", [damped, undamped])
             .mistake("X̄_1 not damped", [undamped, damped])
             .check(on_all_axes),

@@ -25,7 +25,7 @@ pub fn cases() -> Vec<Case> {
                  → 0.",
             )
             .source("eqs 13, A.1; Folgar & Tucker 1984; Leal & Hinch 1971")
-            .subject((|(l, r, c)| Motion::new(l, r, c)) as Model)
+            .under_test((|(l, r, c)| Motion::new(l, r, c)) as Model)
             .mistake("the vorticity with the other sign", |(l, r, c)| {
                 let motion = Motion::new(l, r, c);
                 Motion { spin: -motion.spin, ..motion }

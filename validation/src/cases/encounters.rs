@@ -16,7 +16,7 @@ pub fn cases() -> Vec<Case> {
                  any α, m > 0.",
             )
             .source("eqs 7, 10")
-            .subject(reach as Formula)
+            .under_test(reach as Formula)
             .mistake("α missing in the denominator of P_c", |r, alpha, m| alpha * r.powf(-1.0 / m))
             .mistake("m = 3 whatever m is", |r, alpha, _| reach(r, alpha, 3.0))
             .mistake("s in rod radii", |r, alpha, m| 0.5 * reach(r, alpha, m))
@@ -25,7 +25,7 @@ pub fn cases() -> Vec<Case> {
         Case::core("collision-frequency")
             .claim("In a run, nearest pairs become candidates as often as the sum of their P_c says.")
             .source("eqs 7–9")
-            .subject((|_| {}) as Change)
+            .under_test((|_| {}) as Change)
             .mistake("α 10 % larger", |scene| lab::interaction(scene).alpha *= 1.1)
             .mistake("m = 2", |scene| lab::interaction(scene).m = 2.0)
             .check(frequency),

@@ -21,19 +21,19 @@ pub fn cases() -> Vec<Case> {
                  cm³.",
             )
             .source("eq. 4; Fig. 4")
-            .subject((|_| {}) as Change)
+            .under_test((|_| {}) as Change)
             .mistakes(controls())
             .check(|change, effort| agreement(&OKAGAWA_MASON, *change, effort)),
         Case::measurement("anczurowski-1967")
             .claim("With α = 0.5 the mean projections up to t/T = 3 are those that Anczurowski, Cox & Mason measured.")
             .source("eq. 4; Fig. 5")
-            .subject((|_| {}) as Change)
+            .under_test((|_| {}) as Change)
             .mistakes(controls())
             .check(|change, effort| agreement(&ANCZUROWSKI, *change, effort)),
         Case::measurement("alpha-same-for-both")
             .claim("The α that fits the experiments best is the same at r_e = 11.6 and at 14.2.")
             .source("eq. 7; Figs 4, 5")
-            .subject((|_| {}) as Change)
+            .under_test((|_| {}) as Change)
             .mistake("α doubled unseen, at r_e = 14.2 only", double_alpha as Change)
             .check(same_alpha),
         Case::statement("in-plane-not-fitted")
@@ -43,7 +43,7 @@ pub fn cases() -> Vec<Case> {
                  with the model\".",
             )
             .source("eqs 4, 7; Results, the r_e = 3.96 experiment")
-            .subject(90.0)
+            .under_test(90.0)
             .mistake("10° out of the plane, of unequal r_e", 80.0)
             .check(not_fitted),
     ]

@@ -41,7 +41,7 @@ pub fn cases() -> Vec<Case> {
                  seed and arm.",
             )
             .source("eqs 7, 14, A.13, A.14")
-            .subject(CORE)
+            .under_test(CORE)
             .mistake("the last step by explicit Euler, not rescaled", Model { directions: stepped_by_euler, ..CORE })
             .mistake("|ṗ| as the root of its squares", Model { pair: step_with_squares, ..CORE })
             .mistake(
@@ -64,7 +64,7 @@ pub fn cases() -> Vec<Case> {
                  in a full run), which aligns every rod.",
             )
             .source("eqs 3, 4, 11, 15")
-            .subject(whole_run as Program)
+            .under_test(whole_run as Program)
             .mistake("a thousandth of the strain", |scene| {
                 let mut short = scene.clone();
                 short.time.duration *= 1e-3;

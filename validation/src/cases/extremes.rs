@@ -27,7 +27,7 @@ pub fn cases() -> Vec<Case> {
                  thousand steps, from any start.",
             )
             .source("eqs 13, 15")
-            .subject(corners::exact as Motion)
+            .under_test(corners::exact as Motion)
             .mistake("q not rescaled", |r, g, p, turns| {
                 let Phase { cos, sin } = Phase::of_turns(g.signum() * turns);
                 Vector3::new(p.x * cos - p.y / r * sin, r * p.x * sin + p.y * cos, p.z)
@@ -51,7 +51,7 @@ pub fn cases() -> Vec<Case> {
                  5·10⁻¹⁵ rad from the third axis.",
             )
             .source("eqs 3, A.1")
-            .subject((|flow, r, p, time_s| Propagator::new(flow, r).after(p, time_s).into_inner()) as FlowMotion)
+            .under_test((|flow, r, p, time_s| Propagator::new(flow, r).after(p, time_s).into_inner()) as FlowMotion)
             .mistake("the plain exponential", |flow, r, p, time_s| {
                 let a = flow.vorticity() + shape_factor(r) * flow.strain_rate();
                 ((a * time_s).exp() * p.as_ref()).normalize()

@@ -64,7 +64,7 @@ pub fn cases() -> Vec<Case> {
         Case::program("fit-covers")
             .claim("The 68 and 95 % intervals of `shearbed fit` hold the planted α in 68 and 95 % of synthetic sets.")
             .source("eq. 7; profile likelihood; docs/src/theory/fits.md")
-            .subject(Way::AsItIs)
+            .under_test(Way::AsItIs)
             .mistake("intervals half as long", Way::HalfAsLong)
             .mistake("the simulated curve taken for exact", Way::SimulationExact)
             .mistake("straight lines between the nodes", Way::StraightLines)
@@ -75,13 +75,13 @@ pub fn cases() -> Vec<Case> {
                  pass it.",
             )
             .source("eqs 7, 11; docs/src/theory/fits.md")
-            .subject(Way::AsItIs)
+            .under_test(Way::AsItIs)
             .mistake("σ = 0 % for points of σ = 3.6 %", Way::NoSpread)
             .check(refuses),
         Case::program("fit-shares-rods")
             .claim("Where all points are means over the same rods, χ² of a fit is no larger than due.")
             .source("eq. 7; docs/src/theory/fits.md")
-            .subject(rods::Treatment::AsItIs)
+            .under_test(rods::Treatment::AsItIs)
             .mistake("rods that scatter as polynomials of replicas do", rods::Treatment::OfPolynomials)
             .check(rods::hold),
     ]

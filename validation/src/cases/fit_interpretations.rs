@@ -52,7 +52,7 @@ pub(super) fn cases() -> Vec<Case> {
                  at the rods' ends.",
             )
             .source("eq. 5; docs/src/theory/fits.md")
-            .subject((|_| ()) as Change)
+            .under_test((|_| ()) as Change)
             .mistake("contact lines cut at the rods' ends", |problem| {
                 problem.reading.lines = Lines::CutAtEnds;
             })

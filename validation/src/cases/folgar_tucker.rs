@@ -21,7 +21,7 @@ pub fn cases() -> Vec<Case> {
                  of this model) with rotary diffusion, and is 0 for the core's free rods.",
             )
             .source("Folgar & Tucker 1984; docs/src/theory/coefficients.md")
-            .subject(Estimator { alone: |strain| free(LAMBDA, strain), of: Means::coefficient })
+            .under_test(Estimator { alone: |strain| free(LAMBDA, strain), of: Means::coefficient })
             .mistake(
                 "1 − 3a in place of 2(1 − 3a)",
                 Estimator { alone: |strain| free(LAMBDA, strain), of: |means| 2.0 * means.coefficient() },
@@ -39,7 +39,7 @@ pub fn cases() -> Vec<Case> {
                  of them.",
             )
             .source("Folgar & Tucker 1984; docs/src/theory/coefficients.md")
-            .subject((|c| c) as fn(f64) -> f64)
+            .under_test((|c| c) as fn(f64) -> f64)
             .mistake("C_I per radian of the phase in place of per unit of strain", |c| c * (11.6 + 1.0 / 11.6))
             .mistake("J with the other sign", |c| -c)
             .check(seven),
@@ -49,7 +49,7 @@ pub fn cases() -> Vec<Case> {
                  more of them by more than 0.1 rad, and keep more of them in orbits of C_b > 1/2.",
             )
             .source("Folgar & Tucker 1984; eqs 5 to 10; docs/src/theory/coefficients.md")
-            .subject(Turned::ByKicks(|_| {}))
+            .under_test(Turned::ByKicks(|_| {}))
             .mistake("diffusion in place of kicks", Turned::ByDiffusion)
             .mistake(
                 "no contact by arms shorter than five rods",

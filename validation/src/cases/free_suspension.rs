@@ -13,7 +13,7 @@ pub fn cases() -> Vec<Case> {
         Case::core("free-isotropic")
             .claim("Free rods of one aspect ratio, isotropic at first, have the mean projections of the closed form.")
             .source("eqs 4, 12; Fig. 6 (top)")
-            .subject((|_| {}) as Change)
+            .under_test((|_| {}) as Change)
             .mistake("r_e 5 % longer", |scene| scene.particles.aspect_ratio *= 1.05)
             .mistake("aspect ratios spread by 3.6 %", |scene| scene.particles.aspect_ratio_sd_percent = 3.6)
             .mistake("the flow turned round", |scene| {
@@ -26,7 +26,7 @@ pub fn cases() -> Vec<Case> {
                 "Free rods of Gaussian aspect ratio, isotropic at first, have the mean projections of the quadrature.",
             )
             .source("eqs 4, 11; Fig. 6 (middle), Fig. 9")
-            .subject((|_| {}) as Change)
+            .under_test((|_| {}) as Change)
             .mistake("no spread", |scene| scene.particles.aspect_ratio_sd_percent = 0.0)
             .mistake("the spread 20 % too wide", |scene| scene.particles.aspect_ratio_sd_percent *= 1.2)
             .mistake("r_e 10 % longer", |scene| scene.particles.aspect_ratio *= 1.1)
@@ -34,7 +34,7 @@ pub fn cases() -> Vec<Case> {
         Case::core("free-half-period")
             .claim("Mean projections of free rods of one aspect ratio repeat after T/2, because p ≡ −p.")
             .source("eqs 4, 15")
-            .subject((|_| {}) as Change)
+            .under_test((|_| {}) as Change)
             .mistake("aspect ratios spread by 1 %", |scene| scene.particles.aspect_ratio_sd_percent = 1.0)
             .mistake("rods that interact", |scene| {
                 lab::interaction(scene);

@@ -25,7 +25,7 @@ pub fn cases() -> Vec<Case> {
                  rad, a scene is refused, and none that numbers of 106 bits can answer.",
             )
             .source("eqs 2, 3, A.1")
-            .subject(core as Motion)
+            .under_test(core as Motion)
             .mistake("Λ rounded to double before 1 − Λ is formed", |problem| {
                 let shape = shape_factor(problem.rod.aspect_ratio);
                 let rounded = ((1.0 + shape) / (1.0 - shape)).sqrt().clamp(1e-100, 1e100);
@@ -52,7 +52,7 @@ pub fn cases() -> Vec<Case> {
                  flow turned by 45° at r_e = 10⁸, a strain of 10⁻¹³ of a rotation.",
             )
             .source("eqs 3, 15, A.1")
-            .subject(scenes::program as scenes::Run)
+            .under_test(scenes::program as scenes::Run)
             .mistake("r_e longer by 10⁻⁶ of itself", |scene| {
                 let mut longer = scene.clone();
                 longer.particles.aspect_ratio *= 1.0 + 1e-6;

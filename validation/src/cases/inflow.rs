@@ -16,7 +16,7 @@ pub fn cases() -> Vec<Case> {
                  filled.",
             )
             .source("eqs 2, 3, 12; a replacement rule for flows other than eq. 14's")
-            .subject(Subject::Core)
+            .under_test(Subject::Core)
             .mistake("rods come in anywhere on a face alike", mistake(Mistake::InflowUniform))
             .mistake("faces chosen by their area alone", mistake(Mistake::FacesByArea))
             .mistake("rods come in at the step's beginning, all of them", mistake(Mistake::InflowAtOnce))

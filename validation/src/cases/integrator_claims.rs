@@ -1,7 +1,7 @@
 //! The claims of `docs/src/verification/integrators.md` on the problem and the integrators, beyond orders and limits.
 
-use super::subjects::Integrators;
-use super::subjects::spoiled::in_p;
+use super::integrators::Integrators;
+use super::integrators::spoiled::in_p;
 use crate::judge::case::{Case, Effort, Evidence};
 use crate::judge::statistics::larger;
 use crate::methods::integrators::*;
@@ -29,7 +29,7 @@ pub fn cases() -> Vec<Case> {
                  along the flow, and as more than ½ in its flip.",
             )
             .source("A.4")
-            .subject(1.0)
+            .under_test(1.0)
             .mistake("rods a thousandth as long", 1e-3)
             .check(where_errors_show),
         Case::integrator("right-hand-side-digits")
@@ -38,7 +38,7 @@ pub fn cases() -> Vec<Case> {
                  = 10⁸.",
             )
             .source("eqs 15, A.1")
-            .subject((|problem: &RodProblem, p: &Vector3<f64>| problem.rate(p)) as Rate)
+            .under_test((|problem: &RodProblem, p: &Vector3<f64>| problem.rate(p)) as Rate)
             .mistake("from Λ itself", through_shape)
             .mistake("1/r_e² for 1/(r_e² + 1)", |problem, p| {
                 let r2 = problem.aspect_ratio.powi(2);
@@ -51,7 +51,7 @@ pub fn cases() -> Vec<Case> {
                  at most 2/√3 G, so the flip is short, but the equation is not stiff.",
             )
             .source("A.1")
-            .subject((|problem: &RodProblem, p: &Vector3<f64>| problem.rate_slope(p)) as Slope)
+            .under_test((|problem: &RodProblem, p: &Vector3<f64>| problem.rate_slope(p)) as Slope)
             .mistake("the pull along p left out of the slope", |problem, p| {
                 let shape = shearbed::model::jeffery::shape_factor(problem.aspect_ratio);
                 problem.rate_slope(p) + p * Vector3::new(shape * p.y, shape * p.x, 0.0).transpose()
@@ -65,7 +65,7 @@ pub fn cases() -> Vec<Case> {
         Case::integrator("who-loses-length")
             .claim("The integrators that do not claim to keep |p| lose it: each by more than round-off.")
             .source("A.1; p·ṗ = 0")
-            .subject(crate::methods::integrators::own as Integrators)
+            .under_test(crate::methods::integrators::own as Integrators)
             .mistake("projected RK4 not said to keep it", || {
                 in_p(4, false, |problem, p, h| rk4(|y| problem.rate(&y), p, h).normalize())
             })
@@ -76,7 +76,7 @@ pub fn cases() -> Vec<Case> {
                  length 1.",
             )
             .source("A.1")
-            .subject(10.0)
+            .under_test(10.0)
             .mistake("GΔt = 0.1", 0.1)
             .check(coarse),
         Case::integrator("grid-convergence-index")
@@ -85,7 +85,7 @@ pub fn cases() -> Vec<Case> {
                  finest three grids.",
             )
             .source("A.4, A.5")
-            .subject(crate::methods::integrators::own as Integrators)
+            .under_test(crate::methods::integrators::own as Integrators)
             .mistake("explicit Euler said to be of order 3", || {
                 in_p(3, false, |problem, p, h| p + h * problem.tangent_rate(&p))
             })

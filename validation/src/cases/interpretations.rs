@@ -75,13 +75,13 @@ pub fn cases() -> Vec<Case> {
         Case::interpretation("interpretation-who-draws")
             .claim("With one draw per mutual pair in place of two, rods are damped less: this interpretation matters.")
             .source("eqs 8, 9; whose R decides is left open")
-            .subject(who_draws)
+            .under_test(who_draws)
             .mistake("index order instead", instead(who_draws, index_order))
             .check(matters),
         Case::interpretation("interpretation-order")
             .claim("Taking candidates in index order in place of closest first changes next to nothing.")
             .source("eqs 8, 9; the order is left open")
-            .subject(index_order)
+            .under_test(index_order)
             .mistake("one draw per mutual pair instead", pair_draws)
             .check(does_not_matter),
         Case::interpretation("interpretation-update")
@@ -89,7 +89,7 @@ pub fn cases() -> Vec<Case> {
                 "A.14 to the letter damps a little more than Jeffery's step and the kick: this interpretation matters.",
             )
             .source("A.13, A.14; the pole of the angles")
-            .subject(angles)
+            .under_test(angles)
             .mistake("no contact at arms below a thousandth of the length instead", instead(angles, hardly_any_arm))
             .check(matters),
         Case::interpretation("interpretation-shortest-arm")
@@ -97,13 +97,13 @@ pub fn cases() -> Vec<Case> {
                 "Without contacts at arms below the rod's radius, rods are damped less: this interpretation matters.",
             )
             .source("A.13; a kick ∝ 1/r has no bound")
-            .subject(shortest_arm)
+            .under_test(shortest_arm)
             .mistake("arms below a thousandth of the length instead", instead(shortest_arm, hardly_any_arm))
             .check(matters),
         Case::interpretation("interpretation-contact-lines")
             .claim("With contact lines cut at the rods' ends, rods are damped less: this interpretation matters.")
             .source("A.7; Fig. 2, assumption ii")
-            .subject(cut_lines)
+            .under_test(cut_lines)
             .mistake("index order instead", instead(cut_lines, index_order))
             .check(matters),
     ]

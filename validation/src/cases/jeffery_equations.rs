@@ -25,7 +25,7 @@ pub fn cases() -> Vec<Case> {
         Case::core("angular-velocity")
             .claim("The ṗ that a run's collisions start from is ω × p with ω by A.1 in the body frame, r_e = a/b.")
             .source("eqs 1, A.1")
-            .subject(rate_in_a_run as Rate)
+            .under_test(rate_in_a_run as Rate)
             .mistake("b/a for a/b", |p, r, sign| rate_in_a_run(p, 1.0 / r, sign))
             .mistake("the transposed gradient", |p, r, sign| {
                 let swap = |v: &Vector3<f64>| Vector3::new(v.y, v.x, v.z);
@@ -38,7 +38,7 @@ pub fn cases() -> Vec<Case> {
         Case::core("angle-rates")
             .claim("The angles of a rod that moves at a run's ṗ have the rates of A.2 and A.3.")
             .source("A.2, A.3")
-            .subject(rate_in_a_run as Rate)
+            .under_test(rate_in_a_run as Rate)
             .mistake("a quarter turn of φ", |p, r, sign| {
                 let turned = |v: &Vector3<f64>, k: f64| Vector3::new(-k * v.y, k * v.x, v.z);
                 turned(&rate_in_a_run(&turned(p, 1.0), r, sign), -1.0)
@@ -51,7 +51,7 @@ pub fn cases() -> Vec<Case> {
         Case::core("angles-in-closed-form")
             .claim("What a run makes of one rod is A.4 and A.5: its direction, φ and C_b at every output.")
             .source("eqs 13, 18, 20, A.4, A.5")
-            .subject((|_| {}) as Change)
+            .under_test((|_| {}) as Change)
             .mistake("r_e a millionth too long", |scene| {
                 scene.particles.aspect_ratio *= 1.0 + 1e-6;
             })

@@ -13,7 +13,7 @@ pub fn cases() -> Vec<Case> {
         Case::core("kick-tail")
             .claim("Kicks have a tail ∝ 1/κ: Hill's exponent is 1, in fresh pairs and in runs.")
             .source("A.13; docs/src/theory/time-step.md")
-            .subject((kicks_rad as Angles, 0.0))
+            .under_test((kicks_rad as Angles, 0.0))
             .mistake("arms below 0.05 a are no contact", (kicks_rad, 0.05))
             .mistake("a kick ∝ r^−½", (|c| c.kicks_rad.map(f64::sqrt), 0.0))
             .check(heavy),
@@ -22,7 +22,7 @@ pub fn cases() -> Vec<Case> {
                 "A kick is |g|Δt/(2|r|); with a shortest arm r_min it is at most ¼GΔt[(2 − Λ′)s/r_min + 2 − Λ − Λ′].",
             )
             .source("eqs 6, A.7, A.10, A.13; docs/src/theory/time-step.md")
-            .subject((kicks_rad as Angles, 1.0))
+            .under_test((kicks_rad as Angles, 1.0))
             .mistake("arms down to a third of r_min", (kicks_rad, 1.0 / 3.0))
             .mistake("arms of every size", (kicks_rad, 0.0))
             .mistake("the whole turn |ṗ′|Δt for the kick", (|c| c.angles_rad, 1.0))

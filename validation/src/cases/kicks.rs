@@ -21,7 +21,7 @@ pub fn cases() -> Vec<Case> {
                  the gap's velocity say, whatever Δt is.",
             )
             .source("eqs 7–10, A.7, A.10, A.13; docs/src/theory/time-step.md")
-            .subject((|fresh, chance| 2.0 * fresh.chances * chance(1.0)) as Expected)
+            .under_test((|fresh, chance| 2.0 * fresh.chances * chance(1.0)) as Expected)
             .mistake("one arm left out", |fresh, chance| fresh.chances * chance(1.0))
             .mistake("not weighted with P_c", |fresh, chance| 2.0 * fresh.pairs * chance(1.0))
             .mistake("the arm's density at 0 without the crossing angle", |fresh, chance| {
@@ -35,7 +35,7 @@ pub fn cases() -> Vec<Case> {
                  opens ever less often as Δt → 0.",
             )
             .source("A.13, A.14; docs/src/theory/time-step.md")
-            .subject(KICKS)
+            .under_test(KICKS)
             .mistake("the gap of the opposite shear", Counted { opens: |a, b| !(KICKS.opens)(a, b), ..KICKS })
             .mistake("the whole turn |ṗ′|Δt for the kick", Counted { angles: |c| c.angles_rad, ..KICKS })
             .check(memory),

@@ -21,14 +21,14 @@ pub fn cases() -> Vec<Case> {
                  text's ∂u_i/∂x_i it does not.",
             )
             .source("eqs 2, 3")
-            .subject((|u, i, j| slope(u, i, j)) as Gradient)
+            .under_test((|u, i, j| slope(u, i, j)) as Gradient)
             .mistake("∂u_i/∂x_i as in the text", |u, i, _| slope(u, i, i))
             .mistake("∂u_j/∂x_i", |u, i, j| slope(u, j, i))
             .check(gives_back_velocity),
         Case::oracle("planar-projections")
             .claim("The planar projections are lengths of shadows; with the text's θ for φ they are not.")
             .source("eq. 21; Fig. 12")
-            .subject(observed_shadows as Shadows)
+            .under_test(observed_shadows as Shadows)
             .mistake("eq. 21 as in the text", |_, theta: f64| {
                 let (s2, c2) = (theta.sin().powi(2), theta.cos().powi(2));
                 [theta.sin(), (c2 + s2 * s2).sqrt(), (c2 + s2 * c2).sqrt()]
@@ -44,7 +44,7 @@ pub fn cases() -> Vec<Case> {
                  other way round.",
             )
             .source("eqs 13, A.2, A.7; text after eqs 12 and 13")
-            .subject((|collided| collided) as Reading)
+            .under_test((|collided| collided) as Reading)
             .mistake("A.7–A.14 for free rods, as in the text", |collided| !collided)
             .mistake("every rod free", |_| false)
             .check(free_rods_keep_c),

@@ -1,8 +1,8 @@
 //! The registry: every case, declared once. `cargo test`, the report and the page of equations are made from it.
 //!
-//! A case is a claim, its source, a subject, mistakes as controls, and a check with the reason for each tolerance
-//! ([`judge::case`](crate::judge::case)). Cases may use all wings above. To add one, write an entry in a file of this
-//! folder; a new file is declared here and its `cases()` listed. CONTRIBUTING.md has a whole one.
+//! A case is a claim, its source, an implementation under test, mistakes as controls, and a check with the reason for
+//! each tolerance ([`judge::case`](crate::judge::case)). Cases may use all wings above. To add one, write an entry in a
+//! file of this folder; a new file is declared here and its `cases()` listed. CONTRIBUTING.md has a whole one.
 
 mod averaged;
 mod begun_again;
@@ -27,6 +27,8 @@ mod free_suspension;
 mod general_flows;
 mod inflow;
 mod integrator_claims;
+mod integrators;
+mod interpretations;
 mod jeffery_equations;
 mod kick_sizes;
 mod kicks;
@@ -34,7 +36,6 @@ mod misprints;
 mod motion;
 mod orbits;
 mod published;
-mod interpretations;
 mod reductions;
 mod reference;
 mod replacement;
@@ -43,7 +44,6 @@ mod stability;
 mod statements;
 mod steady;
 mod step_limits;
-mod subjects;
 mod symmetries;
 mod times;
 mod two_methods;
@@ -81,7 +81,7 @@ pub fn all() -> Vec<Case> {
         resolution::cases(),
         interpretations::cases(),
         steady::cases(),
-        subjects::cases(),
+        integrators::cases(),
         integrator_claims::cases(),
         stability::cases(),
         step_limits::cases(),

@@ -44,7 +44,7 @@ pub fn cases() -> Vec<Case> {
         Case::core("jeffery-period")
             .claim("A free rod comes back after T = 2π(r_e + 1/r_e)/G, for r_e from 1.01 to 10⁶.")
             .source("eqs 15, A.6")
-            .subject(exact as Motion)
+            .under_test(exact as Motion)
             .mistake("Λ = 1: a thread", |flow, _, p, t| exact(flow, 1e9, p, t))
             .mistake("r_e − 1/r_e in the period", |flow, r, p, t| {
                 exact(flow, r, p, t * (r + 1.0 / r) / (r - 1.0 / r))
@@ -54,7 +54,7 @@ pub fn cases() -> Vec<Case> {
         Case::core("orbit-constant")
             .claim("The orbit constant of a free rod keeps its value over 10⁴ periods.")
             .source("eqs 13, A.5")
-            .subject(exact as Motion)
+            .under_test(exact as Motion)
             .mistake("r_e 0.1 % too long", |flow, r, p, t| exact(flow, 1.001 * r, p, t))
             .mistake("p_3 not rescaled", |flow, r, p, t| {
                 let q = exact(flow, r, p, t);
@@ -67,7 +67,7 @@ pub fn cases() -> Vec<Case> {
         Case::core("propagator-closed-form")
             .claim("The propagator of plane Couette flow is Jeffery's closed form in angles.")
             .source("eqs 20, A.4, A.5")
-            .subject(exact as Motion)
+            .under_test(exact as Motion)
             .mistake("the phase turns backwards", |flow, r, p, t| {
                 exact(&VelocityGradient::new(-flow.per_s()).unwrap_or(*flow), r, p, t)
             })
@@ -83,7 +83,7 @@ pub fn cases() -> Vec<Case> {
                  ode_solvers.",
             )
             .source("eqs 3, A.1")
-            .subject(exact as Motion)
+            .under_test(exact as Motion)
             .mistake("Λ = 1", |flow, _, p, t| exact(flow, 1e9, p, t))
             .mistake("Λ for a disc", |flow, r, p, t| exact(flow, 1.0 / r, p, t))
             .mistake("the transposed gradient", |flow, r, p, t| {
@@ -99,7 +99,7 @@ pub fn cases() -> Vec<Case> {
                  (2/π)(1 + ln r_e)/r_e for a thread.",
             )
             .source("eqs 18–20")
-            .subject(angle_in_a_run as Angle)
+            .under_test(angle_in_a_run as Angle)
             .mistake("r_e² for r_e", |r, turns| angle_in_a_run(r * r, turns))
             .mistake("φ grows evenly", |_, turns| 2.0 * PI * turns)
             .mistake("φ from axis 2", |r, turns| FRAC_PI_2 - angle_in_a_run(r, turns))

@@ -33,7 +33,7 @@ pub fn cases() -> Vec<Case> {
                  leave far more there than isotropic directions have, 50.7 %.",
             )
             .source("eq. 13; Leal & Hinch 1971; docs/src/theory/diffusion.md")
-            .subject(right)
+            .under_test(right)
             .mistake(
                 "the orbits of isotropic directions for those of weak diffusion",
                 Orbits { weak: orbit_constant_cdf, ..right },

@@ -18,7 +18,7 @@ pub fn cases() -> Vec<Case> {
                  the model.",
             )
             .source("eq. 15; Meyer et al. 2020; docs/src/validation/published.md")
-            .subject(of_formulas as HalfTurn)
+            .under_test(of_formulas as HalfTurn)
             .mistake("a whole period for half a turn", |r| {
                 let (least, most) = of_formulas(r);
                 (2.0 * least, 2.0 * most)

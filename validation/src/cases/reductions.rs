@@ -38,7 +38,7 @@ pub fn cases() -> Vec<Case> {
                  spheres to round-off.",
             )
             .source("eqs 7, 11")
-            .subject(TAKEN)
+            .under_test(TAKEN)
             .mistake("α = ½", Limits { alpha: 0.5, ..TAKEN })
             .mistake("n = 50 per cm³", Limits { concentration_per_cm3: 50.0, ..TAKEN })
             .mistake("m = 3", Limits { m: 3.0, ..TAKEN })
@@ -49,7 +49,7 @@ pub fn cases() -> Vec<Case> {
         Case::program("standard-errors")
             .claim("Standard errors are those of independent replicas, or of rods where there is one replica.")
             .source("the results' own columns")
-            .subject((|values| Sample::of(values).se) as StandardError)
+            .under_test((|values| Sample::of(values).se) as StandardError)
             .mistake("without the root of their number", |values| Sample::of(values).se * (values.len() as f64).sqrt())
             .mistake("N for N − 1", |values| {
                 let n = values.len() as f64;

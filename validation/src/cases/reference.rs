@@ -17,7 +17,7 @@ pub fn cases() -> Vec<Case> {
                  the same rods, in shear and in other flows.",
             )
             .source("eqs 5–9, 11, 12, 14, A.7–A.14; the method of solution")
-            .subject(None)
+            .under_test(None)
             .mistakes(mistakes)
             .check(against_reference),
     ]

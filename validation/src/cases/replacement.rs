@@ -18,7 +18,7 @@ pub fn cases() -> Vec<Case> {
                  filled.",
             )
             .source("eqs 12, 14")
-            .subject(Volume::Core { step: 1 })
+            .under_test(Volume::Core { step: 1 })
             .mistake(
                 "x_1 = HR for new rods",
                 Volume::Wrong(|x, draws| *x = [draws.random(), x[1].rem_euclid(1.0), draws.random()]),

@@ -74,7 +74,7 @@ pub fn cases() -> Vec<Case> {
                  drawn line, for r_e = 11.6 and 100.",
             )
             .source("eq. 15; Fig. 7")
-            .subject(Integrator { sizes: &SIZES, coarse: false })
+            .under_test(Integrator { sizes: &SIZES, coarse: false })
             .mistake("4 steps a period at r_e = 11.6", control(0))
             .mistake("200 steps a period at r_e = 100", control(1))
             .check(|subject, effort| {

@@ -1,7 +1,7 @@
 //! Limits of stability of integrators of a free rod, as stated in `docs/src/verification/integrators.md`.
 
-use super::subjects::Integrators;
-use super::subjects::spoiled::{in_angles, in_p, refuses, whole_turns};
+use super::integrators::Integrators;
+use super::integrators::spoiled::{in_angles, in_p, refuses, whole_turns};
 use crate::judge::case::{Case, Effort, Evidence};
 use crate::judge::statistics::larger;
 use crate::methods::integrators::*;
@@ -17,7 +17,7 @@ pub fn cases() -> Vec<Case> {
                  orders 2 and 4 within 4 (GΔt)² rad over one period where GΔt ≤ ½.",
             )
             .source("eqs 13, A.2–A.5")
-            .subject(crate::methods::integrators::own as Integrators)
+            .under_test(crate::methods::integrators::own as Integrators)
             .mistake("whole turns are left in the phase", || vec![whole_turns()])
             .mistake("RK4 in p said to keep |p|", || in_p(4, true, |problem, p, h| rk4(|y| problem.rate(&y), p, h)))
             .mistake("RK4 in angles with an order 4 that is 1", || {

@@ -18,7 +18,7 @@ pub fn cases() -> Vec<Case> {
                  size\".",
             )
             .source("eq. 4; Results, before Fig. 7; Fig. 6")
-            .subject((|_| {}) as Change)
+            .under_test((|_| {}) as Change)
             .mistake("periods 6 % longer at the same clock", |scene| {
                 // r_e + 1/r_e 6 % larger; steps and outputs as far apart as before, in seconds.
                 let sum = 1.06 * (11.6 + 1.0 / 11.6);
@@ -30,7 +30,7 @@ pub fn cases() -> Vec<Case> {
         Case::statement("hundred-rods-suffice")
             .claim("\"The results did not change significantly when 100 or more particles were used\".")
             .source("eq. 4; Results, second paragraph")
-            .subject(100 as Count)
+            .under_test(100 as Count)
             .mistake("2 rods", 2)
             .check(enough_rods),
         Case::statement("steady-stays-put")
@@ -39,7 +39,7 @@ pub fn cases() -> Vec<Case> {
                  values are reached\".",
             )
             .source("eq. 4; Results, before Fig. 5; Fig. 5")
-            .subject(6.0 as Periods)
+            .under_test(6.0 as Periods)
             .mistake("from the start", 0.0)
             .check(stays_put),
         Case::statement("in-plane-rods")
@@ -48,7 +48,7 @@ pub fn cases() -> Vec<Case> {
                  should have been no collisions\".",
             )
             .source("eq. 4; Results, the r_e = 3.96 experiment")
-            .subject(90.0 as ThetaDeg)
+            .under_test(90.0 as ThetaDeg)
             .mistake("10° out of the plane", 80.0)
             .check(in_plane),
     ]

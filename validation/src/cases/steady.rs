@@ -13,7 +13,7 @@ pub fn cases() -> Vec<Case> {
         Case::statement("steady-mean-angle")
             .claim("The steady mean angle of interacting rods agrees closely with ⟨φ⟩ of a single rod.")
             .source("eqs 18, 19; Fig. 11")
-            .subject((|_| {}) as Change)
+            .under_test((|_| {}) as Change)
             .mistake("r_e 20 % longer", |scene| scene.particles.aspect_ratio *= 1.2)
             .check(steady_angle),
     ]

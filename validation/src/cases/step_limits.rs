@@ -3,8 +3,8 @@
 mod in_p;
 
 use self::in_p::{at_least, frozen, near_a_sphere};
-use super::subjects::Integrators;
-use super::subjects::spoiled::{in_angles, in_p};
+use super::integrators::Integrators;
+use super::integrators::spoiled::{in_angles, in_p};
 use crate::judge::case::{Case, Effort, Evidence};
 use crate::judge::statistics::larger;
 use crate::methods::integrators::limits::{Limit, ONE_STEP, Property, TEN_PERIODS, bisect, holds};
@@ -79,7 +79,7 @@ pub fn cases() -> Vec<Case> {
         Case::integrator("euler-step-limit")
             .claim("Explicit Euler's step on A.2 lets one rod overtake another where GΔt > 1/Λ, and never below.")
             .source("A.2; A.14 is such a step")
-            .subject(order(euler))
+            .under_test(order(euler))
             .mistake("half of the rate", order(half_euler))
             .mistake("RK4", order(rk4_in_angles))
             .mistake("the exact propagator", order(|| vec![exact_propagator()]))
@@ -90,7 +90,7 @@ pub fn cases() -> Vec<Case> {
                  a turn a step up to GΔt = π(1 + 1/r_e²), and not beyond.",
             )
             .source("A.2; A.14 is such a step")
-            .subject(turning(|| [euler(), own("Lie-group midpoint")].into_iter().flatten().collect()))
+            .under_test(turning(|| [euler(), own("Lie-group midpoint")].into_iter().flatten().collect()))
             .mistake("half of the rate", turning(half_euler))
             .mistake("RK4", turning(rk4_in_angles))
             .mistake("the exact propagator", turning(|| vec![exact_propagator()]))
@@ -101,14 +101,14 @@ pub fn cases() -> Vec<Case> {
                  there is no rest; just below it none stops.",
             )
             .source("A.2; A.14 is such a step")
-            .subject(euler as Integrators)
+            .under_test(euler as Integrators)
             .mistake("half of the rate", half_euler as Integrators)
             .mistake("RK4", rk4_in_angles as Integrators)
             .check(rest),
         Case::integrator("step-limit-side")
             .claim("Explicit Euler lets no rod cross the plane of shear up to GΔt = 2/Λ, and not beyond.")
             .source("A.3; A.14 is such a step")
-            .subject(Claimed { found_late: OF_EULER, ..side(euler, theory::euler_side) })
+            .under_test(Claimed { found_late: OF_EULER, ..side(euler, theory::euler_side) })
             .mistake("half of the rate", side(half_euler, theory::euler_side))
             .mistake("RK4", side(rk4_in_angles, theory::euler_side))
             .check(agrees),
@@ -118,7 +118,7 @@ pub fn cases() -> Vec<Case> {
                  √2, and for longer rods up to GΔt = 2/(Λ(1 − u²)^{3/2}), 2u³ − 3u + 1/Λ = 0.",
             )
             .source("A.2; A.14 is such a step")
-            .subject(folded(implicit_midpoint, theory::implicit_midpoint_order))
+            .under_test(folded(implicit_midpoint, theory::implicit_midpoint_order))
             .mistake(
                 "no limit, as an A-stable method on a linear equation",
                 folded(implicit_midpoint, |_| f64::INFINITY),
@@ -135,7 +135,7 @@ pub fn cases() -> Vec<Case> {
                  order is lost, whichever is less, and not beyond.",
             )
             .source("A.3; A.14 is such a step")
-            .subject(side(implicit_midpoint, theory::implicit_midpoint_one_solution))
+            .under_test(side(implicit_midpoint, theory::implicit_midpoint_one_solution))
             .mistake("4/Λ at every r_e", side(implicit_midpoint, theory::implicit_midpoint_side))
             .mistake("where its order is lost, at every r_e", side(implicit_midpoint, theory::implicit_midpoint_order))
             .mistake("explicit Euler", side(euler, theory::implicit_midpoint_one_solution))
@@ -146,7 +146,7 @@ pub fn cases() -> Vec<Case> {
                  1; in the plane of shear the Lie-group RKMK4 is RK4 in angles.",
             )
             .source("A.2; A.14 is such a step")
-            .subject(
+            .under_test(
                 (|| {
                     ["explicit Euler in angles", "RK4 in angles", "Lie-group midpoint", "Lie-group RKMK4"]
                         .into_iter()
@@ -167,7 +167,7 @@ pub fn cases() -> Vec<Case> {
                  on the imaginary axis.",
             )
             .source("A.1; A.14 is such a step")
-            .subject((|| own("RK4 in p")) as Integrators)
+            .under_test((|| own("RK4 in p")) as Integrators)
             .mistake("RK4 in angles", rk4_in_angles as Integrators)
             .mistake("explicit Euler in p", || in_p(1, false, |problem, p, h| p + h * problem.rate(&p)))
             .mistake("the linear equation with half its rate", || {
@@ -180,7 +180,7 @@ pub fn cases() -> Vec<Case> {
                  2.785/Λ, for r_e from 1.5 to 100.",
             )
             .source("A.1; A.14 is such a step")
-            .subject((|| own("RK4 in p")) as Integrators)
+            .under_test((|| own("RK4 in p")) as Integrators)
             .mistake("projected", || own("projected RK4 in p"))
             .mistake("in angles", rk4_in_angles as Integrators)
             .mistake("steps of half the length", || {

@@ -47,7 +47,7 @@ pub fn cases() -> Vec<Case> {
                  to round-off, the mirrored flow exactly for free rods.",
             )
             .source("eq. 4")
-            .subject(SYMMETRIC)
+            .under_test(SYMMETRIC)
             .mistake("places in another order, directions not", Mapping { directions_too: false, ..SYMMETRIC })
             .mistake("rods per area in place of volume", Mapping { per_volume: 64.0, ..SYMMETRIC })
             .mistake("a time step that is no share of the period", Mapping { steps_per_period: 250, ..SYMMETRIC })
@@ -57,7 +57,7 @@ pub fn cases() -> Vec<Case> {
         Case::core("mirrored-flow")
             .claim("Interacting rods in the mirrored flow have the same mean projections in law.")
             .source("eqs 3, 14")
-            .subject(Mirror { shear_rate_per_s: -0.5, concentration_per_cm3: 50.0 })
+            .under_test(Mirror { shear_rate_per_s: -0.5, concentration_per_cm3: 50.0 })
             .mistake(
                 "a quarter of the concentration in the mirrored flow",
                 Mirror { shear_rate_per_s: -0.5, concentration_per_cm3: 12.5 },

@@ -25,7 +25,7 @@ pub fn cases() -> Vec<Case> {
                  given in strain.",
             )
             .source("eqs 15, A.6")
-            .subject(unit as UnitOf)
+            .under_test(unit as UnitOf)
             .mistake("r_e for r_e + 1/r_e", |scene| {
                 let r = scene.particles.aspect_ratio;
                 unit(scene).map(|of_period| of_period * r / (r + 1.0 / r))

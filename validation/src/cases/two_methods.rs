@@ -52,7 +52,7 @@ pub fn cases() -> Vec<Case> {
              last digit.",
         )
         .source("eqs 4, 11, 12, A.1–A.12; Jeffery 1922; Folgar & Tucker 1984")
-        .subject((|_, shipped| shipped.clone()) as Certified);
+        .under_test((|_, shipped| shipped.clone()) as Certified);
     macro_rules! wrong {
         ($($name:literal, $what:expr, $by:literal;)*) => {
             $(case = case.mistake($name, |what, shipped| match what == $what {

@@ -25,7 +25,7 @@ pub fn cases() -> Vec<Case> {
                  a lower one: the paper's replacement is part of the model.",
             )
             .source("eqs 12, 14")
-            .subject([FLAT, TALL])
+            .under_test([FLAT, TALL])
             .mistake("another H₁/H₂ in place of the same", [TALL, TALL])
             .mistake("the same H₁/H₂ in place of another", [FLAT, CUBE])
             .check(shapes),

@@ -29,7 +29,7 @@ pub fn cases() -> Vec<Case> {
                  and N^(−5/4) for a Fibonacci lattice.",
             )
             .source("eqs 4, 12")
-            .subject(starts::ALL.to_vec() as Starts)
+            .under_test(starts::ALL.to_vec() as Starts)
             .mistake(
                 "the generator starts anew every 100 rods",
                 spoiled(0, |count, unequal, rng| {
@@ -51,7 +51,7 @@ pub fn cases() -> Vec<Case> {
         Case::program("replicas-are-independent")
             .claim("The scatter of a mean over M replicas of interacting rods falls as M^(−½).")
             .source("eq. 12; section 'Method of solution': runs with other random numbers")
-            .subject((|replica| replica) as Number)
+            .under_test((|replica| replica) as Number)
             .mistake("every two replicas are the same", |replica| replica / 2)
             .check(replicas),
         Case::interpretation("faces-cost-collisions")
@@ -60,7 +60,7 @@ pub fn cases() -> Vec<Case> {
                  volume near a face, and not as 1/N.",
             )
             .source("eq. 8; 'the number of particles'")
-            .subject(law::FACES as Exponent)
+            .under_test(law::FACES as Exponent)
             .mistake("1/N", -1.0)
             .check(faces),
     ]

@@ -29,7 +29,7 @@ pub fn cases() -> Vec<Case> {
                  bound.",
             )
             .source("A.13, A.14; eq. 8 without Δt")
-            .subject((|_| {}) as Change)
+            .under_test((|_| {}) as Change)
             .mistake("arms below a rod length are no contact, so that kicks are bounded", |scene| {
                 lab::interaction(scene).min_contact_arm = 1.0
             })
@@ -40,7 +40,7 @@ pub fn cases() -> Vec<Case> {
                  known; for a difference between two α, shared random numbers save a factor of four at T/4.",
             )
             .source("eqs 4, 7")
-            .subject(same)
+            .under_test(same)
             .mistake("free rods of another seed", Beside { free: |scene| scene.ensemble.seed += 1, ..same })
             .mistake("the other α at another seed", Beside { other: |scene| scene.ensemble.seed += 1, ..same })
             .mistake(

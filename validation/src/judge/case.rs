@@ -65,7 +65,7 @@ type Check = Box<dyn Fn(&Effort) -> Vec<Evidence> + Send + Sync>;
 pub struct About {
     /// Name of the case, in words joined by `-`.
     pub name: &'static str,
-    /// The kind of subject that it judges.
+    /// The kind of implementation that it judges.
     pub judges: Judges,
     /// The claim, in one sentence.
     pub claim: &'static str,
@@ -96,8 +96,7 @@ fn equations(source: &str) -> Vec<String> {
         let ((appendix, first), (_, last)) = (number(first)?, number(last)?);
         Some((first..=last).map(move |number| format!("{appendix}{number}")).collect())
     };
-    let found: Option<Vec<Vec<String>>> = list.split(", ").map(range).collect();
-    found.unwrap_or_default().concat()
+    list.split(", ").map(range).collect::<Option<Vec<Vec<String>>>>().unwrap_or_default().concat()
 }
 
 /// One claim with its check and its controls.
@@ -168,7 +167,7 @@ impl Case {
     }
 }
 
-/// A case that still lacks its subject.
+/// A case that still lacks its implementation under test.
 pub struct Draft(About);
 
 impl Draft {
@@ -189,21 +188,21 @@ impl Draft {
         self
     }
 
-    /// The subject that is judged: a function, a scene, a model.
-    pub fn subject<S>(self, subject: S) -> Subjected<S> {
-        Subjected { about: self.0, subject, mistakes: Vec::new() }
+    /// The implementation under test: a function, a scene, a model.
+    pub fn under_test<S>(self, implementation: S) -> UnderTest<S> {
+        UnderTest { about: self.0, implementation, mistakes: Vec::new() }
     }
 }
 
 /// A case that still lacks its check.
-pub struct Subjected<S> {
+pub struct UnderTest<S> {
     about: About,
-    subject: S,
+    implementation: S,
     mistakes: Vec<(&'static str, S)>,
 }
 
-impl<S: Send + Sync + 'static> Subjected<S> {
-    /// A control: a broken subject that the same check must fail.
+impl<S: Send + Sync + 'static> UnderTest<S> {
+    /// A control: a broken implementation that the same check must fail.
     pub fn mistake(mut self, name: &'static str, broken: S) -> Self {
         self.mistakes.push((name, broken));
         self
@@ -215,16 +214,16 @@ impl<S: Send + Sync + 'static> Subjected<S> {
         self
     }
 
-    /// Completes the case with the check of the subject and of every mistake.
+    /// Completes the case with the check of the implementation under test and of every mistake.
     pub fn check<F: Findings + 'static>(self, check: fn(&S, &Effort) -> F) -> Case {
-        let bind = |subject: S| -> Check { Box::new(move |effort| check(&subject, effort).evidence()) };
+        let bind = |implementation: S| -> Check { Box::new(move |effort| check(&implementation, effort).evidence()) };
         let uncaught = match self.about.judges {
             Judges::Measurement => Verdict::Underpowered,
             _ => Verdict::Fail,
         };
         Case {
             about: self.about,
-            check: bind(self.subject),
+            check: bind(self.implementation),
             controls: (self.mistakes.into_iter()).map(|(name, broken)| (name, bind(broken))).collect(),
             uncaught,
         }
@@ -235,17 +234,17 @@ impl<S: Send + Sync + 'static> Subjected<S> {
 mod tests {
     use super::*;
 
-    fn is_three(subject: &f64, _: &Effort) -> Result<Vec<Evidence>, &'static str> {
-        match subject {
+    fn is_three(value: &f64, _: &Effort) -> Result<Vec<Evidence>, &'static str> {
+        match value {
             7.0 => Err("no seven"),
-            _ => Ok(vec![Evidence::exact("three", subject - 3.0)]),
+            _ => Ok(vec![Evidence::exact("three", value - 3.0)]),
         }
     }
 
     #[test]
     fn a_case_passes_only_with_its_controls_caught() {
-        let verdict = |subject, broken: Vec<(&'static str, f64)>| {
-            let case = Case::core("a").claim("c").subject(subject).mistakes(broken).check(is_three);
+        let verdict = |value, broken: Vec<(&'static str, f64)>| {
+            let case = Case::core("a").claim("c").under_test(value).mistakes(broken).check(is_three);
             case.run(&Effort::gate()).verdict
         };
         assert_eq!(verdict(3.0, vec![("four", 4.0)]), Verdict::Pass);
@@ -273,7 +272,7 @@ mod tests {
 
     #[test]
     fn measured_points_that_are_too_few_are_no_fault() {
-        let case = Case::measurement("a").subject(3.0).mistake("not broken", 3.0).check(is_three);
+        let case = Case::measurement("a").under_test(3.0).mistake("not broken", 3.0).check(is_three);
         assert_eq!(case.run(&Effort::gate()).verdict, Verdict::Underpowered);
     }
 }

@@ -9,7 +9,7 @@ pub fn cases() -> Vec<Case> {
         Case::core("period-formula")
             .claim("The core's period is T = 2π(r_e + 1/r_e)/G.")
             .source("eq. 15")
-            .subject(shearbed::model::jeffery::period_s as Period)
+            .under_test(shearbed::model::jeffery::period_s as Period)
             .mistake("r_e − 1/r_e", |g, r| std::f64::consts::TAU * (r - 1.0 / r) / g)
             .check(period),
     ]

@@ -1,9 +1,9 @@
-//! The kinds of subjects that cases judge.
+//! The kinds of implementations that cases judge.
 
 use serde::Serialize;
 
-/// The kind of subject that a case judges. Verification asks if the equations are solved right; validation asks, by
-/// measurements, if they are the right equations. Tests of our own choices or of the paper's sentences are neither.
+/// The kind of implementation that a case judges. Verification asks if the equations are solved right; validation asks,
+/// by measurements, if they are the right equations. Tests of our own choices or of the paper's sentences are neither.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Judges {

@@ -54,7 +54,7 @@ pub struct Summary {
 /// Numbers of the cases of one kind.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Part {
-    /// The kind of subject that they judge.
+    /// The kind of implementation that they judge.
     pub judges: Judges,
     /// Number of cases that pass.
     pub pass: usize,

@@ -78,7 +78,7 @@ fn severity(verdict: Verdict) -> u8 {
 pub struct CaseRow {
     /// Name of the case.
     pub name: String,
-    /// The kind of subject that it judges.
+    /// The kind of implementation that it judges.
     pub judges: Judges,
     /// The claim, in one sentence.
     pub claim: String,

@@ -17,7 +17,7 @@ pub fn cases() -> Vec<Case> {
         Case::integrator("subject-orders")
             .claim("The error of every fixed-step integrator falls with the order of its theory.")
             .source("A.2–A.5; Jeffery's equation in p")
-            .subject(crate::methods::integrators::own as Integrators)
+            .under_test(crate::methods::integrators::own as Integrators)
             .mistake("a stage of RK4 at the wrong place", || {
                 in_angles(4, |problem, y, h| {
                     let f = |y: Vector2<f64>| problem.angle_rates(&y);
@@ -44,7 +44,7 @@ pub fn cases() -> Vec<Case> {
         Case::integrator("subject-lengths")
             .claim("Integrators that are said to keep |p| = 1 keep it to round-off at any step.")
             .source("A.1; p·ṗ = 0")
-            .subject(crate::methods::integrators::own as Integrators)
+            .under_test(crate::methods::integrators::own as Integrators)
             .mistake("RK4 in p, not projected", || in_p(4, true, |problem, p, h| rk4(|y| problem.rate(&y), p, h)))
             .mistake("the implicit midpoint rule after two sweeps", || {
                 in_p(2, true, |problem, p, h| {
@@ -59,7 +59,7 @@ pub fn cases() -> Vec<Case> {
                  flip.",
             )
             .source("eqs 20, A.4, A.5")
-            .subject((|| vec![exact_propagator()]) as Integrators)
+            .under_test((|| vec![exact_propagator()]) as Integrators)
             .mistake("whole turns are left in the phase", || vec![whole_turns()])
             .mistake("A.4 and A.5 in angles", || vec![closed_form()])
             .check(round_off),
@@ -69,7 +69,7 @@ pub fn cases() -> Vec<Case> {
                  tolerance, allow.",
             )
             .source("A.4, A.5; Jeffery's equation in p")
-            .subject((|| vec![dormand_prince(), radau()]) as Integrators)
+            .under_test((|| vec![dormand_prince(), radau()]) as Integrators)
             .mistake("r_e 0.1 % too long", || {
                 vec![spoiled(|problem| (RodProblem::new(1.001 * problem.aspect_ratio, problem.turns), 1.0))]
             })
