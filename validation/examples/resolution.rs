@@ -3,7 +3,7 @@
 //! `cargo run --release -p shearbed-validation --example resolution -- REPLICAS [R_E...]`: 50 replicas, and the aspect
 //! ratios of the table, where nothing else is asked for.
 
-use shearbed_validation::cases::resolution::{change, scene, steps, x1};
+use shearbed_validation::cases::resolution::{scene, steps, x1};
 use shearbed_validation::judge::case::Effort;
 use shearbed_validation::judge::statistics::Sample;
 
@@ -33,7 +33,7 @@ fn main() {
             scene.particles.aspect_ratio_sd_percent = sd;
             let fine = x1(&scene, steps(r, FINE), replicas);
             let changes = STRAINS.map(|strain| {
-                let change = change(&x1(&scene, steps(r, strain), replicas), &fine);
+                let change = Sample::of_differences(&x1(&scene, steps(r, strain), replicas), &fine);
                 format!("{:+.4} ± {:.4}", change.mean, change.se)
             });
             let fine = Sample::of(&fine);

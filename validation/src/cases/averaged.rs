@@ -75,16 +75,15 @@ fn averaged(limit: &Limit, effort: &Effort) -> Vec<Evidence> {
             .map(|replica| apart(&scene, steps / 2, limit.change, replica))
             .collect()
     });
-    let falls: Vec<_> = (coarse.iter().zip(&fine))
-        .map(|(coarse, fine)| (0.6 * coarse.square - fine.square) / (coarse.square + fine.square))
-        .collect();
+    let falls = (coarse.iter().zip(&fine))
+        .map(|(coarse, fine)| (0.6 * coarse.square - fine.square) / (coarse.square + fine.square));
     let [coarse, fine] = steps;
     vec![Evidence::new(
         format!(
             "0.6 × the mean sin² between the two paths at {coarse} steps a period, less that at {fine}, over the sum \
              of both; half a period"
         ),
-        Sample::of(&falls).exceeds(
+        Sample::of(falls).exceeds(
             0.0,
             design.effect,
             "∝ Δt in the limit, an eighth; paths that do not converge stay as far apart, −0.2",
@@ -192,9 +191,9 @@ fn pushed(kick: &Kick, _: &Effort) -> Vec<Evidence> {
         }
         let separation = ARM * p[0].into_inner() - other * p[1].into_inner() + gap * line;
         let expected = gap * gap * line.x * line.y / (2.0 * ARM * normal.norm_squared());
-        let found = arm_rate(*kick, p.map(UnitVector3::into_inner), &separation, 1e-4 * ARM * ARM).unwrap_or(f64::NAN);
-        worst = larger(worst, (found / expected - 1.0).abs());
-        wrong += u32::from((found > 0.0) != (line.x * line.y > 0.0));
+        let rate = arm_rate(*kick, p.map(UnitVector3::into_inner), &separation, 1e-4 * ARM * ARM).unwrap_or(f64::NAN);
+        worst = larger(worst, (rate / expected - 1.0).abs());
+        wrong += u32::from((rate > 0.0) != (line.x * line.y > 0.0));
         opening += u32::from(line.x * line.y > 0.0);
     }
     vec![

@@ -15,8 +15,8 @@ pub fn cases() -> Vec<Case> {
     vec![
         Case::core("begun-again")
             .claim(
-                "Unequal rods that begin again at t = T with the length, r_e, direction and place that they had go on, \
-                 in law, as the suspension that they were.",
+                "Unequal rods that begin again at t = T with the length, r_e, direction and place that they had go \
+                 on, in law, as the suspension that they were.",
             )
             .source("eqs 11, 12; the method of solution: what a suspension is")
             .under_test((|_| ()) as Way)
@@ -42,8 +42,7 @@ fn begins_again(way: &Way, effort: &Effort) -> Vec<Evidence> {
     scene.time.duration = 2.0;
     scene.time.steps_per_unit = Some(STEPS_PER_PERIOD);
     // 100 rods at 50 per cm³.
-    let interaction = lab::interaction(&mut scene);
-    (interaction.concentration_per_cm3, interaction.box_mm) = (None, Some([20.0, 10.0, 10.0]));
+    lab::set_box_mm(&mut scene, [20.0, 10.0, 10.0]);
     let replicas = effort.samples(Design { effect: EFFECT, sd: SD });
     let differences = (0..replicas).into_par_iter().map(|replica| again_less_straight(&scene, *way, replica));
     let differences: Vec<f64> = differences.collect();

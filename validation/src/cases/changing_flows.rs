@@ -26,8 +26,8 @@ pub fn cases() -> Vec<Case> {
         Case::core("changing-flows")
             .claim(
                 "Where one flow follows another, each free rod moves by the product of their exponentials: a reversal \
-                 takes it back to its start, after an extension that aligns rods to 10⁻⁸ rad too, and three flows take \
-                 it where the oracle has it. The seconds are those of each flow's rate.",
+                 takes it back to its start, after an extension that aligns rods to 10⁻⁸ rad too, and three flows \
+                 take it where the oracle has it. The seconds are those of each flow's rate.",
             )
             .source("eqs 2, 3, A.1")
             .under_test(run as Run)

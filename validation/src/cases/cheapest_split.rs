@@ -2,8 +2,7 @@
 
 use super::work_precision_coupled::first;
 use crate::judge::case::{Case, Effort, Evidence};
-use crate::judge::lab;
-use crate::judge::lab::Shared;
+use crate::judge::lab::{self, Shared};
 use crate::judge::statistics::{Estimate, Sample, covariance};
 use crate::studies::suspensions::coupled::interacting;
 use crate::studies::suspensions::split::{Constants, Scope, Split};

@@ -171,10 +171,8 @@ fn plateau(change: &Change, effort: &Effort) -> Vec<Evidence> {
     let node = |k: f64| isotropic::plateau_projections(r * (1.0 + k * sd * f64::sqrt(3.0)));
     let (below, middle, above) = (node(-1.0), node(0.0), node(1.0));
     let mut evidence = Vec::new();
-    for (axis, name) in ["x1", "x2", "x3"].into_iter().enumerate() {
-        let channel = results.as_ref().ok().and_then(|results| results.column(name));
-        let (mean, se) = channel.map_or((f64::NAN, f64::NAN), |c| (c.mean[49], c.se[49]));
-        let sample = Sample { mean, se, samples: scene.particles.count as u64 };
+    for (axis, channel) in Channel::X.into_iter().enumerate() {
+        let sample = lab::at_output(&results, channel, 49, scene.particles.count as u64);
         evidence.push(Evidence::new(
             format!("X̄_{} at t/T = 12¼, against the phase means", axis + 1),
             sample.is(

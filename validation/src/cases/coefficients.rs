@@ -107,11 +107,11 @@ fn fourth_moments(read: &Read, effort: &Effort) -> Vec<Evidence> {
         .iter()
         .enumerate()
         .map(|(k, channel)| {
-            let own: Vec<f64> = values.iter().map(|value| value[k]).collect();
+            let own = values.iter().map(|value| value[k]);
             let expected = moments::fourth(ASPECT_RATIO, 0.2, indices(*channel));
             Evidence::new(
                 format!("{} at t/T = 0.2", channel.name()),
-                Sample::of(&own).is(expected, 0.0, design.effect, "exact; a third of what the mistakes change"),
+                Sample::of(own).is(expected, 0.0, design.effect, "exact; a third of what the mistakes change"),
             )
         })
         .collect();
@@ -186,14 +186,14 @@ fn particle_stress(stress: &Stress, effort: &Effort) -> Vec<Evidence> {
     let all: Vec<_> = (0..40).map(|k| exact_stress(f64::from(k) / 80.0)).collect();
     let over_half: [f64; 3] = std::array::from_fn(|k| all.iter().map(|values| values[k]).sum::<f64>() / 40.0);
     let mut evidence = Vec::new();
-    for (when, found, expected) in
+    for (when, values, expected) in
         [("at t/T = 0.2", &fifth, exact_stress(0.2)), ("in the mean over half a period", &half, over_half)]
     {
         for (k, channel) in channels.iter().enumerate() {
-            let own: Vec<f64> = found.iter().map(|values: &[f64; 3]| values[k]).collect();
+            let own = values.iter().map(|values: &[f64; 3]| values[k]);
             evidence.push(Evidence::new(
                 format!("{} {when}", channel.name()),
-                Sample::of(&own).is(expected[k], 0.0, design.effect, "exact; a third of what the mistakes change"),
+                Sample::of(own).is(expected[k], 0.0, design.effect, "exact; a third of what the mistakes change"),
             ));
         }
     }
@@ -207,7 +207,7 @@ struct Pascals {
     stress: Stress,
 }
 
-fn stress_in_pascals(subject: &Pascals, effort: &Effort) -> Vec<Evidence> {
+fn stress_in_pascals(pascals: &Pascals, effort: &Effort) -> Vec<Evidence> {
     // μ G n a³ for 50 rods of 0.72 mm per cm³ at G = 0.5 1/s in a liquid of 20 Pa s.
     let unit = 20.0 * 0.5 * 50.0 * 0.072f64.powi(3);
     let of_shape = |name: &str, cylinder: Option<f64>, k: [f64; 3]| {
@@ -223,7 +223,7 @@ fn stress_in_pascals(subject: &Pascals, effort: &Effort) -> Vec<Evidence> {
         scene.liquid.viscosity_pa_s = Some(20.0);
         scene.output.observables =
             vec![Observable::OrientationTensor, Observable::OrientationTensor4, Observable::Stress];
-        (subject.change)(&mut scene);
+        (pascals.change)(&mut scene);
         let off = lab::per_replica(&scene, 1, |mean| {
             worst((0..=50).map(|output| {
                 let named = |name: &str| Channel::named(name).map_or(f64::NAN, |channel| mean(channel, output));
@@ -231,8 +231,13 @@ fn stress_in_pascals(subject: &Pascals, effort: &Effort) -> Vec<Evidence> {
                 let s12 = a * named("a1122") + 0.5 * (b * (named("a11") + named("a22")) + c);
                 let n1 = a * (named("a1222") - named("a1112"));
                 let n2 = a * (named("a1112") - named("a1233")) + b * named("a12");
-                let found = (subject.stress)(["s12_pa", "n1_pa", "n2_pa"].map(named));
-                worst([s12, n1, n2].into_iter().zip(found).map(|(expected, found)| (found - expected).abs() / unit))
+                let reported = (pascals.stress)(["s12_pa", "n1_pa", "n2_pa"].map(named));
+                worst(
+                    [s12, n1, n2]
+                        .into_iter()
+                        .zip(reported)
+                        .map(|(expected, reported)| (reported - expected).abs() / unit),
+                )
             }))
         });
         Evidence::within(

@@ -26,15 +26,14 @@ struct Pair {
 type ContactRule = fn(&Pair) -> Option<[Vector3<f64>; 2]>;
 
 fn core_rule(pair: &Pair) -> Option<[Vector3<f64>; 2]> {
-    let found = contact(&(pair.x[1] - pair.x[0]), &pair.p[0], &pair.p[1], [0.0; 2])?;
-    Some(share_velocity(&found, &(pair.u[1] - pair.u[0]), pair.rate))
+    with_arms(pair, |arms| arms)
 }
 
 /// The core's rule with changed arms.
-fn spoilt(pair: &Pair, arms: fn([f64; 2]) -> [f64; 2]) -> Option<[Vector3<f64>; 2]> {
-    let mut found = contact(&(pair.x[1] - pair.x[0]), &pair.p[0], &pair.p[1], [0.0; 2])?;
-    found.arms = arms(found.arms);
-    Some(share_velocity(&found, &(pair.u[1] - pair.u[0]), pair.rate))
+fn with_arms(pair: &Pair, arms: fn([f64; 2]) -> [f64; 2]) -> Option<[Vector3<f64>; 2]> {
+    let mut contact = contact(&(pair.x[1] - pair.x[0]), &pair.p[0], &pair.p[1], [0.0; 2])?;
+    contact.arms = arms(contact.arms);
+    Some(share_velocity(&contact, &(pair.u[1] - pair.u[0]), pair.rate))
 }
 
 /// The core's rule with its change of ṗ times `factor`.
@@ -161,8 +160,8 @@ pub fn cases() -> Vec<Case> {
             .mistake("no collision at all", |pair| Some(pair.rate))
             .mistake("the sum in place of the mean", |pair| scaled_change(pair, 2.0))
             .mistake("the kick with the wrong sign", |pair| scaled_change(pair, -1.0))
-            .mistake("arms exchanged", |pair| spoilt(pair, |[a, b]| [b, a]))
-            .mistake("arms without their sign", |pair| spoilt(pair, |arms| arms.map(f64::abs)))
+            .mistake("arms exchanged", |pair| with_arms(pair, |[a, b]| [b, a]))
+            .mistake("arms without their sign", |pair| with_arms(pair, |arms| arms.map(f64::abs)))
             .mistake("the liquid's velocity left out", |pair| core_rule(&Pair { u: [Vector3::zeros(); 2], ..*pair }))
             .mistake("only A moved", |pair| Some([core_rule(pair)?[0], pair.rate[1]]))
             .check(invariants),

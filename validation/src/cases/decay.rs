@@ -16,11 +16,12 @@ use shearbed::observable::Channel;
 use shearbed::scene::Scene;
 use std::f64::consts::E;
 
-/// Changes of a scene, in the order in which the paper says that oscillations decay faster.
+/// Values of a parameter, in the order in which the paper says that oscillations decay faster.
 #[derive(Clone, Copy)]
 struct Order {
-    scenes: [Change; 3],
-    /// The least fall of the amplitude at t/T = 1½ from one scene to the next, and its scatter.
+    set: fn(&mut Scene, f64),
+    values: [f64; 3],
+    /// The least fall of the amplitude at t/T = 1½ from one value to the next, and its scatter.
     design: Design,
 }
 
@@ -30,40 +31,25 @@ type Axes = [Change; 2];
 pub fn cases() -> Vec<Case> {
     // The closed form falls by 0.105 and 0.150; a pilot of 4,000 replicas scattered by 0.013 and 0.017.
     let spread = Order {
-        scenes: [
-            |scene| scene.particles.aspect_ratio_sd_percent = 1.8,
-            |scene| scene.particles.aspect_ratio_sd_percent = 3.6,
-            |scene| scene.particles.aspect_ratio_sd_percent = 7.2,
-        ],
+        set: |scene, sd| scene.particles.aspect_ratio_sd_percent = sd,
+        values: [1.8, 3.6, 7.2],
         design: Design::new(0.1, 0.02),
     };
     // A pilot of 300 replicas: 0.087 ± 0.028 and 0.109 ± 0.038 (mean and deviation).
     let concentration = Order {
-        scenes: [
-            |scene| lab::paper_interaction(scene).concentration_per_cm3 = Some(10.0),
-            |scene| lab::paper_interaction(scene).concentration_per_cm3 = Some(50.0),
-            |scene| lab::paper_interaction(scene).concentration_per_cm3 = Some(250.0),
-        ],
+        set: |scene, n| lab::paper_interaction(scene).concentration_per_cm3 = Some(n),
+        values: [10.0, 50.0, 250.0],
         design: Design::new(0.08, 0.043),
     };
     // A pilot of 300 replicas: 0.103 ± 0.029 and 0.142 ± 0.040 (mean and deviation).
     let length = Order {
-        scenes: [
-            |scene| {
-                lab::paper_interaction(scene);
-                scene.particles.length_mm = 0.36;
-            },
-            |scene| {
-                lab::paper_interaction(scene);
-            },
-            |scene| {
-                lab::paper_interaction(scene);
-                scene.particles.length_mm = 1.44;
-            },
-        ],
+        set: |scene, length_mm| {
+            lab::paper_interaction(scene);
+            scene.particles.length_mm = length_mm;
+        },
+        values: [0.36, 0.72, 1.44],
         design: Design::new(0.095, 0.045),
     };
-    let instead = |order: Order, scenes| Order { scenes, ..order };
     vec![
         Case::statement("free-amplitude")
             .claim(
@@ -82,14 +68,11 @@ pub fn cases() -> Vec<Case> {
             .under_test(spread)
             .mistake(
                 "σ shifts all rods alike",
-                instead(
-                    spread,
-                    [
-                        |scene| scene.particles.aspect_ratio *= 1.018,
-                        |scene| scene.particles.aspect_ratio *= 1.036,
-                        |scene| scene.particles.aspect_ratio *= 1.072,
-                    ],
-                ),
+                Order {
+                    set: |scene, factor| scene.particles.aspect_ratio *= factor,
+                    values: [1.018, 1.036, 1.072],
+                    ..spread
+                },
             )
             .check(faster),
         Case::statement("faster-with-concentration")
@@ -101,14 +84,7 @@ pub fn cases() -> Vec<Case> {
             .under_test(concentration)
             .mistake(
                 "a volume with the side (N n)^⅓ in place of (N/n)^⅓, right at 50 per cm³",
-                instead(
-                    concentration,
-                    [
-                        |scene| lab::paper_interaction(scene).concentration_per_cm3 = Some(250.0),
-                        |scene| lab::paper_interaction(scene).concentration_per_cm3 = Some(50.0),
-                        |scene| lab::paper_interaction(scene).concentration_per_cm3 = Some(10.0),
-                    ],
-                ),
+                Order { values: [250.0, 50.0, 10.0], ..concentration },
             )
             .check(faster),
         Case::statement("faster-with-length")
@@ -117,16 +93,7 @@ pub fn cases() -> Vec<Case> {
             .under_test(length)
             .mistake(
                 "rods per a³ taken as n/a³ in place of n a³, right at 0.72 mm",
-                instead(
-                    length,
-                    [
-                        |scene| lab::paper_interaction(scene).concentration_per_cm3 = Some(400.0),
-                        |scene| {
-                            lab::paper_interaction(scene);
-                        },
-                        |scene| lab::paper_interaction(scene).concentration_per_cm3 = Some(6.25),
-                    ],
-                ),
+                Order { set: concentration.set, values: [400.0, 50.0, 6.25], ..length },
             )
             .check(faster),
         Case::statement("faster-with-collisions")
@@ -181,10 +148,10 @@ fn swing(mean: &dyn Fn(Channel, usize) -> f64, half_periods: usize, axis: usize)
 /// The amplitudes of X̄₁ at t = kT/2, for each replica.
 fn amplitudes(scene: &Scene, replicas: u64, half_periods: &[usize]) -> Vec<Vec<f64>> {
     let last = half_periods.iter().max().copied().unwrap_or(0);
-    let found = per_replica(&quarters(scene.clone(), last), replicas, |mean| {
+    let swings = per_replica(&quarters(scene.clone(), last), replicas, |mean| {
         half_periods.iter().map(|&k| swing(mean, k, 0)).collect::<Vec<_>>()
     });
-    (0..half_periods.len()).map(|k| found.iter().map(|amplitudes| amplitudes[k]).collect()).collect()
+    (0..half_periods.len()).map(|k| swings.iter().map(|swings| swings[k]).collect()).collect()
 }
 
 /// The scene up to the quarter period after t = kT/2, with outputs at quarter periods.
@@ -198,25 +165,25 @@ fn free_amplitude(change: &Change, effort: &Effort) -> Vec<Evidence> {
     let scene = lab::changed(lab::free_scene(effort), change);
     // A pilot of 2,000 replicas scattered by 0.031, and by 0.042 with r_e = 3.
     let design = Design::new(0.09, 0.045);
-    let found = amplitudes(&scene, effort.samples(design), &[0, 8]);
+    let amplitudes = amplitudes(&scene, effort.samples(design), &[0, 8]);
     let half = "\"approximately half\": 0.5 to one digit; r_e = 3 has 0.35 by the closed form";
-    let start = Sample::of(&found[0]).is(0.5, 0.05, design.effect, half);
+    let start = Sample::of(&amplitudes[0]).is(0.5, 0.05, design.effect, half);
     let constant = "constant: the same phases come back to round-off";
-    let change = Sample::of_differences(&found[1], &found[0]).is(0.0, 1e-12, design.effect, constant);
+    let change = Sample::of_differences(&amplitudes[1], &amplitudes[0]).is(0.0, 1e-12, design.effect, constant);
     vec![Evidence::new("amplitude at t = 0, in rod lengths", start), Evidence::new("its change by t/T = 4", change)]
 }
 
 fn faster(order: &Order, effort: &Effort) -> Vec<Evidence> {
     let replicas = effort.samples(order.design);
-    let found = order.scenes.map(|change| {
-        let scene = lab::changed(lab::free_scene(effort), change);
-        amplitudes(&scene, replicas, &[3]).remove(0)
+    let amplitudes = order.values.map(|value| {
+        let scene = lab::changed(lab::free_scene(effort), |scene| (order.set)(scene, value));
+        self::amplitudes(&scene, replicas, &[3]).remove(0)
     });
     let because = "an order without a number; the same seeds in all three";
     [(0, 1, "first less second"), (1, 2, "second less third")]
         .into_iter()
         .map(|(a, b, which)| {
-            let fall = Sample::of_differences(&found[a], &found[b]);
+            let fall = Sample::of_differences(&amplitudes[a], &amplitudes[b]);
             Evidence::new(
                 format!("fall of the amplitude at t/T = 1½, {which}"),
                 fall.exceeds(0.0, order.design.effect, because),

@@ -20,9 +20,9 @@ pub fn cases() -> Vec<Case> {
     vec![
         Case::oracle("diffusing-rods")
             .claim(
-                "The distribution of rods with rotary diffusion is exp(p·ΛD·p/2D_r) in extension, fulfils the equation \
-                 of its second moments in any flow, is that of free rods for C_I = 0, and has the known orbits as C_I \
-                 → 0.",
+                "The distribution of rods with rotary diffusion is exp(p·ΛD·p/2D_r) in extension, fulfils the \
+                 equation of its second moments in any flow, is that of free rods for C_I = 0, and has the known \
+                 orbits as C_I → 0.",
             )
             .source("eqs 13, A.1; Folgar & Tucker 1984; Leal & Hinch 1971")
             .under_test((|(l, r, c)| Motion::new(l, r, c)) as Model)
@@ -76,7 +76,7 @@ fn extension(model: Model) -> Result<f64, NoAnswer> {
     let mut worst = 0.0;
     for (rate, aspect_ratio, c_i) in [(1.0, 5.0, 0.05), (-0.5, 3.0, 0.02)] {
         let gradient = [[-0.5 * rate, 0.0, 0.0], [0.0, -0.5 * rate, 0.0], [0.0, 0.0, rate]];
-        let found = steady(&model((gradient, aspect_ratio, c_i)))?;
+        let means = steady(&model((gradient, aspect_ratio, c_i)))?;
         let shape = (aspect_ratio * aspect_ratio - 1.0) / (aspect_ratio * aspect_ratio + 1.0);
         // p·Dp = rate (3z² − 1)/2 and γ̇ = 3^½ |rate|.
         let k = 0.75 * shape * rate / (c_i * 3f64.sqrt() * f64::abs(rate));
@@ -89,8 +89,8 @@ fn extension(model: Model) -> Result<f64, NoAnswer> {
             let weight = x.cosh().powi(-2) * (k * z * z - k.max(0.0)).exp();
             (0..3).for_each(|power| sums[power] += weight * z.powi(2 * power as i32));
         }
-        worst = larger(worst, (found.second[2] - sums[1] / sums[0]).abs());
-        worst = larger(worst, (found.fourth[14] - sums[2] / sums[0]).abs());
+        worst = larger(worst, (means.second[2] - sums[1] / sums[0]).abs());
+        worst = larger(worst, (means.fourth[14] - sums[2] / sums[0]).abs());
     }
     Ok(worst)
 }
@@ -135,15 +135,15 @@ fn rate((gradient, r, c_i): Asked, means: &Means) -> Matrix3<f64> {
 fn without_diffusion(model: Model) -> Result<f64, NoAnswer> {
     let gradient = [[0.3, -0.5, 0.1], [0.8, 0.1, -0.2], [0.4, 0.6, -0.4]];
     let free = Free { gradient_per_s: gradient, aspect_ratio: 4.0 };
-    let found = at(&model((gradient, 4.0, 0.0)), Start::Isotropic, &[1.5])?;
+    let solution = at(&model((gradient, 4.0, 0.0)), Start::Isotropic, &[1.5])?;
     let Some(exact) = Covariance::at(&free, &Bits(64).of(1.5), Unit::Second) else {
         return Err(NoAnswer::Unsettled);
     };
     let mut worst = 0.0;
-    for means in found {
+    for means in solution {
         let second = means.second.iter().zip(exact.second());
         let fourth = means.fourth.iter().zip(exact.fourth());
-        worst = second.chain(fourth).fold(worst, |worst, (found, due)| larger(worst, (found - double(&due)).abs()));
+        worst = second.chain(fourth).fold(worst, |worst, (value, due)| larger(worst, (value - double(&due)).abs()));
     }
     Ok(worst)
 }

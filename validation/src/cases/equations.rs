@@ -93,10 +93,10 @@ mod tests {
     }
 
     /// Every Rust file of the core.
-    fn core(folder: &Path, found: &mut Vec<PathBuf>) {
+    fn core(folder: &Path, files: &mut Vec<PathBuf>) {
         for entry in std::fs::read_dir(folder).unwrap() {
             let path = entry.unwrap().path();
-            if path.is_dir() { core(&path, found) } else { found.push(path) }
+            if path.is_dir() { core(&path, files) } else { files.push(path) }
         }
     }
 

@@ -91,10 +91,10 @@ pub(super) fn off_length(p: &Vector3<f64>) -> f64 {
 fn extreme_motion(motion: &Motion, _: &Effort) -> Vec<Evidence> {
     let (mut length, mut orbit, mut angle) = (0.0f64, 0.0f64, 0.0f64);
     for r in ASPECT_RATIOS.into_iter().chain([1.0]) {
-        let found = corners::worst(r, motion);
-        length = larger(length, found.length);
-        orbit = larger(orbit, found.orbit);
-        angle = larger(angle, found.angle);
+        let worst = corners::worst(r, motion);
+        length = larger(length, worst.length);
+        orbit = larger(orbit, worst.orbit);
+        angle = larger(angle, worst.angle);
     }
     let (stepped_length, stepped_orbit) = thousand_steps(motion);
     vec![

@@ -125,12 +125,12 @@ fn pool(effort: &Effort) -> Result<Pool, String> {
         scene.particles.count = RODS;
         scene.time.duration = 1.5;
         scene.time.steps_per_unit = Some(STEPS_PER_PERIOD);
-        Scenes::new(vec![set(&scene, effort.seed(70), TimeColumn::Periods)?], vec![range.clone()]).map_err(String::from)
+        Scenes::new(vec![set(&scene, effort.seed(70), TimeColumn::Periods)?], vec![range.clone()])
     };
     let basis = Basis::new(1);
     let at_nodes = |sd_percent: f64| {
         let scenes = scenes(sd_percent)?;
-        let model = |values: &[f64]| scenes.model(&places, AS_WRITTEN, values).map_err(String::from);
+        let model = |values: &[f64]| scenes.model(&places, AS_WRITTEN, values);
         let value = |node: &[f64]| vec![1.0 + 0.6 * node[0]];
         coefficients(&basis, &model, &value, 0..POOL, &|| ())
     };
@@ -192,8 +192,8 @@ fn repeats(way: Way, effort: &Effort) -> Arc<Result<Vec<Fitted>, String>> {
             let fit = repeat(pool, simulated, effort.seed(71), k)?;
             Ok(Fitted {
                 intervals: CONFIDENCES.map(|confidence| {
-                    let found = fit.interval(0, confidence);
-                    (found.low, found.high)
+                    let interval = fit.interval(0, confidence);
+                    (interval.low, interval.high)
                 }),
                 estimate: fit.values(&fit.best.place)[0],
                 p: fit.best.goodness.p_value(),
@@ -227,8 +227,8 @@ fn shares(effort: &Effort) -> u64 {
 }
 
 fn covers(way: &Way, effort: &Effort) -> Result<Vec<Evidence>, String> {
-    let found = repeats(*way, effort);
-    let found = found.as_ref().as_ref().map_err(Clone::clone)?;
+    let fits = repeats(*way, effort);
+    let fits = fits.as_ref().as_ref().map_err(Clone::clone)?;
     let inside = |fit: &Fitted, k: usize| {
         let (low, high) = fit.intervals[k];
         let (low, high) = match way {
@@ -238,11 +238,13 @@ fn covers(way: &Way, effort: &Effort) -> Result<Vec<Evidence>, String> {
         f64::from(u8::from((low..=high).contains(&PLANTED)))
     };
     let rule = |k: usize| {
-        let shares: Vec<f64> = found.iter().map(|fit| inside(fit, k)).collect();
         let what = format!("share of {:.0} % intervals that hold the planted α", 100.0 * CONFIDENCES[k]);
-        let because = "the level; the allowance is the error of a covariance estimated from 80 replicas; a curve taken \
-            for exact, or half the length, misses more than the effect";
-        Evidence::new(what, Sample::of(&shares).is(CONFIDENCES[k], ALLOWANCE[k], EFFECT[k], because))
+        let because = "the level; the allowance is the error of a covariance estimated from 80 replicas; a curve \
+                       taken for exact, or half the length, misses more than the effect";
+        Evidence::new(
+            what,
+            Sample::of(fits.iter().map(|fit| inside(fit, k))).is(CONFIDENCES[k], ALLOWANCE[k], EFFECT[k], because),
+        )
     };
     Ok(vec![rule(0), rule(1), outright::off(*way == Way::StraightLines, effort)?])
 }
@@ -256,12 +258,12 @@ fn laws(effort: &Effort) -> u64 {
 }
 
 fn refuses(way: &Way, effort: &Effort) -> Result<Vec<Evidence>, String> {
-    let found = repeats(*way, effort);
-    let found = found.as_ref().as_ref().map_err(Clone::clone)?;
+    let fits = repeats(*way, effort);
+    let fits = fits.as_ref().as_ref().map_err(Clone::clone)?;
     Ok(vec![Evidence::new(
         "p-values of χ² over repeats: uniform",
         lab::uniform(
-            found.iter().take(laws(effort) as usize).map(|fit| fit.p).collect(),
+            fits.iter().take(laws(effort) as usize).map(|fit| fit.p).collect(),
             DISTANCE,
             "Kolmogorov–Smirnov; without the spread of r_e the p-values crowd at 0, a distance near 1",
         ),

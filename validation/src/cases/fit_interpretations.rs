@@ -8,8 +8,7 @@
 use super::fit_covers::set;
 use crate::judge::accept::Rule;
 use crate::judge::case::{Case, Effort, Evidence};
-use crate::judge::lab::problem;
-use crate::judge::lab::{self, Shared};
+use crate::judge::lab::{self, Shared, problem};
 use crate::methods::least_squares::Datum;
 use crate::methods::least_squares::basis::Basis;
 use crate::methods::least_squares::emulator::{Coefficients, coefficients};
@@ -48,8 +47,8 @@ pub(super) fn cases() -> Vec<Case> {
     vec![
         Case::program("fit-tells-cut-lines")
             .claim(
-                "χ² of one α for two suspensions accepts points of whole contact lines and refuses points of lines cut \
-                 at the rods' ends.",
+                "χ² of one α for two suspensions accepts points of whole contact lines and refuses points of lines \
+                 cut at the rods' ends.",
             )
             .source("eq. 5; docs/src/theory/fits.md")
             .under_test((|_| ()) as Change)
@@ -119,7 +118,7 @@ pub fn model(effort: &Effort, replicas: u64) -> Result<Vec<Coefficients>, String
     let sets = CONCENTRATIONS.into_iter().enumerate().map(set);
     let scenes = Scenes::new(sets.collect::<Result<_, String>>()?, vec![range()?])?;
     let places = data(|_| f64::NAN, f64::NAN);
-    let model = |values: &[f64]| scenes.model(&places, AS_WRITTEN, values).map_err(String::from);
+    let model = |values: &[f64]| scenes.model(&places, AS_WRITTEN, values);
     let value = |node: &[f64]| vec![0.8 + 0.4 * node[0]];
     coefficients(&Basis::new(1), &model, &value, 0..replicas, &|| ())
 }

@@ -45,8 +45,8 @@ pub fn cases() -> Vec<Case> {
             .check(seven),
         Case::interpretation("kicks-are-no-diffusion")
             .claim(
-                "At equal C_I, kicks leave far more rods alone than rotary diffusion does over a strain of 1, turn far \
-                 more of them by more than 0.1 rad, and keep more of them in orbits of C_b > 1/2.",
+                "At equal C_I, kicks leave far more rods alone than rotary diffusion does over a strain of 1, turn \
+                 far more of them by more than 0.1 rad, and keep more of them in orbits of C_b > 1/2.",
             )
             .source("Folgar & Tucker 1984; eqs 5 to 10; docs/src/theory/coefficients.md")
             .under_test(Turned::ByKicks(|_| {}))
@@ -76,19 +76,15 @@ fn seven(read: &fn(f64) -> f64, effort: &Effort) -> Vec<Evidence> {
             let setting = coefficients::kick(n_a3, 11.6, 0.5, 4);
             let mut scene = coefficients::scene(setting, effort);
             scene.time.duration = 8.0;
-            let windows = coefficients::windows(&scene, Places::Carried, samples);
+            let windows = coefficients::windows(&scene, Places::Kept, samples);
             windows.iter().map(|(means, _)| means.coefficient()).collect()
         })
     });
     let [thin, edge] = model.each_ref().map(|all| all.iter().map(|c| read(*c)).collect::<Vec<f64>>());
     let measured = folgar_tucker().rows;
-    let (mut x, mut y) = (Vec::new(), Vec::new());
-    measured.iter().for_each(|point| {
-        x.push(point.phi_rp);
-        y.push(point.c_i);
-    });
+    let (x, y): (Vec<f64>, Vec<f64>) = measured.iter().map(|point| (point.phi_rp, point.c_i)).unzip();
     let least = y.iter().copied().fold(f64::INFINITY, f64::min);
-    let below: Vec<f64> = edge.iter().map(|c| least / 3.0 - c).collect();
+    let below = edge.iter().map(|c| least / 3.0 - c);
     vec![
         Evidence::within(
             "1 − the correlation of the seven with φ r_p",
@@ -102,7 +98,7 @@ fn seven(read: &fn(f64) -> f64, effort: &Effort) -> Vec<Evidence> {
         ),
         Evidence::new(
             "a third of the least measured C_I less the model's at n a³ = 1",
-            Sample::of(&below).exceeds(0.0, gap.effect, "below, four fifths of the pilot's distance"),
+            Sample::of(below).exceeds(0.0, gap.effect, "below, four fifths of the pilot's distance"),
         ),
     ]
 }
@@ -127,7 +123,7 @@ const RODS: usize = 100;
 fn effective(estimator: &Estimator, effort: &Effort) -> Vec<Evidence> {
     // A pilot of 40 replicas scattered by 0.0011.
     let design = Design::new(0.0015, 0.0014);
-    let found: Vec<f64> = (0..effort.samples(design))
+    let estimates: Vec<f64> = (0..effort.samples(design))
         .into_par_iter()
         .map(|replica| {
             let diffusion = Diffusion::isotropic(LAMBDA, PLANTED, STEP);
@@ -148,7 +144,7 @@ fn effective(estimator: &Estimator, effort: &Effort) -> Vec<Evidence> {
     vec![
         Evidence::new(
             "C_I of synthetic rods, 0.01 put in",
-            Sample::of(&found).is(
+            Sample::of(&estimates).is(
                 PLANTED,
                 0.01 * PLANTED,
                 design.effect,
@@ -189,18 +185,18 @@ fn no_diffusion(turned: &Turned, effort: &Effort) -> Vec<Evidence> {
     let watch = Watch::new(&scene, 4.0, 1.0);
     let diffusion = |c_i, stream| diffused(&scene, c_i, watch, samples, (effort, stream));
     let of_diffusion = OF_DIFFUSION.get(effort, (), || {
-        let (means, _): (Vec<_>, Vec<_>) = coefficients::windows(&scene, Places::Carried, 8).into_iter().unzip();
+        let (means, _): (Vec<_>, Vec<_>) = coefficients::windows(&scene, Places::Kept, 8).into_iter().unzip();
         let c_i = Means::of(&means, None).coefficient();
         (c_i, diffusion(c_i, 1 << 20))
     });
     let (c_i, reference) = of_diffusion.as_ref();
-    let found = match turned {
+    let turned = match turned {
         Turned::ByKicks(change) => kicked(&lab::changed(scene.clone(), change), watch, samples),
         Turned::ByDiffusion => diffusion(*c_i, 1 << 21),
     };
     let more = |quantity, edge, sign: f64| {
         let signed = |all| above(all, quantity, edge).iter().map(|share| sign * share).collect::<Vec<_>>();
-        Sample::of_differences(&signed(&found), &signed(reference))
+        Sample::of_differences(&signed(&turned), &signed(reference))
     };
     vec![
         Evidence::new(

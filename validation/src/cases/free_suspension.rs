@@ -3,10 +3,10 @@
 use crate::judge::accept::Design;
 use crate::judge::case::{Case, Effort, Evidence};
 use crate::judge::lab::{self, Change};
-use crate::judge::statistics::{Sample, larger};
+use crate::judge::statistics::larger;
 use crate::oracle::isotropic;
+use shearbed::observable::Channel;
 use shearbed::run::ensemble;
-use shearbed::scene::Scene;
 
 pub fn cases() -> Vec<Case> {
     vec![
@@ -20,7 +20,7 @@ pub fn cases() -> Vec<Case> {
                 // u_1 = G x_2: axes 1 and 2 exchanged.
                 scene.flow = shearbed::scene::Flow::Gradient { gradient_per_s: [[0.0, 0.5, 0.0], [0.0; 3], [0.0; 3]] };
             })
-            .check(uniform_rods),
+            .check(|change, effort| compare(&UNIFORM, *change, effort)),
         Case::core("free-polydisperse")
             .claim(
                 "Free rods of Gaussian aspect ratio, isotropic at first, have the mean projections of the quadrature.",
@@ -30,7 +30,7 @@ pub fn cases() -> Vec<Case> {
             .mistake("no spread", |scene| scene.particles.aspect_ratio_sd_percent = 0.0)
             .mistake("the spread 20 % too wide", |scene| scene.particles.aspect_ratio_sd_percent *= 1.2)
             .mistake("r_e 10 % longer", |scene| scene.particles.aspect_ratio *= 1.1)
-            .check(spread_rods),
+            .check(|change, effort| compare(&UNEQUAL, *change, effort)),
         Case::core("free-half-period")
             .claim("Mean projections of free rods of one aspect ratio repeat after T/2, because p ≡ −p.")
             .source("eqs 4, 15")
@@ -48,61 +48,39 @@ pub fn cases() -> Vec<Case> {
 /// the closed forms.
 const DESIGN: Design = Design::new(0.01, 0.31);
 
-fn uniform_rods(change: &Change, effort: &Effort) -> Vec<Evidence> {
-    let problems: [(f64, &[usize]); 4] = [(1.5, &[2, 20]), (5.0, &[10]), (11.6, &[2, 10]), (50.0, &[20])];
-    let mut evidence = Vec::new();
-    for (stream, (r, sevenths)) in (0..).zip(problems) {
-        let mut scene = lab::free_scene(effort);
-        scene.ensemble.seed = effort.seed(stream);
-        scene.particles.aspect_ratio = r;
-        let expected = |turns| isotropic::mean_projections(r, turns);
-        evidence.extend(compare(scene, *change, effort, sevenths, expected));
-    }
-    evidence
+/// r_e, σ in %, and times in sevenths of a period, which are in general position within it.
+type Problem = (f64, f64, &'static [usize]);
+
+const UNIFORM: [Problem; 4] = [(1.5, 0.0, &[2, 20]), (5.0, 0.0, &[10]), (11.6, 0.0, &[2, 10]), (50.0, 0.0, &[20])];
+const UNEQUAL: [Problem; 3] = [(11.6, 3.6, &[10, 20]), (14.2, 8.5, &[20]), (5.0, 7.2, &[10])];
+
+/// X̄_i of many free rods.
+fn compare(problems: &[Problem], change: Change, effort: &Effort) -> Vec<Evidence> {
+    let problems = (0..).zip(problems);
+    problems.flat_map(|(stream, problem)| compare_one(*problem, change, effort, effort.seed(stream))).collect()
 }
 
-fn spread_rods(change: &Change, effort: &Effort) -> Vec<Evidence> {
-    let problems: [(f64, f64, &[usize]); 3] = [(11.6, 3.6, &[10, 20]), (14.2, 8.5, &[20]), (5.0, 7.2, &[10])];
-    let mut evidence = Vec::new();
-    for (stream, (r, sd, sevenths)) in (0..).zip(problems) {
-        let mut scene = lab::free_scene(effort);
-        scene.ensemble.seed = effort.seed(stream);
-        scene.particles.aspect_ratio = r;
-        scene.particles.aspect_ratio_sd_percent = sd;
-        let expected = |turns| isotropic::mean_projections_polydisperse(r, sd, turns);
-        evidence.extend(compare(scene, *change, effort, sevenths, expected));
-    }
-    evidence
-}
-
-/// X̄_i of many free rods at times in sevenths of a period, which are in general position within it.
-fn compare(
-    mut scene: Scene,
-    change: Change,
-    effort: &Effort,
-    sevenths: &[usize],
-    expected: impl Fn(f64) -> [f64; 3],
-) -> Vec<Evidence> {
+fn compare_one((r, sd, sevenths): Problem, change: Change, effort: &Effort, seed: u64) -> Vec<Evidence> {
+    let mut scene = lab::free_scene(effort);
+    scene.ensemble.seed = seed;
     scene.particles.count = effort.samples(DESIGN) as usize;
+    scene.particles.aspect_ratio = r;
+    scene.particles.aspect_ratio_sd_percent = sd;
     scene.time.duration = 3.0;
     scene.time.outputs_per_unit = Some(7);
-    let (r, sd) = (scene.particles.aspect_ratio, scene.particles.aspect_ratio_sd_percent);
     change(&mut scene);
+    let expected = |turns| match sd {
+        0.0 => isotropic::mean_projections(r, turns),
+        sd => isotropic::mean_projections_polydisperse(r, sd, turns),
+    };
     let results = ensemble::run(&lab::plan(&scene));
     let mut evidence = Vec::new();
     for &output in sevenths {
         for (axis, reference) in expected(output as f64 / 7.0).into_iter().enumerate() {
-            let name = ["x1", "x2", "x3"][axis];
-            let channel = results.as_ref().ok().and_then(|results| results.column(name));
-            let (mean, se) = channel.map_or((f64::NAN, f64::NAN), |c| (c.mean[output], c.se[output]));
+            let sample = lab::at_output(&results, Channel::X[axis], output, scene.particles.count as u64);
             evidence.push(Evidence::new(
                 format!("X̄_{} at t/T = {output}/7, r_e = {r}, σ = {sd} %", axis + 1),
-                Sample { mean, se, samples: scene.particles.count as u64 }.is(
-                    reference,
-                    0.0,
-                    DESIGN.effect,
-                    "the closed form is exact to 10⁻⁹; independent rods",
-                ),
+                sample.is(reference, 0.0, DESIGN.effect, "the closed form is exact to 10⁻⁹; independent rods"),
             ));
         }
     }

@@ -8,7 +8,7 @@ use rand::RngExt;
 use shearbed::scene::{Scene, Time};
 
 pub fn cases() -> Vec<Case> {
-    let mistake = |mistake| Subject::Wrong(Some(mistake));
+    let mistake = |mistake| Inflow::Wrong(Some(mistake));
     vec![
         Case::core("even-inflow")
             .claim(
@@ -16,7 +16,7 @@ pub fn cases() -> Vec<Case> {
                  filled.",
             )
             .source("eqs 2, 3, 12; a replacement rule for flows other than eq. 14's")
-            .under_test(Subject::Core)
+            .under_test(Inflow::Core)
             .mistake("rods come in anywhere on a face alike", mistake(Mistake::InflowUniform))
             .mistake("faces chosen by their area alone", mistake(Mistake::FacesByArea))
             .mistake("rods come in at the step's beginning, all of them", mistake(Mistake::InflowAtOnce))
@@ -24,7 +24,7 @@ pub fn cases() -> Vec<Case> {
     ]
 }
 
-enum Subject {
+enum Inflow {
     Core,
     /// The naive rule, with a mistake or without one.
     Wrong(Option<Mistake>),
@@ -46,12 +46,12 @@ const STEPS: u64 = 16;
 /// The distance of a coordinate's distribution function to detect.
 const DISTANCE: f64 = 0.02;
 
-fn even(subject: &Subject, effort: &Effort) -> Vec<Evidence> {
+fn even(inflow: &Inflow, effort: &Effort) -> Vec<Evidence> {
     let count = effort.pick(1, 4) * kolmogorov_samples(DISTANCE);
     let mut evidence = Vec::new();
     let mut outside = 0;
     for (name, gradient, box_mm) in FLOWS {
-        let ends = ends(subject, effort, count as usize, gradient, box_mm);
+        let ends = ends(inflow, effort, count as usize, gradient, box_mm);
         for (axis, places) in ends.into_iter().enumerate() {
             let inside: Vec<f64> = places.iter().copied().filter(|x| (0.0..1.0).contains(x)).collect();
             outside += places.len() - inside.len();
@@ -65,10 +65,10 @@ fn even(subject: &Subject, effort: &Effort) -> Vec<Evidence> {
 }
 
 /// The rods' final places, in units of the sides.
-fn ends(subject: &Subject, effort: &Effort, count: usize, gradient: Gradient, box_mm: [f64; 3]) -> [Vec<f64>; 3] {
+fn ends(inflow: &Inflow, effort: &Effort, count: usize, gradient: Gradient, box_mm: [f64; 3]) -> [Vec<f64>; 3] {
     let scene = scene(effort, count, gradient, box_mm);
-    match subject {
-        Subject::Core => {
+    match inflow {
+        Inflow::Core => {
             let mut suspension = lab::suspension(&scene, 0);
             for _ in 0..STEPS {
                 if suspension.step().is_err() {
@@ -78,7 +78,7 @@ fn ends(subject: &Subject, effort: &Effort, count: usize, gradient: Gradient, bo
             let (places, sides) = (suspension.positions_in_lengths(), suspension.sides_in_lengths());
             [0, 1, 2].map(|axis| places[axis].iter().map(|x| x / sides[axis]).collect())
         }
-        Subject::Wrong(made) => {
+        Inflow::Wrong(made) => {
             let dt_s = lab::problem(&scene, 0, *made).time_step_s();
             let mut draws = stream(effort.seed(31), 0, 0);
             let mut places: Vec<[f64; 3]> =
@@ -96,8 +96,7 @@ fn scene(effort: &Effort, count: usize, gradient: Gradient, box_mm: [f64; 3]) ->
     let mut scene = lab::interacting_scene(effort);
     scene.particles.count = count;
     scene.flow = shearbed::scene::Flow::Gradient { gradient_per_s: gradient };
-    let interaction = lab::interaction(&mut scene);
-    (interaction.concentration_per_cm3, interaction.box_mm) = (None, Some(box_mm));
+    lab::set_box_mm(&mut scene, box_mm);
     scene.time = Time { steps_per_unit: Some(STEPS_PER_STRAIN), outputs_per_unit: Some(1), ..Time::strain(1.0) };
     scene
 }
@@ -109,7 +108,7 @@ mod tests {
 
     #[test]
     fn the_wrong_rules_are_wrong_by_their_mistakes_alone() {
-        for evidence in even(&Subject::Wrong(None), &Effort::gate()) {
+        for evidence in even(&Inflow::Wrong(None), &Effort::gate()) {
             assert_eq!(judge(&evidence.rule), Verdict::Pass, "{evidence:?}");
         }
     }

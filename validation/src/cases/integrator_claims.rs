@@ -53,13 +53,9 @@ pub fn cases() -> Vec<Case> {
             .source("A.1")
             .under_test((|problem: &RodProblem, p: &Vector3<f64>| problem.rate_slope(p)) as Slope)
             .mistake("the pull along p left out of the slope", |problem, p| {
-                let shape = shearbed::model::jeffery::shape_factor(problem.aspect_ratio);
-                problem.rate_slope(p) + p * Vector3::new(shape * p.y, shape * p.x, 0.0).transpose()
+                problem.rate_slope(p) + slope_of_pull(problem, p)
             })
-            .mistake("twice the pull along p", |problem, p| {
-                let shape = shearbed::model::jeffery::shape_factor(problem.aspect_ratio);
-                problem.rate_slope(p) - p * Vector3::new(shape * p.y, shape * p.x, 0.0).transpose()
-            })
+            .mistake("twice the pull along p", |problem, p| problem.rate_slope(p) - slope_of_pull(problem, p))
             .mistake("a rod 1 % longer", |problem, p| RodProblem::new(1.01 * problem.aspect_ratio, 1.0).rate_slope(p))
             .check(eigenvalues),
         Case::integrator("who-loses-length")
@@ -91,6 +87,11 @@ pub fn cases() -> Vec<Case> {
             })
             .check(index_bounds),
     ]
+}
+
+fn slope_of_pull(problem: &RodProblem, p: &Vector3<f64>) -> Matrix3<f64> {
+    let shape = shearbed::model::jeffery::shape_factor(problem.aspect_ratio);
+    p * Vector3::new(shape * p.y, shape * p.x, 0.0).transpose()
 }
 
 fn where_errors_show(scale: &f64, _: &Effort) -> Vec<Evidence> {
@@ -181,22 +182,22 @@ fn eigenvalues(slope: &Slope, _: &Effort) -> Vec<Evidence> {
     ]
 }
 
-fn lose_length(subjects: &Integrators, _: &Effort) -> Vec<Evidence> {
+fn lose_length(integrators: &Integrators, _: &Effort) -> Vec<Evidence> {
     let (problem, start) = RodProblem::mid_flip(11.6);
     let steps = 1024;
-    let kept = |subject: &Integrator| {
-        let setting = match subject.theory {
+    let keeps = |integrator: &Integrator| {
+        let setting = match integrator.theory {
             Theory::Adaptive => Setting::Tolerance(1e-6),
             _ => Setting::Steps(steps),
         };
-        let off = grade(subject, &problem, &start, setting).map_or(0.0, |errors| errors.length);
+        let off = grade(integrator, &problem, &start, setting).map_or(0.0, |errors| errors.length);
         off <= 4.0 * steps as f64 * f64::EPSILON
     };
-    let all = subjects();
-    let losing = all.iter().filter(|subject| !subject.keeps_length && subject.theory != Theory::Exact);
+    let all = integrators();
+    let losing = all.iter().filter(|integrator| !integrator.keeps_length && integrator.theory != Theory::Exact);
     vec![Evidence::exact(
         "subjects that keep |p| to round-off without being said to",
-        losing.filter(|subject| kept(subject)).count() as f64,
+        losing.filter(|integrator| keeps(integrator)).count() as f64,
     )]
 }
 
@@ -204,10 +205,10 @@ fn coarse(strain: &f64, _: &Effort) -> Vec<Evidence> {
     let (problem, start) = RodProblem::mid_flip(11.6);
     let steps = Setting::Steps((problem.strain() / strain).round() as u64);
     let mut unlike = 0.0;
-    for subject in crate::methods::integrators::own() {
-        let found = grade(&subject, &problem, &start, steps);
-        let as_said = match (subject.name.as_str(), found) {
-            ("RK4 in p", found) => found == Err(Failure::NotFinite),
+    for integrator in crate::methods::integrators::own() {
+        let graded = grade(&integrator, &problem, &start, steps);
+        let as_said = match (integrator.name.as_str(), graded) {
+            ("RK4 in p", graded) => graded == Err(Failure::NotFinite),
             ("projected RK4 in p", Ok(errors)) => errors.length < 1e-12 && errors.orientation_rad > 0.01,
             ("projected RK4 in p", Err(_)) => false,
             _ => true,
@@ -217,12 +218,13 @@ fn coarse(strain: &f64, _: &Effort) -> Vec<Evidence> {
     vec![Evidence::exact("of the two, not as said", unlike)]
 }
 
-fn index_bounds(subjects: &Integrators, _: &Effort) -> Vec<Evidence> {
+fn index_bounds(integrators: &Integrators, _: &Effort) -> Vec<Evidence> {
     let (problem, start) = RodProblem::mid_flip(11.6);
     let mut worst = 0.0f64;
-    for subject in subjects() {
-        if let Some(study) = order::study(&subject, &problem, &start, 8) {
-            worst = larger(worst, study.richardson.map_or(f64::NAN, |found| found.true_error / found.index));
+    for integrator in integrators() {
+        if let Some(study) = order::study(&integrator, &problem, &start, 8) {
+            worst =
+                larger(worst, study.richardson.map_or(f64::NAN, |richardson| richardson.true_error / richardson.index));
         }
     }
     vec![Evidence::within(

@@ -9,7 +9,7 @@ use crate::studies::work_precision::order::{self, ORDER_TOLERANCE};
 use nalgebra::{Vector2, Vector3};
 use spoiled::{in_angles, in_p, spoiled, whole_turns};
 
-/// A function that makes the integrators to judge, anew for each check.
+/// A function that makes the integrators under test, for each check.
 pub(super) type Integrators = fn() -> Vec<Integrator>;
 
 pub fn cases() -> Vec<Case> {
@@ -55,8 +55,8 @@ pub fn cases() -> Vec<Case> {
             .check(lengths),
         Case::integrator("exact-propagator-round-off")
             .claim(
-                "The exact propagator's error is round-off for r_e from 1.01 to 10⁶ and up to 10⁶ periods, during a \
-                 flip.",
+                "The exact propagator's error is round-off for r_e from 1.01 to 10⁶ and up to 10⁶ periods, \
+                 during a flip.",
             )
             .source("eqs 20, A.4, A.5")
             .under_test((|| vec![exact_propagator()]) as Integrators)
@@ -65,8 +65,8 @@ pub fn cases() -> Vec<Case> {
             .check(round_off),
         Case::integrator("adaptive-subjects")
             .claim(
-                "At a tolerance of 10⁻¹¹ both adaptive integrators come as near as their steps, each off by the \
-                 tolerance, allow.",
+                "At a tolerance of 10⁻¹¹ both adaptive integrators come as near as their steps, each off by \
+                 the tolerance, allow.",
             )
             .source("A.4, A.5; Jeffery's equation in p")
             .under_test((|| vec![dormand_prince(), radau()]) as Integrators)
@@ -81,13 +81,13 @@ pub fn cases() -> Vec<Case> {
     ]
 }
 
-fn orders(subjects: &Integrators, _: &Effort) -> Vec<Evidence> {
+fn orders(integrators: &Integrators, _: &Effort) -> Vec<Evidence> {
     let mut evidence = Vec::new();
-    for subject in subjects() {
+    for integrator in integrators() {
         let mut worst = 0.0f64;
         for r in [2.0, 11.6] {
             let (problem, start) = RodProblem::mid_flip(r);
-            let Some(study) = order::study(&subject, &problem, &start, 8) else {
+            let Some(study) = order::study(&integrator, &problem, &start, 8) else {
                 continue;
             };
             // Fewer than two pairs above round-off show no order: it counts as 0.
@@ -96,31 +96,32 @@ fn orders(subjects: &Integrators, _: &Effort) -> Vec<Evidence> {
                 .map(|order| (order - f64::from(study.theory)).abs())
                 .fold(larger(worst, enough), larger);
         }
-        if matches!(subject.theory, Theory::Order(_)) {
+        if matches!(integrator.theory, Theory::Order(_)) {
             evidence.push(Evidence::within(
-                format!("observed order against theory, {}", subject.name),
+                format!("observed order against theory, {}", integrator.name),
                 worst,
                 ORDER_TOLERANCE,
-                "the next power of Δt is a tenth or less of the leading one on the last two pairs above round-off",
+                "the next power of Δt is a tenth or less of the leading one on the last two pairs above \
+                 round-off",
             ));
         }
     }
     evidence
 }
 
-fn lengths(subjects: &Integrators, _: &Effort) -> Vec<Evidence> {
+fn lengths(integrators: &Integrators, _: &Effort) -> Vec<Evidence> {
     let (problem, start) = RodProblem::mid_flip(11.6);
-    (subjects().into_iter())
-        .filter(|subject| subject.keeps_length)
-        .map(|subject| {
-            let (setting, steps) = match subject.theory {
+    (integrators().into_iter())
+        .filter(|integrator| integrator.keeps_length)
+        .map(|integrator| {
+            let (setting, steps) = match integrator.theory {
                 Theory::Exact => (Setting::Once, 1),
                 Theory::Order(_) => (Setting::Steps(1024), 1024),
                 Theory::Adaptive => (Setting::Tolerance(1e-6), 1024),
             };
-            let off = grade(&subject, &problem, &start, setting).map_or(1.0, |e| e.length);
+            let off = grade(&integrator, &problem, &start, setting).map_or(1.0, |e| e.length);
             Evidence::within(
-                format!("|p| − 1 at the end, {}", subject.name),
+                format!("|p| − 1 at the end, {}", integrator.name),
                 off,
                 4.0 * f64::from(steps) * f64::EPSILON,
                 "each step, of 1024 or of one, rounds |p| by four roundings at most",
@@ -129,14 +130,14 @@ fn lengths(subjects: &Integrators, _: &Effort) -> Vec<Evidence> {
         .collect()
 }
 
-fn round_off(subjects: &Integrators, _: &Effort) -> Vec<Evidence> {
+fn round_off(integrators: &Integrators, _: &Effort) -> Vec<Evidence> {
     let mut worst = 0.0f64;
-    for subject in subjects() {
+    for integrator in integrators() {
         for r in [1.01, 2.0, 11.6, 100.0, 1e4, 1e6] {
             for whole in [0.0, 16.0, 1e6] {
                 let (problem, start) = RodProblem::mid_flip(r);
                 let later = RodProblem::new(r, problem.turns + whole);
-                let error = grade(&subject, &later, &start, Setting::Once);
+                let error = grade(&integrator, &later, &start, Setting::Once);
                 worst = larger(worst, error.map_or(f64::NAN, |errors| errors.orientation_rad));
             }
         }
@@ -145,8 +146,8 @@ fn round_off(subjects: &Integrators, _: &Effort) -> Vec<Evidence> {
         "largest angle to the closed form",
         worst,
         32.0 * f64::EPSILON,
-        "near a whole turn the phase that is left is small, and its relative error ε moves φ by ε, not by r_e ε; a few \
-         dozen roundings of the propagator and the closed form",
+        "near a whole turn the phase that is left is small, and its relative error ε moves φ by ε, \
+         not by r_e ε; a few dozen roundings of the propagator and the closed form",
     )]
 }
 
@@ -154,19 +155,20 @@ fn round_off(subjects: &Integrators, _: &Effort) -> Vec<Evidence> {
 /// rounded up.
 const STEPS: [(f64, [f64; 2]); 3] = [(1.5, [60.0, 330.0]), (3.0, [80.0, 460.0]), (11.6, [130.0, 700.0])];
 
-fn adaptive(subjects: &Integrators, _: &Effort) -> Vec<Evidence> {
+fn adaptive(integrators: &Integrators, _: &Effort) -> Vec<Evidence> {
     let mut evidence = Vec::new();
-    for subject in subjects() {
+    for integrator in integrators() {
         for (r, steps) in STEPS {
-            let steps = steps[usize::from(subject.name == radau().name)];
+            let steps = steps[usize::from(integrator.name == radau().name)];
             let (problem, start) = RodProblem::mid_flip(r);
-            let error = grade(&subject, &problem, &start, Setting::Tolerance(1e-11));
+            let error = grade(&integrator, &problem, &start, Setting::Tolerance(1e-11));
             evidence.push(Evidence::within(
-                format!("angle to the closed form at a tolerance of 10⁻¹¹, r_e = {r}, {}", subject.name),
+                format!("angle to the closed form at a tolerance of 10⁻¹¹, r_e = {r}, {}", integrator.name),
+                // An integrator that gives up is off by as much as can be.
                 error.map_or(std::f64::consts::FRAC_PI_2, |errors| errors.orientation_rad),
                 steps * 1e-11 * r,
-                "each step is off by the tolerance, in a direction of its own; their sum is a phase, which r_e \
-                 magnifies",
+                "each step is off by the tolerance, in a direction of its own; their sum is a phase, which \
+                 r_e magnifies",
             ));
         }
     }

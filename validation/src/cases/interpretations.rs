@@ -111,10 +111,10 @@ pub fn cases() -> Vec<Case> {
 
 fn matters(alternative: &Alternative, effort: &Effort) -> Vec<Evidence> {
     let changes = changes(alternative.model, effort, effort.samples(alternative.design));
-    let changes: Vec<f64> = changes.iter().map(|change| alternative.sign * change).collect();
+    let changes = changes.iter().map(|change| alternative.sign * change);
     vec![Evidence::new(
         "how much X̄₁ at t/T = ½ changes, in the direction expected",
-        Sample::of(&changes).exceeds(
+        Sample::of(changes).exceeds(
             alternative.bound,
             alternative.design.effect,
             "more than the width of a drawn line, 1 % of the amplitude ½ of free rods; for \"a little\" any change \
@@ -128,7 +128,7 @@ fn does_not_matter(model: &Model, effort: &Effort) -> Vec<Evidence> {
     let design = Design::new(0.0214, 0.0395);
     vec![Evidence::new(
         "change of X̄₁ at t/T = ½",
-        Sample::of(&changes(*model, effort, effort.samples(design))).is(
+        Sample::of(changes(*model, effort, effort.samples(design))).is(
             0.0,
             0.5 * LINE,
             design.effect,

@@ -2,8 +2,7 @@
 
 use crate::judge::accept::Design;
 use crate::judge::case::{Case, Effort, Evidence};
-use crate::judge::lab;
-use crate::judge::lab::Shared;
+use crate::judge::lab::{self, Shared};
 use crate::judge::statistics::Sample;
 use crate::oracle::kicks::{chance_of_threads, tail_of_isotropic};
 use crate::oracle::pairing::{Pair, nearest_pairs};
@@ -17,8 +16,8 @@ pub fn cases() -> Vec<Case> {
     vec![
         Case::core("kick-formula")
             .claim(
-                "Isotropic rods at random places are kicked by more than κ as often as P_c, the arm's density at 0 and \
-                 the gap's velocity say, whatever Δt is.",
+                "Isotropic rods at random places are kicked by more than κ as often as P_c, the arm's \
+                 density at 0 and the gap's velocity say, whatever Δt is.",
             )
             .source("eqs 7–10, A.7, A.10, A.13; docs/src/theory/time-step.md")
             .under_test((|fresh, chance| 2.0 * fresh.chances * chance(1.0)) as Expected)
@@ -31,8 +30,8 @@ pub fn cases() -> Vec<Case> {
             .check(formula),
         Case::core("kick-memory")
             .claim(
-                "In runs, pairs whose gap closes are kicked as often as the formula says at any Δt; those whose gap \
-                 opens ever less often as Δt → 0.",
+                "In runs, pairs whose gap closes are kicked as often as the formula says at any Δt; those \
+                 whose gap opens ever less often as Δt → 0.",
             )
             .source("A.13, A.14; docs/src/theory/time-step.md")
             .under_test(KICKS)
@@ -69,28 +68,28 @@ fn formula(expected: &Expected, effort: &Effort) -> Vec<Evidence> {
         scene
     };
     let replicas = effort.samples(design);
-    let found = FRESH.get(effort, (), || {
+    let fresh = FRESH.get(effort, (), || {
         SETTINGS.map(|setting| {
             let scene = scene(setting);
             let fresh = |replica| first_step(&scene, replica, setting.0);
             (0..replicas).into_par_iter().map(fresh).collect()
         })
     });
-    let evidence = SETTINGS.iter().zip(&*found).map(|(setting, found)| {
+    let evidence = SETTINGS.iter().zip(&*fresh).map(|(setting, replicas)| {
         let (threshold_rad, steps, _) = *setting;
         let scene = scene(*setting);
         let scaled = threshold_rad / step_strain(&scene);
         let constant = 6.0 * PI * tail_of_isotropic(scene.particles.aspect_ratio);
         let chance = |factor: f64| constant * chance_of_threads(factor * scaled);
-        let ratios: Vec<_> = (found.iter()).map(|fresh| fresh.kicked / expected(fresh, &chance)).collect();
+        let ratios = replicas.iter().map(|fresh| fresh.kicked / expected(fresh, &chance));
         Evidence::new(
             format!("rods kicked by more than {threshold_rad} rad over those expected, {steps} steps a period"),
-            Sample::of(&ratios).is(
+            Sample::of(ratios).is(
                 1.0,
                 0.003,
                 design.effect,
-                "left out, 10⁻³ each: the next term in GΔt/κ, terms in (1 − Λ)/Y², the cube's corners, to which \
-                 distant neighbours point; the nearest of the controls is 1 − π/4 = 0.21 off",
+                "left out, 10⁻³ each: the next term in GΔt/κ, terms in (1 − Λ)/Y², the cube's corners, to \
+                 which distant neighbours point; the nearest of the controls is 1 − π/4 = 0.21 off",
             ),
         )
     });
@@ -141,12 +140,12 @@ fn memory(counted: &Counted, effort: &Effort) -> Vec<Evidence> {
     // and 0.27 of the sum of both rates.
     let fall = Design::new(0.37, 0.29);
     let [coarse, fine] = [100, 800].map(|steps| run(4.0, steps, 1, effort.samples(fall), 1));
-    let both = Sample::of(&coarse.iter().chain(&fine).map(|c| 2.0 * c.opening[OVER]).collect::<Vec<_>>()).mean;
-    let falls: Vec<_> =
-        (coarse.iter().zip(&fine)).map(|(coarse, fine)| (coarse.opening[OVER] - fine.opening[OVER]) / both).collect();
+    let both = Sample::of(coarse.iter().chain(&fine).map(|c| 2.0 * c.opening[OVER])).mean;
+    let falls = coarse.iter().zip(&fine).map(|(coarse, fine)| (coarse.opening[OVER] - fine.opening[OVER]) / both);
     let mut evidence = vec![Evidence::new(
-        "kicks > 0.1 rad of opening pairs at 100 steps a period, less those at 800, over both; α = 4",
-        Sample::of(&falls).exceeds(
+        "kicks > 0.1 rad of opening pairs at 100 steps a period, less those at 800, over both; α = \
+         4",
+        Sample::of(falls).exceeds(
             0.1,
             fall.effect,
             "they would be equal if the rate did not depend on Δt, and are 1 : 3",
@@ -156,18 +155,19 @@ fn memory(counted: &Counted, effort: &Effort) -> Vec<Evidence> {
     let off = Design::new(0.5, 0.39);
     for (steps, stream) in [(200, 2), (400, 3)] {
         let counts = run(0.5, steps, stream, effort.samples(off), 50);
-        let fresh = Sample::of(&counts.iter().map(|c| c.fresh_closing[OVER]).collect::<Vec<_>>()).mean;
-        let offs: Vec<_> = (counts.iter()).map(|c| (c.closing[OVER] - c.fresh_closing[OVER]) / fresh).collect();
+        let fresh = Sample::of(counts.iter().map(|c| c.fresh_closing[OVER])).mean;
+        let offs = counts.iter().map(|c| (c.closing[OVER] - c.fresh_closing[OVER]) / fresh);
         evidence.push(Evidence::new(
             format!(
-                "kicks > 0.1 rad of closing pairs over the formula's number, less 1; {steps} steps a period, α = ½"
+                "kicks > 0.1 rad of closing pairs over the formula's number, less 1; {steps} steps a \
+                 period, α = ½"
             ),
-            Sample::of(&offs).is(
+            Sample::of(offs).is(
                 0.0,
                 0.05,
                 off.effect,
-                "the formula takes the separation to be independent of the directions; a pair that collides is no \
-                 longer so, by the share of P_c ≈ 0.05",
+                "the formula takes the separation to be independent of the directions; a pair that \
+                 collides is no longer so, by the share of P_c ≈ 0.05",
             ),
         ));
     }

@@ -44,7 +44,7 @@ pub fn cases() -> Vec<Case> {
                  other way round.",
             )
             .source("eqs 13, A.2, A.7; text after eqs 12 and 13")
-            .under_test((|collided| collided) as Reading)
+            .under_test((|collided| collided) as Moves)
             .mistake("A.7–A.14 for free rods, as in the text", |collided| !collided)
             .mistake("every rod free", |_| false)
             .check(free_rods_keep_c),
@@ -125,17 +125,17 @@ fn shadows(model: &Shadows, _: &Effort) -> Vec<Evidence> {
         let p = Vector3::new(theta.sin() * phi.cos(), theta.sin() * phi.sin(), theta.cos());
         // The projection on a plane is the rod's length as seen along the plane's normal: |p × e|.
         let expected = [2, 0, 1].map(|axis| p.cross(&Vector3::ith(axis, 1.0)).norm());
-        for (found, expected) in model(phi, theta).into_iter().zip(expected) {
-            worst = larger(worst, (found - expected).abs());
+        for (shadow, expected) in model(phi, theta).into_iter().zip(expected) {
+            worst = larger(worst, (shadow - expected).abs());
         }
     }
     vec![Evidence::within("largest error of a shadow", worst, 4.0 * f64::EPSILON, "a few roundings of numbers up to 1")]
 }
 
-/// An interpretation: true if a rod moves by A.7–A.14, given whether it collided.
-type Reading = fn(bool) -> bool;
+/// True if a rod moves by A.7–A.14, given whether it collided.
+type Moves = fn(bool) -> bool;
 
-fn free_rods_keep_c(reading: &Reading, effort: &Effort) -> Vec<Evidence> {
+fn free_rods_keep_c(by_contact: &Moves, effort: &Effort) -> Vec<Evidence> {
     let scene = lab::interacting_scene(effort);
     let r = scene.particles.aspect_ratio;
     let mut suspension = lab::suspension(&scene, 0);
@@ -152,7 +152,7 @@ fn free_rods_keep_c(reading: &Reading, effort: &Effort) -> Vec<Evidence> {
         let after = constants(suspension.directions());
         for rod in 0..after.len() {
             let change = (after[rod] - before[rod]).abs();
-            if reading(collided[rod]) {
+            if by_contact(collided[rod]) {
                 colliding += 1;
                 unchanged += u32::from(change <= ROUND_OFF);
             } else {

@@ -117,9 +117,9 @@ fn period(motion: &Motion, _: &Effort) -> Vec<Evidence> {
             let expected = closed_form::period_s(0.5, r);
             // The component along the flow goes from − to + only when the rod has turned round.
             let flow_component = |t: f64| motion(&flow, r, &start, t)[across];
-            let found = root(flow_component, 0.8 * expected, 1.2 * expected);
+            let crossing = root(flow_component, 0.8 * expected, 1.2 * expected);
             // If a rod does not return within a fifth of a period, the error is at least that much.
-            let error = found.map_or(0.2, |t| (t / expected - 1.0).abs());
+            let error = crossing.map_or(0.2, |t| (t / expected - 1.0).abs());
             worst[which] = larger(worst[which], error);
         }
     }

@@ -29,8 +29,8 @@ pub fn cases() -> Vec<Case> {
     vec![
         Case::interpretation("orbits-of-collisions")
             .claim(
-                "Weak rotary diffusion leaves the closed form's 46.1 % of rods of r_e = 11.6 above C_b = ½; collisions \
-                 leave far more there than isotropic directions have, 50.7 %.",
+                "Weak rotary diffusion leaves the closed form's 46.1 % of rods of r_e = 11.6 above C_b = ½; \
+                 collisions leave far more there than isotropic directions have, 50.7 %.",
             )
             .source("eq. 13; Leal & Hinch 1971; docs/src/theory/diffusion.md")
             .under_test(right)
@@ -49,7 +49,7 @@ pub fn cases() -> Vec<Case> {
 /// Replicas with diffusion, shared by the controls.
 static OF_DIFFUSION: Shared<(), Vec<Shares>> = Shared::new();
 
-fn orbits(subject: &Orbits, effort: &Effort) -> Vec<Evidence> {
+fn orbits(orbits: &Orbits, effort: &Effort) -> Vec<Evidence> {
     let (weak, high) = (Design::new(0.031, 0.06), Design::new(0.15, 0.06));
     let setting = coefficients::kick(0.5, ASPECT_RATIO, 0.5, 1);
     let scene = coefficients::scene(setting, effort);
@@ -59,15 +59,13 @@ fn orbits(subject: &Orbits, effort: &Effort) -> Vec<Evidence> {
     let coarse = Watch { steps: 1, strain: strain_per_period(ASPECT_RATIO) / 50.0, before: 250, jumps: 1 };
     let of_diffusion =
         OF_DIFFUSION.get(effort, (), || diffused(&scene, C_I, coarse, effort.samples(weak), (effort, 1 << 22)));
-    let suspension = lab::changed(scene.clone(), subject.collisions);
+    let suspension = lab::changed(scene.clone(), orbits.collisions);
     let of_collisions = kicked(&suspension, watch, effort.samples(high));
-    let less = |all: &[Shares], share: f64| {
-        Sample::of(&above(all, Quantity::Orbit, 0.5).iter().map(|own| own - share).collect::<Vec<_>>())
-    };
+    let less = |all: &[Shares], share: f64| Sample::of(above(all, Quantity::Orbit, 0.5).iter().map(|own| own - share));
     vec![
         Evidence::new(
             "share of diffusing rods with C_b above ½, less the closed form's",
-            less(&of_diffusion, 1.0 - (subject.weak)(0.5, ASPECT_RATIO)).is(
+            less(&of_diffusion, 1.0 - (orbits.weak)(0.5, ASPECT_RATIO)).is(
                 0.0,
                 0.015,
                 weak.effect,

@@ -27,13 +27,13 @@ pub fn cases() -> Vec<Case> {
                 (0.5 * strain_per_period(r), 0.5 * strain_per_period(r))
             })
             .check(|half_turn, _| {
-                let found: Vec<f64> = sph_fibres().rows.iter().filter_map(first_half_turn).collect();
-                let mean = found.iter().sum::<f64>() / found.len() as f64;
+                let turns: Vec<f64> = sph_fibres().rows.iter().filter_map(first_half_turn).collect();
+                let mean = turns.iter().sum::<f64>() / turns.len() as f64;
                 let (least, most) = half_turn(SPH_ASPECT_RATIO);
                 // Without a mean, `outside` is NaN, which fails.
                 let outside = if (least..=most).contains(&mean) { 0.0 } else { (least - mean).max(mean - most) };
                 vec![
-                    Evidence::exact("runs that turn", found.len() as f64 - 5.0),
+                    Evidence::exact("runs that turn", turns.len() as f64 - 5.0),
                     Evidence::exact(
                         format!("strain {mean:.2} of the first half turn; T/2 is {least:.2} to {most:.2}"),
                         outside,

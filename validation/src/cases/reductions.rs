@@ -153,17 +153,3 @@ fn worst_ratio(results: &Results, expected: impl Fn(usize) -> Option<f64>) -> f6
     let errors = channel.se.iter().enumerate();
     errors.filter_map(|(output, se)| expected(output).map(|expected| (se / expected - 1.0).abs())).fold(0.0, larger)
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_difference_is_seen_and_none_is_none() {
-        let scene = lab::free_scene(&Effort::gate());
-        assert_eq!(difference(&scene, &scene), 0.0);
-        let mut other = scene.clone();
-        other.particles.aspect_ratio *= 1.0 + 1e-6;
-        assert!(difference(&scene, &other) > 1e-9);
-    }
-}

@@ -158,25 +158,25 @@ fn compare(scene: &Scene, replica: u64, mistake: Option<Mistake>, off: &mut Off)
         let before = state(&reference, length_mm);
         reference.step();
         let expected = state(&reference, length_mm);
-        let Some(found) = model.step(length_mm) else {
+        let Some(state) = model.step(length_mm) else {
             off.pairs += 1;
             return;
         };
         off.steps += 1;
         off.collisions += expected.pairs.len() as u64;
-        off.places = larger(off.places, apart(&expected.places, &found.places, [1.0]));
-        let directions = apart(&expected.directions, &found.directions, [1.0, -1.0]);
+        off.places = larger(off.places, apart(&expected.places, &state.places, [1.0]));
+        let directions = apart(&expected.directions, &state.directions, [1.0, -1.0]);
         let turns = reference.last_turns_rad.iter().map(|[a, b]| a.max(*b));
         let condition = (expected.pairs.iter().zip(turns))
             .map(|(pair, turn)| condition(&before, *pair, turn))
             .fold(scene.particles.aspect_ratio, f64::max);
         off.step = larger(off.step, directions / condition);
-        if expected.pairs != found.pairs {
+        if expected.pairs != state.pairs {
             // From here on the rods differ, and further comparison is useless.
             off.pairs += 1;
             return;
         }
-        reference.orientations = found.directions;
+        reference.orientations = state.directions;
     }
 }
 
@@ -208,8 +208,7 @@ fn in_a_box(scene: &mut Scene, sides: [f64; 3]) {
     let cube = (scene.particles.count as f64 / per_mm3).cbrt();
     scene.particles.length_sd_percent = 20.0;
     scene.time.steps_per_unit = Some(50);
-    let interaction = lab::interaction(scene);
-    (interaction.concentration_per_cm3, interaction.box_mm) = (None, Some(sides.map(|side| side * cube)));
+    lab::set_box_mm(scene, sides.map(|side| side * cube));
 }
 
 /// Two units of strain in a flow with this gradient.

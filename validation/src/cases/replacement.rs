@@ -66,8 +66,8 @@ struct Places {
     new_x2_off: Vec<f64>,
     new_x1: Vec<f64>,
     new_x3: Vec<f64>,
-    /// Number of new rods that kept their x_1 or x_3.
-    kept: usize,
+    /// Number of new rods with the old x_1 or x_3.
+    unchanged: usize,
     end: [Vec<f64>; 3],
     outside: usize,
 }
@@ -99,7 +99,7 @@ fn replacement(volume: &Volume, effort: &Effort) -> Vec<Evidence> {
             4.0 * f64::EPSILON,
             "five roundings of numbers near 1, half an ε each",
         ),
-        Evidence::exact("new rods that kept x_1 or x_3", places.kept as f64),
+        Evidence::exact("new rods that kept x_1 or x_3", places.unchanged as f64),
         Evidence::new(
             "p of (x_1/H)² of new rods being uniform",
             lab::uniform(squares, 0.2, "Kolmogorov–Smirnov; x_1 = HR is ¼ off, √u − u at u = ¼"),
@@ -153,7 +153,7 @@ fn follow(volume: &Volume, effort: &Effort, count: usize) -> Places {
             let moved = before[1] + before[0] * strain;
             if moved >= 1.0 {
                 places.new_x2_off.push(x[1] - moved % 1.0);
-                places.kept += usize::from(x[0] == before[0] || x[2] == before[2]);
+                places.unchanged += usize::from(x[0] == before[0] || x[2] == before[2]);
                 places.new_x1.push(x[0]);
                 places.new_x3.push(x[2]);
             }

@@ -31,12 +31,6 @@ pub fn x1(scene: &Scene, steps_per_period: u64, replicas: u64) -> Vec<f64> {
     lab::per_replica(&scene, replicas, |mean| mean(Channel::X[0], 1))
 }
 
-/// The mean of a − b over replicas, which start from the same rods.
-pub fn change(a: &[f64], b: &[f64]) -> Sample {
-    let changes: Vec<_> = a.iter().zip(b).map(|(a, b)| a - b).collect();
-    Sample::of(&changes)
-}
-
 /// How one aspect ratio is judged.
 struct Size {
     aspect_ratio: f64,
@@ -77,9 +71,9 @@ pub fn cases() -> Vec<Case> {
             .under_test(Integrator { sizes: &SIZES, coarse: false })
             .mistake("4 steps a period at r_e = 11.6", control(0))
             .mistake("200 steps a period at r_e = 100", control(1))
-            .check(|subject, effort| {
-                let of_size = |size| coarser_step(size, subject.coarse, effort);
-                subject.sizes.iter().map(of_size).collect::<Vec<_>>()
+            .check(|compared, effort| {
+                let of_size = |size| coarser_step(size, compared.coarse, effort);
+                compared.sizes.iter().map(of_size).collect::<Vec<_>>()
             }),
     ]
 }
@@ -94,7 +88,7 @@ fn coarser_step(size: &Size, coarse: bool, effort: &Effort) -> Evidence {
     let fine = DEFAULT.get(effort, default, || x1(&scene, default, replicas));
     Evidence::new(
         format!("X̄₁ at r_e = {}: {steps} steps a period less {default}", size.aspect_ratio),
-        change(&x1(&scene, steps, replicas), &fine).is(
+        Sample::of_differences(&x1(&scene, steps, replicas), &fine).is(
             0.0,
             LINE,
             size.design.effect,

@@ -34,31 +34,31 @@ struct Tried {
     strain_per_step: f64,
 }
 
-fn corners(subjects: &Integrators, effort: &Effort) -> Vec<Evidence> {
+fn corners(integrators: &Integrators, effort: &Effort) -> Vec<Evidence> {
     let most_steps = effort.pick(2_000, 20_000);
     let mut exact = 0.0f64;
     let mut angles = 0.0f64;
     let mut length = 0.0f64;
     let mut accurate = 0.0f64;
     let mut silent = 0.0;
-    for subject in subjects() {
-        for tried in tried(&subject, most_steps) {
+    for integrator in integrators() {
+        for tried in tried(&integrator, most_steps) {
             let cell = &tried.cell;
             let error = cell.error_rad.unwrap_or(f64::NAN);
-            match subject.theory {
-                Theory::Exact if subject.name == closed_form().name => angles = larger(angles, error),
+            match integrator.theory {
+                Theory::Exact if integrator.name == closed_form().name => angles = larger(angles, error),
                 Theory::Exact => exact += f64::from(cell.found != Fate::RoundOff),
                 Theory::Order(order) if order > 1 && (1e-3..=0.5).contains(&tried.strain_per_step) => {
                     accurate = larger(accurate, error / tried.strain_per_step.powi(2));
                 }
                 _ => {}
             }
-            if let (true, Some(off)) = (subject.keeps_length, cell.length) {
+            if let (true, Some(off)) = (integrator.keeps_length, cell.length) {
                 length = larger(length, off);
             }
             // An integrator without a direction gives a reason, or its result is not finite.
-            let told = cell.error_rad.is_some() || cell.found == Fate::NotFinite || cell.reason.is_some();
-            silent += f64::from(!told);
+            let explained = cell.error_rad.is_some() || cell.found == Fate::NotFinite || cell.reason.is_some();
+            silent += f64::from(!explained);
         }
     }
     vec![
@@ -88,13 +88,13 @@ fn corners(subjects: &Integrators, effort: &Effort) -> Vec<Evidence> {
 }
 
 /// The cells of all maps that an integrator can fill with at most `most_steps` steps.
-fn tried(subject: &Integrator, most_steps: u64) -> Vec<Tried> {
-    let theory = subject.theory;
+fn tried(integrator: &Integrator, most_steps: u64) -> Vec<Tried> {
+    let theory = integrator.theory;
     let mut all = Vec::new();
     let mut push = |run: map::Run| {
         let strain = RodProblem::new(run.aspect_ratio, run.turns).strain();
         all.push(Tried {
-            cell: run.of(subject),
+            cell: run.of(integrator),
             strain_per_step: match run.setting {
                 // Long runs do not count here: their phase error grows with the time.
                 Setting::Steps(steps) if run.turns < 2.0 => strain / steps as f64,

@@ -14,8 +14,8 @@ pub fn cases() -> Vec<Case> {
     vec![
         Case::statement("period-unaffected")
             .claim(
-                "\"The period of oscillation is practically unaffected by collisions or by differences in particle \
-                 size\".",
+                "\"The period of oscillation is practically unaffected by collisions or by differences in \
+                 particle size\".",
             )
             .source("eq. 4; Results, before Fig. 7; Fig. 6")
             .under_test((|_| {}) as Change)
@@ -35,8 +35,8 @@ pub fn cases() -> Vec<Case> {
             .check(enough_rods),
         Case::statement("steady-stays-put")
             .claim(
-                "\"According to the model, the mean axial projections should remain constant after their steady state \
-                 values are reached\".",
+                "\"According to the model, the mean axial projections should remain constant after their \
+                 steady state values are reached\".",
             )
             .source("eq. 4; Results, before Fig. 5; Fig. 5")
             .under_test(6.0 as Periods)
@@ -81,8 +81,8 @@ fn period(change: &Change, effort: &Effort) -> Vec<Evidence> {
                     2.0,
                     0.04,
                     design.effect,
-                    "\"practically unaffected\": 2 %, a maximum at t/T = 2 that is 0.04 off on an axis of six periods; \
-                     |p_1| has the period T/2",
+                    "\"practically unaffected\": 2 %, a maximum at t/T = 2 that is 0.04 off on an axis of six \
+                 periods; |p_1| has the period T/2",
                 ),
             )
         })
@@ -145,12 +145,11 @@ fn enough_rods(count: &Count, effort: &Effort) -> Vec<Evidence> {
             let difference = |(few, many): (&[[f64; 2]], &[f64; 2])| {
                 few.iter().map(|change| change[k]).sum::<f64>() / share as f64 - many[k]
             };
-            let differences: Vec<f64> = few.chunks(share).zip(&many).map(difference).collect();
-            let because = "\"not significantly\": less than two curves are told apart by, twice the width of a line; \
-                rods near a face have fewer neighbours";
+            let because = "\"not significantly\": less than two curves are told apart by, twice the width of a \
+                           line; rods near a face have fewer neighbours";
             Evidence::new(
                 format!("bias of X̄₁ at t/T = {}, {count} rods against {MANY}", k + 1),
-                Sample::of(&differences).is(0.0, 2.0 * LINE, design.effect, because),
+                Sample::of(few.chunks(share).zip(&many).map(difference)).is(0.0, 2.0 * LINE, design.effect, because),
             )
         })
         .collect()
@@ -177,10 +176,9 @@ fn stays_put(from: &Periods, effort: &Effort) -> Vec<Evidence> {
     });
     (0..3)
         .map(|axis| {
-            let drift: Vec<f64> = drifts.iter().map(|drifts| drifts[axis]).collect();
             Evidence::new(
                 format!("drift of X̄_{} over a period", axis + 1),
-                Sample::of(&drift).is(
+                Sample::of(drifts.iter().map(|drifts| drifts[axis])).is(
                     0.0,
                     LINE,
                     designs[axis].effect,
@@ -223,18 +221,18 @@ fn in_plane(theta_deg: &ThetaDeg, effort: &Effort) -> Vec<Evidence> {
     // A pilot of 40 replicas by `rotation`: 0.01607 and 0.00333 on average, which leaves 0.0047 ± 0.0008 (mean and
     // deviation).
     let design = Design::new(0.0043, 0.001);
-    let found: Vec<_> = (0..effort.samples(design))
+    let runs: Vec<_> = (0..effort.samples(design))
         .into_par_iter()
         .map(|replica| {
             let turned = |steps| run(Update::Rotation, steps, replica);
             [run(Update::Kick, 200, replica), turned(200), turned(800)]
         })
         .collect();
-    let most = found.iter().flatten().map(|(out_of_plane, _)| *out_of_plane).fold(0.0, larger);
-    let kicked = found.iter().map(|[kick, ..]| kick.1).fold(0.0, larger);
-    let fall: Vec<f64> = found.iter().map(|[_, coarse, fine]| 0.5 * coarse.1 - fine.1).collect();
-    let round_off = "cos 90° is 6·10⁻¹⁷, which kicks ∝ 1/r grow: 60-fold at most in ten times these steps, and x times \
-        that with a probability ∝ 1/x";
+    let most = runs.iter().flatten().map(|(out_of_plane, _)| *out_of_plane).fold(0.0, larger);
+    let kicked = runs.iter().map(|[kick, ..]| kick.1).fold(0.0, larger);
+    let fall = runs.iter().map(|[_, coarse, fine]| 0.5 * coarse.1 - fine.1);
+    let round_off = "cos 90° is 6·10⁻¹⁷, which kicks ∝ 1/r grow: 60-fold at most in ten times these steps, and x \
+                     times that with a probability ∝ 1/x";
     vec![
         Evidence::within("largest |p_3| within one period", most, 1e-9, round_off),
         Evidence::within(
@@ -246,7 +244,7 @@ fn in_plane(theta_deg: &ThetaDeg, effort: &Effort) -> Vec<Evidence> {
         Evidence::new(
             "half the mean angle in rad between rods with and without interactions after one period by `rotation` at \
              200 steps, less that at 800 steps",
-            Sample::of(&fall).exceeds(
+            Sample::of(fall).exceeds(
                 0.0,
                 design.effect,
                 "an observed order above ½: nearer to 1, the straight turn's, than to 0",
@@ -266,8 +264,8 @@ mod tests {
                 .map(|k| f64::from(k) / 50.0)
                 .map(|t| 0.3 - 0.02 * t + 0.2 * (-0.4 * t).exp() * (std::f64::consts::TAU * frequency * t).cos())
                 .collect();
-            let found = peak_frequency(&series, 50.0);
-            assert!((found - frequency).abs() < 0.01, "{found} for {frequency}");
+            let peak = peak_frequency(&series, 50.0);
+            assert!((peak - frequency).abs() < 0.01, "{peak} for {frequency}");
         }
     }
 }

@@ -14,7 +14,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Integrators that should lose a property at a step given by theory.
 struct Claimed {
-    subjects: Integrators,
+    integrators: Integrators,
     property: Property,
     theory: fn(f64) -> f64,
     /// The error of the longest step, which is found too long, in δ², δ = π/1024: one of the 512 rods is that close to
@@ -33,14 +33,14 @@ const HALF_A_STEP_AHEAD: f64 = 7.0;
 const OF_MIDPOINTS: f64 = 50.0;
 
 /// The project's integrator of this name.
-fn own(name: &str) -> Vec<Integrator> {
+fn named(name: &str) -> Vec<Integrator> {
     let mut all = crate::methods::integrators::own();
-    all.retain(|subject| subject.name == name);
+    all.retain(|integrator| integrator.name == name);
     all
 }
 
 fn euler() -> Vec<Integrator> {
-    own("explicit Euler in angles")
+    named("explicit Euler in angles")
 }
 
 fn half_euler() -> Vec<Integrator> {
@@ -48,33 +48,20 @@ fn half_euler() -> Vec<Integrator> {
 }
 
 fn rk4_in_angles() -> Vec<Integrator> {
-    own("RK4 in angles")
+    named("RK4 in angles")
 }
 
 fn implicit_midpoint() -> Vec<Integrator> {
-    own("implicit midpoint in p")
+    named("implicit midpoint in p")
 }
 
 pub fn cases() -> Vec<Case> {
-    let order = |subjects: Integrators| Claimed {
-        subjects,
-        property: Property::Order,
-        theory: theory::euler_order,
-        found_late: OF_EULER,
-    };
-    let turning = |subjects: Integrators| Claimed {
-        subjects,
-        property: Property::Turning,
-        theory: theory::euler_turning,
-        found_late: HALF_A_STEP_AHEAD,
-    };
-    let side = |subjects: Integrators, theory| Claimed {
-        subjects,
-        property: Property::Side,
-        theory,
-        found_late: OF_MIDPOINTS,
-    };
-    let folded = |subjects, theory| Claimed { property: Property::Order, ..side(subjects, theory) };
+    let claimed =
+        |property, found_late, integrators: Integrators, theory| Claimed { integrators, property, theory, found_late };
+    let order = |integrators| claimed(Property::Order, OF_EULER, integrators, theory::euler_order);
+    let turning = |integrators| claimed(Property::Turning, HALF_A_STEP_AHEAD, integrators, theory::euler_turning);
+    let side = |integrators, theory| claimed(Property::Side, OF_MIDPOINTS, integrators, theory);
+    let folded = |integrators, theory| claimed(Property::Order, OF_MIDPOINTS, integrators, theory);
     vec![
         Case::integrator("euler-step-limit")
             .claim("Explicit Euler's step on A.2 lets one rod overtake another where GΔt > 1/Λ, and never below.")
@@ -90,7 +77,7 @@ pub fn cases() -> Vec<Case> {
                  a turn a step up to GΔt = π(1 + 1/r_e²), and not beyond.",
             )
             .source("A.2; A.14 is such a step")
-            .under_test(turning(|| [euler(), own("Lie-group midpoint")].into_iter().flatten().collect()))
+            .under_test(turning(|| [euler(), named("Lie-group midpoint")].into_iter().flatten().collect()))
             .mistake("half of the rate", turning(half_euler))
             .mistake("RK4", turning(rk4_in_angles))
             .mistake("the exact propagator", turning(|| vec![exact_propagator()]))
@@ -125,7 +112,7 @@ pub fn cases() -> Vec<Case> {
             )
             .mistake(
                 "the explicit midpoint rule",
-                folded(|| own("Lie-group midpoint"), theory::implicit_midpoint_order),
+                folded(|| named("Lie-group midpoint"), theory::implicit_midpoint_order),
             )
             .mistake("Newton's method after two changes", folded(two_changes, theory::implicit_midpoint_order))
             .check(agrees),
@@ -150,7 +137,7 @@ pub fn cases() -> Vec<Case> {
                 (|| {
                     ["explicit Euler in angles", "RK4 in angles", "Lie-group midpoint", "Lie-group RKMK4"]
                         .into_iter()
-                        .flat_map(own)
+                        .flat_map(named)
                         .collect()
                 }) as Integrators,
             )
@@ -158,7 +145,7 @@ pub fn cases() -> Vec<Case> {
                 in_angles(4, |problem, y, h| rk4(|y| problem.angle_rates(&y), y, 3.0 * h))
             })
             .mistake("RK4 in p in place of RKMK4", || {
-                vec![rk4_in_angles(), own("RK4 in p")].into_iter().flatten().collect()
+                vec![rk4_in_angles(), named("RK4 in p")].into_iter().flatten().collect()
             })
             .check(at_least),
         Case::integrator("rk4-near-a-sphere")
@@ -167,7 +154,7 @@ pub fn cases() -> Vec<Case> {
                  on the imaginary axis.",
             )
             .source("A.1; A.14 is such a step")
-            .under_test((|| own("RK4 in p")) as Integrators)
+            .under_test((|| named("RK4 in p")) as Integrators)
             .mistake("RK4 in angles", rk4_in_angles as Integrators)
             .mistake("explicit Euler in p", || in_p(1, false, |problem, p, h| p + h * problem.rate(&p)))
             .mistake("the linear equation with half its rate", || {
@@ -180,8 +167,8 @@ pub fn cases() -> Vec<Case> {
                  2.785/Λ, for r_e from 1.5 to 100.",
             )
             .source("A.1; A.14 is such a step")
-            .under_test((|| own("RK4 in p")) as Integrators)
-            .mistake("projected", || own("projected RK4 in p"))
+            .under_test((|| named("RK4 in p")) as Integrators)
+            .mistake("projected", || named("projected RK4 in p"))
             .mistake("in angles", rk4_in_angles as Integrators)
             .mistake("steps of half the length", || {
                 in_p(4, false, |problem, p, h| {
@@ -210,31 +197,30 @@ fn two_changes() -> Vec<Integrator> {
 const RATIOS: [f64; 9] = [0.1, 1.1, 1.5, 2.0, 2.5, 3.0, 11.6, 100.0, 1e4];
 
 fn agrees(claimed: &Claimed, _: &Effort) -> Vec<Evidence> {
-    let judged = |subject: Integrator| {
+    let judged = |integrator: Integrator| {
         let worst = RATIOS.map(|r| {
             let expected = (claimed.theory)(r);
-            let found = bisect(ONE_STEP, |h| holds(&subject, claimed.property, r, h));
-            match found {
+            match bisect(ONE_STEP, |h| holds(&integrator, claimed.property, r, h)) {
                 Limit::At(strain) => (strain / expected - 1.0).abs(),
                 Limit::Beyond(strain) if expected > strain => 0.0,
                 Limit::Beyond(_) | Limit::Below(_) => f64::INFINITY,
             }
         });
         Evidence::within(
-            format!("relative difference of the longest step and theory, {}", subject.name),
+            format!("relative difference of the longest step and theory, {}", integrator.name),
             worst.into_iter().fold(0.0, larger),
             claimed.found_late * (PI / 1024.0).powi(2),
             "δ² times what stretches δ: of 512 rods one is within δ = π/1024 of the extreme one, where what is judged \
              is flat",
         )
     };
-    (claimed.subjects)().into_iter().map(judged).collect()
+    (claimed.integrators)().into_iter().map(judged).collect()
 }
 
-fn rest(subjects: &Integrators, _: &Effort) -> Vec<Evidence> {
+fn rest(integrators: &Integrators, _: &Effort) -> Vec<Evidence> {
     let mut moving = 0.0;
     let mut resting = 0.0;
-    for subject in subjects() {
+    for integrator in integrators() {
         for r in [2.0, 11.6, 100.0] {
             let limit = theory::euler_turning(r);
             for k in 0..32 {
@@ -243,7 +229,7 @@ fn rest(subjects: &Integrators, _: &Effort) -> Vec<Evidence> {
                 let last = |strain: f64| {
                     let steps = |steps: u64| {
                         let turns = steps as f64 * strain / RodProblem::new(r, 1.0).strain();
-                        subject.advance(&RodProblem::new(r, turns), &start, Setting::Steps(steps))
+                        integrator.advance(&RodProblem::new(r, turns), &start, Setting::Steps(steps))
                     };
                     match (steps(1000), steps(1001)) {
                         (Ok(a), Ok(b)) => apart_rad(&a, &b),

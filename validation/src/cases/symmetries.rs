@@ -169,10 +169,10 @@ fn mirrored(mirror: &Mirror, effort: &Effort) -> Vec<Evidence> {
     let (here, there) = (changes(&straight), changes(&mirrored));
     (0..3)
         .map(|axis| {
-            let apart: Vec<f64> = here.iter().zip(&there).map(|(a, b)| a[axis] - b[axis]).collect();
+            let apart = here.iter().zip(&there).map(|(a, b)| a[axis] - b[axis]);
             Evidence::new(
                 format!("change of X̄_{} over a period, flow less mirrored flow", axis + 1),
-                Sample::of(&apart).is(0.0, 0.0, designs[axis].effect, "a symmetry of the model; independent seeds"),
+                Sample::of(apart).is(0.0, 0.0, designs[axis].effect, "a symmetry of the model; independent seeds"),
             )
         })
         .collect()

@@ -4,8 +4,7 @@ use crate::judge::case::{Case, Effort, Evidence};
 use crate::judge::lab::{changed, free_scene, plan};
 use crate::judge::statistics::larger;
 use crate::oracle::closed_form;
-use shearbed::scene::Scene;
-use shearbed::scene::{Flow, TimeUnit};
+use shearbed::scene::{Flow, Scene, Time, TimeUnit};
 use std::f64::consts::TAU;
 
 /// A function that returns the seconds and the strain of one unit of a run's times: a period, or a unit of strain.
@@ -54,8 +53,8 @@ type Expected = (Scene, [f64; 2]);
 fn units(unit: &UnitOf, effort: &Effort) -> Vec<Evidence> {
     let worst = |scenes: Vec<Expected>| {
         let errors = scenes.iter().flat_map(|(scene, expected)| {
-            let found = unit(scene);
-            std::array::from_fn::<_, 2, _>(|i| (found[i] / expected[i] - 1.0).abs())
+            let times = unit(scene);
+            std::array::from_fn::<_, 2, _>(|i| (times[i] / expected[i] - 1.0).abs())
         });
         errors.fold(0.0, larger)
     };
@@ -91,7 +90,7 @@ fn couette(effort: &Effort) -> Vec<Expected> {
 fn elliptic(effort: &Effort) -> Vec<Expected> {
     let each = |[a, b]: [f64; 2], r: f64| {
         let scene = changed(free_scene(effort), |scene| {
-            scene.flow = shearbed::scene::Flow::Gradient { gradient_per_s: [[0.0, -a, 0.0], [b, 0.0, 0.0], [0.0; 3]] };
+            scene.flow = Flow::Gradient { gradient_per_s: [[0.0, -a, 0.0], [b, 0.0, 0.0], [0.0; 3]] };
             scene.particles.aspect_ratio = r;
         });
         let (spin, shear) = (0.5 * (a + b), 0.5 * (b - a));
@@ -110,8 +109,8 @@ fn strained(effort: &Effort) -> Vec<Expected> {
     [(extension(0.5), 0.5 * 3f64.sqrt()), (extension(-7.0), 7.0 * 3f64.sqrt()), (shear(0.3), 0.3)]
         .map(|(gradient_per_s, rate_per_s)| {
             let scene = changed(free_scene(effort), |scene| {
-                scene.flow = shearbed::scene::Flow::Gradient { gradient_per_s };
-                scene.time = shearbed::scene::Time::strain(2.0);
+                scene.flow = Flow::Gradient { gradient_per_s };
+                scene.time = Time::strain(2.0);
             });
             (scene, [1.0 / rate_per_s, 1.0])
         })

@@ -61,13 +61,12 @@ fn shapes([same, other]: &[Shape; 2], effort: &Effort) -> Vec<Evidence> {
 
 /// X̄₁ at t/T = ½ of each replica in a volume of this shape.
 fn x1(shape: Shape, effort: &Effort) -> Arc<Vec<f64>> {
-    static FOUND: Shared<[u64; 3], Vec<f64>> = Shared::new();
-    FOUND.get(effort, shape.map(f64::to_bits), || {
+    static X1: Shared<[u64; 3], Vec<f64>> = Shared::new();
+    X1.get(effort, shape.map(f64::to_bits), || {
         let mut scene = lab::interacting_scene(effort);
         scene.particles.count = RODS;
         let side = 10.0 * (RODS as f64 / 200.0).cbrt();
-        let interaction = lab::interaction(&mut scene);
-        (interaction.concentration_per_cm3, interaction.box_mm) = (None, Some(shape.map(|share| share * side)));
+        lab::set_box_mm(&mut scene, shape.map(|share| share * side));
         scene.time.duration = 0.5;
         scene.time.outputs_per_unit = Some(2);
         lab::per_replica(&scene, effort.samples(DESIGN), |mean| mean(Channel::X[0], 1))

@@ -2,10 +2,8 @@
 
 use crate::judge::accept::Design;
 use crate::judge::case::{Case, Effort, Evidence};
-use crate::judge::lab::Shared;
-use crate::judge::lab::{self, Change};
-use crate::judge::statistics::Sample;
-use crate::judge::statistics::correlation;
+use crate::judge::lab::{self, Change, Shared};
+use crate::judge::statistics::{Sample, correlation};
 use crate::studies::suspensions::coupled::{at, free, free_mean, interacting};
 use crate::studies::suspensions::job::Job;
 use crate::studies::suspensions::law;
@@ -25,8 +23,8 @@ pub fn cases() -> Vec<Case> {
     vec![
         Case::core("paths-do-not-converge")
             .claim(
-                "Halving the time step again and again does not bring a rod's paths together, because kicks have no \
-                 bound.",
+                "Halving the time step again and again does not bring a rod's paths together, because \
+                 kicks have no bound.",
             )
             .source("A.13, A.14; eq. 8 without Δt")
             .under_test((|_| {}) as Change)
@@ -36,8 +34,9 @@ pub fn cases() -> Vec<Case> {
             .check(paths),
         Case::program("shared-random-numbers")
             .claim(
-                "The same rods without collisions say more of X̄₁ than a run at half the step, and their mean is \
-                 known; for a difference between two α, shared random numbers save a factor of four at T/4.",
+                "The same rods without collisions say more of X̄₁ than a run at half the step, and their \
+                 mean is known; for a difference between two α, shared random numbers save a factor of \
+                 four at T/4.",
             )
             .source("eqs 4, 7")
             .under_test(same)
@@ -70,13 +69,15 @@ fn paths(change: &Change, effort: &Effort) -> Vec<Evidence> {
     let design = Design::new(0.018, 0.0255);
     let replicas = effort.samples(design);
     let (coarse, fine) = (mean_squares(&scene, 100, replicas), mean_squares(&scene, 400, replicas));
-    let kept: Vec<_> = (fine.iter().zip(&coarse)).map(|(fine, coarse)| fine - 0.5 * coarse).collect();
+    let excess = fine.iter().zip(&coarse).map(|(fine, coarse)| fine - 0.5 * coarse);
     vec![Evidence::new(
-        "mean square angle (rad²) between 400 and 800 steps a period, less half of that between 100 and 200",
-        Sample::of(&kept).exceeds(
+        "mean square angle (rad²) between 400 and 800 steps a period, less half of that between \
+         100 and 200",
+        Sample::of(excess).exceeds(
             0.0,
             design.effect,
-            "paths that converge with order ½ or more would bring a quarter or less; the mean square is some 0.035",
+            "paths that converge with order ½ or more would bring a quarter or less; the mean square \
+             is some 0.035",
         ),
     )]
 }
@@ -129,16 +130,15 @@ fn shared(beside: &Beside, effort: &Effort) -> Vec<Evidence> {
         correlations(own, values).into_iter().map(square).collect::<Vec<_>>()
     };
     let (by_free, by_finer) = (squares(&free[..of_more as usize]), squares(&runs.finer));
-    let gains: Vec<_> = (by_free.iter().zip(&by_finer)).map(|(free, finer)| free - finer).collect();
     let own = &runs.own[..other.len()];
     let rho = correlation(own, &other);
     // Fisher's transform, whose scatter does not depend on ρ.
-    let fisher: Vec<_> =
-        (correlations(own, &other).iter()).map(|value| rho.atanh() + (value - rho) / (1.0 - rho * rho)).collect();
+    let correlations = correlations(own, &other);
+    let fisher = correlations.iter().map(|value| rho.atanh() + (value - rho) / (1.0 - rho * rho));
     vec![
         Evidence::new(
             "share of the variance that free rods explain, less the share that half the step does",
-            Sample::of(&gains).exceeds(
+            Sample::of_differences(&by_free, &by_finer).exceeds(
                 0.0,
                 more.effect,
                 "the better control variate; the two differ by a fifth of the variance",
@@ -146,7 +146,7 @@ fn shared(beside: &Beside, effort: &Effort) -> Vec<Evidence> {
         ),
         Evidence::new(
             "artanh of the correlation of X̄₁ between α and 0.8 α at T/4",
-            Sample::of(&fisher).exceeds(
+            Sample::of(fisher).exceeds(
                 0.75f64.atanh(),
                 common.effect,
                 "1/(1 − ρ) independent runs for each that shares: four at ρ = ¾; there is 0.87",

@@ -28,14 +28,14 @@ pub(super) fn spread_damping(factor: &Factor, effort: &Effort) -> Vec<Evidence> 
         let quadrature = |k: usize| isotropic::mean_projections_polydisperse(r, sd, k as f64 / 40.0)[0];
         let first = harmonic(0, &|k| isotropic::mean_projections(r, k as f64 / 40.0)[0]);
         let expected = harmonic(middle - 10, &quadrature) / first;
-        let found = per_replica(&scene, effort.samples(design), |mean| {
+        let shares = per_replica(&scene, effort.samples(design), |mean| {
             harmonic(middle - 10, &|k| mean(Channel::X[0], k)) / first
         });
         let at = (middle as f64 - 0.5) / 40.0;
         let what = format!("first harmonic at t/T = {at:.4} over that at once, σ = {sd} %");
         evidence.push(Evidence::new(
             format!("{what}, against the quadrature"),
-            Sample::of(&found).is(
+            Sample::of(&shares).is(
                 expected,
                 0.0,
                 design.effect,
@@ -44,7 +44,7 @@ pub(super) fn spread_damping(factor: &Factor, effort: &Effort) -> Vec<Evidence> 
         ));
         evidence.push(Evidence::new(
             format!("{what}, against the formula"),
-            Sample::of(&found).is(
+            Sample::of(&shares).is(
                 (-(at / end).powi(2)).exp(),
                 sd / 100.0,
                 design.effect,
@@ -64,8 +64,8 @@ pub(super) fn in_plane_start(change: &Change, effort: &Effort) -> Vec<Evidence> 
     change(&mut scene);
     let results = ensemble::run(&lab::plan(&scene));
     let channel = |name: &str| {
-        let found = results.as_ref().ok().and_then(|results| results.column(name));
-        found.map_or_else(|| vec![f64::NAN; 101], |channel| channel.mean.clone())
+        let column = results.as_ref().ok().and_then(|results| results.column(name));
+        column.map_or_else(|| vec![f64::NAN; 101], |channel| channel.mean.clone())
     };
     let (mut worst, [x1, x2, x3]) = (0.0f64, ["x1", "x2", "x3"].map(channel));
     for output in 0..=100 {

@@ -4,6 +4,18 @@ use super::*;
 
 type Property = fn(ContactRule, &Pair) -> Option<f64>;
 
+/// The pair after a change of each rod.
+fn changed(pair: &Pair, change: impl Fn(&mut Pair, usize)) -> Pair {
+    let mut changed = *pair;
+    (0..2).for_each(|k| change(&mut changed, k));
+    changed
+}
+
+/// The sum of both differences.
+fn difference(a: [Vector3<f64>; 2], b: [Vector3<f64>; 2]) -> f64 {
+    (a[0] - b[0]).norm() + (a[1] - b[1]).norm()
+}
+
 /// Each invariant with its violation, 0 where it holds.
 pub(super) const PROPERTIES: [(&str, Property); 11] = [
     ("velocity normal to the contact line unchanged (eq. 5, A.9)", |rule, pair| {
@@ -36,70 +48,60 @@ pub(super) const PROPERTIES: [(&str, Property); 11] = [
         Some(larger(off(0), off(1)))
     }),
     ("A and B exchanged", |rule, pair| {
-        let swapped = Pair {
-            x: [pair.x[1], pair.x[0]],
-            p: [pair.p[1], pair.p[0]],
-            u: [pair.u[1], pair.u[0]],
-            rate: [pair.rate[1], pair.rate[0]],
-        };
-        let ([a, b], [b2, a2]) = (rule(pair)?, rule(&swapped)?);
-        Some((a - a2).norm() + (b - b2).norm())
+        let swapped = changed(pair, |swapped, k| {
+            let other = 1 - k;
+            (swapped.x[k], swapped.p[k]) = (pair.x[other], pair.p[other]);
+            (swapped.u[k], swapped.rate[k]) = (pair.u[other], pair.rate[other]);
+        });
+        let [b, a] = rule(&swapped)?;
+        Some(difference(rule(pair)?, [a, b]))
     }),
     ("p → −p of one rod", |rule, pair| {
         let mut turned = *pair;
         (turned.p[0], turned.rate[0]) = (-pair.p[0], -pair.rate[0]);
-        let ([a, b], [minus_a, b2]) = (rule(pair)?, rule(&turned)?);
-        Some((a + minus_a).norm() + (b - b2).norm())
+        let [minus_a, b] = rule(&turned)?;
+        Some(difference(rule(pair)?, [-minus_a, b]))
     }),
     ("a rotated frame", |rule, pair| {
         let q = Rotation3::from_euler_angles(0.3, -1.1, 2.0);
-        let mut turned = *pair;
-        for k in 0..2 {
-            turned.x[k] = q * pair.x[k];
-            turned.p[k] = q * pair.p[k];
-            turned.u[k] = q * pair.u[k];
-            turned.rate[k] = q * pair.rate[k];
-        }
-        let (before, after) = (rule(pair)?, rule(&turned)?);
-        Some((q * before[0] - after[0]).norm() + (q * before[1] - after[1]).norm())
+        let turned = changed(pair, |pair, k| {
+            pair.x[k] = q * pair.x[k];
+            pair.p[k] = q * pair.p[k];
+            pair.u[k] = q * pair.u[k];
+            pair.rate[k] = q * pair.rate[k];
+        });
+        Some(difference(rule(pair)?.map(|rate| q * rate), rule(&turned)?))
     }),
     ("a Galilean shift of place and velocity", |rule, pair| {
-        let mut moved = *pair;
-        for k in 0..2 {
-            moved.x[k] += Vector3::new(1.0, -2.0, 0.5);
-            moved.u[k] += Vector3::new(-0.7, 0.2, 1.1);
-        }
-        let (before, after) = (rule(pair)?, rule(&moved)?);
-        Some((before[0] - after[0]).norm() + (before[1] - after[1]).norm())
+        let moved = changed(pair, |pair, k| {
+            pair.x[k] += Vector3::new(1.0, -2.0, 0.5);
+            pair.u[k] += Vector3::new(-0.7, 0.2, 1.1);
+        });
+        Some(difference(rule(pair)?, rule(&moved)?))
     }),
     ("lengths in another unit", |rule, pair| {
-        let mut scaled = *pair;
-        for k in 0..2 {
-            scaled.x[k] *= 8.0;
-            scaled.u[k] *= 8.0;
-        }
-        let (before, after) = (rule(pair)?, rule(&scaled)?);
-        Some((before[0] - after[0]).norm() + (before[1] - after[1]).norm())
+        let scaled = changed(pair, |pair, k| {
+            pair.x[k] *= 8.0;
+            pair.u[k] *= 8.0;
+        });
+        Some(difference(rule(pair)?, rule(&scaled)?))
     }),
     ("applied twice = once", |rule, pair| {
         let once = rule(pair)?;
-        let twice = rule(&Pair { rate: once, ..*pair })?;
-        Some((once[0] - twice[0]).norm() + (once[1] - twice[1]).norm())
+        Some(difference(once, rule(&Pair { rate: once, ..*pair })?))
     }),
     ("rods in the shear plane unaffected", |rule, pair| {
         // Both directions projected into the plane of axes 1 and 2, with rates in it; the flow is along axis 2.
-        let mut flat = *pair;
-        for k in 0..2 {
+        let flat = changed(pair, |pair, k| {
             let (phi, _) = orientation::angles(&pair.p[k]);
-            flat.p[k] = orientation::from_angles(phi, FRAC_PI_2);
-            flat.p[k].as_mut_unchecked().z = 0.0;
-            flat.rate[k] = Vector3::new(-phi.sin(), phi.cos(), 0.0) * pair.rate[k].norm();
-            flat.u[k] = Vector3::new(0.0, flat.x[k].x, 0.0);
-        }
+            pair.p[k] = orientation::from_angles(phi, FRAC_PI_2);
+            pair.p[k].as_mut_unchecked().z = 0.0;
+            pair.rate[k] = Vector3::new(-phi.sin(), phi.cos(), 0.0) * pair.rate[k].norm();
+            pair.u[k] = Vector3::new(0.0, pair.x[k].x, 0.0);
+        });
         if flat.p[0].cross(&flat.p[1]).norm() < 0.1 {
             return Some(0.0);
         }
-        let after = rule(&flat)?;
-        Some((after[0] - flat.rate[0]).norm() + (after[1] - flat.rate[1]).norm())
+        Some(difference(rule(&flat)?, flat.rate))
     }),
 ];

@@ -9,15 +9,15 @@ pub(super) fn dies_out(change: &Change, effort: &Effort) -> Vec<Evidence> {
         change(&mut scene);
         scene
     };
-    let found = |scene: &Scene, design| amplitudes(scene, effort.samples(design), &[0, 2, 4, 8]);
+    let measured = |scene: &Scene, design| amplitudes(scene, effort.samples(design), &[0, 2, 4, 8]);
     // Pilots of 300 replicas: 0.136 ± 0.035 (mean and deviation); 0.017 ± 0.033; 0.107 ± 0.024, 0.066 ± 0.023 and 0.080
     // ± 0.028.
     let (both, added, alone) = (Design::new(0.13, 0.042), Design::new(0.013, 0.036), Design::new(0.06, 0.032));
-    let spread = found(&scene(3.6), both);
-    let margin: Vec<f64> = spread[0].iter().zip(&spread[3]).map(|(first, last)| first / E - last).collect();
+    let spread = measured(&scene(3.6), both);
+    let margin = spread[0].iter().zip(&spread[3]).map(|(first, last)| first / E - last);
     let mut evidence = vec![Evidence::new(
         "1/e of the first amplitude less that at t/T = 4, n = 50 per cm³, σ = 3.6 %",
-        Sample::of(&margin).exceeds(
+        Sample::of(margin).exceeds(
             0.0,
             both.effect,
             "\"a few\" is read as four, \"die out\" as below 1/e, where a decay has its time",
@@ -26,12 +26,12 @@ pub(super) fn dies_out(change: &Change, effort: &Effort) -> Vec<Evidence> {
     // The spread of r_e alone brings the amplitude below 1/e: the effect of collisions is judged against that.
     let mut free = scene(3.6);
     free.interaction = None;
-    let (without, with) = (found(&free, added), found(&scene(3.6), added));
+    let (without, with) = (measured(&free, added), measured(&scene(3.6), added));
     evidence.push(Evidence::new(
         "amplitude at t/T = 4 without collisions less that with them, n = 50 per cm³, σ = 3.6 %",
         Sample::of_differences(&without[3], &with[3]).exceeds(0.0, added.effect, "an order without a number"),
     ));
-    let uniform = found(&scene(0.0), alone);
+    let uniform = measured(&scene(0.0), alone);
     for (k, which) in [(1, "0 and 1"), (2, "1 and 2"), (3, "2 and 4")] {
         let fall = Sample::of_differences(&uniform[k - 1], &uniform[k]);
         evidence.push(Evidence::new(
@@ -78,11 +78,10 @@ pub(super) fn on_all_axes(axes: &Axes, effort: &Effort) -> Vec<Evidence> {
         .map(|(i, j, design)| {
             let mean = Sample::of(&left[j]).mean;
             // a − b² to first order in each replica's deviation, so that its mean is a − b² of the means.
-            let difference: Vec<f64> =
-                left[i].iter().zip(&left[j]).map(|(a, b)| a - 2.0 * mean * b + mean * mean).collect();
+            let difference = left[i].iter().zip(&left[j]).map(|(a, b)| a - 2.0 * mean * b + mean * mean);
             Evidence::new(
                 format!("share of the amplitude left at t/T = 2, X̄_{} less the square of that of X̄_{}", i + 1, j + 1),
-                Sample::of(&difference).exceeds(
+                Sample::of(difference).exceeds(
                     0.0,
                     design.effect,
                     "\"similar\" has no number in the paper: rates within a factor of two",

@@ -1,6 +1,7 @@
 //! Whole runs of free rods at the extremes.
 
 use super::*;
+use crate::judge::statistics::worst;
 use shearbed::scene::TimeUnit;
 
 /// Bound of |tr⟨pp⟩ − 1|, where the trace is the mean of |p|².
@@ -105,18 +106,12 @@ pub(super) fn extreme_scenes(program: &Program, effort: &Effort) -> Vec<Evidence
         scene.time.duration = effort.pick(1e4, 1e5);
         scene.time.outputs_per_unit = Some(1);
     }));
-    let (mut trace, mut failed, mut apart) = (0.0, 0.0, 0.0);
-    for scene in &scenes {
-        let ended = program(scene);
-        trace = larger(trace, ended.trace);
-        failed += f64::from(!ended.finite);
-    }
+    let free = scenes.len();
     let longest = effort.pick(1e4, 1e6);
     for (e, strain) in [(1e-30, 1e3), (1.0, longest), (1e30, 1e3)] {
-        for rows in [[e, -e, 0.0], [e, -0.5 * e, -0.5 * e]] {
+        for [a, b, c] in [[e, -e, 0.0], [e, -0.5 * e, -0.5 * e]] {
             for r in [1.5, 1e8] {
-                let ended = program(&scene(&|scene| {
-                    let [a, b, c] = rows;
+                scenes.push(scene(&|scene| {
                     scene.flow = shearbed::scene::Flow::Gradient {
                         gradient_per_s: [[a, 0.0, 0.0], [0.0, b, 0.0], [0.0, 0.0, c]],
                     };
@@ -126,12 +121,13 @@ pub(super) fn extreme_scenes(program: &Program, effort: &Effort) -> Vec<Evidence
                     scene.output.observables = FEW.to_vec();
                     scene.time.outputs_per_unit = Some(1);
                 }));
-                trace = larger(trace, ended.trace);
-                failed += f64::from(!ended.finite);
-                apart = larger(apart, (ended.last_x1 - 1.0).abs());
             }
         }
     }
+    let ended: Vec<_> = scenes.iter().map(program).collect();
+    let trace = worst(ended.iter().map(|ended| ended.trace));
+    let failed = ended.iter().filter(|ended| !ended.finite).count() as f64;
+    let apart = worst(ended[free..].iter().map(|ended| (ended.last_x1 - 1.0).abs()));
     vec![
         Evidence::exact("scenes that stopped or had a result that is not finite", failed),
         Evidence::within("largest |tr⟨pp⟩ − 1|", trace, TRACE, TRACE_BECAUSE),

@@ -76,10 +76,9 @@ pub fn off(straight: bool, effort: &Effort) -> Result<Evidence, String> {
     let off = |(own, at_nodes): (&DVector<f64>, &Coefficients)| {
         (&simulated.influence * (own - at_nodes[0].tr_mul(&terms)))[0]
     };
-    let off: Vec<f64> = simulated.at_own.iter().zip(&simulated.at_nodes).map(off).collect();
     Ok(Evidence::new(
         "r_e of points simulated at that r_e itself, less it, in standard uncertainties",
-        Sample::of(&off).is(
+        Sample::of(simulated.at_own.iter().zip(&simulated.at_nodes).map(off)).is(
             0.0,
             OFF,
             EFFECT,

@@ -18,8 +18,8 @@ pub(in crate::cases) fn in_p(
     keeps_length: bool,
     step: fn(&RodProblem, Vector3<f64>, f64) -> Vector3<f64>,
 ) -> Vec<Integrator> {
-    let own = Integrator::in_p("in p", order, step);
-    vec![if keeps_length { own.keeping_length() } else { own }]
+    let integrator = Integrator::in_p("in p", order, step);
+    vec![if keeps_length { integrator.keeping_length() } else { integrator }]
 }
 
 /// The exact propagator without removal of whole periods from the phase.

@@ -2,46 +2,45 @@
 
 use super::*;
 
-pub(super) fn at_least(subjects: &Integrators, _: &Effort) -> Vec<Evidence> {
+pub(super) fn at_least(integrators: &Integrators, _: &Effort) -> Vec<Evidence> {
     let mut evidence = Vec::new();
     let mut classical: Vec<f64> = Vec::new();
-    for subject in subjects() {
-        let Theory::Order(order) = subject.theory else {
+    for integrator in integrators() {
+        let Theory::Order(order) = integrator.theory else {
             continue;
         };
-        let found = RATIOS.map(|r| match bisect(ONE_STEP, |h| holds(&subject, Property::Order, r, h)) {
+        let longest = RATIOS.map(|r| match bisect(ONE_STEP, |h| holds(&integrator, Property::Order, r, h)) {
             Limit::At(strain) => strain,
             _ => f64::NAN,
         });
-        let above = |(r, found): (&f64, f64)| {
-            let ratio = theory::runge_kutta_order_at_least(order, *r) / found;
+        let above = |(r, longest): (&f64, f64)| {
+            let ratio = theory::runge_kutta_order_at_least(order, *r) / longest;
             if ratio < 1.0 { 0.0 } else { ratio - 1.0 }
         };
         evidence.push(Evidence::within(
-            format!("relative excess of the bound over the longest step without overtaking, {}", subject.name),
-            RATIOS.iter().zip(found).map(above).fold(0.0, larger),
+            format!("relative excess of the bound over the longest step without overtaking, {}", integrator.name),
+            RATIOS.iter().zip(longest).map(above).fold(0.0, larger),
             1e-6,
             "a bound from below, and for explicit Euler the limit itself: too few rods find a step too long, which is \
              no excuse; the bisection ends at 10⁻⁷",
         ));
         if order == 4 {
-            let apart = |first: &f64, found: f64| (found / first - 1.0).abs();
-            let off = classical.iter().zip(found).map(|(first, found)| apart(first, found));
+            let off = classical.iter().zip(longest).map(|(first, longest)| (longest / first - 1.0).abs());
             evidence.push(Evidence::within(
-                format!("relative difference to the first of order 4, {}", subject.name),
+                format!("relative difference to the first of order 4, {}", integrator.name),
                 off.fold(0.0, larger),
                 1e-6,
                 "the bisection ends at 10⁻⁷",
             ));
             if classical.is_empty() {
-                classical = found.into();
+                classical = longest.into();
             }
         }
     }
     evidence
 }
 
-pub(super) fn near_a_sphere(subjects: &Integrators, _: &Effort) -> Vec<Evidence> {
+pub(super) fn near_a_sphere(integrators: &Integrators, _: &Effort) -> Vec<Evidence> {
     let r = 1.0 + 1e-5;
     let off = |limit: Limit, expected: f64| match limit {
         Limit::At(strain) => strain / expected - 1.0,
@@ -49,18 +48,18 @@ pub(super) fn near_a_sphere(subjects: &Integrators, _: &Effort) -> Vec<Evidence>
         _ => 1.0,
     };
     let mut evidence = Vec::new();
-    for subject in subjects() {
-        let found = |property, ladder| bisect(ladder, |h| holds(&subject, property, r, h));
+    for integrator in integrators() {
+        let longest = |property, ladder| bisect(ladder, |h| holds(&integrator, property, r, h));
         evidence.push(Evidence::within(
             "relative difference of the longest step that turns and 2√6",
-            off(found(Property::Turning, ONE_STEP), theory::rk4_turning_of_a_sphere()),
+            off(longest(Property::Turning, ONE_STEP), theory::rk4_turning_of_a_sphere()),
             2e-5,
             "rates of rods of r_e = 1 + 10⁻⁵ differ by Λ = 10⁻⁵, and of 512 rods one is within δ = π/1024 of the \
              fastest: δ² = 10⁻⁵",
         ));
         evidence.push(Evidence::within(
             "relative difference of the longest step with a bounded length and 4√2",
-            off(found(Property::Length, TEN_PERIODS), theory::rk4_length_of_a_sphere()),
+            off(longest(Property::Length, TEN_PERIODS), theory::rk4_length_of_a_sphere()),
             3e-3,
             "|R|² = 1 + 0.89(y² − 8): in the 22 steps of ten periods |p| grows to 1.5 at y² = 8.04, which is 0.26 % \
              more",
@@ -69,15 +68,15 @@ pub(super) fn near_a_sphere(subjects: &Integrators, _: &Effort) -> Vec<Evidence>
     evidence
 }
 
-pub(super) fn frozen(subjects: &Integrators, _: &Effort) -> Vec<Evidence> {
+pub(super) fn frozen(integrators: &Integrators, _: &Effort) -> Vec<Evidence> {
     let mut worst = 0.0f64;
-    for subject in subjects() {
+    for integrator in integrators() {
         for r in [1.5, 2.0, 3.0, 11.6, 100.0] {
             let ladder = crate::methods::integrators::limits::Ladder { least: 1.0, ..TEN_PERIODS };
             let frozen = 2.785 * theory::euler_order(r);
             worst = larger(
                 worst,
-                match bisect(ladder, |h| holds(&subject, Property::Length, r, h)) {
+                match bisect(ladder, |h| holds(&integrator, Property::Length, r, h)) {
                     Limit::At(strain) => strain / frozen,
                     _ => f64::INFINITY,
                 },

@@ -41,7 +41,11 @@ impl Design {
         let mut low = high / 2;
         while high - low > 1 {
             let middle = low.midpoint(high);
-            *(if enough(middle) { &mut high } else { &mut low }) = middle;
+            if enough(middle) {
+                high = middle;
+            } else {
+                low = middle;
+            }
         }
         high.max(FEWEST)
     }
@@ -116,10 +120,10 @@ mod tests {
                     mean / (square / freedom(samples)).sqrt() * root <= t
                 })
                 .count();
-            let found = below as f64 / f64::from(trials);
+            let observed = below as f64 / f64::from(trials);
             let expected = upper_tail(-noncentral(t, noncentrality, samples));
             // Five standard errors of a share, and the approximation's own error at the centre of the distribution.
-            assert!((found - expected).abs() < 5.0 * 0.0036 + 0.005, "{found} {expected}");
+            assert!((observed - expected).abs() < 5.0 * 0.0036 + 0.005, "{observed} {expected}");
         }
     }
 

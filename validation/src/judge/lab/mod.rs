@@ -6,7 +6,7 @@ mod sampling;
 mod shared;
 
 pub use reference::problem;
-pub use sampling::{per_replica, uniform};
+pub use sampling::{at_output, per_replica, uniform};
 pub use shared::Shared;
 
 use crate::judge::case::Effort;
@@ -48,6 +48,12 @@ pub fn paper_interaction(scene: &mut Scene) -> &mut Interaction {
 /// The interaction of a scene; if it has none, adds that of [`interacting_scene`].
 pub fn interaction(scene: &mut Scene) -> &mut Interaction {
     scene.interaction.get_or_insert_default()
+}
+
+/// Sets the sides of the control volume in place of the concentration.
+pub fn set_box_mm(scene: &mut Scene, sides: [f64; 3]) {
+    let interaction = interaction(scene);
+    (interaction.concentration_per_cm3, interaction.box_mm) = (None, Some(sides));
 }
 
 /// The plan of a case's scene.

@@ -2,8 +2,10 @@
 
 use super::plan;
 use crate::judge::accept::{Rule, Text, kolmogorov_samples};
+use crate::judge::statistics::Sample;
 use rayon::prelude::*;
 use shearbed::observable::Channel;
+use shearbed::run::ensemble::Results;
 use shearbed::run::run_replica;
 use shearbed::scene::Scene;
 use statrs::distribution::Uniform;
@@ -19,10 +21,17 @@ pub fn per_replica<T: Send>(
     let plan = plan(scene);
     let of_replica = |replica| {
         // A run that stopped fails every check: all its means are NaN.
-        let found = run_replica(&plan, replica).ok();
-        value(&|channel, output| found.as_ref().and_then(|found| found.mean(channel, output)).unwrap_or(f64::NAN))
+        let means = run_replica(&plan, replica).ok();
+        value(&|channel, output| means.as_ref().and_then(|means| means.mean(channel, output)).unwrap_or(f64::NAN))
     };
     (0..replicas).into_par_iter().map(of_replica).collect()
+}
+
+/// A mean over `samples` rods or replicas of a run at an output; NaN if the run stopped.
+pub fn at_output<E>(results: &Result<Results, E>, channel: Channel, output: usize, samples: u64) -> Sample {
+    let column = results.as_ref().ok().and_then(|results| results.column(&channel.name()));
+    let (mean, se) = column.map_or((f64::NAN, f64::NAN), |column| (column.mean[output], column.se[output]));
+    Sample { mean, se, samples }
 }
 
 /// The Kolmogorov–Smirnov test that `values` in [0, 1] are uniform; there must be enough values to show a `distance`
