@@ -125,12 +125,12 @@ fn pool(effort: &Effort) -> Result<Pool, String> {
         scene.particles.count = RODS;
         scene.time.duration = 1.5;
         scene.time.steps_per_unit = Some(STEPS_PER_PERIOD);
-        Scenes::new(vec![set(&scene, effort.seed(70), TimeColumn::Periods)?], vec![range.clone()])
+        Scenes::new(vec![set(&scene, effort.seed(70), TimeColumn::Periods)?], vec![range.clone()]).map_err(String::from)
     };
     let basis = Basis::new(1);
     let at_nodes = |sd_percent: f64| {
         let scenes = scenes(sd_percent)?;
-        let model = |values: &[f64]| scenes.model(&places, AS_WRITTEN, values);
+        let model = |values: &[f64]| scenes.model(&places, AS_WRITTEN, values).map_err(String::from);
         let value = |node: &[f64]| vec![1.0 + 0.6 * node[0]];
         coefficients(&basis, &model, &value, 0..POOL, &|| ())
     };

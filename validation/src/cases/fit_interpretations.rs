@@ -118,7 +118,7 @@ pub fn model(effort: &Effort, replicas: u64) -> Result<Vec<Coefficients>, String
     let sets = CONCENTRATIONS.into_iter().enumerate().map(set);
     let scenes = Scenes::new(sets.collect::<Result<_, String>>()?, vec![range()?])?;
     let places = data(|_| f64::NAN, f64::NAN);
-    let model = |values: &[f64]| scenes.model(&places, AS_WRITTEN, values);
+    let model = |values: &[f64]| scenes.model(&places, AS_WRITTEN, values).map_err(String::from);
     let value = |node: &[f64]| vec![0.8 + 0.4 * node[0]];
     coefficients(&Basis::new(1), &model, &value, 0..replicas, &|| ())
 }

@@ -76,7 +76,7 @@ fn seven(read: &fn(f64) -> f64, effort: &Effort) -> Vec<Evidence> {
             let setting = coefficients::kick(n_a3, 11.6, 0.5, 4);
             let mut scene = coefficients::scene(setting, effort);
             scene.time.duration = 8.0;
-            let windows = coefficients::windows(&scene, Places::Kept, samples);
+            let windows = coefficients::windows(&scene, Places::Carried, samples);
             windows.iter().map(|(means, _)| means.coefficient()).collect()
         })
     });
@@ -185,7 +185,7 @@ fn no_diffusion(turned: &Turned, effort: &Effort) -> Vec<Evidence> {
     let watch = Watch::new(&scene, 4.0, 1.0);
     let diffusion = |c_i, stream| diffused(&scene, c_i, watch, samples, (effort, stream));
     let of_diffusion = OF_DIFFUSION.get(effort, (), || {
-        let (means, _): (Vec<_>, Vec<_>) = coefficients::windows(&scene, Places::Kept, 8).into_iter().unzip();
+        let (means, _): (Vec<_>, Vec<_>) = coefficients::windows(&scene, Places::Carried, 8).into_iter().unzip();
         let c_i = Means::of(&means, None).coefficient();
         (c_i, diffusion(c_i, 1 << 20))
     });

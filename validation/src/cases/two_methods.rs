@@ -245,7 +245,7 @@ fn closed(full: bool) -> Vec<(Big, Big)> {
         let equation = closed.equation(&problem.gradient_per_s, problem.aspect_ratio);
         let solution = tensors::second::at(&equation, &closed.start(), &problem.times_s);
         for (at, a) in solution.iter().enumerate() {
-            let values = tensors::closures::PAIRS.map(|place| BITS.of(a[place]));
+            let values = tensors::fourth::PAIRS.map(|place| BITS.of(a[place]));
             pairs.extend(row(built, at).into_iter().zip(values));
         }
     }

@@ -14,7 +14,7 @@ pub mod figures;
 pub mod integrators;
 pub mod kicks;
 pub mod interpretations;
-mod speed;
+pub mod speed;
 pub mod stability;
 pub mod suspensions;
 mod tensors;
