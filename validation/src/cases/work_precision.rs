@@ -78,7 +78,7 @@ fn rates(starts: &Starts, effort: &Effort) -> Vec<Evidence> {
         let tried = [1000, 20_000].map(errors);
         Evidence::new(
             format!("exponent of N, {} starts", start.name),
-            Sample::of(&exponents(&tried, groups)).is(
+            Sample::of(exponents(&tried, groups)).is(
                 start.exponents[0],
                 0.05,
                 design.effect,
@@ -110,7 +110,7 @@ fn replicas(number: &Number, effort: &Effort) -> Vec<Evidence> {
     let x1: Vec<_> = (0..replicas).into_par_iter().map(x1).collect();
     vec![Evidence::new(
         "exponent of M in the standard deviation of block means",
-        Sample::of(&blocks::replicas_exponents(&x1, GROUP as usize)).is(
+        Sample::of(blocks::replicas_exponents(&x1, GROUP as usize)).is(
             -0.5,
             0.0,
             design.effect,

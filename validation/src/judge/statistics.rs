@@ -186,6 +186,6 @@ mod tests {
         let without = values.map(|value| (9.0 - value) / 2.0);
         let estimate = Estimate::jackknife(3.0, &without);
         assert_eq!(estimate.value, 3.0);
-        assert!((estimate.se - Sample::of(&values).se).abs() < 1e-15);
+        assert!((estimate.se - Sample::of(values).se).abs() < 1e-15);
     }
 }

@@ -202,7 +202,7 @@ fn naive(replicas: u64) -> Measured {
         (0..steps).for_each(|_| naive.step());
         mean_projections(&naive.orientations)[0]
     });
-    let x1 = Sample::of(&x1.collect::<Vec<_>>());
+    let x1 = Sample::of(x1.collect::<Vec<_>>());
     Measured { program: "naive reference, compiled", x1, seconds: start.elapsed().as_secs_f64() / replicas as f64 }
 }
 
@@ -290,7 +290,7 @@ mod tests {
     #[test]
     fn a_program_takes_the_cheapest_step_whose_error_leaves_room() {
         let steps = [step(25, 4e-3, 1e-4), step(50, 8e-4, 2e-4), step(USUAL, 1e-4, 1e-3)];
-        let other = Measured { program: "other", x1: Sample::of(&[0.3, 0.31]), seconds: 0.1 };
+        let other = Measured { program: "other", x1: Sample::of([0.3, 0.31]), seconds: 0.1 };
         let [own, others] = costs(0.005, &steps, std::slice::from_ref(&other))[..] else { panic!() };
         // 0.04²/(0.005² − 0.0008²) = 65.7 replicas; with 25 steps 177.8, each in half the time.
         assert_eq!((own.steps_per_period, own.replicas), (50, 66));

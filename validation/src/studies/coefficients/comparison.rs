@@ -16,7 +16,7 @@ type Side<'a> = (&'a Compared, &'static str, &'a [Shares]);
 /// A column of the share above an edge in per cent of the rods, with two digits of the standard error.
 fn per_cent<'a>(name: impl Into<String>, quantity: Quantity, edge: f64) -> Column<'a, Side<'a>> {
     estimate(name, move |side: &Side| {
-        let Sample { mean, se, .. } = Sample::of(&above(side.2, quantity, edge));
+        let Sample { mean, se, .. } = Sample::of(above(side.2, quantity, edge));
         (100.0 * mean, 100.0 * se)
     })
 }
@@ -74,7 +74,7 @@ pub(super) fn tables(all: &[Compared], effort: &Effort) -> [ReportTable; 2] {
 
 /// The mean share above each edge; NaN for a share of 0, which a logarithmic axis cannot show.
 fn curve(label: &str, all: &[Shares], quantity: Quantity) -> Curve {
-    let mean = |edge: f64| Sample::of(&above(all, quantity, edge)).mean;
+    let mean = |edge: f64| Sample::of(above(all, quantity, edge)).mean;
     Curve::of(label, quantity.edges(), |edge| (edge, Some(mean(edge)).filter(|s| *s > 0.0).unwrap_or(f64::NAN)))
 }
 
@@ -82,7 +82,7 @@ fn curve(label: &str, all: &[Shares], quantity: Quantity) -> Curve {
 pub(super) fn figures(one: &Compared) -> [ReportFigure; 2] {
     let diffusion = format!("diffusion of C_I = {:.1e}", one.c_i.value);
     let curves = |quantity| [curve("kicks", &one.kicks, quantity), curve(&diffusion, &one.diffusion, quantity)];
-    let at = Sample::of(&above(&one.kicks, Quantity::Angle, 0.2)).mean * 0.2_f64.tan();
+    let at = Sample::of(above(&one.kicks, Quantity::Angle, 0.2)).mean * 0.2_f64.tan();
     let angles = (0..=60).map(|k| 10f64.powf(0.05 * f64::from(k) - 2.85));
     let theory = Curve::of("jumps κ with a tail 1/κ, theory", angles, |x| (x, at / x.tan()));
     let closed = |label, cdf: fn(f64, f64) -> f64| {

@@ -77,7 +77,7 @@ fn run(request: &Request) -> Result<Option<Findings>, String> {
 
 /// A sentence on the difference between kicks and diffusion of the same C_I.
 fn no_diffusion(one: &Compared) -> String {
-    let per_cent = |all, edge| 100.0 * Sample::of(&above(all, Quantity::Angle, edge)).mean;
+    let per_cent = |all, edge| 100.0 * Sample::of(above(all, Quantity::Angle, edge)).mean;
     format!(
         " Kicks are no diffusion: over a strain of {:.1}, diffusion of the same C_I turns {:.0} % of the rods off \
          Jeffery's motion by more than 0.01 rad and {:.2} % by more than 0.2 rad, kicks {:.0} % and {:.2} %.",

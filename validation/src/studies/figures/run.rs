@@ -49,7 +49,7 @@ impl Run {
     /// The sample over replicas of `value`, a function of a channel's means against time. Empty if the scene
     /// does not observe the channel.
     pub(super) fn sample(&self, channel: &str, value: impl Fn(&dyn Fn(usize) -> f64) -> f64) -> Sample {
-        Sample::of(&self.values(channel, value))
+        Sample::of(self.values(channel, value))
     }
 
     /// `value` for each replica.

@@ -65,7 +65,7 @@ pub fn row(effort: &Effort, steps_per_period: u64, min_contact_arm: f64, replica
     let scene = scene(effort, steps_per_period, min_contact_arm);
     let distances: Vec<_> =
         (0..replicas).into_par_iter().map(|replica| apart(&scene, steps_per_period, |_| {}, replica)).collect();
-    let sample = |value: fn(&Apart) -> f64| Sample::of(&distances.iter().map(value).collect::<Vec<_>>());
+    let sample = |value: fn(&Apart) -> f64| Sample::of(distances.iter().map(value).collect::<Vec<_>>());
     AveragedStep {
         steps_per_period,
         min_contact_arm,

@@ -175,7 +175,7 @@ pub struct StepCounts {
 impl StepCounts {
     /// The mean over replicas of a number per replica.
     pub fn mean(&self, value: impl Fn(&Counts) -> f64) -> Sample {
-        Sample::of(&self.counts.iter().map(value).collect::<Vec<_>>())
+        Sample::of(self.counts.iter().map(value).collect::<Vec<_>>())
     }
 }
 
