@@ -1,6 +1,6 @@
-//! What α would be under each open reading of the paper, and what points of two suspensions tell of the
-//! interpretations, as Markdown tables. `cargo run --release -p shearbed-validation --example fit_interpretations --
-//! 50` gives each value of α up to 50 replicas in the first; in the second points and model have 10 000.
+//! What α would be under each interpretation of the paper, and what points of two suspensions say of the
+//! interpretations, as Markdown tables. With `cargo run --release -p shearbed-validation --example fit_interpretations
+//! -- 50` each value of α has up to 50 replicas in the first; in the second points and model have 10 000.
 
 use rand::SeedableRng;
 use rand_distr::{Distribution, StandardNormal};

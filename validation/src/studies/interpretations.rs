@@ -127,7 +127,9 @@ const ALTERNATIVES: [(&str, &str, Change); 17] = [
     ("replacement", "overshoot times x_1(new)/x_1(old)", |p| p.reading.replacement = Replacement::ScaledOvershoot),
     ("lengths", "scatter by 30 %", |p| p.length_sd_percent = 30.0),
     ("lengths", "30 %, P_c by the partner's", |p| (p.length_sd_percent, p.reading.length) = (30.0, Length::Partners)),
-    ("lengths", "30 %, P_c by the mean of both", |p| (p.length_sd_percent, p.reading.length) = (30.0, Length::MeanOfBoth)),
+    ("lengths", "30 %, P_c by the mean of both", |p| {
+        (p.length_sd_percent, p.reading.length) = (30.0, Length::MeanOfBoth);
+    }),
     ("box", "4 : ½ : ½ of the cube's sides", |p| p.box_mm = Some([4.0, 0.5, 0.5].map(|side| side * p.edges_mm()[0]))),
     ("time step", "halved: 400 steps a period", |p| p.steps_per_period *= 2),
     ("time step", "doubled: 100 steps a period", |p| p.steps_per_period /= 2),
