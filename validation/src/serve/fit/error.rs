@@ -106,7 +106,8 @@ pub enum ParameterError {
 pub enum FitError {
     /// The largest share of the points' apparent information that is noise, and the number of replicas.
     #[error(
-        "{:.0} % of the apparent information in the points is noise of the model with {replicas} replicas at each value",
+        "{:.0} % of the apparent information in the points is noise of the model with {replicas} replicas at each \
+            value",
         100.0 * .0, replicas = .1
     )]
     Noise(f64, u64),
