@@ -80,7 +80,7 @@ pub fn line(text: &str) -> String {
 
 /// A path in a message.
 pub trait Shown {
-    /// The path on one line, as [`line`] writes it.
+    /// The path on one line, as [`line()`] writes it.
     fn shown(&self) -> String;
 }
 
