@@ -211,7 +211,7 @@ mod tests {
             let own = along(2);
             let second = [along(0).second[0], along(1).second[1], own.second[2]];
             let off = second.map(|a| (a - sums[1] / sums[0]).abs()).into_iter().fold(0.0, f64::max);
-            off.max((own.third_projection - sums[2] / sums[0]).abs())
+            off.max((own.third_projection - sums[2] / sums[0]).abs()).max((own.mass - 1.0).abs())
         };
         // The midpoint rule's error is 10⁻¹¹.
         assert!(error(diffusivity) < 1e-10, "{:e}", error(diffusivity));

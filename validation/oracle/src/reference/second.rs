@@ -216,6 +216,11 @@ mod tests {
             assert!(off(&[moments[6].clone(), moments[9].clone()], &[0.2, 1.0 / 15.0]) < 1e-15);
         }
         assert!(off(&unequal(0.5, 11.6, 3.6, 0.0, 12), &[0.5; 3]) < 1e-15);
+        // A third of a mean period, by a rule in doubles.
+        let time_s = std::f64::consts::TAU * (3.0 + 1.0 / 3.0) / 0.5 / 3.0;
+        let known = |sd_percent| crate::isotropic::mean_projections_polydisperse(3.0, sd_percent, 1.0 / 3.0);
+        let found = unequal(0.5, 3.0, 10.0, time_s, 24);
+        assert!(off(&found, &known(10.0)) < 1e-10 && off(&found, &known(11.0)) > 1e-4);
     }
 
     /// The contact line of rods along 1 and 2 is along 3, where neither the flow nor a rod moves: nothing changes.
