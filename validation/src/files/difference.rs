@@ -41,6 +41,8 @@ mod tests {
         let mut b = a.clone();
         b["over"][1] = json!("y=2");
         assert_eq!(words(&a, &b), r#"over.2: "y=1", "y=2""#);
+        b["over"][0] = json!("x=2");
+        assert_eq!(words(&a, &b), r#"over.1: "x=1", "x=2""#);
         b["over"] = json!(["x=1"]);
         assert_eq!(words(&a, &b), r#"over: ["x=1","y=1"], ["x=1"]"#);
         let mut b = a.clone();

@@ -125,6 +125,20 @@ fn a_signal_keeps_the_run_and_says_how_to_go_on() {
     }
     let found = files(dir.path());
     assert!(!found.keys().any(|name| name.starts_with('.')), "{:?}", found.keys());
+    // Of a long replica what is kept meanwhile is halfway, and survives a kill.
+    let run = "run one.toml --set time.periods=20000 --checkpoint one --every 0.01";
+    let kept = || fs::read(dir.path().join("one")).unwrap();
+    let mut running = Running::start(command(dir.path(), run));
+    running.message();
+    let before = kept();
+    running.wait_for("more of the run is kept", || kept() != before);
+    running.signal("-KILL");
+    running.end();
+    let mut running = Running::start(command(dir.path(), run));
+    let line = running.line();
+    assert!(line.starts_with("goes on from one: 0 of 1 replicas are done, 1 halfway"), "{line}");
+    running.signal("-KILL");
+    running.end();
 }
 
 #[test]

@@ -148,7 +148,7 @@ fn nothing_that_is_done_is_run_again() {
         halfway.extend((looks == 20).then(state));
     })
     .unwrap();
-    let kept = Kept {
+    let mut kept = Kept {
         asked: 6,
         tally,
         done: [(2, run_replica(&plan, 2).unwrap())].into(),
@@ -178,6 +178,14 @@ fn nothing_that_is_done_is_run_again() {
         // The progress reported last is that in the file.
         assert_eq!(last.into_inner().unwrap(), Some(of_run(6, 0)));
     }
+    // A replica that is in the sum already is no part of the rest.
+    kept.done.insert(0, run_replica(&plan, 0).unwrap());
+    let dir = tempfile::tempdir().unwrap();
+    let path = dir.path().join("kept");
+    let inputs = json!({ "scene": super::without_replicas(plan.scene()) });
+    Checkpoint::open(&path, "run", inputs).unwrap().write(&kept).unwrap();
+    let Refused(why) = Replicas::open(&plan, &path, std::time::Duration::from_secs(1)).err().unwrap();
+    assert!(why.contains("it has a replica that this run has finished"), "{why}");
 }
 
 /// A disk with free space for this number of bytes.

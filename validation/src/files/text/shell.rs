@@ -38,7 +38,7 @@ mod tests {
     #[test]
     fn a_shell_reads_the_same_words() {
         use std::os::unix::ffi::OsStrExt;
-        let words: [&[u8]; 9] = [
+        let words: [&[u8]; 10] = [
             b"plain-1.0/x=y",
             b"",
             b"two words",
@@ -47,6 +47,7 @@ mod tests {
             b"\x1b]0;x\x07",
             b"not \xff\xfe text'\\",
             b"a\nb",
+            b"a\tb",
             "α=½".as_bytes(),
         ];
         let line = command(words.iter().map(|word| OsStr::from_bytes(word)));
@@ -54,6 +55,6 @@ mod tests {
         let output = std::process::Command::new("bash").args(["-c", &script]).output().unwrap();
         let found: Vec<_> = output.stdout.split(|byte| *byte == 0).collect();
         assert_eq!(found[..words.len()], words);
-        assert!(!line.contains('\u{1b}'));
+        assert!(!line.contains(['\u{1b}', '\n', '\t']));
     }
 }

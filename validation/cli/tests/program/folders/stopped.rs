@@ -16,7 +16,7 @@ fn hidden_names_of_others_stay_and_what_a_kill_left_is_reported() {
     let dir = folder();
     let run = "run small.toml --quiet --out x";
     let left = "x/.shearbed-0123456789abcdef";
-    for name in [left, "x/.shearbed-ready", "x/.shearbed-mine", ".shearbed-part", ".x.shearbed-part"] {
+    for name in [left, "x/.shearbed-0123456789abcdeg", "x/.shearbed-mine", ".shearbed-part", ".x.shearbed-part"] {
         dir.write(&format!("{name}/projections.csv"), "mine");
     }
     dir.write("x/.shearbed-lock", "mine");
