@@ -138,6 +138,8 @@ fn whole_series_and_files_of_probes_are_read() {
     let words = short.words.split_whitespace().collect::<Vec<_>>().join(" ");
     assert!(short.code == Some(2) && words.contains("the file ends before time_s ="), "{words}");
     assert!(words.contains("time_s = 2.5 is not asked for; the nearest that is asked for is 2"), "{words}");
+    let none = answered(name, "answer.csv", probes(&[]));
+    assert!(none.code == Some(2) && none.words.contains("there is no row below the comments"), "{}", none.words);
     let two = probes(&rows[1..]).replace(")\n", ") (0.2 0 0 0.3 0 0.5)\n");
     let two = answered(name, "answer.csv", two);
     assert!(two.code == Some(2) && two.words.contains("13 fields where 7 columns are named"), "{}", two.words);
@@ -179,19 +181,29 @@ fn a_dump_without_times_and_shapes_is_told_what_it_does_not_say() {
         .map(|line| if line.split(' ').count() == 5 { format!("{line} 2 1 1") } else { line.to_owned() })
         .collect();
     write(dir.path(), "shear-plane", "answer.dump", whole.join("\n") + "\n");
-    for (axis, reason) in [("x", None), ("y", Some("--rod-axis y, but by shapex shapey shapez the rod lies along x"))] {
+    for (axis, reason) in
+        [("x", None), ("y", Some(":10: --rod-axis y, but by shapex shapey shapez the rod lies along x"))]
+    {
         let told = ["--timestep-s", "1e-5", "--rod-axis", axis];
         let ended = answers(dir.path(), &[&only[..], &told].concat());
         let said = reason.is_none_or(|reason| ended.words.contains(reason));
         assert!(ended.code == Some(reason.map_or(0, |_| 2)) && said, "{}", ended.words);
     }
-    let timed: Vec<_> = (whole.iter())
-        .flat_map(|line| if line == "ITEM: TIMESTEP" { vec!["ITEM: TIME", "1", line] } else { vec![line.as_str()] })
+    let mut times = rows[1..].iter().step_by(4).map(|row| &row[0]);
+    let timed: String = (whole.iter())
+        .map(|line| match line.as_str() {
+            "ITEM: TIMESTEP" => format!("ITEM: TIME\n{}\n{line}\n", times.next().unwrap()),
+            _ => format!("{line}\n"),
+        })
         .collect();
-    write(dir.path(), "shear-plane", "answer.dump", timed.join("\n") + "\n");
+    write(dir.path(), "shear-plane", "answer.dump", timed);
+    for (length, code, reason) in [("1e-5", 0, ""), ("2e-5", 2, "by --timestep-s it is ")] {
+        let ended = answers(dir.path(), &[&only[..], &["--timestep-s", length]].concat());
+        assert!(ended.code == Some(code) && ended.words.contains(reason), "{}", ended.words);
+    }
+    write(dir.path(), "shear-plane", "answer.dump", whole.join("\n").replacen("\n2 ", "\n1 ", 1));
     let ended = answers(dir.path(), &[&only[..], &["--timestep-s", "1e-5"]].concat());
-    let reason = "ITEM: TIME is 1, by --timestep-s it is ";
-    assert!(ended.code == Some(2) && ended.words.contains(reason), "{}", ended.words);
+    assert!(ended.code == Some(2) && ended.words.contains(":11:1: atom 1 is there twice"), "{}", ended.words);
     write(dir.path(), "shear-plane", "answer.dump", dump);
     for (more, reason) in [(&["--rod-axis", "x"][..], "--timestep-s"), (&["--timestep-s", "1e-5"], "--rod-axis")] {
         let ended = answers(dir.path(), &[&only[..], more].concat());

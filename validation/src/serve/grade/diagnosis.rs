@@ -203,6 +203,16 @@ mod tests {
         Answer { rows: rows(loaded, &mistake, 1.0).unwrap(), ..Answer::certified(loaded) }
     }
 
+    #[test]
+    fn curves_are_apart_by_angle_and_length_and_opposite_directions_are_the_same() {
+        let (long, aside) = (Vector3::new(2.0, 0.0, 0.0), Vector3::new(2.0, 0.2, 0.0));
+        for found in [aside, -aside] {
+            assert!((apart(&found, &long, true) - 0.1).abs() < 1e-15);
+            assert!((apart(&found, &long, false) - (aside.norm() - 1.0)).abs() < 1e-15);
+            assert!((apart(&found.normalize(), &long, false) - 0.1f64.atan()).abs() < 1e-15);
+        }
+    }
+
     /// A = W/2 + ΛD and A = W + 2ΛD come to rest in the same direction: they can be distinguished at 2.7 s, but not at
     /// 150 s.
     #[test]
@@ -212,6 +222,9 @@ mod tests {
         assert_eq!(found.suspects, ["W halved twice"]);
         assert!(found.said.is_some());
         assert!(said(vec![(f64::INFINITY, "far".into())], 1.0).suspects.is_empty());
+        let rows = (0..whole.certified.rows.len()).map(|row| whole.start[row % whole.start.len()].to_vec()).collect();
+        let said = diagnose(&whole, &Answer { rows, ..Answer::certified(&whole) }, 0.35).said.unwrap();
+        assert!(said.ends_with("nothing has moved"), "{said}");
         // A live program is asked only for the last time.
         let mut loaded = whole;
         loaded.problem.times_s.drain(..2);

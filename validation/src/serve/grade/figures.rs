@@ -93,3 +93,19 @@ fn own_errors(subject: &Integrator, loaded: &LoadedProblem, rate: f64, counts: &
     let few = counts.iter().copied().filter(|steps| *steps <= MOST_STEPS);
     few.filter_map(error).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::serve::problems;
+
+    #[test]
+    fn errors_on_one_problem_are_drawn_with_both_axes_logarithmic() {
+        let problems = ["mid-flip-2", "mid-flip-11.6"].map(|name| problems::named(name).unwrap().loaded(name.into()));
+        let of =
+            |loaded, error| Graded { errors: vec![(64, error), (128, 0.1 * error)], ..Graded::without_answer(loaded) };
+        let figure = steps(&problems, &[of(&problems[0], 1e-2), of(&problems[1], 1e-3)]).unwrap();
+        assert!(figure.title.ends_with("mid-flip-11.6") && figure.x_log && figure.y_log);
+        assert_eq!(figure.curves[0].y, [1e-3, 1e-4]);
+    }
+}

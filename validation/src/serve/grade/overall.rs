@@ -138,6 +138,10 @@ mod tests {
             both[0].contains("half the shear rate, or twice the shear rate (their curves are equal here)"),
             "{both:?}"
         );
+        // One that can be made in plane Couette flow alone is not ruled out by another flow.
+        let period = "T without 1/r_e";
+        let found = said(&[(Fail, &[period], &[]), (Fail, &[period], &[]), (Pass, &[], &[])]);
+        assert!(found[0].contains(period), "{found:?}");
         // One problem is not enough, nor are two with different mistakes.
         assert_eq!(said(&[(Fail, &[half], &[]), (Fail, &[twice], &[])]), [""; 0]);
     }

@@ -171,3 +171,20 @@ pub fn theory(by_tolerance: bool, observed_order: Option<f64>) -> Theory {
         (false, _) => Theory::Order(1),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_pipes_time_is_taken_off_and_the_best_error_is_named() {
+        let mut program = curve(&integrators::all()[0], ASPECT_RATIO, Budget { seconds_per_run: 1e-4, runs: 1 });
+        program.points = vec![program.points[0].clone(); 2];
+        program.points.iter_mut().zip([1.0, 3.0]).for_each(|(point, seconds)| point.seconds.least = seconds);
+        let best = program.best().unwrap().error_rad();
+        let bench = Bench { aspect_ratio: ASPECT_RATIO, program, pipe_s: Some(1.0), ours: Vec::new() };
+        let left: Vec<_> = bench.without_pipe().points.iter().map(|point| point.seconds.least).collect();
+        assert_eq!(left, [0.1, 2.0]);
+        assert_eq!(bench.table().rows[0][4], format!("{best:.1e}"));
+    }
+}

@@ -65,6 +65,11 @@ fn every_mistake_differs_from_the_truth_somewhere_and_from_the_others() {
 fn names_are_told_apart() {
     let names: std::collections::BTreeSet<_> = all().into_iter().map(|mistake| mistake.name).collect();
     assert_eq!(names.len(), all().len());
+    // Components in another order or with another sign keep every length.
+    for mistake in permuted() {
+        let Kind::Linear { start, end, .. } = mistake.kind else { panic!() };
+        assert_eq!([start, end].map(|m| m * m.transpose()), [Matrix3::identity(); 2], "{}", mistake.name);
+    }
 }
 
 #[test]
@@ -91,6 +96,17 @@ fn tensors_of_isotropic_rods_are_means_over_directions() {
             assert!(off < 4.0 * (r.max(1.0 / r) / f64::from(n)).powi(2), "{r} {time} {off}");
             assert!((found.trace() - 1.0).abs() < 1e-13);
         }
+    }
+}
+
+#[test]
+fn formulas_of_cylinders_are_those_of_the_core() {
+    for (formula, r) in shearbed::model::shape::FORMULAS.iter().flat_map(|formula| [(formula, 20.0), (formula, 1.2)]) {
+        let Some(equivalent) = formula.equivalent(r) else { continue };
+        let name = format!("r_p for r_e (r_e taken as r_p of {})", formula.name);
+        let mistake = all().into_iter().find(|mistake| mistake.name == name).unwrap();
+        let [found, due] = [mistake.map(&couette(r), 9.0), right_map(&couette(equivalent), 9.0)].map(Option::unwrap);
+        assert!((found - due).amax() < 1e-12, "{name}");
     }
 }
 

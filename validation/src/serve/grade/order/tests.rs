@@ -48,6 +48,7 @@ fn what_right_methods_show_is_not_refuted_and_lost_orders_are() {
         (&[-1.0, -1.0], 4.0, Order::Lower),
         (&[4.0, 4.0], 3.0, Order::Higher),
         (&[5.9, 5.8, 5.6], 5.0, Order::Unclear),
+        (&[3.25, 3.1], 4.0, Order::Unclear),
         // Down to 1e-10, a hundredth of the tolerance: round-off, and a method of order 7.
         (&[5.0, 5.0, 5.0, 5.0, 5.0, 1.0, 0.9], 5.0, Order::Seen),
         (&[7.0, 7.1, 7.0], 8.0, Order::Lower),
@@ -92,6 +93,24 @@ fn a_claim_that_is_too_low_fails_where_no_problem_shows_it_and_none_explains_it(
         settled(&[(space, Order::Higher, Verdict::NotReached), (space, Order::Unclear, Verdict::Pass)]),
         [(Verdict::NotReached, none()), (Verdict::Pass, none())]
     );
+}
+
+#[test]
+fn right_answers_alone_are_said_to_have_an_unclear_order() {
+    let problem = |name: &str| crate::serve::problems::named(name).unwrap().loaded(name.into());
+    let of = |(name, order, verdict): (&str, Order, Verdict)| Graded {
+        verdict,
+        order_found: Some(order),
+        ..Graded::without_answer(&problem(name))
+    };
+    let graded = [
+        ("shear-plane", Order::Seen, Verdict::Pass),
+        ("spiral", Order::Unclear, Verdict::Pass),
+        ("sphere", Order::Unclear, Verdict::Fail),
+    ]
+    .map(of);
+    let said = remark(&graded, Some(4.0)).unwrap();
+    assert!(said.starts_with("order 4 is seen on 1 of 3 problems; ") && said.ends_with(" wander, on spiral"), "{said}");
 }
 
 #[test]
