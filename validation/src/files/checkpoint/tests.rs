@@ -177,15 +177,38 @@ fn nothing_that_is_done_is_run_again() {
         assert_eq!((finished.into_inner(), run.progress()), (4, of_run(6, 0)));
         // The progress reported last is that in the file.
         assert_eq!(last.into_inner().unwrap(), Some(of_run(6, 0)));
+        run.run(threads, || panic!("all are done"), |_| panic!("nothing is new")).unwrap();
     }
-    // A replica that is in the sum already is no part of the rest.
-    kept.done.insert(0, run_replica(&plan, 0).unwrap());
     let dir = tempfile::tempdir().unwrap();
     let path = dir.path().join("kept");
-    let inputs = json!({ "scene": super::without_replicas(plan.scene()) });
-    Checkpoint::open(&path, "run", inputs).unwrap().write(&kept).unwrap();
-    let Refused(why) = Replicas::open(&plan, &path, std::time::Duration::from_secs(1)).err().unwrap();
+    let open = |plan: &shearbed::Plan| Replicas::open(plan, &path, std::time::Duration::from_secs(1));
+    let keep = |kept: &Kept| {
+        let inputs = json!({ "scene": super::without_replicas(plan.scene()) });
+        Checkpoint::open(&path, "run", inputs).unwrap().write(kept).unwrap();
+    };
+    // After the deadline none begins but the first two.
+    let run = open(&plan).unwrap();
+    run.run_to(1, (6, Some(std::time::Instant::now())), || (), |_| ()).unwrap();
+    assert_eq!(run.replicas(), 2);
+    drop(run);
+    // A replica that is in the sum already is no part of the rest.
+    kept.done.insert(0, run_replica(&plan, 0).unwrap());
+    keep(&kept);
+    let Refused(why) = open(&plan).err().unwrap();
     assert!(why.contains("it has a replica that this run has finished"), "{why}");
+    // Those of several lack what one has, once they have begun.
+    let one = plan.with_replicas(1);
+    (kept.tally, kept.halfway) = (shearbed::run::ensemble::Tally::new(&one), [].into());
+    kept.done.retain(|replica, _| *replica == 0);
+    for has_begun in [true, false] {
+        keep(&kept);
+        assert_eq!(open(&one).is_err(), has_begun);
+        kept.done.clear();
+    }
+    // One that was asked for alone is the first of several.
+    (kept.asked, kept.done) = (1, [(0, run_replica(&one, 0).unwrap())].into());
+    keep(&kept);
+    assert_eq!(open(&plan).unwrap().run(2, || (), |_| ()).unwrap(), expected);
 }
 
 /// A disk with free space for this number of bytes.
