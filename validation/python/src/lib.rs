@@ -14,20 +14,15 @@ use shearbed::run::{Replica, run_replica};
 use shearbed::scene::document::Document;
 use shearbed::scene::{Absent, Key, of_document};
 use shearbed::{Error, Plan, Results, Scene};
+use shearbed_validation::input::{scenes, start::Starts};
 use std::ffi::OsString;
 use std::ops::Range;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::mpsc::{self, RecvTimeoutError};
 use std::time::Duration;
-use shearbed_validation::input::{scenes, start::Starts};
 
-create_exception!(
-    _core,
-    SceneError,
-    PyValueError,
-    "A scene that cannot be run; the message is the program's."
-);
+create_exception!(_core, SceneError, PyValueError, "A scene that cannot be run; the message is the program's.");
 
 fn plan(name: &str, text: &str, replicas: Option<i128>, seed: Option<i128>) -> PyResult<Plan> {
     let refused = |error: &dyn std::fmt::Display| SceneError::new_err(error.to_string());

@@ -21,9 +21,8 @@ pub fn columns<'py>(py: Python<'py>, plan: &Plan, results: &Results) -> PyResult
     };
     let elapsed = |shot: &Snapshot| results.elapsed[shot.output];
     let scene = plan.scene();
-    let place = |shot: &Snapshot, axis: usize, rod: usize| {
-        shot.place_mm(scene, rod).map_or(f64::NAN, |place| place[axis])
-    };
+    let place =
+        |shot: &Snapshot, axis: usize, rod: usize| shot.place_mm(scene, rod).map_or(f64::NAN, |place| place[axis]);
     all.set_item("replica", each(&|shot, _| shot.replica as f64))?;
     all.set_item("rod", each(&|_, rod| rod as f64))?;
     all.set_item("time_s", each(&|shot, _| elapsed(shot).seconds))?;
