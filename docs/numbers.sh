@@ -5,7 +5,7 @@
 # Usage: bash docs/numbers.sh [release]      with `release` also what takes minutes to hours
 set -euo pipefail
 export ROOT=$(cd "$(dirname "$0")/.." && pwd)
-cargo build --locked --quiet --manifest-path "$ROOT/validation/Cargo.toml"
+cargo build --locked --quiet --manifest-path "$ROOT/validation/cli/Cargo.toml"
 export PATH="$ROOT/target/debug:$PATH"
 table=$ROOT/docs/numbers.tsv
 work=$(mktemp -d)
