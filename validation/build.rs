@@ -4,15 +4,18 @@ use std::path::Path;
 use std::process::Command;
 
 /// What the program is made of, from the workspace's root.
-const SOURCES: [&str; 11] = [
+const SOURCES: [&str; 14] = [
     "Cargo.toml",
     "Cargo.lock",
     "src",
     "validation/Cargo.toml",
     "validation/build.rs",
-    "validation/cli",
-    "validation/methods",
-    "validation/oracle",
+    "validation/cli/Cargo.toml",
+    "validation/cli/src",
+    "validation/methods/Cargo.toml",
+    "validation/methods/src",
+    "validation/oracle/Cargo.toml",
+    "validation/oracle/src",
     "validation/fonts",
     "validation/src",
     "validation/scenes",
