@@ -15,7 +15,16 @@ from pathlib import Path
 
 import numpy as np
 from fiberoripy.closures import compute_closure
-from fiberoripy.orientation import integrate_ori_ode, jeffery_ode
+from fiberoripy.orientation import (
+    ard_rsc_ode,
+    folgar_tucker_ode,
+    iard_ode,
+    integrate_ori_ode,
+    jeffery_ode,
+    mrd_ode,
+    pard_ode,
+    rsc_ode,
+)
 from scipy.integrate import solve_ivp
 
 
@@ -48,6 +57,41 @@ def rod(gradient, r_e, p, times, tolerance):
     return [direction(a.reshape(3, 3)) for a in tensors(gradient, r_e, a0, times, "QUADRATIC", tolerance)]
 
 
+SIX = [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)]
+CLOSURES = {"linear": "LINEAR", "quadratic": "QUADRATIC", "hybrid": "HYBRID", "orw": "ORW", "ibof": "IBOF"}
+MODELS = {
+    "folgar-tucker": (folgar_tucker_ode, lambda c_i: {"Ci": c_i}),
+    "rsc": (rsc_ode, lambda c_i, kappa: {"Ci": c_i, "kappa": kappa}),
+    "iard": (iard_ode, lambda c_i, c_m: {"Ci": c_i, "Cm": c_m}),
+    "pard": (pard_ode, lambda c_i, omega: {"Ci": c_i, "Omega": omega}),
+    "mrd": (mrd_ode, lambda c_i, d: {"Ci": c_i, "D1": d[0], "D2": d[1], "D3": d[2]}),
+    "phelps-tucker": (ard_rsc_ode, lambda b, kappa: {f"b{k + 1}": b for k, b in enumerate(b)} | {"kappa": kappa}),
+}
+
+
+def formula(asked, row):
+    """The answer to a row of a formula; nothing where fiberoripy has no such closure."""
+    if asked["of"] == "pdot":
+        p, L, r_e = row[:3], row[3:12].reshape(3, 3), row[12]
+        W, D = 0.5 * (L - L.T), 0.5 * (L + L.T)
+        rate = jeffery_ode(np.outer(p, p), np.einsum("i,j,k,l", p, p, p, p), D, W, (r_e**2 - 1) / (r_e**2 + 1))
+        # d(pp)/dt p = ṗ + p (p·ṗ), and ṗ is normal to p.
+        return rate @ p
+    if asked["closure"] not in CLOSURES:
+        return None
+    a = np.empty((3, 3))
+    for (i, j), x in zip(SIX, row):
+        a[i, j] = a[j, i] = x
+    A = compute_closure(a, CLOSURES[asked["closure"]])
+    if asked["of"] == "closure":
+        return [A[SIX[m] + SIX[n]] for m in range(6) for n in range(m, 6)]
+    L, r_e = row[6:15].reshape(3, 3), row[15]
+    ((name, parameters),) = asked["model"].items()
+    ode, words = MODELS[name]
+    rate = ode(a, A, 0.5 * (L + L.T), 0.5 * (L - L.T), (r_e**2 - 1) / (r_e**2 + 1), **words(**parameters))
+    return [rate[place] for place in SIX]
+
+
 def files(reference, mine, closure):
     for file in sorted(reference.glob("*/problem.json")):
         problem = json.loads(file.read_text())
@@ -63,6 +107,13 @@ def files(reference, mine, closure):
                 for k, time in enumerate(times):
                     for number, of_rod in enumerate(found):
                         print(time, number, *map(repr, map(float, of_rod[k])), sep=",", file=answer)
+        elif problem["kind"] == "formula":
+            rows = np.loadtxt(file.parent / "inputs.csv", delimiter=",", skiprows=1)
+            found = [formula(problem["formula"], row[1:]) for row in rows]
+            if found[0] is not None:
+                folder.mkdir(parents=True, exist_ok=True)
+                table = np.column_stack([rows[:, 0], found])
+                np.savetxt(folder / "answer.csv", table, delimiter=",", header=",".join(problem["columns"]), comments="")
         elif problem["kind"] == "tensor" and "closed" not in problem and problem["columns"][1:] == ["a11", "a22", "a33", "a12", "a13", "a23"]:
             found = tensors(gradient, r_e, np.eye(3) / 3, times, closure, 1e-10)
             folder.mkdir(parents=True, exist_ok=True)

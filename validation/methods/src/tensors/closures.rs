@@ -84,7 +84,12 @@ fn delta(i: usize, j: usize) -> f64 {
     if i == j { 1.0 } else { 0.0 }
 }
 
-fn linear(a: &Matrix3<f64>) -> Fourth {
+pub(super) fn linear(a: &Matrix3<f64>) -> Fourth {
+    linear_by(a, 7.0, 35.0)
+}
+
+/// The linear closure with other divisors than 7 of the terms aδ and 35 of δδ.
+pub(super) fn linear_by(a: &Matrix3<f64>, seven: f64, thirty_five: f64) -> Fourth {
     Fourth::from_fn(|i, j, k, l| {
         let ones = delta(i, j) * delta(k, l) + delta(i, k) * delta(j, l) + delta(i, l) * delta(j, k);
         let mixed = a[(i, j)] * delta(k, l)
@@ -93,10 +98,10 @@ fn linear(a: &Matrix3<f64>) -> Fourth {
             + a[(k, l)] * delta(i, j)
             + a[(j, l)] * delta(i, k)
             + a[(j, k)] * delta(i, l);
-        mixed / 7.0 - ones / 35.0
+        mixed / seven - ones / thirty_five
     })
 }
 
-fn quadratic(a: &Matrix3<f64>) -> Fourth {
+pub(super) fn quadratic(a: &Matrix3<f64>) -> Fourth {
     Fourth::from_fn(|i, j, k, l| a[(i, j)] * a[(k, l)])
 }

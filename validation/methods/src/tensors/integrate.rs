@@ -10,11 +10,14 @@ const PAIRS: [(usize, usize); 6] = super::fourth::PAIRS;
 /// Number of steps up to an output time after which the method gives up: a hundred times what the problems take.
 const MOST_STEPS: u32 = 20_000;
 
-struct Rate<'a>(&'a Equation);
+/// The rate of a_ij in 1/s.
+pub type Rate<'a> = &'a dyn Fn(&Matrix3<f64>) -> Matrix3<f64>;
 
-impl System<f64, Vector6<f64>> for Rate<'_> {
+struct Ode<'a>(Rate<'a>);
+
+impl System<f64, Vector6<f64>> for Ode<'_> {
     fn system(&self, _: f64, a: &Vector6<f64>, rate: &mut Vector6<f64>) {
-        let found = self.0.rate(&matrix(a));
+        let found = self.0(&matrix(a));
         *rate = Vector6::from_fn(|n, _| found[PAIRS[n]]);
     }
 }
@@ -26,6 +29,11 @@ fn matrix(a: &Vector6<f64>) -> Matrix3<f64> {
 /// a_ij at `times_s` ≥ 0 in ascending order, from `start`, by Dormand & Prince's method of order 8 with `tolerance` as
 /// relative and absolute tolerance of a step. `None` if the method gives up or a is not finite.
 pub fn at(equation: &Equation, start: &Matrix3<f64>, times_s: &[f64], tolerance: f64) -> Option<Vec<Matrix3<f64>>> {
+    at_rate(&|a| equation.rate(a), start, times_s, tolerance)
+}
+
+/// As [`at`], for any rate.
+pub fn at_rate(rate: Rate, start: &Matrix3<f64>, times_s: &[f64], tolerance: f64) -> Option<Vec<Matrix3<f64>>> {
     let mut now = 0.0;
     let mut a = Vector6::from_fn(|n, _| start[PAIRS[n]]);
     let mut all = Vec::new();
@@ -34,9 +42,9 @@ pub fn at(equation: &Equation, start: &Matrix3<f64>, times_s: &[f64], tolerance:
             let span = time - now;
             // The library's defaults, except for the number of steps: at kinks of a closure the method may not get
             // through.
-            let (rate, out) = (Rate(equation), OutputType::Sparse);
+            let (ode, out) = (Ode(rate), OutputType::Sparse);
             let mut solver = Dop853::from_param(
-                rate, 0.0, span, span, a, tolerance, tolerance, 0.9, 0.0, 0.333, 6.0, span, 0.0, MOST_STEPS, 1000, out,
+                ode, 0.0, span, span, a, tolerance, tolerance, 0.9, 0.0, 0.333, 6.0, span, 0.0, MOST_STEPS, 1000, out,
             );
             solver.integrate().ok()?;
             a = *solver.y_out().last()?;
@@ -57,19 +65,23 @@ const ROUGH: f64 = 1e-6;
 /// A steady a_ij: that to which Newton's method leads from where a is after some strain, close by. `None` where a comes
 /// near none.
 pub fn steady(equation: &Equation, start: &Matrix3<f64>) -> Option<Matrix3<f64>> {
-    let norm = equation.gradient_per_s.norm();
+    steady_of(&|a| equation.rate(a), equation.gradient_per_s.norm(), start)
+}
+
+/// As [`steady`], for any rate in a flow with the norm |L| in 1/s.
+pub fn steady_of(rate: Rate, norm: f64, start: &Matrix3<f64>) -> Option<Matrix3<f64>> {
     // Short stretches: a step at the edge of stability is no stiffness.
     let (mut a, mut strain, mut stretch) = (*start, 0.0, 10.0);
     while strain < MOST_STRAIN {
         for tolerance in [1e-9, ROUGH] {
-            if let Some(found) = at(equation, &a, &[stretch / norm], tolerance) {
+            if let Some(found) = at_rate(rate, &a, &[stretch / norm], tolerance) {
                 a = found[0];
                 break;
             }
         }
         strain += stretch;
         if strain >= 100.0 {
-            if let Some(found) = newton(equation, &a) {
+            if let Some(found) = newton(rate, norm, &a) {
                 return Some(found);
             }
             stretch = strain;
@@ -80,10 +92,9 @@ pub fn steady(equation: &Equation, start: &Matrix3<f64>) -> Option<Matrix3<f64>>
 
 /// The steady a_ij to which Newton's method leads from `settled`; `None` where it leads farther than 0.05, or to no
 /// state of rods.
-fn newton(equation: &Equation, settled: &Matrix3<f64>) -> Option<Matrix3<f64>> {
-    let norm = equation.gradient_per_s.norm();
+fn newton(rate: Rate, norm: f64, settled: &Matrix3<f64>) -> Option<Matrix3<f64>> {
     let rate = |a: &Matrix3<f64>| {
-        let found = equation.rate(a) / norm;
+        let found = rate(a) / norm;
         Vector6::from_fn(|n, _| found[PAIRS[n]])
     };
     let mut a = *settled;

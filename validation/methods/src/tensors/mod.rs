@@ -12,14 +12,15 @@ pub mod models;
 mod natural;
 pub mod orthotropic;
 pub mod second;
+pub mod wrong;
 
 #[cfg(test)]
 mod tests;
 
 pub use closures::Closure;
 pub use fourth::Fourth;
-pub use integrate::{at, steady};
-pub use models::{Equation, Model};
+pub use integrate::{at, at_rate, steady, steady_of};
+pub use models::{Equation, Model, Parts};
 
 /// An initial a_ij with three distinct axes, which some models, and ORW, need.
 pub const APART: [[f64; 3]; 3] = [[0.1875, 0.125, 0.0], [0.125, 0.5, 0.0], [0.0, 0.0, 0.3125]];

@@ -157,22 +157,55 @@ impl Equation {
 
     /// The rate da_ij/dt in 1/s, with the fourth moments `fourth`.
     pub fn rate_with(&self, a: &Matrix3<f64>, fourth: &Fourth) -> Matrix3<f64> {
-        let l = &self.gradient_per_s;
-        let (w, d) = ((l - l.transpose()) * 0.5, (l + l.transpose()) * 0.5);
-        let rate = (2.0 * d.dot(&d)).sqrt();
-        if rate == 0.0 {
-            return w * a - a * w;
-        }
-        let c = self.model.diffusivity(a, &d, rate);
-        let kappa = self.model.slowness();
-        let (fourth, source) = if kappa == 1.0 { (*fourth, c) } else { slowed(kappa, a, fourth, &c) };
-        let turned = w * a - a * w;
-        let stretched = d * a + a * d - fourth.contract(&d) * 2.0;
-        let diffused = diffusion(a, &fourth, &c) + (source - c) * 2.0 + a * (2.0 * (1.0 - kappa) * c.trace());
-        let all = turned + stretched * self.shape_factor + diffused * rate;
+        let all = self.parts().rate(a, fourth);
         // tr a = 1 stays by the closure's own trace. Where a closure is not linear, as 𝔸 = aa, rounding would grow: 𝔸:δ
         // = a tr a.
         all - Matrix3::identity() * (all.trace() / 3.0)
+    }
+
+    /// The quantities that enter the rate.
+    pub fn parts(&self) -> Parts {
+        let l = &self.gradient_per_s;
+        let (spin, strain) = ((l - l.transpose()) * 0.5, (l + l.transpose()) * 0.5);
+        let speed = (2.0 * strain.dot(&strain)).sqrt();
+        Parts { spin, strain, shape: self.shape_factor, of_fourth: 2.0, speed, decay: 3.0, model: self.model }
+    }
+}
+
+/// The quantities that enter the rate of a_ij; a wrong implementation has a wrong one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Parts {
+    /// W in 1/s.
+    pub spin: Matrix3<f64>,
+    /// D in 1/s.
+    pub strain: Matrix3<f64>,
+    /// Λ.
+    pub shape: f64,
+    /// The 2 before 𝔸:D.
+    pub of_fourth: f64,
+    /// γ̇ in 1/s.
+    pub speed: f64,
+    /// The 3 of Folgar & Tucker's δ − 3a.
+    pub decay: f64,
+    /// The model.
+    pub model: Model,
+}
+
+impl Parts {
+    /// The rate da_ij/dt in 1/s of the equation with these parts, as it stands: the trace is not corrected.
+    pub fn rate(&self, a: &Matrix3<f64>, fourth: &Fourth) -> Matrix3<f64> {
+        let Self { spin: w, strain: d, shape, of_fourth, speed, decay, model } = self;
+        let turned = w * a - a * w;
+        if *d == Matrix3::zeros() {
+            return turned;
+        }
+        let c = model.diffusivity(a, d, *speed);
+        let kappa = model.slowness();
+        let (fourth, source) = if kappa == 1.0 { (*fourth, c) } else { slowed(kappa, a, fourth, &c) };
+        let stretched = d * a + a * d - fourth.contract(d) * *of_fourth;
+        let diffused = diffusion(a, &fourth, &c) + (source - c) * 2.0 + a * (2.0 * (1.0 - kappa) * c.trace());
+        let undecayed = a * (2.0 * (1.0 - decay / 3.0) * c.trace());
+        turned + stretched * *shape + (diffused + undecayed) * *speed
     }
 }
 

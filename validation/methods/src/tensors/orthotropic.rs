@@ -14,6 +14,13 @@ pub const ORW: [[f64; 6]; 3] = [
     [1.249811, -2.148297, 0.898521, -2.290157, 1.044147, 1.934914],
 ];
 
+/// As [`ORW`]; of Cintra & Tucker 1995, J. Rheol. 39, 1095, as in fiberoripy, commit 08d401d (MIT).
+const ORF: [[f64; 6]; 3] = [
+    [0.060964, 0.371243, 0.555301, -0.369160, 0.318266, 0.371218],
+    [0.124711, -0.389402, 0.258844, 0.086169, 0.796080, 0.544992],
+    [1.228982, -2.054116, 0.821548, -2.260574, 1.053907, 1.819756],
+];
+
 /// Columns: a_1111, a_2222, a_3333. Rows: 1, x, y, xy, x², y², x²y, xy², x³, y³, x²y², x³y, xy³, x⁴, y⁴ (Verweyst 1998,
 /// thesis, University of Illinois).
 #[rustfmt::skip]
@@ -59,9 +66,17 @@ pub(super) fn ore(a: &Matrix3<f64>) -> Fourth {
 }
 
 pub(super) fn orw(a: &Matrix3<f64>) -> Fourth {
+    quadratics(a, &ORW)
+}
+
+pub(super) fn orf(a: &Matrix3<f64>) -> Fourth {
+    quadratics(a, &ORF)
+}
+
+fn quadratics(a: &Matrix3<f64>, coefficients: &[[f64; 6]; 3]) -> Fourth {
     fitted(a, |x, y| {
         let powers = [1.0, x, x * x, y, y * y, x * y];
-        Vector3::from_fn(|m, _| ORW[m].iter().zip(powers).map(|(c, power)| c * power).sum())
+        Vector3::from_fn(|m, _| coefficients[m].iter().zip(powers).map(|(c, power)| c * power).sum())
     })
 }
 

@@ -3,6 +3,7 @@
 //! The coefficients of fits and the integrals of the natural closure, which exact distributions check, are shared with
 //! the first one; eigenvectors (Jacobi's), invariants, contractions, models and steps are not.
 
+use super::fourth::{Fourth, PAIRS};
 use super::ibof::{COEFFICIENTS, POWERS};
 use super::orthotropic::{ORE, ORW};
 use super::{Closure, Equation, Model};
@@ -51,7 +52,8 @@ fn step(equation: &Equation, a: &M, time_s: f64) -> M {
     table[0]
 }
 
-fn rate(equation: &Equation, a: &M) -> M {
+/// The rate da_ij/dt in 1/s.
+pub fn rate(equation: &Equation, a: &M) -> M {
     let (values, axes) = eigen(a);
     let a = M::from_diagonal(&values);
     let l = axes.transpose() * equation.gradient_per_s * axes;
@@ -81,6 +83,21 @@ fn rate(equation: &Equation, a: &M) -> M {
     // κ slows the change of the eigenvalues.
     (0..3).for_each(|i| found[(i, i)] *= kappa);
     axes * found * axes.transpose()
+}
+
+/// a_ijkl, by contraction with each pair of axes.
+pub fn fourth(closure: Closure, a: &M) -> Fourth {
+    let (values, axes) = eigen(a);
+    let pairs = PAIRS.map(|(k, l)| {
+        let unit =
+            M::from_fn(|i, j| if (i, j) == (k, l) || (i, j) == (l, k) { if k == l { 1.0 } else { 0.5 } } else { 0.0 });
+        let inside = contracted(closure, &axes, &values, &(axes.transpose() * unit * axes));
+        axes * inside * axes.transpose()
+    });
+    Fourth::from_fn(|i, j, k, l| {
+        let column = PAIRS.iter().position(|pair| *pair == (k.min(l), k.max(l)));
+        column.map_or(f64::NAN, |column| pairs[column][(i, j)])
+    })
 }
 
 /// 𝔸:m in the axes of a.

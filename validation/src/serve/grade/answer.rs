@@ -59,7 +59,7 @@ impl<'a> Collector<'a> {
     pub(super) fn new(problem: &'a LoadedProblem) -> Self {
         let rods = problem.start.len().max(1);
         let ahead = match problem.problem.kind {
-            Kind::Contact => 0,
+            Kind::Contact | Kind::Formula => 0,
             _ => rods,
         };
         let rows = problem.certified.rows.len();
@@ -110,7 +110,7 @@ impl<'a> Collector<'a> {
                 Err((key, format!("{name} = {found}; whole numbers from 0 to {} are asked for", count - 1)))
             }
         };
-        if self.problem.problem.kind == Kind::Contact {
+        if self.ahead == 0 {
             return whole(0, self.rows.len());
         }
         let time = self.time(keys[0])?;

@@ -1,13 +1,13 @@
 //! Diagnosis of a wrong answer: the known mistake that produces the same curve.
 
 use super::answer::Answer;
-use super::closures;
 use super::contact;
 use super::means;
 use super::mistakes::{self, Mistake};
 pub use super::nearness::Diagnosis;
 use super::nearness::{NEARER, apart, setting};
 use super::rates;
+use super::tensors;
 use crate::methods::integrators::apart_rad;
 use crate::serve::problems::{Kind, LoadedProblem};
 use nalgebra::Vector3;
@@ -23,6 +23,7 @@ pub fn diagnose(loaded: &LoadedProblem, answer: &Answer, error: f64) -> Diagnosi
     let tolerance = loaded.problem.tolerance;
     match loaded.problem.kind {
         Kind::Contact => said(contact::near(loaded, answer, NEARER * error), tolerance),
+        Kind::Formula => tensors::formulas::diagnose(loaded, answer, error),
         Kind::Ensemble => Diagnosis { said: means::ensemble(loaded, answer), ..Diagnosis::default() },
         _ if loaded.problem.aspect_ratio_sd_percent > 0.0 => {
             said(means::unequal(loaded, answer, NEARER * error), tolerance)
@@ -32,7 +33,7 @@ pub fn diagnose(loaded: &LoadedProblem, answer: &Answer, error: f64) -> Diagnosi
             Diagnosis { said: Some(said), ..Diagnosis::default() }
         }
         Kind::Tensor if loaded.problem.c_i.is_some() || loaded.problem.closed.is_some() => {
-            closures::diagnose(loaded, answer, error)
+            tensors::diagnose(loaded, answer, error)
         }
         _ => {
             let nearer_than = NEARER * error;
@@ -160,7 +161,7 @@ fn rows(loaded: &LoadedProblem, mistake: &Mistake, part: f64) -> Option<Vec<Vec<
             };
             problem.times_s.iter().map(of_time).collect()
         }
-        Kind::Contact | Kind::Ensemble => None,
+        Kind::Contact | Kind::Formula | Kind::Ensemble => None,
     }
 }
 

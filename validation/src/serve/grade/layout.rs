@@ -118,16 +118,41 @@ fn split(line: &str, separator: char) -> impl Iterator<Item = &str> {
     parts.map(str::trim).filter(move |part| !blank || !part.is_empty())
 }
 
+/// The name of a fourth moment whose indices are in order: all four of moments, those of each pair and the pairs of a
+/// closure, for which a_1122 need not be a_1212. Other names stay.
+fn in_order(name: &str, kind: Kind) -> String {
+    let digits = name.strip_prefix('a').filter(|digits| digits.len() == 4 && digits.bytes().all(|b| b.is_ascii_digit()));
+    let Some(digits) = digits else { return name.to_owned() };
+    let mut digits: Vec<char> = digits.chars().collect();
+    if kind == Kind::Formula {
+        digits.chunks_mut(2).for_each(<[char]>::sort_unstable);
+        let place = |pair: &[char]| PAIRS.iter().position(|(i, j)| pair.iter().copied().eq([*i, *j]));
+        if place(&digits[..2]) > place(&digits[2..]) {
+            digits.rotate_left(2);
+        }
+    } else {
+        digits.sort_unstable();
+    }
+    format!("a{}", digits.iter().collect::<String>())
+}
+
+/// Index pairs in the order of columns.
+const PAIRS: [(char, char); 6] = [('1', '1'), ('2', '2'), ('3', '3'), ('1', '2'), ('1', '3'), ('2', '3')];
+
 fn fields(names: &[String], problem: &Problem, axes: Axes) -> Result<Vec<Field>, (usize, String)> {
     let keys = problem.kind.keys();
-    let theirs: Vec<_> = problem.columns[keys.len()..].iter().map(|column| axes.theirs(column)).collect();
+    let of_program = |column: &String| {
+        let (name, sign) = axes.theirs(column);
+        (in_order(&name, problem.kind), sign)
+    };
+    let theirs: Vec<_> = problem.columns[keys.len()..].iter().map(of_program).collect();
     let mut fields = Vec::new();
     for (k, name) in names.iter().enumerate() {
         let mirrored: String = match name.strip_prefix('a') {
             Some(digits) if digits.len() == 2 => format!("a{}", digits.chars().rev().collect::<String>()),
             _ => String::new(),
         };
-        let value = |name: &str| theirs.iter().position(|(column, _)| column == name);
+        let value = |name: &str| theirs.iter().position(|(column, _)| *column == in_order(name, problem.kind));
         let field = if name == "-" {
             Field::Nothing
         } else if let Some(key) = keys.iter().position(|key| key == name) {

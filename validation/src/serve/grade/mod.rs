@@ -3,7 +3,6 @@
 
 mod answer;
 mod axes;
-mod closures;
 mod compare;
 mod contact;
 mod diagnosis;
@@ -21,6 +20,7 @@ mod overall;
 mod rates;
 mod read;
 mod report;
+mod tensors;
 
 pub use crate::files::csv::LineEnds;
 pub use axes::Axes;

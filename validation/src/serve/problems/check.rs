@@ -2,6 +2,7 @@
 //! must be in its range. The JSON Schema (`schemas/problem.schema.json`) has the same rules.
 
 use super::folgar_tucker::FOURTH;
+use super::formula;
 use super::table::LONGEST_EXCERPT;
 use super::{Ensemble, Kind, LoadedProblem, Metric, Problem};
 use crate::files::FileError;
@@ -25,6 +26,7 @@ fn form(kind: Kind) -> (Metric, [f64; 2], Columns) {
             &[&["a11", "a22", "a33", "a12", "a13", "a23"], &["x1", "x2", "x3"], &FOURTH],
         ),
         Kind::Contact => (Metric::Relative, [LEAST, 0.1], &[&RATES, &ANGLES]),
+        Kind::Formula => (Metric::Absolute, [LEAST, 0.1], &[&formula::PDOT, &formula::FOURTH, &formula::DADT]),
         Kind::Ensemble => (Metric::StandardErrors, [1.0, 10.0], &[&["x1", "x1_se", "x2", "x2_se", "x3", "x3_se"]]),
     }
 }
@@ -84,6 +86,7 @@ pub(super) fn check(folder: &Path, problem: &Problem) -> Result<(), Refused> {
     spread(problem)?;
     diffusion(problem)?;
     closed(problem)?;
+    formula(problem)?;
     times(problem)?;
     ensemble(problem)
 }
@@ -196,14 +199,31 @@ fn closed(problem: &Problem) -> Result<(), Refused> {
     }
 }
 
+/// Refuses a formula that is missing, of another kind, or has other columns.
+fn formula(problem: &Problem) -> Result<(), Refused> {
+    let refused = |why: &str| Err(("formula", why.to_owned()));
+    match (&problem.formula, problem.kind) {
+        (None, Kind::Formula) => refused("it must be there for the kind \"formula\""),
+        (Some(_), kind) if kind != Kind::Formula => refused("it belongs to the kind \"formula\" alone"),
+        (Some(formula), _) if !problem.columns[1..].iter().eq(formula.answers()) => {
+            refused(&format!("its columns are {}", formula.answers().join(",")))
+        }
+        (Some(super::Formula::Dadt { model, .. }), _) => {
+            model.parameters().iter().try_for_each(|x| between("formula", *x, [-MOST, MOST]))
+        }
+        _ => Ok(()),
+    }
+}
+
 fn times(problem: &Problem) -> Result<(), Refused> {
     let times = &problem.times_s;
     let ascending = times.windows(2).all(|pair| pair[0] < pair[1]);
     let positive = times.first().is_none_or(|first| *first > 0.0);
-    if !ascending || !positive || times.is_empty() != (problem.kind == Kind::Contact) {
+    if !ascending || !positive || times.is_empty() != matches!(problem.kind, Kind::Contact | Kind::Formula) {
         return Err((
             "times_s",
-            "they must be above 0 and ascend, and there must be one at least, but of contacts none".to_owned(),
+            "they must be above 0 and ascend, and there must be one at least, but of contacts and formulas none"
+                .to_owned(),
         ));
     }
     let rate = problem.gradient_per_s.iter().flatten().fold(0.0, |a: f64, b| a.max(b.abs()));
@@ -256,17 +276,20 @@ pub(super) fn tables(loaded: &LoadedProblem) -> Result<(), FileError> {
     let dir = &loaded.dir;
     if let Some(inputs) = &loaded.inputs {
         let path = dir.join("inputs.csv");
-        for (row, pair) in inputs.rows.iter().enumerate() {
+        for (row, values) in inputs.rows.iter().enumerate() {
             let wrong =
                 |column: usize, message: String| FileError::at(&path, inputs.line(row), column as u64 + 1, message);
-            if pair[0] != row as f64 {
-                return Err(wrong(0, format!("snapshot = {}; {row} is next", pair[0])));
+            if values[0] != row as f64 {
+                return Err(wrong(0, format!("{} = {}; {row} is next", inputs.columns[0], values[0])));
             }
-            for at in [4, 11] {
-                unit(&pair[at..at + 3]).map_err(|message| wrong(at, message))?;
-            }
-            for at in [7, 14] {
-                between("aspect_ratio", pair[at], RATIOS).map_err(|(_, message)| wrong(at, message))?;
+            for (at, name) in inputs.columns.iter().enumerate() {
+                if name.ends_with("p1") {
+                    unit(&values[at..at + 3]).map_err(|message| wrong(at, message))?;
+                } else if name.ends_with("aspect_ratio") {
+                    between("aspect_ratio", values[at], RATIOS).map_err(|(_, message)| wrong(at, message))?;
+                } else if name == "a11" && (values[at..at + 3].iter().sum::<f64>() - 1.0).abs() > 1e-12 {
+                    return Err(wrong(at, "a11 + a22 + a33 must be 1".to_owned()));
+                }
             }
         }
     }
@@ -297,6 +320,7 @@ fn certified(problem: &Problem, values: &[f64]) -> Result<(), String> {
                 Err("all values of a rod are 0: there is no relative error".to_owned())
             }
         }
+        Kind::Formula => Ok(()),
         Kind::Tensor if values.len() == 6 => {
             if (values[..3].iter().sum::<f64>() - 1.0).abs() < 1e-9 {
                 Ok(())

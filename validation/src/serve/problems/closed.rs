@@ -147,6 +147,7 @@ fn built(def: &ProblemDef, problem: &ClosureProblem) -> Built {
             aspect_ratio_sd_percent: 0.0,
             c_i: None,
             closed: Some(problem.closed),
+            formula: None,
             times_s: problem.times_s(),
             time_step_s: None,
             columns: std::iter::once("time_s").chain(COLUMNS).map(String::from).collect(),

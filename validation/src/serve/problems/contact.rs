@@ -79,6 +79,7 @@ impl ContactProblem {
                 times_s: Vec::new(),
                 c_i: None,
                 closed: None,
+                formula: None,
                 time_step_s: self.step_s,
                 columns,
                 metric: Metric::Relative,

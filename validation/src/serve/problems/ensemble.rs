@@ -62,6 +62,7 @@ fn built(def: &ProblemDef, sd_percent: f64, table: &str) -> Built {
             times_s,
             c_i: None,
             closed: None,
+            formula: None,
             time_step_s: None,
             columns: ["time_s", "x1", "x1_se", "x2", "x2_se", "x3", "x3_se"].map(String::from).into(),
             metric: Metric::StandardErrors,

@@ -1,6 +1,6 @@
 //! Export of problems as folders of files.
 
-use super::{Built, INPUT_COLUMNS, ProblemDef, all, built, page};
+use super::{Built, ProblemDef, all, built, page};
 use crate::files::output::{self, Output, Refused, ResultFolder};
 use serde_json::json;
 use std::path::Path;
@@ -43,13 +43,13 @@ pub fn files(built: &Built) -> Vec<Output> {
             .collect();
         files.push(("start.csv".into(), csv(&["rod", "p1", "p2", "p3"], &rows)));
     }
-    if !built.inputs.is_empty() {
+    if let Some(columns) = problem.input_columns() {
         let row = |(at, row): (usize, &Vec<f64>)| {
             let numbers = row.iter().map(|x| format!("{x:?}"));
             std::iter::once(at.to_string()).chain(numbers).collect()
         };
         let rows: Vec<Vec<String>> = built.inputs.iter().enumerate().map(row).collect();
-        files.push(("inputs.csv".into(), csv(&INPUT_COLUMNS, &rows)));
+        files.push(("inputs.csv".into(), csv(&columns, &rows)));
     }
     files
 }

@@ -171,6 +171,7 @@ fn built(def: &ProblemDef, problem: &DiffusionProblem, values: std::ops::Range<u
             aspect_ratio_sd_percent: 0.0,
             c_i: Some(problem.c_i),
             closed: None,
+            formula: None,
             times_s: problem.times_s(),
             time_step_s: None,
             columns,

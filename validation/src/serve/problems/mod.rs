@@ -1,7 +1,7 @@
 //! Reference problems for any program: the question, the start, and the certified answer, as folders of files.
 //!
 //! `all` is the registry. `export` writes one folder per problem: `problem.json` ([`Problem`]), `start.csv` for given
-//! rods, `inputs.csv` for given pairs in contact, `certified.csv`, `README.md`. `read` reads such folders back. A
+//! rods, `inputs.csv` for given pairs in contact and rows of a formula, `certified.csv`, `README.md`. `read` reads such folders back. A
 //! folder with the name of a built-in problem is refused if it differs from that problem; a folder of another name is
 //! [`Origin::Foreign`].
 
@@ -14,6 +14,7 @@ mod ensemble;
 mod export;
 mod flows;
 pub mod folgar_tucker;
+pub mod formula;
 mod origin;
 mod page;
 mod read;
@@ -26,6 +27,7 @@ pub use archive::archive;
 pub use check::tolerances;
 pub use contact::certify as certify_contacts;
 pub use export::{SCHEMA, export, files};
+pub use formula::Formula;
 pub use read::read;
 pub use table::Table;
 
@@ -68,6 +70,8 @@ pub enum Kind {
     Tensor,
     /// The rates or angles of given pairs of rods after the contact rule. Key of a row: `snapshot`.
     Contact,
+    /// A formula without time, for each of given rows. Key of a row: `row`.
+    Formula,
     /// Means over replicas of a suspension with collisions, with standard errors. Key of a row: `time_s`.
     Ensemble,
 }
@@ -79,6 +83,7 @@ impl Kind {
             Self::Rods => &["time_s", "rod"],
             Self::Tensor | Self::Ensemble => &["time_s"],
             Self::Contact => &["snapshot"],
+            Self::Formula => &["row"],
         }
     }
 }
@@ -137,6 +142,9 @@ pub struct Problem {
     /// The closed equation to solve; none if the answer is that of the distribution itself.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub closed: Option<Closed>,
+    /// The formula that is asked for.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub formula: Option<Formula>,
     /// Times of the answer, s, ascending; empty where no time passes.
     pub times_s: Vec<f64>,
     /// Δt of A.14, s, if the answer has angles after a step.
@@ -167,6 +175,14 @@ impl Problem {
     pub fn is_steady(&self) -> bool {
         let norm = self.gradient_per_s.as_flattened().iter().map(|g| g * g).sum::<f64>().sqrt();
         self.kind == Kind::Tensor && matches!(self.times_s[..], [time] if time * norm > LATE)
+    }
+
+    /// The columns of `inputs.csv`; none where the problem has no such file.
+    pub fn input_columns(&self) -> Option<Vec<&'static str>> {
+        match self.kind {
+            Kind::Contact => Some(INPUT_COLUMNS.into()),
+            _ => self.formula.map(|formula| formula.inputs()),
+        }
     }
 }
 
@@ -215,7 +231,7 @@ pub struct LoadedProblem {
     pub problem: Problem,
     /// `start.csv`: p of each rod at t = 0, in order of `rod` from 0; empty where none are given.
     pub start: Vec<[f64; 3]>,
-    /// `inputs.csv`: the pairs of a contact problem.
+    /// `inputs.csv`: the pairs of a contact problem, the rows of a formula.
     pub inputs: Option<Table>,
     /// `certified.csv`: its columns are `problem.columns`.
     pub certified: Table,
@@ -237,7 +253,7 @@ impl LoadedProblem {
 
 /// The columns of `inputs.csv`: centre (mm), axis and r_e of the rods a and b.
 #[rustfmt::skip]
-pub const INPUT_COLUMNS: [&str; 15] = [
+const INPUT_COLUMNS: [&str; 15] = [
     "snapshot",
     "a_x1_mm", "a_x2_mm", "a_x3_mm", "a_p1", "a_p2", "a_p3", "a_aspect_ratio",
     "b_x1_mm", "b_x2_mm", "b_x3_mm", "b_p1", "b_p2", "b_p3", "b_aspect_ratio",
@@ -300,8 +316,8 @@ impl Built {
             own_tolerance: self.problem.tolerance,
             problem: self.problem.clone(),
             start: self.start.clone(),
-            inputs: (!self.inputs.is_empty()).then(|| Table {
-                columns: INPUT_COLUMNS.map(String::from).into(),
+            inputs: self.problem.input_columns().map(|columns| Table {
+                columns: columns.into_iter().map(String::from).collect(),
                 rows: self.inputs.iter().enumerate().map(numbered).collect(),
                 lines: Vec::new(),
             }),
@@ -318,6 +334,7 @@ pub fn all() -> &'static [ProblemDef] {
             tensor::problems(),
             folgar_tucker::problems(),
             closed::problems(),
+            formula::problems(),
             contact::problems(),
             ensemble::problems(),
         ];

@@ -10,14 +10,16 @@ pub(super) fn page(built: &Built) -> String {
     if let Some(ensemble) = &problem.ensemble {
         page += &format!("{}\n\n", model(problem, ensemble));
     }
+    if problem.kind != Kind::Formula {
+        page += &flow(problem);
+    }
+    let steps = match problem.kind {
+        Kind::Formula => "",
+        _ => ", or one file a step size, `steps-100.csv`, `steps-200.csv` and so on, so that an order can be read off",
+    };
     page += &format!(
-        "The flow is u = L x with L = {} in 1/s, row i and column j being ∂u_i/∂x_j. Axes: {}.\n\n",
-        matrix(&problem.gradient_per_s),
-        problem.axes
-    );
-    page += &format!(
-        "Write `answer.csv` with the columns `{}`, or one file a step size, `steps-100.csv`, `steps-200.csv` and so \
-         on, so that an order can be read off.\n\n",
+        "Axes: {}.\n\nWrite `answer.csv` with the columns `{}`{steps}.\n\n",
+        problem.axes,
         problem.columns.join(",")
     );
     page += &format!(
@@ -26,7 +28,7 @@ pub(super) fn page(built: &Built) -> String {
         problem.tolerance,
         problem.because
     );
-    if problem.closed.is_some() {
+    if problem.closed.is_some() || problem.formula.is_some() {
         page += &format!("The equation: {}.\n", problem.equations.join("; "));
         return page;
     }
@@ -36,6 +38,11 @@ pub(super) fn page(built: &Built) -> String {
     };
     page += &format!("{values} come from: {}.\n", problem.equations.join("; "));
     page
+}
+
+fn flow(problem: &Problem) -> String {
+    let l = matrix(&problem.gradient_per_s);
+    format!("The flow is u = L x with L = {l} in 1/s, row i and column j being ∂u_i/∂x_j. ")
 }
 
 fn asked(built: &Built) -> String {
@@ -73,6 +80,10 @@ fn asked(built: &Built) -> String {
                 sd => format!(" (Gaussian, standard deviation {sd} % of the mean)"),
             },
             times()
+        ),
+        Kind::Formula => format!(
+            "The values of the formula below for each of the {} rows of `inputs.csv`. Numbers are doubles and are exact.",
+            built.inputs.len()
         ),
         Kind::Contact => format!(
             "What the contact rule makes of each of the {} pairs of rods in `inputs.csv`: centres in mm, axes p of \

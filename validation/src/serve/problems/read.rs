@@ -44,10 +44,7 @@ fn read_one(dir: &Path) -> Result<LoadedProblem, FileError> {
         Kind::Rods => start(&dir.join("start.csv"))?,
         _ => Vec::new(),
     };
-    let inputs = match problem.kind {
-        Kind::Contact => Some(table::read(&dir.join("inputs.csv"), &super::INPUT_COLUMNS)?),
-        _ => None,
-    };
+    let inputs = problem.input_columns().map(|columns| table::read(&dir.join("inputs.csv"), &columns)).transpose()?;
     let columns: Vec<_> = problem.columns.iter().map(String::as_str).collect();
     let certified_path = dir.join("certified.csv");
     let certified = table::read(&certified_path, &columns)?;
@@ -126,6 +123,6 @@ pub(super) fn keys(loaded: &LoadedProblem) -> Vec<Vec<f64>> {
             (times.iter()).flat_map(|time| (0..loaded.start.len()).map(|rod| vec![*time, rod as f64])).collect()
         }
         Kind::Tensor | Kind::Ensemble => times.iter().map(|time| vec![*time]).collect(),
-        Kind::Contact => loaded.inputs.as_ref().map(numbers).unwrap_or_default(),
+        Kind::Contact | Kind::Formula => loaded.inputs.as_ref().map(numbers).unwrap_or_default(),
     }
 }

@@ -65,6 +65,7 @@ fn built(def: &ProblemDef, asked: Asked) -> Built {
             times_s: asked.times_s,
             c_i: None,
             closed: None,
+            formula: None,
             time_step_s: None,
             columns: ["time_s", "rod", "p1", "p2", "p3"].map(String::from).into(),
             metric: Metric::Angle,

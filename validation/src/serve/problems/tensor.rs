@@ -121,6 +121,7 @@ fn problem(def: &ProblemDef, motion: &Motion, times_s: Vec<f64>, tolerance: f64)
         times_s,
         c_i: None,
         closed: None,
+        formula: None,
         time_step_s: None,
         columns: Vec::new(),
         metric: Metric::Absolute,

@@ -1,0 +1,176 @@
+//! Known mistakes in the rate of a_ij and in its closures: what a wrong code computes in place of each part.
+
+use super::closures::{linear, linear_by, quadratic};
+use super::{Closure, Fourth, Model, Parts, orthotropic};
+use nalgebra::Matrix3;
+
+/// A mistake in one part of the rate of a_ij.
+pub struct Mistake {
+    /// The mistake, to stand after "this is the curve of".
+    pub name: &'static str,
+    /// What is right.
+    pub advice: &'static str,
+    change: fn(Parts) -> Option<Parts>,
+}
+
+impl Mistake {
+    /// The parts with this mistake; `None` if it changes nothing there, or does not apply.
+    pub fn of(&self, parts: &Parts) -> Option<Parts> {
+        (self.change)(*parts).filter(|changed| changed != parts && changed.shape.is_finite())
+    }
+}
+
+const L: &str = "L_ij = ∂u_i/∂x_j, W = (L − Lᵀ)/2, D = (L + Lᵀ)/2";
+const SHAPE: &str = "Λ = (r_e² − 1)/(r_e² + 1), below 0 for discs";
+const SPEED: &str = "γ̇ = (2D:D)^½, which is G in shear";
+const SPREAD: &str = "diffusion is 2 C_I γ̇ (δ − 3a)";
+const STRETCH: &str = "the rate by strain is Λ(Da + aD − 2𝔸:D)";
+const RSC: &str = "RSC is Λ(Da + aD − 2[𝔸 + (1 − κ)(𝕃 − 𝕄:𝔸)]:D) + 2κC_I γ̇(δ − 3a)";
+const ANISOTROPIC: &str = "C is given in problem.json, with the axes of a from the largest eigenvalue";
+
+const fn mistake(name: &'static str, advice: &'static str, change: fn(Parts) -> Option<Parts>) -> Mistake {
+    Mistake { name, advice, change }
+}
+
+/// Every known mistake in the parts of the rate.
+pub const MISTAKES: [Mistake; 43] = [
+    mistake("a transposed gradient", L, |p| Some(Parts { spin: -p.spin, ..p })),
+    mistake("the flow reversed (L with the wrong sign, or time backwards)", L, |p| {
+        Some(Parts { spin: -p.spin, strain: -p.strain, ..p })
+    }),
+    mistake("half the shear rate", L, |p| Some(scaled(p, 0.5, 0.5, 0.5))),
+    mistake("twice the shear rate", L, |p| Some(scaled(p, 2.0, 2.0, 2.0))),
+    mistake("D without its ½", L, |p| Some(scaled(p, 1.0, 2.0, 2.0))),
+    mistake("D without its ½, with the right γ̇", L, |p| Some(scaled(p, 1.0, 2.0, 1.0))),
+    mistake("D halved twice", L, |p| Some(scaled(p, 1.0, 0.5, 0.5))),
+    mistake("W without its ½", L, |p| Some(scaled(p, 2.0, 1.0, 1.0))),
+    mistake("W halved twice", L, |p| Some(scaled(p, 0.5, 1.0, 1.0))),
+    mistake("W left out", L, |p| Some(scaled(p, 0.0, 1.0, 1.0))),
+    mistake("Λ with the wrong sign (1/r_e for r_e)", SHAPE, |p| Some(Parts { shape: -p.shape, ..p })),
+    mistake("Λ without its sign", SHAPE, |p| Some(Parts { shape: p.shape.abs(), ..p })),
+    mistake("no 1/r_e (Λ = 1, an infinitely slender rod)", SHAPE, |p| Some(Parts { shape: 1.0, ..p })),
+    mistake("(r_e − 1)/(r_e + 1) for Λ", SHAPE, |p| of_ratio(p, f64::sqrt)),
+    mistake("Λ = 0, D left out", SHAPE, |p| Some(Parts { shape: 0.0, ..p })),
+    mistake("1/Λ for Λ", SHAPE, |p| Some(Parts { shape: 1.0 / p.shape, ..p })),
+    mistake("twice the r_e", SHAPE, |p| of_ratio(p, |r| 2.0 * r)),
+    mistake("half the r_e", SHAPE, |p| of_ratio(p, |r| 0.5 * r)),
+    mistake("r_e² for r_e", SHAPE, |p| of_ratio(p, |r| r * r)),
+    mistake("Λ missing before 𝔸:D", STRETCH, |p| Some(Parts { of_fourth: p.of_fourth / p.shape, ..p })),
+    mistake("Λ missing before Da + aD", STRETCH, |p| {
+        Some(Parts { shape: 1.0, of_fourth: p.of_fourth * p.shape, ..p })
+    }),
+    mistake("the 2 missing before 𝔸:D", STRETCH, |p| Some(Parts { of_fourth: 1.0, ..p })),
+    mistake("𝔸:D left out", STRETCH, |p| Some(Parts { of_fourth: 0.0, ..p })),
+    mistake("γ̇ = (D:D)^½", SPEED, |p| Some(Parts { speed: p.speed * std::f64::consts::FRAC_1_SQRT_2, ..p })),
+    mistake("D:D for γ̇", SPEED, |p| Some(Parts { speed: 0.5 * p.speed * p.speed, ..p })),
+    mistake("2D:D for γ̇", SPEED, |p| Some(Parts { speed: p.speed * p.speed, ..p })),
+    mistake("|L| = (L:L)^½ for γ̇", SPEED, |p| Some(Parts { speed: (p.spin + p.strain).norm(), ..p })),
+    mistake("L_21 for γ̇", SPEED, |p| Some(Parts { speed: p.spin[(1, 0)] + p.strain[(1, 0)], ..p })),
+    mistake("γ̇ left out", SPEED, |p| Some(Parts { speed: 1.0, ..p })),
+    mistake("half the C_I (C_I γ̇ (δ − 3a), without the 2)", SPREAD, |p| spread(p, 0.5)),
+    mistake("twice the C_I", SPREAD, |p| spread(p, 2.0)),
+    mistake("2 C_I γ̇ (δ/3 − a) for diffusion", SPREAD, |p| spread(p, 1.0 / 3.0)),
+    mistake("6 C_I γ̇ (δ − 3a) for diffusion", SPREAD, |p| spread(p, 3.0)),
+    mistake("2 C_I γ̇ (δ − 2a) for diffusion", SPREAD, |p| Some(Parts { decay: 2.0, ..p })),
+    mistake("diffusion left out", SPREAD, |p| spread(p, 0.0)),
+    mistake("diffusion with the wrong sign", SPREAD, |p| spread(p, -1.0)),
+    mistake("1 − κ for κ", RSC, |p| slowed(p, |kappa| 1.0 - kappa)),
+    mistake("1/κ for κ", RSC, |p| slowed(p, |kappa| 1.0 / kappa)),
+    mistake("κ left out", RSC, |p| slowed(p, |_| 1.0)),
+    mistake("κ missing at the diffusion", RSC, |p| match p.model {
+        Model::Rsc { kappa, .. } => Some(Parts { speed: p.speed / kappa, ..p }),
+        _ => None,
+    }),
+    mistake("C_M D²/γ̇² without its 4", ANISOTROPIC, |p| anisotropic(p, 0.25)),
+    mistake("(D²:D²)^½ for the norm (D²:D²/2)^½", ANISOTROPIC, |p| {
+        anisotropic(p, std::f64::consts::FRAC_1_SQRT_2)
+    }),
+    mistake("the eigenvalues of a in ascending order", ANISOTROPIC, |p| match p.model {
+        Model::Pard { c_i, omega } => Some(Parts { model: Model::Mrd { c_i, d: [1.0 - omega, omega, 1.0] }, ..p }),
+        Model::Mrd { c_i, d: [x, y, z] } => Some(Parts { model: Model::Mrd { c_i, d: [z, y, x] }, ..p }),
+        _ => None,
+    }),
+];
+
+fn scaled(parts: Parts, spin: f64, strain: f64, speed: f64) -> Parts {
+    Parts { spin: parts.spin * spin, strain: parts.strain * strain, speed: parts.speed * speed, ..parts }
+}
+
+/// The parts with Λ of another aspect ratio.
+fn of_ratio(parts: Parts, of: fn(f64) -> f64) -> Option<Parts> {
+    let r = of(((1.0 + parts.shape) / (1.0 - parts.shape)).sqrt());
+    (r > 0.0 && r.is_finite()).then(|| Parts { shape: (r * r - 1.0) / (r * r + 1.0), ..parts })
+}
+
+/// The parts with C_I times `factor`.
+pub fn spread(parts: Parts, factor: f64) -> Option<Parts> {
+    let model = match parts.model {
+        Model::FolgarTucker { c_i } => Model::FolgarTucker { c_i: factor * c_i },
+        Model::Rsc { c_i, kappa } => Model::Rsc { c_i: factor * c_i, kappa },
+        Model::PhelpsTucker { b, kappa } => Model::PhelpsTucker { b: b.map(|b| factor * b), kappa },
+        Model::Iard { c_i, c_m } => Model::Iard { c_i: factor * c_i, c_m },
+        Model::Pard { c_i, omega } => Model::Pard { c_i: factor * c_i, omega },
+        Model::Mrd { c_i, d } => Model::Mrd { c_i: factor * c_i, d },
+    };
+    Some(Parts { model, ..parts })
+}
+
+fn slowed(parts: Parts, of: fn(f64) -> f64) -> Option<Parts> {
+    let model = match parts.model {
+        Model::Rsc { c_i, kappa } => Model::Rsc { c_i, kappa: of(kappa) },
+        Model::PhelpsTucker { b, kappa } => Model::PhelpsTucker { b, kappa: of(kappa) },
+        _ => return None,
+    };
+    Some(Parts { model, ..parts })
+}
+
+/// The parts with the C_M of iARD times `factor`.
+fn anisotropic(parts: Parts, factor: f64) -> Option<Parts> {
+    match parts.model {
+        Model::Iard { c_i, c_m } => Some(Parts { model: Model::Iard { c_i, c_m: factor * c_m }, ..parts }),
+        _ => None,
+    }
+}
+
+/// What stands for a_ijkl in a code.
+#[derive(Clone, Copy)]
+pub struct Stand {
+    /// Its name, to stand after "this is the curve of".
+    pub name: &'static str,
+    /// a_ijkl from a_ij.
+    pub fourth: fn(&Matrix3<f64>) -> Fourth,
+}
+
+/// Every closure, right and wrong ones.
+pub const CLOSURES: [Stand; 15] = [
+    Stand { name: "the linear closure", fourth: linear },
+    Stand { name: "the quadratic closure", fourth: quadratic },
+    Stand { name: "the hybrid closure", fourth: |a| Closure::Hybrid.fourth(a) },
+    Stand { name: "the natural closure", fourth: |a| Closure::Natural.fourth(a) },
+    Stand { name: "the ORE closure", fourth: |a| Closure::Ore.fourth(a) },
+    Stand { name: "the ORW closure", fourth: |a| Closure::Orw.fourth(a) },
+    Stand { name: "the IBOF closure", fourth: |a| Closure::Ibof.fourth(a) },
+    Stand { name: "the ORF closure (Cintra & Tucker 1995)", fourth: orthotropic::orf },
+    Stand { name: "the quadratic closure made symmetric in all indices", fourth: symmetric },
+    Stand { name: "a linear closure with + 1/35 for − 1/35", fourth: |a| linear_by(a, 7.0, -35.0) },
+    Stand { name: "a linear closure without its term of 1/35", fourth: |a| linear_by(a, 7.0, f64::INFINITY) },
+    Stand { name: "a linear closure with its 1/7 before both brackets", fourth: |a| linear_by(a, 7.0, 245.0) },
+    Stand { name: "a hybrid closure with f and 1 − f exchanged", fourth: |a| mixed(a, 27.0 * a.determinant()) },
+    Stand { name: "a hybrid closure with f = (3 a:a − 1)/2", fourth: |a| mixed(a, 1.5 * a.dot(a) - 0.5) },
+    Stand {
+        name: "a hybrid closure with + 1/35 for − 1/35",
+        fourth: |a| {
+            let f = 1.0 - 27.0 * a.determinant();
+            Fourth(quadratic(a).0 * f + linear_by(a, 7.0, -35.0).0 * (1.0 - f))
+        },
+    },
+];
+
+/// f times the quadratic and 1 − f times the linear closure.
+fn mixed(a: &Matrix3<f64>, f: f64) -> Fourth {
+    Fourth(quadratic(a).0 * f + linear(a).0 * (1.0 - f))
+}
+
+fn symmetric(a: &Matrix3<f64>) -> Fourth {
+    Fourth::from_fn(|i, j, k, l| (a[(i, j)] * a[(k, l)] + a[(i, k)] * a[(j, l)] + a[(i, l)] * a[(j, k)]) / 3.0)
+}

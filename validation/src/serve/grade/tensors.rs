@@ -1,0 +1,272 @@
+//! Diagnosis of answers about orientation tensors: another closure, a mistake in one part of the equation, another
+//! layout of the columns, or two of these.
+
+mod estimate;
+pub(super) mod formulas;
+mod layouts;
+
+use super::answer::Answer;
+use super::nearness::{Diagnosis, NEARER};
+use crate::methods::tensors::fourth::PAIRS;
+use crate::methods::tensors::wrong::{CLOSURES, MISTAKES, Stand};
+use crate::methods::tensors::{Closure, Model, Parts, at_rate, isotropic, steady_of};
+use crate::oracle::diffusion::{self, Means, Motion, Start};
+use crate::serve::problems::{Closed, LoadedProblem, Problem};
+use layouts::LAYOUTS;
+use nalgebra::Matrix3;
+use rayon::prelude::*;
+
+/// Above this number of names none is reported.
+const MOST_NAMES: usize = 4;
+
+/// The tolerance of a step of the integration of a curve.
+const STEP: f64 = 1e-11;
+
+/// An answer that a wrong code may give.
+#[derive(Clone, Debug, PartialEq)]
+struct Near {
+    distance: f64,
+    /// The name, to stand after "this is the curve of".
+    name: String,
+    /// The name of the mistake alone, which other problems may share.
+    suspect: String,
+    advice: &'static str,
+    /// The number of differences from what is asked.
+    changes: u8,
+}
+
+/// A closed equation that a code may solve.
+struct Candidate {
+    parts: Parts,
+    closure: Stand,
+    near: Near,
+}
+
+impl Candidate {
+    fn rate(&self, a: &Matrix3<f64>) -> Matrix3<f64> {
+        self.parts.rate(a, &(self.closure.fourth)(a))
+    }
+}
+
+/// A change of one part: its name, what is right, and the parts with it.
+struct Change {
+    name: &'static str,
+    advice: &'static str,
+    parts: Parts,
+}
+
+/// The right parts without a name, then those with each mistake that makes a difference.
+fn changes(parts: &Parts) -> Vec<Change> {
+    let right = Change { name: "", advice: "", parts: *parts };
+    let wrong = MISTAKES
+        .iter()
+        .filter_map(|mistake| Some(Change { name: mistake.name, advice: mistake.advice, parts: mistake.of(parts)? }));
+    std::iter::once(right).chain(wrong).collect()
+}
+
+/// The words for a change with a closure; `own` is the index of the one that is asked for, if one is.
+fn near_of(name: &str, advice: &'static str, closure: usize, own: Option<usize>) -> Near {
+    let other = own != Some(closure);
+    let of_closure = CLOSURES[closure].name;
+    let (name, suspect) = match (name, other) {
+        ("", _) => (of_closure.to_owned(), of_closure),
+        (_, true) => (format!("{name}, with {of_closure}"), name),
+        (_, false) => (name.to_owned(), name),
+    };
+    let changes = u8::from(other) + u8::from(suspect != of_closure);
+    Near { distance: 0.0, suspect: suspect.to_owned(), name, advice, changes }
+}
+
+/// The index in [`CLOSURES`], which begins with all right ones.
+fn index(closure: Closure) -> Option<usize> {
+    Closure::ALL.iter().position(|other| *other == closure)
+}
+
+/// The closed equation of a problem, and the index of its closure; of a problem of the distribution no closure is the
+/// right one.
+fn asked(problem: &Problem) -> Option<(Closed, Option<usize>)> {
+    match (&problem.closed, problem.c_i) {
+        (Some(closed), _) => Some((*closed, index(closed.closure))),
+        (None, Some(c_i)) => {
+            let (closure, model) = (Closure::Quadratic, Model::FolgarTucker { c_i });
+            Some((Closed { closure, model, start: isotropic().transpose().into() }, None))
+        }
+        (None, None) => None,
+    }
+}
+
+fn candidates(parts: &Parts, own: Option<usize>) -> Vec<Candidate> {
+    let with = |change: &Change| {
+        let (parts, name, advice) = (change.parts, change.name, change.advice);
+        let of = move |(closure, stand): (usize, &Stand)| {
+            let near = near_of(name, advice, closure, own);
+            (near.changes > 0).then_some(Candidate { parts, closure: *stand, near })
+        };
+        CLOSURES.iter().enumerate().filter_map(of).collect::<Vec<_>>()
+    };
+    changes(parts).iter().flat_map(with).collect()
+}
+
+/// The values of the problem's columns for a, with the fourth moments by the closure; `None` for other columns.
+fn values(problem: &Problem, closure: &Stand, a: &Matrix3<f64>) -> Option<Vec<f64>> {
+    let fourth = (closure.fourth)(a);
+    let value = |name: &String| {
+        let digits: Vec<_> = name.strip_prefix('a')?.bytes().map(|digit| usize::from(digit - b'1')).collect();
+        match digits[..] {
+            [i, j] => Some(a[(i, j)]),
+            [i, j, k, l] => Some(fourth.at(i, j, k, l)),
+            _ => None,
+        }
+    };
+    problem.columns[1..].iter().map(value).collect()
+}
+
+fn apart(found: &[f64], expected: &[f64]) -> f64 {
+    let each = found.iter().zip(expected).map(|(a, b)| (a - b).abs());
+    each.fold(0.0, |a: f64, b| if b.is_nan() { f64::INFINITY } else { a.max(b) })
+}
+
+fn worst(rows: &[Vec<f64>], expected: &[Vec<f64>]) -> f64 {
+    rows.iter().zip(expected).map(|(row, expected)| apart(row, expected)).fold(0.0, f64::max)
+}
+
+/// The distance of rows from a candidate's curve; `None` if it is larger than `most`.
+fn distance(
+    problem: &Problem,
+    rows: &[Vec<f64>],
+    start: &Matrix3<f64>,
+    candidate: &Candidate,
+    most: f64,
+) -> Option<f64> {
+    let near = |all: Vec<Matrix3<f64>>| {
+        let curve: Option<Vec<_>> = all.iter().map(|a| values(problem, &candidate.closure, a)).collect();
+        Some(worst(rows, &curve?)).filter(|worst| *worst <= most)
+    };
+    let rate = |a: &Matrix3<f64>| candidate.rate(a);
+    let times = &problem.times_s[..];
+    let norm = candidate.parts.spin.norm() + candidate.parts.strain.norm();
+    // Saves time: most candidates are far already at the first time, or not at rest where the answer is.
+    if !problem.is_steady() {
+        near(at_rate(&rate, start, &times[..1], STEP)?)?;
+        return near(at_rate(&rate, start, times, STEP)?);
+    }
+    if rows[0].len() == PAIRS.len() && rate(&tensor(&rows[0])).amax() > 100.0 * most * norm {
+        return None;
+    }
+    near(vec![steady_of(&rate, norm, start)?])
+}
+
+fn tensor(row: &[f64]) -> Matrix3<f64> {
+    crate::serve::problems::formula::tensor(row)
+}
+
+/// The distance of an answer from the distribution with these parts; `None` if it is larger than `most`, or no motion
+/// of rods has these parts.
+fn from_exact(problem: &Problem, rows: &[Vec<f64>], parts: &Parts, most: f64) -> Option<f64> {
+    let Model::FolgarTucker { c_i } = parts.model else { return None };
+    let gradient = parts.spin + parts.strain;
+    let speed = (2.0 * parts.strain.dot(&parts.strain)).sqrt();
+    let (c_i, own) = (c_i * parts.speed / speed, parts.of_fourth == 2.0 && parts.decay == 3.0);
+    if !own || parts.shape.abs() > 1.0 || !(1e-9..=1e9).contains(&c_i) {
+        return None;
+    }
+    // Where Λ = 1 the square of any large aspect ratio will do.
+    let ratio = ((1.0 + parts.shape) / (1.0 - parts.shape)).sqrt().clamp(1e-100, 1e100);
+    let motion = Motion::new(std::array::from_fn(|i| std::array::from_fn(|j| gradient[(i, j)])), ratio, c_i);
+    let picked =
+        |means: &Means| if rows[0].len() == PAIRS.len() { means.second.to_vec() } else { means.fourth.to_vec() };
+    let near = |all: Vec<Means>| {
+        let curve: Vec<_> = all.iter().map(picked).collect();
+        Some(worst(rows, &curve)).filter(|worst| *worst <= most)
+    };
+    if problem.is_steady() {
+        return near(vec![diffusion::steady(&motion).ok()?]);
+    }
+    let at = |times: &[f64]| diffusion::at(&motion, Start::Isotropic, times).ok();
+    near(at(&problem.times_s[..1])?)?;
+    near(at(&problem.times_s)?)
+}
+
+/// Names the closure, the mistake or the layout whose curve the answer is, given its `error`; the diagnosis is empty
+/// if there is none.
+pub(super) fn diagnose(loaded: &LoadedProblem, answer: &Answer, error: f64) -> Diagnosis {
+    let problem = &loaded.problem;
+    let most = NEARER * error;
+    let Some((closed, own)) = asked(problem) else { return Diagnosis::default() };
+    let start = closed.start();
+    let parts = closed.equation(&problem.gradient_per_s, problem.aspect_ratio).parts();
+    let is_second = problem.columns.len() == PAIRS.len() + 1;
+    if is_second && answer.rows.iter().all(|row| (tensor(row) - start).amax() <= most) {
+        let said = "a_ij stays where it started: nothing has moved".to_owned();
+        return Diagnosis { said: Some(said), ..Diagnosis::default() };
+    }
+    let mut near = in_other_layouts(loaded, answer, most);
+    near.par_extend(candidates(&parts, own).par_iter().filter_map(|candidate| {
+        let distance = distance(problem, &answer.rows, &start, candidate, most)?;
+        Some(Near { distance, ..candidate.near.clone() })
+    }));
+    if start == isotropic() {
+        let exact = changes(&parts);
+        let exact = exact.par_iter().filter(|change| problem.closed.is_some() == change.name.is_empty());
+        near.par_extend(exact.filter_map(|Change { name, advice, parts }| {
+            let distance = from_exact(problem, &answer.rows, parts, most)?;
+            let name = if name.is_empty() { "the distribution, without a closure" } else { name };
+            Some(Near { distance, name: name.to_owned(), suspect: name.to_owned(), advice, changes: 1 })
+        }));
+    }
+    if near.is_empty() && !problem.is_steady() {
+        near = estimate::of_curve(problem, answer, &closed, own, most);
+    }
+    let cost = match problem.closed {
+        Some(_) => String::new(),
+        None => format!("; it costs {}", cost(loaded, answer)),
+    };
+    said(near, problem.tolerance, &cost)
+}
+
+/// The certified answer in other layouts.
+fn in_other_layouts(loaded: &LoadedProblem, answer: &Answer, most: f64) -> Vec<Near> {
+    let keys = loaded.problem.kind.keys().len();
+    let certified: Vec<_> = loaded.certified.rows.iter().map(|row| row[keys..].to_vec()).collect();
+    let of = |layout: &layouts::Layout| {
+        let rows: Option<Vec<_>> = answer.rows.iter().map(|row| layout.read(row)).collect();
+        let distance = worst(&rows?, &certified);
+        let name = layout.name.to_owned();
+        (distance <= most).then(|| Near { distance, suspect: name.clone(), name, advice: layout.advice, changes: 1 })
+    };
+    LAYOUTS.iter().filter_map(of).collect()
+}
+
+/// The nearest candidates with the fewest changes, in words; `rest` is added.
+fn said(mut near: Vec<Near>, tolerance: f64, rest: &str) -> Diagnosis {
+    near.sort_by(|a, b| a.distance.total_cmp(&b.distance));
+    let Some(nearest) = near.first().map(|near| near.distance) else { return Diagnosis::default() };
+    near.retain(|near| near.distance <= (10.0 * nearest).max(tolerance));
+    let fewest = near.iter().map(|near| near.changes).min().unwrap_or_default();
+    near.retain(|near| near.changes == fewest);
+    let names: Vec<_> = near.iter().map(|near| near.name.as_str()).collect();
+    let advice = near.iter().map(|near| near.advice).find(|advice| !advice.is_empty());
+    let advice = advice.map_or(String::new(), |advice| format!("; {advice}"));
+    let nearest = nearest.max(f64::EPSILON);
+    let said = format!("this is the curve of {}, to {nearest:.0e}{rest}{advice}", names.join(" or of "));
+    let said = (names.len() <= MOST_NAMES).then_some(said);
+    let mut suspects: Vec<_> = near.into_iter().map(|near| near.suspect).collect();
+    suspects.sort();
+    suspects.dedup();
+    Diagnosis { said, suspects, rates: Vec::new() }
+}
+
+/// The largest error, with its column and time.
+fn cost(loaded: &LoadedProblem, answer: &Answer) -> String {
+    let problem = &loaded.problem;
+    let rows = answer.rows.iter().zip(&loaded.certified.rows).zip(&problem.times_s);
+    let errors = rows.flat_map(|((row, certified), time)| {
+        let pairs = row.iter().zip(&certified[1..]).zip(&problem.columns[1..]);
+        pairs.map(move |((a, b), column)| (a - b, column, *time))
+    });
+    let largest = errors.max_by(|a, b| a.0.abs().total_cmp(&b.0.abs()));
+    largest.map_or(String::new(), |(error, column, time)| {
+        let when = if problem.is_steady() { "once steady".to_owned() } else { format!("at {time} s") };
+        format!("{error:+.2e} in {column} {when}")
+    })
+}

@@ -1,0 +1,124 @@
+//! Diagnosis of answers to formulas, row by row: the same mistakes as in curves, without an integration.
+
+use super::estimate::words;
+use super::{CLOSURES, Near, index, near_of, said, worst};
+use crate::methods::tensors::fourth::PAIRS;
+use crate::methods::tensors::wrong::{MISTAKES, Mistake, spread};
+use crate::methods::tensors::{Closure, Equation, Model, Parts};
+use crate::serve::grade::answer::Answer;
+use crate::serve::grade::nearness::{Diagnosis, NEARER};
+use crate::serve::problems::formula::{components, equation, tensor};
+use crate::serve::problems::{Formula, LoadedProblem};
+use nalgebra::Vector3;
+
+type Rows = Vec<Vec<f64>>;
+
+/// Names the mistake whose values the answer has, given its `error`.
+pub(in crate::serve::grade) fn diagnose(loaded: &LoadedProblem, answer: &Answer, error: f64) -> Diagnosis {
+    let most = NEARER * error;
+    let (Some(formula), Some(inputs)) = (&loaded.problem.formula, &loaded.inputs) else {
+        return Diagnosis::default();
+    };
+    let rows: Rows = inputs.rows.iter().map(|row| row[1..].to_vec()).collect();
+    let mut near = super::in_other_layouts(loaded, answer, most);
+    near.extend(match *formula {
+        Formula::Pdot => of_rods(&rows, answer, most),
+        Formula::Closure { closure } => of_closures(&rows, answer, closure, most),
+        Formula::Dadt { closure, model } => of_rates(&rows, answer, closure, model, most),
+    });
+    said(near, loaded.problem.tolerance, "")
+}
+
+fn within(near: Near, answer: &Answer, rows: &Rows, most: f64) -> Option<Near> {
+    let distance = worst(&answer.rows, rows);
+    (distance <= most).then_some(Near { distance, ..near })
+}
+
+fn of_closures(rows: &Rows, answer: &Answer, closure: Closure, most: f64) -> Vec<Near> {
+    let of = |(k, stand): (usize, &super::Stand)| {
+        let found = rows.iter().map(|row| components(&(stand.fourth)(&tensor(row)))).collect();
+        within(near_of("", "", k, index(closure)), answer, &found, most)
+    };
+    CLOSURES.iter().enumerate().filter_map(of).collect()
+}
+
+/// The parts of each row with a mistake, or without one; `None` if it makes no difference in any row.
+fn spoilt(all: &[Parts], mistake: Option<&Mistake>) -> Option<Vec<Parts>> {
+    let Some(mistake) = mistake else { return Some(all.to_vec()) };
+    let changed: Vec<_> = all.iter().map(|parts| mistake.of(parts)).collect();
+    changed.iter().any(Option::is_some).then(|| all.iter().zip(changed).map(|(own, new)| new.unwrap_or(*own)).collect())
+}
+
+fn of_rates(rows: &Rows, answer: &Answer, closure: Closure, model: Model, most: f64) -> Vec<Near> {
+    let own = index(closure);
+    let parts: Vec<_> = rows.iter().map(|row| equation(closure, model, row)).map(|e: Equation| e.parts()).collect();
+    let rates = |parts: &[Parts], k: usize| -> Rows {
+        let of = |(row, parts): (&Vec<f64>, &Parts)| {
+            let a = tensor(row);
+            let rate = parts.rate(&a, &(CLOSURES[k].fourth)(&a));
+            PAIRS.map(|place| rate[place]).to_vec()
+        };
+        rows.iter().zip(parts).map(of).collect()
+    };
+    let mut near = Vec::new();
+    for mistake in std::iter::once(None).chain(MISTAKES.iter().map(Some)) {
+        let Some(parts) = spoilt(&parts, mistake) else { continue };
+        let (name, advice) = mistake.map_or(("", ""), |mistake| (mistake.name, mistake.advice));
+        let of = |k: usize| within(near_of(name, advice, k, own), answer, &rates(&parts, k), most);
+        near.extend((0..CLOSURES.len()).filter_map(of));
+    }
+    if !near.is_empty() {
+        return near;
+    }
+    // The rate is linear in C_I.
+    let scaled = |factor: f64| parts.iter().map(|parts| spread(*parts, factor)).collect::<Option<Vec<_>>>();
+    let of = |k: usize| {
+        let [none, one] = [0.0, 1.0].map(|factor| Some(rates(&scaled(factor)?, k).concat()));
+        let (none, one, found) = (none?, one?, answer.rows.concat());
+        let pairs = || none.iter().zip(&one).zip(&found);
+        let along: f64 = pairs().map(|((none, one), found)| (one - none) * (found - none)).sum();
+        let square: f64 = pairs().map(|((none, one), _)| (one - none).powi(2)).sum();
+        let factor = along / square;
+        within(near_of(&words("C_I", factor), "", k, own), answer, &rates(&scaled(factor)?, k), most)
+    };
+    (0..CLOSURES.len()).filter_map(of).collect()
+}
+
+/// The order of components, for ṗ.
+const ORDERS: [([usize; 3], &str); 5] = [
+    ([1, 0, 2], "p_1 and p_2 exchanged"),
+    ([2, 1, 0], "p_1 and p_3 exchanged"),
+    ([0, 2, 1], "p_2 and p_3 exchanged"),
+    ([1, 2, 0], "components in the order p_2, p_3, p_1"),
+    ([2, 0, 1], "components in the order p_3, p_1, p_2"),
+];
+
+fn of_rods(rows: &Rows, answer: &Answer, most: f64) -> Vec<Near> {
+    let model = Model::FolgarTucker { c_i: 0.0 };
+    let parts: Vec<_> = rows.iter().map(|row| equation(Closure::Linear, model, row).parts()).collect();
+    let rates = |parts: &[Parts]| -> Rows {
+        let of = |(row, Parts { spin, strain, shape, of_fourth, .. }): (&Vec<f64>, &Parts)| {
+            let p = Vector3::from_row_slice(&row[..3]);
+            let pull = strain * p;
+            // pp stands for a and pppp for 𝔸: the same terms.
+            let rate = spin * p + (pull - p * (p.dot(&pull) * 0.5 * of_fourth)) * *shape;
+            rate.as_slice().to_vec()
+        };
+        rows.iter().zip(parts).map(of).collect()
+    };
+    let near = |name: String, advice| Near { distance: 0.0, suspect: name.clone(), name, advice, changes: 1 };
+    let mut all = Vec::new();
+    for mistake in &MISTAKES {
+        if let Some(parts) = spoilt(&parts, Some(mistake)) {
+            let name = mistake.name.replace("𝔸:D", "p(p·Dp)").replace("Da + aD", "Dp");
+            let advice = if name == mistake.name { mistake.advice } else { "ṗ = Wp + Λ(Dp − p(p·Dp))" };
+            all.extend(within(near(name, advice), answer, &rates(&parts), most));
+        }
+    }
+    let right = rates(&parts);
+    all.extend(ORDERS.iter().filter_map(|(order, name)| {
+        let turned = right.iter().map(|rate| order.map(|k| rate[k]).to_vec()).collect();
+        within(near((*name).to_owned(), ""), answer, &turned, most)
+    }));
+    all
+}
