@@ -181,6 +181,13 @@ def contact(problem, folder, mine):
             print(row["snapshot"], *(f"{value:.17g}" for value in values), sep=",", file=answer)
 
 
+def pdot(problem, folder, mine):
+    rows = np.loadtxt(folder / "inputs.csv", delimiter=",", skiprows=1)
+    found = [free_rate(row[4:13].reshape(3, 3), row[13], row[1:4]) for row in rows]
+    table = np.column_stack([rows[:, 0], found])
+    np.savetxt(mine / "answer.csv", table, fmt="%.17g", delimiter=",", header=",".join(problem["columns"]), comments="")
+
+
 def main():
     arguments = [word for word in sys.argv[1:] if not word.startswith("--")]
     if "--live" in sys.argv:
@@ -188,8 +195,8 @@ def main():
     reference, mine = map(Path, arguments)
     for file in sorted(reference.glob("*/problem.json")):
         problem = json.loads(file.read_text())
-        if "c_i" in problem or "closed" in problem:
-            continue  # rods with rotary diffusion, which single free rods do not answer
+        if "c_i" in problem or "closed" in problem or problem.get("formula", {}).get("of", "pdot") != "pdot":
+            continue  # rods with rotary diffusion and closures, which single free rods do not answer
         folder = mine / problem["name"]
         folder.mkdir(parents=True, exist_ok=True)
         if problem["kind"] == "rods":
@@ -198,6 +205,8 @@ def main():
             tensor(problem, folder)
         elif problem["kind"] == "contact":
             contact(problem, file.parent, folder)
+        elif problem["kind"] == "formula":
+            pdot(problem, file.parent, folder)
 
 
 def live():

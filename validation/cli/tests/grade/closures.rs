@@ -98,7 +98,9 @@ fn a_coefficient_that_is_off_is_named_and_half_a_closure_is_not() {
         answers(dir.path(), &["--problem", name]).of(name)["diagnosis"].clone()
     };
     let half = said(answer(name, 0.005, hybrid));
-    let expected = "this is the curve of the hybrid closure, with half the C_I, to ";
+    // γ̇ = 0.5/s: its square is half of it.
+    let expected = "this is the curve of 2D:D for γ̇, with the hybrid closure or of half the C_I (C_I γ̇ (δ − 3a), \
+        without the 2), with the hybrid closure, to ";
     assert!(half.as_str().unwrap().starts_with(expected), "{half}");
     assert_eq!(said(answer(name, 0.01, |a| 0.5 * hybrid(a))), serde_json::Value::Null);
 }

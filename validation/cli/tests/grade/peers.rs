@@ -28,8 +28,9 @@ fn numpy_rk4_passes_with_order_4_and_euler_fails_with_order_1() {
         assert!((rk4.order(name) - 4.0).abs() < 0.2, "{name}: {}", rk4.words);
     }
     let Some(python) = python("numpy") else { return };
-    // Rods that collide or diffuse are not its subject.
-    let others = |name: &&String| ["lee-springer", "folgar-tucker", "closed"].iter().any(|kind| name.starts_with(kind));
+    // It has no rods that collide or diffuse, and no closures.
+    let kinds = ["lee-springer", "folgar-tucker", "brownian", "closed", "closure", "dadt"];
+    let others = |name: &&String| kinds.iter().any(|kind| name.starts_with(kind));
     for name in &names() {
         let expected = if others(&name) { "MISSING" } else { "PASS" };
         assert_eq!(rk4.verdict(name), expected, "{name}: {}", rk4.words);
@@ -38,10 +39,11 @@ fn numpy_rk4_passes_with_order_4_and_euler_fails_with_order_1() {
     run(&python, &[&script, REFERENCE.path(), &mine, Path::new("--euler")]);
     let euler = files(REFERENCE.path(), &mine, &[]);
     assert_eq!(euler.code, Some(1));
-    // Whatever moves; contacts take no steps.
+    // Whatever moves; contacts and formulas take no steps.
     let still = ["log-rolling", "contact-rule", "contact-angles"];
+    let still = |name: &str| still.contains(&name) || name.starts_with("pdot");
     for name in names().iter().filter(|name| !others(name)) {
-        let expected = if still.contains(&name.as_str()) { "PASS" } else { "FAIL" };
+        let expected = if still(name) { "PASS" } else { "FAIL" };
         assert_eq!(euler.verdict(name), expected, "{}", euler.words);
         assert_eq!(euler.diagnosis(name), "", "Euler's is no known mistake: {}", euler.words);
         // It steps over every flip of these.
@@ -190,11 +192,23 @@ fn fiberoripy_is_right_until_rods_are_fibres_and_its_closure_is_no_solution() {
     let script = peers().join("fiberoripy_peer.py");
     let dir = tempfile::tempdir().unwrap();
     // It needs minutes for the others.
-    let names = ["mid-flip-2", "mid-flip-11.6", "mid-flip-10000", "isotropic-3", "isotropic-11.6"];
-    let reference = some(&dir.path().join("ref"), &names);
+    let slow = ["mid-flip-2", "mid-flip-11.6", "mid-flip-10000", "isotropic-3", "isotropic-11.6"];
+    // It has no natural and no ORE closure.
+    let all = names();
+    let has = |name: &&String| {
+        let formula = ["pdot", "closure", "dadt"].iter().any(|kind| name.starts_with(kind));
+        formula && !name.ends_with("natural") && !name.ends_with("ore")
+    };
+    let formulas: Vec<_> = all.iter().filter(has).map(String::as_str).collect();
+    let reference = some(&dir.path().join("ref"), &[&slow, &formulas[..]].concat());
     let mine = dir.path().join("mine");
     run(&python, &[&script, &reference, &mine]);
-    judge_fiberoripy(&files(REFERENCE.path(), &mine, &[]));
+    let found = files(REFERENCE.path(), &mine, &[]);
+    judge_fiberoripy(&found);
+    assert!(formulas.len() > 15);
+    for name in formulas {
+        assert_eq!((found.verdict(name), found.diagnosis(name)), ("PASS", ""), "{}", found.words);
+    }
     let command = format!("'{python}' '{}' --live", script.display());
     let of = ["--problem", "mid-flip-2", "--problem", "mid-flip-10000"];
     let live = graded(&[&["--command", &command, "--brief", "--timeout", ANSWER_S][..], &of].concat());

@@ -47,6 +47,8 @@ const PLANTED: &[(&str, &str, &str, &str)] = &[
     ("return q / np", "q[:, 2] *= -1\n    return q / np", "mid-flip-11.6", "axis 3 reversed (a left-handed frame)"),
     ("return q / np.linalg.norm(q, axis=1, keepdims=True)", "return q", "mid-flip-11.6", "p that is not normalised"),
     ("line * ((mean - v) / s)", "line * ((v - mean) / s)", "contact-rule", "a kick with the wrong sign"),
+    ("(r_e**2 * L - L.T)", "(r_e**2 * L.T - L)", "pdot-rod", "a transposed gradient"),
+    ("return Ap - p * (p @ Ap)", "return Ap", "pdot-rod", "p(p·Dp) left out"),
     (") / math.sin(theta)\n", ")\n", "contact-angles", ""),
     (
         "/ math.sin(theta)\n    theta_rate = (rate[0] * math.cos(phi) + rate[1] * math.sin(phi)) * math.cos(theta) - \
@@ -88,7 +90,7 @@ fn each_planted_mistake_gets_its_own_name_and_the_unspoilt_code_none() {
     let dir = tempfile::tempdir().unwrap();
     let code = fs::read_to_string(peers().join("numpy_rk4.py")).unwrap();
     // Rods, tensors and contacts that show the mistakes, and no more.
-    let all = ["mid-flip-2", "mid-flip-11.6", "disc-0.1", "isotropic-3", "contact-rule", "contact-angles"];
+    let all = ["mid-flip-2", "mid-flip-11.6", "disc-0.1", "isotropic-3", "pdot-rod", "contact-rule", "contact-angles"];
     let mut jobs = vec![("unspoilt".to_owned(), code.clone(), &all[..])];
     let planted: Vec<_> = PLANTED.iter().chain(PLANTED_IN_MEANS).collect();
     for (k, (line, mistake, shows, _)) in planted.iter().enumerate() {

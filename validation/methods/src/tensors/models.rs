@@ -168,7 +168,8 @@ impl Equation {
         let l = &self.gradient_per_s;
         let (spin, strain) = ((l - l.transpose()) * 0.5, (l + l.transpose()) * 0.5);
         let speed = (2.0 * strain.dot(&strain)).sqrt();
-        Parts { spin, strain, shape: self.shape_factor, of_fourth: 2.0, speed, decay: 3.0, model: self.model }
+        let shape = self.shape_factor;
+        Parts { spin, strain, of_strain: shape, of_fourth: 2.0 * shape, speed, decay: 3.0, model: self.model }
     }
 }
 
@@ -179,9 +180,9 @@ pub struct Parts {
     pub spin: Matrix3<f64>,
     /// D in 1/s.
     pub strain: Matrix3<f64>,
-    /// Λ.
-    pub shape: f64,
-    /// The 2 before 𝔸:D.
+    /// Λ before Da + aD.
+    pub of_strain: f64,
+    /// 2Λ before 𝔸:D.
     pub of_fourth: f64,
     /// γ̇ in 1/s.
     pub speed: f64,
@@ -194,18 +195,22 @@ pub struct Parts {
 impl Parts {
     /// The rate da_ij/dt in 1/s of the equation with these parts, as it stands: the trace is not corrected.
     pub fn rate(&self, a: &Matrix3<f64>, fourth: &Fourth) -> Matrix3<f64> {
-        let Self { spin: w, strain: d, shape, of_fourth, speed, decay, model } = self;
+        let Self { spin: w, strain: d, of_strain, of_fourth, speed, decay, model } = self;
         let turned = w * a - a * w;
         if *d == Matrix3::zeros() {
             return turned;
         }
-        let c = model.diffusivity(a, d, *speed);
         let kappa = model.slowness();
+        let c = model.diffusivity(a, d, *speed);
         let (fourth, source) = if kappa == 1.0 { (*fourth, c) } else { slowed(kappa, a, fourth, &c) };
-        let stretched = d * a + a * d - fourth.contract(d) * *of_fourth;
-        let diffused = diffusion(a, &fourth, &c) + (source - c) * 2.0 + a * (2.0 * (1.0 - kappa) * c.trace());
-        let undecayed = a * (2.0 * (1.0 - decay / 3.0) * c.trace());
-        turned + stretched * *shape + (diffused + undecayed) * *speed
+        let stretched = (d * a + a * d) * *of_strain - fourth.contract(d) * *of_fourth;
+        let diffused = match *model {
+            Model::FolgarTucker { c_i } | Model::Rsc { c_i, .. } => {
+                (Matrix3::identity() - a * *decay) * (2.0 * kappa * c_i)
+            }
+            _ => diffusion(a, &fourth, &c) + (source - c) * 2.0 + a * (2.0 * (1.0 - kappa) * c.trace()),
+        };
+        turned + stretched + diffused * *speed
     }
 }
 

@@ -16,7 +16,7 @@ pub struct Mistake {
 impl Mistake {
     /// The parts with this mistake; `None` if it changes nothing there, or does not apply.
     pub fn of(&self, parts: &Parts) -> Option<Parts> {
-        (self.change)(*parts).filter(|changed| changed != parts && changed.shape.is_finite())
+        (self.change)(*parts).filter(|changed| changed != parts && changed.of_strain.is_finite())
     }
 }
 
@@ -46,20 +46,18 @@ pub const MISTAKES: [Mistake; 43] = [
     mistake("W without its ½", L, |p| Some(scaled(p, 2.0, 1.0, 1.0))),
     mistake("W halved twice", L, |p| Some(scaled(p, 0.5, 1.0, 1.0))),
     mistake("W left out", L, |p| Some(scaled(p, 0.0, 1.0, 1.0))),
-    mistake("Λ with the wrong sign (1/r_e for r_e)", SHAPE, |p| Some(Parts { shape: -p.shape, ..p })),
-    mistake("Λ without its sign", SHAPE, |p| Some(Parts { shape: p.shape.abs(), ..p })),
-    mistake("no 1/r_e (Λ = 1, an infinitely slender rod)", SHAPE, |p| Some(Parts { shape: 1.0, ..p })),
+    mistake("Λ with the wrong sign (1/r_e for r_e)", SHAPE, |p| Some(shaped(p, -p.of_strain))),
+    mistake("Λ without its sign", SHAPE, |p| Some(shaped(p, p.of_strain.abs()))),
+    mistake("no 1/r_e (Λ = 1, an infinitely slender rod)", SHAPE, |p| Some(shaped(p, 1.0))),
     mistake("(r_e − 1)/(r_e + 1) for Λ", SHAPE, |p| of_ratio(p, f64::sqrt)),
-    mistake("Λ = 0, D left out", SHAPE, |p| Some(Parts { shape: 0.0, ..p })),
-    mistake("1/Λ for Λ", SHAPE, |p| Some(Parts { shape: 1.0 / p.shape, ..p })),
+    mistake("Λ = 0, D left out", SHAPE, |p| Some(shaped(p, 0.0))),
+    mistake("1/Λ for Λ", SHAPE, |p| Some(shaped(p, 1.0 / p.of_strain))),
     mistake("twice the r_e", SHAPE, |p| of_ratio(p, |r| 2.0 * r)),
     mistake("half the r_e", SHAPE, |p| of_ratio(p, |r| 0.5 * r)),
     mistake("r_e² for r_e", SHAPE, |p| of_ratio(p, |r| r * r)),
-    mistake("Λ missing before 𝔸:D", STRETCH, |p| Some(Parts { of_fourth: p.of_fourth / p.shape, ..p })),
-    mistake("Λ missing before Da + aD", STRETCH, |p| {
-        Some(Parts { shape: 1.0, of_fourth: p.of_fourth * p.shape, ..p })
-    }),
-    mistake("the 2 missing before 𝔸:D", STRETCH, |p| Some(Parts { of_fourth: 1.0, ..p })),
+    mistake("Λ missing before 𝔸:D", STRETCH, |p| Some(Parts { of_fourth: 2.0, ..p })),
+    mistake("Λ missing before Da + aD", STRETCH, |p| Some(Parts { of_strain: 1.0, ..p })),
+    mistake("the 2 missing before 𝔸:D", STRETCH, |p| Some(Parts { of_fourth: 0.5 * p.of_fourth, ..p })),
     mistake("𝔸:D left out", STRETCH, |p| Some(Parts { of_fourth: 0.0, ..p })),
     mistake("γ̇ = (D:D)^½", SPEED, |p| Some(Parts { speed: p.speed * std::f64::consts::FRAC_1_SQRT_2, ..p })),
     mistake("D:D for γ̇", SPEED, |p| Some(Parts { speed: 0.5 * p.speed * p.speed, ..p })),
@@ -96,10 +94,15 @@ fn scaled(parts: Parts, spin: f64, strain: f64, speed: f64) -> Parts {
     Parts { spin: parts.spin * spin, strain: parts.strain * strain, speed: parts.speed * speed, ..parts }
 }
 
+/// The parts with another Λ.
+pub fn shaped(parts: Parts, shape: f64) -> Parts {
+    Parts { of_strain: shape, of_fourth: 2.0 * shape, ..parts }
+}
+
 /// The parts with Λ of another aspect ratio.
 fn of_ratio(parts: Parts, of: fn(f64) -> f64) -> Option<Parts> {
-    let r = of(((1.0 + parts.shape) / (1.0 - parts.shape)).sqrt());
-    (r > 0.0 && r.is_finite()).then(|| Parts { shape: (r * r - 1.0) / (r * r + 1.0), ..parts })
+    let r = of(((1.0 + parts.of_strain) / (1.0 - parts.of_strain)).sqrt());
+    (r > 0.0 && r.is_finite()).then(|| shaped(parts, (r * r - 1.0) / (r * r + 1.0)))
 }
 
 /// The parts with C_I times `factor`.

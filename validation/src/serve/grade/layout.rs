@@ -121,7 +121,8 @@ fn split(line: &str, separator: char) -> impl Iterator<Item = &str> {
 /// The name of a fourth moment whose indices are in order: all four of moments, those of each pair and the pairs of a
 /// closure, for which a_1122 need not be a_1212. Other names stay.
 fn in_order(name: &str, kind: Kind) -> String {
-    let digits = name.strip_prefix('a').filter(|digits| digits.len() == 4 && digits.bytes().all(|b| b.is_ascii_digit()));
+    let digits =
+        name.strip_prefix('a').filter(|digits| digits.len() == 4 && digits.bytes().all(|b| b.is_ascii_digit()));
     let Some(digits) = digits else { return name.to_owned() };
     let mut digits: Vec<char> = digits.chars().collect();
     if kind == Kind::Formula {

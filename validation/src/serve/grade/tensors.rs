@@ -19,8 +19,10 @@ use rayon::prelude::*;
 /// Above this number of names none is reported.
 const MOST_NAMES: usize = 4;
 
-/// The tolerance of a step of the integration of a curve.
+/// The tolerance of a step of the integration of a curve; of a rough one, which saves time, and how far that may be off.
 const STEP: f64 = 1e-11;
+const ROUGH: f64 = 1e-6;
+const OFF: f64 = 1e-4;
 
 /// An answer that a wrong code may give.
 #[derive(Clone, Debug, PartialEq)]
@@ -138,7 +140,7 @@ fn distance(
     candidate: &Candidate,
     most: f64,
 ) -> Option<f64> {
-    let near = |all: Vec<Matrix3<f64>>| {
+    let near = |all: Vec<Matrix3<f64>>, most: f64| {
         let curve: Option<Vec<_>> = all.iter().map(|a| values(problem, &candidate.closure, a)).collect();
         Some(worst(rows, &curve?)).filter(|worst| *worst <= most)
     };
@@ -147,13 +149,13 @@ fn distance(
     let norm = candidate.parts.spin.norm() + candidate.parts.strain.norm();
     // Saves time: most candidates are far already at the first time, or not at rest where the answer is.
     if !problem.is_steady() {
-        near(at_rate(&rate, start, &times[..1], STEP)?)?;
-        return near(at_rate(&rate, start, times, STEP)?);
+        near(at_rate(&rate, start, &times[..1], ROUGH)?, most + OFF)?;
+        return near(at_rate(&rate, start, times, STEP)?, most);
     }
     if rows[0].len() == PAIRS.len() && rate(&tensor(&rows[0])).amax() > 100.0 * most * norm {
         return None;
     }
-    near(vec![steady_of(&rate, norm, start)?])
+    near(vec![steady_of(&rate, norm, start)?], most)
 }
 
 fn tensor(row: &[f64]) -> Matrix3<f64> {
@@ -166,12 +168,12 @@ fn from_exact(problem: &Problem, rows: &[Vec<f64>], parts: &Parts, most: f64) ->
     let Model::FolgarTucker { c_i } = parts.model else { return None };
     let gradient = parts.spin + parts.strain;
     let speed = (2.0 * parts.strain.dot(&parts.strain)).sqrt();
-    let (c_i, own) = (c_i * parts.speed / speed, parts.of_fourth == 2.0 && parts.decay == 3.0);
-    if !own || parts.shape.abs() > 1.0 || !(1e-9..=1e9).contains(&c_i) {
+    let (c_i, own) = (c_i * parts.speed / speed, parts.of_fourth == 2.0 * parts.of_strain && parts.decay == 3.0);
+    if !own || parts.of_strain.abs() > 1.0 || !(1e-9..=1e9).contains(&c_i) {
         return None;
     }
     // Where Λ = 1 the square of any large aspect ratio will do.
-    let ratio = ((1.0 + parts.shape) / (1.0 - parts.shape)).sqrt().clamp(1e-100, 1e100);
+    let ratio = ((1.0 + parts.of_strain) / (1.0 - parts.of_strain)).sqrt().clamp(1e-100, 1e100);
     let motion = Motion::new(std::array::from_fn(|i| std::array::from_fn(|j| gradient[(i, j)])), ratio, c_i);
     let picked =
         |means: &Means| if rows[0].len() == PAIRS.len() { means.second.to_vec() } else { means.fourth.to_vec() };
@@ -200,11 +202,16 @@ pub(super) fn diagnose(loaded: &LoadedProblem, answer: &Answer, error: f64) -> D
         let said = "a_ij stays where it started: nothing has moved".to_owned();
         return Diagnosis { said: Some(said), ..Diagnosis::default() };
     }
-    let mut near = in_other_layouts(loaded, answer, most);
-    near.par_extend(candidates(&parts, own).par_iter().filter_map(|candidate| {
-        let distance = distance(problem, &answer.rows, &start, candidate, most)?;
-        Some(Near { distance, ..candidate.near.clone() })
-    }));
+    let mut near = in_other_layouts(&[certified(loaded)], answer, most);
+    let all = candidates(&parts, own);
+    let with = |changes: u8| -> Vec<Near> {
+        let near = |candidate: &Candidate| {
+            let distance = distance(problem, &answer.rows, &start, candidate, most)?;
+            Some(Near { distance, ..candidate.near.clone() })
+        };
+        all.par_iter().filter(|candidate| candidate.near.changes == changes).filter_map(near).collect()
+    };
+    near.extend(with(1));
     if start == isotropic() {
         let exact = changes(&parts);
         let exact = exact.par_iter().filter(|change| problem.closed.is_some() == change.name.is_empty());
@@ -213,6 +220,13 @@ pub(super) fn diagnose(loaded: &LoadedProblem, answer: &Answer, error: f64) -> D
             let name = if name.is_empty() { "the distribution, without a closure" } else { name };
             Some(Near { distance, name: name.to_owned(), suspect: name.to_owned(), advice, changes: 1 })
         }));
+    }
+    // More changes are sought only where fewer explain nothing: that is what a code is likely to have, and it saves time.
+    if near.is_empty() {
+        near = with(2);
+    }
+    if near.is_empty() && is_second {
+        near = in_other_layouts(&of_closures(problem, &parts, &start, own), answer, most);
     }
     if near.is_empty() && !problem.is_steady() {
         near = estimate::of_curve(problem, answer, &closed, own, most);
@@ -224,17 +238,52 @@ pub(super) fn diagnose(loaded: &LoadedProblem, answer: &Answer, error: f64) -> D
     said(near, problem.tolerance, &cost)
 }
 
-/// The certified answer in other layouts.
-fn in_other_layouts(loaded: &LoadedProblem, answer: &Answer, most: f64) -> Vec<Near> {
-    let keys = loaded.problem.kind.keys().len();
-    let certified: Vec<_> = loaded.certified.rows.iter().map(|row| row[keys..].to_vec()).collect();
+/// The right values in other layouts; each of `curves` is a name and the values that a code writes.
+fn in_other_layouts(curves: &[(Near, Vec<Vec<f64>>)], answer: &Answer, most: f64) -> Vec<Near> {
     let of = |layout: &layouts::Layout| {
         let rows: Option<Vec<_>> = answer.rows.iter().map(|row| layout.read(row)).collect();
-        let distance = worst(&rows?, &certified);
-        let name = layout.name.to_owned();
-        (distance <= most).then(|| Near { distance, suspect: name.clone(), name, advice: layout.advice, changes: 1 })
+        let rows = rows?;
+        let near = curves.iter().filter_map(|(near, curve)| {
+            let distance = worst(&rows, curve);
+            let name = if near.name.is_empty() {
+                layout.name.to_owned()
+            } else {
+                format!("{}, in {}", near.name, layout.name)
+            };
+            let (suspect, advice) = (layout.name.to_owned(), layout.advice);
+            (distance <= most).then(|| Near { distance, name, suspect, advice, changes: near.changes + 1 })
+        });
+        Some(near.collect::<Vec<_>>())
     };
-    LAYOUTS.iter().filter_map(of).collect()
+    LAYOUTS.iter().filter_map(of).flatten().collect()
+}
+
+/// The certified values, as a curve without a name.
+fn certified(loaded: &LoadedProblem) -> (Near, Vec<Vec<f64>>) {
+    let keys = loaded.problem.kind.keys().len();
+    let none = Near { distance: 0.0, name: String::new(), suspect: String::new(), advice: "", changes: 0 };
+    (none, loaded.certified.rows.iter().map(|row| row[keys..].to_vec()).collect())
+}
+
+/// The curves of every closure but the problem's own.
+fn of_closures(
+    problem: &Problem,
+    parts: &Parts,
+    start: &Matrix3<f64>,
+    own: Option<usize>,
+) -> Vec<(Near, Vec<Vec<f64>>)> {
+    let right = candidates(parts, own).into_iter().filter(|candidate| candidate.parts == *parts);
+    let curve = |candidate: Candidate| {
+        let rate = |a: &Matrix3<f64>| candidate.rate(a);
+        let all = if problem.is_steady() {
+            vec![steady_of(&rate, candidate.parts.spin.norm() + candidate.parts.strain.norm(), start)?]
+        } else {
+            at_rate(&rate, start, &problem.times_s, STEP)?
+        };
+        let values: Option<Vec<_>> = all.iter().map(|a| values(problem, &candidate.closure, a)).collect();
+        Some((candidate.near, values?))
+    };
+    right.collect::<Vec<_>>().into_par_iter().filter_map(curve).collect()
 }
 
 /// The nearest candidates with the fewest changes, in words; `rest` is added.
@@ -245,8 +294,9 @@ fn said(mut near: Vec<Near>, tolerance: f64, rest: &str) -> Diagnosis {
     let fewest = near.iter().map(|near| near.changes).min().unwrap_or_default();
     near.retain(|near| near.changes == fewest);
     let names: Vec<_> = near.iter().map(|near| near.name.as_str()).collect();
-    let advice = near.iter().map(|near| near.advice).find(|advice| !advice.is_empty());
-    let advice = advice.map_or(String::new(), |advice| format!("; {advice}"));
+    let advice = near[0].advice;
+    let shared = !advice.is_empty() && near.iter().all(|near| near.advice == advice);
+    let advice = if shared { format!("; {advice}") } else { String::new() };
     let nearest = nearest.max(f64::EPSILON);
     let said = format!("this is the curve of {}, to {nearest:.0e}{rest}{advice}", names.join(" or of "));
     let said = (names.len() <= MOST_NAMES).then_some(said);

@@ -1,7 +1,7 @@
 //! A number that is off by an unknown factor: C_I, or Λ.
 
 use super::{Near, distance, near_of};
-use crate::methods::tensors::wrong::{CLOSURES, spread};
+use crate::methods::tensors::wrong::{CLOSURES, shaped, spread};
 use crate::methods::tensors::{Parts, at_rate};
 use crate::serve::grade::answer::Answer;
 use crate::serve::problems::{Closed, Problem};
@@ -11,7 +11,7 @@ use rayon::prelude::*;
 type Quantity = (&'static str, fn(Parts, f64) -> Option<Parts>);
 
 const QUANTITIES: [Quantity; 2] =
-    [("C_I", spread), ("Λ", |parts, factor| Some(Parts { shape: factor * parts.shape, ..parts }))];
+    [("C_I", spread), ("Λ", |parts, factor| Some(shaped(parts, factor * parts.of_strain)))];
 
 /// The step of the slope, and the number of steps of Newton's method.
 const SLOPE: f64 = 1e-6;

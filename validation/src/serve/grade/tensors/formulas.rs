@@ -20,7 +20,7 @@ pub(in crate::serve::grade) fn diagnose(loaded: &LoadedProblem, answer: &Answer,
         return Diagnosis::default();
     };
     let rows: Rows = inputs.rows.iter().map(|row| row[1..].to_vec()).collect();
-    let mut near = super::in_other_layouts(loaded, answer, most);
+    let mut near = super::in_other_layouts(&[super::certified(loaded)], answer, most);
     near.extend(match *formula {
         Formula::Pdot => of_rods(&rows, answer, most),
         Formula::Closure { closure } => of_closures(&rows, answer, closure, most),
@@ -97,11 +97,11 @@ fn of_rods(rows: &Rows, answer: &Answer, most: f64) -> Vec<Near> {
     let model = Model::FolgarTucker { c_i: 0.0 };
     let parts: Vec<_> = rows.iter().map(|row| equation(Closure::Linear, model, row).parts()).collect();
     let rates = |parts: &[Parts]| -> Rows {
-        let of = |(row, Parts { spin, strain, shape, of_fourth, .. }): (&Vec<f64>, &Parts)| {
+        let of = |(row, Parts { spin, strain, of_strain, of_fourth, .. }): (&Vec<f64>, &Parts)| {
             let p = Vector3::from_row_slice(&row[..3]);
             let pull = strain * p;
             // pp stands for a and pppp for 𝔸: the same terms.
-            let rate = spin * p + (pull - p * (p.dot(&pull) * 0.5 * of_fourth)) * *shape;
+            let rate = spin * p + pull * *of_strain - p * (p.dot(&pull) * 0.5 * of_fourth);
             rate.as_slice().to_vec()
         };
         rows.iter().zip(parts).map(of).collect()

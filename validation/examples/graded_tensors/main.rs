@@ -1,0 +1,252 @@
+//! The grader on codes for orientation tensors that are right, or wrong in one part: no right one may fail, every wrong
+//! one must be caught, and named.
+//!
+//!     cargo run --example graded_tensors [-- TEXT]
+//!
+//! grades all of them, or those with TEXT in their name, on formulas and curves and prints the table; as a test it does the same.
+
+mod code;
+
+use code::{Code, M, delta, double, hybrid, linear, linear_by, quadratic};
+use rayon::prelude::*;
+use shearbed_validation::methods::tensors::Model;
+use shearbed_validation::serve::grade::{self, Claim, DumpOptions, FileOptions, Graded, Options, Verdict};
+use shearbed_validation::serve::problems::{self, Formula, LoadedProblem};
+use std::array::from_fn;
+use std::fs;
+use std::path::Path;
+
+/// A wrong code: its name, what its diagnosis must contain, and the mistake.
+type Wrong = (&'static str, &'static str, fn(&mut Code));
+
+#[rustfmt::skip]
+const WRONG: &[Wrong] = &[
+    ("L transposed", "a transposed gradient", |c| c.gradient = |l| from_fn(|i| from_fn(|j| l[j][i]))),
+    ("L reversed", "the flow reversed", |c| c.gradient = |l| l.map(|row| row.map(|x| -x))),
+    ("L halved", "half the shear rate", |c| c.gradient = |l| l.map(|row| row.map(|x| 0.5 * x))),
+    ("D without ½", "D without its ½", |c| c.half[1] = 1.0),
+    ("D without ½, γ̇ = |L|", "D without its ½, with the right γ̇", |c| {
+        c.half[1] = 1.0;
+        c.speed = |l, _| (0.5 * (double(l, l) + double(l, &from_fn(|i| from_fn(|j| l[j][i]))))).sqrt() * 2f64.sqrt();
+    }),
+    ("D halved", "D halved twice", |c| c.half[1] = 0.25),
+    ("W without ½", "W without its ½", |c| c.half[0] = 1.0),
+    ("W halved", "W halved twice", |c| c.half[0] = 0.25),
+    ("W forgotten", "W left out", |c| c.half[0] = 0.0),
+    ("W's sign", "a transposed gradient", |c| c.half[0] = -0.5),
+    ("Λ's sign", "Λ with the wrong sign", |c| c.shape = |r| 2.0 / (r * r + 1.0) - 1.0),
+    ("Λ = 1", "no 1/r_e", |c| c.shape = |_| 1.0),
+    ("(r − 1)/(r + 1)", "(r_e − 1)/(r_e + 1) for Λ", |c| c.shape = |r| 1.0 - 2.0 / (r + 1.0)),
+    ("Λ = 0", "Λ = 0", |c| c.shape = |_| 0.0),
+    ("1/Λ", "1/Λ for Λ", |c| c.shape = |r| (r * r + 1.0) / (r * r - 1.0)),
+    ("r_e of the half length", "half the r_e", |c| c.shape = |r| 1.0 - 2.0 / (0.25 * r * r + 1.0)),
+    ("γ̇ = √(D:D)", "γ̇ = (D:D)^½", |c| c.speed = |_, d| double(d, d).sqrt()),
+    ("γ̇ = D:D", "D:D for γ̇", |c| c.speed = |_, d| double(d, d)),
+    ("γ̇ = 2D:D", "2D:D for γ̇", |c| c.speed = |_, d| 2.0 * double(d, d)),
+    ("γ̇ = |L|", "|L| = (L:L)^½ for γ̇", |c| c.speed = |l, _| double(l, l).sqrt()),
+    ("γ̇ = L_21", "L_21 for γ̇", |c| c.speed = |l, _| l[1][0]),
+    ("no γ̇", "γ̇ left out", |c| c.speed = |_, _| 1.0),
+    ("C_I γ̇ (δ − 3a)", "half the C_I", |c| c.spread[0] = 1.0),
+    ("4 C_I γ̇ (δ − 3a)", "twice the C_I", |c| c.spread[0] = 4.0),
+    ("6 C_I γ̇ (δ − 3a)", "6 C_I γ̇ (δ − 3a) for diffusion", |c| c.spread[0] = 6.0),
+    ("2 C_I γ̇ (δ/3 − a)", "2 C_I γ̇ (δ/3 − a) for diffusion", |c| (c.spread[1], c.spread[2]) = (1.0, 1.0 / 3.0)),
+    ("2 C_I γ̇ (δ − 2a)", "2 C_I γ̇ (δ − 2a) for diffusion", |c| c.spread[1] = 2.0),
+    ("no diffusion", "diffusion left out", |c| c.spread[0] = 0.0),
+    ("diffusion's sign", "diffusion with the wrong sign", |c| c.spread[0] = -2.0),
+    ("0.73 C_I", "C_I times 0.7300", |c| c.spread[0] = 1.46),
+    ("Λ missing at 𝔸:D", "Λ missing before 𝔸:D", |c| c.stretch[1] = |_| 2.0),
+    ("Λ missing at Da + aD", "Λ missing before Da + aD", |c| c.stretch[0] = |_| 1.0),
+    ("2 missing at 𝔸:D", "the 2 missing before 𝔸:D", |c| c.stretch[1] = |shape| shape),
+    ("no 𝔸:D", "𝔸:D left out", |c| c.stretch[1] = |_| 0.0),
+    ("another closure", "the linear closure", |c| c.closure = linear),
+    ("1/35's sign", "a linear closure with + 1/35 for − 1/35", |c| {
+        c.closure = |a, at| linear_by(a, at, 1.0 / 7.0, 1.0 / 35.0);
+    }),
+    ("the bracket of 1/7", "a linear closure with its 1/7 before both brackets", |c| {
+        c.closure = |a, at| linear_by(a, at, 1.0 / 7.0, -1.0 / 245.0);
+    }),
+    ("f and 1 − f", "a hybrid closure with f and 1 − f exchanged", |c| {
+        c.closure = |a, at| {
+            let f = 27.0 * code::determinant(a);
+            f * quadratic(a, at) + (1.0 - f) * linear(a, at)
+        };
+    }),
+    ("f = (3a:a − 1)/2", "a hybrid closure with f = (3 a:a − 1)/2", |c| {
+        c.closure = |a, at| {
+            let f = 0.5 * (3.0 * double(a, a) - 1.0);
+            f * quadratic(a, at) + (1.0 - f) * linear(a, at)
+        };
+    }),
+    ("engineering shear", "2 a_12 for a_12", |c| c.written = |x| [x[0], x[1], x[2], 2.0 * x[3], 2.0 * x[4], 2.0 * x[5]]),
+    ("Mandel", "√2 a_12 for a_12", |c| c.written = |x| {
+        let root = 2f64.sqrt();
+        [x[0], x[1], x[2], root * x[3], root * x[4], root * x[5]]
+    }),
+    ("Voigt", "Voigt's order", |c| c.written = |x| [x[0], x[1], x[2], x[5], x[4], x[3]]),
+    ("flow along 1", "axes in the order flow,gradient,vorticity", |c| {
+        c.written = |x| [x[1], x[0], x[2], x[3], x[5], x[4]];
+    }),
+];
+
+const RIGHT: [(&str, code::Closure); 3] = [("linear", linear), ("quadratic", quadratic), ("hybrid", hybrid)];
+
+/// The problems of a code with this closure: its rate, its curves, and what it should miss by no more than its closure.
+fn problems_of(closure: &str) -> Vec<LoadedProblem> {
+    let c_i = if closure == "linear" { "0.1" } else { "0.01" };
+    let names = [format!("dadt-ft-{closure}"), format!("closed-ft-{closure}-{c_i}")];
+    let further =
+        if closure == "hybrid" { &["closed-ft-hybrid-extension", "folgar-tucker-shear-0.01"][..] } else { &[] };
+    let all = names.iter().map(String::as_str).chain(further.iter().copied());
+    all.map(|name| problems::named(name).expect("a problem").loaded(name.into())).collect()
+}
+
+/// The rows of a code's answer: a time or a number, and six components.
+type Rows = Vec<(f64, [f64; 6])>;
+
+fn apart(a: &Rows, b: &Rows) -> f64 {
+    let each = a.iter().zip(b).flat_map(|((_, a), (_, b))| a.iter().zip(b).map(|(a, b)| (a - b).abs()));
+    each.fold(0.0, f64::max)
+}
+
+/// The answer of a code to a problem.
+fn values(code: &Code, loaded: &LoadedProblem, strain: f64) -> Rows {
+    let six = |a: &M| (code.written)([a[0][0], a[1][1], a[2][2], a[0][1], a[0][2], a[1][2]]);
+    let matrix = |x: &[f64]| -> M { [[x[0], x[3], x[4]], [x[3], x[1], x[5]], [x[4], x[5], x[2]]] };
+    let problem = &loaded.problem;
+    let c_i_of = |model: Model| if let Model::FolgarTucker { c_i } = model { c_i } else { f64::NAN };
+    match (&problem.formula, &loaded.inputs) {
+        (Some(Formula::Dadt { model, .. }), Some(inputs)) => {
+            let of = |row: &Vec<f64>| {
+                let l: M = from_fn(|i| from_fn(|j| row[7 + 3 * i + j]));
+                (row[0], six(&code.rate(&matrix(&row[1..]), &l, row[16], c_i_of(*model))))
+            };
+            inputs.rows.iter().map(of).collect()
+        }
+        _ => {
+            let random: M = from_fn(|i| from_fn(|j| delta(i, j) / 3.0));
+            let (start, c_i) =
+                problem.closed.map_or((random, problem.c_i), |closed| (closed.start, Some(c_i_of(closed.model))));
+            let (l, r, times) = (&problem.gradient_per_s, problem.aspect_ratio, &problem.times_s);
+            let path = code.path(&start, l, r, c_i.unwrap_or(f64::NAN), times, strain);
+            times.iter().zip(&path).map(|(time, a)| (*time, six(a))).collect()
+        }
+    }
+}
+
+/// An answer as a file.
+fn text(loaded: &LoadedProblem, rows: &Rows) -> String {
+    let row = |(key, six): &(f64, [f64; 6])| {
+        let values: Vec<_> = six.iter().map(|x| format!("{x:e}")).collect();
+        format!("{key},{}\n", values.join(","))
+    };
+    format!("{}\n{}", loaded.problem.columns.join(","), rows.iter().map(row).collect::<String>())
+}
+
+fn graded(problems: &[LoadedProblem], answers: &[Rows]) -> (Vec<Graded>, Vec<String>) {
+    let dir = tempfile::tempdir().expect("a folder");
+    for (loaded, rows) in problems.iter().zip(answers) {
+        let folder = dir.path().join(&loaded.problem.name);
+        fs::create_dir(&folder).expect("a folder");
+        fs::write(folder.join("answer.csv"), text(loaded, rows)).expect("a file");
+    }
+    grade_in(dir.path(), problems)
+}
+
+/// Answers with steps of this strain: short ones for a code that is to pass.
+fn answers(code: &Code, problems: &[LoadedProblem], strain: f64) -> Vec<Rows> {
+    problems.iter().map(|loaded| values(code, loaded, strain)).collect()
+}
+
+fn grade_in(dir: &Path, problems: &[LoadedProblem]) -> (Vec<Graded>, Vec<String>) {
+    let dump = DumpOptions { timestep_s: None, rod_axis: None };
+    let options = Options { file: FileOptions::default(), dump, claim: Claim::default() };
+    let graded = grade::grade(problems, dir, &options).expect("answers that can be read");
+    let overall = grade::overall(problems, &graded);
+    (graded, overall)
+}
+
+/// One wrong code on one closure: how many of its problems are wrong, named right and named wrong, and what was said.
+struct Row {
+    name: String,
+    wrong: usize,
+    named: usize,
+    said: Vec<String>,
+}
+
+/// A closure with its code, its problems, and what the right code answers to them.
+struct Setting {
+    closure: &'static str,
+    right: Code,
+    problems: Vec<LoadedProblem>,
+    answers: Vec<Rows>,
+}
+
+fn settings() -> Vec<Setting> {
+    let of = |(closure, fourth): &(&'static str, code::Closure)| {
+        let (right, problems) = (Code::right(*fourth), problems_of(closure));
+        Setting { closure, answers: answers(&right, &problems, 0.04), right, problems }
+    };
+    RIGHT.par_iter().map(of).collect()
+}
+
+fn judged((name, expected, spoil): &Wrong, setting: &Setting) -> Row {
+    let mut code = setting.right.clone();
+    spoil(&mut code);
+    let answers = answers(&code, &setting.problems, 0.04);
+    let (graded, _) = graded(&setting.problems, &answers);
+    // A mistake that makes no difference, as of Λ where Λ = 1, is none; a value that is not finite has no name.
+    let differs =
+        |(found, (own, spoilt)): &(&Graded, (&Rows, &Rows))| found.error.is_some() && apart(own, spoilt) > 1e-9;
+    let all = graded.iter().zip(setting.answers.iter().zip(&answers));
+    let wrong: Vec<_> = all.filter(differs).map(|(found, _)| found).collect();
+    let names = [expected, "nothing has moved"];
+    let is_named =
+        |found: &&&Graded| found.diagnosis.as_ref().is_some_and(|said| names.iter().any(|name| said.contains(*name)));
+    let missed =
+        wrong.iter().filter(|found| found.verdict == Verdict::Pass).map(|found| format!("{} passes", found.name));
+    let other = wrong.iter().filter(|found| !is_named(found));
+    let other = other.map(|found| format!("{}: {:?}", found.name, found.diagnosis));
+    Row {
+        name: format!("{name} ({})", setting.closure),
+        wrong: wrong.len(),
+        named: wrong.iter().filter(is_named).count(),
+        said: missed.chain(other).collect(),
+    }
+}
+
+fn all(only: &str, settings: &[Setting]) -> Vec<Row> {
+    let each = WRONG.iter().filter(|(name, ..)| name.contains(only));
+    let each: Vec<_> = each.flat_map(|wrong| settings.iter().map(move |setting| (wrong, setting))).collect();
+    each.into_par_iter().map(|(wrong, setting)| judged(wrong, setting)).collect()
+}
+
+fn main() {
+    let rows = all(&std::env::args().nth(1).unwrap_or_default(), &settings());
+    for row in &rows {
+        println!("{}: {} of {} named", row.name, row.named, row.wrong);
+        row.said.iter().for_each(|said| println!("    {said}"));
+    }
+    let sum = |of: fn(&Row) -> usize| rows.iter().map(of).sum::<usize>();
+    println!("{} wrong answers, {} named", sum(|row| row.wrong), sum(|row| row.named));
+}
+
+#[test]
+fn right_codes_pass_and_wrong_ones_are_caught_and_named() {
+    let settings = settings();
+    for Setting { closure, problems, right, .. } in &settings {
+        let own = |loaded: &&LoadedProblem| loaded.problem.c_i.is_none();
+        let problems: Vec<_> = problems.iter().filter(own).cloned().collect();
+        let (graded, overall) = graded(&problems, &answers(right, &problems, 0.005));
+        for graded in &graded {
+            assert!(graded.verdict == Verdict::Pass && graded.diagnosis.is_none(), "{closure} {graded:?}");
+        }
+        assert_eq!(overall, [""; 0]);
+    }
+    let rows = all("", &settings);
+    let sum = |of: fn(&Row) -> usize| rows.iter().map(of).sum::<usize>();
+    let (wrong, named) = (sum(|row| row.wrong), sum(|row| row.named));
+    let said: Vec<_> =
+        rows.iter().flat_map(|row| row.said.iter().map(|said| format!("{}: {said}", row.name))).collect();
+    assert!(said.iter().all(|said| !said.ends_with("passes")), "{said:#?}");
+    assert!(wrong > 250 && named as f64 >= 0.95 * wrong as f64, "{named} of {wrong}: {said:#?}");
+}
