@@ -12,7 +12,9 @@ use shearbed_validation::files::output::{self, RECORD, Record, ResultFolder};
 use shearbed_validation::files::text::Shown;
 use shearbed_validation::present::plot;
 use shearbed_validation::serve::grade::live::{self, Mode, Program, Protocol};
-use shearbed_validation::serve::grade::{self, Claim, DumpOptions, FileOptions, Graded, LineEnds, Options, Report};
+use shearbed_validation::serve::grade::{
+    self, Axes, Claim, DumpOptions, FileOptions, Graded, LineEnds, Options, Report,
+};
 use shearbed_validation::serve::problems::{self, Kind, LoadedProblem};
 use std::io;
 use std::path::Path;
@@ -34,7 +36,8 @@ fn echo_failed(error: live::EchoError) -> Failure {
 /// Grades answers in files, or a running program.
 pub(super) fn grade(args: &Args) -> Result<(), Failure> {
     if args.echo {
-        return live::echo(args.protocol, io::stdin().lock(), io::stdout().lock()).map_err(echo_failed);
+        return live::echo(args.protocol.unwrap_or_default(), io::stdin().lock(), io::stdout().lock())
+            .map_err(echo_failed);
     }
     spares_inputs(&args.out, &PAGES, args.reference.as_ref().map(|dir| dir.join(RECORD)))?;
     if let Some(dir) = &args.reference
@@ -113,10 +116,11 @@ fn check_names(args: &Args, names: &[String]) -> Result<(), Failure> {
 fn chosen(args: &Args, mut all: Vec<LoadedProblem>) -> Result<Vec<LoadedProblem>, Failure> {
     all.retain(|loaded| {
         let of_kind = args.kind.is_none_or(|kind| kind == loaded.problem.kind);
-        of_kind && asked_for(args, &loaded.problem.name)
+        let of_flow = args.flow.is_none() || loaded.is_couette();
+        of_kind && of_flow && asked_for(args, &loaded.problem.name)
     });
     if all.is_empty() {
-        Err(Failure::Input("--kind and --problem leave no problem to grade".to_owned()))
+        Err(Failure::Input("--kind, --flow and --problem leave no problem to grade".to_owned()))
     } else {
         Ok(all)
     }
@@ -138,10 +142,7 @@ fn files(args: &Args, reference: &Path, mine: &Path) -> Result<Done, Failure> {
         return Err(Failure::Input(format!("{}: no such folder; answers are asked for in MINE/NAME", mine.shown())));
     }
     output::probe(&args.out, 0)?;
-    let problems = grade::grade(&wanted, mine, &options(args)).map_err(|errors| {
-        let lines: Vec<_> = errors.iter().map(ToString::to_string).collect();
-        Failure::Input(lines.join("\n"))
-    })?;
+    let problems = grade::grade(&wanted, mine, &options(args));
     let mut report = report(args, [reference.shown(), mine.shown()], problems, not_read(mine, &names));
     report.diagnosis = grade::overall(&wanted, &report.problems);
     report.remarks.extend(grade::remark(&report.problems, args.order));
@@ -185,55 +186,66 @@ fn report(args: &Args, [reference, answers]: [String; 2], problems: Vec<Graded>,
     }
 }
 
-/// Refuses other problems than those about rods: for a running program such a name is a wrong request, not an unknown
-/// name.
-fn check_rods_alone(args: &Args) -> Result<(), Failure> {
-    const INSTEAD: &str =
-        "a program that runs is asked about single rods only; other answers go into files (grade REF MINE)";
-    let other = |name: &&String| {
-        let of_rods = problems::free_rods().contains(&name.as_str());
-        !of_rods && problems::all().iter().any(|def| def.name == **name)
-    };
-    if let Some(name) = args.problems.iter().find(other) {
-        return Err(Failure::Input(format!("--problem {name}: {INSTEAD}")));
-    }
-    match args.kind {
-        None | Some(Kind::Rods) => Ok(()),
-        Some(_) => Err(Failure::Input(format!("--kind: {INSTEAD}; rods is allowed"))),
-    }
-}
+/// Asked for by its name alone: any integrator needs minutes for it.
+const LONG: &str = "ten-thousand-periods";
 
-/// The problems to ask a program.
-fn about_rods(args: &Args, reference: Option<&Path>) -> Result<Vec<LoadedProblem>, Failure> {
-    check_rods_alone(args)?;
-    let Some(dir) = reference else {
-        let all: Vec<_> = problems::free_rods().into_iter().map(str::to_owned).collect();
-        check_names(args, &all)?;
-        return Ok(live::built_in(|name| asked_for(args, name)));
+/// The problems to ask a program: those about single rods, and others that are asked for by name or kind.
+fn asked(args: &Args, reference: Option<&Path>) -> Result<Vec<LoadedProblem>, Failure> {
+    let own = args.kind.is_none() && args.problems.is_empty();
+    let by_name = |name: &str| !args.problems.is_empty() && asked_for(args, name);
+    let is_wanted = |LoadedProblem { problem, .. }: &LoadedProblem| {
+        let default = own && problem.kind == Kind::Rods && problem.name != LONG;
+        default || by_name(&problem.name) || !own && live::can_be_asked(problem)
     };
-    let mut rods = problems::read(dir).map_err(|error| Failure::Input(error.to_string()))?;
-    rods.retain(|loaded| loaded.problem.kind == Kind::Rods);
-    check_names(args, &names(&rods))?;
-    chosen(args, rods)
+    let mut all = match reference {
+        Some(dir) => problems::read(dir).map_err(|error| Failure::Input(error.to_string()))?,
+        None => {
+            check_names(args, &problems::all().iter().map(|def| def.name.to_owned()).collect::<Vec<_>>())?;
+            let rods = problems::free_rods();
+            live::built_in(|name| if own { rods.contains(&name) } else { asked_for(args, name) })
+        }
+    };
+    check_names(args, &names(&all))?;
+    all.retain(is_wanted);
+    let wanted = chosen(args, all)?;
+    let tables = wanted.iter().find(|loaded| loaded.problem.kind != Kind::Rods);
+    let refused = match wanted.iter().find(|loaded| !live::can_be_asked(&loaded.problem)) {
+        Some(loaded) => {
+            Some((loaded, "a program that runs is not asked about it; answers go into files (grade REF MINE)"))
+        }
+        None => {
+            tables.filter(|_| args.protocol == Some(Protocol::Text)).map(|loaded| (loaded, "it needs lines of JSON"))
+        }
+    };
+    match refused {
+        Some((loaded, why)) => Err(Failure::Input(format!("--problem {}: {why}", loaded.problem.name))),
+        None if tables.is_some() && args.axes != Axes::default() => {
+            Err(Failure::Input("--axes: with --command it is for problems of rods alone".to_owned()))
+        }
+        None => Ok(wanted),
+    }
 }
 
 fn program(args: &Args, command: &str, reference: Option<&Path>) -> Result<Done, Failure> {
-    let wanted = tolerances::with(&args.tolerances, about_rods(args, reference)?)?;
+    let wanted = tolerances::with(&args.tolerances, asked(args, reference)?)?;
     let inputs = inputs::of_program(args, reference, &wanted)?;
     let origin = ("grade", inputs.clone(), args.writing.force);
     result_folder(&args.out, origin, 0, &[&PAGES[..], &PICTURES].concat())?;
     let timeout = Duration::from_secs_f64(args.timeout);
-    let program = Program::start(command, args.protocol, timeout)
+    let program = Program::start(command, args.protocol.unwrap_or_default(), timeout)
         .map_err(|error| Failure::Input(format!("--command {error}")))?
         .with_axes(args.axes);
-    let mode = live::mode(&program);
+    // A code for tensors alone has no first question about a rod.
+    let rods = wanted.iter().any(|loaded| loaded.problem.kind == Kind::Rods);
+    let (program, mode) = if rods { live::prepared(program, args.protocol.is_none()) } else { (program, Mode::Steps) };
     let claim = Claim { order: args.order };
     let mut problems: Vec<_> = wanted.iter().map(|problem| live::grade(&program, problem, mode, claim)).collect();
     grade::settle(&wanted, &mut problems, claim.order);
     let observed = problems.iter().filter(|graded| graded.verdict == grade::Verdict::Pass);
     let theory = live::theory(mode == Mode::Tolerance, observed.filter_map(|graded| graded.observed_order).next());
     let program = program.with_theory(theory);
-    let studies = (!args.brief && program.given_up().is_none()).then(|| live::studies(&program, &echo(args.protocol)));
+    let studies = (!args.brief && rods && program.given_up().is_none())
+        .then(|| live::studies(&program, &echo(program.protocol())));
     let left_out = studies.iter().flat_map(live::Studies::left_out);
     let mut remarks: Vec<_> = left_out
         .map(|what| format!("{what}: not measured, as the program needs longer for it than --timeout, or broke off"))
@@ -247,7 +259,11 @@ fn program(args: &Args, command: &str, reference: Option<&Path>) -> Result<Done,
     let reference = reference.map_or("built-in problems".to_owned(), |dir| dir.shown());
     let mut report = report(args, [reference, command.to_owned()], problems, remarks);
     report.live = studies;
-    let asked: Vec<_> = wanted.iter().map(live::last_time).collect();
+    let last = |loaded: &LoadedProblem| match loaded.problem.kind {
+        Kind::Rods => live::last_time(loaded),
+        _ => loaded.clone(),
+    };
+    let asked: Vec<_> = wanted.iter().map(last).collect();
     report.diagnosis = grade::overall(&asked, &report.problems);
     Ok((report, wanted, inputs))
 }

@@ -172,21 +172,19 @@ pub fn answers() -> Target {
             });
             let (name, answer) = &files[0];
             put(&folder.join(name), &[("answer.csv", answer.clone())])?;
-            let asked: Vec<_> = loaded.iter().filter(|loaded| loaded.problem.name == *name).cloned().collect();
+            let asked = loaded.iter().find(|loaded| loaded.problem.name == *name).ok_or("no such problem")?;
             let options = Options {
                 file: FileOptions { columns: None, foreign: None, axes: Axes::default(), ends: LineEnds::default() },
                 dump: DumpOptions { timestep_s: None, rod_axis: None },
                 claim: Claim::default(),
             };
-            match grade::grade(&asked, folder, &options) {
+            match grade::grade_one(asked, &folder.join(name), &options) {
                 Ok(graded) => {
-                    let numbers =
-                        graded.iter().flat_map(|graded| [graded.error, graded.length_drift, graded.orbit_drift]);
-                    Taken::if_finite(numbers.flatten().all(f64::is_finite), "a number")
+                    let numbers = [graded.error, graded.length_drift, graded.orbit_drift];
+                    Taken::if_finite(numbers.into_iter().flatten().all(f64::is_finite), "a number")
                 }
-                Err(errors) => {
-                    let first = errors.first().ok_or("refused without a reason")?;
-                    named(&first.message, Some(first.line as usize), files, &first.path.display().to_string())
+                Err(error) => {
+                    named(&error.message, Some(error.line as usize), files, &error.path.display().to_string())
                 }
             }
         }),

@@ -28,6 +28,13 @@ impl From<Layout> for Foreign {
     }
 }
 
+/// The values of `--flow`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub(super) enum Flow {
+    /// Plane Couette flow, u_2 = G x_1
+    Couette,
+}
+
 /// Arguments of `grade`.
 #[derive(clap::Args)]
 #[command(after_help = "\
@@ -44,18 +51,22 @@ pub(crate) struct Args {
     /// Start this program once and ask it line by line, in place of answers in files
     #[arg(long, value_name = "PROGRAM ARGS")]
     pub(super) command: Option<String>,
-    /// The form of a program's lines: json, or text (numbers separated by blanks, for C and Fortran)
-    #[arg(long, value_name = "json|text", default_value = "json", conflicts_with = "mine")]
-    pub(super) protocol: Protocol,
+    /// The form of a program's lines: json, or text (numbers separated by blanks, for C and Fortran) [default: json, and
+    /// text if the first answer is none]
+    #[arg(long, value_name = "json|text", conflicts_with = "mine")]
+    pub(super) protocol: Option<Protocol>,
     /// The folder for grade.html, grade.json, grade.md, junit.xml and pictures
     #[arg(long, value_name = "DIR", default_value = "out/grade")]
     pub(super) out: PathBuf,
     /// Grade this problem only; can be given more than once
     #[arg(long = "problem", value_name = "NAME")]
     pub(super) problems: Vec<String>,
-    /// Grade problems of this kind only: rods, tensor, contact or ensemble
+    /// Grade problems of this kind only: rods, tensor, formula, contact or ensemble
     #[arg(long, value_name = "KIND", value_parser = kind)]
     pub(super) kind: Option<Kind>,
+    /// Grade problems in this flow only: couette, u_2 = G x_1
+    #[arg(long, value_name = "couette")]
+    pub(super) flow: Option<Flow>,
     /// The answer's columns in the order of the file, - for one to leave out: time_s,rod,p3,p1,p2
     #[arg(
         long,
@@ -106,7 +117,8 @@ pub(crate) struct Args {
 }
 
 fn kind(text: &str) -> Result<Kind, String> {
-    serde_json::from_value(text.into()).map_err(|_| "rods, tensor, contact and ensemble are allowed".to_owned())
+    serde_json::from_value(text.into())
+        .map_err(|_| "rods, tensor, formula, contact and ensemble are allowed".to_owned())
 }
 
 fn positive(text: &str) -> Result<f64, String> {

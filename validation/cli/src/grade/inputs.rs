@@ -6,6 +6,7 @@ use clap::ValueEnum;
 use serde_json::{Value, json};
 use shearbed_validation::files::bounded;
 use shearbed_validation::files::text::Shown;
+use shearbed_validation::serve::grade::live::Protocol;
 use shearbed_validation::serve::problems::LoadedProblem;
 use std::collections::BTreeMap;
 use std::fs;
@@ -29,7 +30,8 @@ pub(super) fn of_program(args: &Args, reference: Option<&Path>, wanted: &[Loaded
         "problems": problems,
         "reference_crc32": reference,
         "command": args.command,
-        "protocol": args.protocol.word(),
+        "protocol": args.protocol.map(Protocol::word),
+        "flow": args.flow.and_then(|flow| Some(flow.to_possible_value()?.get_name().to_owned())),
         "tolerances": wanted.iter().map(|loaded| loaded.problem.tolerance).collect::<Vec<_>>(),
         "timeout": args.timeout,
         "brief": args.brief,

@@ -68,6 +68,12 @@ pub fn files(reference: &Path, mine: &Path, more: &[&str]) -> Graded {
 }
 
 impl Graded {
+    /// What was printed, without line ends.
+    #[allow(dead_code)]
+    pub fn line(&self) -> String {
+        self.words.split_whitespace().collect::<Vec<_>>().join(" ")
+    }
+
     /// What is said of a problem.
     pub fn of(&self, name: &str) -> &Value {
         let grade = self.grade.as_ref().unwrap_or_else(|| panic!("{}", self.words));

@@ -7,7 +7,7 @@ use std::path::Path;
 use std::process::Command;
 
 #[test]
-fn bad_answers_are_refused_with_file_line_and_column() {
+fn bad_answers_fail_their_problem_with_file_line_and_column() {
     let (_, rows) = problem("shear-plane");
     let good = text(&rows);
     let lines: Vec<&str> = good.lines().collect();
@@ -70,10 +70,10 @@ fn bad_answers_are_refused_with_file_line_and_column() {
         let dir = tempfile::tempdir().unwrap();
         let file = write(dir.path(), "shear-plane", "answer.csv", text);
         let ended = answers(dir.path(), &[]);
-        assert_eq!(ended.code, Some(2), "{reason}: {}", ended.words);
+        assert_eq!((ended.code, ended.verdict("shear-plane")), (Some(1), "FAIL"), "{reason}: {}", ended.words);
         let place = format!("{}{place}: ", file.display());
-        assert!(ended.words.contains(&place) && ended.words.contains(reason), "{place}{reason}: {}", ended.words);
-        assert!(ended.grade.is_none(), "nothing is written");
+        let note = ended.of("shear-plane")["note"].as_str().unwrap();
+        assert!(note.contains(&place) && note.contains(reason), "{place}{reason}: {note}");
     }
 }
 
@@ -90,10 +90,10 @@ fn another_format_and_wrong_folders_are_refused() {
     write(&mine, "mid-flip-2", "answer.csv", text(&problem("mid-flip-2").1));
     assert_eq!(files(&reference, &mine, &[]).code, Some(0));
     write(&mine, "mid-flip-2", "answer.txt", "");
-    assert!(files(&reference, &mine, &[]).words.contains("one of them is allowed"));
+    assert!(files(&reference, &mine, &[]).line().contains("one of them is allowed"));
     fs::remove_file(mine.join("mid-flip-2/answer.txt")).unwrap();
     write(&mine, "mid-flip-2", "steps-0.csv", "");
-    assert!(files(&reference, &mine, &[]).words.contains("a whole number from 1 is allowed"));
+    assert!(files(&reference, &mine, &[]).line().contains("a whole number from 1 is allowed"));
     fs::remove_file(mine.join("mid-flip-2/steps-0.csv")).unwrap();
     let json = reference.join("mid-flip-2/problem.json");
     let changed = fs::read_to_string(&json).unwrap().replace("\"format\": 1", "\"format\": 2");
@@ -113,11 +113,13 @@ fn another_format_and_wrong_folders_are_refused() {
 }
 
 #[test]
-fn a_program_that_runs_is_asked_about_rods_alone() {
-    for more in [["--problem", "isotropic-3"], ["--kind", "contact"]] {
+fn a_program_that_runs_is_not_asked_about_means_and_contacts() {
+    for (more, reason) in
+        [(["--problem", "isotropic-3"], "is not asked about it"), (["--kind", "contact"], "leave no problem to grade")]
+    {
         let ended = graded(&[&["--command", "true", "--brief"][..], &more].concat());
-        let told = ended.words.contains(more[0]) && ended.words.contains("asked about single rods only");
-        assert!(ended.code == Some(2) && told && ended.grade.is_none(), "{}", ended.words);
+        let said = ended.words.contains(more[0]) && ended.words.contains(reason);
+        assert!(ended.code == Some(2) && said && ended.grade.is_none(), "{}", ended.words);
     }
 }
 
@@ -136,14 +138,15 @@ fn ten_million_rows_are_refused_at_the_first_that_nobody_asked_for() {
         let many = format!("{head}\n{}{rest}", row.repeat(10_000_000));
         write(dir.path(), "mid-flip-2", "answer.csv", many);
         let command = format!(
-            "ulimit -v 1000000; '{}' grade '{}' '{}' --out '{}'",
+            "ulimit -v 1000000; '{}' grade '{}' '{}' --force --out '{}'",
             env!("CARGO_BIN_EXE_shearbed"),
             REFERENCE.path().display(),
             dir.path().display(),
             dir.path().join("out").display()
         );
         let output = Command::new("sh").args(["-c", &command]).ended();
-        let words = String::from_utf8_lossy(&output.stderr);
-        assert!(output.status.code() == Some(2) && words.contains(place), "{words}");
+        let words = String::from_utf8_lossy(&output.stdout);
+        let words = words.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(output.status.code() == Some(1) && words.contains(place), "{words}");
     }
 }

@@ -86,7 +86,10 @@ fn judge(case: &Case) -> Result<(), Failed> {
             let within = |k: usize| errors[k] <= found["tolerance"].as_f64().unwrap();
             let order = |k: usize| (errors[k + 1] / errors[k]).log2();
             let steady = || (1..3).all(|k| (order(k) - order(0)).abs() < 0.1);
-            check(within(0) && (within(1) || errors.len() == 4 && steady()), "the last ones")?;
+            let extrapolated =
+                found["note"].as_str().is_some_and(|note| note.starts_with("converges to the certified"));
+            let right = within(0) && (within(1) || errors.len() == 4 && steady());
+            check(right || extrapolated && errors.len() == 4 && steady(), "the last ones")?;
         }
     }
     let said = format!("{} {} {}", found["note"], found["diagnosis"], grade["remarks"]);

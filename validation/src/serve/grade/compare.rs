@@ -147,19 +147,32 @@ fn remark(loaded: &LoadedProblem, answer: &Answer, row: usize, error: f64, large
             "too little data to judge: the largest standard error is {largest_se:.2e}, {enough:.2e} is allowed"
         ));
     }
-    let keys = loaded.problem.kind.keys().len();
-    let names = &loaded.problem.columns[keys..];
-    let column = |name: &str| names.iter().position(|found| found == name);
-    if let (Some(a), Some(b), Some(c)) = (column("a11"), column("a22"), column("a33")) {
-        let values = &answer.rows[row];
-        let trace = values[a] + values[b] + values[c];
-        // Six printed digits and an integrator's drift change the trace by less.
-        if (trace - 1.0).abs() > 1e-3 {
-            let digits = if trace.abs() < 1e4 { format!("{trace:.4}") } else { format!("{trace:.1e}") };
-            return Some(format!("{}: the trace is {digits}; are the columns in another order?", place()));
-        }
+    trace(loaded, answer, row).map(|words| format!("{}: {words}", place()))
+}
+
+/// What is wrong with the trace of a_ij in a row, if anything is.
+fn trace(loaded: &LoadedProblem, answer: &Answer, row: usize) -> Option<String> {
+    // Six printed digits and an integrator's drift change the trace by less.
+    const OFF: f64 = 1e-3;
+    let names = &loaded.problem.columns[loaded.problem.kind.keys().len()..];
+    let places = ["a11", "a22", "a33"].map(|name| names.iter().position(|found| found == name));
+    let [Some(a), Some(b), Some(c)] = places else { return None };
+    let of = |row: usize| answer.rows[row][a] + answer.rows[row][b] + answer.rows[row][c];
+    let is_one = |sum: f64| (sum - 1.0).abs() <= OFF;
+    let found = of(row);
+    if is_one(found) {
+        return None;
     }
-    None
+    let digits = if found.abs() < 1e4 { format!("{found:.4}") } else { format!("{found:.1e}") };
+    let values = &answer.rows[row];
+    let others = || (0..values.len()).flat_map(|i| (0..i).flat_map(move |j| (0..j).map(move |k| [i, j, k])));
+    let permuted = others().any(|of| is_one(of.iter().map(|k| values[*k]).sum()));
+    let drifts = row > 0 && is_one(of(0));
+    Some(match (drifts, permuted) {
+        (true, _) => format!("the trace drifts from {:.4} to {digits}: the rate of a_ij has a trace", of(0)),
+        (false, true) => format!("the trace is {digits}; are the columns in another order?"),
+        (false, false) => format!("the trace is {digits}, where 1 is due"),
+    })
 }
 
 /// G in 1/s of a problem in plane Couette flow u_2 = G x_1.

@@ -3,6 +3,7 @@
 use super::answer::Answer;
 use super::compare::compare;
 use super::diagnosis::diagnose;
+use super::digits;
 use super::lammps;
 use super::layout::FileOptions;
 use super::order;
@@ -32,18 +33,17 @@ pub struct Options {
     pub claim: Claim,
 }
 
-/// Grades the answers in `mine/NAME/` to each problem. `Err` lists every file that cannot be read.
-pub fn grade(problems: &[LoadedProblem], mine: &Path, options: &Options) -> Result<Vec<Graded>, Vec<FileError>> {
-    let mut all = Vec::new();
-    let mut errors = Vec::new();
-    for problem in problems {
-        match one(problem, &mine.join(&problem.problem.name), options) {
-            Ok(graded) => all.push(graded),
-            Err(error) => errors.push(error),
-        }
-    }
+/// Grades the answers in `mine/NAME/` to each problem. A file that cannot be read fails its problem.
+pub fn grade(problems: &[LoadedProblem], mine: &Path, options: &Options) -> Vec<Graded> {
+    let of = |problem: &LoadedProblem| {
+        grade_one(problem, &mine.join(&problem.problem.name), options).unwrap_or_else(|error| {
+            let note = Some(error.to_string());
+            Graded { verdict: Verdict::Fail, note, ..Graded::without_answer(problem) }
+        })
+    };
+    let mut all: Vec<_> = problems.iter().map(of).collect();
     order::settle(problems, &mut all, options.claim.order);
-    if errors.is_empty() { Ok(all) } else { Err(errors) }
+    all
 }
 
 /// The files of an answer: a single one, or one for each number of steps, in ascending order.
@@ -94,7 +94,12 @@ fn find(dir: &Path) -> Result<AnswerFiles, FileError> {
     Ok(found)
 }
 
-fn one(loaded: &LoadedProblem, dir: &Path, options: &Options) -> Result<Graded, FileError> {
+/// Grades the answer in the folder `dir` to one problem.
+///
+/// # Errors
+///
+/// A file that cannot be read: file, line and column.
+pub fn grade_one(loaded: &LoadedProblem, dir: &Path, options: &Options) -> Result<Graded, FileError> {
     let found = find(dir)?;
     let read = |path: &PathBuf| read(path, loaded, &options.file, &options.dump);
     let mut errors = Vec::new();
@@ -120,7 +125,7 @@ fn one(loaded: &LoadedProblem, dir: &Path, options: &Options) -> Result<Graded, 
 }
 
 /// Sets the verdict on `answer` and the reasons in `graded`.
-fn judge(graded: &mut Graded, loaded: &LoadedProblem, answer: &Answer, claim: Claim) {
+pub(super) fn judge(graded: &mut Graded, loaded: &LoadedProblem, answer: &Answer, claim: Claim) {
     let compared = compare(loaded, answer);
     let within = compared.error <= loaded.problem.tolerance && !compared.too_little_data;
     // Standard errors scatter.
@@ -136,9 +141,10 @@ fn judge(graded: &mut Graded, loaded: &LoadedProblem, answer: &Answer, claim: Cl
     graded.note = if within {
         off
     } else {
+        let digits = digits::remark(answer, compared.error);
         let place = compared.remark.unwrap_or_else(|| place(loaded, answer, compared.row));
         let needed = graded.steps_needed().filter(|_| off.is_none());
-        Some(off.into_iter().chain(needed).chain([place]).collect::<Vec<_>>().join("; "))
+        Some(off.into_iter().chain(needed).chain([place]).chain(digits).collect::<Vec<_>>().join("; "))
     };
 }
 

@@ -103,7 +103,7 @@ fn row<'a>(graded: &'a Graded, columns: &[Column]) -> ProblemRow<'a> {
         class: match graded.verdict {
             Verdict::Pass => "pass",
             Verdict::Fail => "fail",
-            Verdict::Missing => "nodata",
+            Verdict::Missing | Verdict::Refused => "nodata",
             Verdict::NotReached => "underpowered",
         },
         name: &graded.name,

@@ -6,6 +6,7 @@ mod axes;
 mod compare;
 mod contact;
 mod diagnosis;
+mod digits;
 pub mod figures;
 mod files;
 mod html;
@@ -24,7 +25,7 @@ mod tensors;
 
 pub use crate::files::csv::LineEnds;
 pub use axes::Axes;
-pub use files::{Claim, Options, grade};
+pub use files::{Claim, Options, grade, grade_one};
 pub use html::html;
 pub use lammps::DumpOptions;
 pub use layout::{FileOptions, Foreign};
@@ -45,6 +46,8 @@ pub enum Verdict {
     Fail,
     /// There is no answer.
     Missing,
+    /// The program answered with an error of its own: it does not claim to solve this problem.
+    Refused,
     /// Time ran out before the answers came within the tolerance, or showed that they would not: neither a pass nor a
     /// failure.
     #[serde(rename = "NOT REACHED")]
@@ -58,6 +61,7 @@ impl Verdict {
             Self::Pass => "PASS",
             Self::Fail => "FAIL",
             Self::Missing => "MISSING",
+            Self::Refused => "REFUSED",
             Self::NotReached => "NOT REACHED",
         }
     }
@@ -139,7 +143,7 @@ impl Graded {
 
     /// Sets the errors (steps, error) from coarse to fine, and their orders compared with the claimed one.
     fn set_orders(&mut self, errors: Vec<(u64, f64)>, loaded: &LoadedProblem, claimed: Option<f64>) {
-        let found = order::orders(&errors, loaded.own_tolerance);
+        let found = order::orders(&errors, loaded.tolerances());
         self.observed_order = found.observed(claimed);
         self.order_found = claimed.filter(|_| !errors.is_empty()).map(|claimed| found.judged(claimed));
         self.orders = found.all;

@@ -58,8 +58,9 @@ pub struct Orders {
     pub ended: bool,
 }
 
-/// The orders of `errors` (steps, error) from coarse to fine, for a problem with this tolerance of its own.
-pub fn orders(errors: &[(u64, f64)], tolerance: f64) -> Orders {
+/// The orders of `errors` (steps, error) from coarse to fine, for a problem with this tolerance of its own, and with
+/// the one that passes, which may be larger: below it a code of few digits may have reached its round-off.
+pub fn orders(errors: &[(u64, f64)], [tolerance, allowed]: [f64; 2]) -> Orders {
     let order = |pair: &[(u64, f64)]| {
         let order = (pair[0].1 / pair[1].1).ln() / (pair[1].0 as f64 / pair[0].0 as f64).ln();
         order.is_finite().then_some(order)
@@ -74,7 +75,7 @@ pub fn orders(errors: &[(u64, f64)], tolerance: f64) -> Orders {
         }
         match order {
             // The error has stopped falling, and the pair before has reached round-off too.
-            Some(order) if coarse <= tolerance && *order < 0.5 => {
+            Some(order) if coarse <= allowed && *order < 0.5 => {
                 found.usable.pop();
                 found.ended = true;
                 break;

@@ -47,7 +47,7 @@ impl Report {
         match verdict {
             Verdict::Pass => false,
             Verdict::Fail | Verdict::NotReached => true,
-            Verdict::Missing => self.all,
+            Verdict::Missing | Verdict::Refused => self.all,
         }
     }
 
@@ -58,7 +58,7 @@ impl Report {
 
     /// The number of problems with each verdict, each followed by the text `meaning`.
     fn counted(&self, meaning: impl Fn(Verdict) -> &'static str) -> String {
-        let others = [Verdict::Fail, Verdict::Missing, Verdict::NotReached];
+        let others = [Verdict::Fail, Verdict::Refused, Verdict::Missing, Verdict::NotReached];
         let found = others.into_iter().filter(|verdict| self.count(*verdict) > 0);
         let found = found.map(|v| format!(", {} {}{}", self.count(v), v.word(), meaning(v)));
         let pass = self.count(Verdict::Pass);
@@ -70,6 +70,8 @@ impl Report {
         let mut words = self.counted(|verdict| match verdict {
             Verdict::Missing if self.all => " (no answer: not passed)",
             Verdict::Missing => " (no answer: neither passed nor failed)",
+            Verdict::Refused if self.all => " (the program's own error: not passed)",
+            Verdict::Refused => " (the program's own error: neither passed nor failed)",
             Verdict::NotReached => " (time ran out: not passed)",
             Verdict::Pass | Verdict::Fail => "",
         });

@@ -195,6 +195,10 @@ pub(super) fn diagnose(loaded: &LoadedProblem, answer: &Answer, error: f64) -> D
     let problem = &loaded.problem;
     let most = NEARER * error;
     let Some((closed, own)) = asked(problem) else { return Diagnosis::default() };
+    // Curves are no better known.
+    if most < STEP {
+        return Diagnosis::default();
+    }
     let start = closed.start();
     let parts = closed.equation(&problem.gradient_per_s, problem.aspect_ratio).parts();
     let is_second = problem.columns.len() == PAIRS.len() + 1;

@@ -32,8 +32,10 @@ pub use read::read;
 pub use table::Table;
 
 use crate::methods::tensors::{Closure, Model};
+use nalgebra::Matrix3;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
+use shearbed::model::flow::VelocityGradient;
 use std::path::PathBuf;
 use std::sync::{LazyLock, OnceLock};
 
@@ -240,6 +242,22 @@ pub struct LoadedProblem {
 }
 
 impl LoadedProblem {
+    /// The problem's own tolerance, and the one that passes.
+    pub fn tolerances(&self) -> [f64; 2] {
+        [self.own_tolerance, self.problem.tolerance]
+    }
+
+    /// True if all that is asked is in plane Couette flow, u_2 = G x_1.
+    pub fn is_couette(&self) -> bool {
+        let couette = |l: Matrix3<f64>| VelocityGradient::new(l).is_some_and(|flow| flow.shear_rate_per_s().is_some());
+        let l = &self.problem.gradient_per_s;
+        match (&self.problem.formula, &self.inputs) {
+            (Some(Formula::Closure { .. }), _) => false,
+            (Some(_), Some(inputs)) => inputs.rows.iter().all(|row| couette(formula::inputs::gradient(row))),
+            _ => couette(Matrix3::from_fn(|i, j| l[i][j])),
+        }
+    }
+
     /// The problem with a larger tolerance, given by `whom`; a smaller one changes nothing.
     pub fn with_tolerance(mut self, tolerance: f64, whom: &str) -> Self {
         if tolerance > self.own_tolerance {

@@ -1,4 +1,4 @@
-//! A ladder: one problem with more and more steps, or with smaller and smaller tolerances.
+//! A ladder: one problem with more and more steps, or with smaller and smaller tolerances; formulas have none.
 
 mod climb;
 mod jumps;
@@ -6,16 +6,19 @@ mod jumps;
 mod tests;
 
 use super::last_time;
-use super::program::{Program, Question};
+use super::program::{Asked, Program, Question};
+use super::protocol::Protocol;
+use super::tables;
 use crate::methods::integrators::Setting;
 use crate::serve::grade::answer::Answer;
 use crate::serve::grade::compare::{Compared, compare};
 use crate::serve::grade::diagnosis::diagnose;
-use crate::serve::grade::files::Claim;
+use crate::serve::grade::digits;
+use crate::serve::grade::files::{Claim, judge};
 use crate::serve::grade::order::other;
 use crate::serve::grade::{Graded, Order, Verdict};
-use crate::serve::problems::LoadedProblem;
-use climb::{End, climb};
+use crate::serve::problems::{Kind, LoadedProblem};
+use climb::{End, climb, converges};
 use std::time::Duration;
 
 /// The setting that a program accepts.
@@ -28,18 +31,31 @@ pub enum Mode {
 }
 
 /// Asks for a rod of r_e = 2 over a short time, with steps; if the program returns an error there and none with a
-/// tolerance, its mode is the tolerance.
-pub fn mode(program: &Program) -> Mode {
-    program.during("the first request");
-    let question = Question {
+/// tolerance, its mode is the tolerance. If `any_form` and it does not understand its form of lines, it is started anew
+/// with numbers.
+pub fn prepared(program: Program, any_form: bool) -> (Program, Mode) {
+    let ask = |program: &Program, setting| {
+        program.during("the first request");
+        program.ask(&first(), setting)
+    };
+    let is_answer = |found: &Result<_, Asked>| matches!(found, Ok(_) | Err(Asked::Says(_)));
+    let found = ask(&program, Setting::Steps(8));
+    let text = (any_form && matches!(found, Err(Asked::Breach(_)))).then(|| program.restarted(Protocol::Text));
+    let text = text.map(|text| (ask(&text, Setting::Steps(8)), text)).filter(|(found, _)| is_answer(found));
+    let (found, program) = text.unwrap_or((found, program));
+    let refuses = |found| matches!(found, Err(Asked::Says(_)));
+    // What breaks at the tolerance is shown by the ladder of tolerances.
+    let by_tolerance = refuses(found) && !refuses(ask(&program, Setting::Tolerance(1e-3)));
+    (program, if by_tolerance { Mode::Tolerance } else { Mode::Steps })
+}
+
+fn first() -> Question {
+    Question {
         gradient_per_s: [[0.0; 3], [1.0, 0.0, 0.0], [0.0; 3]],
         aspect_ratio: 2.0,
         start: vec![[1.0, 0.0, 0.0]],
         end_s: 1.0,
-    };
-    let refuses = |setting| matches!(program.ask(&question, setting), Err(super::program::Asked::Says(_)));
-    // What breaks at the tolerance is shown by the ladder of tolerances.
-    if refuses(Setting::Steps(8)) && !refuses(Setting::Tolerance(1e-3)) { Mode::Tolerance } else { Mode::Steps }
+    }
 }
 
 /// One setting with its answer.
@@ -51,12 +67,8 @@ struct Rung {
 }
 
 impl Rung {
-    fn of(problem: &LoadedProblem, setting: Setting, p: Vec<[f64; 3]>, took: Duration) -> Self {
-        let answer = Answer {
-            path: "standard output".into(),
-            lines: vec![0; p.len()],
-            rows: p.into_iter().map(Vec::from).collect(),
-        };
+    fn of(problem: &LoadedProblem, setting: Setting, rows: Vec<Vec<f64>>, took: Duration) -> Self {
+        let answer = Answer { path: "standard output".into(), lines: vec![0; rows.len()], rows };
         Self { setting, compared: compare(problem, &answer), answer, took }
     }
 
@@ -70,32 +82,83 @@ fn errors(rungs: &[Rung]) -> Vec<(u64, f64)> {
     rungs.iter().filter_map(|rung| Some((rung.setting.steps().ok()?, rung.error()))).collect()
 }
 
-/// Grades a program on a problem about free rods, at its last time.
+/// Grades a program on a problem: about free rods at the last time, about tensors at all times.
 pub fn grade(program: &Program, problem: &LoadedProblem, mode: Mode, claim: Claim) -> Graded {
     program.during(&problem.problem.name);
-    let problem = last_time(problem);
+    match problem.problem.kind {
+        Kind::Rods => {
+            let last = last_time(problem);
+            let of = &last.problem;
+            let question = Question {
+                gradient_per_s: of.gradient_per_s,
+                aspect_ratio: of.aspect_ratio,
+                start: last.start.clone(),
+                end_s: of.times_s[0],
+            };
+            climbed(program, &last, mode, claim, |setting| {
+                let (p, took) = program.ask(&question, setting)?;
+                Ok((p.into_iter().map(Vec::from).collect(), took))
+            })
+        }
+        Kind::Formula => formula(program, problem),
+        _ => {
+            let size = [problem.problem.times_s.len(), problem.problem.columns.len() - 1];
+            climbed(program, problem, mode, claim, |setting| {
+                program.ask_table(&tables::of_tensor(&problem.problem, setting), size)
+            })
+        }
+    }
+}
+
+/// Grades a program on a formula, which has no steps.
+fn formula(program: &Program, problem: &LoadedProblem) -> Graded {
+    let mut graded = Graded::without_answer(problem);
+    let size = [problem.certified.rows.len(), problem.problem.columns.len() - 1];
+    match program.ask_table(&tables::of_formula(problem), size) {
+        Ok((rows, _)) => {
+            let answer = Answer { path: "standard output".into(), lines: (1..=rows.len() as u64).collect(), rows };
+            judge(&mut graded, problem, &answer, Claim::default());
+        }
+        Err(Asked::Says(words)) => {
+            (graded.verdict, graded.note) = (Verdict::Refused, Some(format!("the program says: {words}")));
+        }
+        Err(Asked::Breach(words)) => (graded.verdict, graded.note) = (Verdict::Fail, Some(words)),
+        Err(Asked::Late(words)) => (graded.verdict, graded.note) = (Verdict::NotReached, Some(words)),
+    }
+    graded
+}
+
+/// What a program answers to a setting, and the time that it took.
+type Table = Result<(Vec<Vec<f64>>, Duration), Asked>;
+
+fn climbed(
+    program: &Program,
+    problem: &LoadedProblem,
+    mode: Mode,
+    claim: Claim,
+    answer: impl Fn(Setting) -> Table,
+) -> Graded {
     let of = &problem.problem;
-    let question = Question {
-        gradient_per_s: of.gradient_per_s,
-        aspect_ratio: of.aspect_ratio,
-        start: problem.start.clone(),
-        end_s: of.times_s[0],
-    };
     let ask = |setting: Setting| {
-        let (p, took) = program.ask(&question, setting)?;
-        Ok(Rung::of(&problem, setting, p, took))
+        let (rows, took) = answer(setting)?;
+        Ok(Rung::of(problem, setting, rows, took))
     };
-    let (rungs, mut end) = climb(&problem, mode, program.timeout(), claim.order, ask);
+    let (rungs, mut end) = climb(problem, mode, program.timeout(), claim.order, ask);
     if matches!(end, End::Reached) {
         end = jumps::judged(&rungs, of.tolerance, ask);
     }
-    let mut graded = Graded::without_answer(&problem);
-    graded.set_orders(errors(&rungs), &problem, claim.order);
+    let mut graded = Graded::without_answer(problem);
+    graded.set_orders(errors(&rungs), problem, claim.order);
+    let refuted = graded.order_found == Some(Order::Lower);
+    let converging =
+        matches!(end, End::OutOfTime(_)).then(|| converges(problem, &rungs)).flatten().filter(|_| !refuted);
     graded.verdict = match &end {
+        End::OutOfTime(_) if converging.is_some() => Verdict::Pass,
         // Whether a mistake is named must not depend on how fast the machine is.
-        End::OutOfTime(_) if stays_on_a_mistake(&problem, &rungs) => Verdict::Fail,
+        End::OutOfTime(_) if stays_on_a_mistake(problem, &rungs) => Verdict::Fail,
         End::OutOfTime(_) => Verdict::NotReached,
         End::Reached => Verdict::Pass,
+        End::Refused(_) => Verdict::Refused,
         _ => Verdict::Fail,
     };
     if let Some(finest) = rungs.last() {
@@ -107,16 +170,20 @@ pub fn grade(program: &Program, problem: &LoadedProblem, mode: Mode, claim: Clai
         graded.length_drift = compared.length_drift.filter(finite);
         graded.orbit_drift = compared.orbit_drift.filter(finite);
         graded.phase_lost_per_period = compared.phase_lost_per_period.filter(finite);
-        graded.set_diagnosis(diagnose(&problem, &finest.answer, compared.error));
+        graded.set_diagnosis(diagnose(problem, &finest.answer, compared.error));
     }
     graded.note = match end {
-        End::Broke(words) | End::Jumps(words) => Some(words),
+        _ if converging.is_some() => converging,
+        End::Broke(words) | End::Jumps(words) | End::Refused(words) => Some(words),
         End::Lower => {
             graded.order_found = Some(Order::Lower);
             claim.order.map(|claimed| other(&graded, claimed))
         }
         End::Reached => not_finite(&rungs),
-        End::Wrong(words) | End::OutOfTime(words) => Some(why(&graded, rungs.last(), words)),
+        End::Wrong(words) | End::OutOfTime(words) => {
+            let digits = rungs.last().and_then(|finest| digits::remark(&finest.answer, finest.error()));
+            Some(std::iter::once(why(&graded, rungs.last(), words)).chain(digits).collect::<Vec<_>>().join("; "))
+        }
     };
     graded
 }

@@ -8,26 +8,24 @@ mod program;
 mod protocol;
 mod request;
 mod studies;
+mod tables;
 mod text;
 
 pub use bench::{Bench, EchoError, echo, theory};
 pub use kill::end_all;
-pub use ladder::{Mode, grade, mode};
+pub use ladder::{Mode, grade, prepared};
 pub use program::{Asked, Program, Question};
 pub use protocol::Protocol;
 pub use studies::{Studies, studies};
+pub use tables::can_be_asked;
 
 use crate::serve::problems::{self, LoadedProblem};
 use rayon::prelude::*;
 
-/// Problems about free rods of this build, as they would be exported, whose names `wanted` accepts.
-pub fn built_in(wanted: impl Fn(&str) -> bool) -> Vec<LoadedProblem> {
-    let mut rods = problems::free_rods();
-    rods.retain(|name| wanted(name));
-    (rods.into_par_iter())
-        .filter_map(problems::named)
-        .map(|built| built.loaded(built.problem.name.clone().into()))
-        .collect()
+/// Problems of this build, as they would be exported, whose names `wanted` accepts.
+pub fn built_in(wanted: impl Fn(&str) -> bool + Sync) -> Vec<LoadedProblem> {
+    let all = problems::all().par_iter().filter(|def| wanted(def.name));
+    all.map(|def| def.built().loaded(def.name.into())).collect()
 }
 
 /// The problem with only its last time, as in a request.

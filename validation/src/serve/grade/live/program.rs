@@ -1,11 +1,12 @@
 //! A program that answers requests, kept within its limits, and restarted after a breach of the protocol.
 
 use super::pipe::{Pipe, Trouble};
-use super::protocol::Protocol;
+use super::protocol::{self, Protocol};
 use super::request::{Answer, Request};
 use crate::methods::integrators::{Failure, Integrator, RodProblem, Setting, Theory};
 use crate::serve::grade::Axes;
 use nalgebra::{UnitVector3, Vector3};
+use serde_json::Value;
 use std::hash::{BuildHasher, RandomState};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
@@ -97,6 +98,11 @@ impl Program {
         })
     }
 
+    /// The same program, started anew with lines of another form.
+    pub fn restarted(&self, protocol: Protocol) -> Self {
+        Self { protocol, state: Arc::default(), ..self.clone() }
+    }
+
     /// The same program with an assumed theory of its error.
     pub fn with_theory(self, theory: Theory) -> Self {
         Self { theory, ..self }
@@ -134,6 +140,20 @@ impl Program {
 
     /// Asks a question and returns directions, which may be NaN, and the time that the answer took.
     pub fn ask(&self, question: &Question, setting: Setting) -> Result<(Vec<[f64; 3]>, Duration), Asked> {
+        self.asked(|state| state.ask(self, question, setting)).and_then(|(answer, took)| match answer {
+            Answer::Directions(p) => Ok((p, took)),
+            Answer::Error(reason) => Err(Asked::Says(reason)),
+        })
+    }
+
+    /// Asks for a table of so many rows and columns, as JSON alone, and returns it with the time that the answer took.
+    /// `request` has all keys but the id.
+    pub fn ask_table(&self, request: &Value, size: [usize; 2]) -> Result<(Vec<Vec<f64>>, Duration), Asked> {
+        let (table, took) = self.asked(|state| state.ask_table(self, request, size))?;
+        table.map(|table| (table, took)).map_err(Asked::Says)
+    }
+
+    fn asked<T>(&self, ask: impl FnOnce(&mut State) -> Result<T, Breach>) -> Result<(T, Duration), Asked> {
         let mut state = self.state();
         if let Some(reason) = &state.given_up {
             let words = format!("not asked: {reason}");
@@ -143,11 +163,7 @@ impl Program {
             return Err(Asked::Late("not asked: out of time".to_owned()));
         }
         let asked = Instant::now();
-        match state.ask(self, question, setting) {
-            Ok(Answer::Directions(p)) => Ok((p, asked.elapsed())),
-            Ok(Answer::Error(reason)) => Err(Asked::Says(reason)),
-            Err(breach) => Err(state.breached(breach)),
-        }
+        ask(&mut state).map(|answer| (answer, asked.elapsed())).map_err(|breach| state.breached(breach))
     }
 
     /// Runs a study that may ask for as long as one answer may take, and then for the current answer. `None` if that
@@ -215,15 +231,12 @@ struct Breach {
     trouble: Option<Trouble>,
 }
 
+fn wrong(what: String) -> Breach {
+    Breach { what, trouble: None }
+}
+
 impl State {
     fn ask(&mut self, program: &Program, question: &Question, setting: Setting) -> Result<Answer, Breach> {
-        let wrong = |what: String| Breach { what, trouble: None };
-        if self.pipe.is_none() {
-            self.pipe = Some(Pipe::start(&program.words).map_err(wrong)?);
-        }
-        let Some(pipe) = &mut self.pipe else {
-            return Err(wrong("it does not run".to_owned()));
-        };
         self.asked = next_id(self.asked);
         let axes = program.axes;
         let start: Vec<_> = question.start.iter().map(|p| axes.to_theirs(*p)).collect();
@@ -236,16 +249,42 @@ impl State {
             steps: setting.steps().ok(),
             tolerance: setting.tolerance().ok(),
         };
-        pipe.nothing_more(Duration::ZERO).map_err(wrong)?;
-        pipe.send(program.protocol.write(&request).map_err(wrong)?);
-        let (line, text) = (pipe.line(program.timeout))
-            .map_err(|trouble| Breach { what: trouble.to_string(), trouble: Some(trouble) })?;
+        let request = program.protocol.write(&request).map_err(wrong)?;
+        let (line, text) = self.exchange(program, request)?;
         let answer = (program.protocol.read(&text, self.asked, question.start.len()))
             .map_err(|reason| wrong(format!("line {line} of standard output: {reason}")))?;
         Ok(match answer {
             Answer::Directions(p) => Answer::Directions(p.into_iter().map(|p| axes.to_ours(p)).collect()),
             answer => answer,
         })
+    }
+
+    /// The table of the answer, or the program's own error.
+    fn ask_table(
+        &mut self,
+        program: &Program,
+        request: &Value,
+        size: [usize; 2],
+    ) -> Result<Result<Vec<Vec<f64>>, String>, Breach> {
+        self.asked = next_id(self.asked);
+        let mut request = request.clone();
+        request["id"] = self.asked.into();
+        let (line, text) = self.exchange(program, request.to_string())?;
+        let reason = |reason| wrong(format!("line {line} of standard output: {reason}"));
+        protocol::table(&text, self.asked, size).map_err(reason)
+    }
+
+    /// Sends a line and returns the next one with its number.
+    fn exchange(&mut self, program: &Program, request: String) -> Result<(u64, String), Breach> {
+        if self.pipe.is_none() {
+            self.pipe = Some(Pipe::start(&program.words).map_err(wrong)?);
+        }
+        let Some(pipe) = &mut self.pipe else {
+            return Err(wrong("it does not run".to_owned()));
+        };
+        pipe.nothing_more(Duration::ZERO).map_err(wrong)?;
+        pipe.send(request);
+        (pipe.line(program.timeout)).map_err(|trouble| Breach { what: trouble.to_string(), trouble: Some(trouble) })
     }
 
     /// Stops the program, notes the breach with what could not be stopped, and describes it; after too many the program

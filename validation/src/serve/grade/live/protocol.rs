@@ -72,6 +72,43 @@ impl Protocol {
 
 /// Parses the answer to request `id` about `rods` rods. `Err` says what is wrong with the line.
 pub fn read(line: &str, id: u64, rods: usize) -> Result<Answer, String> {
+    let found = match content(line, id, "p", |answer| answer.p)? {
+        Ok(found) => found,
+        Err(reason) => return Ok(Answer::Error(reason)),
+    };
+    match found {
+        Value::Array(found) if found.len() == rods => {
+            let all: Result<_, _> = found.iter().enumerate().map(|(k, p)| direction(k, p)).collect();
+            all.map(Answer::Directions)
+        }
+        Value::Array(found) => Err(format!("{} rods where {rods} were asked", found.len())),
+        other => Err(format!("\"p\" is {}; a list of directions is allowed", excerpt(&other.to_string()))),
+    }
+}
+/// Parses the table of so many rows and columns in the answer to request `id`, or the program's own error. `Err` says
+/// what is wrong with the line.
+pub fn table(line: &str, id: u64, [rows, columns]: [usize; 2]) -> Result<Result<Vec<Vec<f64>>, String>, String> {
+    let found = match content(line, id, "rows", |answer| answer.rows)? {
+        Ok(found) => found,
+        Err(reason) => return Ok(Err(reason)),
+    };
+    let table = found.as_array().filter(|found| found.len() == rows);
+    let table = table.ok_or_else(|| format!("\"rows\" must be a list of {rows} rows"))?;
+    let row = |(k, row): (usize, &Value)| {
+        let found = row.as_array().filter(|found| found.len() == columns);
+        let numbers = found.and_then(|found| found.iter().map(number).collect());
+        numbers.ok_or_else(|| format!("row {k} is {}; {columns} numbers are allowed", excerpt(&row.to_string())))
+    };
+    table.iter().enumerate().map(row).collect::<Result<_, _>>().map(Ok)
+}
+
+/// The value of an answer's key `name`, or the program's own error.
+fn content(
+    line: &str,
+    id: u64,
+    name: &str,
+    of: impl Fn(Line) -> Option<Value>,
+) -> Result<Result<Value, String>, String> {
     let answer = parse(line)?;
     match answer.id.as_ref().map(|found| (found, found.as_u64())) {
         Some((_, Some(found))) if found == id => {}
@@ -81,26 +118,22 @@ pub fn read(line: &str, id: u64, rods: usize) -> Result<Answer, String> {
         }
         None => return Err(format!("it has no \"id\": {}", excerpt(line))),
     }
-    match (answer.error, &answer.p) {
-        (Some(Value::String(_)), Some(_)) => {
-            return Err(format!("both \"p\" and \"error\": {}", excerpt(line)));
-        }
-        (Some(Value::String(reason)), None) => return Ok(Answer::Error(reason)),
-        (Some(Value::Null) | None, _) => {}
+    let error = answer.error.clone();
+    match (error, of(answer)) {
+        (Some(Value::String(_)), Some(_)) => Err(format!("both \"{name}\" and \"error\": {}", excerpt(line))),
+        (Some(Value::String(reason)), None) => Ok(Err(reason)),
+        (Some(Value::Null) | None, Some(found)) => Ok(Ok(found)),
+        (Some(Value::Null) | None, None) => Err(format!("neither \"{name}\" nor \"error\": {}", excerpt(line))),
         (Some(other), _) => {
             let other = excerpt(&other.to_string());
-            return Err(format!("\"error\" is {other}; a text is allowed"));
+            Err(format!("\"error\" is {other}; a text is allowed"))
         }
     }
-    match answer.p {
-        Some(Value::Array(found)) if found.len() == rods => {
-            let all: Result<_, _> = found.iter().enumerate().map(|(k, p)| direction(k, p)).collect();
-            all.map(Answer::Directions)
-        }
-        Some(Value::Array(found)) => Err(format!("{} rods where {rods} were asked", found.len())),
-        Some(other) => Err(format!("\"p\" is {}; a list of directions is allowed", excerpt(&other.to_string()))),
-        None => Err(format!("neither \"p\" nor \"error\": {}", excerpt(line))),
-    }
+}
+
+/// A number, NaN where it is null.
+fn number(value: &Value) -> Option<f64> {
+    if value.is_null() { Some(f64::NAN) } else { value.as_f64() }
 }
 
 fn direction(rod: usize, value: &Value) -> Result<[f64; 3], String> {
@@ -108,10 +141,7 @@ fn direction(rod: usize, value: &Value) -> Result<[f64; 3], String> {
     let components = value.as_array().filter(|found| found.len() == 3).ok_or_else(wrong)?;
     let mut p = [0.0; 3];
     for (slot, component) in p.iter_mut().zip(components) {
-        *slot = match component {
-            Value::Null => f64::NAN,
-            other => other.as_f64().ok_or_else(wrong)?,
-        };
+        *slot = number(component).ok_or_else(wrong)?;
     }
     Ok(p)
 }
@@ -125,6 +155,8 @@ struct Line {
     error: Option<Value>,
     #[serde(default)]
     p: Option<Value>,
+    #[serde(default)]
+    rows: Option<Value>,
 }
 
 /// Parses JSON that may also contain the texts of Python and JavaScript for NaN and infinities.
@@ -182,6 +214,18 @@ mod tests {
             let Ok(Answer::Directions(p)) = read(line, 3, 1) else { panic!("{line}") };
             assert!(p[0][0].is_nan() && p[0][2] == 1.0);
         }
+    }
+
+    #[test]
+    fn tables_are_read_and_others_refused() {
+        let line = r#"{"id": 3, "rows": [[1, null], [0.5, -2]]}"#;
+        let found = table(line, 3, [2, 2]).unwrap().unwrap();
+        assert!(found[0][1].is_nan() && found[1] == [0.5, -2.0]);
+        assert_eq!(table(r#"{"id": 3, "error": "no"}"#, 3, [2, 2]), Ok(Err("no".into())));
+        for (size, reason) in [([3, 2], "a list of 3 rows"), ([2, 3], "row 0 is `[1,null]`; 3 numbers")] {
+            assert!(table(line, 3, size).unwrap_err().contains(reason), "{reason}");
+        }
+        assert!(table(r#"{"id": 3, "p": [[1,0,0]]}"#, 3, [1, 3]).unwrap_err().contains("neither \"rows\""));
     }
 
     #[test]

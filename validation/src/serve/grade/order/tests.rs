@@ -2,7 +2,7 @@ use super::*;
 
 fn of(errors: &[f64]) -> Orders {
     let errors: Vec<_> = (0..).map(|k| 10u64 << k).zip(errors.iter().copied()).collect();
-    orders(&errors, 1e-8)
+    orders(&errors, [1e-8; 2])
 }
 
 /// The orders of errors that fall from 0.01 by these orders.
@@ -26,7 +26,7 @@ fn an_order_has_its_sign_and_needs_two_errors_above_round_off() {
     assert_eq!(observed(&[1e-3]), None);
     assert_eq!(observed(&[1.0, 0.5, 1e-3]), None, "it does not follow the motion yet");
     assert_eq!(observed(&[8e-9, 1e-9, 9e-10]), None, "it meets round-off below the tolerance");
-    let uneven = orders(&[(100, 1e-2), (300, 1e-2 / 9.0)], 1e-9);
+    let uneven = orders(&[(100, 1e-2), (300, 1e-2 / 9.0)], [1e-9; 2]);
     assert!((uneven.observed(None).unwrap() - 2.0).abs() < 1e-12 && uneven.all.len() == 1);
 }
 
@@ -178,4 +178,15 @@ fn of_two_orders_the_nearer_to_the_claim_is_named() {
     assert!((found.observed(None).unwrap() - 4.4).abs() < 1e-9);
     let found = falling(&[3.0, 4.4, 4.0]);
     assert!((found.observed(Some(4.0)).unwrap() - 4.0).abs() < 1e-9);
+}
+
+/// Single precision: an error that stays at 1e-6 proves nothing where 1e-4 is allowed, and a lost order still does.
+#[test]
+fn a_plateau_below_the_tolerance_refutes_nothing() {
+    let errors = |errors: &[f64]| (0..).map(|k| 10u64 << k).zip(errors.iter().copied()).collect::<Vec<_>>();
+    let plateau = errors(&[8e-3, 5e-4, 3.1e-5, 2e-6, 1.2e-6, 1.25e-6, 1.2e-6]);
+    assert_eq!(orders(&plateau, [1e-9, 1e-4]).judged(4.0), Order::Seen);
+    assert_eq!(orders(&plateau, [1e-9; 2]).judged(4.0), Order::Lower);
+    let first = errors(&[8e-3, 4e-3, 2e-3, 1e-3, 5e-4, 2.5e-4, 1.2e-4, 6e-5, 3e-5]);
+    assert_eq!(orders(&first, [1e-9, 1e-4]).judged(4.0), Order::Lower);
 }

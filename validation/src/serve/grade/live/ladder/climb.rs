@@ -3,6 +3,8 @@
 
 use super::{Mode, Rung, errors};
 use crate::methods::integrators::Setting;
+use crate::serve::grade::answer::Answer;
+use crate::serve::grade::compare::compare;
 use crate::serve::grade::live::program::Asked;
 use crate::serve::grade::order::{Order, orders};
 use crate::serve::problems::LoadedProblem;
@@ -22,6 +24,8 @@ const FOLLOWED: f64 = 0.01;
 pub(super) enum End {
     /// The answers came within the tolerance.
     Reached,
+    /// Every answer was an error of the program's own.
+    Refused(String),
     /// The program broke the protocol, even if it answered before.
     Broke(String),
     /// The error jumps from one number of steps to the next.
@@ -66,7 +70,7 @@ pub(super) fn climb(
                 return (rungs, End::OutOfTime(format!("asked for {setting}: {words}")));
             }
         };
-        let orders = claimed.map(|claimed| (claimed, orders(&errors(&rungs), problem.own_tolerance)));
+        let orders = claimed.map(|claimed| (claimed, orders(&errors(&rungs), problem.tolerances())));
         if orders.as_ref().is_some_and(|(claimed, orders)| orders.refuted_early(*claimed)) {
             return (rungs, End::Lower);
         }
@@ -90,6 +94,9 @@ pub(super) fn climb(
             let words = format!("{why} would take too long (--timeout): {seconds:.1} s so far");
             return (rungs, End::OutOfTime(words));
         }
+    }
+    if let (true, Some(words)) = (rungs.is_empty(), &says) {
+        return (rungs, End::Refused(words.clone()));
     }
     // No finer setting can confirm the last one.
     if within(&rungs, tolerance) {
@@ -135,6 +142,11 @@ pub(super) fn hopeless(rungs: &[Rung], tolerance: f64, timeout: Duration) -> Opt
     let changes = changes.map(|(coarse, fine)| coarse.answer.largest_change(&fine.answer));
     // A method that follows the motion, with any order above 0.02, changes by more than a hundredth of its error.
     let still = if errors[3] < FOLLOWED { 0.01 * errors[3] } else { 0.01 * tolerance };
+    if changes == [0.0; 3] && matches!(last.setting, Setting::Steps(_)) && errors[3] > tolerance {
+        let words = "the program ignores \"steps\": the answers are the same to the last digit. If it chooses its own, let \
+            it answer \"error\" to \"steps\", and it is asked by \"tolerance\"";
+        return Some(End::Wrong(words.to_owned()));
+    }
     if changes.iter().all(|change| *change <= still) && errors[3] > tolerance {
         return Some(End::Wrong("finer ones no longer change the answer".to_owned()));
     }
@@ -172,10 +184,38 @@ fn steady_order(rungs: &[Rung]) -> Option<f64> {
     orders.iter().all(steady).then_some(orders[2])
 }
 
+/// A message on answers that converge to the certified one, though none is within the tolerance: their errors fall by a
+/// steady order, and what they extrapolate to (Richardson) is right to within the uncertainty of the extrapolation.
+pub(super) fn converges(problem: &LoadedProblem, rungs: &[Rung]) -> Option<String> {
+    /// The largest uncertainty as a share of the last error: more proves nothing.
+    const SHARE: f64 = 0.05;
+    let last = rungs.last_chunk::<4>()?;
+    let order = steady_order(rungs)?;
+    let extrapolated = |coarse: &Rung, fine: &Rung| -> Vec<Vec<f64>> {
+        let weight = 1.0 / (order.exp2() - 1.0);
+        let of = |(coarse, fine): (&Vec<f64>, &Vec<f64>)| {
+            // A rod has no head.
+            let sign = if coarse.iter().zip(fine).map(|(a, b)| a * b).sum::<f64>() < 0.0 { -1.0 } else { 1.0 };
+            fine.iter().zip(coarse).map(|(fine, coarse)| fine + weight * (fine - sign * coarse)).collect()
+        };
+        coarse.answer.rows.iter().zip(&fine.answer.rows).map(of).collect()
+    };
+    let with = |rows: Vec<Vec<f64>>| Answer { rows, ..last[3].answer.clone() };
+    let [before, best] = [with(extrapolated(&last[1], &last[2])), with(extrapolated(&last[2], &last[3]))];
+    let (error, uncertainty, left) = (compare(problem, &best).error, best.largest_change(&before), last[3].error());
+    (left < FOLLOWED && uncertainty <= SHARE * left && error <= uncertainty).then(|| {
+        format!(
+            "converges to the certified answer at order {order:.2}: with {} it is off by {left:.1e}, and extrapolated by \
+             {error:.0e} (uncertainty {uncertainty:.0e})",
+            last[3].setting
+        )
+    })
+}
+
 fn settings(problem: &LoadedProblem, mode: Mode) -> Vec<Setting> {
     let of = &problem.problem;
     let largest = of.gradient_per_s.iter().flatten().fold(0.0, |a: f64, b| a.max(b.abs()));
-    let strain = largest * of.times_s[0];
+    let strain = largest * of.times_s.last().copied().unwrap_or_default();
     let coarsest = (strain.ceil() as u64).next_power_of_two().max(8);
     match mode {
         Mode::Steps => (0..=DOUBLINGS).map(|k| Setting::Steps(coarsest << k)).collect(),

@@ -281,7 +281,7 @@ fn two_answers_on_the_curve_of_one_mistake_are_wrong_before_time_is_up() {
     };
     let (start, time_s) = (nalgebra::Vector3::from(problem.start[0]), problem.problem.times_s[0]);
     let rung = |steps: u64, p: nalgebra::Vector3<f64>| {
-        Rung::of(&problem, Setting::Steps(steps), vec![p.into()], Duration::ZERO)
+        Rung::of(&problem, Setting::Steps(steps), vec![p.as_slice().to_vec()], Duration::ZERO)
     };
     let of = |name: &str, late: f64| {
         let all = mistakes::all();

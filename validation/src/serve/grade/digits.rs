@@ -1,0 +1,47 @@
+//! Answers with few digits: single precision, or few printed ones.
+
+use super::answer::Answer;
+
+/// The range of digits that are recognised: fewer are labels, more are a double's.
+const DIGITS: std::ops::RangeInclusive<usize> = 4..=12;
+
+/// The largest error in units of the last digit that rounding on the way explains.
+const ROUNDINGS: f64 = 100.0;
+
+/// A sentence if the answer has few digits, and its `error` is no more than these explain.
+pub(super) fn remark(answer: &Answer, error: f64) -> Option<String> {
+    let all = || answer.rows.iter().flatten().copied();
+    if !error.is_finite() || all().any(|x| !x.is_finite()) {
+        return None;
+    }
+    let size = all().fold(0.0, |size: f64, x| size.max(x.abs()));
+    if error <= ROUNDINGS * f64::from(f32::EPSILON) * size && all().all(|x| f64::from(x as f32) == x) {
+        return Some("every number is one of single precision, which explains this error".to_owned());
+    }
+    let has = |digits: &usize| all().all(|x| format!("{x:.*e}", digits - 1).parse() == Ok(x));
+    let digits = DIGITS.into_iter().find(has)?;
+    let last = 10f64.powi(1 - digits as i32) * size;
+    (error <= ROUNDINGS * last).then(|| {
+        format!(
+            "its numbers have {digits} digits, which explains this error: 17 make a double, or a larger tolerance does"
+        )
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn few_digits_are_seen_where_they_explain_the_error() {
+        let of = |rows: Vec<Vec<f64>>| Answer { path: "answer.csv".into(), rows, lines: vec![2] };
+        let single = of(vec![vec![f64::from(0.1f32), f64::from(0.7f32)]]);
+        assert!(remark(&single, 1e-7).unwrap().contains("single precision"));
+        assert_eq!(remark(&single, 1e-3), None);
+        let printed = of(vec![vec![0.123_456_78, -0.5, 0.0]]);
+        assert!(remark(&printed, 1e-8).unwrap().contains("8 digits"));
+        assert_eq!(remark(&printed, 1e-3), None);
+        assert_eq!(remark(&of(vec![vec![0.1 + 0.2, 1.0 / 3.0]]), 1e-8), None);
+        assert_eq!(remark(&of(vec![vec![f64::NAN]]), f64::NAN), None);
+    }
+}
