@@ -2,13 +2,13 @@
 
 use super::{Failure, number, print, progress};
 use shearbed_validation::files::output;
-use shearbed_validation::files::text::Shown;
-use shearbed_validation::oracle::diffusion::NoAnswer;
+use shearbed_validation::files::text::{Shown, complain};
+use shearbed_validation::oracle::diffusion::{self, NoAnswer, strain_rate_per_s};
 use shearbed_validation::oracle::reference::big::{Bits, decimal, digits, double, finite};
 use shearbed_validation::oracle::reference::constants::{self, Constant};
 use shearbed_validation::oracle::reference::diffusing::Diffusing;
 use shearbed_validation::oracle::reference::motion::{LARGEST_STRAIN, Motion, Unit};
-use shearbed_validation::oracle::reference::rod::Direction;
+use shearbed_validation::oracle::reference::rod::{self, Direction};
 use shearbed_validation::oracle::reference::table::{self, NoValue, Start, Table};
 use shearbed_validation::oracle::reference::unequal::LONGEST_TURNS;
 use std::path::{Path, PathBuf};
@@ -20,8 +20,9 @@ pub(super) struct Args {
     /// r_e, from 1e-100 to 1e100, or `inf` for Λ = 1
     #[arg(long, value_name = "R|inf", value_parser = aspect_ratio, allow_negative_numbers = true)]
     aspect_ratio: f64,
-    /// Where rods point at t = 0: `isotropic`, or one rod's angles φ,θ in degrees
-    #[arg(long, value_name = "isotropic|PHI_DEG,THETA_DEG", default_value = "isotropic", value_parser = start,
+    /// Directions at t = 0: `isotropic`, `planar` (at random in the flow–gradient plane: a = diag(½, ½, 0)), or one
+    /// rod's φ,θ in degrees
+    #[arg(long, value_name = "isotropic|planar|PHI_DEG,THETA_DEG", default_value = "isotropic", value_parser = start,
         allow_hyphen_values = true)]
     start: From,
     /// COUNT evenly spaced times with both ends (COUNT = 1: the time FROM), or rising times with commas between
@@ -41,18 +42,20 @@ pub(super) struct Args {
     /// Standard deviation of a Gaussian r_e in percent of the mean, for isotropic starts
     #[arg(long, value_name = "PERCENT", default_value = "0", value_parser = deviation, allow_negative_numbers = true)]
     aspect_ratio_sd_percent: f64,
-    /// C_I: rods of an isotropic start with rotary diffusion D_r = C_I γ̇, γ̇ = (2D:D)^½; `inf` for all directions
-    /// alike
-    #[arg(long, value_name = "C", value_parser = c_i, allow_negative_numbers = true)]
+    /// C_I: rods with rotary diffusion D_r = C_I γ̇, γ̇ = (2D:D)^½; `inf` for all directions alike
+    #[arg(long, group = "diffusion", value_name = "C", value_parser = c_i, allow_negative_numbers = true)]
     c_i: Option<f64>,
+    /// D_r of Brownian rods, also at rest (nine zeros, --unit s)
+    #[arg(long, group = "diffusion", value_name = "D", value_parser = d_r, allow_negative_numbers = true)]
+    d_r_per_s: Option<f64>,
     /// The steady distribution of rods with diffusion, in a last row at the time inf
-    #[arg(long, requires = "c_i")]
+    #[arg(long, requires = "diffusion")]
     steady: bool,
-    /// The fourth moments a_ijkl of an isotropic start in place of its other means
+    /// The fourth moments a_ijkl in place of the other means over rods
     #[arg(long)]
     fourth: bool,
     /// What does not change with time: T, ⟨φ⟩, C_b, means over phases, plateaus
-    #[arg(long, conflicts_with_all = ["times", "unit", "fourth", "c_i", "aspect_ratio_sd_percent", "explain"])]
+    #[arg(long, conflicts_with_all = ["times", "unit", "fourth", "diffusion", "aspect_ratio_sd_percent", "explain"])]
     constants: bool,
     /// Say what each column is, its unit and its equation, and compute nothing
     #[arg(long)]
@@ -75,6 +78,7 @@ impl Args {
 #[derive(Clone, Copy, Debug)]
 enum From {
     Isotropic,
+    Planar,
     Angles { phi_deg: f64, theta_deg: f64 },
 }
 
@@ -88,10 +92,15 @@ pub(super) fn reference(args: &Args) -> Result<(), Failure> {
     let couette = [[0.0; 3], [rate, 0.0, 0.0], [0.0; 3]];
     let motion = Motion { gradient_per_s: args.gradient_per_s.unwrap_or(couette), aspect_ratio: args.aspect_ratio };
     let direction = match args.start {
-        From::Isotropic => None,
+        From::Isotropic | From::Planar => None,
         From::Angles { phi_deg, theta_deg } => Some(Direction::Angles { phi_deg, theta_deg }),
     };
     let text = if args.constants {
+        if matches!(args.start, From::Planar) {
+            return Err(Failure::Input(
+                "--constants: has none of --start planar; isotropic or angles are allowed".into(),
+            ));
+        }
         let constants = constants::constants(&motion, direction).ok_or_else(|| no_couette("--constants"))?;
         constants_csv(&constants)
     } else {
@@ -99,7 +108,12 @@ pub(super) fn reference(args: &Args) -> Result<(), Failure> {
         if args.explain {
             explained(&asked)
         } else {
-            csv(&values(args, &motion, &asked).map_err(|why| refused(args, why))?)
+            let text = csv(&values(args, &motion, &asked).map_err(|why| refused(args, why))?);
+            if let Some(d_r) = args.d_r_per_s {
+                let rate = strain_rate_per_s(motion.gradient_per_s);
+                complain(&format!("note: the Péclet number γ̇/D_r is {}\n", if rate == 0.0 { 0.0 } else { rate / d_r }));
+            }
+            text
         }
     };
     match &args.out {
@@ -118,22 +132,34 @@ enum Asked {
 
 fn asked(args: &Args, motion: &Motion, direction: Option<Direction>) -> Result<Asked, Failure> {
     let sd = args.aspect_ratio_sd_percent;
+    let rate = strain_rate_per_s(motion.gradient_per_s);
+    let diffusivity = match (args.c_i, args.d_r_per_s) {
+        (Some(c_i), _) if rate > 0.0 => Some(c_i * rate),
+        (Some(_), _) => Some(0.0),
+        (None, d_r) => d_r,
+    };
     // Without diffusion the rods are free; their means have full precision, but there is no steady distribution.
-    if let Some(c_i) = args.c_i.filter(|c_i| *c_i > 0.0 || args.steady) {
-        if direction.is_some() {
-            return Err(isotropic_only(&format!("--c-i {c_i}")));
-        }
+    if let Some(diffusivity) = diffusivity.filter(|d_r| *d_r > 0.0 || args.steady) {
         if sd != 0.0 {
             return Err(Failure::Input(format!(
-                "--aspect-ratio-sd-percent {sd}: rods with --c-i have one aspect ratio; 0 is allowed with it"
+                "--aspect-ratio-sd-percent {sd}: rods with {} have one aspect ratio; 0 is allowed with it",
+                if args.c_i.is_some() { "--c-i" } else { "--d-r-per-s" }
             )));
         }
+        let start = match (args.start, direction) {
+            (From::Planar, _) => diffusion::Start::Plane([0.0, 0.0, 1.0]),
+            (_, Some(direction)) => diffusion::Start::Direction(rod::nearest(direction)),
+            _ => diffusion::Start::Isotropic,
+        };
         let (fourth, steady) = (args.fourth, args.steady);
-        return Ok(Asked::Diffusing(Diffusing { motion: *motion, c_i, fourth, steady }));
+        return Ok(Asked::Diffusing(Diffusing { motion: *motion, diffusivity, start, fourth, steady }));
     }
     match direction {
+        _ if sd != 0.0 && !matches!(args.start, From::Isotropic) => {
+            Err(isotropic_only(&format!("--aspect-ratio-sd-percent {sd}")))
+        }
+        None if matches!(args.start, From::Planar) => Ok(Asked::Free(Start::Planar { fourth: args.fourth })),
         None => Ok(Asked::Free(Start::Isotropic { aspect_ratio_sd_percent: sd, fourth: args.fourth })),
-        Some(_) if sd != 0.0 => Err(isotropic_only(&format!("--aspect-ratio-sd-percent {sd}"))),
         Some(_) if args.fourth => Err(isotropic_only("--fourth")),
         Some(direction) => Ok(Asked::Free(Start::Rod(direction))),
     }
@@ -183,7 +209,8 @@ fn explained(asked: &Asked) -> String {
         ),
         Asked::Diffusing(rods) => (
             rods.columns(),
-            "The density is that of rods with rotary diffusion C_I γ̇ (Folgar & Tucker 1984), without a closure. \
+            "The density is that of rods with rotary diffusion, C_I γ̇ (Folgar & Tucker 1984) or as given, without a \
+             closure. \
              Values are rounded to the decimals that two solutions of different degree, order and step agree on, \
              eleven at most. The last row of --steady has the time inf.",
         ),
@@ -208,25 +235,35 @@ fn no_couette(flag: &str) -> Failure {
 }
 
 fn isotropic_only(flag: &str) -> Failure {
-    Failure::Input(format!("{flag}: needs many rods; only --start isotropic is allowed with it"))
+    let allowed = if flag == "--fourth" { "isotropic, or planar," } else { "isotropic" };
+    Failure::Input(format!("{flag}: needs many rods; only --start {allowed} is allowed with it"))
 }
 
 fn refused(args: &Args, why: NoValue) -> Failure {
+    let (flag, allowed) = match args.d_r_per_s {
+        Some(d_r) => (format!("--d-r-per-s {d_r:?}"), "a larger D_r is"),
+        None => (format!("--c-i {:?}", args.c_i.unwrap_or_default()), "a larger C_I is"),
+    };
+    let weak = "(in plane Couette flow from C_I = D_r/γ̇ = 1e-5 on, in any flow from about 1e-4 on)";
     Failure::Input(match why {
-        NoValue::Past => "--times: rods with diffusion have no past; times from 0 are allowed with --c-i".into(),
+        NoValue::Past => {
+            format!(
+                "--times: rods with diffusion have no past; times from 0 are allowed with {}",
+                flag.split(' ').next().unwrap_or_default()
+            )
+        }
         NoValue::Steady(NoAnswer::Unsettled) => format!(
-            "--steady: nothing settles with --c-i {:?} in this flow; a C_I above 0 and a flow that strains are allowed",
-            args.c_i.unwrap_or_default()
+            "--steady: nothing settles with {flag} in this flow; a C_I above 0 and a flow that strains are allowed, or \
+             a --d-r-per-s above 0"
         ),
-        NoValue::Steady(why) => format!(
-            "--steady with --c-i {:?}: {why}; a larger C_I is allowed (in plane Couette flow from 1e-5 on, in any flow \
-             from about 1e-4 on)",
-            args.c_i.unwrap_or_default()
+        NoValue::Steady(why) => format!("--steady with {flag}: {why}; {allowed} allowed {weak}"),
+        NoValue::Diffusion(why) if !matches!(args.start, From::Isotropic) => format!(
+            "--times with {flag}: {why}: rods of --start planar, or of angles, spread from a width of 0; {allowed} \
+             allowed, or a later first time after 0 (D_r t from about 1e-4 on, and D_r/γ̇ from about 1e-4 on)"
         ),
         NoValue::Diffusion(why) => format!(
-            "--times with --c-i {:?}: {why}; a larger C_I or shorter --times are allowed (from C_I = 1e-4 on, a strain \
-             of 100; at 1e-5, of 10), and --steady",
-            args.c_i.unwrap_or_default()
+            "--times with {flag}: {why}; a larger C_I or shorter --times are allowed (from C_I = D_r/γ̇ = 1e-4 on, a \
+             strain of 100; at 1e-5, of 10), and --steady"
         ),
         NoValue::Unit => format!(
             "--unit{}: this flow has no such unit of time; s is allowed, strain where it stretches, and period in \
@@ -263,6 +300,14 @@ fn c_i(text: &str) -> Result<f64, String> {
     }
 }
 
+fn d_r(text: &str) -> Result<f64, String> {
+    let words = "0 (free rods), a number from 1e-100 to 1e100, or inf (all directions alike)";
+    match text {
+        "inf" => Ok(f64::INFINITY),
+        _ => number(text, |d| d == 0.0 || (1e-100..=1e100).contains(&d), words),
+    }
+}
+
 fn rate(text: &str) -> Result<f64, String> {
     let words = "a number with a size from 1e-100 to 1e100";
     number(text, |g| (1e-100..=1e100).contains(&g.abs()), words)
@@ -282,9 +327,11 @@ fn unit(text: &str) -> Result<Unit, String> {
 }
 
 fn start(text: &str) -> Result<From, String> {
-    let words = "`isotropic`, or φ,θ in degrees with θ from 0 to 180 (each 0 or of a size from 5e-324 to 1.8e308)";
+    let words =
+        "`isotropic`, `planar`, or φ,θ in degrees with θ from 0 to 180 (each 0 or of a size from 5e-324 to 1.8e308)";
     match text.split_once(',') {
         None if text == "isotropic" => Ok(From::Isotropic),
+        None if text == "planar" => Ok(From::Planar),
         None => Err(format!("{words} is allowed")),
         Some((phi, theta)) => Ok(From::Angles {
             phi_deg: number(phi, |_| true, words)?,

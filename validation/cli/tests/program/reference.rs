@@ -114,3 +114,57 @@ fn diffusing_rods_have_the_columns_of_isotropic_starts_and_known_limits() {
     let second = numbers("--aspect-ratio 5 --c-i 0.05 --times 0.1:0.1:1").remove(0);
     assert!((fourth[3] + fourth[6] + fourth[8] - second[6]).abs() < 3e-11);
 }
+
+/// Brownian rods at rest, against the closed form e^{−6D_r t}, to the digits that are printed; and D_r = C_I γ̇.
+#[test]
+fn brownian_rods_relax_by_the_closed_form_and_keep_the_units_of_c_i() {
+    let at_rest = "--aspect-ratio 5 --gradient-per-s 0,0,0,0,0,0,0,0,0 --unit s";
+    let start = |start: &str| rows(&format!("{at_rest} --start {start} --d-r-per-s 0.3 --times 0:2:5 --steady"));
+    let off = |found: &[Vec<String>], first: [f64; 6], d_r: f64| {
+        let each = found[1..].iter().flat_map(|row| {
+            let time: f64 = row[0].parse().unwrap();
+            assert_eq!(row[1..3], ["", "0.0"].map(String::from));
+            let at = move |k: usize| {
+                let whole = if k < 3 { 1.0 / 3.0 } else { 0.0 };
+                let due = whole + (first[k] - whole) * (-6.0 * d_r * time).exp();
+                (row[6 + k].parse::<f64>().unwrap() - due).abs()
+            };
+            (0..6).map(at)
+        });
+        each.fold(0.0, f64::max)
+    };
+    let planar = [0.5, 0.5, 0.0, 0.0, 0.0, 0.0];
+    assert!(off(&start("planar"), planar, 0.3) < 6e-12);
+    assert!(off(&start("planar"), planar, 0.301) > 1e-4 && off(&start("planar"), planar, 0.15) > 1e-2);
+    assert!(off(&start("90,90"), [0.0, 1.0, 0.0, 0.0, 0.0, 0.0], 0.3) < 6e-12);
+    assert_eq!(start("isotropic")[3][3..], start("isotropic")[1][3..]);
+    // D_r = C_I γ̇ with γ̇ = 2/s, and the Péclet number.
+    let flow = "--aspect-ratio 5 --shear-rate-per-s 2 --times 0:1:3 --unit strain";
+    for start in ["isotropic", "planar", "20,70"] {
+        let found = rows(&format!("{flow} --start {start} --d-r-per-s 0.25"));
+        assert_eq!(found, rows(&format!("{flow} --start {start} --c-i 0.125")));
+        assert_ne!(found, rows(&format!("{flow} --start {start} --c-i 0.25")));
+    }
+    assert_eq!(reference(&format!("{flow} --d-r-per-s 0.25")).2, "note: the Péclet number γ̇/D_r is 8\n");
+    // Without diffusion a plane of rods is free, and little changes it little.
+    let free = rows(&format!("{flow} --start planar --d-r-per-s 0"));
+    let little = rows(&format!("{flow} --start planar --d-r-per-s 1e-3"));
+    for (a, b) in free[2][6..].iter().zip(&little[2][6..]) {
+        let apart = (a.parse::<f64>().unwrap() - b.parse::<f64>().unwrap()).abs();
+        assert!(apart < 3e-3, "{a} {b}");
+    }
+    for refused in [
+        "--start planar --d-r-per-s 1e-6 --times 1:1:1",
+        "--start planar --d-r-per-s 1 --times 1e-9:1:2",
+        "--d-r-per-s 1 --c-i 1 --times 1:1:1",
+        "--d-r-per-s -1 --times 1:1:1",
+        "--start planar --constants",
+        "--start planar --aspect-ratio-sd-percent 3 --times 1:1:1",
+    ] {
+        let (code, _, error) = reference(&format!("--aspect-ratio 5 {refused}"));
+        assert!(
+            code == Some(2) && error.contains("allowed") || error.contains("cannot be used with"),
+            "{refused}: {error}"
+        );
+    }
+}

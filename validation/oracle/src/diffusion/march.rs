@@ -13,6 +13,8 @@ pub struct Accuracy {
     pub tail: f64,
     /// The norm of the operator times a step.
     pub step: f64,
+    /// The largest degree.
+    pub most: usize,
 }
 
 /// Largest number of multiplications of a solution: about a minute.
@@ -49,7 +51,10 @@ impl<'a> Density<'a> {
             let basis = self.operator.basis;
             let (degree, order) = needed(&basis, &after, self.accuracy.tail);
             // A step is accepted if its result leaves the margin empty; else it is repeated with more harmonics.
-            let full = (degree + 2 > basis.degree, order + 2 > basis.order && basis.order < basis.degree);
+            let full = (
+                degree + 2 > basis.degree && basis.degree < self.accuracy.most,
+                order + 2 > basis.order && basis.order < basis.degree,
+            );
             if full.0 || full.1 {
                 let more = |now: usize, full: bool| if full { now + now / 4 + 4 } else { now };
                 self.keep(more(basis.degree, full.0), more(basis.order, full.1));
@@ -95,7 +100,7 @@ impl<'a> Density<'a> {
     /// Changes to this many harmonics.
     fn keep(&mut self, degree: usize, order: usize) {
         let basis = self.operator.basis;
-        let degree = (degree + 1) & !1;
+        let degree = (degree.min(self.accuracy.most) + 1) & !1;
         let kept = Basis { degree, order: order.min(degree), ..basis };
         self.unknowns = kept.take(&basis, &self.unknowns);
         self.operator = Operator::new(&self.frame.motion, kept);

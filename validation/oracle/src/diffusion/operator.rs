@@ -22,14 +22,19 @@ pub struct Motion {
 impl Motion {
     /// Rods of this aspect ratio (∞ for Λ = 1) with D_r = C_I γ̇ in the flow L; row i and column j hold ∂u_i/∂x_j.
     pub fn new(gradient_per_s: [[f64; 3]; 3], aspect_ratio: f64, c_i: f64) -> Self {
+        let rate = strain_rate_per_s(gradient_per_s);
+        Self::diffusing(gradient_per_s, aspect_ratio, if rate == 0.0 { 0.0 } else { c_i * rate })
+    }
+
+    /// The same rods with D_r in 1/s, also in a liquid at rest.
+    pub fn diffusing(gradient_per_s: [[f64; 3]; 3], aspect_ratio: f64, diffusivity: f64) -> Self {
         let l = Matrix3::from_fn(|i, j| gradient_per_s[i][j]);
         let (strain, turning) = ((l + l.transpose()) * 0.5, (l - l.transpose()) * 0.5);
-        let rate = (2.0 * strain.norm_squared()).sqrt();
         let traceless = strain - Matrix3::identity() * (strain.trace() / 3.0);
         Self {
             strain: traceless * shape_factor(aspect_ratio),
             spin: Vector3::new(turning[(2, 1)], turning[(0, 2)], turning[(1, 0)]),
-            diffusivity: if rate == 0.0 { 0.0 } else { c_i * rate },
+            diffusivity,
         }
     }
 
@@ -77,6 +82,12 @@ impl Motion {
         }
         sum
     }
+}
+
+/// γ̇ = (2D:D)^½ in 1/s.
+pub fn strain_rate_per_s(gradient_per_s: [[f64; 3]; 3]) -> f64 {
+    let l = Matrix3::from_fn(|i, j| gradient_per_s[i][j]);
+    (2.0 * ((l + l.transpose()) * 0.5).norm_squared()).sqrt()
 }
 
 /// The shape factor Λ = (r² − 1)/(r² + 1); 1 for r = ∞.

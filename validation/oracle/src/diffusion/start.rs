@@ -13,6 +13,10 @@ pub enum Start<'a> {
     Isotropic,
     /// A smooth function of p with ψ(−p) = ψ(p), in the laboratory's axes. It need not be normalised.
     Density(&'a (dyn Fn([f64; 3]) -> f64 + Sync)),
+    /// One direction and its opposite, of length 1.
+    Direction([f64; 3]),
+    /// All directions across this one, of length 1, alike.
+    Plane([f64; 3]),
 }
 
 impl fmt::Debug for Start<'_> {
@@ -20,19 +24,40 @@ impl fmt::Debug for Start<'_> {
         f.write_str(match self {
             Self::Isotropic => "Isotropic",
             Self::Density(_) => "Density",
+            Self::Direction(_) => "Direction",
+            Self::Plane(_) => "Plane",
         })
     }
 }
 
 impl Start<'_> {
-    /// The harmonics of the start in the frame's axes, normalised.
-    pub(super) fn unknowns(&self, frame: &Frame) -> Result<(Basis, Vec<f64>), NoAnswer> {
+    /// ⟨|p_i|⟩ of a start that no number of harmonics resolves; `None` for other starts.
+    pub(super) fn sharp(&self) -> Option<[f64; 3]> {
+        match self {
+            Self::Isotropic | Self::Density(_) => None,
+            Self::Direction(p) => Some(p.map(f64::abs)),
+            Self::Plane(n) => Some(n.map(|x| 2.0 / PI * (1.0 - x * x).max(0.0).sqrt())),
+        }
+    }
+
+    /// The harmonics of the start in the frame's axes, normalised; those of a sharp one up to the degree `most`.
+    pub(super) fn unknowns(&self, frame: &Frame, most: usize) -> Result<(Basis, Vec<f64>), NoAnswer> {
         let mean = (4.0 * PI).recip().sqrt();
         match self {
             Self::Isotropic => {
                 let basis = Basis { degree: 8, order: 4, even: frame.even };
                 let mut unknowns = vec![0.0; basis.len()];
                 unknowns[0] = mean;
+                Ok((basis, unknowns))
+            }
+            // ∫ψY over a point, and over a great circle with the axis n (Funk & Hecke): P_l(0) Y(n).
+            Self::Direction(p) | Self::Plane(p) => {
+                let basis = Basis { degree: most, order: most, even: false };
+                let mut unknowns = basis.values(frame.inward(*p));
+                if matches!(self, Self::Plane(_)) {
+                    let factors = zeros(most);
+                    unknowns.iter_mut().zip(basis.unknowns()).for_each(|(x, (l, ..))| *x *= factors[l / 2]);
+                }
                 Ok((basis, unknowns))
             }
             Self::Density(density) => {
@@ -50,6 +75,17 @@ impl Start<'_> {
             }
         }
     }
+}
+
+/// P_l(0) for even l up to `degree`.
+fn zeros(degree: usize) -> Vec<f64> {
+    let mut value = 1.0;
+    let each = |l: usize| {
+        let now = value;
+        value *= -(l as f64 + 1.0) / (l as f64 + 2.0);
+        now
+    };
+    (0..=degree).step_by(2).map(each).collect()
 }
 
 /// The harmonics of `function`.

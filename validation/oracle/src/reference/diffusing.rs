@@ -1,4 +1,4 @@
-//! Means over rods with rotary diffusion D_r = C_I γ̇ that were isotropic at t = 0, as a table.
+//! Means over rods with rotary diffusion, as a table.
 
 use super::big::Bits;
 use super::isotropic::{PAIRS, QUADRUPLES};
@@ -7,12 +7,14 @@ use super::table::{Column, NoValue, Table, of_time, times};
 use crate::diffusion::{self, Means, Start};
 
 /// Rods with rotary diffusion, and the values requested for them.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug)]
 pub struct Diffusing {
     /// The flow and r_e, which may be ∞.
     pub motion: Motion,
-    /// C_I = D_r/γ̇, γ̇ = (2D:D)^½; above 0, and ∞ for isotropic rods.
-    pub c_i: f64,
+    /// D_r in 1/s; above 0, and ∞ for isotropic rods.
+    pub diffusivity: f64,
+    /// The rods at t = 0.
+    pub start: Start<'static>,
     /// True for a_4 in place of ⟨|p_i|⟩ and a_ij.
     pub fourth: bool,
     /// True for the steady distribution too, after the times.
@@ -43,12 +45,12 @@ impl Diffusing {
         if at.iter().any(|time| *time < 0.0) {
             return Err(NoValue::Past);
         }
-        let rods = diffusion::Motion::new(self.motion.gradient_per_s, self.motion.aspect_ratio, self.c_i);
+        let rods = self.rods();
         let mut rows = Vec::new();
         let heads = at.iter().map(|time| times(&self.motion, &Bits(64).of(*time), unit));
         let heads = heads.collect::<Result<Vec<_>, _>>()?;
         let seconds: Vec<f64> = heads.iter().filter_map(|head| head[0]).collect();
-        let all = diffusion::at(&rods, Start::Isotropic, &seconds).map_err(NoValue::Diffusion)?;
+        let all = diffusion::at(&rods, self.start, &seconds).map_err(NoValue::Diffusion)?;
         for (mut head, means) in heads.into_iter().zip(&all) {
             head.extend(self.values(means));
             rows.push(head);
@@ -56,11 +58,16 @@ impl Diffusing {
         if self.steady {
             let means = diffusion::steady(&rods).map_err(NoValue::Steady)?;
             let period = self.motion.couette().map(|_| f64::INFINITY);
-            let mut row = vec![Some(f64::INFINITY), period, Some(f64::INFINITY)];
+            let strains = diffusion::strain_rate_per_s(self.motion.gradient_per_s) > 0.0;
+            let mut row = vec![Some(f64::INFINITY), period, Some(if strains { f64::INFINITY } else { 0.0 })];
             row.extend(self.values(&means));
             rows.push(row);
         }
         Ok(Table { columns: self.columns(), rows })
+    }
+
+    fn rods(&self) -> diffusion::Motion {
+        diffusion::Motion::diffusing(self.motion.gradient_per_s, self.motion.aspect_ratio, self.diffusivity)
     }
 
     fn values(&self, means: &Means) -> Vec<Option<f64>> {

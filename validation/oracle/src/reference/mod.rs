@@ -8,6 +8,7 @@ pub mod constants;
 pub mod diffusing;
 pub mod isotropic;
 pub mod motion;
+mod planar;
 pub mod rod;
 pub mod second;
 pub mod table;

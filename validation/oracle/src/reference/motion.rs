@@ -63,7 +63,7 @@ impl Motion {
         (sum / bits.of(2.0)).sqrt()
     }
 
-    /// Converts a time to another unit; `None` if there is no period or no strain.
+    /// Converts a time to another unit; `None` if there is no period, or no strain to count it by.
     pub fn convert(&self, time: &Big, from: Unit, to: Unit, bits: Bits) -> Option<Big> {
         if from == to {
             return Some(time.clone());
@@ -74,6 +74,7 @@ impl Motion {
         };
         match to {
             Unit::Second => Some(seconds),
+            Unit::Strain if self.strain_rate_per_s(bits) == Big::ZERO => Some(Big::ZERO),
             _ => Some(seconds / self.unit_s(to, bits)?),
         }
     }

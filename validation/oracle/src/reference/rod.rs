@@ -106,6 +106,11 @@ fn c_b(p: &[Big; 3], aspect_ratio: f64, bits: Bits) -> Big {
     &across / (along + &across)
 }
 
+/// A direction in doubles.
+pub fn nearest(direction: Direction) -> [f64; 3] {
+    Start::new(direction, OF_ANGLES).p.each_ref().map(double)
+}
+
 /// A start as numbers.
 struct Start {
     p: [Big; 3],

@@ -3,6 +3,7 @@
 use super::big::{Big, Bits, number};
 use super::isotropic::{Covariance, PAIRS, QUADRUPLES};
 use super::motion::{LARGEST_STRAIN, Motion, Unit};
+use super::planar;
 use super::rod::{At, Direction};
 use super::unequal;
 use crate::diffusion::NoAnswer;
@@ -15,6 +16,11 @@ pub enum Start {
     Isotropic {
         /// Standard deviation of a Gaussian r_e (eq. 11), percent of the mean.
         aspect_ratio_sd_percent: f64,
+        /// True for a_4 in place of ⟨|p_i|⟩ and a_ij.
+        fourth: bool,
+    },
+    /// Infinitely many free rods with random directions in the plane of axes 1 and 2, for means over them.
+    Planar {
         /// True for a_4 in place of ⟨|p_i|⟩ and a_ij.
         fourth: bool,
     },
@@ -84,14 +90,22 @@ pub fn columns(start: Start) -> Vec<Column> {
             columns.push(column("theta_rad", "rad", "A.5: from axis 3, in [0, π]"));
             columns.push(column("c_b", "1", "13, 18: C/(1 + C), C = (r_e²p_1² + p_2²)^½/(r_e|p_3|)"));
         }
-        Start::Isotropic { fourth: true, .. } => {
+        Start::Isotropic { fourth: true, .. } | Start::Planar { fourth: true } => {
             let name = |q: [usize; 4]| format!("a{}{}{}{}", q[0], q[1], q[2], q[3]);
-            let equation = "A.1, 12: mean of p_i p_j p_k p_l, by quadrature";
+            let equation = match start {
+                Start::Planar { .. } => "A.1: mean of p_i p_j p_k p_l",
+                _ => "A.1, 12: mean of p_i p_j p_k p_l, by quadrature",
+            };
             columns.extend(QUADRUPLES.map(|q| column(&name(q), "1", equation)));
         }
-        Start::Isotropic { .. } => {
-            let projection = "4, A.4, A.5, 12: mean of |p_i|; a complete elliptic integral in plane Couette flow";
-            let moment = "A.4, A.5, 12: mean of p_i p_j; an incomplete elliptic integral in plane Couette flow";
+        Start::Isotropic { .. } | Start::Planar { .. } => {
+            let [projection, moment] = match start {
+                Start::Planar { .. } => ["4, A.1: mean of |p_i|", "A.1: mean of p_i p_j"],
+                _ => [
+                    "4, A.4, A.5, 12: mean of |p_i|; a complete elliptic integral in plane Couette flow",
+                    "A.4, A.5, 12: mean of p_i p_j; an incomplete elliptic integral in plane Couette flow",
+                ],
+            };
             columns.extend(["x1", "x2", "x3"].map(|name| column(name, "1", projection)));
             let name = |(i, j)| format!("a{}{}", i + 1, j + 1);
             columns.extend(PAIRS.map(|pair| column(&name(pair), "1", moment)));
@@ -115,7 +129,7 @@ pub fn table(
     }
     let rod = match start {
         Start::Rod(direction) => Some(At::new(motion, direction, times.iter().copied(), unit)),
-        Start::Isotropic { .. } => None,
+        Start::Isotropic { .. } | Start::Planar { .. } => None,
     };
     let rows = times.par_iter().map(|time| {
         let row = row(motion, start, rod.as_ref(), *time, unit);
@@ -145,6 +159,11 @@ fn row(
             let sense = motion.couette().ok_or(NoValue::Unequal)?.signum();
             let means = unequal::means(motion.aspect_ratio, aspect_ratio_sd_percent, sense * turns);
             row.extend(means.ok_or(NoValue::Unequal)?.map(Some));
+        }
+        Start::Planar { fourth } => {
+            let bits = motion.bits(time, unit, planar::PRECISION);
+            let map = motion.map(&exact, unit, bits).ok_or(NoValue::Unit)?;
+            row.extend(planar::Means::of(&map, bits).values(fourth).into_iter().map(|x| Some(number(&x))));
         }
         Start::Isotropic { fourth, .. } => {
             let covariance = Covariance::at(motion, &exact, unit).ok_or(NoValue::Unit)?;

@@ -25,6 +25,7 @@ def reference(
     gradient_per_s: ArrayLike | None = None,
     aspect_ratio_sd_percent: float = 0.0,
     c_i: float | None = None,
+    d_r_per_s: float | None = None,
     steady: bool = False,
     fourth: bool = False,
 ) -> dict[str, NDArray[np.float64]]:
@@ -32,11 +33,12 @@ def reference(
 
     ``times`` are a list or an array, or, as a tuple, ``(first, last, count)`` for evenly spaced ones, in ``unit``:
     ``"period"``, ``"strain"`` or ``"s"``; without it periods, and strain for ``aspect_ratio=inf``. ``start`` is
-    ``"isotropic"`` or one rod's angles (phi, theta) in degrees. A value without a meaning, as t/T in a flow without a
-    period, is NaN.
+    ``"isotropic"``, ``"planar"`` or one rod's angles (phi, theta) in degrees. A value without a meaning, as t/T in a
+    flow without a period, is NaN.
 
-    ``c_i`` are rods with rotary diffusion D_r = c_i times the rate of strain (Folgar & Tucker), from the exact
-    distribution; ``steady=True`` adds its steady state as a last row at the time inf. ``fourth=True`` gives a_ijkl.
+    ``c_i`` are rods with rotary diffusion D_r = c_i times the rate of strain (Folgar & Tucker), ``d_r_per_s`` those with
+    that D_r, from the exact distribution; ``steady=True`` adds its steady state as a last row at the time inf.
+    ``fourth=True`` gives a_ijkl.
     """
     words = ["reference", "--aspect-ratio", repr(float(aspect_ratio))]
     order: NDArray[np.intp] | None = None
@@ -58,6 +60,8 @@ def reference(
         words += ["--aspect-ratio-sd-percent", repr(float(aspect_ratio_sd_percent))]
     if c_i is not None:
         words += ["--c-i", repr(float(c_i))]
+    if d_r_per_s is not None:
+        words += ["--d-r-per-s", repr(float(d_r_per_s))]
     words += [flag for flag, asked in (("--steady", steady), ("--fourth", fourth)) if asked]
     with tempfile.TemporaryDirectory(prefix="shearbed-") as folder:
         call([*words, "--out", str(Path(folder, "reference.csv"))], folder=folder)

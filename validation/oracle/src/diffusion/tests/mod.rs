@@ -6,6 +6,7 @@ mod laws;
 mod of_operator;
 mod orbits;
 mod power_moments;
+mod sharp;
 mod steady;
 
 use super::{Means, Motion, Start, at, steady};
