@@ -6,16 +6,18 @@
 
 use shearbed_validation::oracle::reference::big::digits;
 use shearbed_validation::oracle::reference::unequal::means_to_22_digits;
-use shearbed_validation::serve::problems::{self, closed, folgar_tucker, formula};
+use shearbed_validation::serve::problems::{self, brownian, closed, folgar_tucker, formula};
 
 fn main() {
     let table = match std::env::args().nth(1).as_deref() {
+        Some("brownian") => brownian::certify().map_err(|why| why.to_string()),
         Some("closed") => closed::certify(),
         Some(name @ ("contact-rule" | "contact-angles")) => Ok(contact(name)),
         Some("folgar-tucker") => folgar_tucker::certify().map_err(|why| why.to_string()),
         Some("formulas") => formula::certify(),
         Some("unequal-rods") => Ok(unequal_rods()),
-        _ => Err("closed, contact-angles, contact-rule, folgar-tucker, formulas or unequal-rods is allowed".to_owned()),
+        _ => Err("brownian, closed, contact-angles, contact-rule, folgar-tucker, formulas or unequal-rods is allowed"
+            .to_owned()),
     };
     match table {
         Ok(table) => print!("{table}"),

@@ -36,7 +36,7 @@ pub fn means(
     time_s: f64,
 ) -> Option<Means> {
     let grid = Grid::new(rings, mirrors(&gradient_per_s));
-    let rates = grid.rates(&Matrix3::from_fn(|i, j| gradient_per_s[i][j]), shape, diffusivity_per_s);
+    let rates = grid.rates(&Matrix3::from_fn(|i, j| gradient_per_s[i][j]), shape, diffusivity_per_s, Of::Density);
     let one = DVector::from_element(grid.points.len(), 1.0);
     let density = if time_s == f64::INFINITY {
         // A ψ = 0 with w·ψ = 1 is (A + D_r 1 wᵀ) ψ = D_r 1.
@@ -46,6 +46,50 @@ pub fn means(
         (rates * time_s).exp() * (one / (4.0 * PI))
     };
     Some(grid.means(&density))
+}
+
+/// a_ij and a_ijkl of rods that are at random in the plane of axes 1 and 2 at t = 0.
+///
+/// No grid holds that density. The mean of f(p(t)) over rods that start along p is a smooth function of p, with
+/// ∂f/∂t = ṗ·∇f + D_r∇²f (Kolmogorov's backward equation); its mean over the plane is what is asked for.
+pub fn planar_moments(
+    gradient_per_s: [[f64; 3]; 3],
+    shape: f64,
+    diffusivity_per_s: f64,
+    rings: usize,
+    time_s: f64,
+) -> ([f64; 6], [f64; 15]) {
+    // Products of components have not the mirrors of the flow.
+    let grid = Grid::new(rings, [false; 3]);
+    let rates = grid.rates(&Matrix3::from_fn(|i, j| gradient_per_s[i][j]), shape, diffusivity_per_s, Of::Means);
+    let starts = DMatrix::from_fn(grid.points.len(), 6 + 15, |point, k| {
+        let (theta, phi) = grid.angles(grid.points[point]);
+        let p = direction(theta, phi);
+        match PAIRS.get(k) {
+            Some((i, j)) => p[*i] * p[*j],
+            None => QUADRUPLES[k - 6].iter().map(|i| p[i - 1]).product(),
+        }
+    });
+    let means = (rates * time_s).exp() * starts;
+    // Fourier's interpolation along each circle of meridians to θ = π/2, which is between two rings.
+    let around = 2 * rings;
+    let weight = |j: usize| {
+        let x = PI * (j as f64 + 0.5) / rings as f64 - PI / 2.0;
+        (rings as f64 * x).sin() / (around as f64 * (0.5 * x).tan())
+    };
+    let of = |k: usize| {
+        let ring = |j: usize| (0..around).map(|at| means[(grid.class(j, at), k)]).sum::<f64>() / around as f64;
+        // The opposite meridian's rings have the angles 2π − θ, and the same sums.
+        (0..rings).map(|j| (weight(j) + weight(around - 1 - j)) * ring(j)).sum()
+    };
+    (std::array::from_fn(of), std::array::from_fn(|k| of(6 + k)))
+}
+
+/// What is on the grid: a density of directions, or means of what rods become.
+#[derive(Clone, Copy, PartialEq)]
+enum Of {
+    Density,
+    Means,
 }
 
 /// True for each axis whose reflection leaves the flow unchanged.
@@ -104,8 +148,10 @@ impl Grid {
         (angle(j), angle(k))
     }
 
-    /// The matrix of ∂ψ/∂t = −θ̇ ∂ψ/∂θ − φ̇ ∂ψ/∂φ − ψ∇·ṗ + D_r∇²ψ, ∇·ṗ = Λ(tr D − 3 p·Dp).
-    fn rates(&self, l: &Matrix3<f64>, shape: f64, diffusivity: f64) -> DMatrix<f64> {
+    /// The matrix of ∂ψ/∂t = −θ̇ ∂ψ/∂θ − φ̇ ∂ψ/∂φ − ψ∇·ṗ + D_r∇²ψ, ∇·ṗ = Λ(tr D − 3 p·Dp), or of ∂f/∂t = θ̇ ∂f/∂θ +
+    /// φ̇ ∂f/∂φ + D_r∇²f.
+    fn rates(&self, l: &Matrix3<f64>, shape: f64, diffusivity: f64, of: Of) -> DMatrix<f64> {
+        let (sign, spread) = if of == Of::Density { (1.0, 1.0) } else { (-1.0, 0.0) };
         let around = 2 * self.rings;
         let (strain, turning) = ((l + l.transpose()) * 0.5, (l - l.transpose()) * 0.5);
         let mut rates = DMatrix::zeros(self.points.len(), self.points.len());
@@ -113,11 +159,11 @@ impl Grid {
             let (theta, phi) = self.angles((j, k));
             let p = direction(theta, phi);
             let stretched = strain * p;
-            let rate = turning * p + (stretched - p * p.dot(&stretched)) * shape;
+            let rate = (turning * p + (stretched - p * p.dot(&stretched)) * shape) * sign;
             let along = direction(theta + PI / 2.0, phi);
             let across = Vector3::new(-phi.sin(), phi.cos(), 0.0);
             let (sine, cotangent) = (theta.sin(), theta.tan().recip());
-            rates[(row, row)] += shape * (3.0 * p.dot(&stretched) - strain.trace());
+            rates[(row, row)] += spread * shape * (3.0 * p.dot(&stretched) - strain.trace());
             for i in 0..around {
                 let (first, second) = derivatives(around, j, i);
                 let opposite = (around - 1 - i, (k + self.rings) % around);

@@ -8,7 +8,7 @@ use crate::judge::case::{Case, Effort, Evidence};
 use crate::judge::statistics::{larger, worst};
 use crate::methods::tensors;
 use crate::oracle::angle_grid;
-use crate::oracle::diffusion::{self, Start};
+use crate::oracle::diffusion;
 use crate::oracle::isotropic::mean_projections_polydisperse;
 use crate::oracle::reference::big::{Big, Bits, decimal, double, length};
 use crate::oracle::reference::isotropic::Covariance;
@@ -170,20 +170,30 @@ fn fine() -> Vec<(Big, Big)> {
     row(named("unequal-rods"), 0).into_iter().zip(means).collect()
 }
 
-/// Means on the grid for a problem, at its time `at`.
-fn on_grid(built: &Built, rings: usize, time_s: f64) -> angle_grid::Means {
+/// a_ij and a_ijkl on the grid for a problem, at a time.
+fn on_grid(built: &Built, rings: usize, time_s: f64) -> ([f64; 6], [f64; 15]) {
     let (l, r) = (built.problem.gradient_per_s, built.problem.aspect_ratio);
     let strain = |i: usize, j: usize| 0.5 * (l[i][j] + l[j][i]);
     let rate = (0..9).map(|k| 2.0 * strain(k / 3, k % 3).powi(2)).sum::<f64>().sqrt();
     let shape = 1.0 - 2.0 / (1.0 + r * r);
-    let diffusivity = built.problem.c_i.unwrap_or_default() * rate;
-    angle_grid::means(l, shape, diffusivity, rings, time_s).expect("diffusion makes it unique")
+    let diffusivity = built.problem.d_r_per_s.unwrap_or(built.problem.c_i.unwrap_or_default() * rate);
+    if built.problem.planar_start {
+        return angle_grid::planar_moments(l, shape, diffusivity, rings, time_s);
+    }
+    let means = angle_grid::means(l, shape, diffusivity, rings, time_s).expect("diffusion makes it unique");
+    (means.second, means.fourth)
 }
 
 /// The problems' names, rings of the grid, and how many of their times.
 fn diffusing(full: bool, columns: usize) -> Vec<(Big, Big)> {
     let asked: &[(&str, usize, usize)] = match (columns, full) {
-        (6, false) => &[("folgar-tucker-shear-0.1", 32, 2), ("folgar-tucker-planar-extension", 48, 3)],
+        (6, false) => &[
+            ("folgar-tucker-shear-0.1", 32, 2),
+            ("folgar-tucker-planar-extension", 48, 3),
+            ("brownian-relaxation", 8, 5),
+            ("brownian-startup-pe-1", 24, 2),
+            ("brownian-disc", 24, 1),
+        ],
         (6, true) => &[
             ("folgar-tucker-shear-0.1", 40, 5),
             ("folgar-tucker-shear-0.0311", 48, 3),
@@ -191,6 +201,11 @@ fn diffusing(full: bool, columns: usize) -> Vec<(Big, Big)> {
             ("folgar-tucker-uniaxial-extension", 48, 5),
             ("folgar-tucker-discs", 48, 2),
             ("folgar-tucker-mixed", 40, 2),
+            ("brownian-relaxation", 8, 5),
+            ("brownian-startup-pe-1", 32, 5),
+            ("brownian-startup-pe-10", 48, 5),
+            ("brownian-startup-pe-100", 56, 3),
+            ("brownian-disc", 32, 5),
         ],
         (_, false) => &[("folgar-tucker-fourth-mixed", 32, 1)],
         (_, true) => &[("folgar-tucker-fourth-mixed", 40, 2)],
@@ -200,11 +215,11 @@ fn diffusing(full: bool, columns: usize) -> Vec<(Big, Big)> {
         let built = named(name);
         let times_s = &built.problem.times_s[..*times];
         // What is shipped, and what the program computes today.
-        let now = diffusion::at(&motion(built), Start::Isotropic, times_s).expect("as when it was shipped");
+        let now = diffusion::at(&motion(built), built.problem.directions(), times_s).expect("as when it was shipped");
         for (at, (time_s, now)) in times_s.iter().zip(now).enumerate() {
             let grid = on_grid(built, *rings, *time_s);
             let of = |second: &[f64], fourth: &[f64]| bigs(if columns == 6 { second } else { fourth });
-            let due = of(&grid.second, &grid.fourth);
+            let due = of(&grid.0, &grid.1);
             pairs.extend(
                 row(built, at).into_iter().chain(of(&now.second, &now.fourth)).zip(due.iter().chain(&due).cloned()),
             );
@@ -214,8 +229,7 @@ fn diffusing(full: bool, columns: usize) -> Vec<(Big, Big)> {
 }
 
 fn motion(built: &Built) -> diffusion::Motion {
-    let problem = &built.problem;
-    diffusion::Motion::new(problem.gradient_per_s, problem.aspect_ratio, problem.c_i.unwrap_or_default())
+    built.problem.diffusing().expect("a problem of rods that diffuse")
 }
 
 fn bigs(values: &[f64]) -> Vec<Big> {
@@ -229,7 +243,7 @@ fn steady(full: bool) -> Vec<(Big, Big)> {
         &[("folgar-tucker-steady-mixed", 48), ("folgar-tucker-steady-shear-0.01", 64)]
     };
     let pairs = asked.iter().flat_map(|(name, rings)| {
-        let due = bigs(&on_grid(named(name), *rings, f64::INFINITY).second);
+        let due = bigs(&on_grid(named(name), *rings, f64::INFINITY).0);
         let now = diffusion::steady(&motion(named(name))).expect("as when it was shipped").second;
         row(named(name), 0).into_iter().chain(bigs(&now)).zip([due.clone(), due].concat()).collect::<Vec<_>>()
     });

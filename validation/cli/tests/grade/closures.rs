@@ -1,6 +1,7 @@
 //! Tensor codes with a closure: named on the exact problems with what it costs, held to 10⁻¹⁰ on their own.
 
 use crate::grading::{answers, problem, text, write};
+use shearbed_validation::oracle::diffusion::{Motion, Start, at};
 
 type M = [[f64; 3]; 3];
 
@@ -123,4 +124,41 @@ fn a_right_tensor_code_passes_its_closed_problem_and_another_closure_fails_by_na
     let ended = answers(dir.path(), &["--problem", other]);
     let expected = "this is the curve of the distribution, without a closure, to ";
     assert!(ended.diagnosis(other).starts_with(expected), "{}", ended.words);
+}
+
+/// Brownian rods: a right code passes, one with a wrong diffusivity fails by name, at rest and in shear.
+#[test]
+fn a_wrong_diffusivity_of_brownian_rods_is_named() {
+    let (rest, shear) = ("brownian-relaxation", "brownian-startup-pe-10");
+    let graded = |factor: f64| {
+        let dir = tempfile::tempdir().unwrap();
+        let (_, mut rows) = problem(rest);
+        for row in rows.iter_mut().skip(1) {
+            // a − 1/3 fades as e^{−6D_r t}, D_r = 0.25/s.
+            let fades = (-1.5 * factor * row[0].parse::<f64>().unwrap()).exp();
+            for (k, start) in [(1, 0.5), (2, 0.5), (3, 0.0)] {
+                row[k] = (1.0 / 3.0 + (start - 1.0 / 3.0) * fades).to_string();
+            }
+        }
+        write(dir.path(), rest, "answer.csv", text(&rows));
+        let (_, mut rows) = problem(shear);
+        let times: Vec<f64> = rows[1..].iter().map(|row| row[0].parse().unwrap()).collect();
+        let rods = Motion::diffusing([[0.0; 3], [0.5, 0.0, 0.0], [0.0; 3]], 10.0, 0.05 * factor);
+        for (row, means) in rows.iter_mut().skip(1).zip(at(&rods, Start::Isotropic, &times).unwrap()) {
+            row.iter_mut().skip(1).zip(means.second).for_each(|(field, x)| *field = x.to_string());
+        }
+        write(dir.path(), shear, "answer.csv", text(&rows));
+        answers(dir.path(), &[])
+    };
+    let right = graded(1.0);
+    assert_eq!([rest, shear].map(|name| right.verdict(name)), ["PASS"; 2], "{}", right.words);
+    for (factor, words) in [(2.0, "twice the D_r"), (0.5, "half the D_r or of the distribution with D_r γ̇")] {
+        let wrong = graded(factor);
+        for name in [rest, shear] {
+            let said = wrong.diagnosis(name);
+            let words = if name == rest { &words[..words.find(" or").unwrap_or(words.len())] } else { words };
+            assert_eq!(wrong.verdict(name), "FAIL");
+            assert!(said.starts_with(&format!("this is the curve of the distribution with {words}")), "{said}");
+        }
+    }
 }

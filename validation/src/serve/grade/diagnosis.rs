@@ -32,7 +32,7 @@ pub fn diagnose(loaded: &LoadedProblem, answer: &Answer, error: f64) -> Diagnosi
             let said = "every rod is where it started: nothing has moved".to_owned();
             Diagnosis { said: Some(said), ..Diagnosis::default() }
         }
-        Kind::Tensor if loaded.problem.c_i.is_some() || loaded.problem.closed.is_some() => {
+        Kind::Tensor if loaded.problem.diffusing().is_some() || loaded.problem.closed.is_some() => {
             tensors::diagnose(loaded, answer, error)
         }
         _ => {

@@ -10,7 +10,7 @@ use super::nearness::{Diagnosis, NEARER};
 use crate::methods::tensors::fourth::PAIRS;
 use crate::methods::tensors::wrong::{CLOSURES, MISTAKES, Stand};
 use crate::methods::tensors::{Closure, Model, Parts, at_rate, isotropic, steady_of};
-use crate::oracle::diffusion::{self, Means, Motion, Start};
+use crate::oracle::diffusion::{self, Means, Motion, strain_rate_per_s};
 use crate::serve::problems::{Closed, LoadedProblem, Problem};
 use layouts::LAYOUTS;
 use nalgebra::Matrix3;
@@ -87,14 +87,33 @@ fn index(closure: Closure) -> Option<usize> {
 /// The closed equation of a problem, and the index of its closure; of a problem of the distribution no closure is the
 /// right one.
 fn asked(problem: &Problem) -> Option<(Closed, Option<usize>)> {
-    match (&problem.closed, problem.c_i) {
+    let rate = strain_rate_per_s(problem.gradient_per_s);
+    match (&problem.closed, problem.diffusing()) {
         (Some(closed), _) => Some((*closed, index(closed.closure))),
-        (None, Some(c_i)) => {
-            let (closure, model) = (Closure::Quadratic, Model::FolgarTucker { c_i });
-            Some((Closed { closure, model, start: isotropic().transpose().into() }, None))
+        // At rest a closure has no part in a_ij.
+        (None, Some(rods)) if rate > 0.0 => {
+            let (closure, model) = (Closure::Quadratic, Model::FolgarTucker { c_i: rods.diffusivity / rate });
+            let plane = [[0.5, 0.0, 0.0], [0.0, 0.5, 0.0], [0.0; 3]];
+            let start = if problem.planar_start { plane } else { isotropic().transpose().into() };
+            Some((Closed { closure, model, start }, None))
         }
-        (None, None) => None,
+        _ => None,
     }
+}
+
+/// The curves of the distribution with a wrong D_r.
+fn of_wrong_diffusion(problem: &Problem, answer: &Answer, most: f64) -> Vec<Near> {
+    let Some(rods) = problem.diffusing().filter(|_| problem.d_r_per_s.is_some()) else { return Vec::new() };
+    let rate = strain_rate_per_s(problem.gradient_per_s);
+    let factors = [(2.0, "twice the D_r"), (0.5, "half the D_r"), (rate, "D_r γ̇ for D_r, as if it were a C_I")];
+    let of = |(factor, name): &(f64, &str)| {
+        let rods = Motion { diffusivity: factor * rods.diffusivity, ..rods };
+        let all = diffusion::at(&rods, problem.directions(), &problem.times_s).ok()?;
+        let distance = worst(&answer.rows, &all.iter().map(|means| means.second.to_vec()).collect::<Vec<_>>());
+        let (name, suspect) = (format!("the distribution with {name}"), (*name).to_owned());
+        (distance <= most).then_some(Near { distance, name, suspect, advice: "", changes: 1 })
+    };
+    factors.par_iter().filter(|(factor, _)| *factor > 0.0 && *factor != 1.0).filter_map(of).collect()
 }
 
 fn candidates(parts: &Parts, own: Option<usize>) -> Vec<Candidate> {
@@ -184,7 +203,7 @@ fn from_exact(problem: &Problem, rows: &[Vec<f64>], parts: &Parts, most: f64) ->
     if problem.is_steady() {
         return near(vec![diffusion::steady(&motion).ok()?]);
     }
-    let at = |times: &[f64]| diffusion::at(&motion, Start::Isotropic, times).ok();
+    let at = |times: &[f64]| diffusion::at(&motion, problem.directions(), times).ok();
     near(at(&problem.times_s[..1])?)?;
     near(at(&problem.times_s)?)
 }
@@ -194,11 +213,12 @@ fn from_exact(problem: &Problem, rows: &[Vec<f64>], parts: &Parts, most: f64) ->
 pub(super) fn diagnose(loaded: &LoadedProblem, answer: &Answer, error: f64) -> Diagnosis {
     let problem = &loaded.problem;
     let most = NEARER * error;
-    let Some((closed, own)) = asked(problem) else { return Diagnosis::default() };
     // Curves are no better known.
     if most < STEP {
         return Diagnosis::default();
     }
+    let mut near = of_wrong_diffusion(problem, answer, most);
+    let Some((closed, own)) = asked(problem) else { return said(near, problem.tolerance, "") };
     let start = closed.start();
     let parts = closed.equation(&problem.gradient_per_s, problem.aspect_ratio).parts();
     let is_second = problem.columns.len() == PAIRS.len() + 1;
@@ -206,7 +226,7 @@ pub(super) fn diagnose(loaded: &LoadedProblem, answer: &Answer, error: f64) -> D
         let said = "a_ij stays where it started: nothing has moved".to_owned();
         return Diagnosis { said: Some(said), ..Diagnosis::default() };
     }
-    let mut near = in_other_layouts(&[certified(loaded)], answer, most);
+    near.extend(in_other_layouts(&[certified(loaded)], answer, most));
     let all = candidates(&parts, own);
     let with = |changes: u8| -> Vec<Near> {
         let near = |candidate: &Candidate| {
@@ -216,7 +236,7 @@ pub(super) fn diagnose(loaded: &LoadedProblem, answer: &Answer, error: f64) -> D
         all.par_iter().filter(|candidate| candidate.near.changes == changes).filter_map(near).collect()
     };
     near.extend(with(1));
-    if start == isotropic() {
+    if problem.closed.is_none() || start == isotropic() {
         let exact = changes(&parts);
         let exact = exact.par_iter().filter(|change| problem.closed.is_some() == change.name.is_empty());
         near.par_extend(exact.filter_map(|Change { name, advice, parts }| {

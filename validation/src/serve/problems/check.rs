@@ -55,7 +55,7 @@ const MOST: f64 = 1e9;
 const MOST_STRAIN: f64 = 1e9;
 /// The range of r_e in scenes.
 const RATIOS: [f64; 2] = [1e-100, 1e100];
-/// The range of C_I.
+/// The range of C_I, and of D_r in 1/s.
 const DIFFUSION: [f64; 2] = [1e-9, 1e9];
 /// The largest σ of r_e in percent: r_e is still positive six σ below its mean.
 const MOST_SPREAD: f64 = 15.0;
@@ -174,18 +174,28 @@ fn spread(problem: &Problem) -> Result<(), Refused> {
 }
 
 fn diffusion(problem: &Problem) -> Result<(), Refused> {
-    match (problem.c_i, problem.kind) {
-        (None, _) => Ok(()),
-        (Some(c_i), Kind::Tensor) => between("c_i", c_i, DIFFUSION),
-        (Some(c_i), _) => Err(("c_i", format!("{c_i:e}: it belongs to the kind \"tensor\" alone"))),
+    let (of_tensors, both) = (problem.kind == Kind::Tensor, problem.c_i.is_some() && problem.d_r_per_s.is_some());
+    for (key, found) in [("c_i", problem.c_i), ("d_r_per_s", problem.d_r_per_s)] {
+        match found {
+            Some(found) if !of_tensors => {
+                return Err((key, format!("{found:e}: it belongs to the kind \"tensor\" alone")));
+            }
+            Some(found) if both => return Err((key, format!("{found:e}: c_i or d_r_per_s is allowed, not both"))),
+            Some(found) => between(key, found, DIFFUSION)?,
+            None => {}
+        }
     }
+    if problem.planar_start && problem.diffusing().is_none() {
+        return Err(("planar_start", "it belongs to rods with c_i or d_r_per_s".to_owned()));
+    }
+    Ok(())
 }
 
 fn closed(problem: &Problem) -> Result<(), Refused> {
     const KEY: &str = "closed";
     let Some(closed) = &problem.closed else { return Ok(()) };
-    if problem.columns.get(1).map(String::as_str) != Some("a11") || problem.c_i.is_some() {
-        return Err((KEY, "it belongs to problems of a11 to a23 without a c_i of their own".to_owned()));
+    if problem.columns.get(1).map(String::as_str) != Some("a11") || problem.diffusing().is_some() {
+        return Err((KEY, "it belongs to problems of a11 to a23 without a c_i or d_r_per_s of their own".to_owned()));
     }
     // Parameters of an anisotropic diffusivity may be negative.
     let allowed = |x: &f64| between(KEY, *x, [-MOST, MOST]);

@@ -146,6 +146,8 @@ fn built(def: &ProblemDef, problem: &ClosureProblem) -> Built {
             aspect_ratio: problem.aspect_ratio,
             aspect_ratio_sd_percent: 0.0,
             c_i: None,
+            d_r_per_s: None,
+            planar_start: false,
             closed: Some(problem.closed),
             formula: None,
             times_s: problem.times_s(),

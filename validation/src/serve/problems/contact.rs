@@ -78,6 +78,8 @@ impl ContactProblem {
                 aspect_ratio_sd_percent: 0.0,
                 times_s: Vec::new(),
                 c_i: None,
+                d_r_per_s: None,
+                planar_start: false,
                 closed: None,
                 formula: None,
                 time_step_s: self.step_s,

@@ -61,6 +61,8 @@ fn built(def: &ProblemDef, sd_percent: f64, table: &str) -> Built {
             aspect_ratio_sd_percent: sd_percent,
             times_s,
             c_i: None,
+            d_r_per_s: None,
+            planar_start: false,
             closed: None,
             formula: None,
             time_step_s: None,

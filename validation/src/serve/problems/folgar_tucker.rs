@@ -17,15 +17,25 @@ const STRETCHED: [[f64; 3]; 3] = [[-0.0625, 0.0, 0.0], [0.5, -0.0625, 0.0], [0.0
 const ASKEW: [[f64; 3]; 3] = [[0.25, -0.5, 0.125], [0.75, 0.125, -0.25], [0.375, 0.625, -0.375]];
 
 /// A flow, rods, and the times of the answer in units of 1/G, G = 0.5/s; no times for the steady distribution.
-struct DiffusionProblem {
-    name: &'static str,
-    title: &'static str,
-    gradient_per_s: [[f64; 3]; 3],
-    aspect_ratio: f64,
-    c_i: f64,
-    times: &'static [f64],
+pub(super) struct DiffusionProblem {
+    pub name: &'static str,
+    pub title: &'static str,
+    pub gradient_per_s: [[f64; 3]; 3],
+    pub aspect_ratio: f64,
+    pub diffusion: Diffusion,
+    pub planar_start: bool,
+    pub times: &'static [f64],
     /// The name of a further problem that asks for the fourth moments too.
-    fourth: Option<&'static str>,
+    pub fourth: Option<&'static str>,
+}
+
+/// The rotary diffusivity.
+#[derive(Clone, Copy)]
+pub(super) enum Diffusion {
+    /// C_I = D_r/γ̇.
+    Ci(f64),
+    /// D_r in 1/s.
+    PerS(f64),
 }
 
 #[rustfmt::skip]
@@ -68,28 +78,33 @@ const fn problem(
     times: &'static [f64],
     fourth: Option<&'static str>,
 ) -> DiffusionProblem {
-    DiffusionProblem { name, title, gradient_per_s, aspect_ratio, c_i, times, fourth }
+    let diffusion = Diffusion::Ci(c_i);
+    DiffusionProblem { name, title, gradient_per_s, aspect_ratio, diffusion, planar_start: false, times, fourth }
 }
 
 impl DiffusionProblem {
-    fn times_s(&self) -> Vec<f64> {
+    pub fn times_s(&self) -> Vec<f64> {
         match self.times {
             [] => vec![LATE_S],
             times => times.iter().map(|time| time / SHEAR_RATE_PER_S).collect(),
         }
     }
 
-    fn certified(&self) -> Result<Vec<Means>, NoAnswer> {
-        let motion = Motion::new(self.gradient_per_s, self.aspect_ratio, self.c_i);
+    fn solved(&self) -> Result<Vec<Means>, NoAnswer> {
+        let motion = match self.diffusion {
+            Diffusion::Ci(c_i) => Motion::new(self.gradient_per_s, self.aspect_ratio, c_i),
+            Diffusion::PerS(d_r) => Motion::diffusing(self.gradient_per_s, self.aspect_ratio, d_r),
+        };
+        let start = if self.planar_start { Start::Plane([0.0, 0.0, 1.0]) } else { Start::Isotropic };
         match self.times {
             [] => Ok(vec![diffusion::steady(&motion)?]),
-            _ => diffusion::at(&motion, Start::Isotropic, &self.times_s()),
+            _ => diffusion::at(&motion, start, &self.times_s()),
         }
     }
 }
 
 /// The columns of second and fourth moments.
-const SECOND: [&str; 6] = ["a11", "a22", "a33", "a12", "a13", "a23"];
+pub(super) const SECOND: [&str; 6] = ["a11", "a22", "a33", "a12", "a13", "a23"];
 #[rustfmt::skip]
 pub(super) const FOURTH: [&str; 15] = [
     "a1111", "a1112", "a1113", "a1122", "a1123", "a1133", "a1222", "a1223", "a1233", "a1333", "a2222", "a2223", "a2233",
@@ -105,9 +120,13 @@ const TABLE: &str = include_str!("data/folgar-tucker.csv");
 ///
 /// An error if a distribution cannot be computed.
 pub fn certify() -> Result<String, NoAnswer> {
+    certified(&PROBLEMS)
+}
+
+pub(super) fn certified(problems: &[DiffusionProblem]) -> Result<String, NoAnswer> {
     let mut table = format!("setting,time_s,{},{}\n", SECOND.join(","), FOURTH.join(","));
-    for problem in &PROBLEMS {
-        for (time, means) in problem.times_s().iter().zip(problem.certified()?) {
+    for problem in problems {
+        for (time, means) in problem.times_s().iter().zip(problem.solved()?) {
             let values = twelve_decimals(means.second.iter().chain(&means.fourth).copied());
             table += &format!("{},{time:?},{values}\n", problem.name);
         }
@@ -116,8 +135,9 @@ pub fn certify() -> Result<String, NoAnswer> {
 }
 
 pub(super) fn problems() -> Vec<ProblemDef> {
-    let second =
-        PROBLEMS.iter().map(|problem| ProblemDef::new(problem.name, problem.title, |def| built(def, problem, 0..6)));
+    let second = PROBLEMS
+        .iter()
+        .map(|problem| ProblemDef::new(problem.name, problem.title, |def| built(def, problem, TABLE, 0..6)));
     let fourth = PROBLEMS.iter().filter_map(|problem| {
         let title = if problem.times.is_empty() {
             "Steady a_ijkl in shear, C_I = 0.01"
@@ -126,14 +146,19 @@ pub(super) fn problems() -> Vec<ProblemDef> {
         } else {
             "a_ijkl(t) in shear, C_I = 0.01"
         };
-        Some(ProblemDef::new(problem.fourth?, title, |def| built(def, problem, 6..21)))
+        Some(ProblemDef::new(problem.fourth?, title, |def| built(def, problem, TABLE, 6..21)))
     });
     second.chain(fourth).collect()
 }
 
 /// The problem with the columns `values` of the table's rows.
-fn built(def: &ProblemDef, problem: &DiffusionProblem, values: std::ops::Range<usize>) -> Built {
-    let fields = TABLE.lines().map(|line| line.split(',').collect::<Vec<_>>());
+pub(super) fn built(
+    def: &ProblemDef,
+    problem: &DiffusionProblem,
+    table: &'static str,
+    values: std::ops::Range<usize>,
+) -> Built {
+    let fields = table.lines().map(|line| line.split(',').collect::<Vec<_>>());
     let of = |row: Vec<&str>| {
         let picked = row[2..][values.clone()].iter();
         std::iter::once(&row[1]).chain(picked).map(|field| (*field).to_owned()).collect::<Vec<String>>()
@@ -148,8 +173,14 @@ fn built(def: &ProblemDef, problem: &DiffusionProblem, values: std::ops::Range<u
     let moments = if values.start == 0 { "a_ij = ⟨p_i p_j⟩" } else { "a_ijkl = ⟨p_i p_j p_k p_l⟩" };
     let when = if steady {
         "once the distribution is steady: the row's time stands for any that is late enough"
+    } else if problem.planar_start {
+        "in time, from directions at random in the plane of axes 1 and 2 at t = 0: a = diag(½, ½, 0)"
     } else {
         "in time, from all directions alike at t = 0"
+    };
+    let (c_i, d_r_per_s, diffusivity) = match problem.diffusion {
+        Diffusion::Ci(c_i) => (Some(c_i), None, format!("D_r = C_I γ̇, C_I = {c_i}, γ̇ = (2D:D)^½")),
+        Diffusion::PerS(d_r) => (None, Some(d_r), format!("D_r = {d_r}/s")),
     };
     Built {
         certified: rows.filter(|row| row[0] == problem.name).map(of).collect(),
@@ -159,17 +190,17 @@ fn built(def: &ProblemDef, problem: &DiffusionProblem, values: std::ops::Range<u
             name: def.name.into(),
             title: def.title.into(),
             summary: format!(
-                "{moments} of infinitely many rods of {rods} with the rotary diffusivity D_r = C_I γ̇, C_I = {}, γ̇ = \
-                 (2D:D)^½, {when}. The answer is that of the distribution, ∂ψ/∂t = D_r∇²ψ − ∇·(ṗψ) on the sphere with \
+                "{moments} of infinitely many rods of {rods} with the rotary diffusivity {diffusivity}, {when}. The answer is that of the distribution, ∂ψ/∂t = D_r∇²ψ − ∇·(ṗψ) on the sphere with \
                  Jeffery's ṗ, and not of a closure: a code with a closure of a_ijkl misses it by what the closure \
-                 costs.",
-                problem.c_i
+                 costs."
             ),
             kind: Kind::Tensor,
             gradient_per_s: problem.gradient_per_s,
             aspect_ratio: problem.aspect_ratio,
             aspect_ratio_sd_percent: 0.0,
-            c_i: Some(problem.c_i),
+            c_i,
+            d_r_per_s,
+            planar_start: problem.planar_start,
             closed: None,
             formula: None,
             times_s: problem.times_s(),
@@ -243,11 +274,12 @@ mod tests {
         };
         let steady = PROBLEMS.iter().filter(|problem| problem.times.is_empty());
         for problem in steady {
+            let Diffusion::Ci(c_i) = problem.diffusion else { panic!() };
             // Twelve decimals, times rates of about 1.
-            let right = residual(problem, problem.c_i, false);
+            let right = residual(problem, c_i, false);
             assert!(right < 1e-11, "{}: {right:e}", problem.name);
-            assert!(residual(problem, 1.01 * problem.c_i, false) > 1e-6, "{}", problem.name);
-            assert!(residual(problem, problem.c_i, true) > 1e-3, "{}", problem.name);
+            assert!(residual(problem, 1.01 * c_i, false) > 1e-6, "{}", problem.name);
+            assert!(residual(problem, c_i, true) > 1e-3, "{}", problem.name);
         }
     }
 }

@@ -254,6 +254,8 @@ impl FormulaProblem {
                 aspect_ratio: 1.0,
                 aspect_ratio_sd_percent: 0.0,
                 c_i: None,
+                d_r_per_s: None,
+                planar_start: false,
                 closed: None,
                 formula: Some(self.formula),
                 times_s: Vec::new(),

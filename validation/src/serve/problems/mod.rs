@@ -7,6 +7,7 @@
 
 mod archive;
 mod asked;
+pub mod brownian;
 mod check;
 pub mod closed;
 pub(crate) mod contact;
@@ -32,6 +33,7 @@ pub use read::read;
 pub use table::Table;
 
 use crate::methods::tensors::{Closure, Model};
+use crate::oracle::diffusion;
 use nalgebra::Matrix3;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -67,8 +69,8 @@ fn is_first(version: &u32) -> bool {
 pub enum Kind {
     /// The directions of given rods at given times. Keys of a row: `time_s`, `rod`.
     Rods,
-    /// Means over infinitely many rods, free or with rotary diffusion, that are isotropic at t = 0. Key of a row:
-    /// `time_s`.
+    /// Means over infinitely many rods, free or with rotary diffusion, that are isotropic at t = 0 or, with diffusion,
+    /// at random in a plane. Key of a row: `time_s`.
     Tensor,
     /// The rates or angles of given pairs of rods after the contact rule. Key of a row: `snapshot`.
     Contact,
@@ -141,6 +143,12 @@ pub struct Problem {
     /// C_I of rods with the rotary diffusivity C_I (2D:D)^½; none for free rods.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub c_i: Option<f64>,
+    /// D_r in 1/s of rods with rotary diffusion, in place of C_I.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub d_r_per_s: Option<f64>,
+    /// True if rods with diffusion start at random in the plane of axes 1 and 2 in place of all directions.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub planar_start: bool,
     /// The closed equation to solve; none if the answer is that of the distribution itself.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub closed: Option<Closed>,
@@ -173,6 +181,20 @@ pub struct Problem {
 const LATE: f64 = 1e6;
 
 impl Problem {
+    /// The motion of rods with rotary diffusion; `None` for others.
+    pub fn diffusing(&self) -> Option<diffusion::Motion> {
+        let (l, r) = (self.gradient_per_s, self.aspect_ratio);
+        match (self.c_i, self.d_r_per_s) {
+            (Some(c_i), _) => Some(diffusion::Motion::new(l, r, c_i)),
+            (None, d_r) => Some(diffusion::Motion::diffusing(l, r, d_r?)),
+        }
+    }
+
+    /// The directions of rods with rotary diffusion at t = 0.
+    pub fn directions(&self) -> diffusion::Start<'static> {
+        if self.planar_start { diffusion::Start::Plane([0.0, 0.0, 1.0]) } else { diffusion::Start::Isotropic }
+    }
+
     /// True if the steady state is asked for: by a single time, so late that any later one has the same answer.
     pub fn is_steady(&self) -> bool {
         let norm = self.gradient_per_s.as_flattened().iter().map(|g| g * g).sum::<f64>().sqrt();
@@ -351,6 +373,7 @@ pub fn all() -> &'static [ProblemDef] {
             rods::problems(),
             tensor::problems(),
             folgar_tucker::problems(),
+            brownian::problems(),
             closed::problems(),
             formula::problems(),
             contact::problems(),

@@ -69,11 +69,13 @@ fn asked(built: &Built) -> String {
             times()
         ),
         Kind::Tensor => format!(
-            "Means over infinitely many {}, isotropic at t = 0, of aspect ratio {}{}, at t = {} s.",
-            match problem.c_i {
-                None => "free rods".to_owned(),
-                Some(c_i) => format!("rods with rotary diffusion, C_I = {c_i}"),
+            "Means over infinitely many {}, {} at t = 0, of aspect ratio {}{}, at t = {} s.",
+            match (problem.c_i, problem.d_r_per_s) {
+                (Some(c_i), _) => format!("rods with rotary diffusion, C_I = {c_i}"),
+                (None, Some(d_r)) => format!("rods with rotary diffusion, D_r = {d_r}/s"),
+                (None, None) => "free rods".to_owned(),
             },
+            if problem.planar_start { "at random in the plane of axes 1 and 2" } else { "isotropic" },
             aspect_ratio(problem.aspect_ratio),
             match problem.aspect_ratio_sd_percent {
                 0.0 => String::new(),

@@ -64,6 +64,8 @@ fn built(def: &ProblemDef, asked: Asked) -> Built {
             aspect_ratio_sd_percent: 0.0,
             times_s: asked.times_s,
             c_i: None,
+            d_r_per_s: None,
+            planar_start: false,
             closed: None,
             formula: None,
             time_step_s: None,

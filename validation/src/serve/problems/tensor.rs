@@ -120,6 +120,8 @@ fn problem(def: &ProblemDef, motion: &Motion, times_s: Vec<f64>, tolerance: f64)
         aspect_ratio_sd_percent: 0.0,
         times_s,
         c_i: None,
+        d_r_per_s: None,
+        planar_start: false,
         closed: None,
         formula: None,
         time_step_s: None,

@@ -49,6 +49,24 @@ fn both_methods_agree() {
     }
 }
 
+/// A plane of directions, which no grid holds, by the backward equation.
+#[test]
+fn both_methods_agree_from_a_plane() {
+    for (gradient, r, d_r, rings, time) in [(COUETTE, f64::INFINITY, 0.2, 20, 2.0), (ASKEW, 0.3, 0.3, 20, 0.5)] {
+        let shape = if r.is_infinite() { 1.0 } else { (r * r - 1.0) / (r * r + 1.0) };
+        let grid = angle_grid::planar_moments(gradient, shape, d_r, rings, time);
+        let error = |motion: &Motion| {
+            let found = at(motion, Start::Plane([0.0, 0.0, 1.0]), &[time]).unwrap()[0];
+            off(&grid.0, &found.second).max(off(&grid.1, &found.fourth))
+        };
+        let motion = Motion::diffusing(gradient, r, d_r);
+        assert!(error(&motion) < CLAIMED, "{gradient:?} {r}: {:e}", error(&motion));
+        for (name, wrong) in mistakes(motion) {
+            assert!(error(&wrong) > 1e-5, "{name}");
+        }
+    }
+}
+
 /// Values that four further programs agree on (issue of 2026-11-26): even orders alone, at a peak as narrow as a
 /// problem's.
 #[test]

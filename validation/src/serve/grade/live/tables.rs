@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 pub fn can_be_asked(problem: &Problem) -> bool {
     match problem.kind {
         Kind::Rods | Kind::Formula => true,
-        Kind::Tensor => (problem.closed.is_some() || problem.c_i.is_some()) && !problem.is_steady(),
+        Kind::Tensor => (problem.closed.is_some() || problem.diffusing().is_some()) && !problem.is_steady(),
         Kind::Contact | Kind::Ensemble => false,
     }
 }
@@ -29,9 +29,11 @@ pub(super) fn of_formula(loaded: &LoadedProblem) -> Value {
 pub(super) fn of_tensor(problem: &Problem, setting: Setting) -> Value {
     const THIRD: f64 = 1.0 / 3.0;
     let random = [[THIRD, 0.0, 0.0], [0.0, THIRD, 0.0], [0.0, 0.0, THIRD]];
+    let random = if problem.planar_start { [[0.5, 0.0, 0.0], [0.0, 0.5, 0.0], [0.0; 3]] } else { random };
     let mut request = json!({
         "tensor": problem.closed.map(|closed| json!({ "closure": closed.closure, "model": closed.model })),
         "c_i": problem.c_i,
+        "d_r_per_s": problem.d_r_per_s,
         "gradient_per_s": problem.gradient_per_s,
         "aspect_ratio": problem.aspect_ratio,
         "start": problem.closed.map_or(random, |closed| closed.start),
