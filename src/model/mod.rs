@@ -7,6 +7,7 @@
 pub(crate) mod chunks;
 pub mod collision;
 pub mod contact;
+pub(crate) mod diffusion;
 pub mod flow;
 pub(crate) mod gaussian;
 pub mod jeffery;

@@ -18,6 +18,8 @@ pub enum Purpose {
     Replacements = 4,
     /// Gaussian lengths.
     Lengths = 5,
+    /// Turns of rods with rotary diffusion.
+    Diffusion = 6,
 }
 
 /// The PCG64-DXSM stream of one replica and purpose.

@@ -10,9 +10,7 @@ use crate::model::volume::MAX_STEP;
 use crate::motion::Propagator;
 use crate::plan::free_motion::MAX_ERROR_RAD;
 use crate::plan::no_interaction;
-use crate::scene::{
-    FlowStep, Interaction, Invalid, MAX_PER_UNIT, Scene, TimeUnit, refused, resolved_strain, step_maps,
-};
+use crate::scene::{FlowStep, Interaction, Invalid, MAX_PER_UNIT, Scene, TimeUnit, refused, step_maps};
 
 /// The largest number of steps, and of outputs, of one scene.
 const MAX_STEPS: f64 = 1e9;
@@ -97,12 +95,21 @@ fn check_motion(scene: &Scene) -> Result<(), Invalid> {
         check_flow_steps(scene, steps)?;
     }
     check_observed(scene, &flow)?;
+    let other = [
+        (scene.interaction.is_some(), "0, as rods with an [interaction] table do not diffuse"),
+        (scene.flow.steps().is_some(), "0, as rods in flow.steps do not diffuse"),
+    ];
+    if let Some((_, allowed)) = other.into_iter().find(|(is, _)| *is && scene.diffuses()) {
+        let d_r = scene.particles.rotary_diffusion_per_s;
+        return Err(Invalid::new("particles.rotary_diffusion_per_s", d_r, allowed));
+    }
     if let Some(interaction) = &scene.interaction {
         check_interaction(scene, interaction, &flow)?;
     }
     time::check_time(scene, &flow)?;
     check_rods_outputs(scene)?;
-    if closed_form(scene, &flow) || no_interaction(scene).is_some() { Ok(()) } else { time::check_steps(scene, &flow) }
+    let by_steps = scene.diffuses() || !closed_form(scene, &flow) && no_interaction(scene).is_none();
+    if by_steps { time::check_steps(scene, &flow) } else { Ok(()) }
 }
 
 /// Checks a sequence of flows: rods must be free, time must be a strain, and the run must end within the last flow.

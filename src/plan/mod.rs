@@ -63,7 +63,7 @@ impl Plan {
         }
         check::rods::check_rods_are_read(scene).map_err(one)?;
         let flow = check::gradient(scene).map_err(one)?;
-        let free = if check::closed_form(scene, &flow) || no_interaction(scene).is_none() {
+        let free = if check::closed_form(scene, &flow) || no_interaction(scene).is_none() || scene.diffuses() {
             None
         } else {
             Some(Arc::new(FreeMotion::new(scene, &flow).map_err(one)?))
@@ -186,7 +186,11 @@ impl Plan {
 
     /// The number of time steps; 0 if the exact motion goes straight to each output.
     pub fn steps(&self) -> u64 {
-        if self.runs(Stage::Translation) { (self.outputs() as u64 - 1) * self.ticks_per_output() } else { 0 }
+        if self.takes_steps() { (self.outputs() as u64 - 1) * self.ticks_per_output() } else { 0 }
+    }
+
+    fn takes_steps(&self) -> bool {
+        self.runs(Stage::Translation) || self.runs(Stage::Diffusion)
     }
 
     /// The name of the time column: `t_over_T`, or `strain` if the scene's time is a strain.
@@ -236,7 +240,7 @@ impl Plan {
 
     /// Steps between outputs; 1 if no steps are taken.
     pub(crate) fn ticks_per_output(&self) -> u64 {
-        if self.runs(Stage::Translation) { self.scene.steps_per_unit() / self.scene.outputs_per_unit() } else { 1 }
+        if self.takes_steps() { self.scene.steps_per_unit() / self.scene.outputs_per_unit() } else { 1 }
     }
 }
 

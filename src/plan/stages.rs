@@ -33,6 +33,8 @@ pub enum Stage {
     CollisionDraws,
     /// Apply the contact rule to colliding pairs (eqs 5 and 6, A.7 to A.14).
     Contacts,
+    /// Take time steps in which free rods turn at random.
+    Diffusion,
     /// Compute an observable.
     Observe(Observable),
     /// Keep every rod at some outputs.
@@ -52,6 +54,7 @@ impl fmt::Display for Stage {
             Self::Neighbours => "neighbours",
             Self::CollisionDraws => "collision draws",
             Self::Contacts => "contacts",
+            Self::Diffusion => "rotary diffusion",
             Self::Observe(observable) => return f.pad(&observable.name().replace('_', " ")),
             Self::Rods => "every rod",
             Self::RodErrors => "errors over rods",
@@ -134,6 +137,9 @@ pub(super) fn entries(scene: &Scene) -> Vec<Entry> {
         (Stage::Contacts, "colliding rods share their velocity along the contact line"),
     ] {
         add(stage, free.is_none(), free.unwrap_or(why));
+    }
+    if scene.diffuses() {
+        add(Stage::Diffusion, true, "free rods turn at random, step by step");
     }
     for &observable in &scene.output.observables {
         add(Stage::Observe(observable), true, "asked for by the scene");

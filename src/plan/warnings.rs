@@ -2,7 +2,7 @@
 
 use super::{Plan, Stage};
 use crate::observable::Observable;
-use crate::scene::{Orientation, Update, resolved_strain};
+use crate::scene::{Orientation, Update};
 
 /// The aspect ratio below which the slender limit of the rods' stress triggers a warning. A rule of thumb: the terms
 /// that the limit leaves out fall slowly with r_e, and vanish at no r_e.
@@ -41,10 +41,12 @@ impl Plan {
     /// Warns if steps are too long for the motion.
     fn unresolved_steps(&self) -> Option<String> {
         let (steps, motion) = (self.scene.steps_per_unit(), self.scene.motion_per_step());
-        let resolved = resolved_strain(self.scene.particles.mean_aspect_ratio());
+        let resolved = self.scene.resolved_motion();
         (self.steps() > 0 && motion > resolved).then(|| {
             // In shear both are equal, to round-off.
-            let what = if motion > 1.5 * self.elapsed(1.0).strain / steps as f64 {
+            let what = if self.scene.diffuses() {
+                "the largest of the strain, twice the turn of the liquid and five times D_r Δt, per step,"
+            } else if motion > 1.5 * self.elapsed(1.0).strain / steps as f64 {
                 "twice the angle by which the liquid turns in a step"
             } else {
                 "the strain per step"
@@ -62,7 +64,7 @@ impl Plan {
     /// Warns about a number of steps in a scene without collisions; one of which these are switched off may keep its
     /// steps.
     fn steps_for_nothing(&self) -> Option<String> {
-        let given = self.scene.time.steps_per_unit.is_some() && self.scene.interaction.is_none();
+        let given = self.scene.time.steps_per_unit.is_some() && !self.scene.steps();
         given.then(|| format!("{} has no effect: free rods take no steps", self.scene.time.unit.steps_key()))
     }
 
@@ -105,7 +107,7 @@ impl Plan {
         let (file, own) = (&particles.rods.as_ref()?.file, particles.own()?);
         let replicas = self.scene.ensemble.replicas;
         let drawn = particles.aspect_ratio_sd_percent > 0.0 && own.aspect_ratio.is_none();
-        (own.p.is_some() && replicas > 1).then(|| if self.runs(Stage::Contacts) || drawn { format!(
+        (own.p.is_some() && replicas > 1).then(|| if self.runs(Stage::Contacts) || self.runs(Stage::Diffusion) || drawn { format!(
             "{replicas} replicas start with the directions in {file}: standard errors over replicas leave out the \
              scatter of these rods, which those of one replica have"
         ) } else { format!(

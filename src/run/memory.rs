@@ -10,6 +10,7 @@ use crate::run::ensemble::{batch, width};
 use crate::suspension::rods;
 use crate::suspension::snapshot::Snapshot;
 use crate::suspension::{MOST_KEPT, bytes_of_lists};
+use nalgebra::Matrix3;
 use std::f64::consts::PI;
 
 /// About the largest number of bytes that a run of `plan` holds, with `at_once` replicas at a time.
@@ -24,6 +25,7 @@ pub fn bytes(plan: &Plan, at_once: u64) -> u64 {
     let kept = |stage, bytes| if plan.runs(stage) { bytes } else { 0 };
     // A propagator per rod, and the data per output that all replicas share.
     let maps = match plan.free().map(|free| &free.way) {
+        None if plan.runs(Stage::Diffusion) && plan.runs(Stage::AspectRatios) => [size_of::<Matrix3<f64>>(), 0],
         None => [0, 0],
         Some(Way::Each { spans, .. }) => {
             let each = if plan.runs(Stage::AspectRatios) { size_of::<Propagator>() } else { 0 };

@@ -19,6 +19,7 @@ use crate::plan::{Plan, Stage};
 use crate::run::resume::{Halfway, Placed};
 use crate::scene::Error;
 use crate::suspension::Suspension;
+use crate::suspension::diffusion::Diffusion;
 use crate::suspension::rods::{Rods, Selected};
 use crate::suspension::snapshot::Snapshot;
 use serde::{Deserialize, Serialize};
@@ -119,7 +120,10 @@ pub fn go_on(
     };
     let mut counters = match suspension {
         Some(suspension) => stepped(plan, suspension, &mut recorder, &mut look)?,
-        None => straight(plan, replica, &mut recorder, &mut look)?,
+        None => match Diffusion::new(plan, replica) {
+            Some(diffusion) => diffused(plan, diffusion, &mut recorder, &mut look)?,
+            None => straight(plan, replica, &mut recorder, &mut look)?,
+        },
     };
     counters.directions = (plan.outputs() * plan.scene().particles.count) as u64;
     Ok(Replica {
@@ -152,6 +156,31 @@ fn straight(
         })
         .collect::<Result<_, _>>()?;
     Ok(counters)
+}
+
+/// Runs free rods with rotary diffusion from output to output. A stopped run takes its steps again from the start.
+fn diffused(
+    plan: &Plan,
+    mut diffusion: Diffusion,
+    recorder: &mut Recorder,
+    look: &mut impl FnMut(&dyn Fn() -> Halfway),
+) -> Result<Counters, Error> {
+    let (asked, per_output) = (plan.rods_outputs(), plan.ticks_per_output());
+    let mut snapshots = Vec::new();
+    for output in 0..plan.outputs() {
+        diffusion.step_to(output as u64 * per_output);
+        let rods = &diffusion.rods;
+        if output >= recorder.done {
+            recorder.record(output..output + 1, rods, |first, _, selected| rods.orient(first, 0, selected))?;
+            look(&|| recorder.halfway(None));
+        }
+        if asked.binary_search(&output).is_ok() {
+            let snapshot = Snapshot::of_free(rods, recorder.replica, output);
+            snapshots.push(snapshot.map_err(|fault| recorder.refused(0, output, fault))?);
+        }
+    }
+    recorder.snapshots = snapshots;
+    Ok(diffusion.counters)
 }
 
 /// Number of outputs for which a block of rods is read once.
@@ -327,9 +356,15 @@ pub(crate) fn each_block(
             }
             blocks(output, &suspension.rods, suspension.tick())
         }),
-        None => {
-            let (rods, _) = Rods::draw(plan, replica);
-            outputs.try_for_each(|output| blocks(output, &rods, output as u64))
-        }
+        None => match Diffusion::new(plan, replica) {
+            Some(mut diffusion) => outputs.try_for_each(|output| {
+                diffusion.step_to(output as u64 * per_output);
+                blocks(output, &diffusion.rods, 0)
+            }),
+            None => {
+                let (rods, _) = Rods::draw(plan, replica);
+                outputs.try_for_each(|output| blocks(output, &rods, output as u64))
+            }
+        },
     }
 }

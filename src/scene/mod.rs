@@ -219,7 +219,7 @@ impl Scene {
     pub fn resolved(&self) -> Self {
         let mut scene = self.clone();
         scene.time.outputs_per_unit = Some(self.outputs_per_unit());
-        if scene.interaction.is_some() {
+        if scene.steps() {
             scene.time.steps_per_unit = Some(self.steps_per_unit());
         }
         scene
@@ -281,12 +281,12 @@ impl Scene {
         }
     }
 
-    /// Outputs per unit of time, given or by default: 50 a period or 10 a unit of strain; if rods interact, the largest
+    /// Outputs per unit of time, given or by default: 50 a period or 10 a unit of strain; if rods take steps, the largest
     /// divisor of the steps up to that.
     pub fn outputs_per_unit(&self) -> u64 {
         self.time.outputs_per_unit.unwrap_or_else(|| {
             let most = self.time.unit.default_outputs();
-            let steps = self.interaction.as_ref().map(|_| self.steps_per_unit().max(1));
+            let steps = self.steps().then(|| self.steps_per_unit().max(1));
             let divides = |k: &u64| steps.is_none_or(|steps| steps.is_multiple_of(*k));
             (1..=most).rev().find(divides).unwrap_or(1)
         })

@@ -36,6 +36,9 @@ table! {
             "the formula for r_e of a cylinder";
         aspect_ratio_sd_percent: f64 = 0.0, "%", Holds::NotNegative, Otherwise("0"),
             "σ of a Gaussian r_e, in percent of its mean (eq. 11)";
+        rotary_diffusion_per_s: f64 = 0.0, "1/s", Holds::NotNegative, Otherwise("0"),
+            "D_r of free rods (Brownian)",
+            unwritten if |particles: &Particles| particles.rotary_diffusion_per_s == 0.0;
         orientation: Orientation = Orientation::default(), "degrees", Holds::Orientation, Other("\"isotropic\" with \
             rods, else it must be given"),
             "the directions at t = 0; φ from axis 1 to axis 2, θ from axis 3; used where a file of rods has none";

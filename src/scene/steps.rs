@@ -15,7 +15,26 @@ pub fn resolved_strain(aspect_ratio: f64) -> f64 {
     (4.4 / aspect_ratio).clamp(0.09, 0.37)
 }
 
+/// The longest step of rods that diffuse: a strain, or twice an angle, of 0.1, and D_r Δt = 0.02. With both, a_ij is off
+/// by some 1e-4 (the case `brownian-rods` measures it).
+const DIFFUSING: [f64; 2] = [0.1, 0.02];
+
 impl Scene {
+    /// True if rods take time steps, unless they cannot collide.
+    pub(crate) fn steps(&self) -> bool {
+        self.interaction.is_some() || self.diffuses()
+    }
+
+    /// True if rods have rotary diffusion.
+    pub(crate) fn diffuses(&self) -> bool {
+        self.particles.rotary_diffusion_per_s > 0.0
+    }
+
+    /// The longest motion of a step that is resolved: [`resolved_strain`], or less with diffusion.
+    pub(crate) fn resolved_motion(&self) -> f64 {
+        if self.diffuses() { DIFFUSING[0] } else { resolved_strain(self.particles.mean_aspect_ratio()) }
+    }
+
     /// The number of outputs, including that at t = 0.
     pub(crate) fn outputs(&self) -> usize {
         let all = self.time.duration * self.outputs_per_unit() as f64;
@@ -53,7 +72,7 @@ impl Scene {
             }
         };
         let motion = self.motion_per_unit();
-        let resolved = resolved_strain(self.particles.mean_aspect_ratio());
+        let resolved = self.resolved_motion();
         let multiples = (motion / (resolved * unit as f64)).ceil().max(1.0) as u64;
         let steps = multiples.saturating_mul(unit);
         // The rounded quotient may be an integer that is just too small.
@@ -69,8 +88,17 @@ impl Scene {
         }
     }
 
-    /// The larger of the strain and twice the rotation of the liquid, in rad, per unit of the scene's time.
+    /// The larger of the strain and twice the rotation of the liquid, in rad, per unit of the scene's time; with
+    /// diffusion, that which needs as many steps if it needs more.
     pub(crate) fn motion_per_unit(&self) -> f64 {
+        let flow = self.flow.gradient().filter(|_| self.diffuses());
+        let diffused = flow.map_or(0.0, |flow| {
+            self.particles.rotary_diffusion_per_s * self.seconds_per_unit(&flow) * (DIFFUSING[0] / DIFFUSING[1])
+        });
+        self.flow_per_unit().max(diffused)
+    }
+
+    fn flow_per_unit(&self) -> f64 {
         let r = self.particles.aspect_ratio;
         let Some(flow) = self.flow.gradient().filter(|flow| flow.shear_rate_per_s().is_none()) else {
             return match self.time.unit {

@@ -3,6 +3,7 @@
 //! A [`Suspension`] is one replica: places, directions since the last collision, and its random streams. It may use
 //! `plan` and the wings before it. A rod's state is added in `rods` and, so that a checkpoint keeps it, in `state`.
 
+pub(crate) mod diffusion;
 mod liquid;
 pub(crate) mod rods;
 pub mod snapshot;

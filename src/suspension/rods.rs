@@ -4,8 +4,10 @@
 mod draw;
 
 use crate::model::chunks::{CHUNK, over_chunks};
+use crate::model::diffusion::turned;
 use crate::model::jeffery::strain_per_period;
 use crate::model::phase::{Phase, nearest_whole};
+use crate::model::random::ahead;
 use crate::model::stress::Body;
 use crate::model::work::Counters;
 use crate::motion::{Propagator, couette};
@@ -16,6 +18,8 @@ use crate::plan::{Clock, Plan, Stage};
 use crate::scene::step_maps;
 use draw::{draw_directions, draw_lengths, draw_shapes};
 use nalgebra::{Matrix3, UnitVector3, Vector3};
+use rand::RngExt;
+use rand_pcg::Pcg64Dxsm;
 use std::cell::Cell;
 use std::sync::Arc;
 
@@ -47,7 +51,7 @@ enum Motion {
     Couette(Ticks),
     /// Rods of one aspect ratio in plane Couette flow that take no steps: the phase of all of them at each output.
     InPhase(Vec<Phase>),
-    /// Any other flow with interacting rods: the map q = M p of one step, one per rod or one for all.
+    /// Any other flow with interacting rods, or rods that diffuse: the map q = M p of one step, one per rod or one for all.
     Steps(Vec<Matrix3<f64>>),
     /// Free rods in any other flow: the plan's motion, with a propagator per rod, or one for all, where it moves each
     /// rod by itself.
@@ -168,6 +172,16 @@ impl Rods {
                 if since.get(rod).is_none_or(|since| u64::from(*since) <= tick) {
                     [*p1, *p2, *p3] = mapped(map_of(maps, rod), [*p1, *p2, *p3]);
                 }
+            }
+        });
+    }
+
+    /// Turns every rod at random, with two numbers of `random` each: see [`turned`].
+    pub fn turn_at_random(&mut self, mean: f64, random: &Pcg64Dxsm) {
+        over_chunks(&mut self.p, |chunk, [p1, p2, p3]| {
+            let mut random = ahead(random, 2 * (chunk * CHUNK) as u64);
+            for ((p1, p2), p3) in p1.iter_mut().zip(p2).zip(p3) {
+                [*p1, *p2, *p3] = turned([*p1, *p2, *p3], mean, [random.random(), random.random()]);
             }
         });
     }
@@ -339,7 +353,7 @@ fn in_phase(plan: &Plan) -> bool {
     let periods = matches!(plan.clock(), Clock::Periods { .. });
     plan.flow().shear_rate_per_s().is_some()
         && periods
-        && !plan.runs(Stage::Translation)
+        && ![Stage::Translation, Stage::Diffusion].iter().any(|stage| plan.runs(*stage))
         && !plan.runs(Stage::AspectRatios)
 }
 
@@ -349,8 +363,8 @@ pub(crate) fn bytes_per_output(plan: &Plan) -> usize {
 }
 
 fn choose_motion(plan: &Plan, shapes: &Shapes) -> Motion {
-    let flow = plan.flow();
-    if let (Some(g), Clock::Periods { ticks }) = (flow.shear_rate_per_s(), plan.clock()) {
+    let (flow, diffuses) = (plan.flow(), plan.runs(Stage::Diffusion));
+    if let (Some(g), Clock::Periods { ticks }, false) = (flow.shear_rate_per_s(), plan.clock(), diffuses) {
         let strain = strain_per_period(plan.scene().particles.aspect_ratio);
         let clock = Ticks { per_period: ticks as f64, strain_per_period: strain * g.signum(), sign: g.signum() };
         if !in_phase(plan) {

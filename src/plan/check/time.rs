@@ -47,7 +47,7 @@ fn check_period(scene: &Scene, flow: &VelocityGradient) -> Result<f64, Invalid> 
 
 /// Checks that interacting rods take a feasible number of steps, an integer for each output.
 fn check_counted_steps(scene: &Scene, outputs: u64) -> Result<(), Invalid> {
-    if scene.interaction.is_none() {
+    if !scene.steps() {
         return Ok(());
     }
     let (time, steps) = (&scene.time, scene.steps_per_unit());
@@ -60,7 +60,8 @@ fn check_counted_steps(scene: &Scene, outputs: u64) -> Result<(), Invalid> {
         refused
     })?;
     if !steps.is_multiple_of(outputs) {
-        let allowed = format!("interacting rods need a divisor of {steps_name} = {steps}");
+        let rods = if scene.diffuses() { "rods that diffuse" } else { "interacting rods" };
+        let allowed = format!("{rods} need a divisor of {steps_name} = {steps}");
         return Err(Invalid::new(time.unit.outputs_key(), outputs, allowed));
     }
     Ok(())
@@ -104,7 +105,7 @@ fn check_default_steps(scene: &Scene, steps: u64) -> Result<(), Invalid> {
         return Ok(());
     }
     let r = scene.particles.aspect_ratio;
-    let resolved = resolved_strain(scene.particles.mean_aspect_ratio());
+    let resolved = scene.resolved_motion();
     let needed = scene.motion_per_unit() / resolved;
     let (unit, key) = (scene.time.unit, scene.time.unit.steps_key());
     let allowed = format!(
