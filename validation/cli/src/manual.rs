@@ -1,6 +1,7 @@
 //! The page of commands in the book, made from the parser.
 
 use clap::{Arg, Command, CommandFactory};
+use std::collections::BTreeSet;
 use std::fmt::Write;
 
 /// Every command with its options, as Markdown.
@@ -9,14 +10,15 @@ pub fn commands() -> String {
     program.build();
     let mut page =
         "# Commands\n\nMade from the program's own parser: `shearbed COMMAND --help` prints the same.\n".to_owned();
+    let mut said = BTreeSet::new();
     for command in program.get_subcommands().filter(|command| !command.is_hide_set()) {
-        add(&mut page, command, "shearbed");
+        add(&mut page, command, "shearbed", &mut said);
     }
     page
 }
 
-/// Adds a command and its subcommands to the page.
-fn add(page: &mut String, command: &Command, above: &str) {
+/// Adds a command and its subcommands to the page; what was `said` of an argument is not said again.
+fn add(page: &mut String, command: &Command, above: &str, said: &mut BTreeSet<String>) {
     let name = format!("{above} {}", command.get_name());
     let usage = command.clone().render_usage().to_string();
     let usage = usage.split_whitespace().skip(1).collect::<Vec<_>>().join(" ");
@@ -28,14 +30,22 @@ fn add(page: &mut String, command: &Command, above: &str) {
     if rows.peek().is_some() {
         page.push('\n');
     }
+    let mut again = Vec::new();
     for arg in rows {
-        let _ = writeln!(page, "- `{}`: {}", written(arg), plain(&meaning(arg)));
+        let line = format!("- `{}`: {}\n", written(arg), plain(&meaning(arg)));
+        match said.insert(line.clone()) {
+            true => page.push_str(&line),
+            false => again.push(format!("`{}`", written(arg))),
+        }
+    }
+    if !again.is_empty() {
+        let _ = writeln!(page, "- {}: as above", again.join(", "));
     }
     if let Some(words) = command.get_after_help() {
         let _ = write!(page, "\n```text\n{}\n```\n", words.to_string().trim());
     }
     for below in command.get_subcommands().filter(|below| !below.is_hide_set()) {
-        add(page, below, &name);
+        add(page, below, &name, said);
     }
 }
 
