@@ -94,11 +94,13 @@ impl General {
         Time { span: strain.over(self.magnitude) * self.slower, turns: None }
     }
 
-    /// The time of `time_s` seconds.
-    pub fn time_of_seconds(&self, time_s: f64) -> Time {
-        let span = shifted(time_s, -self.power);
-        let rounded = if shifted(span, self.power) == time_s { 0.0 } else { span * f64::EPSILON };
-        Time { span: Ball::exact(span).widened(rounded) * self.slower, turns: None }
+    /// The time of `ticks`/`each` seconds.
+    pub fn time_of_seconds(&self, ticks: f64, each: f64) -> Time {
+        let span = shifted(ticks, -self.power);
+        let rounded = if shifted(span, self.power) == ticks { 0.0 } else { span * f64::EPSILON };
+        let span = Ball::exact(span).widened(rounded);
+        let span = if each == 1.0 { span } else { span.over(Ball::exact(each)) };
+        Time { span: span * self.slower, turns: None }
     }
 
     /// The time of `turns` periods; `None` if the motion has no period.

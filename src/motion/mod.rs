@@ -39,7 +39,7 @@ fn turned(p: [f64; 3], aspect_ratio: f64, phase: Phase) -> [f64; 3] {
     [q1, q2, p[2]]
 }
 
-/// The length of a rod's motion: in seconds, or the quotient of a number ≥ 0 and another.
+/// The length of a rod's motion, as the quotient of a number ≥ 0 and another.
 ///
 /// ```
 /// use shearbed::motion::Span;
@@ -50,10 +50,10 @@ fn turned(p: [f64; 3], aspect_ratio: f64, phase: Phase) -> [f64; 3] {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Span {
     /// Seconds.
-    Seconds(f64),
-    /// Units of strain, (2 D:D)^½ t, as a quotient.
+    Seconds(f64, f64),
+    /// Units of strain, (2 D:D)^½ t.
     Strain(f64, f64),
-    /// Periods of the propagator's own aspect ratio, as a quotient.
+    /// Periods of the propagator's own aspect ratio.
     Periods(f64, f64),
 }
 
@@ -216,14 +216,14 @@ impl Propagator {
     }
 
     /// The phase in plane Couette flow, and the error that rounding adds to the map: sixteen roundings of one
-    /// evaluation, and four of turns computed from seconds or strain.
+    /// evaluation, and five of turns computed from seconds, four from strain.
     fn phase(&self, span: Span) -> Option<(Phase, f64)> {
         let Motion::Couette { shear_rate_per_s, aspect_ratio } = self.0 else {
             return None;
         };
         let period = jeffery::strain_per_period(aspect_ratio);
         let (turns, roundings) = match span {
-            Span::Seconds(time_s) => (time_s * shear_rate_per_s.abs() / period, 4.0),
+            Span::Seconds(ticks, each) => (ticks / each * shear_rate_per_s.abs() / period, 5.0),
             Span::Strain(ticks, each) => (ticks / each / period, 4.0),
             Span::Periods(ticks, each) => (ticks / each, 1.0),
         };
@@ -233,7 +233,7 @@ impl Propagator {
 
     /// The direction of a rod `time_s` ≥ 0 seconds after it pointed along `p`.
     pub fn after(&self, p: &UnitVector3<f64>, time_s: f64) -> UnitVector3<f64> {
-        self.moved(p, Span::Seconds(time_s)).map_or(*p, |moved| moved.p)
+        self.moved(p, Span::Seconds(time_s, 1.0)).map_or(*p, |moved| moved.p)
     }
 
     /// The direction of a rod `turns` periods after it pointed along `p`; `None` where there is no period.
@@ -246,7 +246,7 @@ impl Propagator {
 fn map_of_steps(steps: &Steps, span: Span) -> Option<Square> {
     match span {
         Span::Strain(ticks, each) => Some(steps.map(quotient(ticks, each))),
-        Span::Seconds(_) | Span::Periods(..) => None,
+        Span::Seconds(..) | Span::Periods(..) => None,
     }
 }
 
@@ -263,7 +263,7 @@ fn time_beside(general: &General, mean: &Propagator, span: Span) -> Option<modes
 
 fn time(general: &General, span: Span) -> Option<modes::Time> {
     match span {
-        Span::Seconds(time_s) => Some(general.time_of_seconds(time_s)),
+        Span::Seconds(ticks, each) => Some(general.time_of_seconds(ticks, each)),
         Span::Strain(ticks, each) => Some(general.time_of_strain(quotient(ticks, each))),
         Span::Periods(ticks, each) => general.time_of_periods(quotient(ticks, each)),
     }

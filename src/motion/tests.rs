@@ -86,7 +86,7 @@ proptest! {
         let rods = Propagator::general(&flow, r);
         let p = orientation::from_angles(phi, theta);
         let time_s = 3.0 / scale;
-        let moved = rods.moved(&p, Span::Seconds(time_s)).unwrap();
+        let moved = rods.moved(&p, Span::Seconds(time_s, 1.0)).unwrap();
         prop_assert!(moved.error < 1e-15, "{}", moved.error);
         let by_strain = rods.moved(&p, Span::Strain(flow.magnitude_per_s() * time_s, 1.0)).unwrap();
         prop_assert!(apart(&moved.p, &by_strain.p) < 1e-9);
@@ -95,9 +95,9 @@ proptest! {
             prop_assert!(apart(&moved.p, &by_periods.p) < 1e-9);
         }
         let swelling = VelocityGradient::new(per_s + trace * scale * Matrix3::identity()).unwrap();
-        let in_swelling = Propagator::general(&swelling, r).moved(&p, Span::Seconds(time_s)).unwrap();
+        let in_swelling = Propagator::general(&swelling, r).moved(&p, Span::Seconds(time_s, 1.0)).unwrap();
         prop_assert!(apart(&moved.p, &in_swelling.p) < 1e-9);
-        let (map, error) = rods.map(Span::Seconds(time_s)).unwrap();
+        let (map, error) = rods.map(Span::Seconds(time_s, 1.0)).unwrap();
         let by_map = UnitVector3::new_normalize(map * p.as_ref());
         prop_assert!(apart(&moved.p, &by_map) < 1e-9);
         // The map's largest component is about 1, and its error is that of 106 bits.
@@ -115,7 +115,7 @@ proptest! {
             Span::Periods(turns, 1.0),
             Span::Periods(7.0 * turns, 7.0),
             Span::Strain(3.0 * strain, 3.0),
-            Span::Seconds(strain / 0.5),
+            Span::Seconds(strain / 0.5, 1.0),
         ] {
             let by_form = closed.moved(&p, span).unwrap();
             let by_modes = general.moved(&p, span).unwrap();
@@ -140,7 +140,7 @@ proptest! {
             [[-0.2, 0.0, 0.0], [0.0, 0.1, -0.5], [0.0, 0.5, 0.1]],
         ] {
             let [mean, rods] = [11.6, r].map(|r| Propagator::new(&flow(rows), r));
-            let (span, seconds) = (Span::Periods(turns * 4.0, 4.0), Span::Seconds(turns * mean.period_s().unwrap()));
+            let (span, seconds) = (Span::Periods(turns * 4.0, 4.0), Span::Seconds(turns * mean.period_s().unwrap(), 1.0));
             let moved = rods.moved_beside(&mean, &p, span).unwrap();
             prop_assert!(apart(&moved.p, &rods.moved(&p, seconds).unwrap().p) < 1e-9);
             let (direction, error) = rods.direction_beside(&mean, (*p).into(), span).unwrap();
@@ -148,7 +148,7 @@ proptest! {
             prop_assert!(apart(&moved.p, &UnitVector3::new_normalize(direction.into())) < 1e-9);
             for (rods, mean) in [(&rods, &mean), (&rods, &rods)] {
                 let (map, _) = rods.map_beside(mean, span).unwrap();
-                let seconds = Span::Seconds(turns * mean.period_s().unwrap());
+                let seconds = Span::Seconds(turns * mean.period_s().unwrap(), 1.0);
                 let by_map = UnitVector3::new_normalize(map * p.as_ref());
                 prop_assert!(apart(&rods.moved(&p, seconds).unwrap().p, &by_map) < 1e-9);
             }
@@ -166,13 +166,13 @@ fn the_error_of_a_phase_grows_with_its_turns() {
     let propagator = Propagator::new(&flow, 11.6);
     let strain = 1e6 * jeffery::strain_per_period(11.6);
     for (span, roundings) in
-        [(Span::Periods(1e6, 1.0), 1.0), (Span::Strain(strain, 1.0), 4.0), (Span::Seconds(2.0 * strain), 4.0)]
+        [(Span::Periods(1e6, 1.0), 1.0), (Span::Strain(strain, 1.0), 4.0), (Span::Seconds(2.0 * strain, 1.0), 5.0)]
     {
         let (_, error) = propagator.map(span).unwrap();
         let expected = roundings * TAU * 1e6 * f64::EPSILON;
         assert!((error / expected - 1.0).abs() < 1e-5, "{error} {expected}");
     }
-    let (_, of_nothing) = propagator.map(Span::Seconds(0.0)).unwrap();
+    let (_, of_nothing) = propagator.map(Span::Seconds(0.0, 1.0)).unwrap();
     assert_eq!(of_nothing, 16.0 * f64::EPSILON);
 }
 
@@ -218,7 +218,7 @@ fn no_strain_overflows() {
 #[test]
 fn a_rod_stays_on_an_axis_that_other_axes_lead_to() {
     let flow = flow([[-1.0, 1.0, 0.0], [0.25, 0.5, 0.3], [0.0, -0.2, 0.5]]);
-    let moved = Propagator::new(&flow, 2.0).moved(&Vector3::x_axis(), Span::Seconds(1e3)).unwrap();
+    let moved = Propagator::new(&flow, 2.0).moved(&Vector3::x_axis(), Span::Seconds(1e3, 1.0)).unwrap();
     assert!(moved.p == Vector3::x_axis() && moved.error < 1e-15, "{moved:?}");
 }
 
@@ -251,7 +251,7 @@ fn the_bound_on_a_slow_spiral_is_kept() {
             let moved = |coupling: f64| {
                 let flow = flow([[0.7, -turning, coupling], [turning, 0.7, 0.0], [0.0, 0.0, -1.4]]);
                 let rods = Propagator::new(&flow, 3.3);
-                rods.moved(&p, Span::Seconds(1.5 / turning)).unwrap()
+                rods.moved(&p, Span::Seconds(1.5 / turning, 1.0)).unwrap()
             };
             // The bound allows a hundred roundings of 2⁻¹⁰² in the exponent; a bound as wide as double precision's
             // would fail.
@@ -286,7 +286,7 @@ fn the_bound_on_a_phase_is_kept_and_nearly_reached() {
     let (mut worst, mut least_room) = (0.0f64, f64::INFINITY);
     for k in 0..1000 {
         let time_s = 1e7 * (1.0 + 0.618_033_988_749_895 * f64::from(k));
-        let moved = propagator.moved(&start, Span::Seconds(time_s)).unwrap();
+        let moved = propagator.moved(&start, Span::Seconds(time_s, 1.0)).unwrap();
         let (sine, cosine) = (0.5 * time_s).sin_cos();
         let off = (moved.p.x * sine - moved.p.y * cosine).abs();
         worst = worst.max(off / moved.error);

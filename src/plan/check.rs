@@ -119,9 +119,10 @@ fn check_flow_steps(scene: &Scene, steps: &[FlowStep]) -> Result<(), Invalid> {
         return refused("free rods: leave [interaction] out, or give one gradient".to_owned());
     }
     let duration = scene.time.duration;
-    if scene.time.unit == TimeUnit::Period {
-        let allowed = "no periods where one flow follows another: give strain";
-        return Err(Invalid::new("time.periods", duration, allowed));
+    if scene.time.unit != TimeUnit::Strain {
+        let key = scene.time.unit.duration_key();
+        let allowed = format!("no {} where one flow follows another: give strain", key.trim_start_matches("time."));
+        return Err(Invalid::new(key, duration, allowed));
     }
     let all: f64 = steps.iter().map(|step| step.strain).sum();
     // The slack allows for the rounding of the sum.
@@ -152,11 +153,11 @@ fn check_rods_outputs(scene: &Scene) -> Result<(), Invalid> {
         return Ok(());
     };
     let each = scene.outputs_per_unit();
-    let allowed = format!(
-        "different output times, k/{each} up to {}; {} is not one of them",
-        (scene.outputs() - 1) as f64 / each as f64,
-        scene.output.rods_at[wrong]
-    );
+    let times = match scene.output.times.is_empty() {
+        true => format!("k/{each} up to {}", (scene.outputs() - 1) as f64 / each as f64),
+        false => "of output.times".to_owned(),
+    };
+    let allowed = format!("different output times, {times}; {} is not one of them", scene.output.rods_at[wrong]);
     let value = format!("{:?}", scene.output.rods_at);
     Err(Invalid::new("output.rods_at", value, allowed))
 }

@@ -45,7 +45,8 @@ impl Timing {
         let strain = match (scene.time.unit, flow.shear_rate_per_s()) {
             (TimeUnit::Strain, _) => 1.0,
             (TimeUnit::Period, Some(_)) => strain_per_period(scene.particles.aspect_ratio),
-            (TimeUnit::Period, None) => seconds * flow.magnitude_per_s(),
+            (TimeUnit::Second, Some(g)) => g.abs(),
+            (TimeUnit::Period | TimeUnit::Second, None) => seconds * flow.magnitude_per_s(),
         };
         Self::Unit(Elapsed { seconds, strain })
     }

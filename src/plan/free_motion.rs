@@ -43,7 +43,8 @@ impl FreeMotion {
         let general = |r: f64| stepped(scene, r).unwrap_or_else(|| Propagator::general(flow, r));
         let mean = general(r);
         let mut spans = spans(scene);
-        if scene.time.unit == TimeUnit::Period && mean.drift_per_period() == Some(0.0) {
+        let whole = scene.output.times.is_empty() && scene.time.unit == TimeUnit::Period;
+        if whole && mean.drift_per_period() == Some(0.0) {
             // A periodic motion is computed for one period.
             spans.truncate(scene.outputs_per_unit() as usize);
         }
@@ -174,6 +175,6 @@ pub(crate) fn refused_direction(r: f64, error: f64, of_start: f64) -> String {
 
 /// The spans from the start to each output.
 fn spans(scene: &Scene) -> Vec<Span> {
-    let each = scene.outputs_per_unit() as f64;
-    (0..scene.outputs()).map(|k| scene.time.unit.span(k as f64, each)).collect()
+    let each = scene.outputs_each() as f64;
+    scene.output_times().map(|time| scene.time.unit.span(time, each)).collect()
 }

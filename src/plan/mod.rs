@@ -28,8 +28,8 @@ use std::sync::Arc;
 pub(crate) enum Clock {
     /// Ticks per period of the mean aspect ratio: steps if there are steps, else outputs.
     Periods { ticks: u64 },
-    /// Ticks per unit of strain; each is an output.
-    Strain { ticks: u64 },
+    /// Steps or outputs, each by its map.
+    Maps,
 }
 
 /// A checked scene and the stages that will run for it.
@@ -179,25 +179,26 @@ impl Plan {
         .collect()
     }
 
-    /// The number of outputs, including that at t = 0.
+    /// The number of outputs, including that at t = 0 unless the scene gives their times.
     pub fn outputs(&self) -> usize {
         self.scene.outputs()
     }
 
     /// The number of time steps; 0 if the exact motion goes straight to each output.
     pub fn steps(&self) -> u64 {
-        if self.takes_steps() { (self.outputs() as u64 - 1) * self.ticks_per_output() } else { 0 }
+        if self.takes_steps() { self.ticks()(self.outputs() - 1) } else { 0 }
     }
 
     fn takes_steps(&self) -> bool {
         self.runs(Stage::Translation) || self.runs(Stage::Diffusion)
     }
 
-    /// The name of the time column: `t_over_T`, or `strain` if the scene's time is a strain.
+    /// The name of the time column: `t_over_T`, or `strain` or `time_s` if the scene's time is that.
     pub fn time_name(&self) -> &'static str {
         match self.scene.time.unit {
             TimeUnit::Period => "t_over_T",
             TimeUnit::Strain => "strain",
+            TimeUnit::Second => "time_s",
         }
     }
 
@@ -206,10 +207,10 @@ impl Plan {
         self.timing.at(time)
     }
 
-    /// The times of the outputs, in periods or units of strain.
+    /// The times of the outputs, in periods, units of strain or seconds.
     pub fn times(&self) -> Vec<f64> {
-        let per_unit = self.scene.outputs_per_unit();
-        (0..self.outputs()).map(|k| k as f64 / per_unit as f64).collect()
+        let each = self.scene.outputs_each() as f64;
+        self.scene.output_times().map(|time| time / each).collect()
     }
 
     /// The outputs at which the scene asks for every rod, without repetition, in the order of time.
@@ -231,16 +232,18 @@ impl Plan {
     }
 
     pub(crate) fn clock(&self) -> Clock {
-        let outputs = self.scene.outputs_per_unit();
         match self.scene.time.unit {
-            TimeUnit::Strain => Clock::Strain { ticks: outputs },
-            TimeUnit::Period => Clock::Periods { ticks: outputs * self.ticks_per_output() },
+            TimeUnit::Strain | TimeUnit::Second => Clock::Maps,
+            TimeUnit::Period if self.runs(Stage::Translation) => Clock::Periods { ticks: self.scene.steps_per_unit() },
+            TimeUnit::Period => Clock::Periods { ticks: self.scene.outputs_each() },
         }
     }
 
-    /// Steps between outputs; 1 if no steps are taken.
-    pub(crate) fn ticks_per_output(&self) -> u64 {
-        if self.takes_steps() { self.scene.steps_per_unit() / self.scene.outputs_per_unit() } else { 1 }
+    /// The tick of an output: its step, or its index if no steps are taken.
+    pub(crate) fn ticks(&self) -> impl Fn(usize) -> u64 {
+        let steps = self.takes_steps().then(|| self.scene.output_steps());
+        // The plan has checked that every output is near a step.
+        move |output| steps.as_ref().map_or(output as u64, |steps| steps(output).round() as u64)
     }
 }
 
@@ -250,6 +253,7 @@ impl fmt::Display for Plan {
         writeln!(f, "{}", scene.title)?;
         let duration = match scene.time.unit {
             TimeUnit::Strain => format!("strain {}", scene.time.duration),
+            TimeUnit::Second => format!("{} s", scene.time.duration),
             TimeUnit::Period => format!("t/T = {}", scene.time.duration),
         };
         let steps = match self.steps() {

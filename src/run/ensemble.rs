@@ -60,7 +60,7 @@ pub struct Series {
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Results {
-    /// Name of the time column: `t_over_T` or `strain`.
+    /// Name of the time column: `t_over_T`, `strain` or `time_s`.
     pub time_name: &'static str,
     /// Times of the outputs, in periods or units of strain.
     pub times: Vec<f64>,

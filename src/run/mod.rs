@@ -165,10 +165,10 @@ fn diffused(
     recorder: &mut Recorder,
     look: &mut impl FnMut(&dyn Fn() -> Halfway),
 ) -> Result<Counters, Error> {
-    let (asked, per_output) = (plan.rods_outputs(), plan.ticks_per_output());
+    let (asked, ticks) = (plan.rods_outputs(), plan.ticks());
     let mut snapshots = Vec::new();
     for output in 0..plan.outputs() {
-        diffusion.step_to(output as u64 * per_output);
+        diffusion.step_to(ticks(output));
         let rods = &diffusion.rods;
         if output >= recorder.done {
             recorder.record(output..output + 1, rods, |first, _, selected| rods.orient(first, 0, selected))?;
@@ -193,9 +193,9 @@ fn stepped(
     recorder: &mut Recorder,
     look: &mut impl FnMut(&dyn Fn() -> Halfway),
 ) -> Result<Counters, Error> {
-    let (asked, per_output) = (plan.rods_outputs(), plan.ticks_per_output());
+    let (asked, ticks) = (plan.rods_outputs(), plan.ticks());
     for output in recorder.done..plan.outputs() {
-        while suspension.tick() < output as u64 * per_output {
+        while suspension.tick() < ticks(output) {
             suspension.step()?;
             look(&|| recorder.halfway(Some(suspension.placed())));
         }
@@ -348,17 +348,17 @@ pub(crate) fn each_block(
             look(output, first, &selected.block)
         })
     };
-    let (mut outputs, per_output) = (0..plan.outputs(), plan.ticks_per_output());
+    let (mut outputs, ticks) = (0..plan.outputs(), plan.ticks());
     match Suspension::new(plan, replica) {
         Some(mut suspension) => outputs.try_for_each(|output| {
-            while suspension.tick() < output as u64 * per_output {
+            while suspension.tick() < ticks(output) {
                 suspension.step()?;
             }
             blocks(output, &suspension.rods, suspension.tick())
         }),
         None => match Diffusion::new(plan, replica) {
             Some(mut diffusion) => outputs.try_for_each(|output| {
-                diffusion.step_to(output as u64 * per_output);
+                diffusion.step_to(ticks(output));
                 blocks(output, &diffusion.rods, 0)
             }),
             None => {

@@ -116,9 +116,10 @@ impl Placed {
     fn check(&self, plan: &Plan, outputs: usize) -> Result<(), &'static str> {
         let count = plan.scene().particles.count;
         let tick = self.counters.steps;
-        let per_output = plan.ticks_per_output();
-        let last = outputs as u64 * per_output;
-        if tick > last || tick + per_output < last || tick > plan.steps() {
+        let ticks = plan.ticks();
+        // After the last output there is no step.
+        let (last, next) = (outputs.checked_sub(1).map_or(0, &ticks), ticks(outputs.min(plan.outputs() - 1)));
+        if !(last..=next).contains(&tick) {
             return Err("its outputs are not those of its steps");
         }
         let most = tick.saturating_mul(count as u64);

@@ -57,7 +57,7 @@ pub enum Error {
         rod: Option<usize>,
         /// Index of the output, from 0.
         output: usize,
-        /// Name of the time column: `t_over_T` or `strain`.
+        /// Name of the time column: `t_over_T`, `strain` or `time_s`.
         time_name: &'static str,
         /// Time of the output, in that unit.
         time: f64,

@@ -99,7 +99,7 @@ pub enum Holds {
     OneOf(&'static [&'static str]),
     /// Observables, without repetition.
     Observables,
-    /// Times of outputs.
+    /// Times.
     Times,
 }
 
@@ -151,7 +151,7 @@ impl std::fmt::Display for Holds {
                 let names = Observable::ALL.map(|observable| format!("\"{}\"", observable.name()));
                 write!(f, "a list of one or more of {}, each once", names.join(", "))
             }
-            Self::Times => f.write_str("a list of finite numbers ≥ 0 that grow, each the time of an output"),
+            Self::Times => f.write_str("a list of finite numbers ≥ 0 that grow"),
         }
     }
 }
@@ -278,7 +278,7 @@ pub const TABLES: [Table; 7] = [
         orientation", Required, Particles::KEYS),
     of("interaction", "how rods meet", "a table [interaction] with concentration_per_cm3 or box_mm, and alpha, or none \
         for free rods", Other("free rods"), Interaction::KEYS),
-    of("time", "how long, and how finely", "a table [time] with periods or strain", Required, TimeKeys::KEYS),
+    of("time", "how long, and how finely", "a table [time] with periods, strain or seconds", Required, TimeKeys::KEYS),
     of("ensemble", "replicas and seed", "a table [ensemble]", Other("its keys' defaults"), Ensemble::KEYS),
     of("output", "what is observed", "a table [output]", Other("its keys' defaults"), Output::KEYS),
 ];

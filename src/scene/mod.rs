@@ -31,7 +31,7 @@ pub use particles::{Isotropic, Orientation, OwnRods, Particles, RodsFile};
 pub use read::{of_document, parse};
 pub use rods::Misfit;
 pub use steps::resolved_strain;
-pub(crate) use steps::step_maps;
+pub(crate) use steps::{nearest, step_maps};
 use time::TimeKeys;
 pub use time::{Time, TimeUnit};
 
@@ -176,8 +176,11 @@ table! {
         observables: Vec<Observable> = vec![Observable::Projections], "", Holds::Observables,
             Otherwise("[\"projections\"]"),
             "what is observed: each has a file of its own";
-        rods_at: Vec<f64> = Vec::new(), "T or strain", Holds::Times, Otherwise("[]"),
-            "when rods.csv has every rod: t/T, or strain where the time is one",
+        times: Vec<f64> = Vec::new(), "T, strain or s", Holds::Times, Other("those of outputs_per_period"),
+            "when means are taken, in place of outputs_per_period; of interacting rods, times of their steps",
+            unwritten if |output: &Output| output.times.is_empty();
+        rods_at: Vec<f64> = Vec::new(), "T, strain or s", Holds::Times, Otherwise("[]"),
+            "when rods.csv has every rod: times of outputs",
             unwritten if |output: &Output| output.rods_at.is_empty();
         rods_every: Option<u64> = None, "outputs", whole(1, MAX_PER_UNIT), Other("the times of rods_at alone"),
             "rods.csv has every rod at each K-th output too, from the start on";
@@ -218,7 +221,7 @@ impl Scene {
     /// The same scene with all defaults in use written out.
     pub fn resolved(&self) -> Self {
         let mut scene = self.clone();
-        scene.time.outputs_per_unit = Some(self.outputs_per_unit());
+        scene.time.outputs_per_unit = self.output.times.is_empty().then(|| self.outputs_per_unit());
         if scene.steps() {
             scene.time.steps_per_unit = Some(self.steps_per_unit());
         }
@@ -281,11 +284,11 @@ impl Scene {
         }
     }
 
-    /// Outputs per unit of time, given or by default: 50 a period or 10 a unit of strain; if rods take steps, the largest
-    /// divisor of the steps up to that.
+    /// Outputs per unit of time, given or by default: 50 a period or 10 a unit of strain (a second: rounded up); if rods
+    /// take steps, the largest divisor of the steps up to that.
     pub fn outputs_per_unit(&self) -> u64 {
         self.time.outputs_per_unit.unwrap_or_else(|| {
-            let most = self.time.unit.default_outputs();
+            let most = self.default_outputs();
             let steps = self.steps().then(|| self.steps_per_unit().max(1));
             let divides = |k: &u64| steps.is_none_or(|steps| steps.is_multiple_of(*k));
             (1..=most).rev().find(divides).unwrap_or(1)

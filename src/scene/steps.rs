@@ -19,6 +19,14 @@ pub fn resolved_strain(aspect_ratio: f64) -> f64 {
 /// by some 1e-4 (the case `brownian-rods` measures it).
 const DIFFUSING: [f64; 2] = [0.1, 0.02];
 
+/// Relative deviation of a given time from that of an output or a step: a third in six digits is meant as one.
+const NEAR: f64 = 1e-5;
+
+/// The whole number within [`NEAR`] of `place`, or `None`.
+pub(crate) fn nearest(place: f64) -> Option<u64> {
+    ((place - place.round()).abs() <= NEAR).then_some(place.round() as u64)
+}
+
 impl Scene {
     /// True if rods take time steps, unless they cannot collide.
     pub(crate) fn steps(&self) -> bool {
@@ -35,18 +43,58 @@ impl Scene {
         if self.diffuses() { DIFFUSING[0] } else { resolved_strain(self.particles.mean_aspect_ratio()) }
     }
 
-    /// The number of outputs, including that at t = 0.
+    /// Outputs per unit of time that do not exceed the default: 50 a period, 10 a unit of strain.
+    pub(crate) fn default_outputs(&self) -> u64 {
+        match self.time.unit {
+            TimeUnit::Period => 50,
+            TimeUnit::Strain => 10,
+            // Rounded up to whole outputs a second.
+            TimeUnit::Second => self.flow.gradient().map_or(1, |flow| {
+                let rate_per_s = flow.shear_rate_per_s().map_or_else(|| flow.magnitude_per_s(), f64::abs);
+                (10.0 * rate_per_s).ceil().max(1.0) as u64
+            }),
+        }
+    }
+
+    /// The number of outputs, including that at t = 0 unless the scene gives their times.
     pub(crate) fn outputs(&self) -> usize {
+        if !self.output.times.is_empty() {
+            return self.output.times.len();
+        }
         let all = self.time.duration * self.outputs_per_unit() as f64;
         // The slack allows for a product that was rounded down.
         1 + (all * (1.0 + 4.0 * f64::EPSILON)).floor() as usize
     }
 
-    /// The index of the output at `time`; `None` if no output is within 1e-5 of the output interval.
+    /// Outputs per unit of time, or 1 if the scene gives the outputs' times.
+    pub(crate) fn outputs_each(&self) -> u64 {
+        if self.output.times.is_empty() { self.outputs_per_unit() } else { 1 }
+    }
+
+    /// The times of the outputs, times [`Scene::outputs_each`]: whole numbers unless the scene gives the times.
+    pub(crate) fn output_times(&self) -> impl Iterator<Item = f64> {
+        (0..self.outputs()).map(|output| self.output_time(output))
+    }
+
+    fn output_time(&self, output: usize) -> f64 {
+        self.output.times.get(output).copied().unwrap_or(output as f64)
+    }
+
+    /// The index of the output at `time`; `None` if no output is within 1e-5 of the output interval, or of the time
+    /// itself where the scene gives the times.
     pub(crate) fn output_at(&self, time: f64) -> Option<usize> {
-        let place = time * self.outputs_per_unit() as f64;
-        let near = (place - place.round()).abs() <= 1e-5 && place.round() < self.outputs() as f64;
-        near.then_some(place.round() as usize)
+        if !self.output.times.is_empty() {
+            return self.output.times.iter().position(|output| (output - time).abs() <= NEAR * time);
+        }
+        nearest(time * self.outputs_per_unit() as f64)
+            .filter(|output| *output < self.outputs() as u64)
+            .map(|k| k as usize)
+    }
+
+    /// The step of an output: a function that gives a whole number for every output that is on a step.
+    pub(crate) fn output_steps(&self) -> impl Fn(usize) -> f64 {
+        let steps = self.steps_per_unit() as f64 / self.outputs_each() as f64;
+        move |output| self.output_time(output) * steps
     }
 
     /// Steps per unit of time; by default [`Scene::resolving_steps`].
@@ -65,7 +113,7 @@ impl Scene {
     pub fn resolving_steps(&self) -> u64 {
         let outputs = self.time.outputs_per_unit;
         let unit = match self.time.unit {
-            TimeUnit::Strain => outputs.unwrap_or(self.time.unit.default_outputs()).max(1),
+            TimeUnit::Strain | TimeUnit::Second => outputs.unwrap_or_else(|| self.default_outputs()).max(1),
             TimeUnit::Period => {
                 let outputs = outputs.unwrap_or(1).max(1);
                 (outputs / common_divisor(outputs, MULTIPLE)).saturating_mul(MULTIPLE)
@@ -79,11 +127,12 @@ impl Scene {
         if motion / steps as f64 <= resolved { steps } else { steps.saturating_add(unit) }
     }
 
-    /// Seconds per unit of the scene's time: a period of the mean aspect ratio or a unit of strain. NaN if there is no
-    /// period.
+    /// Seconds per unit of the scene's time: a period of the mean aspect ratio, a unit of strain or a second. NaN if
+    /// there is no period.
     pub(crate) fn seconds_per_unit(&self, flow: &VelocityGradient) -> f64 {
         match self.time.unit {
             TimeUnit::Strain => 1.0 / flow.magnitude_per_s(),
+            TimeUnit::Second => 1.0,
             TimeUnit::Period => (Propagator::new(flow, self.particles.aspect_ratio).period_s()).unwrap_or(f64::NAN),
         }
     }
@@ -100,16 +149,19 @@ impl Scene {
 
     fn flow_per_unit(&self) -> f64 {
         let r = self.particles.aspect_ratio;
-        let Some(flow) = self.flow.gradient().filter(|flow| flow.shear_rate_per_s().is_none()) else {
+        let flow = self.flow.gradient();
+        let shear_rate = flow.as_ref().map_or(Some(f64::NAN), VelocityGradient::shear_rate_per_s);
+        let (None, Some(flow)) = (shear_rate, flow) else {
             return match self.time.unit {
                 TimeUnit::Strain => 1.0,
                 TimeUnit::Period => strain_per_period(r),
+                TimeUnit::Second => shear_rate.map_or(f64::NAN, f64::abs),
             };
         };
         let (strain_per_s, turn_per_s) = (flow.magnitude_per_s(), flow.turn_per_s());
         match self.time.unit {
             TimeUnit::Strain => (turn_per_s / strain_per_s).max(1.0),
-            TimeUnit::Period => strain_per_s.max(turn_per_s) * self.seconds_per_unit(&flow),
+            TimeUnit::Period | TimeUnit::Second => strain_per_s.max(turn_per_s) * self.seconds_per_unit(&flow),
         }
     }
 }

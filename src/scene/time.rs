@@ -17,12 +17,11 @@ use serde::Serialize;
 pub struct Time {
     /// The unit of the duration.
     pub unit: TimeUnit,
-    /// The duration in that unit: the key `periods` or `strain`.
+    /// The duration in that unit: the key `periods`, `strain` or `seconds`.
     pub duration: f64,
-    /// Steps of interacting rods per unit (`steps_per_period`, `steps_per_strain`); by default as many as resolve the
-    /// motion.
+    /// Steps of interacting rods per unit (`steps_per_period` and so on); by default as many as resolve the motion.
     pub steps_per_unit: Option<u64>,
-    /// Outputs per unit (`outputs_per_period`, `outputs_per_strain`); by default 50 a period or 10 a unit of strain.
+    /// Outputs per unit (`outputs_per_period` and so on); by default 50 a period or 10 a unit of strain.
     pub outputs_per_unit: Option<u64>,
 }
 
@@ -32,28 +31,26 @@ pub struct Time {
 /// use shearbed::scene::{Time, TimeUnit};
 /// assert_eq!(Time::default().unit, TimeUnit::Period);
 /// ```
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum TimeUnit {
     /// A period T of the mean aspect ratio.
+    #[default]
     Period,
     /// A unit of shear strain ∫(2D:D)^½ dt.
     Strain,
+    /// A second.
+    Second,
 }
 
 impl TimeUnit {
-    /// Default number of outputs per unit.
-    pub(crate) fn default_outputs(self) -> u64 {
-        match self {
-            Self::Period => 50,
-            Self::Strain => 10,
-        }
-    }
+    pub(super) const ALL: [Self; 3] = [Self::Period, Self::Strain, Self::Second];
 
     /// The span of `number`/`over` units.
     pub(crate) fn span(self, number: f64, over: f64) -> Span {
         match self {
             Self::Period => Span::Periods(number, over),
             Self::Strain => Span::Strain(number, over),
+            Self::Second => Span::Seconds(number, over),
         }
     }
 
@@ -62,6 +59,7 @@ impl TimeUnit {
         match self {
             Self::Period => "time.periods",
             Self::Strain => "time.strain",
+            Self::Second => "time.seconds",
         }
     }
 
@@ -70,6 +68,7 @@ impl TimeUnit {
         match self {
             Self::Period => "time.steps_per_period",
             Self::Strain => "time.steps_per_strain",
+            Self::Second => "time.steps_per_second",
         }
     }
 
@@ -78,6 +77,7 @@ impl TimeUnit {
         match self {
             Self::Period => "time.outputs_per_period",
             Self::Strain => "time.outputs_per_strain",
+            Self::Second => "time.outputs_per_second",
         }
     }
 }
@@ -87,6 +87,7 @@ impl std::fmt::Display for TimeUnit {
         f.write_str(match self {
             Self::Period => "period",
             Self::Strain => "unit of strain",
+            Self::Second => "second",
         })
     }
 }
@@ -100,18 +101,24 @@ impl Default for Time {
 table! {
     /// The keys of `[time]`.
     pub(super) struct TimeKeys in "time" {
-        periods: Option<f64> = None, "T", Holds::NotNegative, Other("strain"),
+        periods: Option<f64> = None, "T", Holds::NotNegative, Other("strain or seconds"),
             "how long, in periods T of the mean aspect ratio";
-        strain: Option<f64> = None, "", Holds::NotNegative, Other("periods"),
+        strain: Option<f64> = None, "", Holds::NotNegative, Other("periods or seconds"),
             "how long, in shear strain ∫(2D:D)^½ dt: for flows without a period";
+        seconds: Option<f64> = None, "s", Holds::NotNegative, Other("periods or strain"),
+            "how long, in seconds";
         steps_per_period: Option<u64> = None, "", PER_UNIT, Other("as many as resolve the motion"),
             "steps of interacting rods";
         steps_per_strain: Option<u64> = None, "", PER_UNIT, Other("as many as resolve the motion"),
             "steps of interacting rods per unit of strain";
+        steps_per_second: Option<u64> = None, "", PER_UNIT, Other("as many as resolve the motion"),
+            "steps of interacting rods per second";
         outputs_per_period: Option<u64> = None, "", PER_UNIT, Other("50, or the largest divisor below"),
             "outputs; of interacting rods a divisor of the steps";
         outputs_per_strain: Option<u64> = None, "", PER_UNIT, Other("10, or the largest divisor below"),
-            "outputs per unit of strain; of interacting rods a divisor of the steps";
+            "outputs per unit of strain, likewise";
+        outputs_per_second: Option<u64> = None, "", PER_UNIT, Other("10 a unit of strain, or the largest divisor below"),
+            "outputs per second, likewise";
     }
 }
 
@@ -130,6 +137,12 @@ impl From<Time> for TimeKeys {
                 outputs_per_strain: outputs_per_unit,
                 ..Self::default()
             },
+            TimeUnit::Second => Self {
+                seconds: Some(duration),
+                steps_per_second: steps_per_unit,
+                outputs_per_second: outputs_per_unit,
+                ..Self::default()
+            },
         }
     }
 }
@@ -145,26 +158,35 @@ impl Time {
         Self { unit: TimeUnit::Strain, ..Self::periods(duration) }
     }
 
+    /// A duration in seconds, with default steps and outputs.
+    pub fn seconds(duration: f64) -> Self {
+        Self { unit: TimeUnit::Second, ..Self::periods(duration) }
+    }
+
     pub(super) fn read(reader: &mut Reader<'_>) -> Option<Self> {
-        let given = reader.one_of(["time.periods", "time.strain"], "periods or strain must be given");
-        let others = match given {
-            Some("time.periods") => [
-                ("time.steps_per_strain", "goes with strain; periods take steps_per_period"),
-                ("time.outputs_per_strain", "goes with strain; periods take outputs_per_period"),
-            ],
-            _ => [
-                ("time.steps_per_period", "goes with periods; strain takes steps_per_strain"),
-                ("time.outputs_per_period", "goes with periods; strain takes outputs_per_strain"),
-            ],
-        };
-        if let Some((key, why)) = others.into_iter().find(|(key, _)| given.is_some() && reader.has(key)) {
-            reader.refuse(key, why);
+        let keys = TimeUnit::ALL.map(TimeUnit::duration_key);
+        let given = reader.one_of(keys, "periods, strain or seconds must be given");
+        let unit = TimeUnit::ALL.into_iter().find(|unit| Some(unit.duration_key()) == given);
+        let others = TimeUnit::ALL.into_iter().filter(|other| unit.is_some_and(|unit| unit != *other));
+        let keys = others.flat_map(|other| [TimeUnit::steps_key, TimeUnit::outputs_key].map(|key| (other, key)));
+        if let Some((other, key)) = keys.into_iter().find(|(other, key)| reader.has(key(*other))) {
+            let own = unit.unwrap_or_default();
+            let [goes, given, takes] = [other.duration_key(), own.duration_key(), key(own)].map(name);
+            let verb = if own == TimeUnit::Strain { "takes" } else { "take" };
+            reader.refuse(key(other), &format!("goes with {goes}; {given} {verb} {takes}"));
         }
         let keys = TimeKeys::read_keys(reader)?;
-        let (unit, duration, steps_per_unit, outputs_per_unit) = match keys.periods {
-            Some(periods) => (TimeUnit::Period, periods, keys.steps_per_period, keys.outputs_per_period),
-            None => (TimeUnit::Strain, keys.strain?, keys.steps_per_strain, keys.outputs_per_strain),
+        let unit = unit?;
+        let (duration, steps_per_unit, outputs_per_unit) = match unit {
+            TimeUnit::Period => (keys.periods?, keys.steps_per_period, keys.outputs_per_period),
+            TimeUnit::Strain => (keys.strain?, keys.steps_per_strain, keys.outputs_per_strain),
+            TimeUnit::Second => (keys.seconds?, keys.steps_per_second, keys.outputs_per_second),
         };
         Some(Self { unit, duration, steps_per_unit, outputs_per_unit })
     }
+}
+
+/// A key without its table.
+fn name(key: &'static str) -> &'static str {
+    key.trim_start_matches("time.")
 }

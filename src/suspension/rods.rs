@@ -47,8 +47,9 @@ enum Shapes {
 
 #[derive(Clone, Debug)]
 enum Motion {
-    /// Plane Couette flow: phases from ticks.
-    Couette(Ticks),
+    /// Plane Couette flow: phases from ticks. Rods that take no steps have a list of their outputs' times in ticks if
+    /// these are not whole.
+    Couette(Ticks, Vec<f64>),
     /// Rods of one aspect ratio in plane Couette flow that take no steps: the phase of all of them at each output.
     InPhase(Vec<Phase>),
     /// Any other flow with interacting rods, or rods that diffuse: the map q = M p of one step, one per rod or one for all.
@@ -145,7 +146,7 @@ impl Rods {
     /// The direction of an interacting rod at `tick`.
     pub fn direction(&self, rod: usize, tick: u64) -> Vector3<f64> {
         let p = self.p.each_ref().map(|axis| axis[rod]);
-        let Motion::Couette(clock) = &self.motion else {
+        let Motion::Couette(clock, _) = &self.motion else {
             return p.into();
         };
         let r = self.aspect_ratio(rod);
@@ -196,7 +197,7 @@ impl Rods {
             Shapes::Shared(r) => block.aspect_ratio[..block.len].fill(*r),
             Shapes::Each(r) => block.aspect_ratio[..block.len].copy_from_slice(&r[rods.clone()]),
         }
-        if let Motion::Couette(clock) = &self.motion {
+        if let Motion::Couette(clock, _) = &self.motion {
             let each = self.of_several_shapes();
             for (turns, r) in turns.iter_mut().zip(&block.aspect_ratio) {
                 *turns = clock.periods(each, *r);
@@ -228,15 +229,16 @@ impl Rods {
                     move |_, p, _| couette(p, r, phase),
                 );
             }
-            Motion::Couette(clock) if self.since.is_empty() => {
-                let (clock, (whole, rest)) = (*clock, clock.parts(tick as f64));
+            Motion::Couette(clock, times) if self.since.is_empty() => {
+                let ticks = times.get(tick as usize).copied().unwrap_or(tick as f64);
+                let (clock, (whole, rest)) = (*clock, clock.parts(ticks));
                 block.turn(
                     from,
                     #[inline(always)]
                     move |k, p, r| couette(p, r, clock.phase_of(whole, rest, turns[k])),
                 );
             }
-            Motion::Couette(clock) => {
+            Motion::Couette(clock, _) => {
                 let (clock, mut elapsed) = (*clock, [0.0; BLOCK]);
                 for (elapsed, since) in elapsed.iter_mut().zip(&self.since[rods]) {
                     // There are at most 10⁹ steps, and no rod is ahead of `tick`.
@@ -314,7 +316,7 @@ impl Ticks {
         if each { self.strain_per_period / strain_per_period(r) } else { self.sign }
     }
 
-    /// The phase after `ticks` (a whole number) of a rod that turns `periods` times per period of the mean rod.
+    /// The phase after `ticks` of a rod that turns `periods` times per period of the mean rod.
     #[inline(always)]
     fn phase(&self, ticks: f64, periods: f64) -> Phase {
         let (whole, rest) = self.parts(ticks);
@@ -357,9 +359,14 @@ fn in_phase(plan: &Plan) -> bool {
         && !plan.runs(Stage::AspectRatios)
 }
 
+/// The times that the scene of a plan without steps gives for its outputs.
+fn own_times(plan: &Plan) -> &[f64] {
+    if plan.runs(Stage::Translation) { &[] } else { &plan.scene().output.times }
+}
+
 /// The bytes that a replica's rods hold for each output.
 pub(crate) fn bytes_per_output(plan: &Plan) -> usize {
-    if in_phase(plan) { size_of::<Phase>() } else { 0 }
+    if in_phase(plan) { size_of::<Phase>() } else { size_of_val(own_times(plan)) / plan.outputs() }
 }
 
 fn choose_motion(plan: &Plan, shapes: &Shapes) -> Motion {
@@ -367,11 +374,11 @@ fn choose_motion(plan: &Plan, shapes: &Shapes) -> Motion {
     if let (Some(g), Clock::Periods { ticks }, false) = (flow.shear_rate_per_s(), plan.clock(), diffuses) {
         let strain = strain_per_period(plan.scene().particles.aspect_ratio);
         let clock = Ticks { per_period: ticks as f64, strain_per_period: strain * g.signum(), sign: g.signum() };
-        if !in_phase(plan) {
-            return Motion::Couette(clock);
+        if in_phase(plan) {
+            let phases = plan.scene().output_times().map(|time| clock.phase(time, clock.sign));
+            return Motion::InPhase(phases.collect());
         }
-        let phases = (0..plan.outputs()).map(|output| clock.phase(output as f64, clock.sign));
-        return Motion::InPhase(phases.collect());
+        return Motion::Couette(clock, own_times(plan).to_vec());
     }
     let Some(motion) = plan.free().cloned() else {
         let shapes = match shapes {

@@ -201,7 +201,7 @@ const OTHER_MISTAKES: &[(&str, &str, &str, &str)] = &[
         or steps"),
     (INTERACTING, "count = 10\n", "", "4: particles.count is missing: expected a whole number from 1 to 100000000"),
     (INTERACTING, "alpha = 0.5\n", "", "10: interaction.alpha is missing: expected a finite number ≥ 0"),
-    (INTERACTING, "periods = 1\n", "", "16: time.periods is missing: periods or strain must be given"),
+    (INTERACTING, "periods = 1\n", "", "16: time.periods is missing: periods, strain or seconds must be given"),
     (EXTENSION, "[time]\nstrain = 2\noutputs_per_strain = 10\n", "",
      "1: time is missing: expected a table [time] with periods"),
     // An unknown key or table.

@@ -1,12 +1,12 @@
 //! Checks a scene's duration and its numbers of steps and outputs.
 
 use super::*;
-use crate::scene::{Time, TimeUnit};
+use crate::scene::{Time, TimeUnit, nearest};
 
 pub(super) fn check_time(scene: &Scene, flow: &VelocityGradient) -> Result<(), Invalid> {
     let Time { unit, duration, .. } = scene.time;
     let outputs = scene.outputs_per_unit();
-    let outputs_fit = || bounded(unit.duration_key(), duration, outputs, "outputs", MAX_OUTPUTS);
+    let outputs_fit = || check_outputs(scene, outputs);
     match unit {
         TimeUnit::Period => {
             let period_s = check_period(scene, flow)?;
@@ -23,6 +23,10 @@ pub(super) fn check_time(scene: &Scene, flow: &VelocityGradient) -> Result<(), I
             // If the rate overflows, the unit would take 0 s.
             let unit_s = 1.0 / flow.magnitude_per_s();
             check_seconds(scene, if unit_s > 0.0 { duration * unit_s } else { f64::INFINITY })
+        }
+        TimeUnit::Second => {
+            outputs_fit()?;
+            check_counted_steps(scene, outputs)
         }
     }
 }
@@ -59,12 +63,55 @@ fn check_counted_steps(scene: &Scene, outputs: u64) -> Result<(), Invalid> {
         }
         refused
     })?;
+    if !scene.output.times.is_empty() {
+        return check_steps_of_times(scene);
+    }
     if !steps.is_multiple_of(outputs) {
         let rods = if scene.diffuses() { "rods that diffuse" } else { "interacting rods" };
         let allowed = format!("{rods} need a divisor of {steps_name} = {steps}");
         return Err(Invalid::new(time.unit.outputs_key(), outputs, allowed));
     }
     Ok(())
+}
+
+/// Checks the number of outputs, or their times.
+fn check_outputs(scene: &Scene, outputs: u64) -> Result<(), Invalid> {
+    let (Time { unit, duration, .. }, times) = (&scene.time, &scene.output.times);
+    let Some(last) = times.last() else {
+        return bounded(unit.duration_key(), *duration, outputs, "outputs", MAX_OUTPUTS);
+    };
+    if let Some(outputs) = scene.time.outputs_per_unit {
+        return Err(Invalid::new(unit.outputs_key(), outputs, "either it or output.times, not both"));
+    }
+    // An end that differs by rounding is the end.
+    let (within, few) = (*last <= duration * (1.0 + 1e-12), times.len() as f64 <= MAX_OUTPUTS);
+    if within && few {
+        return Ok(());
+    }
+    let allowed =
+        format!("up to {MAX_OUTPUTS:e} times within the run, which ends at {} = {duration}", unit.duration_key());
+    Err(Invalid::new("output.times", shown(times), allowed))
+}
+
+/// Checks that the given times of outputs of interacting rods are on different steps.
+fn check_steps_of_times(scene: &Scene) -> Result<(), Invalid> {
+    let (times, steps) = (&scene.output.times, scene.output_steps());
+    let on: Vec<_> = (0..times.len()).map(|output| nearest(steps(output))).collect();
+    let Some(wrong) = (0..on.len()).find(|&k| on[k].is_none() || k > 0 && on[k] == on[k - 1]) else {
+        return Ok(());
+    };
+    let steps = scene.steps_per_unit();
+    let allowed = format!(
+        "interacting rods need different times on their steps, k/{steps}; {} is not one of them: set {}",
+        times[wrong],
+        scene.time.unit.steps_key().trim_start_matches("time.")
+    );
+    Err(Invalid::new("output.times", shown(times), allowed))
+}
+
+/// Times as an error shows them: some thousand would fill the screen.
+fn shown(times: &[f64]) -> String {
+    if times.len() <= 20 { format!("{times:?}") } else { format!("[{:?}, {:?}, …]", times[0], times[1]) }
 }
 
 /// Checks that steps of interacting rods are short enough for double precision; not for plane Couette flow by periods.

@@ -3,6 +3,8 @@
 use super::rods;
 use serde::Serialize;
 use shearbed::Plan;
+use shearbed::motion::Propagator;
+use shearbed::scene::TimeUnit;
 use shearbed_validation::files::text::four_decimals;
 
 /// Properties of a scene in numbers; null if a property does not exist.
@@ -50,9 +52,9 @@ impl Facts {
         let r = scene.particles.aspect_ratio;
         let cube_cm3 = (0.1 * scene.particles.length_mm).powi(3) * scene.particles.mean_cube();
         let n_a3 = scene.concentration_per_cm3().map(|n| n * cube_cm3);
-        let period_s = plan.elapsed(1.0).seconds;
+        let period_s = Propagator::new(plan.flow(), r).period_s().filter(|_| scene.time.unit != TimeUnit::Strain);
         Self {
-            period_s: (plan.time_name() != "strain" && period_s.is_finite()).then_some(period_s),
+            period_s: period_s.filter(|period_s| period_s.is_finite()),
             strain_per_step: (plan.steps() > 0).then(|| plan.elapsed(1.0).strain / scene.steps_per_unit() as f64),
             // r² would be infinite for long rods, so numerator and denominator are divided by r.
             shape_factor: (r - 1.0 / r) / (r + 1.0 / r),
@@ -142,8 +144,9 @@ fn cut_short(plan: &Plan) -> Option<String> {
     let (key, end) = (time.unit.duration_key(), time.duration);
     let times = plan.times();
     let last = *times.last()?;
+    let given = !plan.scene().output.times.is_empty();
     // An end that differs from an output by rounding is not between outputs.
-    (last < end * (1.0 - 1e-12)).then(|| {
+    (!given && last < end * (1.0 - 1e-12)).then(|| {
         format!(
             "{key} = {end} ends between two outputs: the last one is at {last}; choose an output interval that divides \
              {end}"

@@ -22,7 +22,11 @@ pub(super) fn figures(scene: &Scene, results: &Results, series: &Series) -> Vec<
         curves,
         ..Figure::default()
     };
-    let time_name = if results.time_name == "strain" { "strain" } else { "t/T" };
+    let time_name = match results.time_name {
+        "t_over_T" => "t/T",
+        "time_s" => "t (s)",
+        other => other,
+    };
     let against_time = |channels: &[Column]| {
         let curve = |channel: &Column| Curve {
             label: channel.name.clone(),

@@ -9,15 +9,23 @@ use shearbed::{Plan, Results};
 pub(super) fn csv(results: &Results, series: &Series) -> Result<String, String> {
     let mut writer = csv::Writer::from_writer(Vec::new());
     // The scene's own time first.
-    let by_strain = results.time_name == "strain";
-    let names: &[_] = if by_strain { &["strain", "time_s"] } else { &["t_over_T", "time_s", "strain"] };
+    let names: &[_] = match results.time_name {
+        "strain" => &["strain", "time_s"],
+        "time_s" => &["time_s", "strain"],
+        _ => &["t_over_T", "time_s", "strain"],
+    };
     let mut header: Vec<_> = names.iter().map(|name| (*name).to_owned()).collect();
     for channel in &series.columns {
         header.extend([channel.name.clone(), format!("{}_se", channel.name)]);
     }
     writer.write_record(header).map_err(|error| error.to_string())?;
     for (k, (time, elapsed)) in results.times.iter().zip(&results.elapsed).enumerate() {
-        let times = [*time, elapsed.seconds, elapsed.strain].into_iter().take(names.len());
+        let of_name = |name: &&str| match *name {
+            name if name == results.time_name => *time,
+            "time_s" => elapsed.seconds,
+            _ => elapsed.strain,
+        };
+        let times = names.iter().map(of_name);
         let values = series.columns.iter().flat_map(|channel| [channel.mean[k], channel.se[k]]);
         let row: Vec<f64> = times.chain(values).collect();
         writer.serialize(row).map_err(|error| error.to_string())?;
@@ -66,8 +74,9 @@ pub(super) fn is_bounded(column: &str) -> bool {
 /// For each channel the first and the last mean, the least and the largest with their times, and a sparkline.
 pub(super) fn summary(results: &Results) -> String {
     let name = match results.time_name {
-        "strain" => "strain",
-        _ => "t/T",
+        "t_over_T" => "t/T",
+        "time_s" => "t in s",
+        other => other,
     };
     let last = results.times.len().saturating_sub(1);
     let time = |k: usize| results.times.get(k).copied().unwrap_or(f64::NAN);

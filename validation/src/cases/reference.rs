@@ -151,7 +151,7 @@ fn compare(scene: &Scene, replica: u64, mistake: Option<Mistake>, off: &mut Off)
     let mut model = Model::new(scene, replica, mistake);
     let mut reference = Naive::new(problem(scene, replica, None));
     let units = match scene.time.unit {
-        scene::TimeUnit::Strain => scene.time.duration as u64,
+        scene::TimeUnit::Strain | scene::TimeUnit::Second => scene.time.duration as u64,
         scene::TimeUnit::Period => 1,
     };
     for _ in 0..units * scene.steps_per_unit() {

@@ -7,7 +7,7 @@ use crate::oracle::closed_form;
 use shearbed::scene::{Flow, Scene, Time, TimeUnit};
 use std::f64::consts::TAU;
 
-/// A function that returns the seconds and the strain of one unit of a run's times: a period, or a unit of strain.
+/// A function that returns the seconds and the strain of one unit of a run's times.
 type UnitOf = fn(&Scene) -> [f64; 2];
 
 fn unit(scene: &Scene) -> [f64; 2] {
@@ -21,7 +21,7 @@ pub fn cases() -> Vec<Case> {
             .claim(
                 "The seconds and the strain beside each t/T of a run are those of T = 2π(r_e + 1/r_e)/|G| in plane \
                  Couette flow, of 2π/ω in other flows in a plane that turn rods at ω, and of (2D:D)^½ where times are \
-                 given in strain.",
+                 given in strain or in seconds.",
             )
             .source("eqs 15, A.6")
             .under_test(unit as UnitOf)
@@ -40,6 +40,7 @@ pub fn cases() -> Vec<Case> {
                 let [seconds, strain] = unit(scene);
                 match scene.time.unit {
                     TimeUnit::Strain => [seconds * 2f64.sqrt(), strain],
+                    TimeUnit::Second => [seconds, strain / 2f64.sqrt()],
                     TimeUnit::Period => [seconds, strain / 2f64.sqrt()],
                 }
             })
@@ -63,7 +64,7 @@ fn units(unit: &UnitOf, effort: &Effort) -> Vec<Evidence> {
     vec![
         within("relative error in plane Couette flow, both directions, r_e from 10⁻³ to 10⁶", couette(effort)),
         within("relative error in flows in a plane that turn rods along ellipses", elliptic(effort)),
-        within("relative error of seconds per strain in extension and shear", strained(effort)),
+        within("relative error of seconds and strain per unit of each in extension and shear", strained(effort)),
     ]
 }
 
@@ -107,12 +108,17 @@ fn strained(effort: &Effort) -> Vec<Expected> {
     let extension = |e: f64| [[e, 0.0, 0.0], [0.0, -0.5 * e, 0.0], [0.0, 0.0, -0.5 * e]];
     let shear = |g: f64| [[0.0; 3], [0.0, 0.0, g], [0.0; 3]];
     [(extension(0.5), 0.5 * 3f64.sqrt()), (extension(-7.0), 7.0 * 3f64.sqrt()), (shear(0.3), 0.3)]
-        .map(|(gradient_per_s, rate_per_s)| {
-            let scene = changed(free_scene(effort), |scene| {
-                scene.flow = Flow::Gradient { gradient_per_s };
-                scene.time = Time::strain(2.0);
-            });
-            (scene, [1.0 / rate_per_s, 1.0])
+        .into_iter()
+        .flat_map(|(gradient_per_s, rate_per_s)| {
+            [(Time::strain(2.0), [1.0 / rate_per_s, 1.0]), (Time::seconds(2.0), [1.0, rate_per_s])].map(
+                |(time, unit)| {
+                    let scene = changed(free_scene(effort), |scene| {
+                        scene.flow = Flow::Gradient { gradient_per_s };
+                        scene.time = time;
+                    });
+                    (scene, unit)
+                },
+            )
         })
-        .into()
+        .collect()
 }

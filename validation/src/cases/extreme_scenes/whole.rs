@@ -50,6 +50,7 @@ pub(super) fn by_exponential(scene: &Scene, rescaled: bool) -> Ended {
     let r = scene.particles.aspect_ratio;
     let strain = match scene.time.unit {
         TimeUnit::Strain => scene.time.duration,
+        TimeUnit::Second => scene.time.duration * flow.magnitude_per_s(),
         TimeUnit::Period => scene.time.duration * strain_per_period(r),
     };
     let a = flow.vorticity() + shape_factor(r) * flow.strain_rate();

@@ -6,6 +6,7 @@ use rayon::prelude::*;
 use shearbed::observable::Channel;
 use shearbed::plan::Plan;
 use shearbed::run::run_replica;
+use shearbed::scene::Output;
 use shearbed::{Observable, Scene};
 
 /// A place on a curve of the model.
@@ -49,7 +50,7 @@ pub(super) fn run(scene: &Scene, places: &[MeasuredAt], replicas: u64, finer: u6
     scene.time.duration = ((last * per_period as f64).ceil() + 1.0) / per_period as f64;
     scene.time.outputs_per_unit = Some(per_period);
     scene.time.steps_per_unit = Some(per_period * finer);
-    scene.output.observables = vec![Observable::Projections];
+    scene.output = Output { observables: vec![Observable::Projections], ..Output::default() };
     let plan = Plan::new(&scene).map_err(|invalid| invalid.to_string())?;
     let rows = (0..replicas)
         .into_par_iter()

@@ -11,7 +11,7 @@ pub fn channel(column: &str) -> String {
 pub fn time(column: &str) -> String {
     match column {
         "t_over_T" => "t/T",
-        "t_s" => "t (s)",
+        "t_s" | "time_s" => "t (s)",
         "strain" => "strain Gt",
         other => other,
     }

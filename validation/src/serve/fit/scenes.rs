@@ -11,7 +11,7 @@ use crate::methods::least_squares::emulator::{Part, Prediction, Replica};
 use crate::serve::sweep::{self, KeyValue};
 use shearbed::observable::Channel;
 use shearbed::run::run_replica;
-use shearbed::scene::{Holds, keys};
+use shearbed::scene::{Holds, Output, keys};
 use shearbed::{Observable, Plan, Scene};
 use toml::Value;
 
@@ -219,11 +219,11 @@ impl Scenes {
         let last = here.map(|datum| (datum.time + OUTER * datum.u_time) / per_unit).fold(0.0, f64::max);
         // One output more than the last point needs, for the cubic interpolation.
         let kinked = scene.interaction.is_none() && scene.particles.common_start_deg().is_some();
-        let by_strain = scene.time.unit == shearbed::scene::TimeUnit::Strain;
-        let outputs = match (&scene.interaction, by_strain) {
+        let by_period = scene.time.unit == shearbed::scene::TimeUnit::Period;
+        let outputs = match (&scene.interaction, by_period) {
             (Some(_), _) => self.steps[set],
-            (None, true) => (scene.outputs_per_unit()).max(if kinked { KINKED / 10 } else { PER_STRAIN }),
-            (None, false) => self.steps[set].max(if kinked { KINKED } else { 1 }),
+            (None, false) => (scene.outputs_per_unit()).max(if kinked { KINKED / 10 } else { PER_STRAIN }),
+            (None, true) => self.steps[set].max(if kinked { KINKED } else { 1 }),
         };
         scene.time.duration = ((last * outputs as f64).ceil() + 1.0) / outputs as f64;
         scene.time.outputs_per_unit = Some(outputs);
@@ -236,8 +236,8 @@ impl Scenes {
             let mut channels = observable.channels();
             channels.any(|channel| data.iter().any(|datum| datum.set == set && datum.column == channel.name()))
         };
-        scene.output.observables = Observable::ALL.into_iter().filter(needed).collect();
-        scene.output.drop_rods();
+        let observables = Observable::ALL.into_iter().filter(needed).collect();
+        scene.output = Output { observables, ..Output::default() };
         Plan::new(&scene).map_err(|error| refused(error.to_string()))
     }
 

@@ -70,7 +70,7 @@ impl Motion {
 
     /// The map over a time, with determinant 1 in an incompressible flow; `None` if it is not finite.
     pub fn map(&self, time_s: f64) -> Option<Matrix3<f64>> {
-        let (map, _) = self.0.map(Span::Seconds(time_s))?;
+        let (map, _) = self.0.map(Span::Seconds(time_s, 1.0))?;
         unimodular(map)
     }
 }

@@ -57,6 +57,7 @@ impl Job {
             Time { steps_per_unit: Some(steps_per_period), outputs_per_unit: Some(1), ..Time::periods(periods as f64) };
         scene.set_count(rods);
         scene.output.drop_rods();
+        scene.output.times.clear();
         Self { scene, replicas, marks: (1..=periods).map(|period| period * steps_per_period).collect(), followed: 0 }
     }
 
