@@ -67,7 +67,7 @@ fn a_box_of_equal_sides_is_the_cube() {
 fn boxes_and_lengths_that_cannot_be_are_refused() {
     let length = "length_mm = 0.72";
     for (interaction, why) in [
-        ("m = 3", "concentration_per_cm3 or box_mm must be given"),
+        ("m = 3", "concentration_per_cm3, box_mm or particles.volume_fraction must be given"),
         ("concentration_per_cm3 = 1002\nbox_mm = [12, 5, 5]", "300 rods in [12.0, 5.0, 5.0] mm are 1000 per cm³"),
         ("box_mm = [12, 5]", "[H1, H2, H3], three finite numbers > 0"),
         ("box_mm = [12, 5, 5, 5]", "[H1, H2, H3], three finite numbers > 0"),

@@ -103,8 +103,13 @@ fn check_motion(scene: &Scene) -> Result<(), Invalid> {
         let d_r = scene.particles.rotary_diffusion_per_s;
         return Err(Invalid::new("particles.rotary_diffusion_per_s", d_r, allowed));
     }
-    if let Some(interaction) = &scene.interaction {
-        check_interaction(scene, interaction, &flow)?;
+    match (&scene.interaction, scene.particles.volume_fraction) {
+        (Some(interaction), _) => check_interaction(scene, interaction, &flow)?,
+        (None, Some(fraction)) => {
+            let allowed = "free rods fill no volume: give [interaction], with alpha = 0 for rods that do not collide";
+            return Err(Invalid::new("particles.volume_fraction", fraction, allowed));
+        }
+        (None, None) => (),
     }
     time::check_time(scene, &flow)?;
     check_rods_outputs(scene)?;
@@ -169,10 +174,17 @@ fn refused_gradient(scene: &Scene, allowed: &str) -> Invalid {
 
 fn check_interaction(scene: &Scene, interaction: &Interaction, flow: &VelocityGradient) -> Result<(), Invalid> {
     let (given, of_box) = (interaction.concentration_per_cm3, interaction.box_mm);
+    if let Some(fraction) = scene.particles.volume_fraction {
+        let others = [("concentration_per_cm3", given.is_some()), ("box_mm", of_box.is_some())];
+        if let Some((other, _)) = others.into_iter().find(|(_, given)| *given) {
+            let allowed = format!("either it or interaction.{other}, not both");
+            return Err(Invalid::new("particles.volume_fraction", fraction, allowed));
+        }
+    }
     let (Some(n), Some(volume)) = (scene.concentration_per_cm3(), scene.volume()) else {
         return Err(Invalid::missing(
             "interaction.concentration_per_cm3",
-            "concentration_per_cm3 or box_mm must be given",
+            "concentration_per_cm3, box_mm or particles.volume_fraction must be given",
         ));
     };
     if let (Some(given), Some(sides)) = (given, of_box)
@@ -198,8 +210,8 @@ fn check_interaction(scene: &Scene, interaction: &Interaction, flow: &VelocityGr
                  numbers > 0",
             ),
             None => Invalid::new(
-                "interaction.concentration_per_cm3",
-                n,
+                scene.concentration_key(),
+                scene.particles.volume_fraction.unwrap_or(n),
                 "expected a number for which the control volume's side (N/(n a³))^⅓ is a finite number > 0",
             ),
         });

@@ -110,7 +110,7 @@ table! {
     /// assert_eq!((crowded.alpha, crowded.m), (0.5, 3.0));
     /// ```
     pub struct Interaction in "interaction" {
-        concentration_per_cm3: Option<f64> = Some(50.0), "1/cm³", Holds::Positive, Other("box_mm"),
+        concentration_per_cm3: Option<f64> = Some(50.0), "1/cm³", Holds::Positive, Other("box_mm or particles.volume_fraction"),
             "n, rods per volume";
         box_mm: Option<[f64; 3]> = None, "mm", Holds::Sides, Other("a cube"),
             "sides of the control volume along the axes (eqs 12, 14): count and box give n; where it is given too, it \
@@ -233,14 +233,27 @@ impl Scene {
         self.interaction.as_ref()?.box_mm
     }
 
-    /// n, rods per cm³ of the control volume: as given, or from count and box; `None` for free rods.
+    /// n, rods per cm³ of the control volume: as given, from count and box, or from the volume fraction; `None` for free
+    /// rods.
     pub fn concentration_per_cm3(&self) -> Option<f64> {
         match self.box_mm() {
             Some(sides) => {
                 let cm3 = sides.map(|mm| mm / 10.0).iter().product::<f64>();
                 Some(self.particles.count as f64 / cm3)
             }
-            None => self.interaction.as_ref()?.concentration_per_cm3,
+            None => {
+                let given = self.interaction.as_ref()?.concentration_per_cm3;
+                given.or_else(|| Some(1e3 * self.particles.volume_fraction? / self.particles.spheroid_mm3()))
+            }
+        }
+    }
+
+    /// The key that gives the concentration of rods that may interact.
+    pub fn concentration_key(&self) -> &'static str {
+        match (self.box_mm(), self.particles.volume_fraction) {
+            (Some(_), _) => "interaction.box_mm",
+            (None, Some(_)) => "particles.volume_fraction",
+            (None, None) => "interaction.concentration_per_cm3",
         }
     }
 

@@ -7,6 +7,7 @@ use super::read::Reader;
 use crate::model::shape::{ALLOWED, Correlation};
 use crate::model::stress::Body;
 use serde::{Deserialize, Serialize};
+use std::f64::consts::PI;
 use std::sync::Arc;
 
 table! {
@@ -25,6 +26,9 @@ table! {
         length_sd_percent: f64 = 0.0, "%", Holds::NotNegative, Otherwise("0"),
             "standard deviation of a Gaussian length, in percent of its mean; below 33.3333",
             unwritten if |particles: &Particles| particles.length_sd_percent == 0.0;
+        volume_fraction: Option<f64> = None, "", Holds::Between { least: 1e-100, most: 1.0 },
+            Other("concentration_per_cm3 or box_mm"),
+            "n times the volume π a³/(6 r_e²) of a spheroid of length a and diameter a/r_e, mean r_e and a³";
         aspect_ratio: f64 = 11.6, "", Holds::Between { least: 1e-100, most: 1e100 }, Other("physical_aspect_ratio"),
             "r_e, or its mean; below 1 a disc; interacting rods need more than 1",
             unwritten if |particles: &Particles| particles.physical_aspect_ratio.is_some();
@@ -76,6 +80,12 @@ impl Particles {
             }
             None => 1.0 + 3.0 * (self.length_sd_percent / 100.0).powi(2),
         }
+    }
+
+    /// The mean volume in mm³ of spheroids with the rods' lengths and their mean r_e, π⟨a³⟩/(6 r_e²).
+    pub(crate) fn spheroid_mm3(&self) -> f64 {
+        let diameter = self.length_mm / self.mean_aspect_ratio();
+        PI / 6.0 * self.length_mm * diameter.powi(2) * self.mean_cube()
     }
 
     /// The rods' body for stresses: a cylinder if its length over diameter is given, else a spheroid.

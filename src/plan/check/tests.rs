@@ -130,3 +130,57 @@ fn a_start_has_length_1_to_a_few_roundings() {
         assert!(refusal.contains("rod 1 has p1² + p2² + p3² = "), "{length}: {refusal}");
     }
 }
+
+/// The rods' volume over that of the box is the given fraction, whatever their sizes.
+#[test]
+fn a_volume_fraction_is_the_volume_of_spheroids_over_that_of_the_box() {
+    let scene = |change: fn(&mut Scene)| {
+        let mut scene = Scene::default();
+        scene.particles.count = 4;
+        scene.particles.volume_fraction = Some(0.002);
+        scene.interaction = Some(Interaction { concentration_per_cm3: None, ..Interaction::default() });
+        change(&mut scene);
+        scene
+    };
+    let lengths = [0.3, 0.5, 0.72, 1.36];
+    let of_file = |scene: &mut Scene| {
+        let own = OwnRods {
+            length_mm: Some(vec![0.3, 0.5, 0.72, 1.36]),
+            aspect_ratio: Some(vec![5.0, 7.0, 20.0, 4.0]),
+            ..OwnRods::default()
+        };
+        scene.particles.rods = Some(RodsFile::with("four.csv", own));
+    };
+    for (scene, cubes, r) in [
+        (scene(|_| ()), 4.0 * 0.72f64.powi(3), 11.6),
+        (scene(|scene| scene.particles.length_sd_percent = 20.0), 4.0 * 1.12 * 0.72f64.powi(3), 11.6),
+        (scene(of_file), lengths.map(|a: f64| a.powi(3)).iter().sum(), 9.0),
+    ] {
+        let plan = crate::Plan::new(&scene).unwrap();
+        let box_mm3: f64 = plan.scene().sides_mm().unwrap().iter().product();
+        let rods_mm3 = std::f64::consts::PI / 6.0 * cubes / (r * r);
+        assert!((rods_mm3 / box_mm3 / 0.002 - 1.0).abs() < 1e-12, "{rods_mm3} in {box_mm3}");
+        // The same n, given as such.
+        let mut same = scene.clone();
+        let n = same.concentration_per_cm3();
+        same.particles.volume_fraction = None;
+        same.interaction.as_mut().unwrap().concentration_per_cm3 = n;
+        assert_eq!(same.sides_mm(), scene.sides_mm());
+    }
+    for (change, told) in [
+        (
+            (|scene| scene.interaction = Some(Interaction::default())) as fn(&mut Scene),
+            "particles.volume_fraction = 0.002 is not allowed: either it or interaction.concentration_per_cm3, not both",
+        ),
+        (|scene| scene.interaction.as_mut().unwrap().box_mm = Some([9.0; 3]), "either it or interaction.box_mm"),
+        (|scene| scene.interaction = None, "free rods fill no volume: give [interaction]"),
+        (|scene| scene.particles.volume_fraction = Some(1.5), "expected a number from 1e-100 to 1e0"),
+        (
+            |scene| scene.particles.length_mm = 1e-110,
+            "particles.volume_fraction = 0.002 is not allowed: expected a number for which",
+        ),
+    ] {
+        let told_of = refusal(&scene(change));
+        assert!(told_of.contains(told), "{told_of}");
+    }
+}

@@ -7,6 +7,9 @@ use shearbed::motion::Propagator;
 use shearbed::scene::TimeUnit;
 use shearbed_validation::files::text::four_decimals;
 
+/// The key that is n itself.
+const GIVES_N: &str = "interaction.concentration_per_cm3";
+
 /// Properties of a scene in numbers; null if a property does not exist.
 #[derive(Serialize)]
 pub(super) struct Facts {
@@ -18,7 +21,7 @@ pub(super) struct Facts {
     shape_factor: f64,
     /// n⟨a³⟩ with the full length a, for interacting rods.
     n_a3: Option<f64>,
-    /// n from the number of rods and the box, if a box is given.
+    /// n, if a box or a volume fraction is given.
     #[serde(skip_serializing_if = "Option::is_none")]
     concentration_per_cm3: Option<f64>,
     /// `dilute`, `semi-dilute` or `concentrated`.
@@ -59,7 +62,7 @@ impl Facts {
             // r² would be infinite for long rods, so numerator and denominator are divided by r.
             shape_factor: (r - 1.0 / r) / (r + 1.0 / r),
             n_a3,
-            concentration_per_cm3: scene.box_mm().and(scene.concentration_per_cm3()),
+            concentration_per_cm3: scene.concentration_per_cm3().filter(|_| scene.concentration_key() != GIVES_N),
             regime: n_a3.map(|n_a3| regime(n_a3, r)),
             equivalent: scene.particles.shape_correlation.map(|correlation| Equivalent {
                 aspect_ratio: r,
@@ -77,8 +80,7 @@ impl Facts {
         parts.extend(self.period_s.map(|period| format!("T = {} s", four_decimals(period))));
         parts.extend(self.strain_per_step.map(|strain| format!("GΔt = {}", four_decimals(strain))));
         parts.push(format!("Λ = {:.6}", self.shape_factor));
-        let of_box = self.concentration_per_cm3;
-        parts.extend(of_box.map(|n| format!("n = {} per cm³", four_decimals(n))));
+        parts.extend(self.concentration_per_cm3.map(|n| format!("n = {} per cm³", four_decimals(n))));
         let dilute = self.n_a3.zip(self.regime);
         parts.extend(dilute.map(|(n_a3, regime)| format!("n a³ = {n_a3:.3e} ({regime})")));
         parts.extend(self.equivalent.as_ref().map(|found| {
@@ -111,13 +113,10 @@ pub(super) fn warnings(plan: &Plan) -> Vec<String> {
     if let Some((n_a3, regime)) = facts.n_a3.zip(facts.regime).filter(|(n_a3, _)| *n_a3 >= 1.0) {
         let shown = if n_a3 < 1e4 { format!("{n_a3:.3}") } else { format!("{n_a3:.3e}") };
         let scene = plan.scene();
-        let volume = match scene.box_mm() {
-            Some(_) => "box_mm",
-            None => "concentration_per_cm3",
-        };
+        let volume = scene.concentration_key();
         let lengths = if scene.particles.rods.is_some() { "rods" } else { "length_mm" };
         warnings.push(format!(
-            "interaction.{volume} and particles.{lengths} give n a³ = {shown}: {regime}. The model is for dilute \
+            "{volume} and particles.{lengths} give n a³ = {shown}: {regime}. The model is for dilute \
              suspensions, n a³ < 1, in which two rods meet at a time"
         ));
     }

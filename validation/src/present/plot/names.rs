@@ -26,6 +26,7 @@ fn letter(key: &str) -> (&str, &'static str) {
         "interaction.concentration_per_cm3" => ("n", "cm⁻³"),
         "particles.aspect_ratio" => ("r_e", ""),
         "particles.aspect_ratio_sd_percent" => ("spread of r_e", "%"),
+        "particles.volume_fraction" => ("volume fraction", ""),
         "particles.count" => ("N", ""),
         "particles.length_mm" => ("a", "mm"),
         "flow.shear_rate_per_s" => ("G", "s⁻¹"),

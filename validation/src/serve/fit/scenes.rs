@@ -145,9 +145,11 @@ impl Scenes {
     pub fn at_concentration(&self, factor: f64, values: &[f64]) -> Result<(Self, Vec<Option<f64>>), SceneError> {
         const KEY: &str = "interaction.concentration_per_cm3";
         const BOX: &str = "interaction.box_mm";
+        const FRACTION: &str = "particles.volume_fraction";
         let (mut scenes, mut all) = (self.clone(), Vec::new());
         for set in 0..self.sets.len() {
-            let fitted = (self.ranges.iter()).any(|range| range.is_of(set) && range.key == KEY);
+            let fitted =
+                (self.ranges.iter()).any(|range| range.is_of(set) && [KEY, FRACTION].contains(&&range.key[..]));
             let scene = self.scene(set, values)?;
             let own = scene.concentration_per_cm3().filter(|_| !fitted);
             let concentration = own.map(|own| factor * own);
@@ -157,7 +159,8 @@ impl Scenes {
                 let sides = sides.map(|sides| Value::Array(sides.map(side).to_vec()));
                 let given = interaction.concentration_per_cm3.map(|_| Value::Float(value));
                 let settings = &mut scenes.sets[set].settings;
-                for (key, value) in [(KEY, given), (BOX, sides)] {
+                let fraction = scene.particles.volume_fraction.map(|fraction| Value::Float(factor * fraction));
+                for (key, value) in [(KEY, given), (BOX, sides), (FRACTION, fraction)] {
                     settings.retain(|setting| setting.key != key);
                     let key = key.to_owned();
                     settings.extend(value.map(|value| KeyValue { key, value }));
