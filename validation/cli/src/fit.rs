@@ -6,7 +6,7 @@ mod shifts;
 mod terminal;
 
 use super::{
-    Failure, Threads, Writing, on_threads, print, progress, restart, result_folder, scene, spares_inputs, whole,
+    Failure, Threads, Writing, number, on_threads, print, progress, restart, result_folder, scene, spares_inputs, whole,
 };
 use advice::{UContains, of_fit, of_scene, of_warning};
 use input::{Input, input};
@@ -51,6 +51,12 @@ pub(super) struct Args {
     /// those of one set
     #[arg(long, value_name = "FILE.csv", required = true)]
     data: Vec<OsString>,
+    /// One standard uncertainty for all points, for files without columns x1_u, …
+    #[arg(long, value_name = "X", value_parser = positive, allow_negative_numbers = true)]
+    u: Option<f64>,
+    /// The files' columns in their order, - for one to leave out: t_s,-,x1,x1_u
+    #[arg(long, value_name = "NAMES", value_delimiter = ',', allow_hyphen_values = true)]
+    columns: Option<Vec<String>>,
     /// A key of the scene to fit, and the range to look in; up to three times. SET:KEY=FROM:TO: a value of its own for
     /// the scene of the first, second, … --data
     #[arg(long, value_name = "[SET:]KEY=FROM:TO", required = true, value_parser = advice::range)]
@@ -232,11 +238,21 @@ fn asked(args: &Args, input: &Input) -> Result<Value, Failure> {
         "u_contains": args.u_contains.map(Contents::from),
         "most_replicas": args.replicas,
     });
-    // Without tests the record is the same as before `--test` existed.
+    // Without these flags the record is the same as before they existed.
     if !args.test.is_empty() {
         asked["test"] = json!(args.test.iter().map(Hypothesis::text).collect::<Vec<_>>());
     }
+    if let Some(u) = args.u {
+        asked["u"] = json!(u);
+    }
+    if let Some(columns) = &args.columns {
+        asked["columns"] = json!(columns);
+    }
     Ok(asked)
+}
+
+fn positive(text: &str) -> Result<f64, String> {
+    number(text, |number| number > 0.0 && number.is_finite(), "a finite number > 0")
 }
 
 /// The text of `fit.json`.

@@ -39,6 +39,18 @@ struct Mirror {
     concentration_per_cm3: f64,
 }
 
+/// α where 0.5 at 50 rods per cm³ should give the same: at 400, and for half the length.
+#[derive(Clone, Copy)]
+struct OneLength {
+    alpha_of_dense: f64,
+    alpha_of_short: f64,
+    min_contact_arm: f64,
+    box_mm: Option<[f64; 3]>,
+}
+
+const ONE_LENGTH: OneLength =
+    OneLength { alpha_of_dense: 0.25, alpha_of_short: 1.0, min_contact_arm: 0.0, box_mm: None };
+
 pub fn cases() -> Vec<Case> {
     vec![
         Case::core("symmetries")
@@ -54,6 +66,18 @@ pub fn cases() -> Vec<Case> {
             .mistake("turned round axis 3, not head to tail", Mapping { tail_deg: [205.0, 70.0], ..SYMMETRIC })
             .mistake("the flow mirrored, the rods not", Mapping { mirrored_phi_deg: 25.0, ..SYMMETRIC })
             .check(symmetries),
+        Case::core("one-length-scale")
+            .claim(
+                "Rods of one length, in the cube of their concentration and with contacts at any arm, know one length: \
+                 α a n^(1/3). 8 times the concentration at half of α, or half the length at twice α, change no bit.",
+            )
+            .source("eq. 7")
+            .under_test(ONE_LENGTH)
+            .mistake("α scaled by n, not by its cube root", OneLength { alpha_of_dense: 0.0625, ..ONE_LENGTH })
+            .mistake("α not scaled with the length", OneLength { alpha_of_short: 0.5, ..ONE_LENGTH })
+            .mistake("contacts end at a tenth of a rod's length", OneLength { min_contact_arm: 0.1, ..ONE_LENGTH })
+            .mistake("a box that keeps its size", OneLength { box_mm: Some([12.0; 3]), ..ONE_LENGTH })
+            .check(one_length),
         Case::core("mirrored-flow")
             .claim("Interacting rods in the mirrored flow have the same mean projections in law.")
             .source("eqs 3, 14")
@@ -148,6 +172,26 @@ fn relabelled(directions_too: bool, effort: &Effort) -> f64 {
     let (forth, back) = (first.directions(), second.directions());
     let distances = forth.iter().zip(back.iter().rev()).map(|(a, b)| (a - b).norm());
     distances.fold(0.0, larger) + if first.counters().collisions > 0 { 0.0 } else { f64::NAN }
+}
+
+fn one_length(given: &OneLength, effort: &Effort) -> Vec<Evidence> {
+    let scene = |alpha, per_cm3, share: f64| {
+        let mut scene = lab::interacting_scene(effort);
+        scene.particles.length_mm *= share;
+        let interaction = lab::interaction(&mut scene);
+        (interaction.alpha, interaction.min_contact_arm) = (alpha, given.min_contact_arm);
+        interaction.concentration_per_cm3 = Some(per_cm3);
+        if let Some(sides) = given.box_mm {
+            lab::set_box_mm(&mut scene, sides);
+        }
+        scene
+    };
+    let base = scene(0.5, 50.0, 1.0);
+    let (dense, short) = (scene(given.alpha_of_dense, 400.0, 1.0), scene(given.alpha_of_short, 50.0, 0.5));
+    vec![
+        Evidence::exact("400 rods per cm³ at α = 0.25", difference(&dense, &base)),
+        Evidence::exact("half the length at α = 1", difference(&short, &base)),
+    ]
 }
 
 fn mirrored(mirror: &Mirror, effort: &Effort) -> Vec<Evidence> {

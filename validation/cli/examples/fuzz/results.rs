@@ -20,7 +20,7 @@ pub fn fits() -> Target {
         ],
         take: Box::new(|folder, files| {
             put(folder, files)?;
-            match data::read(&folder.join("a.csv"), 0) {
+            match data::read(&folder.join("a.csv"), 0, &data::Reading::default()) {
                 Ok(points) => Taken::if_finite(
                     (points.points.iter())
                         .all(|p| [p.time, p.u_time, p.value, p.u].iter().all(|x| x.is_finite()) && p.u > 0.0),

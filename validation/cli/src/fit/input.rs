@@ -11,7 +11,7 @@ use shearbed_validation::files::text::line;
 use shearbed_validation::methods::least_squares::Datum;
 use shearbed_validation::methods::least_squares::basis::MOST_PARAMETERS;
 use shearbed_validation::serve::fit::Range;
-use shearbed_validation::serve::fit::data::{self, MOST_POINTS, TimeColumn};
+use shearbed_validation::serve::fit::data::{self, MOST_POINTS, Reading, TimeColumn};
 use shearbed_validation::serve::fit::error::SceneError;
 use shearbed_validation::serve::fit::scenes::{AS_WRITTEN, Scenes, Set};
 use shearbed_validation::serve::sweep;
@@ -71,6 +71,7 @@ pub(super) fn input(args: &Args) -> Result<Input, Failure> {
     }
     let (mut sets, mut data, mut names, mut files) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
     let mut stem = String::new();
+    let reading = Reading { columns: args.columns.clone(), u: args.u };
     for (k, given) in args.data.iter().enumerate() {
         let (scene, path) = scene_and_file(&args.scene, given);
         let named = scene::load(scene, Vec::new())?;
@@ -81,7 +82,13 @@ pub(super) fn input(args: &Args) -> Result<Input, Failure> {
                 path.shown()
             )));
         }
-        let points = data::read(path, k).map_err(|error| Failure::Input(error.to_string()))?;
+        let points = data::read(path, k, &reading).map_err(|error| Failure::Input(error.to_string()))?;
+        if let (Some(u), Some(column)) = (args.u, &points.u_column) {
+            return Err(Failure::Input(format!(
+                "--u {u}: {} has uncertainties of its own, in the column {column}; either these or --u are allowed",
+                path.shown()
+            )));
+        }
         within_scene(&named, args, points.time, &points.points, path)?;
         if k == 0 {
             stem.clone_from(&named.stem);
@@ -137,6 +144,7 @@ pub(super) fn input(args: &Args) -> Result<Input, Failure> {
     }
     let refused = |error: SceneError| Failure::Input(of_scene(&error));
     let scenes = Scenes::new(sets, args.over.clone()).map_err(refused)?;
+    scenes.one_length(&data).map_err(refused)?;
     let ends = [|range: &Range| range.from, |range: &Range| range.to];
     for values in ends.map(|end| args.over.iter().map(end).collect::<Vec<f64>>()) {
         for plan in scenes.plans(&values, &data, AS_WRITTEN).map_err(refused)? {

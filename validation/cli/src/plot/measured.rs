@@ -5,14 +5,14 @@ use crate::Failure;
 use shearbed::Plan;
 use shearbed_validation::files::text::Shown;
 use shearbed_validation::present::plot::{MEASURED, Points, names};
-use shearbed_validation::serve::fit::data;
+use shearbed_validation::serve::fit::data::{self, Reading};
 use std::path::Path;
 
 /// The points of a channel, with times in the unit of the runs, of which there is at least one, and with bars of one
 /// standard uncertainty.
 pub(super) fn points(path: &Path, runs: &[Run], channel: &str) -> Result<Points, Failure> {
     let at = |what: String| Failure::Input(format!("--data {}: {what}", path.shown()));
-    let read = data::read(path, 0).map_err(|error| Failure::Input(error.to_string()))?;
+    let read = data::read(path, 0, &Reading::default()).map_err(|error| Failure::Input(error.to_string()))?;
     let unit = |run: &Run| {
         let plan = Plan::new(&run.scene).map_err(|error| at(error.to_string()))?;
         read.time.per_unit(&plan).ok_or_else(|| {

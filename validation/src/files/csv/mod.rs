@@ -105,7 +105,12 @@ pub struct Table<R> {
     /// The line of the header.
     line: u64,
     names: Vec<String>,
+    /// The first line, if it is a row.
+    first: Option<(u64, Vec<String>)>,
 }
+
+/// The name of a column to leave out, which several columns may have.
+pub const LEFT_OUT: &str = "-";
 
 impl<R: BufRead> Table<R> {
     /// Reads the header; `path` is for messages.
@@ -114,13 +119,36 @@ impl<R: BufRead> Table<R> {
     ///
     /// An empty file, other separators than commas, a comment, a column that is there twice.
     pub fn new(path: &Path, reader: R) -> Result<Self, FileError> {
+        Self::named(path, reader, None)
+    }
+
+    /// Like [`Table::new`], with `given` names in the order of the columns in place of the header's, [`LEFT_OUT`] for
+    /// one to leave out. A first line of numbers is then a row.
+    ///
+    /// # Errors
+    ///
+    /// As of [`Table::new`], and more or fewer names than columns.
+    pub fn named(path: &Path, reader: R, given: Option<&[String]>) -> Result<Self, FileError> {
         let mut rows = Rows::new(path, reader);
-        let (line, names) = rows.read(true)?.ok_or_else(|| FileError::line(path, 1, EMPTY))?;
-        let table = Self { rows, line, names };
+        let (line, cells) = rows.read(true)?.ok_or_else(|| FileError::line(path, 1, EMPTY))?;
+        let table = match given {
+            None => Self { rows, line, names: cells, first: None },
+            Some(given) => {
+                let (found, due) = (cells.len(), given.len());
+                let is_row = cells.iter().all(|cell| cell.is_empty() || number(cell).is_some());
+                let first = is_row.then_some((line, cells));
+                let table = Self { rows, line, names: given.to_vec(), first };
+                if found != due {
+                    return Err(table.error(format!("{found} cells where {due} columns are named")));
+                }
+                table
+            }
+        };
         if table.names[0].starts_with('#') {
             return Err(table.error("comments are not read here: the first line has the names of the columns"));
         }
-        let twice = (1..table.names.len()).find(|k| table.names[..*k].contains(&table.names[*k]));
+        let left_out = |k: usize| given.is_some() && table.names[k] == LEFT_OUT;
+        let twice = (1..table.names.len()).find(|k| !left_out(*k) && table.names[..*k].contains(&table.names[*k]));
         match twice {
             Some(k) => {
                 let name = start(&table.names[k], 40);
@@ -156,7 +184,10 @@ impl<R: BufRead> Table<R> {
     ///
     /// A row with more or fewer cells than the header.
     pub fn next_row(&mut self) -> Result<Option<Row<'_>>, FileError> {
-        let Some((line, cells)) = self.rows.read(false)? else { return Ok(None) };
+        let first = self.first.take();
+        let Some((line, cells)) = first.map_or_else(|| self.rows.read(false), |row| Ok(Some(row)))? else {
+            return Ok(None);
+        };
         let row = Row { path: self.rows.0.path(), names: &self.names, line, cells };
         match (row.cells.len(), row.names.len()) {
             (found, due) if found != due => Err(row.error(format!("{found} cells; the header has {due}"))),

@@ -30,7 +30,7 @@ pub(super) fn read(path: &Path, source: &Source) -> Result<Vec<MeasuredCurve>, F
         Layout::WebPlotDigitizer => table::webplotdigitizer(&csv_path, &text)?,
         Layout::Columns => {
             let ys: Vec<_> = provenance.curves.iter().map(|key| column(&provenance, key)).collect();
-            table::columns(&csv_path, &text, provenance.x.quantity.column(), &ys)?
+            table::columns(&csv_path, &text, None, provenance.x.quantity.column(), &ys)?
         }
     };
     let axis = &provenance.x;

@@ -1,7 +1,7 @@
 //! The CSV file of measured points, in the project's columns or as WebPlotDigitizer exports it.
 
 use crate::files::FileError;
-use crate::files::csv::{self, Row, Rows, Table};
+use crate::files::csv::{self, LEFT_OUT, Row, Rows, Table};
 use std::path::Path;
 
 /// Points of one column or dataset, in the units of the file.
@@ -29,13 +29,22 @@ const MOST_LINES: u64 = 20_000;
 
 /// Reads the project's columns: `x`, each of `ys`, and their uncertainties `NAME_u` if given. A blank `y` was not
 /// measured; for a blank uncertainty that of the provenance file applies.
-pub(crate) fn columns(path: &Path, text: &str, x: &str, ys: &[String]) -> Result<Vec<Dataset>, FileError> {
-    let mut table = Table::new(path, text.as_bytes())?;
+///
+/// `given` are names in place of those in the file.
+pub(crate) fn columns(
+    path: &Path,
+    text: &str,
+    given: Option<&[String]>,
+    x: &str,
+    ys: &[String],
+) -> Result<Vec<Dataset>, FileError> {
+    let mut table = Table::named(path, text.as_bytes(), given)?;
+    let left_out = |name: &str| given.is_some() && name == LEFT_OUT;
     let known: Vec<String> = std::iter::once(x)
         .chain(ys.iter().map(String::as_str))
         .flat_map(|name| [name.to_owned(), format!("{name}_u")])
         .collect();
-    if let Some(name) = table.names().iter().find(|name| !known.contains(name)) {
+    if let Some(name) = table.names().iter().find(|name| !left_out(name) && !known.contains(name)) {
         let message = format!("column `{name}` is not in the provenance file: there are {}", known.join(", "));
         return Err(table.error(message));
     }

@@ -1,7 +1,7 @@
 //! Measured points from a CSV file, in the columns of `docs/src/reference/files.md`.
 
 use crate::files::FileError;
-use crate::files::csv::{Table, not_allowed};
+use crate::files::csv::{LEFT_OUT, Table, not_allowed};
 use crate::input::experiment::{read_text, table};
 use crate::methods::least_squares::Datum;
 use serde::Serialize;
@@ -60,6 +60,17 @@ pub struct Points {
     pub time: TimeColumn,
     /// The points, in the order of the columns, then of the lines.
     pub points: Vec<Datum>,
+    /// The first column of uncertainties of measured values.
+    pub u_column: Option<String>,
+}
+
+/// How a file of points is read.
+#[derive(Clone, Debug, Default)]
+pub struct Reading {
+    /// Names of the columns in the order of the file, in place of its own; `-` leaves one out.
+    pub columns: Option<Vec<String>>,
+    /// The uncertainty of each point of a file without a column of uncertainties.
+    pub u: Option<f64>,
 }
 
 /// Every column that can be measured: the channels of all observables.
@@ -67,11 +78,12 @@ fn measurable() -> Vec<String> {
     Observable::ALL.iter().flat_map(|observable| observable.channels()).map(Channel::name).collect()
 }
 
-/// Reads the file `path` as data set number `set`. Every point needs an uncertainty `NAME_u`; blank points were not
-/// measured.
-pub fn read(path: &Path, set: usize) -> Result<Points, FileError> {
+/// Reads the file `path` as data set number `set`. Every point needs an uncertainty, `NAME_u` or that of `reading`; blank
+/// points were not measured.
+pub fn read(path: &Path, set: usize, reading: &Reading) -> Result<Points, FileError> {
     let text = read_text(path)?;
-    let head = Table::new(path, text.as_bytes())?;
+    let given = reading.columns.as_deref();
+    let head = Table::named(path, text.as_bytes(), given)?;
     let header: Vec<&str> = head.names().iter().map(String::as_str).collect();
     let refused = |message: String| head.error(message);
     let times = TimeColumn::ALL.map(TimeColumn::name).join(", ");
@@ -97,7 +109,9 @@ pub fn read(path: &Path, set: usize) -> Result<Points, FileError> {
     };
     let known = measurable();
     let mut columns: Vec<String> = Vec::new();
-    for name in &header {
+    let left_out = |name: &&&str| given.is_some() && **name == LEFT_OUT;
+    let mut u_column = None;
+    for name in header.iter().filter(|name| !left_out(name)) {
         let (value, is_uncertainty) = match name.strip_suffix("_u") {
             Some(value) => (value, true),
             None => (*name, false),
@@ -119,21 +133,23 @@ pub fn read(path: &Path, set: usize) -> Result<Points, FileError> {
                  (phi, c_b, a11, …), and after a name `_u` for its uncertainty"
             )));
         }
-        if !is_uncertainty {
-            columns.push(value.to_owned());
+        match is_uncertainty {
+            true => u_column = u_column.or_else(|| Some((*name).to_owned())),
+            false => columns.push(value.to_owned()),
         }
     }
     if columns.is_empty() {
         return Err(refused("no column of measured values; x1, x2, x3 … are allowed".into()));
     }
-    if let Some(bare) = columns.iter().find(|name| !header.contains(&format!("{name}_u").as_str())) {
+    let bare = |name: &&String| reading.u.is_none() && !header.contains(&format!("{name}_u").as_str());
+    if let Some(bare) = columns.iter().find(bare) {
         return Err(refused(format!("column {bare}_u is missing: one standard deviation of each {bare} is needed")));
     }
     let mut points = Vec::new();
-    for dataset in table::columns(path, &text, time.name(), &columns)? {
+    for dataset in table::columns(path, &text, given, time.name(), &columns)? {
         for row in dataset.rows {
             let refused = |message: String| FileError::line(path, row.line, message);
-            let u = row.u_y.ok_or_else(|| {
+            let u = row.u_y.or(reading.u).ok_or_else(|| {
                 refused(format!("column {}_u is blank: one standard deviation, a number > 0, is needed", dataset.name))
             })?;
             if row.x < 0.0 {
@@ -149,7 +165,8 @@ pub fn read(path: &Path, set: usize) -> Result<Points, FileError> {
                 let (name, width) = (&dataset.name, most - least);
                 let expected =
                     format!("one standard deviation from {LEAST_U:?} to {width}, the width of what {name} can be");
-                return Err(refused(not_allowed(&format!("{name}_u"), &format!("{u:?}"), &expected)));
+                let whose = row.u_y.map_or(format!("{name}, its uncertainty"), |_| format!("{name}_u"));
+                return Err(refused(not_allowed(&whose, &format!("{u:?}"), &expected)));
             }
             points.push(Datum {
                 set,
@@ -163,7 +180,7 @@ pub fn read(path: &Path, set: usize) -> Result<Points, FileError> {
         }
     }
     check(path, &points)?;
-    Ok(Points { time, points })
+    Ok(Points { time, points, u_column })
 }
 
 /// The smallest standard deviation of a point.
@@ -214,10 +231,14 @@ mod tests {
     use std::fs;
 
     fn read_of(text: &str) -> Result<Points, String> {
+        read_as(text, &Reading::default())
+    }
+
+    fn read_as(text: &str, reading: &Reading) -> Result<Points, String> {
         let dir = tempfile::tempdir().unwrap();
         let path = dir.path().join("points.csv");
         fs::write(&path, text).unwrap();
-        read(&path, 3).map_err(|error| error.to_string())
+        read(&path, 3, reading).map_err(|error| error.to_string())
     }
 
     #[test]
@@ -232,6 +253,39 @@ mod tests {
         assert_eq!(short, expected);
         assert!(found.points.iter().all(|point| point.set == 3));
         assert_eq!(read_of("strain,phi,phi_u\n1,0.7,0.1\n").unwrap().time, TimeColumn::Strain);
+    }
+
+    /// Names of one's own, with or without a header, and one uncertainty for all points, say what the same columns in
+    /// the file would.
+    #[test]
+    fn names_and_an_uncertainty_can_be_given_beside_the_file() {
+        let reading = |names: &str, u: Option<f64>| {
+            let columns = (!names.is_empty()).then(|| names.split(',').map(str::to_owned).collect());
+            Reading { columns, u }
+        };
+        let expected = read_of("t_s,x1,x1_u\n1,0.5,0.02\n2,0.4,0.02\n").unwrap();
+        assert_eq!(expected.u_column.as_deref(), Some("x1_u"));
+        for (text, names, u) in [
+            ("t_s,x1\n1,0.5\n2,0.4\n", "", Some(0.02)),
+            ("time,X,X\n1,0.5,7\n2,0.4,8\n", "t_s,x1,-", Some(0.02)),
+            ("run,time,X,T,s\na,1,0.5,20,0.02\nb,2,0.4,21,0.02\n", "-,t_s,x1,-,x1_u", None),
+        ] {
+            let found = read_as(text, &reading(names, u)).unwrap();
+            assert_eq!((&found.points, found.u_column.is_some()), (&expected.points, u.is_none()), "{text}");
+        }
+        // Without a header, the first point is in the first line.
+        let found = read_as("0.5,0.5,1\n0.5,0.4,2\n", &reading("-,x1,t_s", Some(0.02))).unwrap();
+        assert!(found.points.iter().zip(&expected.points).all(|(a, b)| a.line + 1 == b.line && a.value == b.value));
+        for (text, names, u, told) in [
+            ("a,b,c\n1,2,3\n", "t_s,x1", None, "points.csv:1: 3 cells where 2 columns are named"),
+            ("a,b\n1,2\n", "t_s,x4", None, "column `x4` is not allowed"),
+            ("a,b,c\n1,2,3\n", "t_s,x1,x1", Some(0.1), "column `x1` is there twice"),
+            ("t_s,x1\n1,0.5\n", "", Some(1.5), "points.csv:2: column x1, its uncertainty: `1.5` is not allowed"),
+            ("t_s,-\n1,0.5\n", "", Some(0.1), "column `-` is not allowed"),
+        ] {
+            let error = read_as(text, &reading(names, u)).unwrap_err();
+            assert!(error.contains(told), "{error}");
+        }
     }
 
     /// What the program writes can be fitted.

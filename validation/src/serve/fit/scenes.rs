@@ -9,6 +9,7 @@ use crate::methods::interpolate::interpolate;
 use crate::methods::least_squares::Datum;
 use crate::methods::least_squares::emulator::{Part, Prediction, Replica};
 use crate::serve::sweep::{self, KeyValue};
+use nalgebra::DMatrix;
 use shearbed::observable::Channel;
 use shearbed::run::run_replica;
 use shearbed::scene::{Holds, Output, keys};
@@ -71,6 +72,30 @@ fn apart(scene: &Scene) -> Option<&'static str> {
     }
 }
 
+/// The keys of the one length of interacting rods, α·a·n^(1/3).
+const LENGTHS: [&str; 4] =
+    ["interaction.alpha", "interaction.concentration_per_cm3", "particles.length_mm", "particles.volume_fraction"];
+
+/// The power of a key of [`LENGTHS`] in α·a·n^(1/3); with a volume fraction n is ∝ 1/a³.
+fn exponent(scene: &Scene, range: &Range) -> f64 {
+    match range.key.as_str() {
+        "interaction.alpha" => 1.0,
+        "particles.length_mm" if scene.particles.volume_fraction.is_some() => 0.0,
+        "particles.length_mm" => 1.0,
+        _ => 1.0 / 3.0,
+    }
+}
+
+/// True if rods interact, and no length in the scene but the rods' own and their distance says anything.
+fn of_one_length(scene: &Scene) -> bool {
+    let own = scene.particles.rods.as_ref().and_then(|rods| rods.own.as_deref());
+    let placed = own.is_some_and(|own| own.length_mm.is_some() || own.place_mm.is_some());
+    let interaction = scene.interaction.as_ref();
+    interaction.is_some_and(|interaction| interaction.box_mm.is_none() && interaction.min_contact_arm == 0.0)
+        && scene.particles.length_sd_percent == 0.0
+        && !placed
+}
+
 /// √3: the outer nodes of Gauss–Hermite quadrature, in standard deviations.
 const OUTER: f64 = 1.732_050_807_568_877_2;
 
@@ -115,6 +140,40 @@ impl Scenes {
             }),
             _ => Ok(()),
         }
+    }
+
+    /// Refuses to fit keys that the points know by one number only. Rods of one length, in the cube of their
+    /// concentration and with contacts at any arm, depend on α, a and n by α·a·n^(1/3) (case `one-length-scale`): each
+    /// scene fixes one combination of the logarithms of these keys, and fewer than there are keys are too few.
+    pub fn one_length(&self, data: &[Datum]) -> Result<(), SceneError> {
+        let sets = 0..self.sets.len();
+        let from: Vec<f64> = self.ranges.iter().map(|range| range.from).collect();
+        let scenes = sets.clone().map(|set| self.scene(set, &from)).collect::<Result<Vec<_>, _>>()?;
+        let lengths: Vec<&Range> = self.ranges.iter().filter(|range| LENGTHS.contains(&&range.key[..])).collect();
+        let here = |set: &usize| lengths.iter().any(|range| range.is_of(*set));
+        let holds = |set: usize| {
+            let in_pa = data.iter().any(|datum| datum.set == set && datum.column.ends_with("_pa"));
+            !in_pa && of_one_length(&scenes[set])
+        };
+        if lengths.is_empty() || !sets.clone().filter(here).all(holds) {
+            return Ok(());
+        }
+        let share = |set: usize, range: usize| {
+            exponent(&scenes[set], lengths[range]) * f64::from(u8::from(lengths[range].is_of(set)))
+        };
+        let known = DMatrix::from_fn(scenes.len(), lengths.len(), share).rank(1e-9);
+        let Some(set) = sets.clone().find(here).filter(|_| known < lengths.len()) else {
+            return Ok(());
+        };
+        Err(SceneError::Parameters {
+            scene: self.sets[set].source.clone(),
+            parameters: lengths.iter().map(|range| range.label()).collect(),
+            why: format!(
+                "points do not tell these keys apart: contact lines are infinite, so the rods' length enters by s/(aα) \
+                 alone, and α, a and n by α·a·n^(1/3) alone; fix {}",
+                if lengths.len() > 1 { "one of them" } else { "it" }
+            ),
+        })
     }
 
     /// Warnings about points in periods whose length is fitted.
@@ -311,5 +370,61 @@ mod tests {
         assert!([0.0, 45.0, 90.0, 180.0].iter().all(|theta| said(*theta, 0.0)));
         assert_eq!([0.0, 45.0, 90.0].map(|theta| said(theta, 3.6)), [true, false, true]);
         assert_eq!(apart(&Scene::default()), None);
+    }
+
+    /// Whether two keys are told apart depends on what is fitted, and on whether another length is in the scene.
+    #[test]
+    fn keys_of_one_length_are_not_fitted_together() {
+        const TEXT: &str = "title = 't'\nflow = { shear_rate_per_s = 1 }\ntime = { periods = 1 }\n[particles]\n\
+            count = 10\nlength_mm = 1\naspect_ratio = 15\norientation = 'isotropic'\nFRACTION\n\
+            [interaction]\nalpha = 0.5\nCONCENTRATION\n";
+        let n = TEXT.replace("FRACTION", "").replace("CONCENTRATION", "concentration_per_cm3 = 50");
+        let fraction = TEXT.replace("FRACTION", "volume_fraction = 0.001").replace("CONCENTRATION", "");
+        let box_mm = TEXT.replace("FRACTION", "").replace("CONCENTRATION", "box_mm = [5, 5, 5]");
+        let refused = |text: &str, sets: usize, settings: &[&str], over: &[&str], column: &str| {
+            let set = Set {
+                source: "s.toml".into(),
+                text: text.into(),
+                starts: Starts::default(),
+                settings: settings.iter().map(|setting| KeyValue::parse(setting).unwrap()).collect(),
+                seed: 1,
+                time: TimeColumn::Seconds,
+            };
+            let ranges = over.iter().map(|range| Range::parse(range).unwrap()).collect();
+            let datum = |set| Datum { set, line: 2, column: column.into(), time: 1.0, value: 0.5, u_time: 0.0, u: 0.1 };
+            let scenes = Scenes::new(vec![set; sets], ranges).unwrap();
+            let refused = scenes.one_length(&(0..sets).map(datum).collect::<Vec<_>>());
+            refused.map_or_else(|error| error.to_string(), |()| String::new())
+        };
+        let (alpha, length, m) = ("interaction.alpha=0.1:1", "particles.length_mm=0.5:1", "interaction.m=2:4");
+        let (per_cm3, of_second) =
+            ("interaction.concentration_per_cm3=10:90", "2:interaction.concentration_per_cm3=10:90");
+        let part = "particles.volume_fraction=0.001:0.01";
+        let of_first = "1:interaction.concentration_per_cm3=10:90";
+        for (text, sets, over) in [
+            (&n, 1, &[alpha, per_cm3][..]),
+            (&n, 1, &[alpha, length]),
+            (&n, 1, &[length, per_cm3]),
+            (&n, 1, &[alpha, m, length]),
+            (&n, 2, &[alpha, per_cm3]),
+            (&n, 2, &[alpha, of_first, of_second]),
+            (&fraction, 1, &[alpha, part]),
+            (&fraction, 1, &[length]),
+        ] {
+            let told = refused(text, sets, &[], over, "x1");
+            assert!(told.contains("by α·a·n^(1/3) alone; fix "), "{over:?}: {told}");
+        }
+        for (text, sets, settings, over, column) in [
+            (&n, 1, &[][..], &[alpha, m][..], "x1"),
+            (&n, 1, &[], &[length], "x1"),
+            (&n, 2, &[], &[alpha, of_second], "x1"),
+            (&n, 1, &["interaction.min_contact_arm=0.1"], &[alpha, per_cm3], "x1"),
+            (&n, 1, &["particles.length_sd_percent=10"], &[alpha, per_cm3], "x1"),
+            (&n, 1, &["liquid.viscosity_pa_s=1"], &[alpha, per_cm3], "s12_pa"),
+            (&box_mm, 1, &[], &[alpha, length], "x1"),
+            (&fraction, 1, &[], &[alpha, "particles.aspect_ratio=10:20"], "x1"),
+        ] {
+            assert_eq!(refused(text, sets, settings, over, column), "", "{settings:?} {over:?}");
+        }
     }
 }
