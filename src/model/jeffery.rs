@@ -23,6 +23,20 @@ pub fn strain_per_period(aspect_ratio: f64) -> f64 {
     TAU * (aspect_ratio + 1.0 / aspect_ratio)
 }
 
+/// The aspect ratio r_e ≥ 1 of a rod whose period is the shear strain `strain` = |G|T (eq. 15, A.6): the larger root of
+/// r_e + 1/r_e = |G|T/2π. A disc of 1/r_e has the same period. `None` below 4π, the period of a sphere.
+///
+/// ```
+/// use shearbed::model::jeffery::{aspect_ratio_of_period, strain_per_period};
+/// let found = aspect_ratio_of_period(strain_per_period(11.6)).expect("above 4π");
+/// assert!((found - 11.6).abs() < 1e-13);
+/// ```
+pub fn aspect_ratio_of_period(strain: f64) -> Option<f64> {
+    let half = strain / (2.0 * TAU);
+    // The root of a difference of squares keeps its digits near r_e = 1.
+    (half >= 1.0).then(|| half + (half - 1.0).sqrt() * (half + 1.0).sqrt())
+}
+
 /// ṗ = ω × p per unit of strain in plane Couette flow u_2 = ±x_1 (`sign` of G) at Λ = `shape_factor`: A.1 for the
 /// direction, without the spin about it. A.2 and A.3 follow as the rates of its angles.
 pub fn couette_rate(p: &Vector3<f64>, shape_factor: f64, sign: f64) -> Vector3<f64> {
@@ -47,6 +61,18 @@ mod tests {
     use crate::model::flow::VelocityGradient;
     use crate::model::orientation;
     use proptest::prelude::*;
+
+    #[test]
+    fn a_period_gives_the_rod_that_has_it() {
+        for r in [1.0, 1.5, 11.6, 1e6] {
+            // Near 1 the period hardly depends on r: its rounding ε is one of √ε in r.
+            let within = 1e-14 * r + if r == 1.0 { 1e-7 } else { 0.0 };
+            let found = aspect_ratio_of_period(strain_per_period(r)).unwrap();
+            assert!((found - r).abs() < within, "{r}: {found}");
+        }
+        assert_eq!(aspect_ratio_of_period(2.0 * TAU), Some(1.0));
+        assert_eq!([2.0 * TAU.next_down(), 0.0, f64::NAN].map(aspect_ratio_of_period), [None; 3]);
+    }
 
     proptest! {
         #![proptest_config(crate::fixed_seed(256))]

@@ -1,15 +1,39 @@
 //! `shearbed shape`.
 
 use super::{Failure, number, print};
+use shearbed::model::jeffery::aspect_ratio_of_period;
 use shearbed::model::shape::{ALLOWED, Correlation, FORMULAS, spread};
 
 /// Arguments of `shape`.
 #[derive(clap::Args)]
-#[command(after_help = "Example:\n  shearbed shape --physical 20")]
+#[command(after_help = "\
+Examples:
+  shearbed shape --physical 20
+  shearbed shape --period-s 147 --period-u 2 --shear-rate-per-s 0.5")]
 pub(super) struct Args {
     /// Length over diameter of a cylinder, from 2 to 1000
-    #[arg(long, value_name = "R", value_parser = ratio, allow_negative_numbers = true)]
-    physical: f64,
+    #[arg(
+        long,
+        value_name = "R",
+        value_parser = ratio,
+        allow_negative_numbers = true,
+        required_unless_present = "period_s",
+        conflicts_with = "period_s"
+    )]
+    physical: Option<f64>,
+    /// The time in which a rod turns once, through 360°: r_e of T = 2π(r_e + 1/r_e)/G
+    #[arg(long, value_name = "T", value_parser = positive, allow_negative_numbers = true, requires = "shear_rate_per_s")]
+    period_s: Option<f64>,
+    /// One standard uncertainty of that time
+    #[arg(long, value_name = "U", value_parser = positive, allow_negative_numbers = true, requires = "period_s")]
+    period_u: Option<f64>,
+    /// The shear rate G at which it turns
+    #[arg(long, value_name = "G", value_parser = positive, allow_negative_numbers = true, requires = "period_s")]
+    shear_rate_per_s: Option<f64>,
+}
+
+fn positive(text: &str) -> Result<f64, String> {
+    number(text, |x| (1e-100..=1e100).contains(&x), "a number from 1e-100 to 1e100")
 }
 
 fn ratio(text: &str) -> Result<f64, String> {
@@ -17,9 +41,68 @@ fn ratio(text: &str) -> Result<f64, String> {
     number(text, |r| (least..=most).contains(&r), &format!("a number from {least} to {most}"))
 }
 
-/// Prints the equivalent aspect ratio of a cylinder by every formula.
+/// Prints the equivalent aspect ratio of a cylinder by every formula, or that of a period.
 pub(super) fn shape(args: &Args) -> Result<(), Failure> {
-    let r = args.physical;
+    match (args.physical, args.period_s, args.shear_rate_per_s) {
+        (Some(r), ..) => of_cylinder(r),
+        (None, Some(period_s), Some(g)) => of_period(period_s, args.period_u, g),
+        // The parser refuses it.
+        (None, ..) => Ok(()),
+    }
+}
+
+/// The least period times shear rate.
+const OF_SPHERE: f64 = 4.0 * std::f64::consts::PI;
+
+/// Prints r_e of a rod, and of a disc, with this period.
+fn of_period(period_s: f64, period_u: Option<f64>, g: f64) -> Result<(), Failure> {
+    let strain = g * period_s;
+    let Some(r) = aspect_ratio_of_period(strain) else {
+        return Err(Failure::Input(format!(
+            "--period-s {period_s}: GT = {strain:.4} is less than 4π = {OF_SPHERE:.4}, that of a sphere, and all rods and \
+             discs turn more slowly; a time of at least {} s at {g} 1/s is allowed. T is that of a whole turn: means and \
+             pictures of a rod repeat with T/2",
+            rounded(OF_SPHERE / g, 6)
+        )));
+    };
+    let given = period_u.map_or(String::new(), |u| format!(" ± {u}"));
+    let mut text = format!("T = {period_s}{given} s at G = {g} 1/s: GT = {} = 2π(r_e + 1/r_e)\n\n", rounded(strain, 6));
+    let ends = period_u.map(|u| [period_s - u, period_s + u].map(|end| aspect_ratio_of_period(g * end)));
+    for (whose, of) in [("rod", (|r| r) as fn(f64) -> f64), ("disc of the same period", |r| 1.0 / r)] {
+        let (value, ends) = (of(r), ends.map(|ends| ends.map(|end| end.map(of))));
+        text += &format!("r_e = {}, of a {whose}\n", with_uncertainty(value, ends));
+    }
+    print(&(text + &format!("\nIn a scene: aspect_ratio = {}\n", rounded(r, 6))))
+}
+
+/// A value with its uncertainty where the values at T ± U are as far on both sides to a twentieth, else with these; at
+/// a time less than a sphere's the end is that of a sphere.
+fn with_uncertainty(value: f64, ends: Option<[Option<f64>; 2]>) -> String {
+    let Some(ends) = ends else { return rounded(value, 6) };
+    if let [Some(a), Some(b)] = ends {
+        let (before, after) = ((value - a).abs(), (b - value).abs());
+        let u = 0.5 * (before + after);
+        if (before - after).abs() <= 0.05 * u {
+            let decimals = decimals(u, 2);
+            return format!("{value:.decimals$} ± {u:.decimals$}");
+        }
+    }
+    let [a, b] = ends.map(|end| rounded(end.unwrap_or(1.0), 4));
+    format!("{}, {a} at T - U and {b} at T + U", rounded(value, 6))
+}
+
+/// A number with `digits` digits at least.
+fn rounded(x: f64, digits: i32) -> String {
+    let decimals = decimals(x, digits);
+    format!("{x:.decimals$}")
+}
+
+/// The decimals of a positive number of `digits` digits.
+fn decimals(x: f64, digits: i32) -> usize {
+    (digits - 1 - x.log10().floor() as i32).max(0) as usize
+}
+
+fn of_cylinder(r: f64) -> Result<(), Failure> {
     let mut text = match spread(r) {
         Some((least, most)) => {
             let percent = 200.0 * (most - least) / (most + least);
