@@ -158,9 +158,10 @@ fn check_rods_outputs(scene: &Scene) -> Result<(), Invalid> {
         return Ok(());
     };
     let each = scene.outputs_per_unit();
-    let times = match scene.output.times.is_empty() {
-        true => format!("k/{each} up to {}", (scene.outputs() - 1) as f64 / each as f64),
-        false => "of output.times".to_owned(),
+    let times = if scene.output.times.is_empty() {
+        format!("k/{each} up to {}", (scene.outputs() - 1) as f64 / each as f64)
+    } else {
+        "of output.times".to_owned()
     };
     let allowed = format!("different output times, {times}; {} is not one of them", scene.output.rods_at[wrong]);
     let value = format!("{:?}", scene.output.rods_at);

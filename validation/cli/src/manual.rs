@@ -33,9 +33,10 @@ fn add(page: &mut String, command: &Command, above: &str, said: &mut BTreeSet<St
     let mut again = Vec::new();
     for arg in rows {
         let line = format!("- `{}`: {}\n", written(arg), plain(&meaning(arg)));
-        match said.insert(line.clone()) {
-            true => page.push_str(&line),
-            false => again.push(format!("`{}`", written(arg))),
+        if said.insert(line.clone()) {
+            page.push_str(&line);
+        } else {
+            again.push(format!("`{}`", written(arg)));
         }
     }
     if !again.is_empty() {

@@ -120,13 +120,11 @@ fn solution(frame: &Frame, start: Start, times_s: &[f64], accuracy: Accuracy) ->
     let mut now = 0.0;
     let mut all = Vec::new();
     let mut left = times_s;
-    if let Some(projections) = start.sharp() {
-        if let [0.0, rest @ ..] = left {
-            let mut means = density.means();
-            means[..3].copy_from_slice(&projections);
-            all.push(means);
-            left = rest;
-        }
+    if let (Some(projections), [0.0, rest @ ..]) = (start.sharp(), left) {
+        let mut means = density.means();
+        means[..3].copy_from_slice(&projections);
+        all.push(means);
+        left = rest;
     }
     // The highest degrees of a sharp start die first: steps grow as they are left out.
     let mut next =

@@ -133,9 +133,10 @@ pub fn read(path: &Path, set: usize, reading: &Reading) -> Result<Points, FileEr
                  (phi, c_b, a11, …), and after a name `_u` for its uncertainty"
             )));
         }
-        match is_uncertainty {
-            true => u_column = u_column.or_else(|| Some((*name).to_owned())),
-            false => columns.push(value.to_owned()),
+        if is_uncertainty {
+            u_column = u_column.or_else(|| Some((*name).to_owned()));
+        } else {
+            columns.push(value.to_owned());
         }
     }
     if columns.is_empty() {
