@@ -80,9 +80,11 @@ pub fn planar_moments(
     let of = |k: usize| {
         let ring = |j: usize| (0..around).map(|at| means[(grid.class(j, at), k)]).sum::<f64>() / around as f64;
         // The opposite meridian's rings have the angles 2π − θ, and the same sums.
-        (0..rings).map(|j| (weight(j) + weight(around - 1 - j)) * ring(j)).sum()
+        (0..rings).map(|j| (weight(j) + weight(around - 1 - j)) * ring(j)).sum::<f64>()
     };
-    (std::array::from_fn(of), std::array::from_fn(|k| of(6 + k)))
+    // The mean of 1 is 1: as with the mass of a density, what it misses is the rounding of the exponential.
+    let one: f64 = (0..3).map(of).sum();
+    (std::array::from_fn(|k| of(k) / one), std::array::from_fn(|k| of(6 + k) / one))
 }
 
 /// What is on the grid: a density of directions, or means of what rods become.
