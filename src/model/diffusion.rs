@@ -7,8 +7,8 @@ pub fn mean_turn(diffusivity_per_s: f64, time_s: f64) -> f64 {
     -libm::expm1(-2.0 * diffusivity_per_s * time_s)
 }
 
-/// The direction `p` turned at random, from two uniform numbers in [0, 1): by an angle whose 1 − cos is exponential with
-/// this mean (cut at 2), towards any side alike.
+/// The direction `p` turned at random, from two uniform numbers in [0, 1): by an angle whose 1 − cos is exponential
+/// with this mean (cut at 2), towards any side alike.
 ///
 /// With [`mean_turn`], ⟨P_l⟩ of the cosine is e^{−l(l+1)D_r t} to a relative error of the order of (D_r t)³ for every l
 /// (and exact for l = 1, but for the cut): a weak scheme of order 2. A Gaussian angle in the tangent plane has order 1.

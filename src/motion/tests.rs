@@ -140,7 +140,8 @@ proptest! {
             [[-0.2, 0.0, 0.0], [0.0, 0.1, -0.5], [0.0, 0.5, 0.1]],
         ] {
             let [mean, rods] = [11.6, r].map(|r| Propagator::new(&flow(rows), r));
-            let (span, seconds) = (Span::Periods(turns * 4.0, 4.0), Span::Seconds(turns * mean.period_s().unwrap(), 1.0));
+            let span = Span::Periods(turns * 4.0, 4.0);
+            let seconds = Span::Seconds(turns * mean.period_s().unwrap(), 1.0);
             let moved = rods.moved_beside(&mean, &p, span).unwrap();
             prop_assert!(apart(&moved.p, &rods.moved(&p, seconds).unwrap().p) < 1e-9);
             let (direction, error) = rods.direction_beside(&mean, (*p).into(), span).unwrap();

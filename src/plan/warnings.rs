@@ -107,13 +107,19 @@ impl Plan {
         let (file, own) = (&particles.rods.as_ref()?.file, particles.own()?);
         let replicas = self.scene.ensemble.replicas;
         let drawn = particles.aspect_ratio_sd_percent > 0.0 && own.aspect_ratio.is_none();
-        (own.p.is_some() && replicas > 1).then(|| if self.runs(Stage::Contacts) || self.runs(Stage::Diffusion) || drawn { format!(
-            "{replicas} replicas start with the directions in {file}: standard errors over replicas leave out the \
-             scatter of these rods, which those of one replica have"
-        ) } else { format!(
-            "the {replicas} replicas are alike: free rods start with the directions in {file}, and nothing is drawn \
-             that turns them; one replica says as much, with standard errors over its rods"
-        ) })
+        let moves = self.runs(Stage::Contacts) || self.runs(Stage::Diffusion) || drawn;
+        let said = if moves {
+            format!(
+                "{replicas} replicas start with the directions in {file}: standard errors over replicas leave out the \
+                 scatter of these rods, which those of one replica have"
+            )
+        } else {
+            format!(
+                "the {replicas} replicas are alike: free rods start with the directions in {file}, and nothing is \
+                 drawn that turns them; one replica says as much, with standard errors over its rods"
+            )
+        };
+        (own.p.is_some() && replicas > 1).then_some(said)
     }
 
     /// Warns if the mean r_e of the rods in a file is far from the scene's.

@@ -110,7 +110,8 @@ table! {
     /// assert_eq!((crowded.alpha, crowded.m), (0.5, 3.0));
     /// ```
     pub struct Interaction in "interaction" {
-        concentration_per_cm3: Option<f64> = Some(50.0), "1/cm³", Holds::Positive, Other("box_mm or particles.volume_fraction"),
+        concentration_per_cm3: Option<f64> = Some(50.0), "1/cm³", Holds::Positive,
+            Other("box_mm or particles.volume_fraction"),
             "n, rods per volume";
         box_mm: Option<[f64; 3]> = None, "mm", Holds::Sides, Other("a cube"),
             "sides of the control volume along the axes (eqs 12, 14): count and box give n; where it is given too, it \
@@ -233,8 +234,8 @@ impl Scene {
         self.interaction.as_ref()?.box_mm
     }
 
-    /// n, rods per cm³ of the control volume: as given, from count and box, or from the volume fraction; `None` for free
-    /// rods.
+    /// n, rods per cm³ of the control volume: as given, from count and box, or from the volume fraction; `None` for
+    /// free rods.
     pub fn concentration_per_cm3(&self) -> Option<f64> {
         match self.box_mm() {
             Some(sides) => {
@@ -297,8 +298,8 @@ impl Scene {
         }
     }
 
-    /// Outputs per unit of time, given or by default: 50 a period or 10 a unit of strain (a second: rounded up); if rods
-    /// take steps, the largest divisor of the steps up to that.
+    /// Outputs per unit of time, given or by default: 50 a period or 10 a unit of strain (a second: rounded up); if
+    /// rods take steps, the largest divisor of the steps up to that.
     pub fn outputs_per_unit(&self) -> u64 {
         self.time.outputs_per_unit.unwrap_or_else(|| {
             let most = self.default_outputs();

@@ -15,8 +15,7 @@ pub fn resolved_strain(aspect_ratio: f64) -> f64 {
     (4.4 / aspect_ratio).clamp(0.09, 0.37)
 }
 
-/// The longest step of rods that diffuse: a strain, or twice an angle, of 0.1, and D_r Δt = 0.02. With both, a_ij is off
-/// by some 1e-4 (the case `brownian-rods` measures it).
+/// The longest step of rods that diffuse: a strain, or twice an angle, of 0.1, and D_r Δt = 0.02.
 const DIFFUSING: [f64; 2] = [0.1, 0.02];
 
 /// Relative deviation of a given time from that of an output or a step: a third in six digits is meant as one.

@@ -117,7 +117,8 @@ table! {
             "outputs; of interacting rods a divisor of the steps";
         outputs_per_strain: Option<u64> = None, "", PER_UNIT, Other("10, or the largest divisor below"),
             "outputs per unit of strain, likewise";
-        outputs_per_second: Option<u64> = None, "", PER_UNIT, Other("10 a unit of strain, or the largest divisor below"),
+        outputs_per_second: Option<u64> = None, "", PER_UNIT,
+            Other("10 a unit of strain, or the largest divisor below"),
             "outputs per second, likewise";
     }
 }

@@ -52,7 +52,8 @@ enum Motion {
     Couette(Ticks, Vec<f64>),
     /// Rods of one aspect ratio in plane Couette flow that take no steps: the phase of all of them at each output.
     InPhase(Vec<Phase>),
-    /// Any other flow with interacting rods, or rods that diffuse: the map q = M p of one step, one per rod or one for all.
+    /// Any other flow with interacting rods, or rods that diffuse: the map q = M p of one step, one per rod or one for
+    /// all.
     Steps(Vec<Matrix3<f64>>),
     /// Free rods in any other flow: the plan's motion, with a propagator per rod, or one for all, where it moves each
     /// rod by itself.

@@ -170,7 +170,8 @@ fn a_volume_fraction_is_the_volume_of_spheroids_over_that_of_the_box() {
     for (change, told) in [
         (
             (|scene| scene.interaction = Some(Interaction::default())) as fn(&mut Scene),
-            "particles.volume_fraction = 0.002 is not allowed: either it or interaction.concentration_per_cm3, not both",
+            "particles.volume_fraction = 0.002 is not allowed: either it or interaction.concentration_per_cm3, \
+                not both",
         ),
         (|scene| scene.interaction.as_mut().unwrap().box_mm = Some([9.0; 3]), "either it or interaction.box_mm"),
         (|scene| scene.interaction = None, "free rods fill no volume: give [interaction]"),

@@ -111,7 +111,8 @@ pub(super) fn reference(args: &Args) -> Result<(), Failure> {
             let text = csv(&values(args, &motion, &asked).map_err(|why| refused(args, why))?);
             if let Some(d_r) = args.d_r_per_s {
                 let rate = strain_rate_per_s(motion.gradient_per_s);
-                complain(&format!("note: the Péclet number γ̇/D_r is {}\n", if rate == 0.0 { 0.0 } else { rate / d_r }));
+                let number = if rate == 0.0 { 0.0 } else { rate / d_r };
+                complain(&format!("note: the Péclet number γ̇/D_r is {number}\n"));
             }
             text
         }

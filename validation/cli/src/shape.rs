@@ -22,7 +22,13 @@ pub(super) struct Args {
     )]
     physical: Option<f64>,
     /// The time in which a rod turns once, through 360°: r_e of T = 2π(r_e + 1/r_e)/G
-    #[arg(long, value_name = "T", value_parser = positive, allow_negative_numbers = true, requires = "shear_rate_per_s")]
+    #[arg(
+        long,
+        value_name = "T",
+        value_parser = positive,
+        allow_negative_numbers = true,
+        requires = "shear_rate_per_s"
+    )]
     period_s: Option<f64>,
     /// One standard uncertainty of that time
     #[arg(long, value_name = "U", value_parser = positive, allow_negative_numbers = true, requires = "period_s")]
@@ -59,8 +65,10 @@ fn of_period(period_s: f64, period_u: Option<f64>, g: f64) -> Result<(), Failure
     let strain = g * period_s;
     let Some(r) = aspect_ratio_of_period(strain) else {
         return Err(Failure::Input(format!(
-            "--period-s {period_s}: GT = {strain:.4} is less than 4π = {OF_SPHERE:.4}, that of a sphere, and all rods and \
-             discs turn more slowly; a time of at least {} s at {g} 1/s is allowed. T is that of a whole turn: means and \
+            "--period-s {period_s}: GT = {strain:.4} is less than 4π = {OF_SPHERE:.4}, that of a sphere, and all rods \
+                and \
+             discs turn more slowly; a time of at least {} s at {g} 1/s is allowed. T is that of a whole turn: means \
+                and \
              pictures of a rod repeat with T/2",
             rounded(OF_SPHERE / g, 6)
         )));

@@ -3,7 +3,8 @@
 //!
 //!     cargo run --example graded_tensors [-- TEXT]
 //!
-//! grades all of them, or those with TEXT in their name, on formulas and curves and prints the table; as a test it does the same.
+//! grades all of them, or those with TEXT in their name, on formulas and curves and prints the table; as a test it
+//! does the same.
 
 mod code;
 
@@ -77,7 +78,9 @@ const WRONG: &[Wrong] = &[
             f * quadratic(a, at) + (1.0 - f) * linear(a, at)
         };
     }),
-    ("engineering shear", "2 a_12 for a_12", |c| c.written = |x| [x[0], x[1], x[2], 2.0 * x[3], 2.0 * x[4], 2.0 * x[5]]),
+    ("engineering shear", "2 a_12 for a_12", |c| {
+        c.written = |x| [x[0], x[1], x[2], 2.0 * x[3], 2.0 * x[4], 2.0 * x[5]];
+    }),
     ("Mandel", "√2 a_12 for a_12", |c| c.written = |x| {
         let root = 2f64.sqrt();
         [x[0], x[1], x[2], root * x[3], root * x[4], root * x[5]]

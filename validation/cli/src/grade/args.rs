@@ -51,8 +51,8 @@ pub(crate) struct Args {
     /// Start this program once and ask it line by line, in place of answers in files
     #[arg(long, value_name = "PROGRAM ARGS")]
     pub(super) command: Option<String>,
-    /// The form of a program's lines: json, or text (numbers separated by blanks, for C and Fortran) [default: json, and
-    /// text if the first answer is none]
+    /// The form of a program's lines: json, or text (numbers separated by blanks, for C and Fortran) [default: json,
+    /// and text if the first answer is none]
     #[arg(long, value_name = "json|text", conflicts_with = "mine")]
     pub(super) protocol: Option<Protocol>,
     /// The folder for grade.html, grade.json, grade.md, junit.xml and pictures

@@ -128,7 +128,7 @@ fn exact_answers_have_more_digits_than_a_double() {
             "log-rolling" => assert_eq!(most, 1),
             name if name.starts_with("lee-springer") => assert!(most >= 15),
             // Twelve decimals.
-            name if ["folgar-tucker", "brownian", "closed"].iter().any(|kind| name.starts_with(kind)) => {
+            name if ["folgar-tucker", "brownian", "clos", "dadt"].iter().any(|kind| name.starts_with(kind)) => {
                 assert!(most >= 12);
             }
             name => assert!(most >= 20, "{name}: {most}"),

@@ -80,8 +80,8 @@ impl<'a> Means<'a> {
 
     /// ⟨|p_i|⟩ = (δ/2π) ∫|g·w|/(w·adj M w) dα over directions w, g = adj(M^½) f/δ with f of row i.
     ///
-    /// In the axes of adj M, k₁ ≤ k₂ and k = (k₂ − k₁)^½, the integral is 4 [g₁ atan(k c/√k₁)/√k₁ + g₂ atanh(k s/√k₂)/√k₂]/k
-    /// with g = |g|(c, s).
+    /// In the axes of adj M, k₁ ≤ k₂ and k = (k₂ − k₁)^½, the integral is 4 [g₁ atan(k c/√k₁)/√k₁ + g₂ atanh(k
+    /// s/√k₂)/√k₂]/k with g = |g|(c, s).
     fn projection(&self, i: usize) -> Big {
         let (bits, two) = (self.bits, self.bits.of(2.0));
         let f = [&self.map[i][0], &self.map[i][1]];

@@ -78,8 +78,8 @@ fn measurable() -> Vec<String> {
     Observable::ALL.iter().flat_map(|observable| observable.channels()).map(Channel::name).collect()
 }
 
-/// Reads the file `path` as data set number `set`. Every point needs an uncertainty, `NAME_u` or that of `reading`; blank
-/// points were not measured.
+/// Reads the file `path` as data set number `set`. Every point needs an uncertainty, `NAME_u` or that of `reading`;
+/// blank points were not measured.
 pub fn read(path: &Path, set: usize, reading: &Reading) -> Result<Points, FileError> {
     let text = read_text(path)?;
     let given = reading.columns.as_deref();

@@ -8,7 +8,7 @@ mod layouts;
 use super::answer::Answer;
 use super::nearness::{Diagnosis, NEARER};
 use crate::methods::tensors::fourth::PAIRS;
-use crate::methods::tensors::wrong::{CLOSURES, MISTAKES, Stand};
+use crate::methods::tensors::wrong::{CLOSURES, MISTAKES, Mistake, Stand};
 use crate::methods::tensors::{Closure, Model, Parts, at_rate, isotropic, steady_of};
 use crate::oracle::diffusion::{self, Means, Motion, strain_rate_per_s};
 use crate::serve::problems::{Closed, LoadedProblem, Problem};
@@ -19,7 +19,8 @@ use rayon::prelude::*;
 /// Above this number of names none is reported.
 const MOST_NAMES: usize = 4;
 
-/// The tolerance of a step of the integration of a curve; of a rough one, which saves time, and how far that may be off.
+/// The tolerance of a step of the integration of a curve; of a rough one, which saves time, and how far that may be
+/// off.
 const STEP: f64 = 1e-11;
 const ROUGH: f64 = 1e-6;
 const OFF: f64 = 1e-4;
@@ -57,11 +58,14 @@ struct Change {
     parts: Parts,
 }
 
-/// The right parts without a name, then those with each mistake that makes a difference.
-fn changes(parts: &Parts) -> Vec<Change> {
+/// The right parts without a name, then those with each mistake that makes a difference; without those of C_I and γ̇
+/// for rods with a D_r.
+fn changes(parts: &Parts, has_c_i: bool) -> Vec<Change> {
     let right = Change { name: "", advice: "", parts: *parts };
+    let applies = |mistake: &&Mistake| has_c_i || !mistake.name.contains("C_I") && !mistake.name.contains('γ');
     let wrong = MISTAKES
         .iter()
+        .filter(applies)
         .filter_map(|mistake| Some(Change { name: mistake.name, advice: mistake.advice, parts: mistake.of(parts)? }));
     std::iter::once(right).chain(wrong).collect()
 }
@@ -116,7 +120,7 @@ fn of_wrong_diffusion(problem: &Problem, answer: &Answer, most: f64) -> Vec<Near
     factors.par_iter().filter(|(factor, _)| *factor > 0.0 && *factor != 1.0).filter_map(of).collect()
 }
 
-fn candidates(parts: &Parts, own: Option<usize>) -> Vec<Candidate> {
+fn candidates(parts: &Parts, own: Option<usize>, has_c_i: bool) -> Vec<Candidate> {
     let with = |change: &Change| {
         let (parts, name, advice) = (change.parts, change.name, change.advice);
         let of = move |(closure, stand): (usize, &Stand)| {
@@ -125,7 +129,7 @@ fn candidates(parts: &Parts, own: Option<usize>) -> Vec<Candidate> {
         };
         CLOSURES.iter().enumerate().filter_map(of).collect::<Vec<_>>()
     };
-    changes(parts).iter().flat_map(with).collect()
+    changes(parts, has_c_i).iter().flat_map(with).collect()
 }
 
 /// The values of the problem's columns for a, with the fourth moments by the closure; `None` for other columns.
@@ -227,7 +231,8 @@ pub(super) fn diagnose(loaded: &LoadedProblem, answer: &Answer, error: f64) -> D
         return Diagnosis { said: Some(said), ..Diagnosis::default() };
     }
     near.extend(in_other_layouts(&[certified(loaded)], answer, most));
-    let all = candidates(&parts, own);
+    let has_c_i = problem.d_r_per_s.is_none();
+    let all = candidates(&parts, own, has_c_i);
     let with = |changes: u8| -> Vec<Near> {
         let near = |candidate: &Candidate| {
             let distance = distance(problem, &answer.rows, &start, candidate, most)?;
@@ -237,7 +242,7 @@ pub(super) fn diagnose(loaded: &LoadedProblem, answer: &Answer, error: f64) -> D
     };
     near.extend(with(1));
     if problem.closed.is_none() || start == isotropic() {
-        let exact = changes(&parts);
+        let exact = changes(&parts, has_c_i);
         let exact = exact.par_iter().filter(|change| problem.closed.is_some() == change.name.is_empty());
         near.par_extend(exact.filter_map(|Change { name, advice, parts }| {
             let distance = from_exact(problem, &answer.rows, parts, most)?;
@@ -245,7 +250,8 @@ pub(super) fn diagnose(loaded: &LoadedProblem, answer: &Answer, error: f64) -> D
             Some(Near { distance, name: name.to_owned(), suspect: name.to_owned(), advice, changes: 1 })
         }));
     }
-    // More changes are sought only where fewer explain nothing: that is what a code is likely to have, and it saves time.
+    // More changes are sought only where fewer explain nothing: that is what a code is likely to have, and it saves
+    // time.
     if near.is_empty() {
         near = with(2);
     }
@@ -296,7 +302,7 @@ fn of_closures(
     start: &Matrix3<f64>,
     own: Option<usize>,
 ) -> Vec<(Near, Vec<Vec<f64>>)> {
-    let right = candidates(parts, own).into_iter().filter(|candidate| candidate.parts == *parts);
+    let right = candidates(parts, own, true).into_iter().filter(|candidate| candidate.parts == *parts);
     let curve = |candidate: Candidate| {
         let rate = |a: &Matrix3<f64>| candidate.rate(a);
         let all = if problem.is_steady() {

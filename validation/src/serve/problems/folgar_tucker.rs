@@ -190,7 +190,8 @@ pub(super) fn built(
             name: def.name.into(),
             title: def.title.into(),
             summary: format!(
-                "{moments} of infinitely many rods of {rods} with the rotary diffusivity {diffusivity}, {when}. The answer is that of the distribution, ∂ψ/∂t = D_r∇²ψ − ∇·(ṗψ) on the sphere with \
+                "{moments} of infinitely many rods of {rods} with the rotary diffusivity {diffusivity}, {when}. The \
+                 answer is that of the distribution, ∂ψ/∂t = D_r∇²ψ − ∇·(ṗψ) on the sphere with \
                  Jeffery's ṗ, and not of a closure: a code with a closure of a_ijkl misses it by what the closure \
                  costs."
             ),

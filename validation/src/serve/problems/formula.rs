@@ -89,11 +89,14 @@ struct FormulaProblem {
     name: String,
     title: String,
     formula: Formula,
-    inputs: fn(&Formula) -> Vec<Vec<f64>>,
+    inputs: Rows,
 }
 
+/// The rows that are asked for a formula.
+type Rows = fn(&Formula) -> Vec<Vec<f64>>;
+
 static PROBLEMS: LazyLock<Vec<FormulaProblem>> = LazyLock::new(|| {
-    let rods: [(&str, &str, fn(&Formula) -> Vec<Vec<f64>>); 5] = [
+    let rods: [(&str, &str, Rows); 5] = [
         ("pdot-shear", "ṗ of rods, spheres and discs in shear", |_| inputs::of_rods([0.02, 100.0], true)),
         ("pdot-rod", "ṗ of rods in any flow", |_| inputs::of_rods([1.1, 100.0], false)),
         ("pdot-disc", "ṗ of discs in any flow", |_| inputs::of_rods([0.02, 0.9], false)),
@@ -280,7 +283,8 @@ impl FormulaProblem {
 /// The rate of every model.
 const RATE: &str = "da/dt = Wa − aW + Λ(Da + aD − 2𝔸:D) + γ̇[2C − 2 tr(C) a − 5(Ca + aC) + 10𝔸:C], γ̇ = (2D:D)^½; with \
     κ, 𝔸 becomes 𝔸 + (1 − κ)(𝕃 − 𝕄:𝔸), and the first two terms of diffusion become 2[C − (1 − κ)𝕄:C] − 2κ tr(C) a, 𝕃 = \
-    Σλ_i e_i e_i e_i e_i, 𝕄 = Σ e_i e_i e_i e_i over the axes of a";
+    Σλ_i e_i e_i e_i e_i, 𝕄 = Σ e_i e_i e_i e_i over the axes of a: Phelps & Tucker 2009, J. \
+    Non-Newton. Fluid Mech. 156, 165";
 
 #[cfg(test)]
 mod tests;

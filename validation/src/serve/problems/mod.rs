@@ -1,9 +1,9 @@
 //! Reference problems for any program: the question, the start, and the certified answer, as folders of files.
 //!
 //! `all` is the registry. `export` writes one folder per problem: `problem.json` ([`Problem`]), `start.csv` for given
-//! rods, `inputs.csv` for given pairs in contact and rows of a formula, `certified.csv`, `README.md`. `read` reads such folders back. A
-//! folder with the name of a built-in problem is refused if it differs from that problem; a folder of another name is
-//! [`Origin::Foreign`].
+//! rods, `inputs.csv` for given pairs in contact and rows of a formula, `certified.csv`, `README.md`. `read` reads
+//! such folders back. A folder with the name of a built-in problem is refused if it differs from that problem; a
+//! folder of another name is [`Origin::Foreign`].
 
 mod archive;
 mod asked;

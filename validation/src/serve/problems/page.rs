@@ -84,7 +84,8 @@ fn asked(built: &Built) -> String {
             times()
         ),
         Kind::Formula => format!(
-            "The values of the formula below for each of the {} rows of `inputs.csv`. Numbers are doubles and are exact.",
+            "The values of the formula below for each of the {} rows of `inputs.csv`. Numbers are doubles and are \
+             exact.",
             built.inputs.len()
         ),
         Kind::Contact => format!(

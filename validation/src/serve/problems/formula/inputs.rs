@@ -125,7 +125,8 @@ pub(super) fn of_tensors(formula: &Formula) -> Vec<Vec<f64>> {
     tensors.iter().enumerate().map(row).collect()
 }
 
-/// Rows of `inputs.csv` of ṗ, without their numbers: rods of these aspect ratios, in plane Couette flow alone or in any.
+/// Rows of `inputs.csv` of ṗ, without their numbers: rods of these aspect ratios, in plane Couette flow alone or in
+/// any.
 pub(super) fn of_rods(ratios: [f64; 2], couette: bool) -> Vec<Vec<f64>> {
     let mut random = Numbers(Pcg64Dxsm::seed_from_u64(1922));
     let of_row = |row: usize| {

@@ -143,8 +143,8 @@ pub(super) fn hopeless(rungs: &[Rung], tolerance: f64, timeout: Duration) -> Opt
     // A method that follows the motion, with any order above 0.02, changes by more than a hundredth of its error.
     let still = if errors[3] < FOLLOWED { 0.01 * errors[3] } else { 0.01 * tolerance };
     if changes == [0.0; 3] && matches!(last.setting, Setting::Steps(_)) && errors[3] > tolerance {
-        let words = "the program ignores \"steps\": the answers are the same to the last digit. If it chooses its own, let \
-            it answer \"error\" to \"steps\", and it is asked by \"tolerance\"";
+        let words = "the program ignores \"steps\": the answers are the same to the last digit. If it chooses its own, \
+            let it answer \"error\" to \"steps\", and it is asked by \"tolerance\"";
         return Some(End::Wrong(words.to_owned()));
     }
     if changes.iter().all(|change| *change <= still) && errors[3] > tolerance {
@@ -205,8 +205,8 @@ pub(super) fn converges(problem: &LoadedProblem, rungs: &[Rung]) -> Option<Strin
     let (error, uncertainty, left) = (compare(problem, &best).error, best.largest_change(&before), last[3].error());
     (left < FOLLOWED && uncertainty <= SHARE * left && error <= uncertainty).then(|| {
         format!(
-            "converges to the certified answer at order {order:.2}: with {} it is off by {left:.1e}, and extrapolated by \
-             {error:.0e} (uncertainty {uncertainty:.0e})",
+            "converges to the certified answer at order {order:.2}: with {} it is off by {left:.1e}, and extrapolated \
+             by {error:.0e} (uncertainty {uncertainty:.0e})",
             last[3].setting
         )
     })
