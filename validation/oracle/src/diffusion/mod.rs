@@ -61,7 +61,7 @@ const MOST_CUT: usize = 800;
 /// Their stated error is the largest difference between two solutions; the second has a ten times smaller tail of
 /// harmonics and shorter steps. It is an upper estimate of the error of the second, which is returned. If it is above
 /// 4·10⁻¹², a third solution follows, unless that takes too much work. A start that no number of harmonics resolves is
-/// cut at a degree: see [`cut`].
+/// cut at a degree: see `cut`.
 ///
 /// # Errors
 ///
