@@ -117,6 +117,12 @@ fn free(scene: &Scene) -> Result<Done, Failure> {
             "flow: converge compares integrators of free rods in plane Couette flow; give shear_rate_per_s".into(),
         ));
     }
+    let d_r = scene.particles.rotary_diffusion_per_s;
+    if d_r > 0.0 {
+        return Err(Failure::Input(format!(
+            "particles.rotary_diffusion_per_s = {d_r}: converge compares integrators of free rods; 0 is allowed"
+        )));
+    }
     let orders = order::of_scene(scene).ok_or_else(|| {
         Failure::Input("time: converge compares integrators of free rods over periods; give periods".into())
     })?;

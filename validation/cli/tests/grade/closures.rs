@@ -130,7 +130,7 @@ fn a_right_tensor_code_passes_its_closed_problem_and_another_closure_fails_by_na
 #[test]
 fn a_wrong_diffusivity_of_brownian_rods_is_named() {
     let (rest, shear) = ("brownian-relaxation", "brownian-startup-pe-10");
-    let graded = |factor: f64| {
+    let graded = |factor: f64, shear_rate_per_s: f64| {
         let dir = tempfile::tempdir().unwrap();
         let (_, mut rows) = problem(rest);
         for row in rows.iter_mut().skip(1) {
@@ -143,17 +143,21 @@ fn a_wrong_diffusivity_of_brownian_rods_is_named() {
         write(dir.path(), rest, "answer.csv", text(&rows));
         let (_, mut rows) = problem(shear);
         let times: Vec<f64> = rows[1..].iter().map(|row| row[0].parse().unwrap()).collect();
-        let rods = Motion::diffusing([[0.0; 3], [0.5, 0.0, 0.0], [0.0; 3]], 10.0, 0.05 * factor);
+        let rods = Motion::diffusing([[0.0; 3], [shear_rate_per_s, 0.0, 0.0], [0.0; 3]], 10.0, 0.05 * factor);
         for (row, means) in rows.iter_mut().skip(1).zip(at(&rods, Start::Isotropic, &times).unwrap()) {
             row.iter_mut().skip(1).zip(means.second).for_each(|(field, x)| *field = x.to_string());
         }
         write(dir.path(), shear, "answer.csv", text(&rows));
         answers(dir.path(), &[])
     };
-    let right = graded(1.0);
+    let right = graded(1.0, 0.5);
     assert_eq!([rest, shear].map(|name| right.verdict(name)), ["PASS"; 2], "{}", right.words);
+    // D_r stays what it is in another flow.
+    let slow = graded(1.0, 0.25);
+    assert_eq!(slow.verdict(rest), "PASS");
+    assert!(slow.diagnosis(shear).starts_with("this is the curve of half the shear rate, to "), "{}", slow.words);
     for (factor, words) in [(2.0, "twice the D_r"), (0.5, "half the D_r or of the distribution with D_r γ̇")] {
-        let wrong = graded(factor);
+        let wrong = graded(factor, 0.5);
         for name in [rest, shear] {
             let said = wrong.diagnosis(name);
             let words = if name == rest { &words[..words.find(" or").unwrap_or(words.len())] } else { words };

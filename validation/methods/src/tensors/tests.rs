@@ -3,7 +3,7 @@ mod published;
 use super::closures::Closure;
 use super::fourth::{Fourth, PAIRS, principal};
 use super::models::{Equation, Model, diffusion};
-use super::{at, isotropic, steady};
+use super::{at, isotropic, steady, wrong};
 use nalgebra::{Matrix3, Rotation3, Vector3};
 use shearbed_oracle::reference::big::Bits;
 use shearbed_oracle::reference::isotropic::{Covariance, QUADRUPLES};
@@ -284,5 +284,39 @@ fn steady_states_are_found_where_they_settle_slowly_or_their_trace_would_drift()
         let found = steady(&equation, &start());
         let found = found.unwrap_or_else(|| panic!("{} {name} {c_i}", closure.name()));
         assert!((found[(1, 1)] - a22).abs() < 1e-4, "{} {name} {c_i}: {} {a22}", closure.name(), found[(1, 1)]);
+    }
+}
+
+/// Every known mistake changes the rate of some model, and the right closures come first among those that a code may
+/// have, in the order in which they are numbered.
+#[test]
+fn every_mistake_is_one_and_right_closures_come_first() {
+    let c_i = 0.01;
+    let models = [
+        Model::FolgarTucker { c_i },
+        Model::Rsc { c_i, kappa: 0.2 },
+        Model::Iard { c_i, c_m: 0.9 },
+        Model::Pard { c_i, omega: 0.75 },
+    ];
+    let a = turned([0.5, 0.3, 0.2]);
+    for mistake in &wrong::MISTAKES {
+        let off = models.iter().flat_map(|model| {
+            [0.4, 3.0].map(|r: f64| {
+                let shape_factor = (r * r - 1.0) / (r * r + 1.0);
+                let gradient_per_s = matrix(ASKEW);
+                let right = Equation { gradient_per_s, shape_factor, closure: Closure::Ibof, model: *model }.parts();
+                let rate = |parts: &super::Parts| parts.rate(&a, &Closure::Ibof.fourth(&a));
+                mistake.of(&right).map_or(0.0, |spoilt| (rate(&spoilt) - rate(&right)).amax())
+            })
+        });
+        assert!(off.fold(0.0, f64::max) > 1e-4, "{}", mistake.name);
+    }
+    for (closure, stand) in Closure::ALL.iter().zip(&wrong::CLOSURES) {
+        assert_eq!(stand.name, format!("the {} closure", closure.name()));
+        assert_eq!((stand.fourth)(&a), closure.fourth(&a));
+    }
+    for (k, stand) in wrong::CLOSURES.iter().enumerate() {
+        let others = wrong::CLOSURES[..k].iter().map(|other| ((other.fourth)(&a).0 - (stand.fourth)(&a).0).amax());
+        assert!(others.fold(1.0, f64::min) > 1e-6, "{}", stand.name);
     }
 }

@@ -4,8 +4,7 @@ use super::answer::Answer;
 use crate::files::text::Shown;
 use crate::methods::integrators::apart_rad;
 use crate::serve::problems::{LoadedProblem, Metric};
-use nalgebra::{Matrix3, Vector3};
-use shearbed::model::flow::VelocityGradient;
+use nalgebra::Vector3;
 use shearbed::model::{jeffery, orientation};
 use std::f64::consts::{PI, TAU};
 
@@ -63,8 +62,10 @@ pub fn compare(loaded: &LoadedProblem, answer: &Answer) -> Compared {
         remark: remark(loaded, answer, row, error, largest_se),
         length_drift: directions
             .then(|| largest(answer.rows.iter().map(|p| (Vector3::from_row_slice(p).norm() - 1.0).abs()))),
-        orbit_drift: couette_per_s(loaded).filter(|_| directions).map(|_| orbit_drift(loaded, answer)),
-        phase_lost_per_period: couette_per_s(loaded)
+        orbit_drift: loaded.problem.shear_rate_per_s().filter(|_| directions).map(|_| orbit_drift(loaded, answer)),
+        phase_lost_per_period: loaded
+            .problem
+            .shear_rate_per_s()
             .filter(|_| directions)
             .and_then(|rate| phase_lost(loaded, answer, rate)),
         too_little_data: largest_se.is_nan() || largest_se > enough,
@@ -173,13 +174,6 @@ fn trace(loaded: &LoadedProblem, answer: &Answer, row: usize) -> Option<String> 
         (false, true) => format!("the trace is {digits}; are the columns in another order?"),
         (false, false) => format!("the trace is {digits}, where 1 is due"),
     })
-}
-
-/// G in 1/s of a problem in plane Couette flow u_2 = G x_1.
-fn couette_per_s(loaded: &LoadedProblem) -> Option<f64> {
-    let l = &loaded.problem.gradient_per_s;
-    let flow = VelocityGradient::new(Matrix3::from_fn(|i, j| l[i][j]))?;
-    flow.shear_rate_per_s()
 }
 
 fn orbit_drift(loaded: &LoadedProblem, answer: &Answer) -> f64 {

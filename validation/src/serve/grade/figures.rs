@@ -4,8 +4,7 @@ use super::Graded;
 use crate::methods::integrators::{Integrator, RodProblem, Setting, Theory};
 use crate::present::plot::{Curve, Figure};
 use crate::serve::problems::{Kind, LoadedProblem};
-use nalgebra::{Matrix3, UnitVector3, Vector3};
-use shearbed::model::flow::VelocityGradient;
+use nalgebra::{UnitVector3, Vector3};
 use std::f64::consts::TAU;
 
 /// The largest number of steps of the project's own integrators, which are only a background.
@@ -70,9 +69,7 @@ fn curve(label: String, errors: &[(u64, f64)]) -> Curve {
 
 /// G in 1/s of a problem about rods in plane Couette flow u_2 = G x_1, G > 0.
 fn couette_per_s(loaded: &LoadedProblem) -> Option<f64> {
-    let l = &loaded.problem.gradient_per_s;
-    let flow = VelocityGradient::new(Matrix3::from_fn(|i, j| l[i][j]))?;
-    let rate = flow.shear_rate_per_s().filter(|rate| *rate > 0.0)?;
+    let rate = loaded.problem.shear_rate_per_s().filter(|rate| *rate > 0.0)?;
     (loaded.problem.kind == Kind::Rods).then_some(rate)
 }
 

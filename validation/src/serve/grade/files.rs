@@ -133,10 +133,7 @@ pub(super) fn judge(graded: &mut Graded, loaded: &LoadedProblem, answer: &Answer
     let wild = exact.then(|| order::wild(&graded.errors, loaded.own_tolerance)).flatten();
     let off = graded.order_off(claim.order).or(wild);
     graded.verdict = if within && off.is_none() { Verdict::Pass } else { Verdict::Fail };
-    graded.error = compared.error.is_finite().then_some(compared.error);
-    graded.length_drift = compared.length_drift.filter(|drift| drift.is_finite());
-    graded.orbit_drift = compared.orbit_drift.filter(|drift| drift.is_finite());
-    graded.phase_lost_per_period = compared.phase_lost_per_period.filter(|lost| lost.is_finite());
+    graded.set_compared(&compared);
     graded.set_diagnosis(diagnose(loaded, answer, compared.error));
     graded.note = if within {
         off

@@ -150,6 +150,15 @@ impl Graded {
         self.errors = errors;
     }
 
+    /// Sets the error and the drifts of an answer, those that are finite.
+    fn set_compared(&mut self, compared: &compare::Compared) {
+        let finite = |number: &f64| number.is_finite();
+        self.error = Some(compared.error).filter(finite);
+        self.length_drift = compared.length_drift.filter(finite);
+        self.orbit_drift = compared.orbit_drift.filter(finite);
+        self.phase_lost_per_period = compared.phase_lost_per_period.filter(finite);
+    }
+
     /// Sets the diagnosis of an answer.
     fn set_diagnosis(&mut self, found: diagnosis::Diagnosis) {
         (self.diagnosis, self.suspects, self.rates) = (found.said, found.suspects, found.rates);

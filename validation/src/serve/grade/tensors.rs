@@ -7,10 +7,12 @@ mod layouts;
 
 use super::answer::Answer;
 use super::nearness::{Diagnosis, NEARER};
+use crate::judge::statistics::worst;
 use crate::methods::tensors::fourth::PAIRS;
 use crate::methods::tensors::wrong::{CLOSURES, MISTAKES, Mistake, Stand};
 use crate::methods::tensors::{Closure, Model, Parts, at_rate, isotropic, steady_of};
 use crate::oracle::diffusion::{self, Means, Motion, strain_rate_per_s};
+use crate::serve::problems::formula::tensor;
 use crate::serve::problems::{Closed, LoadedProblem, Problem};
 use layouts::LAYOUTS;
 use nalgebra::Matrix3;
@@ -49,6 +51,23 @@ impl Candidate {
     fn rate(&self, a: &Matrix3<f64>) -> Matrix3<f64> {
         self.parts.rate(a, &(self.closure.fourth)(a))
     }
+
+    /// The norm of the flow in 1/s.
+    fn norm(&self) -> f64 {
+        self.parts.spin.norm() + self.parts.strain.norm()
+    }
+
+    /// The values of the problem's columns at the first `count` times, with `tolerance` as that of a step; `None` if
+    /// there is no solution, or for other columns.
+    fn curve(&self, problem: &Problem, start: &Matrix3<f64>, count: usize, tolerance: f64) -> Option<Vec<Vec<f64>>> {
+        let rate = |a: &Matrix3<f64>| self.rate(a);
+        let all = if problem.is_steady() {
+            vec![steady_of(&rate, self.norm(), start)?]
+        } else {
+            at_rate(&rate, start, &problem.times_s[..count], tolerance)?
+        };
+        all.iter().map(|a| values(problem, &self.closure, a)).collect()
+    }
 }
 
 /// A change of one part: its name, what is right, and the parts with it.
@@ -58,16 +77,19 @@ struct Change {
     parts: Parts,
 }
 
-/// The right parts without a name, then those with each mistake that makes a difference; without those of C_I and γ̇
-/// for rods with a D_r.
+/// The right parts without a name, then those with each mistake that makes a difference. Rods with a D_r diffuse as
+/// they do whatever γ̇ and C_I a code has.
 fn changes(parts: &Parts, has_c_i: bool) -> Vec<Change> {
     let right = Change { name: "", advice: "", parts: *parts };
-    let applies = |mistake: &&Mistake| has_c_i || !mistake.name.contains("C_I") && !mistake.name.contains('γ');
-    let wrong = MISTAKES
-        .iter()
-        .filter(applies)
-        .filter_map(|mistake| Some(Change { name: mistake.name, advice: mistake.advice, parts: mistake.of(parts)? }));
-    std::iter::once(right).chain(wrong).collect()
+    let of = |mistake: &Mistake| {
+        let changed = mistake.of(parts)?;
+        let Parts { speed, decay, model, .. } = *parts;
+        let changed = if has_c_i { changed } else { Parts { speed, decay, model, ..changed } };
+        (changed != *parts).then_some(Change { name: mistake.name, advice: mistake.advice, parts: changed })
+    };
+    let mut all: Vec<_> = std::iter::once(right).chain(MISTAKES.iter().filter_map(of)).collect();
+    all.dedup_by(|second, first| first.parts == second.parts);
+    all
 }
 
 /// The words for a change with a closure; `own` is the index of the one that is asked for, if one is.
@@ -97,9 +119,7 @@ fn asked(problem: &Problem) -> Option<(Closed, Option<usize>)> {
         // At rest a closure has no part in a_ij.
         (None, Some(rods)) if rate > 0.0 => {
             let (closure, model) = (Closure::Quadratic, Model::FolgarTucker { c_i: rods.diffusivity / rate });
-            let plane = [[0.5, 0.0, 0.0], [0.0, 0.5, 0.0], [0.0; 3]];
-            let start = if problem.planar_start { plane } else { isotropic().transpose().into() };
-            Some((Closed { closure, model, start }, None))
+            Some((Closed { closure, model, start: problem.start_tensor() }, None))
         }
         _ => None,
     }
@@ -113,7 +133,7 @@ fn of_wrong_diffusion(problem: &Problem, answer: &Answer, most: f64) -> Vec<Near
     let of = |(factor, name): &(f64, &str)| {
         let rods = Motion { diffusivity: factor * rods.diffusivity, ..rods };
         let all = diffusion::at(&rods, problem.directions(), &problem.times_s).ok()?;
-        let distance = worst(&answer.rows, &all.iter().map(|means| means.second.to_vec()).collect::<Vec<_>>());
+        let distance = apart(&answer.rows, &all.iter().map(|means| means.second.to_vec()).collect::<Vec<_>>());
         let (name, suspect) = (format!("the distribution with {name}"), (*name).to_owned());
         (distance <= most).then_some(Near { distance, name, suspect, advice: "", changes: 1 })
     };
@@ -146,13 +166,10 @@ fn values(problem: &Problem, closure: &Stand, a: &Matrix3<f64>) -> Option<Vec<f6
     problem.columns[1..].iter().map(value).collect()
 }
 
-fn apart(found: &[f64], expected: &[f64]) -> f64 {
-    let each = found.iter().zip(expected).map(|(a, b)| (a - b).abs());
-    each.fold(0.0, |a: f64, b| if b.is_nan() { f64::INFINITY } else { a.max(b) })
-}
-
-fn worst(rows: &[Vec<f64>], expected: &[Vec<f64>]) -> f64 {
-    rows.iter().zip(expected).map(|(row, expected)| apart(row, expected)).fold(0.0, f64::max)
+/// The largest difference of a value; NaN if one is not finite.
+fn apart(rows: &[Vec<f64>], expected: &[Vec<f64>]) -> f64 {
+    let pairs = rows.iter().zip(expected).flat_map(|(row, expected)| row.iter().zip(expected));
+    worst(pairs.map(|(a, b)| (a - b).abs()))
 }
 
 /// The distance of rows from a candidate's curve; `None` if it is larger than `most`.
@@ -163,26 +180,18 @@ fn distance(
     candidate: &Candidate,
     most: f64,
 ) -> Option<f64> {
-    let near = |all: Vec<Matrix3<f64>>, most: f64| {
-        let curve: Option<Vec<_>> = all.iter().map(|a| values(problem, &candidate.closure, a)).collect();
-        Some(worst(rows, &curve?)).filter(|worst| *worst <= most)
+    let near = |count: usize, tolerance: f64, most: f64| {
+        let curve = candidate.curve(problem, start, count, tolerance)?;
+        Some(apart(rows, &curve)).filter(|off| *off <= most)
     };
-    let rate = |a: &Matrix3<f64>| candidate.rate(a);
-    let times = &problem.times_s[..];
-    let norm = candidate.parts.spin.norm() + candidate.parts.strain.norm();
     // Saves time: most candidates are far already at the first time, or not at rest where the answer is.
     if !problem.is_steady() {
-        near(at_rate(&rate, start, &times[..1], ROUGH)?, most + OFF)?;
-        return near(at_rate(&rate, start, times, STEP)?, most);
-    }
-    if rows[0].len() == PAIRS.len() && rate(&tensor(&rows[0])).amax() > 100.0 * most * norm {
+        near(1, ROUGH, most + OFF)?;
+    } else if rows[0].len() == PAIRS.len() && candidate.rate(&tensor(&rows[0])).amax() > 100.0 * most * candidate.norm()
+    {
         return None;
     }
-    near(vec![steady_of(&rate, norm, start)?], most)
-}
-
-fn tensor(row: &[f64]) -> Matrix3<f64> {
-    crate::serve::problems::formula::tensor(row)
+    near(problem.times_s.len(), STEP, most)
 }
 
 /// The distance of an answer from the distribution with these parts; `None` if it is larger than `most`, or no motion
@@ -202,7 +211,7 @@ fn from_exact(problem: &Problem, rows: &[Vec<f64>], parts: &Parts, most: f64) ->
         |means: &Means| if rows[0].len() == PAIRS.len() { means.second.to_vec() } else { means.fourth.to_vec() };
     let near = |all: Vec<Means>| {
         let curve: Vec<_> = all.iter().map(picked).collect();
-        Some(worst(rows, &curve)).filter(|worst| *worst <= most)
+        Some(apart(rows, &curve)).filter(|off| *off <= most)
     };
     if problem.is_steady() {
         return near(vec![diffusion::steady(&motion).ok()?]);
@@ -274,7 +283,7 @@ fn in_other_layouts(curves: &[(Near, Vec<Vec<f64>>)], answer: &Answer, most: f64
         let rows: Option<Vec<_>> = answer.rows.iter().map(|row| layout.read(row)).collect();
         let rows = rows?;
         let near = curves.iter().filter_map(|(near, curve)| {
-            let distance = worst(&rows, curve);
+            let distance = apart(&rows, curve);
             let name = if near.name.is_empty() {
                 layout.name.to_owned()
             } else {
@@ -302,18 +311,12 @@ fn of_closures(
     start: &Matrix3<f64>,
     own: Option<usize>,
 ) -> Vec<(Near, Vec<Vec<f64>>)> {
-    let right = candidates(parts, own, true).into_iter().filter(|candidate| candidate.parts == *parts);
-    let curve = |candidate: Candidate| {
-        let rate = |a: &Matrix3<f64>| candidate.rate(a);
-        let all = if problem.is_steady() {
-            vec![steady_of(&rate, candidate.parts.spin.norm() + candidate.parts.strain.norm(), start)?]
-        } else {
-            at_rate(&rate, start, &problem.times_s, STEP)?
-        };
-        let values: Option<Vec<_>> = all.iter().map(|a| values(problem, &candidate.closure, a)).collect();
-        Some((candidate.near, values?))
+    let curve = |(closure, stand): (usize, &Stand)| {
+        let candidate = Candidate { parts: *parts, closure: *stand, near: near_of("", "", closure, own) };
+        let curve = candidate.curve(problem, start, problem.times_s.len(), STEP)?;
+        (own != Some(closure)).then_some((candidate.near, curve))
     };
-    right.collect::<Vec<_>>().into_par_iter().filter_map(curve).collect()
+    CLOSURES.par_iter().enumerate().filter_map(curve).collect()
 }
 
 /// The nearest candidates with the fewest changes, in words; `rest` is added.

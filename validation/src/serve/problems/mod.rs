@@ -177,6 +177,10 @@ pub struct Problem {
     pub ensemble: Option<Ensemble>,
 }
 
+fn shear_rate_per_s(gradient_per_s: Matrix3<f64>) -> Option<f64> {
+    VelocityGradient::new(gradient_per_s)?.shear_rate_per_s()
+}
+
 /// From this strain on, a tensor problem asks for the steady state.
 const LATE: f64 = 1e6;
 
@@ -199,6 +203,19 @@ impl Problem {
     pub fn is_steady(&self) -> bool {
         let norm = self.gradient_per_s.as_flattened().iter().map(|g| g * g).sum::<f64>().sqrt();
         self.kind == Kind::Tensor && matches!(self.times_s[..], [time] if time * norm > LATE)
+    }
+
+    /// G in 1/s in plane Couette flow u_2 = G x_1; `None` in other flows.
+    pub fn shear_rate_per_s(&self) -> Option<f64> {
+        let l = &self.gradient_per_s;
+        shear_rate_per_s(Matrix3::from_fn(|i, j| l[i][j]))
+    }
+
+    /// a_ij at t = 0 of a tensor problem.
+    pub fn start_tensor(&self) -> [[f64; 3]; 3] {
+        let along = if self.planar_start { [0.5, 0.5, 0.0] } else { [1.0 / 3.0; 3] };
+        let diagonal = Matrix3::from_diagonal(&along.into()).into();
+        self.closed.map_or(diagonal, |closed| closed.start)
     }
 
     /// The columns of `inputs.csv`; none where the problem has no such file.
@@ -271,12 +288,12 @@ impl LoadedProblem {
 
     /// True if all that is asked is in plane Couette flow, u_2 = G x_1.
     pub fn is_couette(&self) -> bool {
-        let couette = |l: Matrix3<f64>| VelocityGradient::new(l).is_some_and(|flow| flow.shear_rate_per_s().is_some());
-        let l = &self.problem.gradient_per_s;
         match (&self.problem.formula, &self.inputs) {
             (Some(Formula::Closure { .. }), _) => false,
-            (Some(_), Some(inputs)) => inputs.rows.iter().all(|row| couette(formula::inputs::gradient(row))),
-            _ => couette(Matrix3::from_fn(|i, j| l[i][j])),
+            (Some(_), Some(inputs)) => {
+                inputs.rows.iter().all(|row| shear_rate_per_s(formula::inputs::gradient(row)).is_some())
+            }
+            _ => self.problem.shear_rate_per_s().is_some(),
         }
     }
 

@@ -91,3 +91,12 @@ pub(super) fn tables_apart(a: &str, b: &str) -> f64 {
     });
     each.fold(0.0, f64::max)
 }
+
+/// Holds that a table in the sources is the one that is computed, to `most`: half a unit of the twelfth decimal on
+/// either side, and the difference between machines. A digit changed from the first text to the second is seen.
+#[cfg(test)]
+pub(super) fn holds(anew: &str, table: &str, most: f64, [from, to]: [&str; 2]) {
+    let off = tables_apart(anew, table);
+    assert!(off < most, "{off:e}");
+    assert!(tables_apart(anew, &table.replacen(from, to, 1)) > 0.09);
+}

@@ -164,13 +164,8 @@ fn climbed(
     if let Some(finest) = rungs.last() {
         graded.steps = finest.setting.steps().ok();
         graded.asked_tolerance = finest.setting.tolerance().ok();
-        let compared = &finest.compared;
-        let finite = |number: &f64| number.is_finite();
-        graded.error = Some(compared.error).filter(finite);
-        graded.length_drift = compared.length_drift.filter(finite);
-        graded.orbit_drift = compared.orbit_drift.filter(finite);
-        graded.phase_lost_per_period = compared.phase_lost_per_period.filter(finite);
-        graded.set_diagnosis(diagnose(problem, &finest.answer, compared.error));
+        graded.set_compared(&finest.compared);
+        graded.set_diagnosis(diagnose(problem, &finest.answer, finest.error()));
     }
     graded.note = match end {
         _ if converging.is_some() => converging,

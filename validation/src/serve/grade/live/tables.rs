@@ -27,16 +27,13 @@ pub(super) fn of_formula(loaded: &LoadedProblem) -> Value {
 
 /// The equation, the start and the times; `tensor` is null where the distribution itself is asked for.
 pub(super) fn of_tensor(problem: &Problem, setting: Setting) -> Value {
-    const THIRD: f64 = 1.0 / 3.0;
-    let random = [[THIRD, 0.0, 0.0], [0.0, THIRD, 0.0], [0.0, 0.0, THIRD]];
-    let random = if problem.planar_start { [[0.5, 0.0, 0.0], [0.0, 0.5, 0.0], [0.0; 3]] } else { random };
     let mut request = json!({
         "tensor": problem.closed.map(|closed| json!({ "closure": closed.closure, "model": closed.model })),
         "c_i": problem.c_i,
         "d_r_per_s": problem.d_r_per_s,
         "gradient_per_s": problem.gradient_per_s,
         "aspect_ratio": problem.aspect_ratio,
-        "start": problem.closed.map_or(random, |closed| closed.start),
+        "start": problem.start_tensor(),
         "times_s": problem.times_s,
         "answer": problem.columns[1..],
     });

@@ -1,8 +1,8 @@
 //! A number that is off by an unknown factor: C_I, or Λ.
 
-use super::{Near, distance, near_of};
+use super::{Candidate, Near, STEP, distance, near_of};
+use crate::methods::tensors::Parts;
 use crate::methods::tensors::wrong::{CLOSURES, shaped, spread};
-use crate::methods::tensors::{Parts, at_rate};
 use crate::serve::grade::answer::Answer;
 use crate::serve::problems::{Closed, Problem};
 use rayon::prelude::*;
@@ -34,15 +34,13 @@ pub(super) fn of_curve(
     let start = closed.start();
     let all: Vec<_> = QUANTITIES.iter().flat_map(|q| (0..CLOSURES.len()).map(move |closure| (q, closure))).collect();
     let fit = |((name, change), closure): &(&Quantity, usize)| {
-        let stand = CLOSURES[*closure];
-        let row = |factor: f64| {
-            let parts = change(parts, factor)?;
-            let rate = |a: &_| parts.rate(a, &(stand.fourth)(a));
-            super::values(problem, &stand, at_rate(&rate, &start, &problem.times_s[..1], super::STEP)?.first()?)
+        let name = if problem.d_r_per_s.is_some() { name.replace("C_I", "D_r") } else { (*name).to_owned() };
+        let with = |factor: f64| {
+            let near = near_of(&words(&name, factor), "", *closure, own);
+            Some(Candidate { parts: change(parts, factor)?, closure: CLOSURES[*closure], near })
         };
-        let factor = newton(&answer.rows[0], row)?;
-        let near = near_of(&words(name, factor), "", *closure, own);
-        let candidate = super::Candidate { parts: change(parts, factor)?, closure: stand, near };
+        let row = |factor: f64| with(factor)?.curve(problem, &start, 1, STEP)?.pop();
+        let candidate = with(newton(&answer.rows[0], row)?)?;
         let distance = distance(problem, &answer.rows, &start, &candidate, most)?;
         Some(Near { distance, ..candidate.near })
     };

@@ -1,7 +1,7 @@
 //! Diagnosis of answers to formulas, row by row: the same mistakes as in curves, without an integration.
 
 use super::estimate::words;
-use super::{CLOSURES, Near, index, near_of, said, worst};
+use super::{CLOSURES, Near, apart, index, near_of, said};
 use crate::methods::tensors::fourth::PAIRS;
 use crate::methods::tensors::wrong::{MISTAKES, Mistake, spread};
 use crate::methods::tensors::{Closure, Equation, Model, Parts};
@@ -30,7 +30,7 @@ pub(in crate::serve::grade) fn diagnose(loaded: &LoadedProblem, answer: &Answer,
 }
 
 fn within(near: Near, answer: &Answer, rows: &Rows, most: f64) -> Option<Near> {
-    let distance = worst(&answer.rows, rows);
+    let distance = apart(&answer.rows, rows);
     (distance <= most).then_some(Near { distance, ..near })
 }
 

@@ -1,16 +1,13 @@
 //! Formulas by second ways: the derivative of the exact motion, limits in closed form, and laws.
 
-use super::super::table::tables_apart;
+use super::super::table::holds;
 use super::*;
 use crate::oracle::reference::motion::{Motion, Unit, image};
 use nalgebra::Vector3;
 
 #[test]
 fn the_table_is_computed_anew() {
-    let anew = certify().unwrap();
-    let off = tables_apart(&anew, TABLE);
-    assert!(off < 4e-12, "{off:e}");
-    assert!(tables_apart(&anew, &TABLE.replacen(",0.2", ",0.3", 1)) > 0.09);
+    holds(&certify().unwrap(), TABLE, 4e-12, [",0.2", ",0.3"]);
 }
 
 /// ṗ is the derivative at t = 0 of the exact motion, q/|q| with a matrix exponential.
