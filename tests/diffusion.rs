@@ -1,8 +1,8 @@
-//! Free rods with rotary diffusion: determinism, resumed runs, defaults and refusals.
+//! Free rods with rotary diffusion: their limit without it, determinism, resumed runs, defaults and refusals.
 
 use shearbed::run::ensemble::run;
 use shearbed::run::{Replica, go_on, run_replica};
-use shearbed::scene::{Interaction, Scene, Time};
+use shearbed::scene::{Flow, Interaction, Scene, Time};
 use shearbed::{Plan, Results};
 
 fn scene(diffusivity: f64) -> Scene {
@@ -72,4 +72,27 @@ fn rods_that_interact_and_flows_in_steps_are_refused() {
         refused.contains("particles.rotary_diffusion_per_s = 0.1") && refused.contains("[interaction]"),
         "{refused}"
     );
+}
+
+/// With next to no diffusion the rods move as free rods, at every output: in shear, and in a flow without a closed form.
+#[test]
+fn rods_that_hardly_diffuse_are_free_rods() {
+    for gradient_per_s in [[[0.0; 3], [0.5, 0.0, 0.0], [0.0; 3]], [[0.1, -0.3, 0.0], [0.5, 0.2, 0.1], [0.0, 0.2, -0.3]]]
+    {
+        let means = |diffusivity: f64| {
+            let mut scene = scene(diffusivity);
+            scene.flow = Flow::Gradient { gradient_per_s };
+            scene.output.rods_at = Vec::new();
+            scene.time = Time { outputs_per_unit: Some(10), ..Time::strain(4.0) };
+            run(&Plan::new(&scene).unwrap()).unwrap()
+        };
+        let (free, diffusing) = (means(0.0), means(1e-30));
+        for name in ["x1", "x2", "x3"] {
+            let [free, diffusing] = [&free, &diffusing].map(|results| &results.column(name).unwrap().mean);
+            let off = free.iter().zip(diffusing).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+            assert!(off < 1e-12 && free.len() == 41 && diffusing.len() == 41, "{name}: {off:e}");
+            let moved = free.iter().map(|x| (x - free[0]).abs()).fold(0.0, f64::max);
+            assert!(moved > 0.01, "{name} {moved}");
+        }
+    }
 }
