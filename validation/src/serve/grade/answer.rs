@@ -1,6 +1,7 @@
 //! A program's answer to a problem, in the order of the problem's own rows.
 
 use crate::files::FileError;
+use crate::files::text::Shown;
 use crate::judge::statistics::worst;
 use crate::serve::problems::{Kind, LoadedProblem};
 use std::path::{Path, PathBuf};
@@ -28,6 +29,15 @@ impl Answer {
             path: "certified.csv".into(),
             rows: problem.certified.rows.iter().map(|row| row[keys..].to_vec()).collect(),
             lines: Vec::new(),
+        }
+    }
+
+    /// The file of a row, with its line if it has one: a program that runs writes no file.
+    pub fn place(&self, row: usize) -> String {
+        let path = self.path.shown();
+        match self.lines[row] {
+            0 => path,
+            line => format!("{path}:{line}"),
         }
     }
 

@@ -1,7 +1,6 @@
 //! The error of an answer against the certified one, and its drifts.
 
 use super::answer::Answer;
-use crate::files::text::Shown;
 use crate::methods::integrators::apart_rad;
 use crate::serve::problems::{LoadedProblem, Metric};
 use nalgebra::Vector3;
@@ -125,7 +124,7 @@ fn without_error(loaded: &LoadedProblem, answer: &Answer) -> Option<String> {
     let names = &loaded.problem.columns[loaded.problem.kind.keys().len()..];
     let none = |(row, values): (usize, &Vec<f64>)| {
         let (_, se) = with_errors(names).find(|(_, se)| values[*se] <= 0.0)?;
-        let place = format!("{}:{}", answer.path.shown(), answer.lines[row]);
+        let place = answer.place(row);
         let (name, found) = (&names[se], values[se]);
         Some(format!("{place}: {name} = {found}; the mean of a random sample has a standard error above 0"))
     };
@@ -133,7 +132,7 @@ fn without_error(loaded: &LoadedProblem, answer: &Answer) -> Option<String> {
 }
 
 fn remark(loaded: &LoadedProblem, answer: &Answer, row: usize, error: f64, largest_se: f64) -> Option<String> {
-    let place = || format!("{}:{}", answer.path.shown(), answer.lines[row]);
+    let place = || answer.place(row);
     if error.is_nan() {
         return Some(format!("{}: a value is not finite", place()));
     }

@@ -156,6 +156,5 @@ fn place(loaded: &LoadedProblem, answer: &Answer, row: usize) -> String {
         Metric::Relative => "relative",
         Metric::StandardErrors => "standard errors",
     };
-    let place = format!("{}:{}", answer.path.shown(), answer.lines[row]);
-    format!("worst ({unit}) at {}, in {place}", key.join(", "))
+    format!("worst ({unit}) at {}, in {}", key.join(", "), answer.place(row))
 }

@@ -18,6 +18,9 @@ use layouts::LAYOUTS;
 use nalgebra::Matrix3;
 use rayon::prelude::*;
 
+/// What a wrong answer in time is.
+const CURVE: &str = "this is the curve";
+
 /// Above this number of names none is reported.
 const MOST_NAMES: usize = 4;
 
@@ -231,7 +234,7 @@ pub(super) fn diagnose(loaded: &LoadedProblem, answer: &Answer, error: f64) -> D
         return Diagnosis::default();
     }
     let mut near = of_wrong_diffusion(problem, answer, most);
-    let Some((closed, own)) = asked(problem) else { return said(near, problem.tolerance, "") };
+    let Some((closed, own)) = asked(problem) else { return said(CURVE, near, problem.tolerance, "") };
     let start = closed.start();
     let parts = closed.equation(&problem.gradient_per_s, problem.aspect_ratio).parts();
     let is_second = problem.columns.len() == PAIRS.len() + 1;
@@ -274,7 +277,7 @@ pub(super) fn diagnose(loaded: &LoadedProblem, answer: &Answer, error: f64) -> D
         Some(_) => String::new(),
         None => format!("; it costs {}", cost(loaded, answer)),
     };
-    said(near, problem.tolerance, &cost)
+    said(CURVE, near, problem.tolerance, &cost)
 }
 
 /// The right values in other layouts; each of `curves` is a name and the values that a code writes.
@@ -319,8 +322,8 @@ fn of_closures(
     CLOSURES.par_iter().enumerate().filter_map(curve).collect()
 }
 
-/// The nearest candidates with the fewest changes, in words; `rest` is added.
-fn said(mut near: Vec<Near>, tolerance: f64, rest: &str) -> Diagnosis {
+/// The nearest candidates with the fewest changes, in words after `what`; `rest` is added.
+fn said(what: &str, mut near: Vec<Near>, tolerance: f64, rest: &str) -> Diagnosis {
     near.sort_by(|a, b| a.distance.total_cmp(&b.distance));
     let Some(nearest) = near.first().map(|near| near.distance) else { return Diagnosis::default() };
     near.retain(|near| near.distance <= (10.0 * nearest).max(tolerance));
@@ -331,7 +334,7 @@ fn said(mut near: Vec<Near>, tolerance: f64, rest: &str) -> Diagnosis {
     let shared = !advice.is_empty() && near.iter().all(|near| near.advice == advice);
     let advice = if shared { format!("; {advice}") } else { String::new() };
     let nearest = nearest.max(f64::EPSILON);
-    let said = format!("this is the curve of {}, to {nearest:.0e}{rest}{advice}", names.join(" or of "));
+    let said = format!("{what} of {}, to {nearest:.0e}{rest}{advice}", names.join(" or of "));
     let said = (names.len() <= MOST_NAMES).then_some(said);
     let mut suspects: Vec<_> = near.into_iter().map(|near| near.suspect).collect();
     suspects.sort();

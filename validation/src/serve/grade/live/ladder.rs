@@ -68,13 +68,18 @@ struct Rung {
 
 impl Rung {
     fn of(problem: &LoadedProblem, setting: Setting, rows: Vec<Vec<f64>>, took: Duration) -> Self {
-        let answer = Answer { path: "standard output".into(), lines: vec![0; rows.len()], rows };
+        let answer = printed(rows);
         Self { setting, compared: compare(problem, &answer), answer, took }
     }
 
     fn error(&self) -> f64 {
         self.compared.error
     }
+}
+
+/// An answer of a program that runs: no file, and no lines.
+fn printed(rows: Vec<Vec<f64>>) -> Answer {
+    Answer { path: "standard output".into(), lines: vec![0; rows.len()], rows }
 }
 
 /// (steps, error) of the rungs whose setting is a number of steps.
@@ -116,8 +121,7 @@ fn formula(program: &Program, problem: &LoadedProblem) -> Graded {
     let size = [problem.certified.rows.len(), problem.problem.columns.len() - 1];
     match program.ask_table(&tables::of_formula(problem), size) {
         Ok((rows, _)) => {
-            let answer = Answer { path: "standard output".into(), lines: (1..=rows.len() as u64).collect(), rows };
-            judge(&mut graded, problem, &answer, Claim::default());
+            judge(&mut graded, problem, &printed(rows), Claim::default());
         }
         Err(Asked::Says(words)) => {
             (graded.verdict, graded.note) = (Verdict::Refused, Some(format!("the program says: {words}")));

@@ -26,7 +26,7 @@ pub(in crate::serve::grade) fn diagnose(loaded: &LoadedProblem, answer: &Answer,
         Formula::Closure { closure } => of_closures(&rows, answer, closure, most),
         Formula::Dadt { closure, model } => of_rates(&rows, answer, closure, model, most),
     });
-    said(near, loaded.problem.tolerance, "")
+    said("these are the values", near, loaded.problem.tolerance, "")
 }
 
 fn within(near: Near, answer: &Answer, rows: &Rows, most: f64) -> Option<Near> {
