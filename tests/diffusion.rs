@@ -74,7 +74,8 @@ fn rods_that_interact_and_flows_in_steps_are_refused() {
     );
 }
 
-/// With next to no diffusion the rods move as free rods, at every output: in shear, and in a flow without a closed form.
+/// With next to no diffusion the rods move as free rods, at every output: in shear, and in a flow without a closed
+/// form.
 #[test]
 fn rods_that_hardly_diffuse_are_free_rods() {
     for gradient_per_s in [[[0.0; 3], [0.5, 0.0, 0.0], [0.0; 3]], [[0.1, -0.3, 0.0], [0.5, 0.2, 0.1], [0.0, 0.2, -0.3]]]
