@@ -32,6 +32,10 @@ impl Plan {
             self.half_empty(),
             self.thick(),
             self.not_slender(),
+            self.cut_short(),
+            self.dense(),
+            self.thin_box(),
+            self.undisturbed(),
         ]
         .into_iter()
         .flatten()
@@ -201,5 +205,109 @@ impl Plan {
                 self.mean_and_its_key()
             )
         })
+    }
+    /// Warns if a scene ends between two outputs, as nothing is run after the last output.
+    fn cut_short(&self) -> Option<String> {
+        let time = &self.scene.time;
+        let (key, end) = (time.unit.duration_key(), time.duration);
+        let last = *self.times().last()?;
+        // An end that differs from an output by rounding is not between outputs.
+        (self.scene.output.times.is_empty() && last < end * (1.0 - 1e-12)).then(|| {
+            format!(
+                "{key} = {end} ends between two outputs: the last one is at {last}; choose an output interval that \
+                 divides {end}"
+            )
+        })
+    }
+
+    /// Warns if more than two rods meet at a time.
+    fn dense(&self) -> Option<String> {
+        let scene = &self.scene;
+        let n_a3 = scene.rods_per_cubed_length().filter(|n_a3| *n_a3 >= 1.0)?;
+        let shown = if n_a3 < 1e4 { format!("{n_a3:.3}") } else { format!("{n_a3:.3e}") };
+        let lengths = if scene.particles.rods.is_some() { "rods" } else { "length_mm" };
+        Some(format!(
+            "{} and particles.{lengths} give n a³ = {shown}: {}. The model is for dilute suspensions, n a³ < 1, in \
+             which two rods meet at a time",
+            scene.concentration_key(),
+            scene.regime()?
+        ))
+    }
+
+    /// Warns if the control volume is thinner than a rod is long.
+    fn thin_box(&self) -> Option<String> {
+        let (sides, length) = (self.scene.box_mm()?, self.scene.particles.length_mm);
+        let thinnest = sides.into_iter().fold(f64::INFINITY, f64::min);
+        (thinnest < length).then(|| {
+            format!(
+                "interaction.box_mm = {sides:?}: {thinnest} mm is less than a rod's length, {length} mm; rods near a \
+                 face lack neighbours, and here all are near one"
+            )
+        })
+    }
+
+    /// Warns if rods collide without effect.
+    fn undisturbed(&self) -> Option<String> {
+        let why = self.scene.particles.undisturbed().filter(|_| self.runs(Stage::Contacts))?;
+        Some(format!(
+            "interaction has no effect: {why}, and such rods disturb each other in this model only by the error of a \
+             time step"
+        ))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::parse;
+
+    /// 50 rods per cm³ of 0.72 mm, with keys that follow those of particles, of interaction and of time.
+    fn warnings(particles: &str, interaction: &str, time: &str) -> Vec<String> {
+        let text = format!(
+            "title = \"t\"\n[flow]\nshear_rate_per_s = 0.5\n[particles]\ncount = 100\nlength_mm = 0.72\naspect_ratio = \
+             11.6\n{particles}\n[interaction]\nalpha = 0.5\n{interaction}\n[time]\n{time}\n"
+        );
+        Plan::new(&parse("t.toml", &text).unwrap()).unwrap().warnings()
+    }
+
+    #[test]
+    fn results_that_mean_little_are_warned_of_once() {
+        let (rods, n, t) = ("orientation = \"isotropic\"", "concentration_per_cm3 = 50", "periods = 6");
+        let start = |phi: f64, theta: f64| format!("orientation = {{ phi_deg = {phi:?}, theta_deg = {theta:?} }}");
+        let spread = start(90.0, 45.0) + "\naspect_ratio_sd_percent = 3.6";
+        let none = "";
+        for (particles, interaction, time, expected) in [
+            (rods, n, t, none),
+            (rods, n, "periods = 0.3", none),
+            (rods, n, "periods = 0", none),
+            (rods, n, "periods = 0.35", "time.periods = 0.35 ends between two outputs: the last one is at 0.34;"),
+            (rods, n, "periods = 0.005", "time.periods = 0.005 ends between two outputs: the last one is at 0;"),
+            (rods, "concentration_per_cm3 = 2600", t, none),
+            (
+                rods,
+                "concentration_per_cm3 = 5000",
+                t,
+                "interaction.concentration_per_cm3 and particles.length_mm give \
+                n a³ = 1.866: semi-dilute.",
+            ),
+            (
+                rods,
+                "concentration_per_cm3 = 50000",
+                t,
+                "interaction.concentration_per_cm3 and particles.length_mm \
+                give n a³ = 18.662: concentrated.",
+            ),
+            (rods, "box_mm = [0.73, 10, 10]", t, none),
+            (rods, "box_mm = [0.71, 50, 50]", t, "interaction.box_mm = [0.71, 50.0, 50.0]: 0.71 mm is less than a"),
+            (&start(90.0, 90.0), n, t, "interaction has no effect: all rods start parallel in the shear plane"),
+            (&start(0.0, 0.0), n, t, "interaction has no effect: all rods start along the vorticity axis"),
+            (&start(90.0, 45.0), n, t, "interaction has no effect: all rods start parallel with one r_e"),
+            (&spread, n, t, none),
+            (&start(90.0, 90.0), "concentration_per_cm3 = 50\nupdate = \"angles\"", t, "interaction has no effect"),
+        ] {
+            let found = warnings(particles, interaction, time);
+            assert_eq!(found.len(), usize::from(!expected.is_empty()), "{particles} {interaction} {time}: {found:?}");
+            assert!(found.iter().all(|warning| warning.starts_with(expected)), "{found:?}");
+        }
     }
 }

@@ -249,6 +249,23 @@ impl Scene {
         }
     }
 
+    /// n⟨a³⟩ with the full length a, the number of rods in the cube of a rod's length; `None` for free rods.
+    pub fn rods_per_cubed_length(&self) -> Option<f64> {
+        let cube_cm3 = (0.1 * self.particles.length_mm).powi(3) * self.particles.mean_cube();
+        Some(self.concentration_per_cm3()? * cube_cm3)
+    }
+
+    /// `dilute`, `semi-dilute` or `concentrated` by Doi & Edwards: rods turn freely below one rod in the cube of a
+    /// rod's length; above, they hinder each other, and from a volume fraction of about 1/r_e, which is n a³ = r_e,
+    /// they do so everywhere. `None` for free rods.
+    pub fn regime(&self) -> Option<&'static str> {
+        Some(match self.rods_per_cubed_length()? {
+            n_a3 if n_a3 < 1.0 => "dilute",
+            n_a3 if n_a3 < self.particles.aspect_ratio => "semi-dilute",
+            _ => "concentrated",
+        })
+    }
+
     /// The key that gives the concentration of rods that may interact.
     pub fn concentration_key(&self) -> &'static str {
         match (self.box_mm(), self.particles.volume_fraction) {

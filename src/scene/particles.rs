@@ -141,6 +141,18 @@ impl Particles {
         }
     }
 
+    /// The reason why rods with a common initial direction do not disturb each other; `None` if they do. Parallel rods
+    /// have no contact line; in the shear plane it is along axis 3, along which nothing moves.
+    pub fn undisturbed(&self) -> Option<&'static str> {
+        let [_, theta_deg] = self.common_start_deg()?;
+        match theta_deg.rem_euclid(180.0) {
+            90.0 => Some("all rods start parallel in the shear plane"),
+            0.0 => Some("all rods start along the vorticity axis"),
+            _ if !self.of_several_shapes() => Some("all rods start parallel with one r_e"),
+            _ => None,
+        }
+    }
+
     /// True if rods differ in r_e.
     pub fn of_several_shapes(&self) -> bool {
         match self.own().and_then(|own| own.aspect_ratio.as_ref()) {

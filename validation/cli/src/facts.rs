@@ -53,17 +53,15 @@ impl Facts {
     pub(super) fn of(plan: &Plan) -> Self {
         let scene = plan.scene();
         let r = scene.particles.aspect_ratio;
-        let cube_cm3 = (0.1 * scene.particles.length_mm).powi(3) * scene.particles.mean_cube();
-        let n_a3 = scene.concentration_per_cm3().map(|n| n * cube_cm3);
         let period_s = Propagator::new(plan.flow(), r).period_s().filter(|_| scene.time.unit != TimeUnit::Strain);
         Self {
             period_s: period_s.filter(|period_s| period_s.is_finite()),
             strain_per_step: (plan.steps() > 0).then(|| plan.elapsed(1.0).strain / scene.steps_per_unit() as f64),
             // r² would be infinite for long rods, so numerator and denominator are divided by r.
             shape_factor: (r - 1.0 / r) / (r + 1.0 / r),
-            n_a3,
+            n_a3: scene.rods_per_cubed_length(),
             concentration_per_cm3: scene.concentration_per_cm3().filter(|_| scene.concentration_key() != GIVES_N),
-            regime: n_a3.map(|n_a3| regime(n_a3, r)),
+            regime: scene.regime(),
             equivalent: scene.particles.shape_correlation.map(|correlation| Equivalent {
                 aspect_ratio: r,
                 formula: correlation.formula().formula,
@@ -95,86 +93,16 @@ impl Facts {
     }
 }
 
-/// The regime by Doi & Edwards: rods turn freely below one rod in the cube of a rod's length; above, they hinder each
-/// other, and from a volume fraction of about 1/r_e, which is n a³ = r_e, they do so everywhere.
-fn regime(n_a3: f64, aspect_ratio: f64) -> &'static str {
-    match n_a3 {
-        n_a3 if n_a3 < 1.0 => "dilute",
-        n_a3 if n_a3 < aspect_ratio => "semi-dilute",
-        _ => "concentrated",
-    }
-}
-
-/// Reasons to doubt the results of a plan.
-pub(super) fn warnings(plan: &Plan) -> Vec<String> {
-    let mut warnings = plan.warnings();
-    warnings.extend(cut_short(plan));
-    let facts = Facts::of(plan);
-    if let Some((n_a3, regime)) = facts.n_a3.zip(facts.regime).filter(|(n_a3, _)| *n_a3 >= 1.0) {
-        let shown = if n_a3 < 1e4 { format!("{n_a3:.3}") } else { format!("{n_a3:.3e}") };
-        let scene = plan.scene();
-        let volume = scene.concentration_key();
-        let lengths = if scene.particles.rods.is_some() { "rods" } else { "length_mm" };
-        warnings.push(format!(
-            "{volume} and particles.{lengths} give n a³ = {shown}: {regime}. The model is for dilute \
-             suspensions, n a³ < 1, in which two rods meet at a time"
-        ));
-    }
-    warnings.extend(thin_box(plan));
-    warnings
-}
-
-/// A warning if the control volume is thinner than a rod is long.
-fn thin_box(plan: &Plan) -> Option<String> {
-    let scene = plan.scene();
-    let (sides, length) = (scene.box_mm()?, scene.particles.length_mm);
-    let thinnest = sides.into_iter().fold(f64::INFINITY, f64::min);
-    (thinnest < length).then(|| {
-        format!(
-            "interaction.box_mm = {sides:?}: {thinnest} mm is less than a rod's length, {length} mm; rods near a face \
-             lack neighbours, and here all are near one"
-        )
-    })
-}
-
-/// A warning if a scene ends between two outputs, as nothing is run after the last output.
-fn cut_short(plan: &Plan) -> Option<String> {
-    let time = &plan.scene().time;
-    let (key, end) = (time.unit.duration_key(), time.duration);
-    let times = plan.times();
-    let last = *times.last()?;
-    let given = !plan.scene().output.times.is_empty();
-    // An end that differs from an output by rounding is not between outputs.
-    (!given && last < end * (1.0 - 1e-12)).then(|| {
-        format!(
-            "{key} = {end} ends between two outputs: the last one is at {last}; choose an output interval that divides \
-             {end}"
-        )
-    })
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use shearbed_validation::input::scenes;
 
-    #[test]
-    fn a_scene_that_ends_between_outputs_says_so() {
-        let mut scene = scenes::find("fig4-n50").unwrap().scene().unwrap();
-        let told = |scene: &shearbed::Scene| cut_short(&Plan::new(scene).unwrap());
-        for (periods, last) in [(6.0, None), (0.3, None), (0.0, None), (0.35, Some("0.34")), (0.005, Some("at 0;"))] {
-            scene.time.duration = periods;
-            let told = told(&scene);
-            assert_eq!(told.is_some(), last.is_some(), "{periods}: {told:?}");
-            assert!(told.is_none_or(|told| told.contains(last.unwrap())));
-        }
-    }
-
     fn facts(n: f64) -> (Facts, Vec<String>) {
         let mut scene = scenes::find("fig4-n50").unwrap().scene().unwrap();
         scene.interaction.as_mut().unwrap().concentration_per_cm3 = Some(n);
         let plan = Plan::new(&scene).unwrap();
-        (Facts::of(&plan), warnings(&plan))
+        (Facts::of(&plan), plan.warnings())
     }
 
     #[test]

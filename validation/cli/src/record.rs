@@ -1,6 +1,6 @@
 //! `run.json`: a record of the run, which allows to repeat it.
 
-use super::facts::{Facts, warnings};
+use super::facts::Facts;
 use super::until::Ended;
 use serde::Serialize;
 use shearbed::model::work::Counters;
@@ -63,7 +63,7 @@ pub(super) fn json(
         seed: plan.scene().ensemble.seed,
         plan: plan.entries(),
         plan_text: plan.to_string(),
-        warnings: warnings(plan),
+        warnings: plan.warnings(),
         counters: results.counters,
         until_se,
         ranks: shearbed_validation::files::cluster::size(),

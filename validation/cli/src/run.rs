@@ -6,7 +6,7 @@ use super::record::Seconds;
 use super::scene::{Chosen, Ensemble, Named};
 use super::until::{self, Until};
 use super::{
-    Failure, Threads, Writing, agree, checkpoint, facts, memory, number, pictures, print, probe, record, rods, scene,
+    Failure, Threads, Writing, agree, checkpoint, memory, number, pictures, print, probe, record, rods, scene,
     spares_inputs, tables, threads,
 };
 use serde_json::{Value, json};
@@ -150,7 +150,7 @@ impl<'a> Run<'a> {
             folder.check(&names)?;
         }
         let replaced = folder.difference();
-        scene::warn(&named.source, &facts::warnings(&plan));
+        scene::warn(&named.source, &plan.warnings());
         let threads = threads::count(args.threads.given)? as usize;
         Ok(Self { args, named, plan, threads, folder, replaced, checkpoint })
     }

@@ -1,7 +1,7 @@
 //! `shearbed plan` and `shearbed scenes`.
 
 use super::duration;
-use super::facts::{self, Facts};
+use super::facts::Facts;
 use super::scene::{Chosen, Ensemble};
 use super::until::{LEAST, Until};
 use super::{Failure, memory, print};
@@ -48,7 +48,7 @@ pub(super) fn plan(args: &PlanArgs) -> Result<(), Failure> {
         Facts::of(&plan).text(),
         duration::of_scene(&plan),
         args.until.planned(),
-        said(facts::warnings(&plan))
+        said(plan.warnings())
     ))?;
     // A plan that `run` would refuse here is still shown: it may fit on another machine.
     memory::check(&plan, None, false, &named.source)

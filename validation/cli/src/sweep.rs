@@ -2,8 +2,7 @@
 
 use super::scene::{Chosen, Ensemble};
 use super::{
-    Failure, Threads, Writing, agree, facts, log, memory, on_threads, print, progress, result_folder, scene,
-    spares_inputs,
+    Failure, Threads, Writing, agree, log, memory, on_threads, print, progress, result_folder, scene, spares_inputs,
     tables::{self, is_bounded},
 };
 use shearbed::run::ensemble;
@@ -162,7 +161,7 @@ const MOST_WARNINGS: usize = 10;
 fn warnings(points: &[Point], over: &[Axis]) -> Vec<String> {
     let mut found: Vec<(String, &Point, usize)> = Vec::new();
     for point in points {
-        for warning in facts::warnings(&point.plan) {
+        for warning in point.plan.warnings() {
             match found.iter_mut().find(|(known, ..)| *known == warning) {
                 Some((.., others)) => *others += 1,
                 None => found.push((warning, point, 0)),

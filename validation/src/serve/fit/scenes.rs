@@ -61,18 +61,6 @@ pub struct Scenes {
     steps: Vec<u64>,
 }
 
-/// The reason why rods with a common initial direction do not disturb each other; none if they do. Parallel rods have
-/// no contact line; in the shear plane it is along axis 3, along which nothing moves.
-fn apart(scene: &Scene) -> Option<&'static str> {
-    let [_, theta_deg] = scene.particles.common_start_deg()?;
-    match theta_deg.rem_euclid(180.0) {
-        90.0 => Some("all rods start parallel in the shear plane"),
-        0.0 => Some("all rods start along the vorticity axis"),
-        _ if !scene.particles.of_several_shapes() => Some("all rods start parallel with one r_e"),
-        _ => None,
-    }
-}
-
 /// √3: the outer nodes of Gauss–Hermite quadrature, in standard deviations.
 const OUTER: f64 = 1.732_050_807_568_877_2;
 
@@ -105,7 +93,7 @@ impl Scenes {
     /// Refuses to fit the interaction of rods that never disturb each other: their curves do not depend on it.
     fn says_something(&self, set: usize, scene: &Scene) -> Result<(), SceneError> {
         let fitted = self.ranges.iter().find(|range| range.is_of(set) && range.key.starts_with("interaction."));
-        match (fitted, apart(scene)) {
+        match (fitted, scene.particles.undisturbed()) {
             (Some(range), Some(why)) => Err(SceneError::Parameters {
                 scene: self.sets[set].source.clone(),
                 parameters: vec![range.label()],
