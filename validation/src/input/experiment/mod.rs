@@ -53,7 +53,7 @@ pub const ANCZUROWSKI: Source = Source {
     folder: "anczurowski-cox-mason-1967",
     label: "Anczurowski, Cox & Mason (1967)",
     scenes: &["fig5"],
-    judged_up_to: 3.5,
+    judged_up_to: 3.0,
 };
 
 /// Every source.

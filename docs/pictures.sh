@@ -1,0 +1,47 @@
+#!/usr/bin/env bash
+# Makes the pictures of README and book afresh. The test `docs` compares those of the first part, byte for byte.
+# Usage: bash docs/pictures.sh DIR [release]      into DIR; with `release` also what takes minutes
+set -euo pipefail
+ROOT=$(cd "$(dirname "$0")/.." && pwd)
+mkdir -p "$1"
+out=$(cd "$1" && pwd)
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work"
+
+shearbed run fig4-n50 --replicas 400 --out fig4 --quiet
+cp fig4/projections.svg "$out/fig4-n50.svg"
+
+# The scene of a page's first block that writes it.
+scene() { awk "/^cat > cell.toml/ { on = 1; next } /^END/ { exit } on" "$ROOT/docs/src/user/$1.md" >cell.toml; }
+
+scene first-run
+shearbed run cell.toml --out cell --quiet
+shearbed run cell.toml --set interaction.alpha=0 --out no-collisions --quiet
+shearbed run cell.toml --set interaction.alpha=0 --set particles.aspect_ratio_sd_percent=0 --out equal-rods --quiet
+shearbed plot cell no-collisions equal-rods --y x1 --out "$out/damping.svg" >/dev/null
+
+(echo length_mm; for _ in {1..50}; do echo 0.36; echo 1.08; done) >mix.csv
+lengths() {
+  shearbed run fig4-n50 --set 'title="Rods of several lengths"' --set time.periods=2 --replicas 400 "${@:2}" --out "$1" --quiet
+}
+lengths "all of 0.36 mm" --set particles.length_mm=0.36
+lengths "all of 0.72 mm"
+lengths "30 % scatter" --set particles.length_sd_percent=30
+lengths "half 0.36, half 1.08 mm" --set 'particles.rods={file="mix.csv"}'
+lengths "all of 1.08 mm" --set particles.length_mm=1.08
+shearbed plot "all of 0.36 mm" "all of 0.72 mm" "30 % scatter" "half 0.36, half 1.08 mm" "all of 1.08 mm" --y x1 \
+  --out "$out/lengths.svg" >/dev/null
+[ "${2:-}" = release ] || exit 0
+
+scene fitting
+shearbed run cell.toml --set interaction.alpha=0.8 --replicas 10 --seed 2024 --out truth --quiet
+awk -F, 'NR == 1 { print "t_s,x1,x1_u" }
+         NR > 2 && (NR - 2) % 5 == 0 { printf "%.2f,%.2f,0.003\n", $2, $4 }' truth/projections.csv >points.csv
+shearbed fit cell.toml --data points.csv --rods 1000 --over interaction.alpha=0.05:5 --out fit --quiet 2>/dev/null
+cp fit/points.svg "$out/fit-points.svg"
+
+shearbed bench --case folgar-tucker --out ci --quiet
+for picture in effective-ci folgar-tucker kicks-and-diffusion steady-orbits; do cp "ci/$picture.svg" "$out/$picture.svg"; done
+shearbed bench --case closures --out closures --quiet
+cp closures/closures-error.svg "$out/closures-error.svg"
