@@ -11,9 +11,9 @@ use rayon::prelude::*;
 use shearbed::observable::Channel;
 use shearbed::run::ensemble;
 use shearbed::run::{Replica, run_replica};
-use shearbed::scene::document::Document;
+use shearbed::scene::document::{Document, value as value_of};
 use shearbed::scene::{Absent, Key, of_document};
-use shearbed::{Error, Plan, Results, Scene};
+use shearbed::{Error, Observable, Plan, Results, Scene};
 use shearbed_validation::input::{scenes, start::Starts};
 use std::ffi::OsString;
 use std::ops::Range;
@@ -71,6 +71,38 @@ fn describe(name: &str, text: &str) -> PyResult<(String, String, Vec<String>, Op
     let plan = plan(name, text, None, None)?;
     let start = plan.scene().particles.rods.as_ref().map(|rods| rods.file.clone());
     Ok((toml_of(&plan.scene().resolved())?, plan.to_string(), plan.warnings(), start))
+}
+
+/// The text of a scene with values, which are TOML, at dotted keys; a key without a value is taken out.
+#[pyfunction]
+fn changed(name: &str, text: &str, values: Vec<(String, Option<String>)>) -> PyResult<String> {
+    let refused = |error: &dyn std::fmt::Display| SceneError::new_err(format!("{name}: {error}"));
+    let mut scene: toml::Table = toml::from_str(text).map_err(|error| refused(&error))?;
+    for (key, value) in values {
+        let (tables, last) = key.rsplit_once('.').unwrap_or(("", &key));
+        let mut table = &mut scene;
+        for part in tables.split_terminator('.') {
+            let inner = table.entry(part).or_insert_with(|| toml::Value::Table(toml::Table::new()));
+            table =
+                inner.as_table_mut().ok_or_else(|| refused(&format!("{part} is no table, so there is no {key}")))?;
+        }
+        match value {
+            Some(value) => {
+                let value =
+                    value_of(&value).ok_or_else(|| refused(&format!("{key} = {value}: no value of a scene")))?;
+                table.insert(last.to_owned(), value);
+            }
+            None => drop(table.remove(last)),
+        }
+    }
+    toml::to_string(&scene).map_err(|error| refused(&error))
+}
+
+/// Each observable: its name, its label, and the names and symbols of its channels.
+#[pyfunction]
+fn observables() -> Vec<(&'static str, &'static str, Vec<(String, String)>)> {
+    let channels = |of: Observable| of.channels().map(|channel| (channel.name(), channel.symbol())).collect();
+    Observable::ALL.into_iter().map(|of| (of.name(), of.label(), channels(of))).collect()
 }
 
 /// Why a run gave no results.
@@ -228,6 +260,8 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(keys, module)?)?;
     module.add_function(wrap_pyfunction!(built_in_scenes, module)?)?;
     module.add_function(wrap_pyfunction!(describe, module)?)?;
+    module.add_function(wrap_pyfunction!(changed, module)?)?;
+    module.add_function(wrap_pyfunction!(observables, module)?)?;
     module.add_function(wrap_pyfunction!(run, module)?)?;
     module.add_function(wrap_pyfunction!(call, module)?)?;
     module.add_function(wrap_pyfunction!(main, module)?)

@@ -61,6 +61,11 @@ def test_the_result_is_that_of_the_program(points: dict[str, np.ndarray], tmp_pa
     assert tested["hypothesis"] == "interaction.alpha=0.8" and tested["p_value"] > 6e-5 and found.tests == []
     # The points as a file, and in two sets with a value that was not measured.
     assert shearbed.fit(SCENE, tmp_path / "points.csv", OVER, replicas=60, seed=3)["interaction.alpha"] == alpha
+    bare = {name: column for name, column in points.items() if name != "x1_u"}
+    assert shearbed.fit(SCENE, bare, OVER, u=0.01, u_contains="reading", replicas=60, seed=3)["interaction.alpha"] == alpha
+    np.savetxt(tmp_path / "bare.txt", np.stack([points["x1"], points["t_over_T"]], axis=1), fmt="%.17g", delimiter=",")
+    named = shearbed.fit(SCENE, tmp_path / "bare.txt", OVER, columns=["x1", "t_over_T"], u=0.01, replicas=60, seed=3)
+    assert named["interaction.alpha"] == alpha
     halves = [{name: column[half] for name, column in points.items()} for half in (slice(0, 5), slice(5, 10))]
     halves[1]["x1"] = np.where(np.arange(5) == 2, np.nan, halves[1]["x1"])
     both = shearbed.fit(SCENE, halves[0], OVER, also=[(SCENE, halves[1])], replicas=60, seed=3)

@@ -104,6 +104,76 @@ def test_rods_are_those_of_the_programs_table(kind: str, tmp_path: Path) -> None
     assert len(swept["x1"]) == 2
 
 
+def test_what_the_program_wrote_is_loaded_as_a_run_gives_it(tmp_path: Path) -> None:
+    scene = shearbed.Scene(**(SMALL | dict(replicas=2, rods_at=[0, 0.2], observables=EVERY)))
+    (tmp_path / "scene.toml").write_text(scene.toml)
+    assert program("run", "scene.toml", "--out", "out", "--quiet", cwd=tmp_path).returncode == 0
+    loaded, own = shearbed.load(tmp_path / "out"), shearbed.run(scene)
+    assert loaded.observables == own.observables and loaded.labels == own.labels and loaded.time_name == own.time_name
+    assert {name: loaded.symbols[name] for name in own.channels} == own.symbols
+    assert (loaded.seed, loaded.replicas, loaded.warnings) == (own.seed, own.replicas, own.warnings)
+    for name in ("t", "time_s", "strain", "a", *own.channels, *(f"{name}_se" for name in own.channels)):
+        assert np.array_equal(getattr(loaded, name), getattr(own, name)), name
+    assert all(np.array_equal(loaded.rods[name], values, equal_nan=True) for name, values in own.rods.items())
+    assert shearbed.Scene(toml=loaded.scene) == scene
+    with pytest.raises(FileNotFoundError):
+        shearbed.load(tmp_path)
+
+
+def test_a_scene_with_other_values() -> None:
+    scene = shearbed.Scene(**SMALL)
+    changed = scene.replace(alpha=0.25, **{"ensemble.seed": 7, "title": "other"})
+    assert changed == shearbed.Scene(**(SMALL | dict(alpha=0.25, seed=7, title="other"))) != scene
+    assert len({scene, shearbed.Scene(**SMALL), changed}) == 2
+    # Defaults follow: longer rods take more steps.
+    assert scene.replace(aspect_ratio=50) == shearbed.Scene(**(SMALL | dict(aspect_ratio=50)))
+    in_place = scene.replace(concentration_per_cm3=None, volume_fraction=1e-4)
+    assert "volume_fraction" in in_place.toml
+    assert shearbed.run(scene, set={"alpha": 0.25}).x1.tobytes() == shearbed.run(scene.replace(alpha=0.25)).x1.tobytes()
+    assert repr(scene) == "<Scene 'scene': 20 rods, 1 replica, t/T = 0.5, 26 outputs, 100 time steps>"
+    assert "<pre>scene\n" in scene._repr_html_()
+    with pytest.raises(shearbed.SceneError, match="alhpa"):
+        scene.replace(alhpa=0.3)
+    with pytest.raises(shearbed.SceneError, match="title is no table, so there is no title.x"):
+        scene.replace(**{"title.x": 1})
+
+
+def test_a_dense_scene_warns_here_too() -> None:
+    [warning] = shearbed.Scene(**SMALL).replace(concentration_per_cm3=50_000).warnings
+    assert "n a³ = 18.662: concentrated" in warning
+    [warning] = shearbed.Scene(**SMALL).replace(orientation={"phi_deg": 90, "theta_deg": 90}).warnings
+    assert "all rods start parallel in the shear plane" in warning
+
+
+def test_until_a_standard_error_is_small_and_with_a_checkpoint(tmp_path: Path) -> None:
+    found = shearbed.run(SMALL, until_se={"x1": 0.02})
+    assert found.replicas >= 32 and found.x1_se.max() <= 0.02
+    assert found.x1.tobytes() == shearbed.run(SMALL, replicas=found.replicas).x1.tobytes()
+    with pytest.warns(UserWarning, match="x1"):
+        less = shearbed.run(SMALL, until_se={"x1": 1e-5}, time_limit_s=0.2)
+    assert less.replicas >= 2
+    kept = tmp_path / "kept"
+    first = shearbed.run(SMALL, replicas=3, checkpoint=kept)
+    assert kept.exists() and first.x1.tobytes() == shearbed.run(SMALL, replicas=3).x1.tobytes()
+    assert shearbed.run(SMALL, replicas=5, checkpoint=kept).x1.tobytes() == shearbed.run(SMALL, replicas=5).x1.tobytes()
+    with pytest.raises(ValueError, match="fewer|replicas"):
+        shearbed.run(SMALL, replicas=2, checkpoint=kept)
+    with pytest.raises(TypeError, match="until_se"):
+        shearbed.run(SMALL, time_limit_s=1)
+
+
+def test_a_sweep_as_a_dataset() -> None:
+    pytest.importorskip("xarray", reason="xarray is not here")
+    over = {"interaction.alpha": [0.25, 1.0], "interaction.update": ["kick", "rotation", "angles"]}
+    table = shearbed.sweep(SMALL, over, replicas=2)
+    found = shearbed.sweep(SMALL, over, replicas=2, xarray=True)
+    assert dict(found.sizes) == {"interaction.alpha": 2, "interaction.update": 3}
+    picked = found["x1"].sel({"interaction.alpha": 1.0, "interaction.update": "rotation"})
+    assert float(picked) == table["x1"][4]
+    every = shearbed.sweep(SMALL, over, replicas=2, times="all", xarray=True)
+    assert np.array_equal(every["x1"].isel(output=-1).values, found["x1"].values) and every.sizes["output"] == 26
+
+
 def test_seed_and_replicas_stand_in_place_of_the_scenes_own() -> None:
     own = shearbed.run(SMALL | dict(replicas=3, seed=5))
     given = shearbed.run(SMALL, replicas=3, seed=5)

@@ -21,7 +21,7 @@ def rhs(gradient_per_s: Array, aspect_ratio: float, p: Array) -> Array:
 
 
 @pytest.mark.parametrize("problem", shearbed.testing.problems()[:3], ids=str)
-def test_a_right_function_passes(problem: shearbed.testing.Checked) -> None:
+def test_a_right_function_passes(problem: shearbed.Problem) -> None:
     problem.check(rhs)
 
 
@@ -33,8 +33,56 @@ def test_a_wrong_function_fails_in_the_grader_s_words() -> None:
     assert "mid-flip-11.6/answer.csv" in str(error.value) and "shearbed-" not in str(error.value)
     names = [str(one) for one in shearbed.testing.problems()]
     assert "ten-thousand-periods" not in names and len(names) == len(set(names)) > 5
-    with pytest.raises(ValueError, match="'moments'.*'rods' is allowed"):
+    with pytest.raises(ValueError, match="'moments'.*'rods' and 'formula' are allowed"):
         shearbed.testing.problems(kind="moments")
+
+
+def dadt(gradient_per_s: Array, aspect_ratio: float, a: Array, model: dict[str, Any]) -> Array:
+    """Folgar & Tucker with the quadratic closure."""
+    shape = (aspect_ratio**2 - 1) / (aspect_ratio**2 + 1)
+    d, w = (gradient_per_s + gradient_per_s.T) / 2, (gradient_per_s - gradient_per_s.T) / 2
+    rate, c_i = np.sqrt(2 * np.sum(d * d)), model["folgar-tucker"]["c_i"]
+    found: Array = w @ a - a @ w + shape * (d @ a + a @ d - 2 * a * np.sum(a * d)) + 2 * c_i * rate * (np.eye(3) - 3 * a)
+    return found
+
+
+def quadratic(a: Array) -> Array:
+    found: Array = np.einsum("ij,kl->ijkl", a, a)
+    return found
+
+
+def linear(a: Array) -> Array:
+    one, pairs = np.eye(3), ("ij,kl->ijkl", "ik,jl->ijkl", "il,jk->ijkl")
+    ones = sum(np.einsum(pair, one, one) for pair in pairs)
+    mixed = sum(np.einsum(pair, one, a) + np.einsum(pair, a, one) for pair in pairs)
+    found: Array = mixed / 7 - ones / 35
+    return found
+
+
+@pytest.mark.parametrize(
+    ("name", "right", "wrong", "named"),
+    [
+        ("pdot-rod", rhs, lambda gradient, r, p: rhs(gradient.T, r, p), "transposed gradient"),
+        ("closure-quadratic", quadratic, linear, "linear"),
+        ("closure-linear", linear, quadratic, "quadratic"),
+        ("dadt-ft-quadratic", dadt, lambda gradient, r, a, model: dadt(gradient, -1 / r, a, model), "Λ"),
+    ],
+)
+def test_a_formula_is_graded_row_by_row(name: str, right: Any, wrong: Any, named: str) -> None:
+    problem = next(one for one in shearbed.testing.problems(kind="formula") if one.name == name)
+    assert problem.formula and problem.inputs and len(problem.inputs["row"]) >= 30
+    problem.check(right)
+    with pytest.raises(AssertionError, match=f"(?s){name} +FAIL.*{named}"):
+        problem.check(wrong)
+
+
+def test_a_function_that_is_no_formula_is_told_what_is_asked() -> None:
+    with pytest.raises(TypeError, match=r"row 0: \(3, 3\) is asked for, not \(3,\)"):
+        shearbed.grade(lambda gradient, r, a: a[0], names=["dadt-ft-linear"])
+    with pytest.raises(ValueError, match="order = 4: a formula has none"):
+        shearbed.grade(quadratic, names=["closure-quadratic"], order=4)
+    with pytest.raises(ValueError, match="problems about rods and formulas"):
+        shearbed.grade(rhs, names=["pdot-rod", "mid-flip-2"])
 
 
 def test_a_built_in_scene_has_a_name() -> None:

@@ -11,7 +11,7 @@ from ._grading import Problem, Report, grade, problems
 from ._reference import reference
 from ._results import Results
 from ._scene import Scene, scenes
-from ._running import run, sweep
+from ._running import load, run, sweep
 
 __all__ = [
     "Estimate",
@@ -24,6 +24,7 @@ __all__ = [
     "__version__",
     "fit",
     "grade",
+    "load",
     "problems",
     "reference",
     "run",

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ._running import columns, options, program
+from ._running import columns as columns_of, options, program
 from ._scene import Scene, scene_of
 
 Array = NDArray[np.float64]
@@ -56,9 +56,9 @@ class Fit:
         """The parameters in the order of ``covariance`` and ``correlation``."""
         self.covariance: Array = np.array(self.record["covariance"], dtype=float)
         self.correlation: Array = np.array(self.record["correlation"], dtype=float)
-        self.residuals: dict[str, NDArray[Any]] = columns(folder / "residuals.csv")
+        self.residuals: dict[str, NDArray[Any]] = columns_of(folder / "residuals.csv")
         """Each point beside the best model: set, time_unit, time, column, measured, simulated, residual, u."""
-        profiles = columns(folder / "profiles.csv")
+        profiles = columns_of(folder / "profiles.csv")
         self.profiles: dict[str, tuple[Array, Array]] = {
             key: (profiles["value"][rows], profiles["rise_of_chi2"][rows])
             for key in self.order
@@ -69,7 +69,7 @@ class Fit:
         """What was asked by ``test=``: hypothesis, rise_of_chi2, p_value (at most that where beyond_the_box, and not below 1e-6), and of two keys their difference."""
         self.warnings: list[str] = self.record["warnings"]
         """What to know before trusting it."""
-        self.design: dict[str, NDArray[Any]] | None = columns(folder / "design.csv") if (folder / "design.csv").exists() else None
+        self.design: dict[str, NDArray[Any]] | None = columns_of(folder / "design.csv") if (folder / "design.csv").exists() else None
         """With ``design=True``: further points, and the uncertainties that each would leave."""
         self._words = words
 
@@ -105,6 +105,9 @@ def fit(
     replicas: int | None = None,
     seed: int | None = None,
     rods: int | None = None,
+    u: float | None = None,
+    u_contains: str | None = None,
+    columns: Sequence[str] | None = None,
     set: Mapping[str, Any] | None = None,
     design: bool = False,
     test: Sequence[str] = (),
@@ -113,7 +116,8 @@ def fit(
     """Fits keys of a scene to measured points, as ``shearbed fit`` does, with the same result.
 
     ``data`` is a CSV file or its columns: a time (``t_over_T``, ``t_s`` or ``strain``), and channels each with one standard
-    deviation, as ``x1`` and ``x1_u``; NaN was not measured. ``over={"interaction.alpha": (0.05, 5)}`` are up to three keys
+    deviation, as ``x1`` and ``x1_u``, or ``u`` for all points; ``u_contains`` is ``"reading"`` or ``"rods"``; NaN was not measured. ``columns=["t_s", "x1", "-"]`` names the columns
+    of files that have other names, or none. ``over={"interaction.alpha": (0.05, 5)}`` are up to three keys
     with the range to look in. ``also`` are other scenes with points of their own, fitted with the same parameters.
     A key may have a value of its own for each scene: ``over={"1:interaction.alpha": ..., "2:interaction.alpha": ...}``.
     ``set={"particles.count": 50}`` gives a key of every scene another value. ``replicas`` is the most at each value,
@@ -135,6 +139,9 @@ def fit(
         for key, (low, high) in over.items():
             words += ["--over", f"{key}={float(low)!r}:{float(high)!r}"]
         words += options(replicas=replicas, seed=seed, rods=rods, threads=threads, set=set)
+        words += [] if u_contains is None else ["--u-contains", u_contains]
+        words += [] if u is None else ["--u", repr(float(u))]
+        words += [] if columns is None else ["--columns", ",".join(columns)]
         words += ["--design"] if design else []
         words += [word for held in test for word in ("--test", held)]
         said = program(words, folder)

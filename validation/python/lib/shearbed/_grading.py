@@ -8,7 +8,7 @@ import json
 import os
 import tempfile
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -18,6 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ._extrapolation import Lost, motion
+from ._formulas import answers
 from ._reference import call, read
 
 Array = NDArray[np.float64]
@@ -25,6 +26,8 @@ Array = NDArray[np.float64]
 Solver = Callable[[Array, float, Array, Array, int], Array]
 Step = Callable[[Array, float, Array, float], Array]
 Rhs = Callable[[Array, float, Array], Array]
+Closure = Callable[[Array], Array]
+Dadt = Callable[[Array, float, Array, dict[str, Any]], Array]
 
 _KINDS = {3: "rhs", 4: "step", 5: "solver"}
 
@@ -52,6 +55,26 @@ class Problem:
     tolerance: float
     because: str
     equations: tuple[str, ...]
+    columns: tuple[str, ...] = ()
+    """The columns of an answer."""
+    formula: dict[str, Any] | None = None
+    """What a problem of kind ``formula`` asks for: ``of`` (``pdot``, ``closure`` or ``dadt``), ``closure``, ``model``."""
+    inputs: dict[str, Array] | None = None
+    """The columns of ``inputs.csv``, a row each, of formulas and contacts."""
+
+    def __str__(self) -> str:
+        return self.name
+
+    def check(self, function: Callable[..., Any], **options: Any) -> None:
+        """Grades the function on this problem; ``options`` are those of :func:`grade`.
+
+        Raises ``AssertionError`` with the grader's words unless the verdict is PASS.
+        """
+        report = grade(function, names=[self.name], **options)
+        judged = report[self.name]
+        if judged["verdict"] != "PASS":
+            why = [judged["diagnosis"], judged.get("note"), judged["raised"]]
+            raise AssertionError("\n".join([str(report), *(str(reason) for reason in why if reason), self.because]))
 
 
 @cache
@@ -74,6 +97,7 @@ def _problem(folder: Path) -> Problem:
     start = folder / "start.csv"
     rods = np.array([row[1:] for row in read(start)[1]]) if start.exists() else np.empty((0, 3))
     header, rows = read(folder / "certified.csv")
+    asked = read(folder / "inputs.csv") if (folder / "inputs.csv").exists() else None
     return Problem(
         name=told["name"],
         title=told["title"],
@@ -86,6 +110,9 @@ def _problem(folder: Path) -> Problem:
         tolerance=told["tolerance"],
         because=told["because"],
         equations=tuple(told["equations"]),
+        columns=tuple(told["columns"]),
+        formula=told.get("formula"),
+        inputs=asked and {name: np.array([row[k] for row in asked[1]]) for k, name in enumerate(asked[0])},
     )
 
 
@@ -140,7 +167,7 @@ def _short(number: float | None) -> str:
 
 
 def grade(
-    function: Rhs | Step | Solver,
+    function: Rhs | Step | Solver | Closure | Dadt,
     *,
     kind: str | None = None,
     order: float | None = None,
@@ -149,7 +176,7 @@ def grade(
     tolerance: float | None = None,
     timeout_s: float = 30.0,
 ) -> Report:
-    """Grades a Python function on the problems of free rods, as ``shearbed grade`` grades files.
+    """Grades a Python function on the problems of free rods, or on formulas, as ``shearbed grade`` grades files.
 
     What the function is, is seen from the number of its parameters, or said by ``kind``:
 
@@ -158,6 +185,12 @@ def grade(
     - ``"step"``: ``function(gradient_per_s, aspect_ratio, p, dt_s)`` returns p one step later.
     - ``"solver"``: ``function(gradient_per_s, aspect_ratio, start, times_s, steps)`` returns p at the times as
       (times, rods, 3), with at least ``steps`` steps to the last time.
+
+    A function for the formulas ``pdot-*``, ``closure-*`` or ``dadt-*`` in ``names`` is one of
+
+    - ``function(gradient_per_s, aspect_ratio, p)``, which returns dp/dt;
+    - ``function(a)``, which returns a_ijkl as (3, 3, 3, 3);
+    - ``function(gradient_per_s, aspect_ratio, a)``, or with ``model`` as a fourth, which returns da/dt as (3, 3).
 
     All rods come and go at once: ``start``, ``p`` and dp/dt are (rods, 3). A step or a solver is asked with twice the steps
     each time, until two answers in a row are within the tolerance (and with ``order`` until round-off), or nothing changes any
@@ -168,19 +201,23 @@ def grade(
     ``steps`` are given. A function that raises an ``ArithmeticError``, ``ValueError`` or ``RuntimeError`` has no answer from there
     on, and the report says what it raised.
     """
-    kind = kind or _kind_of(function)
-    if kind not in _KINDS.values():
-        raise ValueError(f"kind = {kind!r}: 'rhs', 'step' and 'solver' are allowed")
-    if kind == "rhs":
-        for name, given in (("order", order), ("steps", steps)):
-            if given is not None:
-                raise ValueError(f"{name} = {given!r}: a right-hand side has none; a step or a solver has")
-    known = [problem.name for problem in problems() if problem.kind == "rods"]
+    known = {problem.name: problem for problem in problems() if problem.kind in ("rods", "formula")}
     for name in names or ():
         if name not in known:
-            raise ValueError(f"{name}: no problem of free rods has this name; there are {', '.join(known)}")
-    asked = names or [name for name in known if steps is not None or name not in OF_METHODS]
-    wanted = [problem for problem in problems() if problem.name in asked]
+            raise ValueError(f"{name}: no problem about rods or formulas has this name; there are {', '.join(known)}")
+    of_rods = [name for name, problem in known.items() if problem.kind == "rods"]
+    asked = names or [name for name in of_rods if steps is not None or name not in OF_METHODS]
+    wanted = [problem for name, problem in known.items() if name in asked]
+    kind = "formula" if wanted[0].formula else kind or _kind_of(function)
+    if any((problem.formula is None) != (kind != "formula") for problem in wanted):
+        raise ValueError("names: problems about rods and formulas take functions of their own")
+    if kind not in (*_KINDS.values(), "formula"):
+        raise ValueError(f"kind = {kind!r}: 'rhs', 'step' and 'solver' are allowed")
+    if kind in ("rhs", "formula"):
+        for name, given in (("order", order), ("steps", steps)):
+            if given is not None:
+                what = "right-hand side" if kind == "rhs" else "formula"
+                raise ValueError(f"{name} = {given!r}: a {what} has none; a step or a solver has")
     raised: dict[str, str] = {}
     late: dict[str, int] = {}
     with tempfile.TemporaryDirectory(prefix="shearbed-") as folder:
@@ -188,9 +225,13 @@ def grade(
         for problem in wanted:
             errors: list[float] = []
             begun = time.monotonic()
-            for count in (None,) if kind == "rhs" else steps or _ladder(problem):
+            for count in (None,) if kind in ("rhs", "formula") else steps or _ladder(problem):
                 asked_at = time.monotonic()
                 try:
+                    if problem.formula:
+                        rows = answers(function, problem.formula, problem.inputs or {}, problem.columns)
+                        _write_rows(mine / problem.name / "answer.csv", problem.columns, rows)
+                        continue
                     found = _answer(function, kind, problem, count)
                 except Lost as error:
                     raised[problem.name] = str(error)
@@ -263,7 +304,7 @@ def _done(errors: list[float], tolerance: float, own: float | None) -> bool:
     return len(errors) > 8 and bool(np.isfinite(last).all()) and max(last) - min(last) <= 0.01 * last[-1]
 
 
-def _kind_of(function: Rhs | Step | Solver) -> str:
+def _kind_of(function: Callable[..., Any]) -> str:
     """What a function is, by what it must be given."""
     needed = [
         parameter
@@ -316,10 +357,13 @@ def _stepped(function: Any, given: tuple[Array, float], problem: Problem, count:
 
 
 def _write(file: Path, problem: Problem, answer: Array) -> None:
+    rows = ([float(time), rod, *map(float, p)] for time, rods in zip(problem.times_s, answer) for rod, p in enumerate(rods))
+    _write_rows(file, ("time_s", "rod", "p1", "p2", "p3"), rows)
+
+
+def _write_rows(file: Path, columns: Sequence[str], rows: Iterable[Sequence[float]]) -> None:
     file.parent.mkdir(parents=True, exist_ok=True)
     with open(file, "w", encoding="utf-8", newline="") as text:
         writer = csv.writer(text, lineterminator="\n")
-        writer.writerow(("time_s", "rod", "p1", "p2", "p3"))
-        for time, rods in zip(problem.times_s, answer):
-            for rod, p in enumerate(rods):
-                writer.writerow((repr(float(time)), rod, *(repr(float(component)) for component in p)))
+        writer.writerow(columns)
+        writer.writerows([repr(value) for value in row] for row in rows)

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import csv
+import json
 import os
 import subprocess
 import sys
 import tempfile
+import warnings
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -16,27 +18,85 @@ from numpy.typing import NDArray
 
 from . import _core
 from ._results import Results
-from ._scene import Scene, _value, scene_of
+from ._scene import Scene, _toml, _value, scene_of
 
 
 def run(
     scene: Scene | Mapping[str, Any] | str | os.PathLike[str],
     *,
+    set: Mapping[str, Any] | None = None,
     replicas: int | None = None,
     seed: int | None = None,
     threads: int | None = None,
     progress: Callable[[int, int], object] | bool = False,
+    until_se: Mapping[str, float] | None = None,
+    time_limit_s: float | None = None,
+    checkpoint: str | os.PathLike[str] | None = None,
 ) -> Results:
     """Runs a scene: the same bits as the program, on any number of threads.
 
-    ``replicas`` and ``seed`` stand in place of the scene's own. ``progress(done, of)`` is called about twenty times a second;
-    ``progress=True`` draws a bar with tqdm where it is installed. Other Python threads go on meanwhile, and Ctrl-C stops it.
+    ``set={"alpha": 0.3}`` gives keys of the scene another value, as :meth:`Scene.replace`; ``replicas`` and ``seed`` stand in
+    place of the scene's own. ``progress(done, of)`` is called about twenty times a second; ``progress=True`` draws a bar with
+    tqdm where it is installed. Other Python threads go on meanwhile, and Ctrl-C stops it.
+
+    ``until_se={"x1": 0.001}`` adds replicas until the standard error of each of these channels is at most that; with
+    ``time_limit_s`` none begins after that time, and a Python warning says what was reached. ``checkpoint`` is a file that keeps
+    the run, and from which the same call goes on. Both work in a process of its own, without ``progress``.
 
     Raises :class:`SceneError` for a scene that cannot be run, ``RuntimeError`` for a run that cannot go on.
     """
-    scene = scene_of(scene)
+    scene = scene_of(scene).replace(**set) if set else scene_of(scene)
+    if until_se or checkpoint is not None:
+        if progress:
+            raise TypeError("progress: runs with until_se or checkpoint do not tell how far they are")
+        words = [word for channel, se in (until_se or {}).items() for word in ("--until-se", f"{channel}={float(se)!r}")]
+        words += [] if time_limit_s is None else ["--time-limit", f"{time_limit_s}s"]
+        words += [] if checkpoint is None else ["--checkpoint", os.path.abspath(checkpoint)]
+        return _apart(scene, words + options(replicas=replicas, seed=seed, threads=threads))
+    if time_limit_s is not None:
+        raise TypeError("time_limit_s: it goes with until_se")
     told = _bar("replica") if progress is True else progress or None
     return Results(_core.run(scene._name, scene._text, replicas, seed, threads, told))
+
+
+def _apart(scene: Scene, words: Sequence[str]) -> Results:
+    """Runs a scene in a process of its own."""
+    with tempfile.TemporaryDirectory(prefix="shearbed-") as made:
+        folder = Path(made)
+        try:
+            program(["run", scene._written(folder).name, "--out", "out", "--quiet", *words], folder)
+        except RuntimeError as error:
+            # Less than was asked for, if there are results.
+            if not (folder / "out" / "run.json").exists():
+                raise
+            warnings.warn(str(error), stacklevel=3)
+        return load(folder / "out")
+
+
+def load(folder: str | os.PathLike[str]) -> Results:
+    """The results in a folder that ``shearbed run`` wrote, or a point of a sweep's ``points``: the same as :func:`run` gives.
+
+    Raises ``FileNotFoundError`` if there is no ``run.json`` in it.
+    """
+    folder = Path(folder)
+    record = json.loads((folder / "run.json").read_text(encoding="utf-8"))
+    known = {name: (label, symbols) for name, label, symbols in _core.observables()}
+    found: dict[str, Any] = {"channels": {}, "observables": {}, "labels": {}, "symbols": {}, "rods": None}
+    for name, (label, symbols) in known.items():
+        if not (folder / f"{name}.csv").exists():
+            continue
+        table = columns(folder / f"{name}.csv")
+        times, means = list(table)[:3], [column for column in table if f"{column}_se" in table]
+        found["channels"] |= {column: (table[column], table[f"{column}_se"]) for column in means}
+        found["observables"][name] = means
+        found["labels"][name] = label
+        found["symbols"] |= dict(symbols)
+        found |= {"time_name": times[0], "times": table[times[0]], "time_s": table["time_s"], "strain": table["strain"]}
+    if (folder / "rods.csv").exists():
+        found["rods"] = columns(folder / "rods.csv")
+    ensemble = record["scene"]["ensemble"]
+    found |= {"seed": ensemble["seed"], "replicas": ensemble["replicas"], "warnings": record["warnings"]}
+    return Results(found | {"scene": _toml(record["scene"])})
 
 
 def _bar(unit: str) -> Callable[[int, int], object] | None:
@@ -65,13 +125,15 @@ def sweep(
     set: Mapping[str, Any] | None = None,
     threads: int | None = None,
     progress: Callable[[int, int], object] | bool = False,
-) -> dict[str, NDArray[Any]]:
+    xarray: bool = False,
+) -> Any:
     """Runs a scene at every combination of its keys' values, as ``shearbed sweep`` does.
 
     ``sweep(scene, {"interaction.alpha": [0.25, 0.5, 1]})`` gives the columns of ``sweep.csv``, one row a point: the swept
     keys, then time, means and standard errors at the last output; with ``times="all"`` one row for each output of each
     point. All points have the same seed. ``set={"particles.count": 50}`` gives keys of the scene another value.
-    ``progress(done, of)`` counts points; ``progress=True`` draws a bar with tqdm where it is installed.
+    ``progress(done, of)`` counts points; ``progress=True`` draws a bar with tqdm where it is installed. ``xarray=True`` gives an
+    ``xarray.Dataset`` in place of the columns: one dimension for each swept key, and ``output`` with ``times="all"``.
     """
     if times not in ("last", "all"):
         raise ValueError(f"times = {times!r}: 'last' and 'all' are allowed")
@@ -92,11 +154,27 @@ def sweep(
         program(words, folder, watch if told else None)
         swept = columns(folder / "out" / "sweep.csv")
         if times == "last":
-            return swept
+            return _dataset(swept, over) if xarray else swept
         of_points = [_tables(point) for point in sorted((folder / "out" / "points").iterdir())]
     rows = [len(next(iter(table.values()))) for table in of_points]
     keys = {name: np.repeat(values, rows) for name, values in swept.items() if name in over}
-    return keys | {name: np.concatenate([table[name] for table in of_points]) for name in of_points[0]}
+    found = keys | {name: np.concatenate([table[name] for table in of_points]) for name in of_points[0]}
+    return _dataset(found, over) if xarray else found
+
+
+def _dataset(table: Mapping[str, NDArray[Any]], over: Mapping[str, Sequence[Any]]) -> Any:
+    """Columns of a sweep over its keys' values; rows of one point are further outputs."""
+    import xarray
+
+    shape = [len(values) for values in over.values()]
+    rows = len(next(iter(table.values())))
+    outputs = rows // int(np.prod(shape))
+    if outputs * int(np.prod(shape)) != rows:
+        raise ValueError("xarray: the points of this sweep have different numbers of outputs")
+    dims = [*over, "output"] if outputs > 1 else list(over)
+    shape += [outputs] if outputs > 1 else []
+    variables = {name: (dims, values.reshape(shape)) for name, values in table.items() if name not in over}
+    return xarray.Dataset(variables, {key: list(values) for key, values in over.items()})
 
 
 def _tables(point: Path) -> dict[str, NDArray[Any]]:
@@ -117,7 +195,7 @@ def options(*, set: Mapping[str, Any] | None = None, **numbers: int | None) -> l
 
 
 def columns(file: Path) -> dict[str, NDArray[Any]]:
-    """The columns of a CSV file."""
+    """The columns of a CSV file; a blank among numbers is NaN."""
     with open(file, encoding="utf-8", newline="") as text:
         header, *rows = list(csv.reader(text))
     return {name: column([row[k] for row in rows]) for k, name in enumerate(header)}
@@ -126,7 +204,7 @@ def columns(file: Path) -> dict[str, NDArray[Any]]:
 def column(fields: list[str]) -> NDArray[Any]:
     """Numbers where all fields are, else texts."""
     try:
-        return np.array([float(field) for field in fields])
+        return np.array([float(field or "nan") for field in fields])
     except ValueError:
         return np.array(fields)
 

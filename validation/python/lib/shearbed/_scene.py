@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import difflib
+import html
 import json
 import os
 import shutil
@@ -117,7 +118,7 @@ class Scene:
             self._text = toml
         else:
             self._text = _toml(_gathered(keywords if tables is None else tables))
-        self._resolved, self._plan, self._warnings, self._start = _core.describe(self._name, self._text)
+        self._describe()
 
     def _written(self, folder: Path, name: str = "scene.toml") -> Path:
         """The scene as a file in ``folder``, with the one that its rods start from beside it."""
@@ -143,8 +144,37 @@ class Scene:
         """What the reader of the results should know before trusting them."""
         return list(self._warnings)
 
+    def replace(self, **values: Any) -> Scene:
+        """The scene with other values of some keys: ``scene.replace(alpha=0.3)``, or, dotted as in a sweep,
+        ``scene.replace(**{"interaction.alpha": 0.3})``. ``None`` takes a key out, so that another can stand for it."""
+        dotted = {f"{_TABLE_OF[key]}.{key}" if key in _TABLE_OF else key: value for key, value in values.items()}
+        told = [(key, None if value is None else _value(value)) for key, value in dotted.items()]
+        scene = Scene.__new__(Scene)
+        scene._name = self._name
+        scene._text = _core.changed(self._name, self._text, told)
+        scene._describe()
+        return scene
+
+    def _describe(self) -> None:
+        self._resolved, self._plan, self._warnings, self._start = _core.describe(self._name, self._text)
+
+    def __eq__(self, other: object) -> bool:
+        """Whether a run gives the same: every key has the same value, and rods start from the same file."""
+        return isinstance(other, Scene) and self._identity() == other._identity()
+
+    def __hash__(self) -> int:
+        return hash(self._identity())
+
+    def _identity(self) -> tuple[str, str | None]:
+        start = None if self._start is None else os.path.abspath(Path(self._name).parent / self._start)
+        return self._resolved, start
+
     def __repr__(self) -> str:
-        return f"Scene(toml={self._resolved!r})"
+        title, what = self._plan.splitlines()[:2]
+        return f"<Scene {title!r}: {what}>"
+
+    def _repr_html_(self) -> str:
+        return f"<pre>{html.escape(self._plan)}</pre>"
 
 
 if Scene.__doc__ is not None:  # not under python -OO
