@@ -34,6 +34,11 @@ shearbed plot "all of 0.36 mm" "all of 0.72 mm" "30 % scatter" "half 0.36, half 
   --out "$out/lengths.svg" >/dev/null
 [ "${2:-}" = release ] || exit 0
 
+moving() { shearbed run fig4-n50 --set time.periods=2 --out "$1" "${@:2}" --quiet; }
+moving one --replicas 1 --set output.rods_every=1
+moving many --replicas 400
+python3 "$ROOT/docs/moving.py" one/rods.csv many/projections.csv >"$out/rods.svg"
+
 scene fitting
 shearbed run cell.toml --set interaction.alpha=0.8 --replicas 10 --seed 2024 --out truth --quiet
 awk -F, 'NR == 1 { print "t_s,x1,x1_u" }
