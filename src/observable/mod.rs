@@ -18,6 +18,7 @@ mod sum;
 mod tests;
 
 pub use channel::Channel;
+use registry::Mean;
 pub use registry::Observable;
 pub use sum::{Spread, Sum};
 
@@ -178,9 +179,9 @@ fn range_of_product(column: &str) -> [f64; 2] {
     [if exponents.iter().all(|e| e % 2 == 0) { 0.0 } else { -most }, most]
 }
 
-/// The symbol of such a mean: `a_1123`.
-fn symbol_of_product(column: &str) -> String {
-    format!("a_{}", &column[1..])
+/// The index of the axis of factor `k` of such a mean.
+fn axis(column: &str, k: usize) -> usize {
+    usize::from(column.as_bytes()[1 + k] - b'1')
 }
 
 /// Sums per output.

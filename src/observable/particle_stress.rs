@@ -3,45 +3,25 @@
 //! is μ_fiber G ⟨p_i p_j p₁p₂⟩ (Batchelor 1970; docs/src/theory/coefficients.md). μ_fiber ∝ n⟨a³⟩: rods count by their
 //! cubed length.
 
-use super::{Block, Observe, Sum};
+use super::Mean;
 
-pub(super) struct ParticleStress;
-
-impl Observe for ParticleStress {
-    fn name(&self) -> &'static str {
-        "particle_stress"
-    }
-
-    fn label(&self) -> &'static str {
-        "stress of the rods over μ_fiber G"
-    }
-
-    fn columns(&self) -> &[&'static str] {
-        &["s12_per_mu_fiber_g", "n1_per_mu_fiber_g", "n2_per_mu_fiber_g"]
-    }
-
-    fn symbol(&self, column: usize) -> String {
-        ["σ_12/(μ_fiber G)", "N_1/(μ_fiber G)", "N_2/(μ_fiber G)"][column].into()
-    }
-
-    fn range(&self, column: usize) -> [f64; 2] {
+pub(super) const MEAN: Mean = Mean {
+    name: "particle_stress",
+    label: "stress of the rods over μ_fiber G",
+    columns: &["s12_per_mu_fiber_g", "n1_per_mu_fiber_g", "n2_per_mu_fiber_g"],
+    symbols: &["σ_12/(μ_fiber G)", "N_1/(μ_fiber G)", "N_2/(μ_fiber G)"],
+    range: |column| {
         // sin²2φ/4, sin 4φ/4, and p₁³p₂, largest at p₁² = ¾.
         let n2 = 3.0 * 3f64.sqrt() / 16.0;
         [[0.0, 0.25], [-0.25, 0.25], [-n2, n2]][column]
-    }
-
-    fn add(&self, block: &Block, sums: &mut [Sum]) {
+    },
+    add: |block, sums| {
         let ([p1, p2, p3], weight) = (&block.p, &block.weight);
         sums[0].add_each(block.len, |i| weight[i] * (p1[i] * p2[i]).powi(2));
         sums[1].add_each(block.len, |i| weight[i] * (p1[i] * p2[i] * (p2[i] * p2[i] - p1[i] * p1[i])));
         sums[2].add_each(block.len, |i| weight[i] * (p1[i] * p2[i] * (p1[i] * p1[i] - p3[i] * p3[i])));
-    }
-
-    fn needs_couette(&self) -> bool {
-        true
-    }
-
-    fn weighs_rods(&self) -> bool {
-        true
-    }
-}
+    },
+    needs_couette: true,
+    weighs_rods: true,
+    ..Mean::ANY
+};

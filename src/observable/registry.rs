@@ -1,8 +1,78 @@
 //! The observables that a scene can name.
 
-use super::{Channel, Observe};
+use super::{Block, Channel, Observe, Sum};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::ops::Deref;
+
+/// A built-in observable, as its module declares it: the values of [`Observe`]'s methods.
+pub(super) struct Mean {
+    pub name: &'static str,
+    pub label: &'static str,
+    pub columns: &'static [&'static str],
+    /// Of the first columns; the others have their names.
+    pub symbols: &'static [&'static str],
+    pub range: fn(usize) -> [f64; 2],
+    pub add: fn(&Block, &mut [Sum]),
+    pub needs_couette: bool,
+    pub needs_viscosity: bool,
+    pub weighs_rods: bool,
+    pub is_density: bool,
+    /// A tensor's name, and its trace summed over all rods.
+    pub trace: Option<(&'static str, fn(&[Sum]) -> f64)>,
+}
+
+impl Mean {
+    /// A mean of any range in any flow; what every mean gives itself is empty.
+    pub const ANY: Self = Self {
+        name: "",
+        label: "",
+        columns: &[],
+        symbols: &[],
+        range: |_| [f64::NEG_INFINITY, f64::INFINITY],
+        add: |_, _| (),
+        needs_couette: false,
+        needs_viscosity: false,
+        weighs_rods: false,
+        is_density: false,
+        trace: None,
+    };
+}
+
+impl Observe for Mean {
+    fn name(&self) -> &'static str {
+        self.name
+    }
+    fn label(&self) -> &'static str {
+        self.label
+    }
+    fn columns(&self) -> &[&'static str] {
+        self.columns
+    }
+    fn symbol(&self, column: usize) -> String {
+        self.symbols.get(column).unwrap_or(&self.columns[column]).to_string()
+    }
+    fn range(&self, column: usize) -> [f64; 2] {
+        (self.range)(column)
+    }
+    fn add(&self, block: &Block, sums: &mut [Sum]) {
+        (self.add)(block, sums)
+    }
+    fn needs_couette(&self) -> bool {
+        self.needs_couette
+    }
+    fn needs_viscosity(&self) -> bool {
+        self.needs_viscosity
+    }
+    fn weighs_rods(&self) -> bool {
+        self.weighs_rods
+    }
+    fn is_density(&self) -> bool {
+        self.is_density
+    }
+    fn trace(&self, sums: &[Sum]) -> Option<(&'static str, f64)> {
+        self.trace.map(|(tensor, sum)| (tensor, sum(sums)))
+    }
+}
 
 macro_rules! observables {
     ($($(#[$doc:meta])* $variant:ident: $module:ident,)*) => {
@@ -29,7 +99,7 @@ macro_rules! observables {
 
             fn deref(&self) -> &Self::Target {
                 match self {
-                    $(Self::$variant => &super::$module::$variant,)*
+                    $(Self::$variant => &super::$module::MEAN,)*
                 }
             }
         }

@@ -2,28 +2,14 @@
 //! σ₁₁ (flow less gradient) and N₂ = σ₁₁ − σ₃₃, with the coefficients of the rods' own shape
 //! ([`crate::model::stress`]).
 
-use super::{BLOCK, Block, Observe, Sum};
+use super::{BLOCK, Mean};
 
-pub(super) struct Stress;
-
-impl Observe for Stress {
-    fn name(&self) -> &'static str {
-        "stress"
-    }
-
-    fn label(&self) -> &'static str {
-        "stress of the rods (Pa)"
-    }
-
-    fn columns(&self) -> &[&'static str] {
-        &["s12_pa", "n1_pa", "n2_pa"]
-    }
-
-    fn symbol(&self, column: usize) -> String {
-        ["σ_12 (Pa)", "N_1 (Pa)", "N_2 (Pa)"][column].into()
-    }
-
-    fn add(&self, block: &Block, sums: &mut [Sum]) {
+pub(super) const MEAN: Mean = Mean {
+    name: "stress",
+    label: "stress of the rods (Pa)",
+    columns: &["s12_pa", "n1_pa", "n2_pa"],
+    symbols: &["σ_12 (Pa)", "N_1 (Pa)", "N_2 (Pa)"],
+    add: |block, sums| {
         let ([p1, p2, p3], r_e) = (&block.p, &block.aspect_ratio);
         let mut k = [[0.0; 3]; BLOCK];
         let mut last = (f64::NAN, [0.0; 3]);
@@ -48,17 +34,9 @@ impl Observe for Stress {
             let s = squares(i);
             p1[i] * p2[i] * (k[i][0] * (s[0] - s[2]) + k[i][1])
         });
-    }
-
-    fn needs_couette(&self) -> bool {
-        true
-    }
-
-    fn weighs_rods(&self) -> bool {
-        true
-    }
-
-    fn needs_viscosity(&self) -> bool {
-        true
-    }
-}
+    },
+    needs_couette: true,
+    weighs_rods: true,
+    needs_viscosity: true,
+    ..Mean::ANY
+};

@@ -1,10 +1,10 @@
 //! Standard errors over the rods of one replica, beside two passes over its rods.
 
+use crate::{any_gradient, bits, changed, on, run};
+use shearbed::Results;
 use shearbed::observable::{Block, Observable, Sum};
-use shearbed::run::ensemble;
-use shearbed::scene::{Interaction, Orientation, Scene, Time};
+use shearbed::scene::{Flow, Interaction, Orientation, Scene, Time};
 use shearbed::suspension::snapshot::Snapshot;
-use shearbed::{Plan, Results};
 
 /// Every observable that any flow has.
 const OF_ANY_FLOW: [Observable; 5] = [
@@ -15,45 +15,31 @@ const OF_ANY_FLOW: [Observable; 5] = [
     Observable::OrientationTensor4,
 ];
 
-fn alike(orientation: [f64; 2]) -> Orientation {
-    let [phi_deg, theta_deg] = orientation;
-    Orientation::Given { phi_deg, theta_deg }
-}
-
 /// 500 rods of r_e = 5 drawn out by planar extension: nearly all lie along axis 1 after a strain of 30.
 fn drawn_out(count: usize) -> Scene {
-    let mut scene = Scene::default();
-    scene.flow = shearbed::scene::Flow::Gradient { gradient_per_s: [[1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0; 3]] };
-    scene.time = shearbed::scene::Time::strain(40.0);
-    scene.time.outputs_per_unit = Some(1);
-    scene.particles.count = count;
-    scene.particles.aspect_ratio = 5.0;
-    scene.output.observables = OF_ANY_FLOW.to_vec();
-    scene.output.rods_at = vec![0.0, 20.0, 30.0, 40.0];
-    scene
+    changed(|scene| {
+        scene.flow = Flow::Gradient { gradient_per_s: any_gradient::STRETCHED };
+        scene.time = Time { outputs_per_unit: Some(1), ..Time::strain(40.0) };
+        scene.particles.count = count;
+        scene.particles.aspect_ratio = 5.0;
+        scene.output.observables = OF_ANY_FLOW.to_vec();
+        scene.output.rods_at = vec![0.0, 20.0, 30.0, 40.0];
+    })
 }
 
 /// 500 rods of unequal r_e that start alike, a millionth of a period later.
 fn hardly_apart() -> Scene {
-    let mut scene = Scene::default();
-    scene.time.duration = 2e-6;
-    scene.time.outputs_per_unit = Some(1_000_000);
-    scene.particles.count = 500;
-    scene.particles.aspect_ratio_sd_percent = 3.6;
-    scene.particles.orientation = alike([20.0, 60.0]);
-    // The stress counts in 1 Pa, as that of a block by itself.
-    let interaction = Interaction { alpha: 0.0, concentration_per_cm3: Some(50.0), ..Interaction::default() };
-    scene.interaction = Some(interaction);
-    scene.liquid.viscosity_pa_s = Some(1.0 / (0.5 * 50.0 * 0.072 * 0.072 * 0.072));
-    scene.output.observables = Observable::ALL.to_vec();
-    scene.output.rods_at = vec![1e-6, 2e-6];
-    scene
-}
-
-fn run(scene: &Scene, threads: usize) -> Results {
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-    let plan = Plan::new(scene).unwrap();
-    pool.install(|| ensemble::run(&plan).unwrap())
+    changed(|scene| {
+        scene.time = Time { outputs_per_unit: Some(1_000_000), ..Time::periods(2e-6) };
+        scene.particles.count = 500;
+        scene.particles.aspect_ratio_sd_percent = 3.6;
+        scene.particles.orientation = Orientation::Given { phi_deg: 20.0, theta_deg: 60.0 };
+        // The stress counts in 1 Pa, as that of a block by itself.
+        scene.interaction = Some(Interaction { alpha: 0.0, ..Interaction::default() });
+        scene.liquid.viscosity_pa_s = Some(1.0 / (0.5 * 50.0 * 0.072 * 0.072 * 0.072));
+        scene.output.observables = Observable::ALL.to_vec();
+        scene.output.rods_at = vec![1e-6, 2e-6];
+    })
 }
 
 /// What each rod of a snapshot adds to the sums of an observable.
@@ -104,7 +90,7 @@ fn off(results: &Results) -> Vec<String> {
 #[test]
 fn errors_of_rods_that_are_nearly_alike_are_those_of_two_passes() {
     for scene in [drawn_out(500), hardly_apart()] {
-        let results = run(&scene, 1);
+        let results = run(&scene);
         assert_eq!(off(&results), [""; 0]);
         // The control: a difference of squares, as 1.1e-10 came out as 4.7e-10 before.
         let mut squares = results.clone();
@@ -123,13 +109,12 @@ fn errors_of_rods_that_are_nearly_alike_are_those_of_two_passes() {
 fn rods_alike_have_no_error_at_all() {
     let mut scene = hardly_apart();
     scene.particles.aspect_ratio_sd_percent = 0.0;
-    scene.time.outputs_per_unit = Some(40);
-    scene.time.duration = 1.0;
+    scene.time = Time { outputs_per_unit: Some(40), ..Time::periods(1.0) };
     scene.output.rods_at = Vec::new();
     let mut by_strain = scene.clone();
     by_strain.time = Time { outputs_per_unit: Some(2), ..Time::strain(20.0) };
     for scene in [scene, by_strain] {
-        let results = run(&scene, 1);
+        let results = run(&scene);
         let columns = results.series.iter().flat_map(|series| &series.columns);
         for column in columns {
             assert!(column.se.iter().all(|se| *se == 0.0), "{}: {:?}", column.name, column.se);
@@ -141,11 +126,7 @@ fn rods_alike_have_no_error_at_all() {
 #[test]
 fn errors_of_a_large_run_are_those_of_two_passes_on_any_number_of_threads() {
     let scene = drawn_out(150_000);
-    let [one, three] = [1, 3].map(|threads| run(&scene, threads));
+    let [one, three] = [1, 3].map(|threads| on(threads, || run(&scene)));
     assert_eq!(off(&one), [""; 0]);
-    let bits = |results: &Results| -> Vec<u64> {
-        let columns = results.series.iter().flat_map(|series| &series.columns);
-        columns.flat_map(|column| &column.se).map(|se| se.to_bits()).collect()
-    };
     assert_eq!(bits(&one), bits(&three));
 }

@@ -1,14 +1,15 @@
 //! Rods that interact in other flows than plane Couette flow by periods.
 
+use crate::{parsed, planned, refusal, run};
 use shearbed::run::ensemble;
-use shearbed::run::{go_on, run_replica};
-use shearbed::scene;
 use shearbed::scene::Update;
 use shearbed::{Plan, Results, Scene};
 
 const SHEAR: &str = "[[0, 0, 0], [0.5, 0, 0], [0, 0, 0]]";
-const EXTENSION: &str = "[[0.5, 0, 0], [0, -0.5, 0], [0, 0, 0]]";
-const GENERAL: &str = "[[0.3, -0.5, 0.1], [0.8, 0.1, -0.2], [0.4, 0.6, -0.4]]";
+pub(crate) const EXTENSION: &str = "[[0.5, 0, 0], [0, -0.5, 0], [0, 0, 0]]";
+pub(crate) const GENERAL: &str = "[[0.3, -0.5, 0.1], [0.8, 0.1, -0.2], [0.4, 0.6, -0.4]]";
+/// [`EXTENSION`] in numbers.
+pub(crate) const STRETCHED: [[f64; 3]; 3] = [[0.5, 0.0, 0.0], [0.0, -0.5, 0.0], [0.0; 3]];
 /// Rods turn in ellipses.
 const ELLIPTIC: &str = "[[0, -0.3, 0], [1, 0, 0], [0, 0, 0]]";
 
@@ -22,11 +23,7 @@ fn text(gradient: &str, particles: &str, alpha: f64, time: &str) -> String {
 }
 
 fn scene(gradient: &str, particles: &str, alpha: f64, time: &str) -> Scene {
-    scene::parse("s.toml", &text(gradient, particles, alpha, time)).unwrap()
-}
-
-fn run(scene: &Scene) -> Results {
-    ensemble::run(&Plan::new(scene).unwrap()).unwrap()
+    parsed(&text(gradient, particles, alpha, time))
 }
 
 /// The largest difference of a channel at any output.
@@ -61,7 +58,7 @@ fn many_unequal_rods_that_do_not_meet_are_free() {
     let rods = "count = 70000\naspect_ratio = 5\naspect_ratio_sd_percent = 10";
     let time = "strain = 0.4\nsteps_per_strain = 10\noutputs_per_strain = 5\n[output]\nrods_at = [0.4]";
     let text = |alpha: f64| text(EXTENSION, rods, alpha, time).replace("\n[output]\nobservables", "\nobservables");
-    let [free, stepped] = [0.0, 1e-300].map(|alpha| run(&scene::parse("s.toml", &text(alpha)).unwrap()));
+    let [free, stepped] = [0.0, 1e-300].map(|alpha| run(&parsed(&text(alpha))));
     assert_eq!((free.counters.steps, stepped.counters.collisions), (0, 0));
     for (free, stepped) in free.snapshots[0].p.iter().zip(&stepped.snapshots[0].p) {
         let off = free.iter().zip(stepped).map(|(free, stepped)| (free - stepped).abs());
@@ -91,7 +88,7 @@ fn in_a_rotation_kicks_do_nothing() {
     let of = |alpha: f64, update| {
         let mut scene = scene(rotation, rods, alpha, "periods = 10");
         scene.interaction.as_mut().unwrap().update = update;
-        let plan = Plan::new(&scene).unwrap();
+        let plan = planned(&scene);
         (plan.warnings().len(), ensemble::run(&plan).unwrap())
     };
     let ((_, free), (quiet, kicked)) = (of(0.0, Update::Kick), of(0.5, Update::Kick));
@@ -121,29 +118,6 @@ fn shear_by_strain_is_shear_by_periods() {
     }
 }
 
-/// From any step on, and on any number of threads.
-#[test]
-fn bits_do_not_depend_on_stops_or_threads() {
-    let rods = "count = 100\naspect_ratio = 11.6\nlength_sd_percent = 10";
-    let scene = scene(GENERAL, rods, 0.5, "strain = 2\nsteps_per_strain = 10");
-    let plan = Plan::new(&scene).unwrap();
-    let mut kept = Vec::new();
-    let whole = go_on(&plan, 0, None, |state| kept.push(state())).unwrap();
-    assert!(whole.counters.collisions > 20 && kept.len() == 20, "{:?}", whole.counters);
-    for state in kept {
-        assert_eq!(go_on(&plan, 0, Some(state), |_| ()).unwrap(), whole);
-    }
-    let many = self::scene(EXTENSION, "count = 150000\naspect_ratio = 11.6", 0.5, "strain = 0.3");
-    let plan = Plan::new(&many).unwrap();
-    let on = |threads| {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        pool.install(|| run_replica(&plan, 0).unwrap())
-    };
-    let all = on(3);
-    assert!(all.counters.collisions > 1000, "{:?}", all.counters);
-    assert_eq!(all, on(1));
-}
-
 /// A flow that is turned by 90° does the same to rods that are turned with it, in law.
 #[test]
 fn a_turned_flow_turns_the_result() {
@@ -170,58 +144,30 @@ fn a_turned_flow_turns_the_result() {
 
 #[test]
 fn what_cannot_be_stepped_is_refused() {
-    let rods = "count = 100\naspect_ratio = 5";
-    // What comes in would be drawn without end.
-    let in_box = |sides: &str| {
-        let text = text(GENERAL, rods, 0.5, "strain = 1")
-            .replace("concentration_per_cm3 = 1000", &format!("box_mm = {sides}"));
-        Plan::parse("s.toml", &text).map(|_| ()).map_err(|refused| refused.to_string())
-    };
-    let refused = in_box("[1e103, 1e103, 1e103]").unwrap_err();
-    assert!(refused.contains("interaction.box_mm = [1e103") && refused.contains("their product"), "{refused}");
-    let refused = in_box("[1e-4, 1e3, 1]").unwrap_err();
-    assert!(refused.contains("cross the control volume 30 times"), "{refused}");
-    assert_eq!(in_box("[20, 5, 5]"), Ok(()));
-    for (gradient, time, why) in [
+    let of = |gradient: &str, time: &str| text(gradient, "count = 100\naspect_ratio = 5", 0.5, time);
+    let in_box =
+        |sides: &str| of(GENERAL, "strain = 1").replace("concentration_per_cm3 = 1000", &format!("box_mm = {sides}"));
+    let stirred = "[[1, 1e3, 0], [-1e3, -1, 0], [0, 0, 0]]";
+    for (text, why) in [
+        // What comes in would be drawn without end.
         (
-            "[[1, 0, 0], [0, -1, 0], [0, 0, 1e-3]]",
-            "strain = 1",
-            "3: flow.gradient_per_s = [[1, 0, 0], [0, -1, 0], [0, 0, 1e-3]] is not allowed: where rods interact, a \
-             gradient with ∂u_1/∂x_1 + ∂u_2/∂x_2 + ∂u_3/∂x_3 = 0",
+            in_box("[1e103, 1e103, 1e103]"),
+            "interaction.box_mm = [1e103, 1e103, 1e103] is not allowed: lengths for which",
         ),
-        (EXTENSION, "strain = 1\nsteps_per_strain = 12", ""),
+        (in_box("[1e-4, 1e3, 1]"), "cross the control volume 30 times"),
+        (of(stirred, "strain = 1\nsteps_per_strain = 10"), "10 is not allowed: at least 89, to resolve the velocity"),
+        (of(ELLIPTIC, "periods = 1\nsteps_per_period = 1"), "1 is not allowed: at least 2, to resolve"),
         (
-            EXTENSION,
-            "strain = 1\nsteps_per_strain = 12\noutputs_per_strain = 5",
+            of(EXTENSION, "strain = 1e4\nsteps_per_strain = 200000"),
+            "time.strain = 1e4 is not allowed: at most 1e9 steps",
+        ),
+        (
+            of(EXTENSION, "strain = 1\nsteps_per_strain = 12\noutputs_per_strain = 5"),
             "time.outputs_per_strain = 5 is not allowed: interacting rods need a divisor of steps_per_strain = 12",
         ),
-        (
-            EXTENSION,
-            "strain = 1\nsteps_per_period = 12",
-            "time.steps_per_period = 12 is not allowed: goes with periods; strain takes steps_per_strain",
-        ),
-        (
-            ELLIPTIC,
-            "periods = 1\nsteps_per_strain = 12",
-            "time.steps_per_strain = 12 is not allowed: goes with strain; periods take steps_per_period",
-        ),
-        (
-            "[[1, 1e3, 0], [-1e3, -1, 0], [0, 0, 0]]",
-            "strain = 1\nsteps_per_strain = 10",
-            "time.steps_per_strain = 10 is not allowed: at least 89, to resolve the velocity gradient",
-        ),
-        (ELLIPTIC, "periods = 1\nsteps_per_period = 1", "is not allowed: at least 2, to resolve"),
-        (
-            EXTENSION,
-            "strain = 1e4\nsteps_per_strain = 200000",
-            "time.strain = 1e4 is not allowed: at most 1e9 steps in all, not 2e9",
-        ),
     ] {
-        let parsed = Plan::parse("s.toml", &text(gradient, rods, 0.5, time));
-        match (parsed, why) {
-            (Ok(plan), "") => drop(run(plan.scene())),
-            (Err(refused), _) => assert!(!why.is_empty() && refused.to_string().contains(why), "{refused}"),
-            (Ok(_), _) => panic!("not refused: {why}"),
-        }
+        assert!(refusal(&text).contains(why), "{why}: {}", refusal(&text));
     }
+    run(&parsed(&of(EXTENSION, "strain = 1\nsteps_per_strain = 12")));
+    assert!(Plan::parse("s.toml", &in_box("[20, 5, 5]")).is_ok());
 }

@@ -1,12 +1,11 @@
 //! A replica that was stopped and gone on from gives the bits of one that was not.
 
+use crate::{any_gradient, parsed, planned};
 use serde_json::{Value, json};
-use shearbed::Error;
-use shearbed::Plan;
 use shearbed::run::ensemble::Tally;
 use shearbed::run::resume::Halfway;
 use shearbed::run::{Replica, go_on, run_replica};
-use shearbed::scene;
+use shearbed::{Error, Plan};
 
 /// A plan of `count` rods, with tables and keys put in.
 fn plan(count: usize, flow: &str, interaction: &str, time: &str, replicas: u64) -> Plan {
@@ -16,33 +15,40 @@ fn plan(count: usize, flow: &str, interaction: &str, time: &str, replicas: u64) 
          [ensemble]\nreplicas = {replicas}\nseed = 5\n[output]\nobservables = [\"projections\", \
          \"orientation_tensor\"]\n"
     );
-    Plan::new(&scene::parse("s.toml", &text).unwrap()).unwrap()
+    planned(&parsed(&text))
 }
 
 const COUETTE: &str = "gradient_per_s = [[0,0,0],[-0.5,0,0],[0,0,0]]";
+const STEPS: &str = "periods = 0.5\nsteps_per_period = 100\noutputs_per_period = 10";
 const DENSE: &str = "[interaction]\nconcentration_per_cm3 = 500\nalpha = 0.5";
 const ANGLES: &str = "[interaction]\nconcentration_per_cm3 = 500\nalpha = 0.5\nupdate = \"angles\"";
+
+type Spoil = fn(&mut Value);
 
 /// The same with every rod at some times.
 fn with_rods(plan: Plan, rods_at: Vec<f64>) -> Plan {
     let mut scene = plan.scene().clone();
     scene.output.rods_at = rods_at;
-    Plan::new(&scene).unwrap()
+    planned(&scene)
 }
 
 /// Scenes that keep something different each, and how often they are looked at in one replica.
 fn scenes() -> Vec<(Plan, usize)> {
-    let steps = "periods = 0.5\nsteps_per_period = 100\noutputs_per_period = 10";
-    vec![
-        (plan(40, COUETTE, DENSE, steps, 3), 50),
-        (plan(40, COUETTE, ANGLES, steps, 3), 50),
+    let general = format!("gradient_per_s = {}", any_gradient::GENERAL);
+    let mut sized = crate::sizes::scene("length_mm = 0.72\nlength_sd_percent = 30", "box_mm = [12, 5, 5]");
+    (sized.output.rods_at, sized.ensemble.replicas) = (vec![0.0, 0.2], 3);
+    let mut diffusing = crate::diffusion::scene(0.1);
+    diffusing.particles.count = 70_000;
+    let mut scenes = vec![
+        (plan(40, COUETTE, DENSE, STEPS, 3), 50),
+        (plan(40, COUETTE, ANGLES, STEPS, 3), 50),
         // Standard errors over rods.
-        (plan(40, COUETTE, DENSE, steps, 1), 50),
+        (plan(40, COUETTE, DENSE, STEPS, 1), 50),
         // The search by cells, and numbers that are drawn by chunks.
-        (plan(700, COUETTE, DENSE, steps, 3), 50),
+        (plan(700, COUETTE, DENSE, STEPS, 3), 50),
         (plan(70_000, COUETTE, DENSE, "periods = 0.03\noutputs_per_period = 100\nsteps_per_period = 200", 3), 6),
         // Every rod at some outputs.
-        (with_rods(plan(40, COUETTE, DENSE, steps, 3), vec![0.1, 0.3, 0.5]), 50),
+        (with_rods(plan(40, COUETTE, DENSE, STEPS, 3), vec![0.1, 0.3, 0.5]), 50),
         (with_rods(plan(40, COUETTE, "", "periods = 3", 3), vec![0.0, 2.0]), 3),
         // Free rods, more outputs than are made at once.
         (plan(40, COUETTE, "", "periods = 3", 3), 3),
@@ -50,7 +56,18 @@ fn scenes() -> Vec<(Plan, usize)> {
             plan(40, "gradient_per_s = [[0.5,0,0],[0,-0.5,0],[0.1,0,0]]", "", "strain = 8\noutputs_per_strain = 20", 3),
             3,
         ),
-    ]
+        // Steps by maps, unequal lengths in a box, and steps of diffusion.
+        (plan(100, &general, DENSE, "strain = 2\nsteps_per_strain = 10", 3), 20),
+        (planned(&sized), 40),
+        (planned(&diffusing), 11),
+    ];
+    // Outputs at times that the scene gives.
+    for mut scene in crate::times::every_motion() {
+        scene.time.steps_per_unit = scene.interaction.as_ref().map(|_| 50);
+        scene.output.times = vec![0.2, 0.3, 0.7];
+        scenes.push((planned(&scene), if scene.interaction.is_some() { 35 } else { 1 }));
+    }
+    scenes
 }
 
 /// The states at all looks of a replica, and its end.
@@ -66,6 +83,7 @@ fn a_replica_goes_on_bit_for_bit_from_wherever_it_was() {
         let alone = run_replica(&plan, 2).unwrap();
         let (states, end) = watched(&plan, None);
         assert_eq!((states.len(), &end), (looks, &alone), "{plan}");
+        assert_eq!(alone.counters.collisions > 0, plan.scene().interaction.is_some(), "{plan}");
         for (k, state) in states.iter().enumerate().filter(|(k, _)| k % 7 == 0 || k + 2 > looks) {
             assert_eq!(state.check(&plan), Ok(()), "{plan}");
             let (rest, end) = watched(&plan, Some(state.clone()));
@@ -77,8 +95,7 @@ fn a_replica_goes_on_bit_for_bit_from_wherever_it_was() {
 
 #[test]
 fn what_is_of_no_replica_of_the_plan_is_refused() {
-    let steps = "periods = 0.5\nsteps_per_period = 100\noutputs_per_period = 10";
-    let plans = [plan(40, COUETTE, DENSE, steps, 3), plan(40, COUETTE, "", "periods = 3", 3)];
+    let plans = [plan(40, COUETTE, DENSE, STEPS, 3), plan(40, COUETTE, "", "periods = 3", 3)];
     let [interacting, free] = plans.each_ref().map(|plan| {
         let (states, _) = watched(plan, None);
         serde_json::to_value(&states[states.len() / 2]).unwrap()
@@ -95,7 +112,6 @@ fn what_is_of_no_replica_of_the_plan_is_refused() {
     without["rods"] = Value::Null;
     assert!(refused(&plans[0], without).contains("has saved rods"));
     assert!(refused(&plans[0], free).contains("sums"));
-    type Spoil = fn(&mut Value);
     // Three replicas: none keeps standard errors over its rods.
     let spread = json!({ "rods": 40, "first": 0.5, "differences": 0.0, "squares": 0.0 });
     let mut with_errors = interacting.clone();
@@ -131,7 +147,6 @@ fn sums_over_another_number_of_rods_are_refused() {
     let replica = serde_json::to_value(run_replica(&plan, 0).unwrap()).unwrap();
     let check = |replica: Value| serde_json::from_value::<Replica>(replica).unwrap().check(&plan);
     assert_eq!(check(replica.clone()), Ok(()));
-    type Spoil = fn(&mut Value);
     let spoilt: [Spoil; 2] = [|sum| sum["spread"]["rods"] = json!(41), |sum| sum["spread"] = Value::Null];
     for spoil in spoilt {
         let mut other = replica.clone();
@@ -142,9 +157,7 @@ fn sums_over_another_number_of_rods_are_refused() {
 
 #[test]
 fn replicas_and_tallies_of_other_scenes_are_refused() {
-    let steps = "periods = 0.5\nsteps_per_period = 100\noutputs_per_period = 10";
-    let plan = plan(40, COUETTE, DENSE, steps, 3);
-    type Spoil = fn(&mut Value);
+    let plan = plan(40, COUETTE, DENSE, STEPS, 3);
     let shorter: Spoil = |sums| drop(sums.as_array_mut().unwrap().pop());
 
     let replica = run_replica(&plan, 0).unwrap();

@@ -1,42 +1,26 @@
 //! Every rod at the times that a scene asks for.
 
-use shearbed::run::ensemble;
-use shearbed::scene;
+use crate::{changed, planned, run};
+use shearbed::scene::{Ensemble, Flow, Interaction};
 use shearbed::suspension::Collision;
-use shearbed::{Plan, Results, Scene, Suspension};
+use shearbed::{Scene, Suspension};
 
-const SCENE: &str = r#"
-title = "rods out"
-[flow]
-shear_rate_per_s = 0.5
-[particles]
-count = 150
-length_mm = 0.72
-aspect_ratio = 11.6
-aspect_ratio_sd_percent = 3.6
-orientation = "isotropic"
-[time]
-periods = 1
-outputs_per_period = 4
-[ensemble]
-replicas = 3
-seed = 5
-"#;
-
-const INTERACTING: &str = "[interaction]\nconcentration_per_cm3 = 200\nalpha = 0.5\n";
-
-fn scene(text: &str) -> Scene {
-    scene::parse("s.toml", text).unwrap()
-}
-
-fn run(scene: &Scene) -> Results {
-    ensemble::run(&Plan::new(scene).unwrap()).unwrap()
+/// Rods of several aspect ratios, interacting or free.
+fn scene(interacting: bool) -> Scene {
+    let interaction = Interaction { concentration_per_cm3: Some(200.0), ..Interaction::default() };
+    changed(|scene| {
+        scene.particles.count = 150;
+        scene.particles.aspect_ratio_sd_percent = 3.6;
+        scene.time.outputs_per_unit = Some(4);
+        scene.interaction = Some(interaction).filter(|_| interacting);
+        scene.ensemble = Ensemble { replicas: 3, seed: 5 };
+    })
 }
 
 #[test]
 fn rods_that_are_asked_for_change_no_bit_of_the_rest() {
-    for interaction in ["", INTERACTING] {
-        let mut asked = scene(&format!("{SCENE}{interaction}"));
+    for interacting in [false, true] {
+        let mut asked = scene(interacting);
         let without = run(&asked);
         assert!(without.snapshots.is_empty());
         asked.output.rods_at = vec![0.0, 0.25, 1.0];
@@ -50,13 +34,9 @@ fn rods_that_are_asked_for_change_no_bit_of_the_rest() {
 
 #[test]
 fn their_means_are_the_observables() {
-    for (interaction, flow) in [
-        ("", "shear_rate_per_s = 0.5"),
-        (INTERACTING, "shear_rate_per_s = 0.5"),
-        ("", "gradient_per_s = [[0, 0, 0], [0.5, 0, 0.1], [0, 0, 0]]"),
-    ] {
-        let text = SCENE.replace("shear_rate_per_s = 0.5", flow);
-        let mut asked = scene(&format!("{text}{interaction}"));
+    let general = Flow::Gradient { gradient_per_s: [[0.0; 3], [0.5, 0.0, 0.1], [0.0; 3]] };
+    for (interacting, flow) in [(false, Flow::default()), (true, Flow::default()), (false, general)] {
+        let mut asked = Scene { flow, ..scene(interacting) };
         asked.ensemble.replicas = 1;
         asked.output.rods_at = vec![0.5, 0.75];
         let results = run(&asked);
@@ -67,7 +47,7 @@ fn their_means_are_the_observables() {
                 // 150 numbers up to 1 are added in another order.
                 assert!((mean - expected).abs() < 150.0 * f64::EPSILON, "{name}: {mean} {expected}");
             }
-            assert_eq!(snapshot.place_in_lengths.is_some(), !interaction.is_empty());
+            assert_eq!(snapshot.place_in_lengths.is_some(), interacting);
             assert_eq!(snapshot.collided.len(), 150);
         }
     }
@@ -75,9 +55,9 @@ fn their_means_are_the_observables() {
 
 #[test]
 fn who_collided_is_who_did_in_the_last_step_and_places_are_those_of_the_step() {
-    let mut asked = scene(&format!("{SCENE}{INTERACTING}"));
+    let mut asked = scene(true);
     asked.output.rods_at = vec![0.0, 0.5, 0.75];
-    let plan = Plan::new(&asked).unwrap();
+    let plan = planned(&asked);
     let results = run(&asked);
     let mut suspension = Suspension::new(&plan, 2).unwrap();
     let each = plan.steps() / 4;
@@ -102,32 +82,13 @@ fn who_collided_is_who_did_in_the_last_step_and_places_are_those_of_the_step() {
     assert!(collided > 0, "no rod collided: the test sees nothing");
 }
 
+/// A third in six digits is the output it stands for; its own time is what is written.
 #[test]
-fn times_that_are_no_outputs_are_refused_with_what_is() {
-    let refused = |rods_at: &str| {
-        let text = format!("{SCENE}[output]\nrods_at = {rods_at}\n");
-        Plan::parse("s.toml", &text).unwrap_err().to_string()
-    };
-    let key = "s.toml:18: output.rods_at = ";
-    for (given, allowed) in [
-        ("[0.1]", "k/4 up to 1; 0.1 is not one of them"),
-        ("[0, 1.25]", "k/4 up to 1; 1.25 is not one of them"),
-        ("[0.25, 0.2500001]", "0.2500001 is not one of them"),
-        ("[0.5, 0.25]", "that grow"),
-        ("[-0.25]", "≥ 0"),
-        ("[nan]", "≥ 0"),
-        ("[inf]", "≥ 0"),
-        ("0.5", "a list of"),
-        ("[\"now\"]", "a list of"),
-    ] {
-        let error = refused(given);
-        assert!(error.starts_with(&format!("{key}{given} is not allowed: ")), "{error}");
-        assert!(error.contains(allowed), "{error}");
-    }
-    // A third in six digits is the output it stands for; its own time is what is written.
-    let text = SCENE.replace("outputs_per_period = 4", "outputs_per_period = 3");
-    let asked = scene(&format!("{text}[output]\nrods_at = [0.333333, 0.66666667]\n"));
-    assert_eq!(Plan::new(&asked).unwrap().rods_outputs(), [1, 2]);
+fn times_are_those_of_the_nearest_outputs() {
+    let mut asked = scene(false);
+    asked.time.outputs_per_unit = Some(3);
+    asked.output.rods_at = vec![0.333333, 0.66666667];
+    assert_eq!(planned(&asked).rods_outputs(), [1, 2]);
 }
 
 /// At the widest spread that is allowed one draw in 750 crosses 1, or of discs 0, and is drawn again.
@@ -135,7 +96,7 @@ fn times_that_are_no_outputs_are_refused_with_what_is() {
 fn rods_stay_rods_and_discs_discs() {
     for (mean, widest, side) in [(4.0, 25.0, 1.0..f64::MAX), (0.25, 100.0 / 3.0, 0.0..1.0), (0.8, 25.0 / 3.0, 0.0..1.0)]
     {
-        let mut scene = scene(SCENE);
+        let mut scene = scene(false);
         scene.particles.count = 100_000;
         scene.particles.aspect_ratio = mean;
         scene.particles.aspect_ratio_sd_percent = 0.999 * widest;

@@ -1,11 +1,9 @@
 //! Rods of unequal length, and control volumes with three sides.
 
+use crate::{parsed, planned, run};
 use shearbed::plan::Stage;
-use shearbed::run::ensemble;
-use shearbed::run::{go_on, run_replica};
-use shearbed::scene;
 use shearbed::scene::{OwnRods, RodsFile};
-use shearbed::{Plan, Results, Scene, Suspension};
+use shearbed::{Results, Scene, Suspension};
 
 fn text(length: &str, interaction: &str) -> String {
     format!(
@@ -16,17 +14,12 @@ fn text(length: &str, interaction: &str) -> String {
     )
 }
 
-fn scene(length: &str, interaction: &str) -> Scene {
-    scene::parse("s.toml", &text(length, interaction)).unwrap()
+pub(crate) fn scene(length: &str, interaction: &str) -> Scene {
+    parsed(&text(length, interaction))
 }
 
-fn refusal(length: &str, interaction: &str) -> String {
-    let refused = Plan::parse("s.toml", &text(length, interaction));
-    refused.expect_err("it is refused").to_string()
-}
-
-fn run(scene: &Scene) -> Results {
-    ensemble::run(&Plan::new(scene).unwrap()).unwrap()
+fn suspension(scene: &Scene) -> Suspension {
+    Suspension::new(&planned(scene), 0).unwrap()
 }
 
 /// The means of every column: of a stress of unequal lengths one replica has no standard error.
@@ -51,10 +44,7 @@ fn the_unit_of_length_does_not_count() {
 fn a_box_of_equal_sides_is_the_cube() {
     // 300 rods at 1000 per cm³ fill 0.3 cm³.
     let side = 300f64.cbrt();
-    let sides = |interaction: &str| {
-        let plan = Plan::new(&scene("length_mm = 0.72", interaction)).unwrap();
-        Suspension::new(&plan, 0).unwrap().sides_in_lengths()
-    };
+    let sides = |interaction: &str| suspension(&scene("length_mm = 0.72", interaction)).sides_in_lengths();
     let given = format!("box_mm = [{side}, {side}, {side}]");
     for (own, cube) in sides(&given).into_iter().zip(sides(DENSE)) {
         assert!((own / cube - 1.0).abs() < 4.0 * f64::EPSILON, "{own} {cube}");
@@ -64,34 +54,12 @@ fn a_box_of_equal_sides_is_the_cube() {
 }
 
 #[test]
-fn boxes_and_lengths_that_cannot_be_are_refused() {
-    let length = "length_mm = 0.72";
-    for (interaction, why) in [
-        ("m = 3", "concentration_per_cm3, box_mm or particles.volume_fraction must be given"),
-        ("concentration_per_cm3 = 1002\nbox_mm = [12, 5, 5]", "300 rods in [12.0, 5.0, 5.0] mm are 1000 per cm³"),
-        ("box_mm = [12, 5]", "[H1, H2, H3], three finite numbers > 0"),
-        ("box_mm = [12, 5, 5, 5]", "[H1, H2, H3], three finite numbers > 0"),
-        ("box_mm = [12, 5, 0]", "[H1, H2, H3], three finite numbers > 0"),
-        ("box_mm = [12, 5, nan]", "[H1, H2, H3], three finite numbers > 0"),
-        ("box_mm = [1e-300, 1e-300, 1e-300]", "are finite numbers > 0"),
-        ("box_mm = \"cube\"", "[H1, H2, H3], three finite numbers > 0"),
-    ] {
-        let refusal = refusal(length, interaction);
-        assert!(refusal.starts_with("s.toml:") && refusal.contains(why), "{refusal}");
-    }
-    for (sd, why) in [("33.4", "a number below 33.3333: with more, lengths ≤ 0"), ("-1", "a finite number ≥ 0")] {
-        let refusal = refusal(&format!("{length}\nlength_sd_percent = {sd}"), DENSE);
-        assert!(refusal.starts_with("s.toml:7: ") && refusal.contains(why), "{refusal}");
-    }
-}
-
-#[test]
 fn lengths_have_the_spread_that_is_asked_for_and_move_no_other_draw() {
     let mut unequal = scene("length_mm = 0.72\nlength_sd_percent = 30", DENSE);
     unequal.particles.count = 40_000;
     let mut equal = unequal.clone();
     equal.particles.length_sd_percent = 0.0;
-    let [equal, unequal] = [equal, unequal].map(|scene| Suspension::new(&Plan::new(&scene).unwrap(), 0).unwrap());
+    let [equal, unequal] = [equal, unequal].map(|scene| suspension(&scene));
     assert_eq!(equal.lengths(), vec![1.0; 40_000]);
     assert_eq!(equal.directions(), unequal.directions());
     assert_eq!(equal.positions_in_lengths(), unequal.positions_in_lengths());
@@ -108,7 +76,7 @@ fn the_plan_leaves_the_lengths_of_free_rods_out() {
     let mut free = scene("length_mm = 0.72\nlength_sd_percent = 30", DENSE);
     free.interaction = None;
     free.time.steps_per_unit = None;
-    let kept = |scene: &Scene| Plan::new(scene).unwrap().runs(Stage::Lengths);
+    let kept = |scene: &Scene| planned(scene).runs(Stage::Lengths);
     assert!(kept(&free), "for the stress");
     free.output.observables.pop();
     assert!(!kept(&free));
@@ -138,32 +106,19 @@ fn the_stress_of_two_rods_by_hand() {
     assert!((found / expected - 1.0).abs() < 1e-14, "{found} {expected}");
 }
 
-#[test]
-fn a_run_goes_on_to_the_same_bits() {
-    let mut scene = scene("length_mm = 0.72\nlength_sd_percent = 30", "box_mm = [12, 5, 5]");
-    scene.output.rods_at = vec![0.0, 0.2];
-    let plan = Plan::new(&scene).unwrap();
-    let whole = run_replica(&plan, 0).unwrap();
-    let mut kept = Vec::new();
-    go_on(&plan, 0, None, |state| kept.push(state())).unwrap();
-    let middle = kept.swap_remove(kept.len() / 2);
-    assert_eq!(go_on(&plan, 0, Some(middle), |_| ()).unwrap(), whole);
-}
-
 /// Rods given one by one as they would have been drawn are the same suspension, to the bit.
 #[test]
 fn rods_of_a_file_are_those_that_it_has() {
     let mut drawn =
         scene("length_mm = 1\nlength_sd_percent = 30\naspect_ratio_sd_percent = 8.5", "concentration_per_cm3 = 400");
-    // Places in mm are those in lengths.
-    let [x1, x2, x3] = Suspension::new(&Plan::new(&drawn).unwrap(), 0).unwrap().positions_in_lengths().clone();
-    let suspension = Suspension::new(&Plan::new(&drawn).unwrap(), 0).unwrap();
+    let suspension = suspension(&drawn);
     let directions = suspension.directions();
     let whole = OwnRods {
         p: Some([0, 1, 2].map(|axis| directions.iter().map(|p| p[axis]).collect())),
         aspect_ratio: Some(suspension.aspect_ratios()),
         length_mm: Some(suspension.lengths()),
-        place_mm: Some([x1, x2, x3]),
+        // Places in mm are those in lengths.
+        place_mm: Some(suspension.positions_in_lengths().clone()),
     };
     let expected = run(&drawn);
     assert!(expected.counters.collisions > 50, "{:?}", expected.counters);
@@ -198,7 +153,7 @@ fn rods_of_a_file_are_those_that_it_has() {
     let equal = OwnRods { aspect_ratio: Some(vec![11.6; 300]), length_mm: Some(vec![1.0; 300]), ..OwnRods::default() };
     let mut given = drawn.clone();
     given.particles.rods = Some(RodsFile::with("rods.csv", equal));
-    let plan = Plan::new(&given).unwrap();
+    let plan = planned(&given);
     assert!(!plan.runs(Stage::Lengths) && !plan.runs(Stage::AspectRatios));
     assert_eq!(run(&given).series, run(&drawn).series);
 }
@@ -214,7 +169,7 @@ fn a_box_grows_with_its_rods() {
             assert!((n / 1000.0 - 1.0).abs() < 1e-14, "{interaction}: {n}");
             let shape = if interaction == DENSE { 1.0 } else { 2.4 };
             assert!((sides[0] / sides[1] - shape).abs() < 1e-14 && (sides[1] / sides[2] - 1.0).abs() < 1e-14);
-            assert!(Plan::new(&scene).is_ok());
+            planned(&scene);
         }
     }
 }

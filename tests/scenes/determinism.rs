@@ -1,87 +1,61 @@
 //! The same scene and seed give the same bits: on any number of threads, and for a replica run alone.
 
+use crate::{any_gradient, bits, changed, on, planned, run};
 use shearbed::observable::Channel;
-use shearbed::run::ensemble;
-use shearbed::run::run_replica;
-use shearbed::scene;
-use shearbed::{Observable, Plan, Results, Scene};
+use shearbed::run::{ensemble, run_replica};
+use shearbed::scene::{Ensemble, Flow, Interaction, Time};
+use shearbed::{Observable, Plan, Scene};
 
+/// Interacting rods of several aspect ratios.
 fn scene(replicas: u64, seed: u64) -> Scene {
-    let text = format!(
-        r#"
-title = "interacting rods"
-[flow]
-shear_rate_per_s = 0.5
-[particles]
-count = 100
-length_mm = 0.72
-aspect_ratio = 11.6
-aspect_ratio_sd_percent = 3.6
-orientation = "isotropic"
-[interaction]
-concentration_per_cm3 = 50
-alpha = 0.5
-[time]
-periods = 1
-outputs_per_period = 10
-[ensemble]
-replicas = {replicas}
-seed = {seed}
-"#
-    );
-    scene::parse("scene.toml", &text).unwrap()
+    changed(|scene| {
+        scene.interaction = Some(Interaction::default());
+        scene.particles.aspect_ratio_sd_percent = 3.6;
+        scene.time.outputs_per_unit = Some(10);
+        scene.ensemble = Ensemble { replicas, seed };
+    })
 }
 
 fn plan(replicas: u64, seed: u64) -> Plan {
-    Plan::new(&scene(replicas, seed)).unwrap()
-}
-
-/// Means and standard errors of every channel, bit by bit.
-fn bits(results: &Results) -> Vec<u64> {
-    let channels = results.series.iter().flat_map(|series| &series.columns);
-    channels.flat_map(|channel| channel.mean.iter().chain(&channel.se)).map(|value| value.to_bits()).collect()
-}
-
-fn run_on(threads: usize, plan: &Plan) -> Results {
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-    pool.install(|| ensemble::run(plan).unwrap())
+    planned(&scene(replicas, seed))
 }
 
 #[test]
 fn any_number_of_threads_gives_the_same_bits() {
-    let free = Scene { interaction: None, ..scene(9, 1) };
-    for plan in [plan(9, 1), Plan::new(&free).unwrap()] {
-        let one = run_on(1, &plan);
-        for threads in [2, 3, 7] {
-            let more = run_on(threads, &plan);
-            assert_eq!(bits(&one), bits(&more), "{threads} threads");
-            assert_eq!(one.counters, more.counters);
-        }
-    }
-}
-
-#[test]
-fn a_large_run_gives_the_same_bits_on_any_number_of_threads() {
     // More rods than one thread takes on alone, and enough candidates that their contacts are shared too.
-    let large = |periods, interacting: bool, sd| {
+    let large = |periods: f64, interacting: bool, sd: f64| {
         let mut scene = scene(1, 1);
         scene.particles.count = 150_000;
         scene.particles.aspect_ratio_sd_percent = sd;
-        scene.time.duration = periods;
-        scene.time.outputs_per_unit = Some(100);
-        if !interacting {
-            scene.interaction = None;
-        }
-        Plan::new(&scene).unwrap()
+        (scene.time.duration, scene.time.outputs_per_unit) = (periods, Some(100));
+        scene.interaction = scene.interaction.filter(|_| interacting);
+        scene
     };
-    for plan in [large(0.03, true, 3.6), large(0.8, false, 0.0), large(0.03, false, 3.6)] {
-        let one = run_on(1, &plan);
-        for threads in [2, 3] {
-            let more = run_on(threads, &plan);
-            assert_eq!(bits(&one), bits(&more), "{threads} threads");
-            assert_eq!(one.counters, more.counters);
+    let mut extension = large(0.0, true, 0.0);
+    extension.flow = Flow::Gradient { gradient_per_s: any_gradient::STRETCHED };
+    extension.time = Time::strain(0.3);
+    let mut diffusing = crate::diffusion::scene(0.1);
+    diffusing.particles.count = 140_000;
+    for scene in [
+        scene(9, 1),
+        Scene { interaction: None, ..scene(9, 1) },
+        large(0.03, true, 3.6),
+        large(0.8, false, 0.0),
+        large(0.03, false, 3.6),
+        extension,
+        diffusing,
+    ] {
+        let one = on(1, || run(&scene));
+        for threads in [2, 3, 7] {
+            let more = on(threads, || run(&scene));
+            assert_eq!(bits(&one), bits(&more), "{threads} threads: {scene:?}");
+            assert_eq!((one.counters, &one.snapshots), (more.counters, &more.snapshots));
         }
-        assert_eq!(one.counters.collisions > 1024, plan.scene().interaction.is_some());
+        let collide = scene.interaction.is_some();
+        assert!(
+            if scene.particles.count > 100 { (one.counters.collisions > 1000) == collide } else { true },
+            "{scene:?}"
+        );
     }
 }
 
@@ -91,7 +65,7 @@ fn a_large_run_sums_over_all_rods() {
     scene.interaction = None;
     scene.particles.count = 150_000;
     scene.output.observables = vec![Observable::OrientationTensor];
-    let results = ensemble::run(&Plan::new(&scene).unwrap()).unwrap();
+    let results = run(&scene);
     let column = |name| results.column(name).unwrap();
     for output in 0..results.times.len() {
         let squares: f64 = ["a11", "a22", "a33"].map(|name| column(name).mean[output]).iter().sum();
@@ -145,7 +119,7 @@ fn replicas_and_seeds_differ() {
 /// An algorithm that does more work than before, or draws differently, shows here.
 #[test]
 fn the_work_of_a_fixed_scene_is_known() {
-    insta::assert_debug_snapshot!(run_on(2, &plan(4, 1)).counters);
+    insta::assert_debug_snapshot!(run(&scene(4, 1)).counters);
 }
 
 /// The same of rods sorted into cells, from dilute to dense.
@@ -157,7 +131,7 @@ fn the_work_of_many_rods_is_known() {
         scene.time.duration = 0.1;
         let interaction = scene.interaction.as_mut().unwrap();
         interaction.concentration_per_cm3 = Some(concentration_per_cm3);
-        let counters = run_on(2, &Plan::new(&scene).unwrap()).counters;
+        let counters = run(&scene).counters;
         insta::assert_debug_snapshot!(format!("work_at_{concentration_per_cm3}_per_cm3"), counters);
     }
 }

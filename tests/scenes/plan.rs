@@ -1,10 +1,9 @@
 //! Plans, printed; and that no stage, where it is left out, would have changed a bit of the results.
 
+use crate::{changed, parsed, planned, refusal, run, run_plan};
 use shearbed::plan::Stage;
-use shearbed::run::ensemble;
-use shearbed::scene;
-use shearbed::scene::{OwnRods, RodsFile, resolved_strain};
-use shearbed::{Observable, Plan, Results, Scene};
+use shearbed::scene::{Flow, MAX_REPLICAS, OwnRods, RodsFile, resolved_strain};
+use shearbed::{Observable, Plan, Results};
 
 const FREE: &str = r#"
 title = "rods in plane Couette flow"
@@ -40,46 +39,27 @@ orientation = { phi_deg = 10, theta_deg = 90 }
 strain = 4
 "#;
 
-fn scene(text: &str) -> Scene {
-    scene::parse("scene.toml", text).unwrap()
-}
-
 fn plan(text: &str) -> Plan {
-    Plan::new(&scene(text)).unwrap()
+    planned(&parsed(text))
 }
 
 #[test]
-fn a_free_scene_takes_no_steps() {
-    insta::assert_snapshot!(plan(FREE));
-}
-
-#[test]
-fn rods_of_many_aspect_ratios_at_given_angles() {
-    let text = FREE
+fn plans_say_what_is_kept_and_dropped() {
+    let unequal = FREE
         .replace("= 11.6", "= 11.6\naspect_ratio_sd_percent = 3.6")
         .replace("\"isotropic\"", "{ phi_deg = 0, theta_deg = 45 }");
-    insta::assert_snapshot!(plan(&(text + ALL_OBSERVABLES)));
-}
-
-#[test]
-fn an_interacting_scene_needs_every_stage() {
-    insta::assert_snapshot!(plan(&format!("{FREE}{INTERACTING}")));
-}
-
-#[test]
-fn rods_that_cannot_collide_are_free() {
-    insta::assert_snapshot!(plan(&format!("{FREE}{ALPHA_0}")));
-}
-
-#[test]
-fn one_rod_is_free() {
-    let text = format!("{FREE}{INTERACTING}");
-    insta::assert_snapshot!(plan(&text.replace("count = 150", "count = 1")));
-}
-
-#[test]
-fn extension_counts_strain() {
-    insta::assert_snapshot!(plan(EXTENSION));
+    let interacting = format!("{FREE}{INTERACTING}");
+    for (name, text) in [
+        ("a_free_scene_takes_no_steps", FREE),
+        ("rods_of_many_aspect_ratios_at_given_angles", &(unequal + ALL_OBSERVABLES)),
+        ("an_interacting_scene_needs_every_stage", &interacting),
+        ("rods_that_cannot_collide_are_free", &format!("{FREE}{ALPHA_0}")),
+        ("one_rod_is_free", &interacting.replace("count = 150", "count = 1")),
+        ("extension_counts_strain", EXTENSION),
+        ("a_coarse_step_is_warned_of_and_a_finer_one_is_not", &turning(50.0, "steps_per_period = 200")),
+    ] {
+        insta::assert_snapshot!(name, plan(text));
+    }
 }
 
 /// The channels of `part`, found in `whole` with the same bits.
@@ -91,10 +71,6 @@ fn assert_same_bits(part: &Results, whole: &Results, what: &str) {
         assert_eq!(bits(&channel.mean), bits(&other.mean), "{what}: {}", channel.name);
         assert_eq!(bits(&channel.se), bits(&other.se), "{what}: standard errors of {}", channel.name);
     }
-}
-
-fn run(plan: &Plan) -> Results {
-    ensemble::run(plan).unwrap()
 }
 
 fn stages() -> impl Iterator<Item = Stage> {
@@ -122,11 +98,11 @@ fn keeping_a_stage_that_is_left_out_changes_no_bit() {
                     .replace("= 11.6", sizes)
                     .replace("\"isotropic\"", orientation);
                 let plan = plan(&text);
-                let without = run(&plan);
+                let without = run_plan(&plan);
                 for stage in stages().filter(|stage| !plan.runs(*stage)) {
                     let with = plan.with_stage(stage).expect("the scene has a control volume");
                     assert!(with.runs(stage));
-                    assert_same_bits(&without, &run(&with), &format!("{stage} in {text}"));
+                    assert_same_bits(&without, &run_plan(&with), &format!("{stage} in {text}"));
                 }
             }
         }
@@ -136,8 +112,8 @@ fn keeping_a_stage_that_is_left_out_changes_no_bit() {
 #[test]
 fn a_stage_kept_by_request_does_run() {
     let plan = plan(&format!("{FREE}{ALPHA_0}"));
-    let counters = |stage| run(&plan.with_stage(stage).unwrap()).counters;
-    assert_eq!(run(&plan).counters.steps, 0);
+    let counters = |stage| run_plan(&plan.with_stage(stage).unwrap()).counters;
+    assert_eq!(run_plan(&plan).counters.steps, 0);
     assert_eq!(counters(Stage::Translation).steps, 400);
     assert!(counters(Stage::Translation).replacements > 0);
     assert_eq!(counters(Stage::CollisionDraws).draws, 400 * 150);
@@ -154,14 +130,14 @@ fn a_stage_without_what_it_works_on_cannot_be_kept() {
 #[test]
 fn leaving_out_an_observable_changes_no_bit_of_the_others() {
     for interaction in [ALPHA_0, INTERACTING] {
-        let mut all = scene(&format!("{FREE}{interaction}"));
+        let mut all = parsed(&format!("{FREE}{interaction}"));
         all.liquid.viscosity_pa_s = Some(2.0);
         all.output.observables = Observable::ALL.to_vec();
-        let whole = run(&Plan::new(&all).unwrap());
+        let whole = run(&all);
         for left_out in Observable::ALL {
             let mut fewer = all.clone();
             fewer.output.observables.retain(|observable| *observable != left_out);
-            let part = run(&Plan::new(&fewer).unwrap());
+            let part = run(&fewer);
             assert_eq!(part.series.len(), Observable::ALL.len() - 1);
             assert_same_bits(&part, &whole, left_out.name());
         }
@@ -170,12 +146,10 @@ fn leaving_out_an_observable_changes_no_bit_of_the_others() {
 
 #[test]
 fn writing_the_defaults_out_changes_nothing() {
-    for text in [FREE.to_owned(), format!("{FREE}{INTERACTING}"), EXTENSION.to_owned()] {
-        let scene = scene(&text);
-        let resolved = Plan::new(&scene.resolved()).unwrap();
-        assert_eq!(resolved.to_string(), plan(&text).to_string());
-        let (part, whole) = (run(&plan(&text)), run(&resolved));
-        assert_same_bits(&part, &whole, &text);
+    for text in [FREE, &format!("{FREE}{INTERACTING}"), EXTENSION] {
+        let (given, resolved) = (plan(text), planned(&parsed(text).resolved()));
+        assert_eq!(resolved.to_string(), given.to_string());
+        assert_same_bits(&run_plan(&given), &run_plan(&resolved), text);
     }
 }
 
@@ -205,7 +179,7 @@ fn steps_resolve_the_motion_by_default() {
 fn the_default_is_the_fewest_steps_that_will_do() {
     for k in 1..3900 {
         let r = 1.0 + (0.003 * f64::from(k)).exp_m1();
-        let scene = scene(&turning(r, ""));
+        let scene = parsed(&turning(r, ""));
         let (steps, strain) = (scene.steps_per_unit(), scene.motion_per_step());
         assert!(strain <= resolved_strain(r) && steps.is_multiple_of(50), "{r}");
         let fewer = strain * steps as f64 / (steps - 50) as f64;
@@ -222,8 +196,6 @@ fn a_coarse_step_is_warned_of_and_a_finer_one_is_not() {
         assert_eq!(plan.warnings().len(), usize::from(warns), "{steps}");
         assert_eq!(plan.to_string().contains("\nwarning: time.steps_per_period"), warns);
     }
-    let coarse = plan(&turning(50.0, "steps_per_period = 200"));
-    insta::assert_snapshot!(coarse);
     // Free rods take no steps.
     let free = turning(50.0, "steps_per_period = 200").replace("alpha = 0.5", "alpha = 0");
     assert_eq!(plan(&free).warnings(), Vec::<String>::new());
@@ -234,10 +206,8 @@ fn keys_without_effect_are_warned_of() {
     let free = turning(20.0, "steps_per_period = 100\n");
     let free = free.split("[interaction]").next().unwrap();
     assert_eq!(plan(free).warnings(), ["time.steps_per_period has no effect: free rods take no steps"]);
-    let mut one = plan(&turning(20.0, "")).scene().clone();
-    one.particles.count = 1;
-    let said = Plan::new(&one).unwrap().warnings();
-    assert_eq!(said, ["interaction has no effect: one rod has no neighbour"]);
+    let one = turning(20.0, "").replace("count = 150", "count = 1");
+    assert_eq!(plan(&one).warnings(), ["interaction has no effect: one rod has no neighbour"]);
 }
 
 #[test]
@@ -267,10 +237,9 @@ fn rods_that_are_too_thick_to_collide_as_lines_are_warned_of() {
 
 #[test]
 fn long_rods_need_more_steps_than_there_may_be_and_say_what_to_set() {
-    let refusal = |text: &str| Plan::parse("s.toml", text).unwrap_err().to_string();
     assert_eq!(
         refusal(&turning(1e6, "")),
-        "s.toml:10: time.steps_per_period is missing: at aspect_ratio = 1000000 some 7.0e7 steps a period resolve the \
+        "dir/s.toml:10: time.steps_per_period is missing: at aspect_ratio = 1000000 some 7.0e7 steps a period resolve the \
          motion (GΔt ≤ 0.09), and at most 10000000 are allowed; set steps_per_period to take fewer, which do not \
          resolve it, or a smaller aspect_ratio"
     );
@@ -318,8 +287,8 @@ fn the_unit_of_a_period_is_the_same_in_any_axes() {
     let straight = plan(FREE);
     let mut turned = straight.scene().clone();
     let shear_rate_per_s = turned.flow.shear_rate_per_s().unwrap();
-    turned.flow = scene::Flow::Gradient { gradient_per_s: [[0.0; 3], [0.0; 3], [0.0, shear_rate_per_s, 0.0]] };
-    let (unit, of_turned) = (straight.elapsed(1.0), Plan::new(&turned).unwrap().elapsed(1.0));
+    turned.flow = Flow::Gradient { gradient_per_s: [[0.0; 3], [0.0; 3], [0.0, shear_rate_per_s, 0.0]] };
+    let (unit, of_turned) = (straight.elapsed(1.0), planned(&turned).elapsed(1.0));
     assert!((of_turned.seconds / unit.seconds - 1.0).abs() < 1e-14, "{of_turned:?}");
     assert!((of_turned.strain / unit.strain - 1.0).abs() < 1e-14, "{of_turned:?}");
 }
@@ -327,19 +296,21 @@ fn the_unit_of_a_period_is_the_same_in_any_axes() {
 /// A flow so slow that one period is a number of seconds, and many are not.
 #[test]
 fn a_duration_is_a_number_of_seconds() {
-    let mut scene = plan(FREE).scene().clone();
-    scene.flow = scene::Flow::Shear { shear_rate_per_s: 1e-304 };
-    (scene.time.duration, scene.time.outputs_per_unit) = (1.0, Some(1));
-    assert!(Plan::new(&scene).is_ok());
-    scene.time.duration = 1e5;
-    let refused = Plan::new(&scene).unwrap_err().to_string();
+    let of = |periods: f64| {
+        Plan::new(&changed(|scene| {
+            scene.flow = Flow::Shear { shear_rate_per_s: 1e-304 };
+            (scene.time.duration, scene.time.outputs_per_unit) = (periods, Some(1));
+        }))
+    };
+    assert!(of(1.0).is_ok());
+    let refused = of(1e5).unwrap_err().to_string();
     assert!(refused.contains("finite number of seconds"), "{refused}");
 }
 
 #[test]
 fn a_control_volume_has_a_side() {
     for (length_mm, concentration_per_cm3) in [(1e100, 1e100), (1e-100, 1e-100)] {
-        let mut scene = plan(&format!("{FREE}{ALPHA_0}")).scene().clone();
+        let mut scene = parsed(&format!("{FREE}{ALPHA_0}"));
         scene.particles.length_mm = length_mm;
         let interaction = scene.interaction.as_mut().unwrap();
         interaction.concentration_per_cm3 = Some(concentration_per_cm3);
@@ -352,16 +323,12 @@ fn a_control_volume_has_a_side() {
 #[test]
 fn a_plan_of_another_number_of_replicas_is_that_of_such_a_scene() {
     for (from, to) in [(1, 40), (40, 1), (3, 5)] {
-        let planned = |replicas: u64| {
-            let mut scene = plan(FREE).scene().clone();
-            scene.ensemble.replicas = replicas;
-            Plan::new(&scene).unwrap()
-        };
-        let (changed, anew) = (planned(from).with_replicas(to), planned(to));
-        assert_eq!((changed.scene(), changed.entries()), (anew.scene(), anew.entries()));
+        let of = |replicas: u64| planned(&changed(|scene| scene.ensemble.replicas = replicas));
+        let (changed, expected) = (of(from).with_replicas(to), of(to));
+        assert_eq!((changed.scene(), changed.entries()), (expected.scene(), expected.entries()));
     }
     assert_eq!(plan(FREE).with_replicas(0).scene().ensemble.replicas, 1);
-    assert_eq!(plan(FREE).with_replicas(u64::MAX).scene().ensemble.replicas, scene::MAX_REPLICAS);
+    assert_eq!(plan(FREE).with_replicas(u64::MAX).scene().ensemble.replicas, MAX_REPLICAS);
 }
 
 #[test]
@@ -381,11 +348,11 @@ fn replicas_that_share_the_directions_of_a_file_are_warned_of() {
         (FREE, &own, 1, 0.0, [false; 2]),
         (&collide, &own, 1, 0.0, [false; 2]),
     ] {
-        let mut scene = scene(text);
+        let mut scene = parsed(text);
         scene.particles.rods = Some(RodsFile::with("rods.csv", own.clone()));
         scene.particles.aspect_ratio_sd_percent = sd_percent;
         scene.ensemble.replicas = replicas;
-        let warnings = Plan::new(&scene).unwrap().warnings().join("; ");
+        let warnings = planned(&scene).warnings().join("; ");
         assert_eq!([scatter, alike].map(|words| warnings.contains(words)), said, "{warnings}");
         assert!(!warnings.contains("1 replicas"), "{warnings}");
     }
