@@ -14,7 +14,7 @@ mod tests;
 use crate::model::chunks::{CHUNK, of_chunks};
 use crate::model::work::Counters;
 use crate::observable::fault::{self, Fault};
-use crate::observable::{BLOCK, Block, Channel, Observable, Sum, width};
+use crate::observable::{BLOCK, Channel, Observable, Observe, Sum, width};
 use crate::plan::{Plan, Stage};
 use crate::run::resume::{Halfway, Placed};
 use crate::scene::Error;
@@ -107,31 +107,23 @@ pub fn go_on(
         let refused = |cause| Error::Misfit { replica, cause };
         from.check(plan).map_err(refused)?;
     }
-    let mut recorder = Recorder::new(plan, replica);
+    let observables = plan.observables();
+    let built_in = observables.iter().map(|observable| &**observable).collect();
+    let mut recorder = Recorder::new(plan, replica, built_in, Sum::none(plan.runs(Stage::RodErrors)));
     let rods = from.and_then(|from| {
         recorder.done = from.outputs(plan);
         recorder.sums[..from.sums.len()].copy_from_slice(&from.sums);
         recorder.snapshots = from.snapshots;
         from.rods
     });
-    let suspension = match rods {
-        Some(rods) => rods.suspension(plan, replica),
-        None => Suspension::new(plan, replica),
-    };
-    let mut counters = match suspension {
-        Some(suspension) => stepped(plan, suspension, &mut recorder, &mut look)?,
-        None => match Diffusion::new(plan, replica) {
-            Some(diffusion) => diffused(plan, diffusion, &mut recorder, &mut look)?,
-            None => straight(plan, replica, &mut recorder, &mut look)?,
-        },
-    };
+    let mut counters = recorder.run(rods, &mut look)?;
     counters.directions = (plan.outputs() * plan.scene().particles.count) as u64;
     Ok(Replica {
-        observables: plan.observables(),
         rods: plan.scene().particles.count,
         stress_pa: plan.scene().stress_pa(),
         sums: recorder.sums,
         snapshots: recorder.snapshots,
+        observables,
         counters,
     })
 }
@@ -149,8 +141,7 @@ fn straight(
         recorder.record(outputs, &rods, |first, output, selected| rods.orient(first, output as u64, selected))?;
         look(&|| recorder.halfway(None));
     }
-    let asked = plan.rods_outputs().into_iter();
-    recorder.snapshots = asked
+    recorder.snapshots = (recorder.asked().into_iter())
         .map(|output| {
             Snapshot::of_free(&rods, replica, output).map_err(|fault| refused(plan, replica, 0, output, fault))
         })
@@ -165,7 +156,7 @@ fn diffused(
     recorder: &mut Recorder,
     look: &mut impl FnMut(&dyn Fn() -> Halfway),
 ) -> Result<Counters, Error> {
-    let (asked, ticks) = (plan.rods_outputs(), plan.ticks());
+    let (asked, ticks) = (recorder.asked(), plan.ticks());
     let mut snapshots = Vec::new();
     for output in 0..plan.outputs() {
         diffusion.step_to(ticks(output));
@@ -193,7 +184,7 @@ fn stepped(
     recorder: &mut Recorder,
     look: &mut impl FnMut(&dyn Fn() -> Halfway),
 ) -> Result<Counters, Error> {
-    let (asked, ticks) = (plan.rods_outputs(), plan.ticks());
+    let (asked, ticks) = (recorder.asked(), plan.ticks());
     for output in recorder.done..plan.outputs() {
         while suspension.tick() < ticks(output) {
             suspension.step()?;
@@ -210,12 +201,15 @@ fn stepped(
     Ok(suspension.counters)
 }
 
+/// The sums of observables over the rods of one replica, each observable with its place among them.
 struct Recorder<'a> {
     plan: &'a Plan,
     replica: u64,
-    observables: Vec<(Observable, usize)>,
+    observables: Vec<(&'a dyn Observe, usize)>,
     width: usize,
     empty: Sum,
+    /// True for an observable of the caller: all rods are summed in order, and none is kept.
+    own: bool,
     sums: Vec<Sum>,
     /// Number of outputs done, counted from the first.
     done: usize,
@@ -223,28 +217,43 @@ struct Recorder<'a> {
 }
 
 impl<'a> Recorder<'a> {
-    fn new(plan: &'a Plan, replica: u64) -> Self {
+    fn new(plan: &'a Plan, replica: u64, observables: Vec<&'a dyn Observe>, empty: Sum) -> Self {
         let mut width = 0;
-        let observables = plan
-            .observables()
-            .into_iter()
-            .map(|observable| {
-                let start = width;
-                width += observable.width();
-                (observable, start)
-            })
-            .collect();
-        let empty = Sum::none(plan.runs(Stage::RodErrors));
+        let mut placed = Vec::new();
+        for observable in observables {
+            placed.push((observable, width));
+            width += observable.columns().len();
+        }
         Self {
             plan,
             replica,
-            observables,
+            observables: placed,
             width,
             empty,
+            own: false,
             sums: vec![empty; width * plan.outputs()],
             done: 0,
             snapshots: Vec::new(),
         }
+    }
+
+    /// Runs the replica from its start, or from `rods`; `look` as in [`go_on`].
+    fn run(&mut self, rods: Option<Placed>, look: &mut impl FnMut(&dyn Fn() -> Halfway)) -> Result<Counters, Error> {
+        let (plan, replica) = (self.plan, self.replica);
+        let suspension = match rods {
+            Some(rods) => rods.suspension(plan, replica),
+            None => Suspension::new(plan, replica),
+        };
+        match (suspension, Diffusion::new(plan, replica)) {
+            (Some(suspension), _) => stepped(plan, suspension, self, look),
+            (None, Some(diffusion)) => diffused(plan, diffusion, self, look),
+            (None, None) => straight(plan, replica, self, look),
+        }
+    }
+
+    /// The outputs at which every rod is kept.
+    fn asked(&self) -> Vec<usize> {
+        if self.own { Vec::new() } else { self.plan.rods_outputs() }
     }
 
     /// The state so far, with `rods` if they interact.
@@ -265,7 +274,7 @@ impl<'a> Recorder<'a> {
         let done = outputs.end;
         let mut sums = std::mem::take(&mut self.sums);
         let own = &mut sums[self.width * outputs.start..self.width * outputs.end];
-        if count <= CHUNK {
+        if self.own || count <= CHUNK {
             self.add(0..count, outputs.clone(), rods, &orient, own)?;
         } else {
             let parts = of_chunks(count, |part| {
@@ -279,7 +288,7 @@ impl<'a> Recorder<'a> {
         }
         for (output, sums) in outputs.zip(own.chunks(self.width)) {
             for (observable, start) in &self.observables {
-                fault::trace(&**observable, &sums[*start..], count).map_err(|fault| self.refused(0, output, fault))?;
+                fault::trace(*observable, &sums[*start..], count).map_err(|fault| self.refused(0, output, fault))?;
             }
         }
         self.sums = sums;
@@ -304,9 +313,9 @@ impl<'a> Recorder<'a> {
                 let block = &selected.block;
                 fault::directions(block).map_err(refused)?;
                 for (observable, start) in &self.observables {
-                    let sums = &mut sums[*start..][..observable.width()];
+                    let sums = &mut sums[*start..][..observable.columns().len()];
                     observable.add(block, sums);
-                    fault::sums(&**observable, block, sums).map_err(refused)?;
+                    fault::sums(*observable, block, sums).map_err(refused)?;
                 }
             }
         }
@@ -319,7 +328,7 @@ impl<'a> Recorder<'a> {
 }
 
 /// The error for a `fault` in a block whose first rod is `first`.
-pub(crate) fn refused(plan: &Plan, replica: u64, first: usize, output: usize, fault: Fault) -> Error {
+fn refused(plan: &Plan, replica: u64, first: usize, output: usize, fault: Fault) -> Error {
     Error::NoResult {
         rod: fault.rod.map(|rod| first + rod),
         output,
@@ -328,43 +337,5 @@ pub(crate) fn refused(plan: &Plan, replica: u64, first: usize, output: usize, fa
         seed: plan.scene().ensemble.seed,
         replica,
         cause: fault.cause,
-    }
-}
-
-/// Calls `look(output, first, block)` for all rods of a replica at all outputs, in blocks; `first` is the index of the
-/// block's first rod.
-pub(crate) fn each_block(
-    plan: &Plan,
-    replica: u64,
-    mut look: impl FnMut(usize, usize, &Block) -> Result<(), Error>,
-) -> Result<(), Error> {
-    let mut selected = Selected::default();
-    let mut blocks = |output: usize, rods: &Rods, tick: u64| {
-        (0..rods.count()).step_by(BLOCK).try_for_each(|first| {
-            rods.select(first, &mut selected);
-            rods.orient(first, tick, &mut selected)
-                .and_then(|()| fault::directions(&selected.block))
-                .map_err(|fault| refused(plan, replica, first, output, fault))?;
-            look(output, first, &selected.block)
-        })
-    };
-    let (mut outputs, ticks) = (0..plan.outputs(), plan.ticks());
-    match Suspension::new(plan, replica) {
-        Some(mut suspension) => outputs.try_for_each(|output| {
-            while suspension.tick() < ticks(output) {
-                suspension.step()?;
-            }
-            blocks(output, &suspension.rods, suspension.tick())
-        }),
-        None => match Diffusion::new(plan, replica) {
-            Some(mut diffusion) => outputs.try_for_each(|output| {
-                diffusion.step_to(ticks(output));
-                blocks(output, &diffusion.rods, 0)
-            }),
-            None => {
-                let (rods, _) = Rods::draw(plan, replica);
-                outputs.try_for_each(|output| blocks(output, &rods, output as u64))
-            }
-        },
     }
 }

@@ -3,10 +3,10 @@
 #[cfg(test)]
 mod tests;
 
-use crate::observable::{Observe, Sum, fault};
+use crate::observable::{Observe, Sum};
 use crate::plan::Plan;
+use crate::run::Recorder;
 use crate::run::ensemble::{Column, Tally, batch, in_batches};
-use crate::run::{each_block, refused};
 use crate::scene::Error;
 use rayon::prelude::*;
 
@@ -34,12 +34,7 @@ pub fn observe(plan: &Plan, own: &dyn Observe) -> Result<Vec<Column>, Error> {
 
 /// The sums of one replica, output by output.
 fn one(plan: &Plan, own: &dyn Observe, replica: u64) -> Result<Vec<Sum>, Error> {
-    let width = own.columns().len();
-    let mut sums = vec![Sum::none(true); plan.outputs() * width];
-    each_block(plan, replica, |output, first, block| {
-        let here = &mut sums[output * width..][..width];
-        own.add(block, here);
-        fault::sums(own, block, here).map_err(|fault| refused(plan, replica, first, output, fault))
-    })?;
-    Ok(sums)
+    let mut recorder = Recorder { own: true, ..Recorder::new(plan, replica, vec![own], Sum::none(true)) };
+    recorder.run(None, &mut |_| ())?;
+    Ok(recorder.sums)
 }

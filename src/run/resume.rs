@@ -25,11 +25,9 @@ use serde::{Deserialize, Serialize};
 /// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Halfway {
-    /// Sums of the outputs that are done.
     pub(crate) sums: Vec<Sum>,
     /// All rods at those of these outputs for which the scene asks for them; empty for free rods until the end.
     pub(crate) snapshots: Vec<Snapshot>,
-    /// The rods, if they interact.
     pub(crate) rods: Option<Placed>,
 }
 
@@ -150,7 +148,6 @@ impl Placed {
 }
 
 impl Suspension {
-    /// The state of the rods, to be saved.
     pub(crate) fn placed(&self) -> Placed {
         let (directions, since) = self.rods.state();
         Placed { counters: self.counters, directions, since, positions: self.positions.clone() }

@@ -12,11 +12,15 @@ fn plan(count: usize, replicas: u64) -> Plan {
     Plan::new(&scene::parse("s.toml", &text).unwrap()).unwrap()
 }
 
+fn recorder<'a>(plan: &'a Plan, replica: u64, observables: &'a [Observable]) -> Recorder<'a> {
+    Recorder::new(plan, replica, observables.iter().map(|observable| &**observable).collect(), Sum::none(false))
+}
+
 /// Runs a replica in which the rod `rod` points along `wrong` at the output `at`.
 fn broken(count: usize, rod: usize, at: usize, wrong: [f64; 3]) -> Result<(), Error> {
     let plan = plan(count, 2);
     let (rods, _) = Rods::draw(&plan, 1);
-    Recorder::new(&plan, 1).record(0..plan.outputs(), &rods, |first, output, selected| {
+    recorder(&plan, 1, &plan.observables()).record(0..plan.outputs(), &rods, |first, output, selected| {
         rods.orient(first, output as u64, selected)?;
         let block = &mut selected.block;
         if output == at && (first..first + block.len).contains(&rod) {
@@ -44,8 +48,8 @@ fn a_broken_propagation_stops_the_run_and_names_rod_output_and_replica() {
 fn of_several_wrong_rods_the_first_is_named_whatever_the_threads() {
     let plan = plan(3 * CHUNK, 1);
     let (rods, _) = Rods::draw(&plan, 0);
-    let recorder = |_| Recorder::new(&plan, 0).record(0..1, &rods, |_, _, _| Ok(())).unwrap_err();
-    let errors: Vec<_> = (0..4).map(recorder).collect();
+    let record = |_| recorder(&plan, 0, &plan.observables()).record(0..1, &rods, |_, _, _| Ok(())).unwrap_err();
+    let errors: Vec<_> = (0..4).map(record).collect();
     assert!(errors.iter().all(|error| *error == errors[0]));
     assert!(errors[0].to_string().starts_with("rod 0, output 0 "), "{}", errors[0]);
 }
