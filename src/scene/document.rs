@@ -21,6 +21,7 @@ pub(super) use lines::LOOKED_THROUGH;
 pub(super) use lines::shortened;
 use lines::{Lines, stopped_at};
 use serde::de::DeserializeOwned;
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::ops::Range;
 use std::sync::Arc;
@@ -33,29 +34,18 @@ pub struct Document {
     file: String,
     text: Arc<str>,
     lines: Lines,
-    root: Entries,
+    root: toml::Table,
+    places: Places,
 }
 
-type Entries = BTreeMap<String, Node>;
-
-#[derive(Clone, Debug)]
-struct Node {
-    /// Byte offset of the key and byte range of its value; `None` for values set later.
-    place: Option<(usize, Range<usize>)>,
-    content: Content,
-}
-
-#[derive(Clone, Debug)]
-enum Content {
-    Table(Entries),
-    Array(Vec<Node>),
-    Single(Value),
-}
+/// By the keys on the way to a value, the byte offset of its key and the byte range of the value; without values that
+/// were set later. An array's tables have their indices as keys.
+type Places = BTreeMap<Vec<String>, (usize, Range<usize>)>;
 
 /// The value in `text`, which has nothing else in it, as a scene file has it behind `=`; `None` if it is none.
 pub fn value(text: &str) -> Option<Value> {
     let value = DeValue::parse(text).ok()?;
-    (value.span() == (0..text.len())).then(|| Node::read(0, &value).value())
+    (value.span() == (0..text.len())).then(|| read(value.get_ref(), &mut Vec::new(), &mut Places::new()))
 }
 
 impl Document {
@@ -73,18 +63,19 @@ impl Document {
             let line = Some(lines.number(offset));
             Error::Text { file: file.to_owned(), problems: vec![SceneProblem { line, message }] }
         })?;
-        Ok(Self { file: file.to_owned(), text: text.into(), lines, root: entries(root.get_ref()) })
+        let mut places = Places::new();
+        let root = read_table(root.get_ref(), &mut Vec::new(), &mut places);
+        Ok(Self { file: file.to_owned(), text: text.into(), lines, root, places })
     }
 
     /// A document of the values in `table`, which have no lines.
     pub(super) fn of(table: toml::Table) -> Self {
-        let root = table.into_iter().map(|(key, value)| (key, Node::set(value))).collect();
-        Self { file: String::new(), text: "".into(), lines: Lines::of(""), root }
+        Self { file: String::new(), text: "".into(), lines: Lines::of(""), root: table, places: Places::new() }
     }
 
     /// The table at the root of the document.
     pub fn root(&self) -> Table<'_> {
-        Table { document: self, path: String::new(), offset: Some(0), entries: &self.root }
+        Table { document: self, path: String::new(), keys: Vec::new(), offset: Some(0), entries: &self.root }
     }
 
     /// Sets the value of a dotted key such as `interaction.alpha`; makes the tables above it if they are missing.
@@ -95,19 +86,17 @@ impl Document {
     pub fn set(&mut self, key: &str, value: Value) -> Result<(), Error> {
         let (mut entries, mut rest) = (&mut self.root, key);
         while let Some((first, inner)) = rest.split_once('.') {
-            let made = || Node { place: None, content: Content::Table(Entries::new()) };
-            let node = entries.entry(first.to_owned()).or_insert_with(made);
-            match &mut node.content {
-                Content::Table(inner) => entries = inner,
-                _ => {
-                    let message = format!("{first} is not a table: it has no key {inner}");
-                    let problems = vec![SceneProblem { line: None, message }];
-                    return Err(Error::Text { file: self.file.clone(), problems });
-                }
-            }
-            rest = inner;
+            let made = || Value::Table(toml::Table::new());
+            let Value::Table(next) = entries.entry(first.to_owned()).or_insert_with(made) else {
+                let message = format!("{first} is not a table: it has no key {inner}");
+                let problems = vec![SceneProblem { line: None, message }];
+                return Err(Error::Text { file: self.file.clone(), problems });
+            };
+            (entries, rest) = (next, inner);
         }
-        entries.insert(rest.to_owned(), Node::set(value));
+        entries.insert(rest.to_owned(), value);
+        let set: Vec<_> = key.split('.').collect();
+        self.places.retain(|keys, _| !keys.iter().map(String::as_str).take(set.len()).eq(set.iter().copied()));
         Ok(())
     }
 
@@ -150,8 +139,10 @@ pub struct Table<'a> {
     document: &'a Document,
     /// Prefix of the dotted paths of its keys, such as `x.`; empty for the whole document.
     path: String,
+    /// Its place in the document.
+    keys: Vec<String>,
     offset: Option<usize>,
-    entries: &'a Entries,
+    entries: &'a toml::Table,
 }
 
 impl<'a> Table<'a> {
@@ -173,33 +164,32 @@ impl<'a> Table<'a> {
 
     /// The value of `key`, or `None`.
     pub fn value(&self, key: &str) -> Option<Value> {
-        self.entries.get(key).map(Node::value)
+        self.entries.get(key).cloned()
     }
 
-    /// The whole table as TOML values.
     pub(super) fn whole(&self) -> toml::Table {
-        values(self.entries)
+        self.entries.clone()
     }
 
     /// The table at `key`; `None` if there is no table.
     pub fn table(&self, key: &str) -> Option<Table<'a>> {
-        self.inner(key, self.entries.get(key)?)
+        self.inner(key, vec![key.to_owned()], self.entries.get(key)?)
     }
 
     /// The array of tables at `key`; `None` if there is none, or if it is empty.
     pub fn tables(&self, key: &str) -> Option<Vec<Table<'a>>> {
-        match &self.entries.get(key)?.content {
-            Content::Array(nodes) if !nodes.is_empty() => nodes.iter().map(|node| self.inner(key, node)).collect(),
-            _ => None,
-        }
+        let all = self.entries.get(key)?.as_array().filter(|all| !all.is_empty())?.iter().enumerate();
+        all.map(|(k, value)| self.inner(key, vec![key.to_owned(), k.to_string()], value)).collect()
     }
 
-    fn inner(&self, key: &str, node: &'a Node) -> Option<Table<'a>> {
-        let Content::Table(entries) = &node.content else {
-            return None;
-        };
-        let offset = node.place.as_ref().map(|(at, _)| *at);
-        Some(Table { document: self.document, path: format!("{}{key}.", self.path), offset, entries })
+    fn inner(&self, key: &str, below: Vec<String>, value: &'a Value) -> Option<Table<'a>> {
+        let (document, path, keys) = (self.document, format!("{}{key}.", self.path), [&self.keys[..], &below].concat());
+        let offset = document.places.get(&keys).map(|(at, _)| *at);
+        Some(Table { document, path, keys, offset, entries: value.as_table()? })
+    }
+
+    fn place(&self, key: &str) -> Option<&(usize, Range<usize>)> {
+        self.document.places.get(&[&self.keys[..], &[key.to_owned()]].concat())
     }
 
     /// The line of `key`, or of this table if the key is missing; 1 for values set without a text.
@@ -208,18 +198,15 @@ impl<'a> Table<'a> {
     }
 
     pub(super) fn offset(&self, key: &str) -> Option<usize> {
-        match self.entries.get(key) {
-            Some(node) => node.place.as_ref().map(|(at, _)| *at),
-            None => self.offset,
-        }
+        if self.has(key) { self.place(key).map(|(at, _)| *at) } else { self.offset }
     }
 
     /// The value of `key` as written in the text, on one line and shortened.
     pub fn written(&self, key: &str) -> Option<String> {
-        let node = self.entries.get(key)?;
-        let written = match &node.place {
+        let value = self.entries.get(key)?;
+        let written = match self.place(key) {
             Some((_, span)) => self.document.text.get(span.clone()).unwrap_or_default().to_owned(),
-            None => as_toml(&node.value()),
+            None => as_toml(value),
         };
         Some(shortened(&written.split_whitespace().collect::<Vec<_>>().join(" ")))
     }
@@ -238,54 +225,39 @@ impl<'a> Table<'a> {
     }
 }
 
-fn entries(table: &DeTable<'_>) -> Entries {
-    let node = |(key, value): (&toml::Spanned<std::borrow::Cow<'_, str>>, _)| {
-        (key.get_ref().to_string(), Node::read(key.span().start, value))
+fn read_table(table: &DeTable<'_>, keys: &mut Vec<String>, places: &mut Places) -> toml::Table {
+    let mut read = |(key, value): (&toml::Spanned<Cow<'_, str>>, &toml::Spanned<DeValue<'_>>)| {
+        keys.push(key.get_ref().to_string());
+        places.insert(keys.clone(), (key.span().start, value.span()));
+        let value = read(value.get_ref(), keys, places);
+        (keys.pop().unwrap_or_default(), value)
     };
-    table.iter().map(node).collect()
+    table.iter().map(&mut read).collect()
 }
 
-fn values(entries: &Entries) -> toml::Table {
-    entries.iter().map(|(key, node)| (key.clone(), node.value())).collect()
-}
-
-impl Node {
-    fn read(at: usize, value: &toml::Spanned<DeValue<'_>>) -> Self {
-        let single = Content::Single;
-        let content = match value.get_ref() {
-            DeValue::Table(table) => Content::Table(entries(table)),
-            DeValue::Array(all) => {
-                Content::Array(all.iter().map(|inner| Self::read(inner.span().start, inner)).collect())
-            }
-            DeValue::String(text) => single(Value::String(text.to_string())),
-            DeValue::Boolean(is) => single(Value::Boolean(*is)),
-            DeValue::Datetime(date) => single(Value::Datetime(*date)),
-            DeValue::Float(number) => single(Value::Float(nearest(number.as_str(), 10))),
-            DeValue::Integer(number) => {
-                let (digits, radix) = (number.as_str(), number.radix());
-                let long = |_| Value::Float(nearest(digits, radix));
-                single(i64::from_str_radix(digits, radix).map_or_else(long, Value::Integer))
-            }
-        };
-        Self { place: Some((at, value.span())), content }
-    }
-
-    fn set(value: Value) -> Self {
-        let content = match value {
-            Value::Table(inner) => {
-                Content::Table(inner.into_iter().map(|(key, value)| (key, Self::set(value))).collect())
-            }
-            Value::Array(all) => Content::Array(all.into_iter().map(Self::set).collect()),
-            other => Content::Single(other),
-        };
-        Self { place: None, content }
-    }
-
-    fn value(&self) -> Value {
-        match &self.content {
-            Content::Table(entries) => Value::Table(values(entries)),
-            Content::Array(all) => Value::Array(all.iter().map(Self::value).collect()),
-            Content::Single(value) => value.clone(),
+fn read(value: &DeValue<'_>, keys: &mut Vec<String>, places: &mut Places) -> Value {
+    match value {
+        DeValue::Table(table) => Value::Table(read_table(table, keys, places)),
+        DeValue::Array(all) => {
+            let mut element = |(k, inner): (usize, &toml::Spanned<DeValue<'_>>)| {
+                keys.push(k.to_string());
+                if let DeValue::Table(_) = inner.get_ref() {
+                    places.insert(keys.clone(), (inner.span().start, inner.span()));
+                }
+                let element = read(inner.get_ref(), keys, places);
+                keys.pop();
+                element
+            };
+            Value::Array(all.iter().enumerate().map(&mut element).collect())
+        }
+        DeValue::String(text) => Value::String(text.to_string()),
+        DeValue::Boolean(is) => Value::Boolean(*is),
+        DeValue::Datetime(date) => Value::Datetime(*date),
+        DeValue::Float(number) => Value::Float(nearest(number.as_str(), 10)),
+        DeValue::Integer(number) => {
+            let (digits, radix) = (number.as_str(), number.radix());
+            let long = |_| Value::Float(nearest(digits, radix));
+            i64::from_str_radix(digits, radix).map_or_else(long, Value::Integer)
         }
     }
 }

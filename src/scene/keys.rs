@@ -29,7 +29,6 @@ pub struct Key {
 }
 
 impl Key {
-    /// What the key allows, in an error.
     pub(crate) fn expected(&self) -> String {
         format!("expected {}", self.holds)
     }
@@ -207,13 +206,11 @@ macro_rules! table {
                 absent: $absent,
             }),*];
 
-            /// Reads every key; `None` if one of them is refused.
             pub(in crate::scene) fn read_keys(reader: &mut $crate::scene::read::Reader<'_>) -> Option<Self> {
                 $(let $field = reader.key(concat!($table, ".", stringify!($field)), $value);)*
                 Some(Self { $($field: $field?,)* })
             }
 
-            /// Checks each value by itself.
             pub(in crate::scene) fn check(&self, wrong: &mut Vec<$crate::scene::Invalid>) {
                 $($crate::scene::keys::check(concat!($table, ".", stringify!($field)), &self.$field, wrong);)*
             }
@@ -290,7 +287,6 @@ pub fn keys() -> impl Iterator<Item = &'static Key> + Clone {
     TITLES.iter().chain(ALL.iter().flat_map(|table| table.keys))
 }
 
-/// The table or key with this path, or `None`.
 pub(crate) fn find(path: &str) -> Option<&'static Key> {
     const ALL: &[Table] = &TABLES;
     keys().chain(ALL.iter().map(|table| &table.key)).find(|key| key.path == path)

@@ -161,7 +161,6 @@ impl Particles {
         }
     }
 
-    /// True if rods differ in length.
     pub(crate) fn of_several_lengths(&self) -> bool {
         match self.own().and_then(|own| own.length_mm.as_ref()) {
             Some(_) => self.own_lengths_mm().is_some(),

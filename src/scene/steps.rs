@@ -32,7 +32,6 @@ impl Scene {
         self.interaction.is_some() || self.diffuses()
     }
 
-    /// True if rods have rotary diffusion.
     pub(crate) fn diffuses(&self) -> bool {
         self.particles.rotary_diffusion_per_s > 0.0
     }

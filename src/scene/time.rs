@@ -54,31 +54,28 @@ impl TimeUnit {
         }
     }
 
+    /// The keys of the duration, of the steps and of the outputs.
+    const fn keys(self) -> [&'static str; 3] {
+        match self {
+            Self::Period => ["time.periods", "time.steps_per_period", "time.outputs_per_period"],
+            Self::Strain => ["time.strain", "time.steps_per_strain", "time.outputs_per_strain"],
+            Self::Second => ["time.seconds", "time.steps_per_second", "time.outputs_per_second"],
+        }
+    }
+
     /// The key of a duration in this unit.
     pub fn duration_key(self) -> &'static str {
-        match self {
-            Self::Period => "time.periods",
-            Self::Strain => "time.strain",
-            Self::Second => "time.seconds",
-        }
+        self.keys()[0]
     }
 
     /// The key of the steps per unit.
     pub fn steps_key(self) -> &'static str {
-        match self {
-            Self::Period => "time.steps_per_period",
-            Self::Strain => "time.steps_per_strain",
-            Self::Second => "time.steps_per_second",
-        }
+        self.keys()[1]
     }
 
     /// The key of the outputs per unit.
     pub(crate) fn outputs_key(self) -> &'static str {
-        match self {
-            Self::Period => "time.outputs_per_period",
-            Self::Strain => "time.outputs_per_strain",
-            Self::Second => "time.outputs_per_second",
-        }
+        self.keys()[2]
     }
 }
 
@@ -123,28 +120,23 @@ table! {
     }
 }
 
-impl From<Time> for TimeKeys {
-    fn from(Time { unit, duration, steps_per_unit, outputs_per_unit }: Time) -> Self {
+impl TimeKeys {
+    /// The keys of a unit: duration, steps and outputs per unit.
+    fn of(&mut self, unit: TimeUnit) -> (&mut Option<f64>, &mut Option<u64>, &mut Option<u64>) {
         match unit {
-            TimeUnit::Period => Self {
-                periods: Some(duration),
-                steps_per_period: steps_per_unit,
-                outputs_per_period: outputs_per_unit,
-                ..Self::default()
-            },
-            TimeUnit::Strain => Self {
-                strain: Some(duration),
-                steps_per_strain: steps_per_unit,
-                outputs_per_strain: outputs_per_unit,
-                ..Self::default()
-            },
-            TimeUnit::Second => Self {
-                seconds: Some(duration),
-                steps_per_second: steps_per_unit,
-                outputs_per_second: outputs_per_unit,
-                ..Self::default()
-            },
+            TimeUnit::Period => (&mut self.periods, &mut self.steps_per_period, &mut self.outputs_per_period),
+            TimeUnit::Strain => (&mut self.strain, &mut self.steps_per_strain, &mut self.outputs_per_strain),
+            TimeUnit::Second => (&mut self.seconds, &mut self.steps_per_second, &mut self.outputs_per_second),
         }
+    }
+}
+
+impl From<Time> for TimeKeys {
+    fn from(time: Time) -> Self {
+        let mut keys = Self::default();
+        let (duration, steps, outputs) = keys.of(time.unit);
+        (*duration, *steps, *outputs) = (Some(time.duration), time.steps_per_unit, time.outputs_per_unit);
+        keys
     }
 }
 
@@ -176,14 +168,11 @@ impl Time {
             let verb = if own == TimeUnit::Strain { "takes" } else { "take" };
             reader.refuse(key(other), &format!("goes with {goes}; {given} {verb} {takes}"));
         }
-        let keys = TimeKeys::read_keys(reader)?;
+        let mut keys = TimeKeys::read_keys(reader)?;
         let unit = unit?;
-        let (duration, steps_per_unit, outputs_per_unit) = match unit {
-            TimeUnit::Period => (keys.periods?, keys.steps_per_period, keys.outputs_per_period),
-            TimeUnit::Strain => (keys.strain?, keys.steps_per_strain, keys.outputs_per_strain),
-            TimeUnit::Second => (keys.seconds?, keys.steps_per_second, keys.outputs_per_second),
-        };
-        Some(Self { unit, duration, steps_per_unit, outputs_per_unit })
+        let (duration, steps_per_unit, outputs_per_unit) = keys.of(unit);
+        let (steps_per_unit, outputs_per_unit) = (*steps_per_unit, *outputs_per_unit);
+        Some(Self { unit, duration: (*duration)?, steps_per_unit, outputs_per_unit })
     }
 }
 

@@ -6,20 +6,19 @@ use crate::scene::document::{as_toml, decimal};
 use crate::scene::{FlowStep, Orientation, RodsFile, Update};
 
 /// A type that the value of a key can have.
-pub(in crate::scene) trait Field: serde::de::DeserializeOwned {
+pub(in crate::scene) trait Field: serde::de::DeserializeOwned + std::fmt::Debug {
     /// The value from TOML; `None` if it has another type.
     fn from_toml(value: toml::Value) -> Option<Self> {
         value.try_into().ok()
     }
 
-    /// True if `holds` allows the value.
     fn allowed(&self, _holds: &Holds) -> bool {
         true
     }
 
     /// The value as it appears in an error.
     fn shown(&self) -> String {
-        String::new()
+        format!("{self:?}")
     }
 
     /// False if the key is not given.
@@ -69,19 +68,11 @@ impl Field for u64 {
     fn allowed(&self, holds: &Holds) -> bool {
         matches!(holds, Holds::Whole { least, most } if (least..=most).contains(&self))
     }
-
-    fn shown(&self) -> String {
-        self.to_string()
-    }
 }
 
 impl Field for usize {
     fn allowed(&self, holds: &Holds) -> bool {
         (*self as u64).allowed(holds)
-    }
-
-    fn shown(&self) -> String {
-        self.to_string()
     }
 }
 
@@ -117,10 +108,6 @@ impl Field for [f64; 3] {
     fn allowed(&self, _: &Holds) -> bool {
         self.iter().all(|side| side.is_finite() && *side > 0.0)
     }
-
-    fn shown(&self) -> String {
-        format!("{self:?}")
-    }
 }
 
 impl Field for [[f64; 3]; 3] {
@@ -132,10 +119,6 @@ impl Field for [[f64; 3]; 3] {
 
     fn allowed(&self, _: &Holds) -> bool {
         self.iter().flatten().all(|component| component.is_finite())
-    }
-
-    fn shown(&self) -> String {
-        format!("{self:?}")
     }
 }
 
@@ -155,10 +138,6 @@ impl Field for Vec<FlowStep> {
 impl Field for Vec<f64> {
     fn allowed(&self, _: &Holds) -> bool {
         self.iter().all(|time| time.is_finite() && *time >= 0.0) && self.is_sorted_by(|a, b| a < b)
-    }
-
-    fn shown(&self) -> String {
-        format!("{self:?}")
     }
 }
 
