@@ -28,7 +28,6 @@ pub(super) struct General {
     slower: Ball,
     /// (2 D:D)^½ of the scaled L.
     magnitude: Ball,
-    /// The eigenvalues of N.
     cubic: Cubic,
     /// Δ of the roots m ± √Δ of the two coordinates that remain without the first, second or third.
     squares: [Ball; 3],
@@ -264,7 +263,6 @@ fn exponent(x: f64) -> i32 {
     if x == 0.0 { 0 } else { libm::log2(x.abs()).floor() as i32 }
 }
 
-/// x · 2^power.
 fn shifted(x: f64, power: i32) -> f64 {
     libm::scalbn(x, power)
 }
@@ -307,7 +305,6 @@ pub(super) fn rounded(map: &Square) -> (Matrix3<f64>, f64) {
     (middle, infinite_if_nan(relative))
 }
 
-/// The error, or infinity if it is NaN.
 pub(super) fn infinite_if_nan(error: f64) -> f64 {
     if error.is_nan() { f64::INFINITY } else { error }
 }

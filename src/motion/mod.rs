@@ -149,6 +149,15 @@ impl Propagator {
     /// The linear map q = M p, scaled by an arbitrary positive factor, and a bound on its relative error (in
     /// Frobenius's norm), without the rounding to double. `None` for a span in periods if the motion has no period.
     pub fn map(&self, span: Span) -> Option<(Matrix3<f64>, f64)> {
+        self.map_in(None, span)
+    }
+
+    /// Like [`Self::map`], but in a general flow periods in `span` are those of `mean`.
+    pub(crate) fn map_beside(&self, mean: &Self, span: Span) -> Option<(Matrix3<f64>, f64)> {
+        self.map_in(Some(mean), span)
+    }
+
+    fn map_in(&self, mean: Option<&Self>, span: Span) -> Option<(Matrix3<f64>, f64)> {
         match &self.0 {
             Motion::Couette { aspect_ratio, .. } => {
                 let (phase, error) = self.phase(span)?;
@@ -156,7 +165,7 @@ impl Propagator {
                 let columns = axes.map(|axis| Vector3::from(turned(axis, *aspect_ratio, phase)));
                 Some((Matrix3::from_columns(&columns), error))
             }
-            Motion::General(general) => Some(rounded(&general.map(time(general, span)?))),
+            Motion::General(general) => Some(rounded(&general.map(time(general, mean, span)?))),
             Motion::Steps(steps) => Some(rounded(&map_of_steps(steps, span)?)),
         }
     }
@@ -176,7 +185,7 @@ impl Propagator {
             }
             Motion::General(general) => {
                 let start = [p.x, p.y, p.z];
-                let time = time_beside(general, mean, span)?;
+                let time = time(general, Some(mean), span)?;
                 let (rows, start) = general.rows_from(start, time);
                 let q = general.moved(&rows, start);
                 Some(moved(&general.map_of(&rows), &q, start.map(|component| component.hi)))
@@ -193,7 +202,7 @@ impl Propagator {
     pub(crate) fn direction_beside(&self, mean: &Self, p: [f64; 3], span: Span) -> Option<([f64; 3], f64)> {
         match &self.0 {
             Motion::General(general) => {
-                let time = time_beside(general, mean, span)?;
+                let time = time(general, Some(mean), span)?;
                 let (rows, start) = general.rows_from(p, time);
                 Some(normalized(&general.moved(&rows, start)))
             }
@@ -204,14 +213,6 @@ impl Propagator {
                 let fastest = aspect_ratio.max(1.0 / aspect_ratio);
                 Some((couette(p, *aspect_ratio, phase), error * fastest))
             }
-        }
-    }
-
-    /// Like [`Self::map`], but in a general flow periods in `span` are those of `mean`.
-    pub(crate) fn map_beside(&self, mean: &Self, span: Span) -> Option<(Matrix3<f64>, f64)> {
-        match &self.0 {
-            Motion::General(general) => Some(rounded(&general.map(time_beside(general, mean, span)?))),
-            Motion::Couette { .. } | Motion::Steps(_) => self.map(span),
         }
     }
 
@@ -254,18 +255,15 @@ fn quotient(ticks: f64, each: f64) -> Ball {
     Ball::exact(ticks).over(Ball::exact(each))
 }
 
-fn time_beside(general: &General, mean: &Propagator, span: Span) -> Option<modes::Time> {
-    match (span, &mean.0) {
-        (Span::Periods(ticks, each), Motion::General(mean)) => general.time_of_periods_of(mean, quotient(ticks, each)),
-        _ => time(general, span),
-    }
-}
-
-fn time(general: &General, span: Span) -> Option<modes::Time> {
-    match span {
-        Span::Seconds(ticks, each) => Some(general.time_of_seconds(ticks, each)),
-        Span::Strain(ticks, each) => Some(general.time_of_strain(quotient(ticks, each))),
-        Span::Periods(ticks, each) => general.time_of_periods(quotient(ticks, each)),
+/// A span as a time of `general`; its periods are those of `mean`, if there is one, or its own.
+fn time(general: &General, mean: Option<&Propagator>, span: Span) -> Option<modes::Time> {
+    match (span, mean.map(|mean| &mean.0)) {
+        (Span::Seconds(ticks, each), _) => Some(general.time_of_seconds(ticks, each)),
+        (Span::Strain(ticks, each), _) => Some(general.time_of_strain(quotient(ticks, each))),
+        (Span::Periods(ticks, each), Some(Motion::General(mean))) => {
+            general.time_of_periods_of(mean, quotient(ticks, each))
+        }
+        (Span::Periods(ticks, each), _) => general.time_of_periods(quotient(ticks, each)),
     }
 }
 

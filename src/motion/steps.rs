@@ -4,7 +4,6 @@ use super::ball::Ball;
 use super::general::{General, Square, at_size_one, product};
 use crate::model::flow::VelocityGradient;
 
-/// Rods of one aspect ratio in a sequence of flows.
 #[derive(Clone, Debug)]
 pub(super) struct Steps(Vec<Step>);
 

@@ -11,7 +11,6 @@ const DIRECTION: f64 = 32.0 * f64::EPSILON;
 /// chunks, each sum with a relative rounding of at most ε/2.
 const TRACE: f64 = 4096.0 * f64::EPSILON;
 
-/// A failed check of a replica at one output.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Fault {
     /// Index of the rod, counted from the first rod checked; `None` if the fault is not of a single rod.
@@ -88,7 +87,6 @@ pub(crate) fn trace(observable: &dyn Observe, sums: &[Sum], count: usize) -> Res
     }
 }
 
-/// A block with only the rod `rod` of `block`.
 fn alone(block: &Block, rod: usize) -> Block {
     let mut one = Block { len: 1, ..Block::default() };
     for (axis, from) in one.p.iter_mut().zip(&block.p) {

@@ -35,7 +35,6 @@ pub struct Sum {
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Spread {
-    /// Number of rods.
     rods: u64,
     /// f₁, the value of the first rod.
     first: f64,

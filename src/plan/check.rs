@@ -43,7 +43,6 @@ pub(super) fn invalid(scene: &Scene) -> Vec<Invalid> {
     [rods::check_particles(scene), check_motion(scene)].into_iter().filter_map(Result::err).collect()
 }
 
-/// The velocity gradient of the liquid.
 pub(super) fn gradient(scene: &Scene) -> Result<VelocityGradient, Invalid> {
     scene.flow.gradient().ok_or_else(|| match scene.flow.shear_rate_per_s() {
         Some(g) => refused("flow.shear_rate_per_s", g),

@@ -8,7 +8,6 @@ use crate::model::work::Counters;
 use crate::plan::{Plan, Stage};
 use rand_pcg::Pcg64Dxsm;
 
-/// One replica of free rods with rotary diffusion.
 pub(crate) struct Diffusion {
     pub rods: Rods,
     pub counters: Counters,

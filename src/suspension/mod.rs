@@ -82,7 +82,6 @@ pub struct Suspension {
     drawn: Vec<f64>,
     candidates: Vec<Candidate>,
     collisions: Vec<Collision>,
-    /// Seed and replica, for error messages.
     seed: u64,
     replica: u64,
 }
@@ -96,7 +95,6 @@ pub(crate) const MOST_KEPT: usize = CHUNK;
 /// From this number of candidates on, contacts are computed on all threads.
 const MANY: usize = 1024;
 
-/// The effect of a collision on its two rods.
 struct Effect {
     ends: [UnitVector3<f64>; 2],
     angles_rad: [f64; 2],

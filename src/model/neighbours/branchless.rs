@@ -1,6 +1,5 @@
 //! Small loops without branches, for conditions that a processor cannot predict.
 
-/// Number of rods in a block.
 pub(super) const BLOCK: usize = 128;
 
 /// The nearest whole number, for 0 ≤ x < 2³²: adding 2⁵² leaves no digits for a fraction. It vectorises, unlike `as`.

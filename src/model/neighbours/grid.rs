@@ -31,9 +31,7 @@ pub(super) struct Grid {
     /// The longest side, the unit of length of all that follows.
     longest: f64,
     sides: [f32; 3],
-    /// Number of cells along each side.
     along: [usize; 3],
-    /// The sides of a cell.
     width: [f32; 3],
     /// Number of cells per unit of length along each axis; 0 where there is one cell.
     per_length: [f32; 3],
@@ -251,7 +249,6 @@ impl Grid {
         ((x * self.per_length[axis]) as i32).clamp(0, self.along[axis] as i32 - 1) as usize
     }
 
-    /// The cell of a place in the volume.
     #[inline(always)]
     fn cell(&self, place: [f32; 3]) -> u32 {
         let at = |axis: usize| self.cell_at(axis, place[axis]);
@@ -273,7 +270,6 @@ impl Grid {
 /// Adding 1.5 · 2²³ leaves no digits for a fraction of numbers up to 2²².
 const ROUNDS: f32 = 12_582_912.0;
 
-/// The largest number of cells along a side.
 const MOST_ALONG: usize = 256;
 
 /// Numbers of cells along each side for about `count` rods, as cubic as possible. A side thinner than a cube gets one

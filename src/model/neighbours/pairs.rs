@@ -11,7 +11,6 @@ use crate::model::work::Counters;
 /// The buffers are reused in every step.
 #[derive(Clone, Debug)]
 pub(super) struct Pairs {
-    /// Number of units per length.
     per_length: f64,
     /// The rods' coordinates in units, stored twice over: the partners `k` places ahead are a slice.
     units: [Vec<i16>; 3],
@@ -141,7 +140,6 @@ fn squared([x1, x2, x3]: [&[f64]; 3], own: [f64; 3], squares: &mut [f64]) {
     }
 }
 
-/// The least of the numbers.
 fn least(squares: &[f64]) -> f64 {
     let mut lanes = [f64::INFINITY; LANES];
     let chunks = squares.chunks_exact(LANES);

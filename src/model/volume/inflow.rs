@@ -34,10 +34,8 @@ pub struct Inflow {
     faces: Vec<Face>,
 }
 
-/// A face through which liquid comes in.
 #[derive(Clone, Copy, Debug)]
 struct Face {
-    /// Index of the axis normal to the face.
     axis: usize,
     /// The face's coordinate along `axis`: 0 or the side.
     at: f64,
