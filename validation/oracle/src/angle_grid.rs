@@ -144,7 +144,6 @@ impl Grid {
         self.class[j * 2 * self.rings + k]
     }
 
-    /// (θ, φ) of a point.
     fn angles(&self, (j, k): (usize, usize)) -> (f64, f64) {
         let angle = |k: usize| PI * (k as f64 + 0.5) / self.rings as f64;
         (angle(j), angle(k))

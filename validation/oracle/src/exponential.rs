@@ -38,7 +38,6 @@ pub struct Rod {
 
 /// Two answers whose directions differ by less than this are accepted: 2⁻⁹⁰.
 const AGREED: f64 = 1.0 / (1u128 << 90) as f64;
-/// Number of bits beyond which the computation gives up.
 const MOST_BITS: usize = 20_000;
 
 impl Rod {

@@ -113,7 +113,6 @@ fn cut(frame: &Frame, start: Start, times_s: &[f64]) -> Result<Vec<Means>, NoAns
     Err(NoAnswer::TooMuchWork)
 }
 
-/// One solution.
 fn solution(frame: &Frame, start: Start, times_s: &[f64], accuracy: Accuracy) -> Result<Vec<[f64; MEANS]>, NoAnswer> {
     let (basis, unknowns) = start.unknowns(frame, accuracy.most)?;
     let mut density = Density::new(frame, accuracy, basis, unknowns);
@@ -168,7 +167,6 @@ fn differ(a: &[[f64; MEANS]], b: &[[f64; MEANS]]) -> f64 {
     a.iter().zip(b).map(|(a, b)| apart(a, b)).fold(0.0, f64::max)
 }
 
-/// The largest difference of two lists of means.
 fn apart(a: &[f64; MEANS], b: &[f64; MEANS]) -> f64 {
     a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
 }

@@ -43,21 +43,24 @@ pub fn cdf(c_b: f64, aspect_ratio: f64) -> f64 {
 
 /// ∫ f p dC up to C/(1 + C) = `up_to`, over ∫ p dC.
 fn ratio(aspect_ratio: f64, up_to: f64, f: impl Fn(f64) -> f64) -> f64 {
-    // Integrated over C_b; p falls as C⁻², which dC/dC_b = (1 − C_b)⁻² makes finite at C_b = 1.
-    let integral = |breaks: &[f64], f: &dyn Fn(f64) -> f64| {
-        let weighted = |c_b: f64| {
-            let c = c_b / (1.0 - c_b).max(f64::EPSILON);
-            f(c) * weight(c, aspect_ratio) * (1.0 + c).powi(2)
-        };
-        integrate(weighted, breaks, 1e-16).value
+    let p = |c| weight(c, aspect_ratio);
+    over_orbits(aspect_ratio, up_to, 1e-16, |c| f(c) * p(c)) / over_orbits(aspect_ratio, 1.0, 1e-16, p)
+}
+
+/// ∫ f dC up to C/(1 + C) = `up_to`, of a function that falls as C⁻².
+fn over_orbits(aspect_ratio: f64, up_to: f64, tolerance: f64, f: impl Fn(f64) -> f64) -> f64 {
+    // Integrated over C_b; dC/dC_b = (1 − C_b)⁻² makes f finite at C_b = 1.
+    let weighted = |c_b: f64| {
+        let c = c_b / (1.0 - c_b).max(f64::EPSILON);
+        f(c) * (1.0 + c).powi(2)
     };
-    // p and means over orbits change most near C = 1 and C = 1/r.
+    // Densities and means over orbits change most near C = 1 and C = 1/r.
     let knee = 1.0 / (1.0 + aspect_ratio);
-    let mut whole = vec![0.0, 0.1 * knee, knee, 0.5, 0.9, 1.0];
-    whole.sort_by(f64::total_cmp);
-    let mut part: Vec<f64> = whole.iter().copied().filter(|at| *at < up_to).collect();
-    part.push(up_to);
-    integral(&part, &f) / integral(&whole, &|_| 1.0)
+    let mut breaks = vec![0.0, 0.1 * knee, knee, 0.5, 0.9, 1.0];
+    breaks.sort_by(f64::total_cmp);
+    breaks.retain(|at| *at < up_to);
+    breaks.push(up_to);
+    integrate(weighted, &breaks, tolerance).value
 }
 
 /// a₁₁, a₂₂ and a₃₃ of rods in orbit C, uniform in phase.
@@ -77,12 +80,7 @@ pub fn shear_stress_of_orbit(c: f64, aspect_ratio: f64) -> f64 {
 /// σ₁₂ over μ_fiber G of rods in the orbits of isotropic directions, uniform in phase: the mean over a period of
 /// initially isotropic rods.
 pub fn shear_stress_of_isotropic(aspect_ratio: f64) -> f64 {
-    let of_c = |c_b: f64| {
-        let c = c_b / (1.0 - c_b).max(f64::EPSILON);
-        orbit_constant_density(c, aspect_ratio) * shear_stress_of_orbit(c, aspect_ratio) * (1.0 + c).powi(2)
-    };
-    let knee = 1.0 / (1.0 + aspect_ratio);
-    let mut breaks = [0.0, 0.1 * knee, knee, 0.5, 0.9, 1.0];
-    breaks.sort_by(f64::total_cmp);
-    integrate(of_c, &breaks, 1e-14).value
+    over_orbits(aspect_ratio, 1.0, 1e-14, |c| {
+        orbit_constant_density(c, aspect_ratio) * shear_stress_of_orbit(c, aspect_ratio)
+    })
 }

@@ -63,7 +63,6 @@ pub(super) fn refined(frame: &Frame) -> Result<([f64; MEANS], f64), NoAnswer> {
     }
 }
 
-/// The means over isotropic directions.
 fn isotropic() -> [f64; MEANS] {
     let mut means = [0.0; MEANS];
     means[..3].fill(0.5);
@@ -116,7 +115,6 @@ pub(super) fn steady(frame: &Frame, basis: Basis) -> Option<[f64; MEANS]> {
     all.iter().all(|x| x.is_finite()).then_some(all)
 }
 
-/// The block from degree `from` to degree `to`.
 fn block(operator: &Operator, to: usize, from: usize) -> DMatrix<f64> {
     let basis = operator.basis;
     let (row, column) = (basis.offset(to), basis.offset(from));

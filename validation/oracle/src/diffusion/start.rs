@@ -88,7 +88,6 @@ fn zeros(degree: usize) -> Vec<f64> {
     (0..=degree).step_by(2).map(each).collect()
 }
 
-/// The harmonics of `function`.
 pub(super) fn projected(basis: &Basis, function: &dyn Fn([f64; 3]) -> f64) -> Vec<f64> {
     let mut unknowns = vec![0.0; basis.len()];
     for (p, weight) in sphere_rule(basis.degree + 8) {

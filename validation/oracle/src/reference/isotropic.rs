@@ -113,7 +113,6 @@ impl Covariance {
         sums.map(|sum| sum * Self::step())
     }
 
-    /// tr Σ and tr B.
     pub(super) fn traces(&self) -> [Big; 2] {
         [&self.sigma, &self.inverse].map(|m| &m[0][0] + &m[1][1] + &m[2][2])
     }

@@ -23,7 +23,6 @@ pub(super) struct Means<'a> {
     trace: Big,
 }
 
-/// The index in [11, 22, 12].
 fn place(a: usize, b: usize) -> usize {
     if a == b { a } else { 2 }
 }

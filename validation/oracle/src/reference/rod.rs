@@ -111,7 +111,6 @@ pub fn nearest(direction: Direction) -> [f64; 3] {
     Start::new(direction, OF_ANGLES).p.each_ref().map(double)
 }
 
-/// A start as numbers.
 struct Start {
     p: [Big; 3],
     /// (cos φ, sin φ, 0) if the start is given by angles: it turns by A.4 for every θ.

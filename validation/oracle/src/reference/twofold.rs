@@ -55,7 +55,6 @@ impl<S: Simd> Eight<S> {
         Self { hi, lo: b - (hi - a) }
     }
 
-    /// The exact sum of two doubles.
     #[inline(always)]
     fn exact_sum(a: f64x8<S>, b: f64x8<S>) -> Self {
         let hi = a + b;
@@ -66,7 +65,6 @@ impl<S: Simd> Eight<S> {
     /// The exact product of two doubles, by halves of 26 bits: the same with and without fused instructions.
     #[inline(always)]
     fn exact_product(a: f64x8<S>, b: f64x8<S>) -> Self {
-        /// 2²⁷ + 1.
         const SPLIT: f64 = 134_217_729.0;
         let halves = |x: f64x8<S>| {
             let shifted = x * SPLIT;

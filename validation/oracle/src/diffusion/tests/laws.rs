@@ -95,12 +95,6 @@ fn turned(means: &Means, axes: &Matrix3<f64>) -> (Matrix3<f64>, [f64; 15]) {
     (axes * matrix(means.second) * axes.transpose(), fourth)
 }
 
-fn entry(fourth: &[f64; 15], indices: [usize; 4]) -> f64 {
-    let mut sorted = indices.map(|i| i + 1);
-    sorted.sort_unstable();
-    fourth[QUADRUPLES.iter().position(|q| *q == sorted).unwrap()]
-}
-
 fn apart(a: &(Matrix3<f64>, [f64; 15]), b: &(Matrix3<f64>, [f64; 15])) -> f64 {
     (a.0 - b.0).amax().max(off(&a.1, &b.1))
 }
@@ -192,7 +186,6 @@ proptest! {
     }
 }
 
-/// Each law is broken by a mistake that it is there for.
 #[test]
 fn every_law_is_broken_by_a_mistake() {
     let extension = Matrix3::from_diagonal(&Vector3::new(0.5, -0.25, -0.25));

@@ -12,19 +12,35 @@ mod steady;
 use super::{Means, Motion, Start, at, steady};
 use crate::reference::isotropic::{PAIRS, QUADRUPLES};
 use nalgebra::Matrix3;
+use std::fmt::Debug;
 
 /// u₂ = G x₁ with G = 1/s.
 const COUETTE: [[f64; 3]; 3] = [[0.0; 3], [1.0, 0.0, 0.0], [0.0; 3]];
 /// A flow with no symmetry and no trace.
 const ASKEW: [[f64; 3]; 3] = [[0.3, -0.5, 0.1], [0.8, 0.1, -0.2], [0.4, 0.6, -0.4]];
 
-/// Wrong motions of rods.
 fn mistakes(motion: Motion) -> [(&'static str, Motion); 3] {
     [
         ("the vorticity's sign", Motion { spin: -motion.spin, ..motion }),
         ("twice D_r", Motion { diffusivity: 2.0 * motion.diffusivity, ..motion }),
         ("Λ a tenth too large", Motion { strain: 1.1 * motion.strain, ..motion }),
     ]
+}
+
+/// Holds an error below `allowed` for the right motion, and above `seen` for each mistake that can show.
+fn judge(what: impl Debug, motion: Motion, error: impl Fn(&Motion) -> f64, allowed: f64, seen: f64) {
+    assert!(error(&motion) < allowed, "{what:?}: {:e}", error(&motion));
+    for (name, wrong) in mistakes(motion).into_iter().filter(|(_, wrong)| *wrong != motion) {
+        assert!(error(&wrong) > seen, "{what:?}: {name}: {:e}", error(&wrong));
+    }
+}
+
+/// By how much second moments at equal times change otherwise than by the rate of `by`, from Simpson's rule.
+fn off_rate(all: &[Means], step: f64, by: &Motion) -> f64 {
+    let last = all.len() - 1;
+    let weight = |k: usize| if k == 0 || k == last { 1.0 } else { 2.0 + 2.0 * (k % 2) as f64 };
+    let rates = all.iter().enumerate().map(|(k, means)| rate(by, means) * (step * weight(k) / 3.0));
+    (matrix(all[last].second) - matrix(all[0].second) - rates.sum::<Matrix3<f64>>()).amax()
 }
 
 fn matrix(second: [f64; 6]) -> Matrix3<f64> {
@@ -34,14 +50,16 @@ fn matrix(second: [f64; 6]) -> Matrix3<f64> {
     })
 }
 
+/// a_ijkl, indices from 0.
+fn entry(fourth: &[f64; 15], indices: [usize; 4]) -> f64 {
+    let mut sorted = indices.map(|i| i + 1);
+    sorted.sort_unstable();
+    fourth[QUADRUPLES.iter().position(|q| *q == sorted).unwrap()]
+}
+
 /// Σ_kl a_ijkl D_kl.
 fn contracted(fourth: [f64; 15], d: &Matrix3<f64>) -> Matrix3<f64> {
-    let entry = |i: usize, j: usize, k: usize, l: usize| {
-        let mut sorted = [i + 1, j + 1, k + 1, l + 1];
-        sorted.sort_unstable();
-        fourth[QUADRUPLES.iter().position(|q| *q == sorted).unwrap()]
-    };
-    Matrix3::from_fn(|i, j| (0..9).map(|n| entry(i, j, n / 3, n % 3) * d[(n / 3, n % 3)]).sum())
+    Matrix3::from_fn(|i, j| (0..9).map(|n| entry(&fourth, [i, j, n / 3, n % 3]) * d[(n / 3, n % 3)]).sum())
 }
 
 /// da_ij/dt by the equation of the second moments (Folgar & Tucker 1984, Advani & Tucker 1987), which needs a_ijkl and

@@ -51,22 +51,17 @@ fn a_manufactured_solution_has_the_rate_that_is_worked_out_by_hand() {
     let basis = Basis { degree: 24, order: 24, even: false };
     let unknowns = projected(&basis, &|p| by_hand(&motion, &m, p).0);
     let due = projected(&basis, &|p| by_hand(&motion, &m, p).1);
-    let error = |operator: &Operator| {
+    let off = |operator: &Operator| {
         let mut found = vec![0.0; basis.len()];
         operator.apply(1.0, &unknowns, &mut found);
         // The highest degree lacks contributions from beyond.
         found.iter().zip(&due).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
     };
-    let right = error(&Operator::new(&motion, basis));
-    assert!(right < 1e-12, "{right:e}");
-    for (name, wrong) in mistakes(motion) {
-        let wrong = error(&Operator::new(&wrong, basis));
-        assert!(wrong > 1e-3, "{name}: {wrong:e}");
-    }
+    judge("operator", motion, |motion| off(&Operator::new(motion, basis)), 1e-12, 1e-3);
     // A missing coupling: one of many entries.
     let whole = Operator::new(&motion, basis);
     for entry in [0, 40, 333] {
-        let wrong = error(&whole.without(entry));
+        let wrong = off(&whole.without(entry));
         assert!(wrong > 1e-4, "entry {entry}: {wrong:e}");
     }
 }

@@ -88,31 +88,6 @@ fn in_a_flow_a_plane_is_the_mean_of_its_directions() {
             off(&sum, &plane.second)
         };
         // Each is good to 4e-12, and harmonics of φ above 24 have no part in so early a mean.
-        assert!(error(&motion) < 2e-11, "{gradient:?} {r}: {:e}", error(&motion));
-        for (name, wrong) in mistakes(motion) {
-            assert!(error(&wrong) > 1e-4, "{name}");
-        }
-    }
-}
-
-/// The change of the second moments from a plane, from Simpson's rule over their rate, which needs a_ijkl.
-#[test]
-fn second_moments_of_a_plane_change_by_their_own_equation() {
-    const STEPS: usize = 64;
-    let motion = Motion::diffusing(COUETTE, 5.0, 0.02);
-    let times: [f64; STEPS + 1] = std::array::from_fn(|k| 2.0 * k as f64 / STEPS as f64);
-    let all = at(&motion, Start::Plane(AXIS), &times).unwrap();
-    let error = |by: &Motion| {
-        let weight = |k: usize| match k {
-            0 | STEPS => 1.0,
-            k => 2.0 + 2.0 * (k % 2) as f64,
-        };
-        let rates = all.iter().enumerate().map(|(k, means)| rate(by, means) * (2.0 * weight(k) / (3.0 * STEPS as f64)));
-        (matrix(all[STEPS].second) - matrix(all[0].second) - rates.sum::<Matrix3<f64>>()).amax()
-    };
-    // h⁴/180 of a fourth derivative of about 10 over a time of 2: 1e-7.
-    assert!(error(&motion) < 1e-7, "{:e}", error(&motion));
-    for (name, wrong) in mistakes(motion) {
-        assert!(error(&wrong) > 1e-3, "{name}");
+        judge((gradient, r), motion, error, 2e-11, 1e-4);
     }
 }
