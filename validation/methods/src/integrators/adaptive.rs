@@ -35,11 +35,7 @@ impl ODE<f64, [f64; 3]> for RodProblem {
 
     fn jacobian(&self, _: f64, p: &[f64; 3], slope: &mut Matrix<f64>) {
         let found = self.rate_slope(&Vector3::from(*p));
-        for i in 0..3 {
-            for j in 0..3 {
-                slope[(i, j)] = found[(i, j)];
-            }
-        }
+        (0..9).map(|k| (k / 3, k % 3)).for_each(|at| slope[at] = found[at]);
     }
 }
 
@@ -72,11 +68,7 @@ mod tests {
         let mut slope = Matrix::full(3, 3);
         problem.jacobian(0.0, &start.into_inner().into(), &mut slope);
         let expected = problem.rate_slope(&start);
-        for i in 0..3 {
-            for j in 0..3 {
-                assert_eq!(slope[(i, j)], expected[(i, j)]);
-            }
-        }
+        (0..9).map(|k| (k / 3, k % 3)).for_each(|at| assert_eq!(slope[at], expected[at]));
         assert!(expected.norm() > 0.1);
     }
 }

@@ -59,7 +59,6 @@ pub const PERIODS: f64 = 10.0;
 /// p_3 of a rod just beside the plane of shear.
 const NEAR_PLANE: f64 = 1e-9;
 
-/// Number of rods over half of the plane of shear.
 const RODS: u32 = 512;
 
 /// Number of rods that are stepped at once.
@@ -90,10 +89,10 @@ pub fn bisect(ladder: Ladder, holds: impl Fn(f64) -> bool) -> Limit {
 }
 
 /// True if an integrator keeps a property with steps of GΔt = `strain` at this aspect ratio.
-pub fn holds(subject: &Integrator, property: Property, aspect_ratio: f64, strain: f64) -> bool {
+pub fn holds(integrator: &Integrator, property: Property, aspect_ratio: f64, strain: f64) -> bool {
     let stepped = |p3: f64, more: u32| {
         let parts = (0..RODS).step_by(PART as usize);
-        parts.map(move |first| near_plane(subject, aspect_ratio, strain, p3, first..first + PART + more))
+        parts.map(move |first| near_plane(integrator, aspect_ratio, strain, p3, first..first + PART + more))
     };
     match property {
         Property::Order => stepped(0.0, 1).all(|rods| {
@@ -104,17 +103,17 @@ pub fn holds(subject: &Integrator, property: Property, aspect_ratio: f64, strain
         Property::Side => stepped(NEAR_PLANE, 0).all(|rods| rods.iter().all(|(_, after)| after.z > 0.0)),
         Property::Length => {
             let p = UnitVector3::new_normalize(Vector3::new(1.0, 0.0, 0.0));
-            ten_periods(subject, aspect_ratio, strain, &p).is_ok_and(|(_, end)| end.norm() < 1.5)
+            ten_periods(integrator, aspect_ratio, strain, &p).is_ok_and(|(_, end)| end.norm() < 1.5)
         }
         Property::Orbit => {
             let (_, start) = RodProblem::mid_flip(aspect_ratio);
-            ten_periods(subject, aspect_ratio, strain, &start)
+            ten_periods(integrator, aspect_ratio, strain, &start)
                 .is_ok_and(|(problem, end)| Errors::of(&end, &problem, &start).orbit_constant < 0.1)
         }
         Property::Solvable => (0..=64).all(|i| {
             (0..=16).all(|j| {
                 let p = shearbed::model::orientation::from_angles(PI * f64::from(i) / 64.0, PI * f64::from(j) / 16.0);
-                let end = subject.advance(&one_step(aspect_ratio, strain), &p, one(subject));
+                let end = integrator.advance(&one_step(aspect_ratio, strain), &p, one(integrator));
                 end.is_ok_and(|p| p.iter().all(|component| component.is_finite()))
             })
         }),
@@ -133,7 +132,7 @@ fn forward(a: &Vector3<f64>, b: &Vector3<f64>) -> bool {
 
 /// Pairs of directions before and after one step, which start beside the plane of shear by `p3`; NaN if the step fails.
 fn near_plane(
-    subject: &Integrator,
+    integrator: &Integrator,
     aspect_ratio: f64,
     strain: f64,
     p3: f64,
@@ -141,7 +140,7 @@ fn near_plane(
 ) -> Vec<(Vector3<f64>, Vector3<f64>)> {
     let start = |k: u32| UnitVector3::new_normalize(Vector3::new(phi(k).cos(), phi(k).sin(), p3));
     let starts: Vec<_> = rods.map(start).collect();
-    let ends = subject.advance_all(&one_step(aspect_ratio, strain), &starts, one(subject));
+    let ends = integrator.advance_all(&one_step(aspect_ratio, strain), &starts, one(integrator));
     let ends = ends.unwrap_or(vec![Vector3::repeat(f64::NAN); starts.len()]);
     starts.into_iter().map(UnitVector3::into_inner).zip(ends).collect()
 }
@@ -150,8 +149,8 @@ fn one_step(aspect_ratio: f64, strain: f64) -> RodProblem {
     RodProblem::new(aspect_ratio, strain / RodProblem::new(aspect_ratio, 1.0).strain())
 }
 
-fn one(subject: &Integrator) -> Setting {
-    match subject.theory {
+fn one(integrator: &Integrator) -> Setting {
+    match integrator.theory {
         Theory::Exact => Setting::Once,
         _ => Setting::Steps(1),
     }
@@ -159,7 +158,7 @@ fn one(subject: &Integrator) -> Setting {
 
 /// Ten periods by steps of GΔt = `strain`, rounded up to whole steps.
 fn ten_periods(
-    subject: &Integrator,
+    integrator: &Integrator,
     aspect_ratio: f64,
     strain: f64,
     start: &UnitVector3<f64>,
@@ -167,6 +166,6 @@ fn ten_periods(
     let period = RodProblem::new(aspect_ratio, 1.0).strain();
     let steps = (PERIODS * period / strain).ceil();
     let problem = RodProblem::new(aspect_ratio, steps * strain / period);
-    let end = subject.advance(&problem, start, Setting::Steps(steps as u64))?;
+    let end = integrator.advance(&problem, start, Setting::Steps(steps as u64))?;
     Ok((problem, end))
 }

@@ -96,12 +96,12 @@ impl fmt::Display for Failure {
 
 /// The errors of an integrator on a problem; fails if the direction is not finite.
 pub fn grade(
-    subject: &Integrator,
+    integrator: &Integrator,
     problem: &RodProblem,
     start: &UnitVector3<f64>,
     setting: Setting,
 ) -> Result<Errors, Failure> {
-    let end = subject.advance(problem, start, setting)?;
+    let end = integrator.advance(problem, start, setting)?;
     if end.iter().all(|component| component.is_finite()) {
         Ok(Errors::of(&end, problem, start))
     } else {
@@ -136,10 +136,10 @@ mod tests {
 
     /// Tables and pictures identify the integrators by these names.
     #[test]
-    fn subjects_have_their_names_and_some_keep_the_length() {
+    fn integrators_have_their_names_and_some_keep_the_length() {
         let said: Vec<_> = own()
             .iter()
-            .map(|subject| format!("{}{}", subject.name, if subject.keeps_length { " |p| = 1" } else { "" }))
+            .map(|integrator| format!("{}{}", integrator.name, if integrator.keeps_length { " |p| = 1" } else { "" }))
             .collect();
         let expected = [
             "exact propagator |p| = 1",
@@ -158,18 +158,18 @@ mod tests {
     }
 
     #[test]
-    fn every_subject_comes_close_and_refuses_the_settings_of_others() {
+    fn every_integrator_comes_close_and_refuses_the_settings_of_others() {
         let (problem, start) = RodProblem::mid_flip(3.0);
-        for subject in own() {
-            let (own, other) = match subject.theory {
+        for integrator in own() {
+            let (own, other) = match integrator.theory {
                 Theory::Exact => (Setting::Once, Setting::Steps(10)),
                 Theory::Order(_) => (Setting::Steps(20_000), Setting::Tolerance(1e-6)),
                 Theory::Adaptive => (Setting::Tolerance(1e-8), Setting::Once),
             };
-            let errors = grade(&subject, &problem, &start, own).unwrap();
-            assert!(errors.orientation_rad < 5e-3, "{}: {errors:?}", subject.name);
-            let refused = grade(&subject, &problem, &start, other);
-            assert_eq!(refused.is_err(), subject.theory != Theory::Exact, "{}", subject.name);
+            let errors = grade(&integrator, &problem, &start, own).unwrap();
+            assert!(errors.orientation_rad < 5e-3, "{}: {errors:?}", integrator.name);
+            let refused = grade(&integrator, &problem, &start, other);
+            assert_eq!(refused.is_err(), integrator.theory != Theory::Exact, "{}", integrator.name);
         }
     }
 }

@@ -148,17 +148,23 @@ mod tests {
         }
     }
 
+    type Rate = fn(&RodProblem, &Vector3<f64>) -> Vector3<f64>;
+    type Slope = fn(&RodProblem, &Vector3<f64>) -> Matrix3<f64>;
+
     #[test]
-    fn the_slope_is_that_of_the_rate() {
-        let problem = RodProblem::new(3.0, 1.0);
-        let m = Vector3::new(0.4, -0.7, 0.5);
-        let slope = problem.rate_slope(&m);
-        for axis in 0..3 {
-            let mut e = Vector3::zeros();
-            e[axis] = 1e-5;
-            let difference = (problem.rate(&(m + e)) - problem.rate(&(m - e))) / 2e-5;
-            // The error is at most h² times a third derivative of 3Λ/3!, and ε/h.
-            assert!((slope.column(axis) - difference).norm() < 1e-9);
+    fn slopes_are_those_of_the_rates() {
+        let (problem, m) = (RodProblem::new(3.0, 1.0), Vector3::new(0.4, -0.7, 0.5));
+        let pairs: [(Rate, Slope, f64); 2] = [
+            (RodProblem::rate, RodProblem::rate_slope, 1e-5),
+            (RodProblem::tangent_rate, RodProblem::tangent_rate_slope, 1e-6),
+        ];
+        for (rate, slope, h) in pairs {
+            for axis in 0..3 {
+                let e = Vector3::ith(axis, h);
+                let difference = (rate(&problem, &(m + e)) - rate(&problem, &(m - e))) / (2.0 * h);
+                // The error is at most h² times a third derivative of 3Λ/3!, and ε/h.
+                assert!((slope(&problem, &m).column(axis) - difference).norm() < 1e-9, "{axis} {h}");
+            }
         }
     }
 

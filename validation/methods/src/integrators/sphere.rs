@@ -88,19 +88,6 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_slope_is_that_of_the_rate() {
-        let problem = RodProblem::new(3.0, 1.0);
-        let m = Vector3::new(0.4, -0.7, 0.5);
-        let slope = problem.tangent_rate_slope(&m);
-        for axis in 0..3 {
-            let mut e = Vector3::zeros();
-            e[axis] = 1e-6;
-            let difference = (problem.tangent_rate(&(m + e)) - problem.tangent_rate(&(m - e))) / 2e-6;
-            assert!((slope.column(axis) - difference).norm() < 1e-9);
-        }
-    }
-
-    #[test]
     fn the_rotation_vector_turns_at_the_rate_asked_for() {
         let (u, omega, dt) = (Vector3::new(0.02, -0.03, 0.01), Vector3::new(-0.5, 0.2, 0.7), 1e-5);
         let rate = dexp_inverse(&u, omega) * dt;

@@ -1,7 +1,7 @@
 //! χ² of the predictions of replicas themselves, without polynomials.
 
 use super::Datum;
-use super::emulator::Prediction;
+use super::emulator::{Prediction, of_time};
 use super::likelihood::Rods;
 use nalgebra::{DMatrix, DVector};
 
@@ -26,7 +26,7 @@ impl Direct {
         let [at, before, after] = [0, 1, 2].map(mean);
         let away = DMatrix::from_fn(rows.len(), points, |row, point| rows[row][point][0] - at[point]);
         let of_replica = away.tr_mul(&away) / (n - 1.0);
-        let of_time = ((before - &at).map(|d| d * d) + (after - &at).map(|d| d * d)) / 6.0;
+        let of_time = of_time(&at, before, after);
         let [reading, rods] = rods.covariances(data, &of_replica);
         let covariance = reading + rods + &of_replica / n + DMatrix::from_diagonal(&of_time);
         let error = DVector::from_fn(points, |i, _| data[i].value) - &at;

@@ -161,7 +161,7 @@ impl Emulator {
     pub fn time_variance(&self, place: &[f64]) -> DVector<f64> {
         let terms = self.basis.terms(place);
         let [at, before, after] = [0, 1, 2].map(|which| self.mean[which].tr_mul(&terms));
-        ((before - &at).map(|d| d * d) + (after - &at).map(|d| d * d)) / 6.0
+        of_time(&at, before, after)
     }
 
     /// The difference between these polynomials and those of one degree less, without the contribution of the replicas'
@@ -219,6 +219,11 @@ impl Emulator {
     pub fn slopes(&self, place: &[f64]) -> DMatrix<f64> {
         self.mean[0].tr_mul(&self.basis.slopes_of_all(place))
     }
+}
+
+/// The variance of each prediction due to its time, from those at its time, before and after.
+pub(super) fn of_time(at: &DVector<f64>, before: DVector<f64>, after: DVector<f64>) -> DVector<f64> {
+    ((before - at).map(|d| d * d) + (after - at).map(|d| d * d)) / 6.0
 }
 
 /// The covariance of deviations from the mean, a row for each replica.

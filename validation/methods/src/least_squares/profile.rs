@@ -5,7 +5,6 @@ use super::minimise::{descend, minimise};
 use serde::Serialize;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
-/// Number of places of a profile between the edges of the box.
 const PLACES: usize = 61;
 
 /// Number of halvings to find where a profile crosses a level between two places: to 3e-8 of half a box.
@@ -52,9 +51,7 @@ pub fn rise_of_several(confidence: f64, parameters: usize) -> f64 {
 
 /// The rise of χ² from the best place to another.
 struct Rise {
-    /// All parameters at the other place.
     at: Vec<f64>,
-    /// χ² − χ²_min.
     own: f64,
     /// The average contribution of the replicas' noise, which is subtracted.
     noise: f64,
@@ -88,7 +85,6 @@ impl Rise {
     }
 }
 
-/// One parameter fixed, the others free.
 fn fixed(best: &Best, axis: usize, place: f64) -> Vec<Option<f64>> {
     let mut fixed = vec![None; best.place.len()];
     fixed[axis] = Some(place);
@@ -177,7 +173,6 @@ pub fn rise_to(best: &Best, fixed: &[Option<f64>]) -> f64 {
     best.shown(&axes) * Rise::to(best, fixed, &[&best.place]).beside_noise()
 }
 
-/// Columns of a joint region.
 const COLUMNS: usize = 72;
 
 /// The outlines of the joint region of the parameters `a` and `b`: a closed curve for each of its islands, cut at the

@@ -68,10 +68,7 @@ impl Closure {
         match self {
             Self::Linear => linear(a),
             Self::Quadratic => quadratic(a),
-            Self::Hybrid => {
-                let f = 1.0 - 27.0 * a.determinant();
-                Fourth(quadratic(a).0 * f + linear(a).0 * (1.0 - f))
-            }
+            Self::Hybrid => mixed(a, 1.0 - 27.0 * a.determinant(), linear),
             Self::Natural => natural::fourth(a),
             Self::Ore => orthotropic::ore(a),
             Self::Orw => orthotropic::orw(a),
@@ -100,6 +97,11 @@ pub(super) fn linear_by(a: &Matrix3<f64>, seven: f64, thirty_five: f64) -> Fourt
             + a[(j, k)] * delta(i, l);
         mixed / seven - ones / thirty_five
     })
+}
+
+/// f times the quadratic closure and 1 − f times another one.
+pub(super) fn mixed(a: &Matrix3<f64>, f: f64, other: impl Fn(&Matrix3<f64>) -> Fourth) -> Fourth {
+    Fourth(quadratic(a).0 * f + other(a).0 * (1.0 - f))
 }
 
 pub(super) fn quadratic(a: &Matrix3<f64>) -> Fourth {

@@ -1,11 +1,10 @@
 //! Integrates a_ij in time.
 
+use super::fourth::PAIRS;
 use super::models::Equation;
 use nalgebra::{Matrix3, Matrix6, Vector6};
 use ode_solvers::dop_shared::OutputType;
 use ode_solvers::{Dop853, System};
-
-const PAIRS: [(usize, usize); 6] = super::fourth::PAIRS;
 
 /// Number of steps up to an output time after which the method gives up: a hundred times what the problems take.
 const MOST_STEPS: u32 = 20_000;

@@ -1,6 +1,6 @@
 //! Known mistakes in the rate of a_ij and in its closures: what a wrong code computes in place of each part.
 
-use super::closures::{linear, linear_by, quadratic};
+use super::closures::{linear, linear_by, mixed, quadratic};
 use super::{Closure, Fourth, Model, Parts, orthotropic};
 use nalgebra::Matrix3;
 
@@ -127,7 +127,6 @@ fn slowed(parts: Parts, of: fn(f64) -> f64) -> Option<Parts> {
     Some(Parts { model, ..parts })
 }
 
-/// The parts with the C_M of iARD times `factor`.
 fn anisotropic(parts: Parts, factor: f64) -> Option<Parts> {
     match parts.model {
         Model::Iard { c_i, c_m } => Some(Parts { model: Model::Iard { c_i, c_m: factor * c_m }, ..parts }),
@@ -158,21 +157,15 @@ pub const CLOSURES: [Stand; 15] = [
     Stand { name: "a linear closure with + 1/35 for − 1/35", fourth: |a| linear_by(a, 7.0, -35.0) },
     Stand { name: "a linear closure without its term of 1/35", fourth: |a| linear_by(a, 7.0, f64::INFINITY) },
     Stand { name: "a linear closure with its 1/7 before both brackets", fourth: |a| linear_by(a, 7.0, 245.0) },
-    Stand { name: "a hybrid closure with f and 1 − f exchanged", fourth: |a| mixed(a, 27.0 * a.determinant()) },
-    Stand { name: "a hybrid closure with f = (3 a:a − 1)/2", fourth: |a| mixed(a, 1.5 * a.dot(a) - 0.5) },
+    Stand {
+        name: "a hybrid closure with f and 1 − f exchanged", fourth: |a| mixed(a, 27.0 * a.determinant(), linear)
+    },
+    Stand { name: "a hybrid closure with f = (3 a:a − 1)/2", fourth: |a| mixed(a, 1.5 * a.dot(a) - 0.5, linear) },
     Stand {
         name: "a hybrid closure with + 1/35 for − 1/35",
-        fourth: |a| {
-            let f = 1.0 - 27.0 * a.determinant();
-            Fourth(quadratic(a).0 * f + linear_by(a, 7.0, -35.0).0 * (1.0 - f))
-        },
+        fourth: |a| mixed(a, 1.0 - 27.0 * a.determinant(), |a| linear_by(a, 7.0, -35.0)),
     },
 ];
-
-/// f times the quadratic and 1 − f times the linear closure.
-fn mixed(a: &Matrix3<f64>, f: f64) -> Fourth {
-    Fourth(quadratic(a).0 * f + linear(a).0 * (1.0 - f))
-}
 
 fn symmetric(a: &Matrix3<f64>) -> Fourth {
     Fourth::from_fn(|i, j, k, l| (a[(i, j)] * a[(k, l)] + a[(i, k)] * a[(j, l)] + a[(i, l)] * a[(j, k)]) / 3.0)

@@ -204,25 +204,33 @@ pub fn advance(
     Some(motion.last(&end))
 }
 
+/// Steps until the end, or until there is no direction.
 fn fixed(method: &Method, motion: &Motion, mut x: Vector, end_s: f64, steps: u64) -> Vector {
     let h = end_s / steps as f64;
+    let mut one = stepper(method, motion, x, h);
+    for _ in 0..steps {
+        x = one(x);
+        if x[0].is_nan() {
+            break;
+        }
+    }
+    x
+}
+
+/// A step of length `h` of a method without step control; multistep methods keep their rates.
+fn stepper<'a>(method: &'a Method, motion: &'a Motion, start: Vector, h: f64) -> Box<dyn FnMut(Vector) -> Vector + 'a> {
     let mut k = Vec::new();
     match method {
-        Method::RungeKutta(tableau) => {
-            for _ in 0..steps {
-                stages(motion, tableau, &x, h, &mut k);
-                x = motion.kept(sum(&x, h, &tableau.b, &k));
-                if x[0].is_nan() {
-                    break;
-                }
-            }
-        }
+        Method::RungeKutta(tableau) => Box::new(move |x| {
+            stages(motion, tableau, &x, h, &mut k);
+            motion.kept(sum(&x, h, &tableau.b, &k))
+        }),
         Method::Adams { b, starter } | Method::PredictorCorrector { b, starter, .. } => {
-            let mut rates = vec![motion.rate(&x)];
-            for _ in 0..steps {
-                if rates.len() < b.len() {
+            let mut rates = vec![motion.rate(&start)];
+            Box::new(move |x| {
+                let next = if rates.len() < b.len() {
                     stages(motion, starter, &x, h, &mut k);
-                    x = motion.kept(sum(&x, h, &starter.b, &k));
+                    sum(&x, h, &starter.b, &k)
                 } else {
                     let mut next = sum(&x, h, b, &rates);
                     if let Method::PredictorCorrector { moulton, .. } = method {
@@ -230,58 +238,33 @@ fn fixed(method: &Method, motion: &Motion, mut x: Vector, end_s: f64, steps: u64
                         next = sum(&x, h, moulton, &rates);
                         rates.remove(0);
                     }
-                    x = motion.kept(next);
                     rates.pop();
-                }
-                rates.insert(0, motion.rate(&x));
-                if x[0].is_nan() {
-                    break;
-                }
-            }
+                    next
+                };
+                let next = motion.kept(next);
+                rates.insert(0, motion.rate(&next));
+                next
+            })
         }
-        Method::Implicit { a, b } => {
-            for _ in 0..steps {
-                x = motion.kept(implicit(motion, a, b, &x, h));
-                if x[0].is_nan() {
-                    break;
-                }
-            }
-        }
+        Method::Implicit { a, b } => Box::new(move |x| motion.kept(implicit(motion, a, b, &x, h))),
         Method::Composed(parts) => {
             let half = [vec![0.5]];
-            for _ in 0..steps {
-                for part in parts {
-                    x = implicit(motion, &half, &[1.0], &x, part * h);
-                }
-                x = motion.kept(x);
-                if x[0].is_nan() {
-                    break;
-                }
-            }
+            let part = move |x, part: &f64| implicit(motion, &half, &[1.0], &x, part * h);
+            Box::new(move |x| motion.kept(parts.iter().fold(x, &part)))
         }
-        Method::LieGroup { tableau, rkmk } => {
-            for _ in 0..steps {
-                x = lie(motion, tableau, *rkmk, &x, h);
-                if x[0].is_nan() {
-                    break;
-                }
-            }
-        }
+        Method::LieGroup { tableau, rkmk } => Box::new(move |x| lie(motion, tableau, *rkmk, &x, h)),
         Method::Splitting { turning, stretching } => {
             let part = |sign: f64| [0, 1, 2].map(|i| [0, 1, 2].map(|j| 0.5 * (motion.a[i][j] + sign * motion.a[j][i])));
             let maps = |m: Matrix, lengths: &[f64]| lengths.iter().map(|c| exponential(&m, c * h)).collect::<Vec<_>>();
             let (turns, stretches) = (maps(part(-1.0), turning), maps(part(1.0), stretching));
-            for _ in 0..steps {
-                for (turn, stretch) in turns.iter().zip(&stretches) {
-                    x = image(stretch, &image(turn, &x));
-                }
-                x = turns.get(stretches.len()).map_or(x, |turn| image(turn, &x));
-                x = unit(&x);
-            }
+            Box::new(move |x| {
+                let pairs = turns.iter().zip(&stretches);
+                let x = pairs.fold(x, |x, (turn, stretch)| image(stretch, &image(turn, &x)));
+                unit(&turns.get(stretches.len()).map_or(x, |turn| image(turn, &x)))
+            })
         }
-        Method::Adaptive { .. } | Method::DormandPrince8 => {}
+        Method::Adaptive { .. } | Method::DormandPrince8 => Box::new(|x| x),
     }
-    x
 }
 
 /// One step of an implicit method, by iteration until nothing changes.
