@@ -166,24 +166,30 @@ mod tests {
         assert!((volume.sides()[0] * 0.72 - 2000.0f64.cbrt()).abs() < 1e-12);
     }
 
-    #[test]
-    fn many_rods_are_replaced_as_one_after_the_other() {
+    /// Many rods are moved and replaced, chunk by chunk, as fewer rods are one after the other.
+    pub(super) fn in_parts(volume: ControlVolume, advance: impl Fn(&mut [Vec<f64>; 3], &mut Pcg64Dxsm) -> u64) {
         let count = 2 * CHUNK + 1000;
-        let volume = ControlVolume::holding(count, 1.0);
         let mut all = volume.draw_positions(count, &stream(3, 0, Purpose::Positions));
-        let start = stream(3, 0, Purpose::Replacements);
         let mut parts: Vec<[Vec<f64>; 3]> = [0..CHUNK, CHUNK..2 * CHUNK, 2 * CHUNK..count]
             .map(|part| all.each_ref().map(|axis| axis[part.clone()].to_vec()))
             .into();
+        let start = stream(3, 0, Purpose::Replacements);
         let (mut one, mut many) = (start.clone(), start);
         for _ in 0..2 {
-            let replaced = volume.advance(&mut all, 0.3, 1.0, &mut many);
-            let each = parts.iter_mut().map(|part| volume.advance(part, 0.3, 1.0, &mut one));
+            let replaced = advance(&mut all, &mut many);
+            let each = parts.iter_mut().map(|part| advance(part, &mut one));
             assert_eq!(replaced, each.sum::<u64>());
+            assert_eq!(many, one);
         }
         for (axis, all) in all.iter().enumerate() {
             assert!(all.iter().eq(parts.iter().flat_map(|part| &part[axis])));
         }
+    }
+
+    #[test]
+    fn many_rods_are_replaced_as_one_after_the_other() {
+        let volume = ControlVolume::holding(2 * CHUNK + 1000, 1.0);
+        in_parts(volume, |positions, rng| volume.advance(positions, 0.3, 1.0, rng));
     }
 
     #[test]

@@ -1,8 +1,5 @@
 //! Counts of the work done by a run.
 
-#[cfg(test)]
-mod tests;
-
 use serde::{Deserialize, Serialize};
 
 /// Counts of the work done by a run, the same on every machine.
@@ -44,16 +41,37 @@ pub struct Counters {
 impl Counters {
     /// Adds another run's counts.
     pub fn add(&mut self, other: &Self) {
-        self.steps += other.steps;
-        self.draws += other.draws;
-        self.pairs_screened += other.pairs_screened;
-        self.cells += other.cells;
-        self.distances += other.distances;
-        self.candidates += other.candidates;
-        self.collisions += other.collisions;
-        self.replacements += other.replacements;
-        self.directions += other.directions;
-        self.aspect_ratios_redrawn += other.aspect_ratios_redrawn;
-        self.lengths_redrawn += other.lengths_redrawn;
+        let mut other = *other;
+        self.all().into_iter().zip(other.all()).for_each(|(own, other)| *own += *other);
+    }
+
+    #[rustfmt::skip]
+    fn all(&mut self) -> [&mut u64; 11] {
+        let Self {
+            steps, draws, pairs_screened, cells, distances, candidates, collisions, replacements, directions,
+            aspect_ratios_redrawn, lengths_redrawn,
+        } = self;
+        [
+            steps, draws, pairs_screened, cells, distances, candidates, collisions, replacements, directions,
+            aspect_ratios_redrawn, lengths_redrawn,
+        ]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn counts_of_two_runs_are_added_one_by_one() {
+        let times = |factor: u64| {
+            let mut counters = Counters::default();
+            counters.all().into_iter().zip(1..).for_each(|(count, k)| *count = factor * k);
+            counters
+        };
+        let mut sum = times(1);
+        sum.add(&times(2));
+        assert_eq!(sum, times(3));
+        assert_eq!((sum.steps, sum.lengths_redrawn), (3, 33));
     }
 }

@@ -13,14 +13,6 @@ fn apart(a: &UnitVector3<f64>, b: &UnitVector3<f64>) -> f64 {
     a.cross(b).norm()
 }
 
-#[test]
-fn quarter_turns_are_exact() {
-    for (turns, cos, sin) in [(0.25, 0.0, 1.0), (-0.25, 0.0, -1.0), (0.5, -1.0, 0.0), (1e8 + 0.75, 0.0, -1.0)] {
-        let phase = Phase::of_turns(turns);
-        assert_eq!((phase.cos, phase.sin), (cos, sin), "{turns}");
-    }
-}
-
 proptest! {
     #![proptest_config(crate::fixed_seed(256))]
 

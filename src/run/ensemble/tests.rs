@@ -33,17 +33,14 @@ fn over_replicas_the_error_is_that_of_their_mean() {
 }
 
 #[test]
-fn of_one_replica_the_error_is_over_its_rods() {
+fn of_one_replica_the_error_is_over_its_rods_if_it_has_more_than_one() {
+    let of = |rods: &[f64]| {
+        let mut tally = Tally::of(1);
+        tally.add_sums(rods.len(), &[over(rods)]);
+        let column = tally.column("x".to_owned(), 0, 1);
+        (column.mean[0], column.se[0])
+    };
     // Mean 2, squared deviations 1 + 1 + 1 + 9, over 4 − 1 and over 4.
-    let mut tally = Tally::of(1);
-    tally.add_sums(4, &[over(&[1.0, 1.0, 1.0, 5.0])]);
-    let column = tally.column("x".to_owned(), 0, 1);
-    assert_eq!((column.mean[0], column.se[0]), (2.0, 1.0));
-}
-
-#[test]
-fn of_one_rod_there_is_no_error() {
-    let mut tally = Tally::of(1);
-    tally.add_sums(1, &[over(&[0.5])]);
-    assert!(tally.column("x".to_owned(), 0, 1).se[0].is_nan());
+    assert_eq!(of(&[1.0, 1.0, 1.0, 5.0]), (2.0, 1.0));
+    assert!(of(&[0.5]).1.is_nan());
 }

@@ -1,5 +1,4 @@
 use super::*;
-use crate::model::chunks::CHUNK;
 use crate::model::random::{Purpose, stream};
 
 /// Velocity gradients and sides of volumes: shear along other axes and oblique, extension of either sign, a rotation,
@@ -98,25 +97,10 @@ fn what_comes_in_was_outside() {
 
 #[test]
 fn many_rods_are_carried_as_one_after_the_other() {
-    let count = 2 * CHUNK + 1000;
     let (gradient, sides) = flows().pop().unwrap();
     let volume = ControlVolume::of(sides);
     let inflow = Inflow::new(&volume, gradient, 0.3);
-    let mut all = volume.draw_positions(count, &stream(5, 0, Purpose::Positions));
-    let mut parts: Vec<[Vec<f64>; 3]> = [0..CHUNK, CHUNK..2 * CHUNK, 2 * CHUNK..count]
-        .map(|part| all.each_ref().map(|axis| axis[part.clone()].to_vec()))
-        .into();
-    let start = stream(5, 0, Purpose::Replacements);
-    let (mut one, mut many) = (start.clone(), start);
-    for _ in 0..2 {
-        let replaced = inflow.advance(&mut all, &mut many);
-        let each = parts.iter_mut().map(|part| inflow.advance(part, &mut one));
-        assert_eq!(replaced, each.sum::<u64>());
-        assert_eq!(many, one);
-    }
-    for (axis, all) in all.iter().enumerate() {
-        assert!(all.iter().eq(parts.iter().flat_map(|part| &part[axis])));
-    }
+    crate::model::volume::tests::in_parts(volume, |positions, rng| inflow.advance(positions, rng));
 }
 
 #[test]

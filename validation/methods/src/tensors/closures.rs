@@ -33,33 +33,33 @@ impl Closure {
 
     /// The usual name of the closure.
     pub fn name(self) -> &'static str {
-        match self {
-            Self::Linear => "linear",
-            Self::Quadratic => "quadratic",
-            Self::Hybrid => "hybrid",
-            Self::Natural => "natural",
-            Self::Ore => "ORE",
-            Self::Orw => "ORW",
-            Self::Ibof => "IBOF",
-        }
+        self.about().0
     }
 
     /// The source of the closure.
     pub fn source(self) -> &'static str {
+        self.about().1
+    }
+
+    fn about(self) -> (&'static str, &'static str) {
         match self {
-            Self::Linear => "the linear closure: Advani & Tucker 1987, J. Rheol. 31, 751",
-            Self::Quadratic => "the quadratic closure a_ijkl = a_ij a_kl: Advani & Tucker 1987, J. Rheol. 31, 751",
-            Self::Hybrid => {
+            Self::Linear => ("linear", "the linear closure: Advani & Tucker 1987, J. Rheol. 31, 751"),
+            Self::Quadratic => {
+                ("quadratic", "the quadratic closure a_ijkl = a_ij a_kl: Advani & Tucker 1987, J. Rheol. 31, 751")
+            }
+            Self::Hybrid => (
+                "hybrid",
                 "the hybrid closure, f = 1 − 27 det a times the quadratic plus 1 − f times the linear one: Advani & \
-                 Tucker 1990, J. Rheol. 34, 367"
-            }
-            Self::Natural => {
+                 Tucker 1990, J. Rheol. 34, 367",
+            ),
+            Self::Natural => (
+                "natural",
                 "the natural closure, exact: Verleye & Dupret 1993; Montgomery-Smith, He, Jack & Smith 2011, J. Fluid \
-                 Mech. 680, 321"
-            }
-            Self::Ore => "the closure ORE, 45 coefficients: Verweyst 1998, thesis, University of Illinois",
-            Self::Orw => "the closure ORW, 18 coefficients: Chung & Kwon 2001, Polym. Compos. 22, 636",
-            Self::Ibof => "the closure IBOF, 63 coefficients: Chung & Kwon 2002, J. Rheol. 46, 169",
+                 Mech. 680, 321",
+            ),
+            Self::Ore => ("ORE", "the closure ORE, 45 coefficients: Verweyst 1998, thesis, University of Illinois"),
+            Self::Orw => ("ORW", "the closure ORW, 18 coefficients: Chung & Kwon 2001, Polym. Compos. 22, 636"),
+            Self::Ibof => ("IBOF", "the closure IBOF, 63 coefficients: Chung & Kwon 2002, J. Rheol. 46, 169"),
         }
     }
 

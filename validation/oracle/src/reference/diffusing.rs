@@ -1,9 +1,8 @@
 //! Means over rods with rotary diffusion, as a table.
 
 use super::big::Bits;
-use super::isotropic::{PAIRS, QUADRUPLES};
 use super::motion::{Motion, Unit};
-use super::table::{Column, NoValue, Table, of_time, times};
+use super::table::{Column, NoValue, Table, of_means, of_time, times};
 use crate::diffusion::{self, Means, Start};
 
 /// Rods with rotary diffusion, and the values requested for them.
@@ -24,17 +23,12 @@ pub struct Diffusing {
 impl Diffusing {
     /// The columns of the table.
     pub fn columns(&self) -> Vec<Column> {
-        let column = |name: String, equation| Column { name, unit: "1", equation };
-        let mut columns = of_time();
-        if self.fourth {
-            let name = |q: [usize; 4]| format!("a{}{}{}{}", q[0], q[1], q[2], q[3]);
-            columns.extend(QUADRUPLES.map(|q| column(name(q), "mean of p_i p_j p_k p_l over the density")));
-        } else {
-            columns.extend([1, 2, 3].map(|i| column(format!("x{i}"), "4: mean of |p_i| over the density")));
-            let name = |(i, j)| format!("a{}{}", i + 1, j + 1);
-            columns.extend(PAIRS.map(|pair| column(name(pair), "mean of p_i p_j over the density")));
-        }
-        columns
+        let sources = [
+            "4: mean of |p_i| over the density",
+            "mean of p_i p_j over the density",
+            "mean of p_i p_j p_k p_l over the density",
+        ];
+        [of_time(), of_means(self.fourth, sources)].concat()
     }
 
     /// A table of values at `at` ≥ 0, ascending doubles in `unit`, followed by the steady values at the time ∞ if

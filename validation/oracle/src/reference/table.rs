@@ -78,6 +78,17 @@ pub(super) fn of_time() -> Vec<Column> {
     ]
 }
 
+/// The columns of a_4, or of ⟨|p_i|⟩ and a_ij, with the sources of ⟨|p_i|⟩, a_ij and a_4.
+pub(super) fn of_means(fourth: bool, [projection, moment, of_four]: [&'static str; 3]) -> Vec<Column> {
+    let column = |name: String, equation| Column { name, unit: "1", equation };
+    if fourth {
+        return QUADRUPLES.map(|[i, j, k, l]| column(format!("a{i}{j}{k}{l}"), of_four)).into();
+    }
+    let projections = [1, 2, 3].map(|i| column(format!("x{i}"), projection));
+    let moments = PAIRS.map(|(i, j)| column(format!("a{}{}", i + 1, j + 1), moment));
+    projections.into_iter().chain(moments).collect()
+}
+
 /// The columns for a start.
 pub fn columns(start: Start) -> Vec<Column> {
     let column = |name: &str, unit, equation| Column { name: name.into(), unit, equation };
@@ -90,26 +101,18 @@ pub fn columns(start: Start) -> Vec<Column> {
             columns.push(column("theta_rad", "rad", "A.5: from axis 3, in [0, π]"));
             columns.push(column("c_b", "1", "13, 18: C/(1 + C), C = (r_e²p_1² + p_2²)^½/(r_e|p_3|)"));
         }
-        Start::Isotropic { fourth: true, .. } | Start::Planar { fourth: true } => {
-            let name = |q: [usize; 4]| format!("a{}{}{}{}", q[0], q[1], q[2], q[3]);
-            let equation = match start {
-                Start::Planar { .. } => "A.1: mean of p_i p_j p_k p_l",
-                _ => "A.1, 12: mean of p_i p_j p_k p_l, by quadrature",
-            };
-            columns.extend(QUADRUPLES.map(|q| column(&name(q), "1", equation)));
-        }
-        Start::Isotropic { .. } | Start::Planar { .. } => {
-            let [projection, moment] = match start {
-                Start::Planar { .. } => ["4, A.1: mean of |p_i|", "A.1: mean of p_i p_j"],
-                _ => [
-                    "4, A.4, A.5, 12: mean of |p_i|; a complete elliptic integral in plane Couette flow",
-                    "A.4, A.5, 12: mean of p_i p_j; an incomplete elliptic integral in plane Couette flow",
-                ],
-            };
-            columns.extend(["x1", "x2", "x3"].map(|name| column(name, "1", projection)));
-            let name = |(i, j)| format!("a{}{}", i + 1, j + 1);
-            columns.extend(PAIRS.map(|pair| column(&name(pair), "1", moment)));
-        }
+        Start::Isotropic { fourth, .. } => columns.extend(of_means(
+            fourth,
+            [
+                "4, A.4, A.5, 12: mean of |p_i|; a complete elliptic integral in plane Couette flow",
+                "A.4, A.5, 12: mean of p_i p_j; an incomplete elliptic integral in plane Couette flow",
+                "A.1, 12: mean of p_i p_j p_k p_l, by quadrature",
+            ],
+        )),
+        Start::Planar { fourth } => columns.extend(of_means(
+            fourth,
+            ["4, A.1: mean of |p_i|", "A.1: mean of p_i p_j", "A.1: mean of p_i p_j p_k p_l"],
+        )),
     }
     columns
 }
