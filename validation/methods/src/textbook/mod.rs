@@ -4,15 +4,14 @@
 pub mod extrapolated;
 pub mod tableaus;
 
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 use ode_solvers::dop_shared::OutputType;
 use ode_solvers::{Dop853, System};
 use tableaus::Tableau;
 
-/// The vector p or q.
-pub type Vector = [f64; 3];
-/// A matrix by rows.
-pub type Matrix = [[f64; 3]; 3];
+/// The vector p or q, or angles and 0.
+type Vector = Vector3<f64>;
+type Matrix = Matrix3<f64>;
 
 /// The variable that is stepped.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -82,32 +81,16 @@ pub enum Method {
     DormandPrince8,
 }
 
-fn image(m: &Matrix, p: &Vector) -> Vector {
-    [0, 1, 2].map(|i| m[i][0] * p[0] + m[i][1] * p[1] + m[i][2] * p[2])
-}
-fn dot(a: &Vector, b: &Vector) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-fn cross(a: &Vector, b: &Vector) -> Vector {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-}
-fn plus(a: &Vector, f: f64, b: &Vector) -> Vector {
-    [0, 1, 2].map(|i| a[i] + f * b[i])
-}
-fn unit(p: &Vector) -> Vector {
-    let length = dot(p, p).sqrt();
-    p.map(|x| x / length)
-}
 /// The vector x + h Σ w k.
 fn sum(x: &Vector, h: f64, weights: &[f64], k: &[Vector]) -> Vector {
-    [0, 1, 2].map(|i| x[i] + h * weights.iter().zip(k).map(|(w, k)| w * k[i]).sum::<f64>())
+    x + weights.iter().zip(k).map(|(w, k)| k * *w).sum::<Vector>() * h
 }
 
 /// A = W + ΛD for L with L_ij = ∂u_i/∂x_j and the aspect ratio `ratio`, without the cancellation of Λ near 1.
-pub fn rate_matrix(l: &Matrix, ratio: f64) -> Matrix {
+pub fn rate_matrix(l: &[[f64; 3]; 3], ratio: f64) -> Matrix3<f64> {
     let square = ratio * ratio;
     let (long, short) = (square / (square + 1.0), 1.0 / (square + 1.0));
-    [0, 1, 2].map(|i| [0, 1, 2].map(|j| long * l[i][j] - short * l[j][i]))
+    Matrix::from_fn(|i, j| long * l[i][j] - short * l[j][i])
 }
 
 struct Motion {
@@ -118,44 +101,48 @@ struct Motion {
 impl Motion {
     fn rate(&self, x: &Vector) -> Vector {
         match self.form {
-            Form::Linear => image(&self.a, x),
+            Form::Linear => self.a * x,
             Form::Raw | Form::Normalised => {
-                let pull = image(&self.a, x);
-                plus(&pull, -dot(x, &pull), x)
+                let pull = self.a * x;
+                pull - x * x.dot(&pull)
             }
             Form::Angles => {
-                let ((sp, cp), (st, ct)) = (x[0].sin_cos(), x[1].sin_cos());
-                let v = image(&self.a, &[st * cp, st * sp, ct]);
-                [(v[1] * cp - v[0] * sp) / st, (v[0] * cp + v[1] * sp) * ct - v[2] * st, 0.0]
+                let ((sp, cp), (st, ct)) = (x.x.sin_cos(), x.y.sin_cos());
+                let v = self.a * Vector::new(st * cp, st * sp, ct);
+                Vector::new((v.y * cp - v.x * sp) / st, (v.x * cp + v.y * sp) * ct - v.z * st, 0.0)
             }
         }
     }
-    fn first(&self, p: &Vector) -> Vector {
+    fn first(&self, p: Vector) -> Vector {
         match self.form {
-            Form::Angles => [p[1].atan2(p[0]), p[0].hypot(p[1]).atan2(p[2]), 0.0],
-            _ => *p,
+            Form::Angles => Vector::new(p.y.atan2(p.x), p.x.hypot(p.y).atan2(p.z), 0.0),
+            _ => p,
         }
     }
     fn kept(&self, x: Vector) -> Vector {
         match self.form {
-            Form::Normalised | Form::Linear => unit(&x),
+            Form::Normalised | Form::Linear => unit(x),
             _ => x,
         }
     }
-    fn last(&self, x: &Vector) -> Vector {
+    fn last(&self, x: Vector) -> Vector {
         match self.form {
             Form::Angles => {
-                let ((sp, cp), (st, ct)) = (x[0].sin_cos(), x[1].sin_cos());
-                [st * cp, st * sp, ct]
+                let ((sp, cp), (st, ct)) = (x.x.sin_cos(), x.y.sin_cos());
+                Vector::new(st * cp, st * sp, ct)
             }
-            _ => *x,
+            _ => x,
         }
     }
 }
 
-impl System<f64, Vector3<f64>> for &Motion {
-    fn system(&self, _: f64, x: &Vector3<f64>, rate: &mut Vector3<f64>) {
-        *rate = Vector3::from(self.rate(&[x[0], x[1], x[2]]));
+fn unit(x: Vector) -> Vector {
+    x / x.dot(&x).sqrt()
+}
+
+impl System<f64, Vector> for &Motion {
+    fn system(&self, _: f64, x: &Vector, rate: &mut Vector) {
+        *rate = self.rate(x);
     }
 }
 
@@ -180,28 +167,28 @@ pub enum Setting {
 pub fn advance(
     method: &Method,
     form: Form,
-    l: &Matrix,
+    l: &[[f64; 3]; 3],
     ratio: f64,
-    p: &Vector,
+    p: &[f64; 3],
     end_s: f64,
     setting: Setting,
-) -> Option<Vector> {
+) -> Option<[f64; 3]> {
     let motion = Motion { a: rate_matrix(l, ratio), form };
-    let x = motion.first(p);
+    let x = motion.first((*p).into());
     let end = match (method, setting) {
         (Method::Adaptive { tableau, other }, Setting::Tolerance(tolerance)) => {
             adaptive(&motion, tableau, other, x, end_s, tolerance)
         }
         (Method::DormandPrince8, Setting::Tolerance(tolerance)) => {
-            let mut solver = Dop853::new(&motion, 0.0, end_s, end_s, Vector3::from(x), tolerance, tolerance);
+            let mut solver = Dop853::new(&motion, 0.0, end_s, end_s, x, tolerance, tolerance);
             solver.set_output(OutputType::Sparse);
             solver.integrate().ok()?;
-            solver.y_out().last().map(|x| motion.kept([x[0], x[1], x[2]]))?
+            motion.kept(*solver.y_out().last()?)
         }
         (Method::Adaptive { .. } | Method::DormandPrince8, _) | (_, Setting::Tolerance(_)) => return None,
         (_, Setting::Steps(steps)) => fixed(method, &motion, x, end_s, steps),
     };
-    Some(motion.last(&end))
+    Some(motion.last(end).into())
 }
 
 /// Steps until the end, or until there is no direction.
@@ -254,13 +241,13 @@ fn stepper<'a>(method: &'a Method, motion: &'a Motion, start: Vector, h: f64) ->
         }
         Method::LieGroup { tableau, rkmk } => Box::new(move |x| lie(motion, tableau, *rkmk, &x, h)),
         Method::Splitting { turning, stretching } => {
-            let part = |sign: f64| [0, 1, 2].map(|i| [0, 1, 2].map(|j| 0.5 * (motion.a[i][j] + sign * motion.a[j][i])));
+            let part = |sign: f64| (motion.a + motion.a.transpose() * sign) * 0.5;
             let maps = |m: Matrix, lengths: &[f64]| lengths.iter().map(|c| exponential(&m, c * h)).collect::<Vec<_>>();
             let (turns, stretches) = (maps(part(-1.0), turning), maps(part(1.0), stretching));
             Box::new(move |x| {
                 let pairs = turns.iter().zip(&stretches);
-                let x = pairs.fold(x, |x, (turn, stretch)| image(stretch, &image(turn, &x)));
-                unit(&turns.get(stretches.len()).map_or(x, |turn| image(turn, &x)))
+                let x = pairs.fold(x, |x, (turn, stretch)| stretch * (turn * x));
+                unit(turns.get(stretches.len()).map_or(x, |turn| turn * x))
             })
         }
         Method::Adaptive { .. } | Method::DormandPrince8 => Box::new(|x| x),
@@ -273,8 +260,7 @@ fn implicit(motion: &Motion, a: &[Vec<f64>], b: &[f64], x: &Vector, h: f64) -> V
     let mut before = f64::INFINITY;
     for _ in 0..100 {
         let next: Vec<Vector> = a.iter().map(|row| motion.rate(&sum(x, h, row, &k))).collect();
-        let change =
-            k.iter().zip(&next).map(|(old, new)| dot(&plus(new, -1.0, old), &plus(new, -1.0, old))).sum::<f64>();
+        let change: f64 = k.iter().zip(&next).map(|(old, new)| (new - old).dot(&(new - old))).sum();
         k = next;
         if change == 0.0 || (change >= before && change < 1e-24) || change.is_nan() {
             break;
@@ -286,48 +272,44 @@ fn implicit(motion: &Motion, a: &[Vec<f64>], b: &[f64], x: &Vector, h: f64) -> V
 
 /// The rotation of `p` by the rotation vector `about`, by Rodrigues's formula.
 fn turned(about: &Vector, p: &Vector) -> Vector {
-    let angle = dot(about, about).sqrt();
+    let angle = about.dot(about).sqrt();
     let (s, c) = if angle < 1e-4 {
         (1.0 - angle * angle / 6.0, 0.5 - angle * angle / 24.0)
     } else {
         (angle.sin() / angle, (1.0 - angle.cos()) / (angle * angle))
     };
-    let once = cross(about, p);
-    let twice = cross(about, &once);
-    [0, 1, 2].map(|i| p[i] + s * once[i] + c * twice[i])
+    let once = about.cross(p);
+    p + once * s + about.cross(&once) * c
 }
 
 fn lie(motion: &Motion, tableau: &Tableau, rkmk: bool, p: &Vector, h: f64) -> Vector {
-    let omega = |p: &Vector| cross(p, &image(&motion.a, p));
+    let omega = |p: &Vector| p.cross(&(motion.a * p));
     let mut k: Vec<Vector> = Vec::new();
     for row in &tableau.a {
-        let v = sum(&[0.0; 3], h, row, &k);
+        let v = sum(&Vector::zeros(), h, row, &k);
         let w = omega(&turned(&v, p));
         // dexp⁻¹ to the second commutator.
         k.push(if rkmk {
-            let once = cross(&v, &w);
-            plus(&plus(&w, -0.5, &once), 1.0 / 12.0, &cross(&v, &once))
+            let once = v.cross(&w);
+            w - once * 0.5 + v.cross(&once) * (1.0 / 12.0)
         } else {
             w
         });
     }
-    turned(&sum(&[0.0; 3], h, &tableau.b, &k), p)
+    turned(&sum(&Vector::zeros(), h, &tableau.b, &k), p)
 }
 
 /// The exponential exp(mt), by scaling and squaring of its series.
 fn exponential(m: &Matrix, t: f64) -> Matrix {
-    let norm = m.iter().flatten().map(|x| (x * t).abs()).sum::<f64>();
+    let norm = m.transpose().iter().map(|x| (x * t).abs()).sum::<f64>();
     let halvings = norm.max(1e-300).log2().ceil().max(0.0) as i32 + 3;
-    let small = m.map(|row| row.map(|x| x * t / 2f64.powi(halvings)));
-    let product =
-        |a: &Matrix, b: &Matrix| [0, 1, 2].map(|i| [0, 1, 2].map(|j| (0..3).map(|k| a[i][k] * b[k][j]).sum()));
-    let one = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-    let (mut term, mut all) = (one, one);
+    let small = m.map(|x| x * t / 2f64.powi(halvings));
+    let (mut term, mut all) = (Matrix::identity(), Matrix::identity());
     for k in 1..18 {
-        term = product(&term, &small).map(|row: Vector| row.map(|x| x / f64::from(k)));
-        (0..3).for_each(|i| all[i] = plus(&all[i], 1.0, &term[i]));
+        term = term * small / f64::from(k);
+        all += term;
     }
-    (0..halvings).for_each(|_| all = product(&all, &all));
+    (0..halvings).for_each(|_| all *= all);
     all
 }
 
@@ -358,5 +340,5 @@ fn adaptive(motion: &Motion, tableau: &Tableau, other: &[f64], mut x: Vector, en
             break;
         }
     }
-    if t >= end_s { x } else { [f64::NAN; 3] }
+    if t >= end_s { x } else { Vector::repeat(f64::NAN) }
 }
