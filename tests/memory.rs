@@ -4,7 +4,7 @@ use peak_alloc::PeakAlloc;
 use shearbed::run::resume::Halfway;
 use shearbed::run::{self, run_replica};
 use shearbed::run::{ensemble, memory};
-use shearbed::scene::{Interaction, Isotropic, Orientation, Scene};
+use shearbed::scene::{Flow, Interaction, Orientation, Scene, Time};
 use shearbed::{Plan, Suspension};
 
 #[global_allocator]
@@ -108,59 +108,37 @@ fn a_run_holds_what_it_says_and_its_steps_allocate_nothing() {
 
 /// Scenes of which something else than the rods is what is held.
 fn others() -> [(&'static str, Scene); 6] {
-    let scene = |change: fn(&mut Scene)| {
+    let rows: [(&str, fn(&mut Scene)); 6] = [
+        ("sums", |scene| scene.time.outputs_per_unit = Some(50_000)),
+        ("sums of replicas that wait", |scene| {
+            (scene.time.outputs_per_unit, scene.ensemble.replicas) = (Some(2000), 100);
+        }),
+        ("every rod at many outputs", |scene| {
+            (scene.time.outputs_per_unit, scene.ensemble.replicas) = (Some(100), 2);
+            scene.particles.count = 1000;
+            scene.output.rods_at = (0..=100).map(|k| f64::from(k) / 100.0).collect();
+        }),
+        ("maps", in_extension),
+        ("ends", |scene| {
+            in_extension(scene);
+            scene.particles.orientation = Orientation::Given { phi_deg: 20.0, theta_deg: 80.0 };
+        }),
+        ("propagators", |scene| {
+            in_extension(scene);
+            scene.time.outputs_per_unit = Some(5);
+            (scene.particles.count, scene.particles.aspect_ratio_sd_percent) = (20_000, 3.6);
+        }),
+    ];
+    rows.map(|(what, change)| {
         let mut scene = Scene::default();
         scene.particles.count = 2;
         change(&mut scene);
-        scene
-    };
-    [
-        ("sums", scene(|scene| scene.time.outputs_per_unit = Some(50_000))),
-        (
-            "sums of replicas that wait",
-            scene(|scene| {
-                scene.time.outputs_per_unit = Some(2000);
-                scene.ensemble.replicas = 100;
-            }),
-        ),
-        (
-            "every rod at many outputs",
-            scene(|scene| {
-                scene.particles.count = 1000;
-                scene.time.outputs_per_unit = Some(100);
-                scene.output.rods_at = (0..=100).map(|k| f64::from(k) / 100.0).collect();
-                scene.ensemble.replicas = 2;
-            }),
-        ),
-        (
-            "maps",
-            scene(|scene| {
-                in_extension(scene);
-                scene.particles.orientation = Orientation::Random(Isotropic::Isotropic);
-            }),
-        ),
-        (
-            "ends",
-            scene(|scene| {
-                in_extension(scene);
-                scene.particles.orientation = Orientation::Given { phi_deg: 20.0, theta_deg: 80.0 };
-            }),
-        ),
-        (
-            "propagators",
-            scene(|scene| {
-                in_extension(scene);
-                scene.time.outputs_per_unit = Some(5);
-                scene.particles.count = 20_000;
-                scene.particles.aspect_ratio_sd_percent = 3.6;
-            }),
-        ),
-    ]
+        (what, scene)
+    })
 }
 
 /// Planar extension with 50 000 outputs.
 fn in_extension(scene: &mut Scene) {
-    scene.flow = shearbed::scene::Flow::Gradient { gradient_per_s: [[1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0; 3]] };
-    scene.time = shearbed::scene::Time::strain(1.0);
-    scene.time.outputs_per_unit = Some(50_000);
+    scene.flow = Flow::Gradient { gradient_per_s: [[1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0; 3]] };
+    scene.time = Time { outputs_per_unit: Some(50_000), ..Time::strain(1.0) };
 }

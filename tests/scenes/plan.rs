@@ -188,50 +188,42 @@ fn the_default_is_the_fewest_steps_that_will_do() {
 }
 
 #[test]
-fn a_coarse_step_is_warned_of_and_a_finer_one_is_not() {
+fn doubtful_results_trigger_a_warning() {
+    let steps = |steps: u64| turning(11.6, &format!("steps_per_period = {steps}\noutputs_per_period = 1"));
+    let free = |text: String| text.replace("alpha = 0.5", "alpha = 0");
+    let none = |text: String| (text, String::new());
+    let stepless = turning(20.0, "steps_per_period = 100\n");
+    let mut rows = vec![
+        // Free rods take no steps.
+        none(free(turning(50.0, "steps_per_period = 200"))),
+        (
+            stepless.split("[interaction]").next().unwrap().to_owned(),
+            "time.steps_per_period has no effect: free rods take no steps".to_owned(),
+        ),
+        (
+            turning(20.0, "").replace("count = 150", "count = 1"),
+            "interaction has no effect: one rod has no neighbour".to_owned(),
+        ),
+    ];
     // 73.424/198 = 0.3708 and 73.424/199 = 0.36897.
-    for (steps, warns) in [(1, true), (198, true), (199, false), (10_000, false)] {
-        let time = format!("steps_per_period = {steps}\noutputs_per_period = 1");
-        let plan = plan(&turning(11.6, &time));
-        assert_eq!(plan.warnings().len(), usize::from(warns), "{steps}");
-        assert_eq!(plan.to_string().contains("\nwarning: time.steps_per_period"), warns);
-    }
-    // Free rods take no steps.
-    let free = turning(50.0, "steps_per_period = 200").replace("alpha = 0.5", "alpha = 0");
-    assert_eq!(plan(&free).warnings(), Vec::<String>::new());
-}
-
-#[test]
-fn keys_without_effect_are_warned_of() {
-    let free = turning(20.0, "steps_per_period = 100\n");
-    let free = free.split("[interaction]").next().unwrap();
-    assert_eq!(plan(free).warnings(), ["time.steps_per_period has no effect: free rods take no steps"]);
-    let one = turning(20.0, "").replace("count = 150", "count = 1");
-    assert_eq!(plan(&one).warnings(), ["interaction has no effect: one rod has no neighbour"]);
-}
-
-#[test]
-fn the_stress_of_rods_that_are_not_slender_is_warned_of() {
+    rows.extend([1, 198].map(|k| (steps(k), format!("time.steps_per_period = {k} does not resolve the motion"))));
+    rows.extend([199, 10_000].map(|k| none(steps(k))));
+    let of = |r: f64, output: &str| FREE.replace("= 11.6", &format!("= {r:?}")) + output;
     let stress = "[output]\nobservables = [\"particle_stress\"]\n";
-    for (r, warns) in [(0.5, true), (3.0, true), (29.9, true), (30.0, false), (1e3, false)] {
-        let free = FREE.replace("= 11.6", &format!("= {r:?}"));
-        assert_eq!(plan(&free).warnings(), Vec::<String>::new());
-        let plan = plan(&(free + stress));
-        assert_eq!(plan.warnings().len(), usize::from(warns), "{r}");
-        assert_eq!(plan.to_string().contains("particle_stress is the limit of slender rods"), warns);
+    for (r, slender) in [(0.5, false), (3.0, false), (29.9, false), (30.0, true), (1e3, true)] {
+        let said = format!("particles.aspect_ratio = {r}: particle_stress is the limit of slender rods");
+        rows.extend([none(of(r, "")), (of(r, stress), if slender { String::new() } else { said })]);
     }
-}
-
-#[test]
-fn rods_that_are_too_thick_to_collide_as_lines_are_warned_of() {
-    for (r, warns) in [(1.01, true), (9.99, true), (10.0, false), (11.6, false)] {
-        let warnings = plan(&turning(r, "")).warnings();
-        assert_eq!(warnings.len(), usize::from(warns), "{r}");
-        assert!(warnings.iter().all(|text| {
-            text.starts_with(&format!("particles.aspect_ratio = {r}: the collision rule is for slender rods, r_e ≫ 1."))
-        }));
-        let free = turning(r, "").replace("alpha = 0.5", "alpha = 0");
-        assert_eq!(plan(&free).warnings(), Vec::<String>::new());
+    for (r, thin) in [(1.01, false), (9.99, false), (10.0, true), (11.6, true)] {
+        let said = format!("particles.aspect_ratio = {r}: the collision rule is for slender rods, r_e ≫ 1.");
+        rows.extend([none(free(turning(r, ""))), (turning(r, ""), if thin { String::new() } else { said })]);
+    }
+    for (text, said) in rows {
+        let plan = plan(&text);
+        let warnings = plan.warnings();
+        assert_eq!(warnings.len(), usize::from(!said.is_empty()), "{text}\n{warnings:?}");
+        assert!(warnings.iter().all(|warning| warning.starts_with(&said)), "{said}\n{warnings:?}");
+        assert_eq!(plan.to_string().contains(&format!("\nwarning: {said}")), !said.is_empty());
     }
 }
 

@@ -36,7 +36,7 @@ pub fn means(
     time_s: f64,
 ) -> Option<Means> {
     let grid = Grid::new(rings, mirrors(&gradient_per_s));
-    let rates = grid.rates(&Matrix3::from_fn(|i, j| gradient_per_s[i][j]), shape, diffusivity_per_s, Of::Density);
+    let rates = grid.rates(&Matrix3::from_fn(|i, j| gradient_per_s[i][j]), shape, diffusivity_per_s, true);
     let one = DVector::from_element(grid.points.len(), 1.0);
     let density = if time_s == f64::INFINITY {
         // A ψ = 0 with w·ψ = 1 is (A + D_r 1 wᵀ) ψ = D_r 1.
@@ -61,7 +61,7 @@ pub fn planar_moments(
 ) -> ([f64; 6], [f64; 15]) {
     // Products of components have not the mirrors of the flow.
     let grid = Grid::new(rings, [false; 3]);
-    let rates = grid.rates(&Matrix3::from_fn(|i, j| gradient_per_s[i][j]), shape, diffusivity_per_s, Of::Means);
+    let rates = grid.rates(&Matrix3::from_fn(|i, j| gradient_per_s[i][j]), shape, diffusivity_per_s, false);
     let starts = DMatrix::from_fn(grid.points.len(), 6 + 15, |point, k| {
         let (theta, phi) = grid.angles(grid.points[point]);
         let p = direction(theta, phi);
@@ -85,13 +85,6 @@ pub fn planar_moments(
     // The mean of 1 is 1: as with the mass of a density, what it misses is the rounding of the exponential.
     let one: f64 = (0..3).map(of).sum();
     (std::array::from_fn(|k| of(k) / one), std::array::from_fn(|k| of(6 + k) / one))
-}
-
-/// What is on the grid: a density of directions, or means of what rods become.
-#[derive(Clone, Copy, PartialEq)]
-enum Of {
-    Density,
-    Means,
 }
 
 /// True for each axis whose reflection leaves the flow unchanged.
@@ -149,10 +142,10 @@ impl Grid {
         (angle(j), angle(k))
     }
 
-    /// The matrix of ∂ψ/∂t = −θ̇ ∂ψ/∂θ − φ̇ ∂ψ/∂φ − ψ∇·ṗ + D_r∇²ψ, ∇·ṗ = Λ(tr D − 3 p·Dp), or of ∂f/∂t = θ̇ ∂f/∂θ +
+    /// For a density, the matrix of ∂ψ/∂t = −θ̇ ∂ψ/∂θ − φ̇ ∂ψ/∂φ − ψ∇·ṗ + D_r∇²ψ, ∇·ṗ = Λ(tr D − 3 p·Dp), else of ∂f/∂t = θ̇ ∂f/∂θ +
     /// φ̇ ∂f/∂φ + D_r∇²f.
-    fn rates(&self, l: &Matrix3<f64>, shape: f64, diffusivity: f64, of: Of) -> DMatrix<f64> {
-        let (sign, spread) = if of == Of::Density { (1.0, 1.0) } else { (-1.0, 0.0) };
+    fn rates(&self, l: &Matrix3<f64>, shape: f64, diffusivity: f64, density: bool) -> DMatrix<f64> {
+        let (sign, spread) = if density { (1.0, 1.0) } else { (-1.0, 0.0) };
         let around = 2 * self.rings;
         let (strain, turning) = ((l + l.transpose()) * 0.5, (l - l.transpose()) * 0.5);
         let mut rates = DMatrix::zeros(self.points.len(), self.points.len());

@@ -8,10 +8,9 @@
 #[cfg(test)]
 mod tests;
 
-use dashu_float::FBig;
+use crate::reference::big::{Big, Bits};
+use crate::reference::motion::{Matrix as Square, image, matrix, product};
 use std::array::from_fn;
-
-type Square = [[FBig; 3]; 3];
 
 /// The length of a rod's motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -73,33 +72,23 @@ impl Rod {
     }
 
     /// exp(Aτ)p, scaled such that the size of its largest component is between 1 and 2.
-    fn end(&self, span: Span, bits: usize) -> [FBig; 3] {
-        let big = |x| big(x, bits);
+    fn end(&self, span: Span, bits: usize) -> [Big; 3] {
+        let big = |x| Bits(bits).of(x);
         let l = self.gradient_per_s.map(|row| row.map(big));
         let square = big(self.aspect_ratio) * big(self.aspect_ratio);
         let below = &square + big(1.0);
         let third = (&l[0][0] + &l[1][1] + &l[2][2]) * (&square - big(1.0)) / big(3.0);
         let time = time_s(&l, self.aspect_ratio, span, bits);
-        let exponent: Square = from_fn(|i| {
-            from_fn(|j| {
-                let trace = if i == j { third.clone() } else { big(0.0) };
-                (&square * &l[i][j] - &l[j][i] - trace) * &time / &below
-            })
+        let exponent = matrix(|i, j| {
+            let trace = if i == j { third.clone() } else { big(0.0) };
+            (&square * &l[i][j] - &l[j][i] - trace) * &time / &below
         });
-        let map = exponential(exponent, bits);
-        scaled(from_fn(|i| {
-            let [a, b, c] = &map[i];
-            a * big(self.p[0]) + b * big(self.p[1]) + c * big(self.p[2])
-        }))
+        scaled(image(&exponential(exponent, bits), &self.p.map(big)))
     }
 }
 
-fn big(x: f64, bits: usize) -> FBig {
-    FBig::try_from(x).expect("a finite number").with_precision(bits).value()
-}
-
-fn time_s(l: &Square, aspect_ratio: f64, span: Span, bits: usize) -> FBig {
-    let big = |x| big(x, bits);
+fn time_s(l: &Square, aspect_ratio: f64, span: Span, bits: usize) -> Big {
+    let big = |x| Bits(bits).of(x);
     match span {
         Span::Seconds(time_s) => big(time_s),
         Span::Strain(strain) => {
@@ -126,7 +115,7 @@ fn exponential(mut x: Square, bits: usize) -> Square {
         *component = component.clone() >> halvings;
     }
     let size = exponent(&x) + 2;
-    let mut map: Square = from_fn(|i| from_fn(|j| big(f64::from(u8::from(i == j)), bits)));
+    let mut map = matrix(|i, j| Bits(bits).of(f64::from(u8::from(i == j))));
     if size == isize::MIN + 2 {
         return map;
     }
@@ -136,7 +125,7 @@ fn exponential(mut x: Square, bits: usize) -> Square {
     while left_bits > 0 {
         term = product(&term, &x);
         for component in term.iter_mut().flatten() {
-            *component = component.clone() / big(n, bits);
+            *component = component.clone() / Bits(bits).of(n);
         }
         for (sum, term) in map.iter_mut().flatten().zip(term.iter().flatten()) {
             *sum = sum.clone() + term;
@@ -154,12 +143,8 @@ fn exponential(mut x: Square, bits: usize) -> Square {
     map
 }
 
-fn product(a: &Square, b: &Square) -> Square {
-    from_fn(|i| from_fn(|j| &a[i][0] * &b[0][j] + &a[i][1] * &b[1][j] + &a[i][2] * &b[2][j]))
-}
-
 /// The exponent of the largest power of two ≤ |x|; the smallest integer for 0.
-fn exponent_of(x: &FBig) -> isize {
+fn exponent_of(x: &Big) -> isize {
     if x.repr().significand().is_zero() { isize::MIN } else { x.repr().exponent() + x.digits() as isize - 1 }
 }
 
@@ -168,13 +153,13 @@ fn exponent(x: &Square) -> isize {
     x.iter().flatten().map(exponent_of).max().unwrap_or(isize::MIN)
 }
 
-fn scaled(q: [FBig; 3]) -> [FBig; 3] {
+fn scaled(q: [Big; 3]) -> [Big; 3] {
     let largest = q.iter().map(exponent_of).max().unwrap_or(0);
     q.map(|component| component >> largest)
 }
 
 /// The sine of the angle between two vectors of about length 1.
-fn apart(a: &[FBig; 3], b: &[FBig; 3]) -> f64 {
+fn apart(a: &[Big; 3], b: &[Big; 3]) -> f64 {
     let cross: [f64; 3] = from_fn(|i| {
         let (j, k) = ((i + 1) % 3, (i + 2) % 3);
         (&a[j] * &b[k] - &a[k] * &b[j]).to_f64().value()
@@ -182,7 +167,7 @@ fn apart(a: &[FBig; 3], b: &[FBig; 3]) -> f64 {
     cross.iter().map(|x| x * x).sum::<f64>().sqrt()
 }
 
-fn unit(q: &[FBig; 3]) -> [f64; 3] {
+fn unit(q: &[Big; 3]) -> [f64; 3] {
     let q: [f64; 3] = from_fn(|i| q[i].to_f64().value());
     let length = q.iter().map(|x| x * x).sum::<f64>().sqrt();
     q.map(|x| x / length)

@@ -151,7 +151,7 @@ impl Matrices {
         &self,
         simd: S,
         f: impl Fn(Eight<S>, &[[Eight<S>; 3]; 3], Eight<S>) -> [Eight<S>; N],
-    ) -> [Eight<S>; N] {
+    ) -> [Big; N] {
         let all = |x: [f64; 2]| Eight::all(simd, x);
         let zero = all([0.0; 2]);
         let mut sums = [zero; N];
@@ -171,30 +171,12 @@ impl Matrices {
                 sums[i] = sums[i].plus(values[i]);
             }
         }
-        sums
+        sums.map(Eight::total)
     }
 
     /// The doubles nearest to ⟨|p_i|⟩; `None` where pairs of doubles do not settle them.
     pub fn projections(&self) -> Option<[f64; 3]> {
-        let sums = dispatch!(Level::new(), simd => self.sums_of_projections(simd));
-        nearest(sums.map(|sum| sum * Covariance::step() / PRECISION.pi()))
-    }
-
-    /// Those nearest to a_ij, in the order of [`PAIRS`].
-    pub fn second(&self) -> Option<[f64; 6]> {
-        let sums = dispatch!(Level::new(), simd => self.sums_of_second(simd));
-        nearest(sums.map(|sum| (sum * Covariance::step()) >> 1))
-    }
-
-    /// Those nearest to a_ijkl, in the order of [`QUADRUPLES`].
-    pub fn fourth(&self) -> Option<[f64; 15]> {
-        let sums = dispatch!(Level::new(), simd => self.sums_of_fourth(simd));
-        nearest(sums.map(|sum| (sum * Covariance::step()) >> 2))
-    }
-
-    #[inline(always)]
-    fn sums_of_projections<S: Simd>(&self, simd: S) -> [Big; 3] {
-        let sums = self.sums(
+        let sums = dispatch!(Level::new(), simd => self.sums(
             simd,
             #[inline(always)]
             |x, adjugate, determinant| {
@@ -204,13 +186,13 @@ impl Matrices {
                 }
                 values
             },
-        );
-        sums.map(Eight::total)
+        ));
+        nearest(sums.map(|sum| sum * Covariance::step() / PRECISION.pi()))
     }
 
-    #[inline(always)]
-    fn sums_of_second<S: Simd>(&self, simd: S) -> [Big; 6] {
-        let sums = self.sums(
+    /// Those nearest to a_ij, in the order of [`PAIRS`].
+    pub fn second(&self) -> Option<[f64; 6]> {
+        let sums = dispatch!(Level::new(), simd => self.sums(
             simd,
             #[inline(always)]
             |x, adjugate, determinant| {
@@ -221,13 +203,13 @@ impl Matrices {
                 }
                 values
             },
-        );
-        sums.map(Eight::total)
+        ));
+        nearest(sums.map(|sum| (sum * Covariance::step()) >> 1))
     }
 
-    #[inline(always)]
-    fn sums_of_fourth<S: Simd>(&self, simd: S) -> [Big; 15] {
-        let sums = self.sums(
+    /// Those nearest to a_ijkl, in the order of [`QUADRUPLES`].
+    pub fn fourth(&self) -> Option<[f64; 15]> {
+        let sums = dispatch!(Level::new(), simd => self.sums(
             simd,
             #[inline(always)]
             |x, n, determinant| {
@@ -241,8 +223,8 @@ impl Matrices {
                 }
                 values
             },
-        );
-        sums.map(Eight::total)
+        ));
+        nearest(sums.map(|sum| (sum * Covariance::step()) >> 2))
     }
 }
 
