@@ -9,7 +9,8 @@
 //! let problem = bed.refused("depth_mm", "expected a number > 0");
 //! assert_eq!((problem.line, &problem.message[..]), (Some(1), "bed.depth_mm is missing: expected a number > 0"));
 //! document.set("bed.width_mm", 4.5.into())?;
-//! assert_eq!(document.root().table("bed").expect("a table").read("width_mm"), Some(4.5));
+//! let bed = document.root().table("bed").expect("a table");
+//! assert_eq!((bed.read("width_mm"), bed.line("width_mm")), (Some(4.5), 1)); // set without a line
 //! # Ok::<(), shearbed::Error>(())
 //! ```
 
