@@ -1,19 +1,13 @@
 //! The model's limit as Δt → 0 if the arms are bounded, and the difference of the two updates if they are not
 //! (docs/src/theory/time-step.md).
 
-use crate::judge::accept::Design;
-use crate::judge::case::{Case, Effort, Evidence};
-use crate::judge::lab;
-use crate::judge::statistics::{Sample, larger};
+use super::*;
 use crate::oracle::jeffery::direction_rate_per_s;
 use crate::oracle::naive::NaiveProblem;
 use crate::studies::kicks::averaged::{Apart, apart, scene};
-use nalgebra::{UnitVector3, Vector3};
-use rayon::prelude::*;
 use shearbed::model::collision::{share_velocity, step_angles, turn};
 use shearbed::model::contact::contact;
 use shearbed::model::orientation::from_angles;
-use shearbed::motion::Propagator;
 
 pub fn cases() -> Vec<Case> {
     vec![

@@ -1,12 +1,7 @@
 //! A suspension that is written and restarted from the file: every rod's length, r_e, direction and place.
 
-use crate::judge::accept::Design;
-use crate::judge::case::{Case, Effort, Evidence};
-use crate::judge::lab;
-use crate::judge::statistics::Sample;
-use rayon::prelude::*;
-use shearbed::Suspension;
-use shearbed::scene::{OwnRods, RodsFile, Scene};
+use super::*;
+use shearbed::scene::{OwnRods, RodsFile};
 
 /// A change of the rods that were written.
 type Way = fn(&mut OwnRods);

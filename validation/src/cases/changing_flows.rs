@@ -1,13 +1,10 @@
 //! Flows one after another, exact for free rods: `[[flow.steps]]`.
 
-use crate::judge::case::{Case, Effort, Evidence};
+use super::*;
 use crate::judge::lab::{changed, free_scene};
-use crate::judge::statistics::larger;
 use crate::methods::integrators::apart_rad;
 use crate::oracle::exponential::{Rod, Span};
-use shearbed::Plan;
-use shearbed::run::ensemble;
-use shearbed::scene::{Flow, FlowStep, Orientation, Scene, Time};
+use shearbed::scene::FlowStep;
 use shearbed::suspension::snapshot::Snapshot;
 
 /// The result of a scene.

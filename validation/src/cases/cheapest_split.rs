@@ -1,12 +1,10 @@
 //! The claims of `docs/src/verification/integrators.md` about the cheapest split of a run.
 
 use super::work_precision_coupled::first;
-use crate::judge::case::{Case, Effort, Evidence};
-use crate::judge::lab::{self, Shared};
-use crate::judge::statistics::{Estimate, Sample, covariance};
+use super::*;
+use crate::judge::statistics::covariance;
 use crate::studies::suspensions::coupled::interacting;
 use crate::studies::suspensions::split::{Constants, Scope, Split};
-use shearbed::Scene;
 
 /// A change of the split to run.
 type Respell = fn(&mut Split);

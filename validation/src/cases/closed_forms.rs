@@ -4,19 +4,9 @@
 mod damping;
 
 use self::damping::{Factor, in_plane_start, spread_damping};
-use crate::judge::accept::{Design, kolmogorov_samples};
-use crate::judge::case::{Case, Effort, Evidence};
-use crate::judge::lab::{self, Change, per_replica};
-use crate::judge::statistics::{Sample, larger};
-use crate::oracle::{closed_form, isotropic, quadrature};
-use nalgebra::UnitVector3;
-use shearbed::model::flow::VelocityGradient;
-use shearbed::model::orientation;
-use shearbed::motion::Propagator;
-use shearbed::observable::Channel;
-use shearbed::run::ensemble;
-use shearbed::scene::Orientation;
-use std::f64::consts::{PI, SQRT_2, TAU};
+use super::*;
+use crate::oracle::{isotropic, quadrature};
+use std::f64::consts::SQRT_2;
 
 /// A change to the scene, and the orbit constant C_b of a direction of a rod of aspect ratio r.
 struct Orbit {

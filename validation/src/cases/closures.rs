@@ -1,12 +1,10 @@
 //! Closures of orientation tensors, which are used by problems, verdicts and a study.
 
-use crate::judge::case::{Case, Effort, Evidence};
-use crate::judge::statistics::worst;
+use super::*;
 use crate::methods::tensors::{Closure, Equation, Fourth, Model};
 use crate::oracle::reference::big::{Bits, double};
 use crate::oracle::reference::isotropic::{Covariance, PAIRS, QUADRUPLES};
 use crate::oracle::reference::motion::{Motion, Unit};
-use nalgebra::Matrix3;
 
 type Of = fn(Closure, &Matrix3<f64>) -> Fourth;
 

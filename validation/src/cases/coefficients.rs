@@ -1,14 +1,9 @@
 //! ⟨pppp⟩ and the rods' stress.
 
-use crate::judge::accept::Design;
-use crate::judge::case::{Case, Effort, Evidence};
-use crate::judge::lab::{self, Change};
-use crate::judge::statistics::{Sample, worst};
+use super::*;
 use crate::oracle::{moments, spheroid};
-use shearbed::Observable;
 use shearbed::model::shape::Correlation;
-use shearbed::observable::Channel;
-use shearbed::scene::{Particles, Scene};
+use shearbed::scene::Particles;
 
 pub fn cases() -> Vec<Case> {
     let right = Read { change: |_| {}, place: |k| k };

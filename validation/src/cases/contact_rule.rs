@@ -3,15 +3,9 @@
 mod properties;
 
 use self::properties::PROPERTIES;
-use crate::judge::case::{Case, Effort, Evidence};
-use crate::judge::statistics::larger;
-use nalgebra::{Rotation3, UnitVector3, Vector3};
-use rand::{RngExt, SeedableRng};
-use rand_pcg::Pcg64Dxsm;
+use super::*;
 use shearbed::model::collision::{angle_rates, share_velocity, step_angles, turn};
 use shearbed::model::contact::contact;
-use shearbed::model::orientation;
-use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Two rods just before a collision: positions, directions, the liquid's velocities and ṗ.
 #[derive(Clone, Copy, Debug)]

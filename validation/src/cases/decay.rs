@@ -8,12 +8,7 @@ mod dying;
 
 use self::dying::{damped, dies_out, on_all_axes, undamped};
 use super::interpretations::LINE;
-use crate::judge::accept::Design;
-use crate::judge::case::{Case, Effort, Evidence};
-use crate::judge::lab::{self, Change, per_replica};
-use crate::judge::statistics::Sample;
-use shearbed::observable::Channel;
-use shearbed::scene::Scene;
+use super::*;
 use std::f64::consts::E;
 
 /// Values of a parameter, in the order in which the paper says that oscillations decay faster.

@@ -1,15 +1,11 @@
 //! The distribution of rods with rotary diffusion, against results that need no harmonics.
 
-use crate::judge::case::{Case, Effort, Evidence};
-use crate::judge::statistics::larger;
+use super::*;
 use crate::oracle::diffusion::orbits::{mean_over_orbits, second_moments_of_orbit};
 use crate::oracle::diffusion::{Means, Motion, NoAnswer, Start, at, steady};
 use crate::oracle::reference::big::{Bits, double};
 use crate::oracle::reference::isotropic::{Covariance, PAIRS, QUADRUPLES};
 use crate::oracle::reference::motion::{Motion as Free, Unit};
-use nalgebra::Matrix3;
-use rand::{RngExt, SeedableRng};
-use rand_pcg::Pcg64Dxsm;
 
 /// A flow, an aspect ratio and C_I.
 type Asked = ([[f64; 3]; 3], f64, f64);

@@ -1,11 +1,7 @@
 //! The choice of colliding rods: P_c and its empirical frequency.
 
-use crate::judge::accept::Design;
-use crate::judge::case::{Case, Effort, Evidence};
-use crate::judge::lab::{self, Change};
-use crate::judge::statistics::{Sample, larger};
+use super::*;
 use crate::oracle::naive::{collision_probability, expected_candidates};
-use rayon::prelude::*;
 use shearbed::model::collision::reach;
 
 pub fn cases() -> Vec<Case> {

@@ -1,17 +1,12 @@
 //! Experiments (Figs 4 and 5): judged if the measured points are supplied, `NoData` otherwise.
 
 use super::fit_covers::set;
+use super::*;
 use crate::files::FileError;
 use crate::input::experiment::{self, ANCZUROWSKI, Comparison, MeasuredCurve, OKAGAWA_MASON, Runs, Source};
-use crate::judge::accept::Rule;
-use crate::judge::case::{Case, Effort, Evidence};
-use crate::judge::lab::{self, Change};
-use crate::judge::statistics::{Sample, worst};
 use crate::serve::fit::Range;
 use crate::serve::fit::data::TimeColumn;
 use crate::serve::fit::scenes::Scenes;
-use shearbed::observable::Channel;
-use shearbed::scene::{Orientation, Scene};
 
 pub fn cases() -> Vec<Case> {
     vec![

@@ -6,15 +6,9 @@ mod whole;
 use self::placed::{Pair, step_of_the_core, step_with_squares};
 use self::whole::{Ended, TRACE, TRACE_BECAUSE, by_exponential, extreme_scenes, whole_run};
 use super::extremes::{LENGTH, LENGTH_BECAUSE, off_length};
-use crate::judge::case::{Case, Effort, Evidence};
-use crate::judge::lab;
-use crate::judge::statistics::larger;
+use super::*;
 use crate::studies::stability::map::ASPECT_RATIOS;
-use nalgebra::{Matrix3, Vector3};
-use shearbed::model::jeffery::{couette_rate, shape_factor, strain_per_period};
-use shearbed::run::ensemble;
-use shearbed::scene::{Orientation, Scene, Update};
-use shearbed::{Observable, Suspension};
+use shearbed::model::jeffery::couette_rate;
 
 /// The functions that step rods; a control replaces one of them.
 struct Model {
@@ -166,8 +160,8 @@ fn scenes(effort: &Effort) -> Vec<Scene> {
             lab::interaction(scene).update = Update::Angles;
             lab::interaction(scene).alpha = 1e3;
         }),
-        scene(|scene| scene.flow = shearbed::scene::Flow::Shear { shear_rate_per_s: 1e-30 }),
-        scene(|scene| scene.flow = shearbed::scene::Flow::Shear { shear_rate_per_s: 1e30 }),
+        scene(|scene| scene.flow = Flow::Shear { shear_rate_per_s: 1e-30 }),
+        scene(|scene| scene.flow = Flow::Shear { shear_rate_per_s: 1e30 }),
         scene(|scene| lab::interaction(scene).min_contact_arm = f64::MIN_POSITIVE),
         scene(|scene| {
             scene.time.duration = 3e-5;

@@ -1,17 +1,10 @@
 //! The core in stiff and extreme cases: no NaN, no panic, |p| = 1 to 4 ulp, C to its bound.
 
-use crate::judge::case::{Case, Effort, Evidence};
-use crate::judge::statistics::larger;
+use super::*;
 use crate::methods::integrators::{RodProblem, Setting, closed_form};
 use crate::studies::stability::corners;
 use crate::studies::stability::map::{ASPECT_RATIOS, STEPS};
-use nalgebra::{Matrix3, Rotation3, UnitVector3, Vector3};
-use shearbed::model::flow::VelocityGradient;
-use shearbed::model::jeffery::shape_factor;
-use shearbed::model::orientation;
 use shearbed::model::phase::Phase;
-use shearbed::motion::Propagator;
-use std::f64::consts::TAU;
 
 /// A function that returns the direction of a rod of aspect ratio r at the shear rate G after a number of periods.
 type Motion = fn(f64, f64, &UnitVector3<f64>, f64) -> Vector3<f64>;

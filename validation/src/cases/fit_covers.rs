@@ -10,11 +10,8 @@
 mod outright;
 mod rods;
 
+use super::*;
 use crate::input::start::Starts;
-use crate::judge::accept::{Design, kolmogorov_samples};
-use crate::judge::case::{Case, Effort, Evidence};
-use crate::judge::lab::{self, Shared};
-use crate::judge::statistics::Sample;
 use crate::methods::least_squares::Datum;
 use crate::methods::least_squares::basis::Basis;
 use crate::methods::least_squares::emulator::{Coefficients, Emulator, coefficients};
@@ -23,11 +20,7 @@ use crate::serve::fit::Range;
 use crate::serve::fit::data::TimeColumn;
 use crate::serve::fit::scenes::{AS_WRITTEN, Scenes, Set};
 use crate::serve::fit::search::{Fit, Measured, fitted};
-use rand::{RngExt, SeedableRng};
 use rand_distr::{Distribution, StandardNormal};
-use rand_pcg::Pcg64Dxsm;
-use rayon::prelude::*;
-use shearbed::Scene;
 use std::sync::Arc;
 
 /// The α behind the synthetic points, and its place between the ends of the range, −1 and 1, at no node.

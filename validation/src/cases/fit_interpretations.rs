@@ -6,9 +6,8 @@
 //! `docs/src/theory/fits.md`.
 
 use super::fit_covers::set;
-use crate::judge::accept::Rule;
-use crate::judge::case::{Case, Effort, Evidence};
-use crate::judge::lab::{self, Shared, problem};
+use super::*;
+use crate::judge::lab::problem;
 use crate::methods::least_squares::Datum;
 use crate::methods::least_squares::basis::Basis;
 use crate::methods::least_squares::emulator::{Coefficients, coefficients};
@@ -19,11 +18,7 @@ use crate::serve::fit::data::TimeColumn;
 use crate::serve::fit::scenes::{AS_WRITTEN, Scenes};
 use crate::serve::fit::search::{Fit, Measured, fitted};
 use crate::studies::interpretations::Change;
-use rand::{RngExt, SeedableRng};
 use rand_distr::StandardNormal;
-use rand_pcg::Pcg64Dxsm;
-use rayon::prelude::*;
-use shearbed::Scene;
 
 const PLANTED: f64 = 0.8;
 /// The two suspensions: n a³ = 0.0075 and 0.75.

@@ -1,17 +1,12 @@
 //! The coefficient of Folgar & Tucker, and its limits as a description.
 
+use super::*;
 use crate::input::published::folgar_tucker;
-use crate::judge::accept::Design;
-use crate::judge::case::{Case, Effort, Evidence};
-use crate::judge::lab::{self, Change, Shared};
-use crate::judge::statistics::{Sample, correlation};
+use crate::judge::statistics::correlation;
 use crate::methods::coefficients::jumps::{Quantity, Shares, Watch, above};
 use crate::methods::coefficients::{Diffusing, Diffusion, Means, free, watched};
 use crate::studies::coefficients::jumps::{diffused, kicked};
 use crate::studies::coefficients::{self, Places};
-use nalgebra::Matrix3;
-use rayon::prelude::*;
-use shearbed::model::jeffery::{shape_factor, strain_per_period};
 
 pub fn cases() -> Vec<Case> {
     vec![

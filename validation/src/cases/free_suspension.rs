@@ -1,12 +1,7 @@
 //! Whole runs of free rods against closed forms that contain no simulation.
 
-use crate::judge::accept::Design;
-use crate::judge::case::{Case, Effort, Evidence};
-use crate::judge::lab::{self, Change};
-use crate::judge::statistics::larger;
+use super::*;
 use crate::oracle::isotropic;
-use shearbed::observable::Channel;
-use shearbed::run::ensemble;
 
 pub fn cases() -> Vec<Case> {
     vec![
@@ -18,7 +13,7 @@ pub fn cases() -> Vec<Case> {
             .mistake("aspect ratios spread by 3.6 %", |scene| scene.particles.aspect_ratio_sd_percent = 3.6)
             .mistake("the flow turned round", |scene| {
                 // u_1 = G x_2: axes 1 and 2 exchanged.
-                scene.flow = shearbed::scene::Flow::Gradient { gradient_per_s: [[0.0, 0.5, 0.0], [0.0; 3], [0.0; 3]] };
+                scene.flow = Flow::Gradient { gradient_per_s: [[0.0, 0.5, 0.0], [0.0; 3], [0.0; 3]] };
             })
             .check(|change, effort| compare(&UNIFORM, *change, effort)),
         Case::core("free-polydisperse")

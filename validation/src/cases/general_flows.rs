@@ -3,13 +3,9 @@
 mod problems;
 mod scenes;
 
-use crate::judge::case::{Case, Effort, Evidence};
-use crate::judge::lab::Shared;
-use nalgebra::{Matrix3, UnitVector3, Vector3};
+use super::*;
 use problems::{FlowProblem, Kind, random};
-use shearbed::model::flow::VelocityGradient;
-use shearbed::model::jeffery::shape_factor;
-use shearbed::motion::{Moved, Propagator, Span};
+use shearbed::motion::{Moved, Span};
 use shearbed::plan::free_motion::MAX_ERROR_RAD;
 use std::sync::Arc;
 
@@ -60,7 +56,7 @@ pub fn cases() -> Vec<Case> {
             })
             .mistake("nearly plane taken as plane: the flow along axis 3 left out", |scene| {
                 let mut plane = scene.clone();
-                if let shearbed::scene::Flow::Gradient { gradient_per_s: rows } = &mut plane.flow
+                if let Flow::Gradient { gradient_per_s: rows } = &mut plane.flow
                     && rows[2][2].abs() < 1e-4
                 {
                     let third = rows[2][2];

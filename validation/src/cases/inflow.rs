@@ -1,11 +1,7 @@
 //! Rods in flows that keep the liquid's volume: the control volume stays evenly filled.
 
-use crate::judge::accept::kolmogorov_samples;
-use crate::judge::case::{Case, Effort, Evidence};
-use crate::judge::lab;
+use super::*;
 use crate::oracle::naive::{Mistake, carry, stream};
-use rand::RngExt;
-use shearbed::scene::{Scene, Time};
 
 pub fn cases() -> Vec<Case> {
     let mistake = |mistake| Inflow::Wrong(Some(mistake));
@@ -95,7 +91,7 @@ fn ends(inflow: &Inflow, effort: &Effort, count: usize, gradient: Gradient, box_
 fn scene(effort: &Effort, count: usize, gradient: Gradient, box_mm: [f64; 3]) -> Scene {
     let mut scene = lab::interacting_scene(effort);
     scene.particles.count = count;
-    scene.flow = shearbed::scene::Flow::Gradient { gradient_per_s: gradient };
+    scene.flow = Flow::Gradient { gradient_per_s: gradient };
     lab::set_box_mm(&mut scene, box_mm);
     scene.time = Time { steps_per_unit: Some(STEPS_PER_STRAIN), outputs_per_unit: Some(1), ..Time::strain(1.0) };
     scene

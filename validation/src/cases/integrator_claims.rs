@@ -2,13 +2,10 @@
 
 use super::integrators::Integrators;
 use super::integrators::spoiled::in_p;
-use crate::judge::case::{Case, Effort, Evidence};
-use crate::judge::statistics::larger;
+use super::*;
 use crate::methods::integrators::*;
 use crate::studies::stability::orbit::Place;
 use crate::studies::work_precision::order;
-use nalgebra::{Matrix3, Vector3};
-use std::f64::consts::PI;
 
 /// A function that returns ṗ at an aspect ratio, in units of G.
 type Rate = fn(&RodProblem, &Vector3<f64>) -> Vector3<f64>;

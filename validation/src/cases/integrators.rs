@@ -2,11 +2,10 @@
 
 pub(super) mod spoiled;
 
-use crate::judge::case::{Case, Effort, Evidence};
-use crate::judge::statistics::larger;
+use super::*;
 use crate::methods::integrators::*;
 use crate::studies::work_precision::order::{self, ORDER_TOLERANCE};
-use nalgebra::{Vector2, Vector3};
+use nalgebra::Vector2;
 use spoiled::{in_angles, in_p, spoiled, whole_turns};
 
 /// A function that makes the integrators under test, for each check.

@@ -1,14 +1,9 @@
 //! What the paper leaves open: interpretations that change X̄₁ of Fig. 7's rods, and some that do not.
 
-use crate::judge::accept::Design;
-use crate::judge::case::{Case, Effort, Evidence};
-use crate::judge::lab::{self, per_replica};
-use crate::judge::statistics::Sample;
+use super::*;
 use crate::oracle::naive::{Lines, Naive, NaiveProblem, Who, mean_projections};
 use crate::studies::interpretations::Change;
-use rayon::prelude::*;
-use shearbed::observable::Channel;
-use shearbed::scene::{Interaction, Update};
+use shearbed::scene::Interaction;
 
 /// The width of a drawn line, in rod lengths: 1 % of an axis from 0 to ½, the amplitude of free rods.
 pub(super) const LINE: f64 = 0.005;

@@ -1,17 +1,10 @@
 //! Jeffery's equations one by one: the rate of a run's rods against A.1 to A.3 as printed, and the motion of a whole
 //! run against A.4 and A.5.
 
-use crate::judge::case::{Case, Effort, Evidence};
-use crate::judge::lab::{self, Change};
-use crate::judge::statistics::larger;
+use super::*;
 use crate::methods::integrators::apart_rad;
-use crate::oracle::{closed_form, jeffery as printed};
-use nalgebra::{Matrix3, Vector3};
-use shearbed::Observable;
-use shearbed::model::jeffery::{couette_rate, shape_factor};
-use shearbed::model::orientation;
-use shearbed::run::ensemble;
-use shearbed::scene::{Orientation, Scene};
+use crate::oracle::jeffery as printed;
+use shearbed::model::jeffery::couette_rate;
 
 /// A function that returns ṗ per unit of strain for direction p, aspect ratio r and the sign of G.
 type Rate = fn(&Vector3<f64>, f64, f64) -> Vector3<f64>;
@@ -56,7 +49,7 @@ pub fn cases() -> Vec<Case> {
                 scene.particles.aspect_ratio *= 1.0 + 1e-6;
             })
             .mistake("−G for G", |scene| {
-                scene.flow = shearbed::scene::Flow::Gradient { gradient_per_s: [[0.0; 3], [-0.5, 0.0, 0.0], [0.0; 3]] };
+                scene.flow = Flow::Gradient { gradient_per_s: [[0.0; 3], [-0.5, 0.0, 0.0], [0.0; 3]] };
             })
             .mistake("φ from axis 2", |scene| {
                 if let Orientation::Given { phi_deg, .. } = &mut scene.particles.orientation {

@@ -1,10 +1,7 @@
 //! The tail of the kicks and their upper bound (docs/src/theory/time-step.md).
 
 use super::kicks::fresh_scene;
-use crate::judge::accept::Design;
-use crate::judge::case::{Case, Effort, Evidence};
-use crate::judge::lab;
-use crate::judge::statistics::{Sample, larger};
+use super::*;
 use crate::oracle::kicks::{kicks, largest_kick};
 use crate::studies::kicks::{Angles, kicks_rad, step_strain, tail};
 

@@ -1,16 +1,9 @@
 //! The frequency of kicks, and its dependence on the time step (docs/src/theory/time-step.md).
 
-use crate::judge::accept::Design;
-use crate::judge::case::{Case, Effort, Evidence};
-use crate::judge::lab::{self, Shared};
-use crate::judge::statistics::Sample;
+use super::*;
 use crate::oracle::kicks::{chance_of_threads, tail_of_isotropic};
 use crate::oracle::pairing::{Pair, nearest_pairs};
 use crate::studies::kicks::{Counted, KICKS, is_above, kicks_rad, of_one_step, rates, step_strain};
-use rayon::prelude::*;
-use shearbed::Suspension;
-use shearbed::scene::Scene;
-use std::f64::consts::PI;
 
 pub fn cases() -> Vec<Case> {
     vec![

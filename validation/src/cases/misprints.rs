@@ -2,15 +2,8 @@
 //!
 //! A.13 is in `contact_rule`, eq. 14's text in `encounters`, the period's number (eq. 15) in `motion`.
 
-use crate::judge::accept::Rule;
-use crate::judge::case::{Case, Effort, Evidence};
-use crate::judge::lab;
-use crate::judge::statistics::larger;
+use super::*;
 use crate::methods::integrators::rk4;
-use nalgebra::{Matrix3, UnitVector3, Vector3};
-use shearbed::model::flow::VelocityGradient;
-use shearbed::model::orientation;
-use shearbed::motion::Propagator;
 use shearbed::observable::{Block, Observable, Sum};
 
 pub fn cases() -> Vec<Case> {

@@ -51,7 +51,25 @@ mod volume_shapes;
 mod work_precision;
 mod work_precision_coupled;
 
-use crate::judge::case::Case;
+// What most cases use: the files of this folder begin with `use super::*`.
+use crate::judge::accept::{Design, Rule, kolmogorov_samples};
+use crate::judge::case::{Case, Effort, Evidence};
+use crate::judge::lab::{self, Change, Shared, per_replica};
+use crate::judge::statistics::{Estimate, Sample, larger, worst};
+use crate::oracle::closed_form;
+use nalgebra::{Matrix3, Rotation3, UnitVector3, Vector3};
+use rand::{RngExt, SeedableRng};
+use rand_pcg::Pcg64Dxsm;
+use rayon::prelude::*;
+use shearbed::model::flow::VelocityGradient;
+use shearbed::model::jeffery::{shape_factor, strain_per_period};
+use shearbed::model::orientation;
+use shearbed::motion::Propagator;
+use shearbed::observable::Channel;
+use shearbed::run::ensemble;
+use shearbed::scene::{Flow, Orientation, Scene, Time, TimeUnit, Update};
+use shearbed::{Observable, Plan, Suspension};
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 /// Every case, in the order of the report.
 pub fn all() -> Vec<Case> {

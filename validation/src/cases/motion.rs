@@ -3,18 +3,15 @@
 mod integrated;
 
 use self::integrated::integrated_motion;
-use crate::judge::case::{Case, Effort, Evidence};
-use crate::judge::statistics::larger;
+use super::*;
 use crate::oracle::jeffery::direction_rate_per_s;
-use crate::oracle::{closed_form, quadrature};
-use nalgebra::{Matrix3, SVector, UnitVector3, Vector3};
+use crate::oracle::quadrature;
+use nalgebra::SVector;
 use ode_solvers::dop_shared::OutputType;
 use ode_solvers::{Dop853, System};
-use shearbed::model::flow::VelocityGradient;
-use shearbed::model::orientation;
 use shearbed::model::phase::Phase;
-use shearbed::motion::{self, Propagator};
-use std::f64::consts::{FRAC_2_PI, FRAC_PI_2, PI};
+use shearbed::motion;
+use std::f64::consts::FRAC_2_PI;
 
 /// A function that returns the direction after a time in s, for a rod of some aspect ratio in some flow.
 type Motion = fn(&VelocityGradient, f64, &UnitVector3<f64>, f64) -> UnitVector3<f64>;

@@ -1,15 +1,11 @@
 //! The orbits of rods: with weak rotary diffusion, whose distribution of C is known, and with collisions.
 
-use crate::judge::accept::Design;
-use crate::judge::case::{Case, Effort, Evidence};
-use crate::judge::lab::{self, Change, Shared};
-use crate::judge::statistics::Sample;
+use super::*;
 use crate::methods::coefficients::jumps::{Quantity, Shares, Watch, above};
 use crate::oracle::closed_form::orbit_constant_cdf;
 use crate::oracle::diffusion::orbits::cdf;
 use crate::studies::coefficients;
 use crate::studies::coefficients::jumps::{diffused, kicked};
-use shearbed::model::jeffery::strain_per_period;
 
 const ASPECT_RATIO: f64 = 11.6;
 

@@ -1,8 +1,7 @@
 //! The model against numbers that others published on related suspensions.
 
+use super::*;
 use crate::input::published::{SPH_ASPECT_RATIO, first_half_turn, sph_fibres};
-use crate::judge::case::{Case, Evidence};
-use shearbed::model::jeffery::strain_per_period;
 use shearbed::model::shape::spread;
 
 /// A function that returns the least and the greatest strain of half a turn of a cylinder of this physical aspect

@@ -1,11 +1,7 @@
 //! A richer model must reduce to the simpler one; standard errors are those of independent values.
 
-use crate::judge::case::{Case, Effort, Evidence};
-use crate::judge::lab::{self, per_replica};
-use crate::judge::statistics::{Sample, larger};
-use shearbed::observable::Channel;
+use super::*;
 use shearbed::run::ensemble::{self, Results};
-use shearbed::scene::Scene;
 
 /// The value of each parameter at its limit.
 #[derive(Clone, Copy)]

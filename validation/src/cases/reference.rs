@@ -1,12 +1,9 @@
 //! The core against the naive reference: the same draws, collision by collision.
 
-use crate::judge::case::{Case, Effort, Evidence};
-use crate::judge::lab::{self, problem};
-use crate::judge::statistics::larger;
+use super::*;
+use crate::judge::lab::problem;
 use crate::oracle::naive::{Mistake, Naive};
-use nalgebra::Vector3;
-use shearbed::Suspension;
-use shearbed::scene::{self, Orientation, Scene};
+use shearbed::scene;
 
 pub fn cases() -> Vec<Case> {
     let mistakes = Mistake::ALL.into_iter().map(|mistake| (name(mistake), Some(mistake)));

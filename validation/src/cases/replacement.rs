@@ -1,14 +1,7 @@
 //! The control volume: rods that leave it are replaced by eq. 14.
 
-use crate::judge::accept::kolmogorov_samples;
-use crate::judge::case::{Case, Effort, Evidence};
-use crate::judge::lab;
-use crate::judge::statistics::larger;
+use super::*;
 use crate::oracle::naive::stream;
-use rand::RngExt;
-use rand_pcg::Pcg64Dxsm;
-use shearbed::Suspension;
-use shearbed::model::jeffery::strain_per_period;
 
 pub fn cases() -> Vec<Case> {
     vec![

@@ -1,13 +1,7 @@
 //! Resolution of the motion by a step: X̄₁ of interacting rods at half a period, where free rods return to their
 //! start and too long a step has the largest effect, compared with X̄₁ at another step.
 
-use crate::judge::accept::Design;
-use crate::judge::case::{Case, Effort, Evidence};
-use crate::judge::lab::{self, Shared};
-use crate::judge::statistics::Sample;
-use shearbed::model::jeffery::strain_per_period;
-use shearbed::observable::Channel;
-use shearbed::scene::Scene;
+use super::*;
 
 /// Fig. 7's rods for half a period, with another mean aspect ratio and concentration.
 pub fn scene(effort: &Effort, aspect_ratio: f64, concentration_per_cm3: f64) -> Scene {

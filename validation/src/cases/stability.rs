@@ -2,8 +2,7 @@
 
 use super::integrators::Integrators;
 use super::integrators::spoiled::{in_angles, in_p, refuses, whole_turns};
-use crate::judge::case::{Case, Effort, Evidence};
-use crate::judge::statistics::larger;
+use super::*;
 use crate::methods::integrators::*;
 use crate::studies::stability::map::{self, ASPECT_RATIOS, Cell, Fate, STEPS, TOLERANCES};
 use crate::studies::stability::orbit::Place;

@@ -2,13 +2,7 @@
 //! The decay of oscillations is in `decay`. Effects and deviations come from pilots at seed 99.
 
 use super::interpretations::LINE;
-use crate::judge::accept::Design;
-use crate::judge::case::{Case, Effort, Evidence};
-use crate::judge::lab::{self, Change, per_replica};
-use crate::judge::statistics::{Sample, larger};
-use rayon::prelude::*;
-use shearbed::observable::Channel;
-use shearbed::scene::{Orientation, Update};
+use super::*;
 
 pub fn cases() -> Vec<Case> {
     vec![

@@ -1,12 +1,6 @@
 //! The steady state of interacting rods (Fig. 11).
 
-use crate::judge::accept::Design;
-use crate::judge::case::{Case, Effort, Evidence};
-use crate::judge::lab::{self, Change};
-use crate::judge::statistics::Sample;
-use crate::oracle::closed_form;
-use shearbed::Observable;
-use shearbed::observable::Channel;
+use super::*;
 
 pub fn cases() -> Vec<Case> {
     vec![

@@ -5,12 +5,10 @@ mod in_p;
 use self::in_p::{at_least, frozen, near_a_sphere};
 use super::integrators::Integrators;
 use super::integrators::spoiled::{in_angles, in_p};
-use crate::judge::case::{Case, Effort, Evidence};
-use crate::judge::statistics::larger;
+use super::*;
 use crate::methods::integrators::limits::{Limit, ONE_STEP, Property, TEN_PERIODS, bisect, holds};
 use crate::methods::integrators::*;
 use crate::studies::stability::theory;
-use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Integrators that should lose a property at a step given by theory.
 struct Claimed {

@@ -1,13 +1,7 @@
 //! Symmetries of the equations in whole runs.
 
 use super::reductions::difference;
-use crate::judge::accept::Design;
-use crate::judge::case::{Case, Effort, Evidence};
-use crate::judge::lab::{self, per_replica};
-use crate::judge::statistics::{Sample, larger};
-use nalgebra::UnitVector3;
-use shearbed::observable::Channel;
-use shearbed::scene::{Orientation, Scene};
+use super::*;
 
 /// The mapping from the first run of each pair to the second.
 #[derive(Clone, Copy)]
@@ -102,7 +96,7 @@ fn symmetries(mapping: &Mapping, effort: &Effort) -> Vec<Evidence> {
     let n = &mut lab::interaction(&mut lengths).concentration_per_cm3;
     *n = n.map(|n| n / mapping.per_volume);
     let mut times = base.clone();
-    times.flow = shearbed::scene::Flow::Shear { shear_rate_per_s: 0.5e-30 };
+    times.flow = Flow::Shear { shear_rate_per_s: 0.5e-30 };
     times.time.steps_per_unit = Some(mapping.steps_per_period);
 
     let given = |scene: &Scene, [phi_deg, theta_deg]: [f64; 2]| {
@@ -117,7 +111,7 @@ fn symmetries(mapping: &Mapping, effort: &Effort) -> Vec<Evidence> {
     let tail = given(&short, mapping.tail_deg);
 
     let mut mirror = lab::free_scene(effort);
-    mirror.flow = shearbed::scene::Flow::Gradient { gradient_per_s: [[0.0; 3], [-0.5, 0.0, 0.0], [0.0; 3]] };
+    mirror.flow = Flow::Gradient { gradient_per_s: [[0.0; 3], [-0.5, 0.0, 0.0], [0.0; 3]] };
     let mirror = given(&mirror, [mapping.mirrored_phi_deg, 70.0]);
     let straight = given(&lab::free_scene(effort), [25.0, 70.0]);
 
@@ -198,8 +192,7 @@ fn mirrored(mirror: &Mirror, effort: &Effort) -> Vec<Evidence> {
     let mut straight = lab::interacting_scene(effort);
     straight.time.outputs_per_unit = Some(1);
     let mut mirrored = straight.clone();
-    mirrored.flow =
-        shearbed::scene::Flow::Gradient { gradient_per_s: [[0.0; 3], [mirror.shear_rate_per_s, 0.0, 0.0], [0.0; 3]] };
+    mirrored.flow = Flow::Gradient { gradient_per_s: [[0.0; 3], [mirror.shear_rate_per_s, 0.0, 0.0], [0.0; 3]] };
     mirrored.ensemble.seed = effort.seed(2);
     lab::interaction(&mut mirrored).concentration_per_cm3 = Some(mirror.concentration_per_cm3);
     // Pilots at seed 99 of 600 replicas: changes over a period of −0.089, 0.140 and −0.089, which scatter by 0.022,

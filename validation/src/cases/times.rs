@@ -1,11 +1,7 @@
 //! The units of a run's times: seconds and strain.
 
-use crate::judge::case::{Case, Effort, Evidence};
+use super::*;
 use crate::judge::lab::{changed, free_scene, plan};
-use crate::judge::statistics::larger;
-use crate::oracle::closed_form;
-use shearbed::scene::{Flow, Scene, Time, TimeUnit};
-use std::f64::consts::TAU;
 
 /// A function that returns the seconds and the strain of one unit of a run's times.
 type UnitOf = fn(&Scene) -> [f64; 2];

@@ -4,17 +4,15 @@
 //! The first values are those that are shipped, or that the program prints. `bash docs/numbers.sh` writes the table of
 //! the verification guide from the evidence of this case.
 
-use crate::judge::case::{Case, Effort, Evidence};
-use crate::judge::statistics::{larger, worst};
+use super::*;
 use crate::methods::tensors;
-use crate::oracle::angle_grid;
-use crate::oracle::diffusion;
 use crate::oracle::isotropic::mean_projections_polydisperse;
 use crate::oracle::reference::big::{Big, Bits, decimal, double, length};
 use crate::oracle::reference::isotropic::Covariance;
 use crate::oracle::reference::motion::{Motion, Unit};
 use crate::oracle::reference::second;
 use crate::oracle::spheroid::stress_coefficients;
+use crate::oracle::{angle_grid, diffusion};
 use crate::serve::problems::{self, Built};
 use std::sync::LazyLock;
 

@@ -1,11 +1,7 @@
 //! The shape of the control volume, which has an effect at any number of rods: eq. 14 gives a rod that left other
 //! neighbours, H₁/(2H₂) times per rod and unit of strain.
 
-use crate::judge::accept::Design;
-use crate::judge::case::{Case, Effort, Evidence};
-use crate::judge::lab::{self, Shared};
-use crate::judge::statistics::Sample;
-use shearbed::observable::Channel;
+use super::*;
 use std::sync::Arc;
 
 /// Sides relative to those of the cube of the same volume.

@@ -1,18 +1,11 @@
 //! The error of a suspension's mean against the rods, as claimed by `docs/src/verification/integrators.md`. Nothing is
 //! timed.
 
-use crate::judge::accept::Design;
-use crate::judge::case::{Case, Effort, Evidence};
-use crate::judge::lab;
-use crate::judge::statistics::Sample;
+use super::*;
 use crate::methods::starts::{self, Start};
 use crate::oracle::naive::collision_probability;
 use crate::studies::suspensions::free::{Free, exponents};
 use crate::studies::suspensions::{blocks, law};
-use rand::{RngExt, SeedableRng};
-use rand_pcg::Pcg64Dxsm;
-use rayon::prelude::*;
-use std::f64::consts::PI;
 
 /// Ways to choose initial directions, with their claimed exponents.
 type Starts = Vec<Start>;

@@ -1,13 +1,10 @@
 //! Runs that share random numbers, as claimed by `docs/src/verification/integrators.md`.
 
-use crate::judge::accept::Design;
-use crate::judge::case::{Case, Effort, Evidence};
-use crate::judge::lab::{self, Change, Shared};
-use crate::judge::statistics::{Sample, correlation};
+use super::*;
+use crate::judge::statistics::correlation;
 use crate::studies::suspensions::coupled::{at, free, free_mean, interacting};
 use crate::studies::suspensions::job::Job;
 use crate::studies::suspensions::law;
-use shearbed::Scene;
 use statrs::statistics::Statistics;
 
 /// The changes of the free scene, of the scene with the other α, and of the scene whose closed form gives the mean.

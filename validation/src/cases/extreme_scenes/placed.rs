@@ -1,12 +1,8 @@
 //! Two rods at given places, closer to overflow than drawn rods ever are.
 
-use crate::judge::case::Effort;
-use crate::judge::lab;
-use nalgebra::{UnitVector3, Vector3};
+use super::*;
 use shearbed::model::collision::share_velocity;
 use shearbed::model::contact::contact;
-use shearbed::model::jeffery::{couette_rate, shape_factor, strain_per_period};
-use shearbed::scene::Scene;
 
 /// A pair of rods at given places.
 pub(super) struct Placed {

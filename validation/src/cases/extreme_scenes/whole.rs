@@ -1,8 +1,6 @@
 //! Whole runs of free rods at the extremes.
 
 use super::*;
-use crate::judge::statistics::worst;
-use shearbed::scene::TimeUnit;
 
 /// Bound of |tr⟨pp⟩ − 1|, where the trace is the mean of |p|².
 pub(super) const TRACE: f64 = 64.0 * f64::EPSILON;
@@ -81,7 +79,7 @@ pub(super) fn extreme_scenes(program: &Program, effort: &Effort) -> Vec<Evidence
         for g in [1e-30, 1e30] {
             scenes.push(scene(&|scene| {
                 scene.particles.aspect_ratio = r;
-                scene.flow = shearbed::scene::Flow::Shear { shear_rate_per_s: g };
+                scene.flow = Flow::Shear { shear_rate_per_s: g };
                 scene.time.outputs_per_unit = Some(4);
             }));
         }
@@ -113,9 +111,7 @@ pub(super) fn extreme_scenes(program: &Program, effort: &Effort) -> Vec<Evidence
         for [a, b, c] in [[e, -e, 0.0], [e, -0.5 * e, -0.5 * e]] {
             for r in [1.5, 1e8] {
                 scenes.push(scene(&|scene| {
-                    scene.flow = shearbed::scene::Flow::Gradient {
-                        gradient_per_s: [[a, 0.0, 0.0], [0.0, b, 0.0], [0.0, 0.0, c]],
-                    };
+                    scene.flow = Flow::Gradient { gradient_per_s: [[a, 0.0, 0.0], [0.0, b, 0.0], [0.0, 0.0, c]] };
                     scene.particles.aspect_ratio = r;
                     scene.particles.count = 1;
                     scene.time = shearbed::scene::Time::strain(strain);

@@ -1,19 +1,8 @@
 //! Points of free rods simulated at their own r_e, between the nodes, and the error of a fit to them. Free rods start
 //! alike in every replica, so that hardly any noise remains.
 
-use super::{POINTS, data, set};
-use crate::judge::case::{Effort, Evidence};
-use crate::judge::lab::{self, Shared};
-use crate::judge::statistics::Sample;
-use crate::methods::least_squares::basis::Basis;
-use crate::methods::least_squares::emulator::{Coefficients, Emulator, coefficients};
-use crate::methods::least_squares::likelihood::Rods;
-use crate::serve::fit::Range;
-use crate::serve::fit::data::TimeColumn;
-use crate::serve::fit::scenes::{AS_WRITTEN, Scenes};
-use crate::serve::fit::search::{Measured, fitted};
+use super::*;
 use nalgebra::{DMatrix, DVector};
-use shearbed::model::jeffery::strain_per_period;
 
 const RANGE: &str = "particles.aspect_ratio=11.1:11.6";
 /// The rods' r_e, and its place between the ends of the range, −1 and 1.

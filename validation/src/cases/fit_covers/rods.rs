@@ -4,19 +4,8 @@
 //! So the pool is all there is: its covariance is the right one. The example `fit_experiments` takes the rods of
 //! another simulator.
 
-use super::{DRAWN, Pool, SIMULATED, data, pool};
-use crate::judge::accept::Design;
-use crate::judge::case::{Effort, Evidence};
-use crate::judge::lab::Shared;
-use crate::judge::statistics::Sample;
-use crate::methods::least_squares::emulator::{Coefficients, Emulator};
-use crate::methods::least_squares::likelihood::Rods;
-use crate::serve::fit::search::{Measured, fitted};
+use super::*;
 use nalgebra::{DMatrix, DVector};
-use rand::{RngExt, SeedableRng};
-use rand_distr::StandardNormal;
-use rand_pcg::Pcg64Dxsm;
-use rayon::prelude::*;
 
 /// The index of the middle node among the inner ones.
 const MIDDLE: usize = 1;

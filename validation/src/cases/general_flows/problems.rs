@@ -2,11 +2,10 @@
 //! spiral and real; rotated in space; rods from 10⁻¹⁰⁰ to 10¹⁰⁰ and near 1; strains from 10⁻¹³ to 10⁶; starts on axes
 //! and in planes.
 
+use super::*;
 use crate::oracle::exponential::{Rod, Span};
-use nalgebra::{Matrix3, Rotation3, Vector3};
-use rand::{Rng, RngExt, SeedableRng};
+use rand::Rng;
 use rand_pcg::Pcg64;
-use rayon::prelude::*;
 
 /// A rod, its strain, and the oracle's final direction.
 #[derive(Clone, Copy, Debug)]

@@ -1,14 +1,9 @@
 //! Whole scenes that once gave wrong results: overflowing spirals, extreme shapes, near-parabolic flows, Couette flow
 //! rotated by 45°, a weak strain in a strong rotation.
 
-use crate::judge::case::{Effort, Evidence};
-use crate::judge::lab;
+use super::*;
 use crate::oracle::exponential::{Rod, Span};
 use shearbed::model::orientation::from_degrees;
-use shearbed::run::ensemble;
-use shearbed::scene::Time;
-use shearbed::scene::{Orientation, Scene};
-use shearbed::{Observable, Plan};
 
 /// A function that runs a scene of one rod: |p_i| at its end and the bound on its error, `None` if the scene is
 /// refused.
@@ -44,7 +39,7 @@ fn scene(&(gradient, r, [phi_deg, theta_deg], time): &Listed) -> Scene {
     scene.particles.count = 1;
     scene.particles.aspect_ratio = r;
     scene.particles.orientation = Orientation::Given { phi_deg, theta_deg };
-    scene.flow = shearbed::scene::Flow::Gradient { gradient_per_s: gradient };
+    scene.flow = Flow::Gradient { gradient_per_s: gradient };
     scene.time = match time {
         Ok(strain) => Time { outputs_per_unit: Some(1), ..Time::strain(strain) },
         Err(eighths) => Time { outputs_per_unit: Some(8), ..Time::periods(eighths / 8.0) },

@@ -1,8 +1,6 @@
 //! Integrators with a mistake, and integrators from a step function alone.
 
-use crate::methods::integrators::*;
-use nalgebra::{Vector2, Vector3};
-use std::f64::consts::TAU;
+use super::*;
 
 /// An integrator from a step function in (φ, θ).
 pub(in crate::cases) fn in_angles(
