@@ -1,21 +1,14 @@
 //! The cost of an answer: seconds to a stated error of X̄₁ at two periods, for this program, for the naive reference,
 //! and for a NumPy code as a researcher would write it.
 
-use crate::files::build;
-use crate::judge::lab;
-use crate::judge::statistics::Sample;
-use crate::oracle::naive::{Naive, NaiveProblem, Update as NaiveUpdate, mean_projections};
-use crate::present::plot::Curve;
-use crate::present::study::{Exhibit, Findings, ReportFigure, Request, Study};
-use crate::present::table::{ReportTable, decimals, number, powers, rows_csv, words};
-use serde::{Deserialize, Serialize};
-use shearbed::run::{ensemble, run_replica};
-use shearbed::scene::{Scene, Update};
+use super::*;
+use crate::oracle::naive::Update as NaiveUpdate;
+use serde::Deserialize;
 use std::io::{Read, Write};
 use std::process::{Child, Command, Stdio};
 use std::sync::mpsc::channel;
 use std::thread::spawn;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// The study of the cost of accuracy.
 pub const STUDY: Study = Study {

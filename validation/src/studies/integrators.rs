@@ -1,7 +1,8 @@
 //! The integrators that studies compare. Register your own here: it appears in every table of `bench`, `converge` and
 //! the report with the project's own, and no case judges it, so that it cannot fail the gate.
 
-use crate::methods::integrators::{Integrator, own};
+use super::*;
+use crate::methods::integrators::own;
 
 /// Integrators registered by users.
 fn guests() -> Vec<Integrator> {

@@ -5,13 +5,9 @@
 //! time step and replacement, two interpretations have the same rods at the same places with the same draws, and
 //! differ only in the effect of collisions. The errors of the differences rely on that.
 
+use super::*;
 use crate::files::cluster;
-use crate::judge::case::Effort;
-use crate::judge::statistics::Estimate;
-use crate::oracle::naive::{Images, Length, Lines, Naive, NaiveProblem, Replacement, Update, Who, mean_projections};
-use crate::present::study::{Findings, Request, Study};
-use crate::present::table::{ReportTable, difference, estimate, words};
-use rayon::prelude::*;
+use crate::oracle::naive::{Images, Length, Lines, Replacement, Update, Who};
 use std::convert::Infallible;
 use std::iter::once;
 

@@ -20,7 +20,31 @@ pub mod suspensions;
 mod tensors;
 pub mod work_precision;
 
-use crate::present::study::Study;
+// What most studies use: the files of this folder begin with `use super::*`.
+use crate::files::build;
+use crate::judge::case::Effort;
+use crate::judge::lab;
+use crate::judge::statistics::{Estimate, Sample, correlation, covariance, slope};
+use crate::methods::integrators::{Errors, Integrator, RodProblem, Setting, Theory, apart_rad, grade};
+use crate::oracle::naive::{Naive, NaiveProblem, mean_projections};
+use crate::present::plot::{Curve, Figure, Points};
+use crate::present::study::{Exhibit, Findings, ReportFigure, Request, Study};
+use crate::present::table::{
+    Column, ReportTable, columns_csv, decimals, difference, estimate, field, number, of_words, powers, rows_csv, words,
+};
+use nalgebra::{Matrix3, UnitVector3, Vector3};
+use rand::SeedableRng;
+use rand_pcg::Pcg64Dxsm;
+use rayon::prelude::*;
+use serde::Serialize;
+use shearbed::model::jeffery::{shape_factor, strain_per_period};
+use shearbed::observable::Channel;
+use shearbed::run::{ensemble, run_replica};
+use shearbed::scene::{Scene, Update};
+use shearbed::{Plan, Suspension};
+use std::collections::BTreeMap;
+use std::f64::consts::TAU;
+use std::time::Instant;
 
 /// Every study, in the order of the report.
 pub const ALL: [Study; 11] = [

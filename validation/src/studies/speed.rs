@@ -2,10 +2,7 @@
 
 mod measure;
 
-use crate::files::build;
-use crate::present::plot::Curve;
-use crate::present::study::{Exhibit, Findings, ReportFigure, Request, Study};
-use crate::present::table::{ReportTable, decimals, number, words};
+use super::*;
 use measure::{Amount, Check, Speed, Step, Target, measure};
 
 /// Seconds of one core for a step of a rod: 26 to 58 ns, for 10² to 10⁶ rods (docs/src/developer/performance.md).

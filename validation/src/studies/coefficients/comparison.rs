@@ -1,14 +1,10 @@
 //! Kicks compared with diffusion, as tables and pictures.
 
 use super::jumps::{Compared, STREAM};
-use crate::judge::case::Effort;
-use crate::judge::statistics::Sample;
+use super::*;
 use crate::methods::coefficients::jumps::{Apart, Quantity, Shares, above, apart};
 use crate::oracle::closed_form::orbit_constant_cdf;
 use crate::oracle::diffusion::orbits::cdf;
-use crate::present::plot::Curve;
-use crate::present::study::ReportFigure;
-use crate::present::table::{Column, ReportTable, decimals, estimate, field, number, words};
 
 /// One of the two samples of a comparison, and what turned its rods.
 type Side<'a> = (&'a Compared, &'static str, &'a [Shares]);

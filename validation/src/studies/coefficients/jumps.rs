@@ -1,15 +1,9 @@
 //! Kicks compared with rotary diffusion of the same C_I: how far rods deviate from Jeffery's motion after a fixed
 //! strain, and their final orbits and phases.
 
-use super::{Coefficients, Setting, scene};
-use crate::judge::case::Effort;
-use crate::judge::lab;
-use crate::judge::statistics::Estimate;
+use super::*;
 use crate::methods::coefficients::jumps::{Shares, Watch, observed};
 use crate::methods::coefficients::{Diffusing, Diffusion};
-use rayon::prelude::*;
-use shearbed::model::jeffery::shape_factor;
-use shearbed::scene::Scene;
 
 /// Shares of `replicas` replicas of interacting rods.
 pub fn kicked(scene: &Scene, watch: Watch, replicas: u64) -> Vec<Shares> {

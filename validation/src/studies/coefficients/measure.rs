@@ -1,18 +1,9 @@
 //! The runs from which the coefficients are measured.
 
-use crate::judge::case::Effort;
-use crate::judge::lab;
-use crate::judge::statistics::Estimate;
+use super::*;
 use crate::methods::coefficients::{Means, free, watched};
 use crate::studies::interpretations::damping_rate;
-use nalgebra::{Matrix3, UnitVector3};
-use rand::{RngExt, SeedableRng};
-use rand_pcg::Pcg64Dxsm;
-use rayon::prelude::*;
-use serde::Serialize;
-use shearbed::Suspension;
-use shearbed::model::jeffery::{shape_factor, strain_per_period};
-use shearbed::scene::{Scene, Update};
+use rand::RngExt;
 
 /// A suspension.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]

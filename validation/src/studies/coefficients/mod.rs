@@ -6,5 +6,6 @@ pub mod jumps;
 mod measure;
 pub mod study;
 
+use super::*;
 pub use measure::{Coefficients, FINER, Places, Setting, kick, rows, settings};
 pub(crate) use measure::{scene, windows};

@@ -1,17 +1,11 @@
 //! The study of the effective coefficients: C_I against concentration, shape and α, and how rods move at equal C_I.
 
-use super::comparison;
 use super::jumps::{self, Compared};
-use super::{Coefficients, FINER, Places, rows, settings};
-use crate::files::build;
+use super::*;
 use crate::input::published::folgar_tucker;
-use crate::judge::statistics::{Estimate, Sample, slope, student};
+use crate::judge::statistics::student;
 use crate::methods::coefficients::jumps::{Quantity, above};
 use crate::oracle::diffusion::orbits::{mean_over_orbits, shear_stress_of_isotropic, shear_stress_of_orbit};
-use crate::present::plot::Points;
-use crate::present::study::{Exhibit, Findings, ReportFigure, Request, Study};
-use crate::present::table::{Column, ReportTable, decimals, estimate, field, number, words};
-use shearbed::scene::Update;
 
 /// C_I, and the rods' stress.
 pub const STUDY: Study = Study {

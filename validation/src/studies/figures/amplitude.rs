@@ -5,7 +5,7 @@
 //! it gives free rods of one size an amplitude of "approximately 1/2", and half of this height would not.
 
 use super::run::{Run, with_band};
-use crate::present::plot::Curve;
+use super::*;
 
 /// A₁ against t/T, with a 95 % band from the same heights in every replica.
 ///

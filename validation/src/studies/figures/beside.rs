@@ -1,8 +1,6 @@
 //! The table for a figure: its own curves and points at a few abscissas.
 
-use crate::present::plot::{Curve, Figure};
-use crate::present::study::ReportFigure;
-use crate::present::table::{Column, ReportTable, decimals, estimate, field, number};
+use super::*;
 
 /// A row for each point of the first series, or against time for each quarter of a period at which a series has a
 /// value: free rods return every half period, so that whole and half periods alone would show no motion. One column for

@@ -1,8 +1,7 @@
 //! The measured points of a scene's experiment, if the user supplies them.
 
+use super::*;
 use crate::input::experiment::{self, Measured};
-use crate::judge::case::Effort;
-use crate::present::plot::{Figure, Points};
 
 /// Adds the measured points of a scene to its figure, and returns a sentence on them for the caption.
 pub(super) fn measured(scene: &str, effort: &Effort, figure: &mut Figure) -> Result<String, String> {

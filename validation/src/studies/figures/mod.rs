@@ -6,8 +6,7 @@ mod measured;
 mod paper;
 mod run;
 
-use crate::judge::case::Effort;
-use crate::present::study::{Exhibit, Findings, ReportFigure, Request, Study};
+use super::*;
 pub use run::Replicas;
 use run::Runs;
 

@@ -3,10 +3,8 @@
 use super::amplitude::amplitude;
 use super::measured::measured;
 use super::run::{Run, Runs};
-use crate::judge::case::Effort;
+use super::*;
 use crate::oracle::closed_form;
-use crate::present::plot::{Curve, Points};
-use crate::present::study::ReportFigure;
 
 const PROJECTION: &str = "mean projection (rod lengths)";
 const AMPLITUDE: &str = "amplitude A₁ of X̄₁ (rod lengths)";

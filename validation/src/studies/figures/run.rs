@@ -1,16 +1,10 @@
 //! The built-in scenes of the figures, run replica by replica, and their curves.
 
+use super::*;
 use crate::files::cluster;
 use crate::input::scenes::{self, BuiltIn};
-use crate::judge::case::Effort;
-use crate::judge::statistics::Sample;
-use crate::present::plot::Curve;
 use crate::present::study::ScenePlan;
-use shearbed::observable::Channel;
 use shearbed::run::Replica;
-use shearbed::run::ensemble;
-use shearbed::{Plan, Scene};
-use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// The number of replicas of each scene.

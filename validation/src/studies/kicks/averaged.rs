@@ -1,13 +1,7 @@
 //! The core against the averaged motion: the same rods at the same places, with and without draws; and the update
 //! `angles` against `rotation`, with the same draws.
 
-use crate::judge::case::Effort;
-use crate::judge::lab;
-use crate::judge::statistics::Sample;
-use crate::oracle::naive::{Naive, NaiveProblem};
-use rayon::prelude::*;
-use shearbed::observable::Channel;
-use shearbed::scene::{Scene, Update};
+use super::*;
 
 /// The distance of one replica of the model from the averaged motion.
 #[derive(Clone, Copy, Debug, PartialEq)]

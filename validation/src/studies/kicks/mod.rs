@@ -8,14 +8,8 @@ pub mod averaged;
 pub mod study;
 pub mod tail;
 
-use crate::judge::lab;
-use crate::judge::statistics::Sample;
+use super::*;
 use crate::oracle::kicks::chance_of_pair;
-use nalgebra::Vector3;
-use rayon::prelude::*;
-use shearbed::Suspension;
-use shearbed::model::jeffery::strain_per_period;
-use shearbed::scene::Scene;
 use shearbed::suspension::Collision;
 use std::ops::Range;
 

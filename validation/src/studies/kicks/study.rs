@@ -1,15 +1,8 @@
 //! The study of the limit Δt → 0: kicks against the step, their tail, the averaged motion, the two updates.
 
 use super::tail::{self, Exponent};
-use super::{Counts, KICKS, StepCounts, averaged, kicks_rad, rates};
+use super::*;
 use crate::input::scenes;
-use crate::judge::case::Effort;
-use crate::judge::lab;
-use crate::judge::statistics::Sample;
-use crate::present::plot::Points;
-use crate::present::study::{Exhibit, Findings, ReportFigure, Request, Study};
-use crate::present::table::{Column, ReportTable, decimals, estimate, field, number, words};
-use shearbed::scene::Scene;
 
 /// Kicks, averaged motion and updates as Δt → 0.
 pub const STUDY: Study = Study {

@@ -1,9 +1,6 @@
 //! The exponent of the tail of the kicks.
 
-use super::{Angles, is_above, of_one_step};
-use crate::judge::lab;
-use rayon::prelude::*;
-use shearbed::scene::Scene;
+use super::*;
 
 /// An exponent of a tail P(κ > x) ∝ x^−α.
 #[derive(Clone, Copy, Debug, PartialEq)]

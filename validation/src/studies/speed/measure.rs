@@ -1,18 +1,11 @@
 //! The measurements: each is the least of several, after one for warming up.
 
-use crate::judge::case::Effort;
-use crate::judge::lab;
+use super::*;
 use crate::methods::least_work::{plain_sum, sum_of_inverse_roots};
-use crate::oracle::naive::{Naive, NaiveProblem};
 use crate::oracle::reference::motion::{Motion, Unit};
 use crate::oracle::reference::table::{self, Start};
-use rayon::prelude::*;
-use serde::Serialize;
-use shearbed::run::{ensemble, memory, run_replica};
-use shearbed::scene::Scene;
-use shearbed::{Plan, Suspension};
+use shearbed::run::memory;
 use std::hint::black_box;
-use std::time::Instant;
 
 /// The size of the study.
 #[derive(Clone, Copy)]

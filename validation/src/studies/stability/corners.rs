@@ -1,8 +1,7 @@
 //! The core's motion of free rods in every corner of plane Couette flow.
 
-use super::map;
+use super::*;
 use crate::judge::statistics::larger;
-use nalgebra::{UnitVector3, Vector3};
 use shearbed::model::flow::VelocityGradient;
 use shearbed::motion::Propagator;
 

@@ -2,11 +2,8 @@
 
 use super::maps::ratio;
 use super::theory::THEORIES;
+use super::*;
 use crate::methods::integrators::limits::{Ladder, Limit, ONE_STEP, Property, TEN_PERIODS, bisect, holds};
-use crate::methods::integrators::{Integrator, Theory};
-use crate::present::plot::{Curve, Points};
-use crate::present::study::{Exhibit, ReportFigure};
-use crate::present::table::{ReportTable, of_words};
 
 /// The aspect ratios at which limits are sought: all of them over one step, the first seven over ten periods.
 const LIMIT_RATIOS: [f64; 9] = [1.01, 1.5, 2.0, 2.5, 3.0, 11.6, 100.0, 1e4, 1e5];

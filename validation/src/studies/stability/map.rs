@@ -1,11 +1,9 @@
 //! The fate of a rod over wide ranges: aspect ratio by step, by start, by duration.
 
 use super::orbit::Place;
-use crate::methods::integrators::{Failure, Integrator, RodProblem, Setting, Theory, apart_rad};
+use super::*;
+use crate::methods::integrators::Failure;
 use crate::studies::work_precision::order::round_off;
-use nalgebra::Vector3;
-use serde::Serialize;
-use std::f64::consts::TAU;
 
 /// The outcome of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]

@@ -3,11 +3,9 @@
 use super::map::{self, ASPECT_RATIOS, Cell, Fate, PERIODS, TOLERANCES};
 use super::orbit::Place;
 use super::theory::THEORIES;
+use super::*;
 use crate::methods::integrators::limits::Property;
-use crate::methods::integrators::{Integrator, Setting, Theory};
 use crate::present::plot::{Grid, Map, decade, power_of_ten};
-use crate::present::study::ReportFigure;
-use shearbed::model::jeffery::strain_per_period;
 
 /// The largest number of steps in a run of the maps over steps and over starts; ten times as many over durations.
 pub const MOST_STEPS: u64 = 20_000;

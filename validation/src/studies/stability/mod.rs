@@ -8,3 +8,5 @@ pub mod maps;
 pub mod orbit;
 pub mod study;
 pub mod theory;
+
+use super::*;

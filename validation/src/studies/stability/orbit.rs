@@ -1,8 +1,7 @@
 //! A rod at a place of its orbit, from the poles to the plane of shear, without angles: every component keeps all its
 //! digits at any aspect ratio.
 
-use nalgebra::{UnitVector3, Vector3};
-use std::f64::consts::TAU;
+use super::*;
 
 /// A place on an orbit: p ∝ (c cos κ, r_e c sin κ, z), with κ growing by 2π in a period (A.4, A.5; C = c/|z|, eq. 13).
 #[derive(Clone, Copy, Debug, PartialEq)]

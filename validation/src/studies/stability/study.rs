@@ -1,12 +1,9 @@
 //! The study of stability: maps of outcomes, and the longest steps compared with theory.
 
 use super::corners::{self, Worst};
-use super::limit_study;
 use super::map::{self, ASPECT_RATIOS, Cell, STEPS};
 use super::maps::{self, MOST_STEPS, ratio, tolerances_from_fine, with_theory, with_tolerance};
-use crate::methods::integrators::{Integrator, Theory};
-use crate::present::study::{Exhibit, Findings, Request, Study};
-use crate::present::table::{ReportTable, decimals, number, of_words};
+use super::*;
 use crate::studies::integrators;
 
 /// The study of stability.

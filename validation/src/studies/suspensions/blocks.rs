@@ -1,7 +1,6 @@
 //! The standard deviation of a mean against its number of replicas.
 
-use super::{Estimate, covariance, slope};
-use serde::Serialize;
+use super::*;
 use statrs::function::gamma::digamma;
 
 /// The standard deviation of means over blocks of replicas.

@@ -5,14 +5,9 @@
 //! - *Control variate*: the same rods without collisions, whose mean has a closed form, to correct the mean.
 
 use super::job::Job;
-use super::{Estimate, correlation, covariance};
+use super::*;
 use crate::oracle::isotropic;
-use crate::present::table::{ReportTable, decimals, field, number};
-use rayon::prelude::*;
-use serde::Serialize;
-use shearbed::observable::Channel;
-use shearbed::run::run_replica;
-use shearbed::{Observable, Plan, Scene};
+use shearbed::Observable;
 
 /// X̄₁ at each mark, for each replica.
 pub type Values = Vec<Vec<f64>>;

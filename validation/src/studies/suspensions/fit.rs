@@ -1,8 +1,8 @@
 //! Straight lines through means that share random numbers, and the observed order.
 
+use super::*;
 use crate::studies::bisect::bisect;
 use nalgebra::{DMatrix, DVector};
-use serde::Serialize;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 /// A mean for each level, and their covariances.

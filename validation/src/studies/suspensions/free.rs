@@ -1,13 +1,10 @@
 //! Free suspensions: the error of X̄₁ against the rods and the run time, for every way to choose initial directions. No
 //! time step is needed: the remaining error is that of the sample.
 
+use super::*;
 use crate::methods::starts::{self, Rod, Start};
 use crate::oracle::isotropic;
 use crate::studies::work_precision::{Budget, Seconds, measure};
-use rand::SeedableRng;
-use rand_pcg::Pcg64Dxsm;
-use rayon::prelude::*;
-use serde::Serialize;
 
 /// The errors of X̄₁ for which the cheapest start is sought.
 pub const TARGETS: [f64; 4] = [1e-2, 1e-3, 1e-4, 1e-6];

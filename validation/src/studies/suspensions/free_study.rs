@@ -1,15 +1,11 @@
 //! The study of free suspensions: how to choose their initial directions.
 
 use super::free::{Amount, Bench, Point, SCENES, StartCurve, TARGETS};
-use crate::files::build;
+use super::*;
 use crate::methods::starts;
-use crate::present::plot::Curve;
-use crate::present::study::{Exhibit, Findings, ReportFigure, Request, Study};
-use crate::present::table::{Column, ReportTable, columns_csv, difference, field, number, words};
 use crate::studies::work_precision::Budget;
 use crate::studies::work_precision::rows::seconds;
 use crate::studies::work_precision::study::{NOT_REACHED, time};
-use std::collections::BTreeMap;
 
 /// The study of the initial directions of free rods.
 pub const STUDY: Study = Study {

@@ -5,16 +5,10 @@ use super::coupled::{self, Coupled};
 use super::job::Job;
 use super::law::{self, JobMean, Law, Replicas};
 use super::split::{self, Constants, Realised, Scope, Split, TARGETS};
-use super::{Estimate, law_tables};
-use crate::files::build;
+use super::*;
 use crate::input::scenes;
-use crate::present::plot::{Curve, Points};
-use crate::present::study::{Exhibit, Findings, ReportFigure, Request, Study};
-use crate::present::table::{Column, ReportTable, columns_csv, field, number, powers, words};
 use crate::studies::work_precision::study::time;
 use crate::studies::work_precision::{Budget, measure as clock};
-use serde::Serialize;
-use shearbed::model::jeffery::strain_per_period;
 
 /// The study of steps, rods and replicas of interacting rods.
 pub const STUDY: Study = Study {

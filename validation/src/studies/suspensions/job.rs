@@ -1,11 +1,10 @@
 //! One run of an interacting scene: replicas at one time step and one number of rods. Jobs are independent of each
 //! other and return plain data, so that they may run anywhere.
 
-use rayon::prelude::*;
-use serde::{Deserialize, Serialize};
+use super::*;
+use serde::Deserialize;
 use shearbed::model::orientation::bounded_orbit_constant;
 use shearbed::scene::Time;
-use shearbed::{Plan, Scene, Suspension};
 
 /// Number of values at which distribution functions are evaluated: 0.1, 0.2, … 0.9.
 pub const PLACES: usize = 9;

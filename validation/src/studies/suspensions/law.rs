@@ -5,12 +5,7 @@
 use super::blocks::{Block, blocks, replicas_exponent};
 use super::fit::{Line, Means, Order};
 use super::job::{Job, PLACES, Trace, x1};
-use super::{Estimate, correlation};
-use crate::methods::integrators::apart_rad;
-use nalgebra::Vector3;
-use serde::Serialize;
-use shearbed::model::jeffery::strain_per_period;
-use shearbed::{Plan, Scene};
+use super::*;
 use std::collections::BTreeSet;
 
 /// The numbers of steps per period that are tried.

@@ -1,11 +1,8 @@
 //! Convergence in law as tables, rows of CSV and a picture.
 
-use super::Estimate;
 use super::blocks::Block;
 use super::law::{Change, JobMean, Law};
-use crate::present::plot::{Curve, Points};
-use crate::present::study::ReportFigure;
-use crate::present::table::{ReportTable, columns_csv, decimals, difference, estimate, field, number, words};
+use super::*;
 
 /// Tables against steps, rods and replicas; `strain` is that of a period.
 pub fn law(law: &Law, strain: f64) -> [ReportTable; 4] {

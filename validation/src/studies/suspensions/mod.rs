@@ -13,4 +13,4 @@ pub mod law;
 pub mod law_tables;
 pub mod split;
 
-use crate::judge::statistics::{Estimate, correlation, covariance, slope};
+use super::*;

@@ -4,13 +4,10 @@
 //! Mean-square error = (b/S + c N^(−1/3))² + v/(N M) for S steps per period, N rods and M replicas; cost = N M S rods
 //! times steps.
 
-use super::Estimate;
-use super::coupled;
 use super::job::{Job, x1};
 use super::law::{FACES, JobMean, Law};
+use super::*;
 use crate::studies::bisect::bisect;
-use serde::Serialize;
-use shearbed::Scene;
 
 /// The errors of X̄₁ for which splits are sought.
 pub const TARGETS: [f64; 3] = [1e-2, 3e-3, 1e-3];

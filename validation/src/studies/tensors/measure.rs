@@ -1,11 +1,8 @@
 //! Measurements of closures.
 
+use super::*;
 use crate::methods::tensors::{APART, Closure, Equation, Model, at, isotropic, steady};
 use crate::oracle::diffusion::{self, Means, Motion, Start};
-use nalgebra::Matrix3;
-use rayon::prelude::*;
-use serde::Serialize;
-use std::time::Instant;
 
 pub const FLOWS: [(&str, [[f64; 3]; 3]); 3] = [
     ("shear", [[0.0; 3], [1.0, 0.0, 0.0], [0.0; 3]]),

@@ -2,3 +2,5 @@
 
 mod measure;
 pub mod study;
+
+use super::*;

@@ -1,11 +1,8 @@
 //! The study of closures: their error over C_I and flow, and their work compared with the exact solver's.
 
 use super::measure::{FLOWS, Fitted, Off, Work, errors, fitted, work};
-use crate::files::build;
+use super::*;
 use crate::methods::tensors::Closure;
-use crate::present::plot::{Curve, Points};
-use crate::present::study::{Exhibit, Findings, ReportFigure, Request, Study};
-use crate::present::table::{ReportTable, decimals, field, number, powers, rows_csv, words};
 
 /// The study of closures.
 pub const STUDY: Study = Study {

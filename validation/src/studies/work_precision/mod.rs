@@ -6,8 +6,7 @@ pub mod rows;
 pub mod study;
 mod time;
 
-use crate::methods::integrators::{Errors, Integrator, RodProblem, Setting, Theory, grade};
-use serde::Serialize;
+use super::*;
 pub(crate) use time::measure;
 pub use time::{Budget, Seconds};
 

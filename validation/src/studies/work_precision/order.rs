@@ -1,11 +1,8 @@
 //! The convergence of a fixed-step integrator: observed order with its sign, Richardson's value and
 //! Roache's grid convergence index.
 
-use crate::methods::integrators::{Errors, Integrator, RodProblem, Setting, Theory, grade};
+use super::*;
 use crate::studies::integrators;
-use nalgebra::UnitVector3;
-use serde::Serialize;
-use shearbed::Scene;
 use shearbed::scene::TimeUnit;
 
 /// The largest difference of an observed order from theory (DiffEqDevTools.jl's convergence tests). Its sign is kept.

@@ -1,9 +1,7 @@
 //! The records of the study as CSV.
 
 use super::order::{Convergence, Halving};
-use super::{Bench, IntegratorCurve, Point, Seconds};
-use crate::methods::integrators::Errors;
-use crate::present::table::{Column, columns_csv, field, words};
+use super::*;
 
 /// The content of bench.csv.
 pub fn bench_csv(benches: &[Bench]) -> Result<String, String> {

@@ -2,14 +2,9 @@
 
 use super::order::{self, Convergence, OrderVerdict, Orders, Richardson};
 use super::rows::bench_csv;
-use super::{Bench, Budget, IntegratorCurve, PARTS, Point, TARGETS_RAD};
-use crate::files::build;
-use crate::methods::integrators::{Errors, Theory};
-use crate::present::plot::{Curve, Points};
-use crate::present::study::{Exhibit, Findings, ReportFigure, Request, Study};
-use crate::present::table::{Column, NONE, ReportTable, decimals, field, number, powers, words};
+use super::*;
+use crate::present::table::NONE;
 use crate::studies::integrators;
-use std::collections::BTreeMap;
 
 /// The study of every integrator at every aspect ratio.
 pub const STUDY: Study = Study {

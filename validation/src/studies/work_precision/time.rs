@@ -1,8 +1,7 @@
 //! Run times.
 
-use serde::Serialize;
+use super::*;
 use std::hint::black_box;
-use std::time::Instant;
 
 /// Limits of the time for measurements.
 #[derive(Clone, Copy, Debug, PartialEq)]
