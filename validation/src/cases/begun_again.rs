@@ -3,7 +3,6 @@
 use super::*;
 use shearbed::scene::{OwnRods, RodsFile};
 
-/// A change of the rods that were written.
 type Way = fn(&mut OwnRods);
 
 pub fn cases() -> Vec<Case> {

@@ -30,7 +30,6 @@ pub fn name_judges(sections: &mut Sections) {
     }
 }
 
-/// The numbers of the paper's figures.
 const FIGURES: RangeInclusive<u32> = 1..=12;
 
 /// Every equation with the cases of the registry that test it.

@@ -7,7 +7,6 @@ use crate::oracle::exponential::{Rod, Span};
 use shearbed::scene::FlowStep;
 use shearbed::suspension::snapshot::Snapshot;
 
-/// The result of a scene.
 struct Moved {
     /// Aspect ratio, initial direction and final direction of each rod.
     rods: Vec<(f64, [f64; 3], [f64; 3])>,
@@ -111,7 +110,6 @@ fn reversed(gradient_per_s: [[f64; 3]; 3], strain: f64) -> Vec<FlowStep> {
     vec![FlowStep { gradient_per_s, strain }, FlowStep { gradient_per_s: back, strain }]
 }
 
-/// The angle in rad between two directions.
 fn apart(a: &[f64; 3], b: &[f64; 3]) -> f64 {
     apart_rad(&(*a).into(), &(*b).into())
 }

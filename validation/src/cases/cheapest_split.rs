@@ -6,7 +6,6 @@ use crate::judge::statistics::covariance;
 use crate::studies::suspensions::coupled::interacting;
 use crate::studies::suspensions::split::{Constants, Scope, Split};
 
-/// A change of the split to run.
 type Respell = fn(&mut Split);
 
 pub fn cases() -> Vec<Case> {
@@ -27,7 +26,6 @@ struct Known {
     reference: Estimate,
 }
 
-/// Rods of the split.
 const RODS: usize = 25;
 
 /// Steps of the study, coarse and fine, and replicas of each.

@@ -8,13 +8,11 @@ use super::*;
 use crate::oracle::{isotropic, quadrature};
 use std::f64::consts::SQRT_2;
 
-/// A change to the scene, and the orbit constant C_b of a direction of a rod of aspect ratio r.
 struct Orbit {
     change: Change,
     constant: fn([f64; 3], f64) -> f64,
 }
 
-/// The core's orbit constant with a change of the scene.
 fn orbit(change: Change) -> Orbit {
     Orbit { change, constant: orientation::bounded_orbit_constant }
 }

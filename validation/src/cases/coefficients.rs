@@ -68,7 +68,6 @@ pub fn cases() -> Vec<Case> {
     ]
 }
 
-/// A change of the scene, and the channel that is used for each component.
 #[derive(Clone, Copy)]
 struct Read {
     change: Change,
@@ -119,7 +118,6 @@ fn fourth_moments(read: &Read, effort: &Effort) -> Vec<Evidence> {
     evidence
 }
 
-/// The indices of a channel a_ijkl, from its name.
 fn indices(channel: Channel) -> [usize; 4] {
     let name = channel.name().into_bytes();
     std::array::from_fn(|k| usize::from(name[k + 1] - b'1'))
@@ -155,7 +153,6 @@ fn traces(read: &Read, effort: &Effort) -> f64 {
 /// A function of σ₁₂, N₁ and N₂ as the model reports them.
 type Stress = fn([f64; 3]) -> [f64; 3];
 
-/// σ₁₂, N₁ and N₂ from the closed integral.
 fn exact_stress(turns: f64) -> [f64; 3] {
     let sheared = |i, j| moments::fourth(ASPECT_RATIO, turns, [i, j, 0, 1]);
     [sheared(0, 1), sheared(1, 1) - sheared(0, 0), sheared(0, 0) - sheared(2, 2)]
@@ -195,7 +192,6 @@ fn particle_stress(stress: &Stress, effort: &Effort) -> Vec<Evidence> {
     evidence
 }
 
-/// A change of the scene, and a function of σ₁₂, N₁ and N₂.
 #[derive(Clone, Copy)]
 struct Pascals {
     change: Change,

@@ -23,14 +23,12 @@ fn core_rule(pair: &Pair) -> Option<[Vector3<f64>; 2]> {
     with_arms(pair, |arms| arms)
 }
 
-/// The core's rule with changed arms.
 fn with_arms(pair: &Pair, arms: fn([f64; 2]) -> [f64; 2]) -> Option<[Vector3<f64>; 2]> {
     let mut contact = contact(&(pair.x[1] - pair.x[0]), &pair.p[0], &pair.p[1], [0.0; 2])?;
     contact.arms = arms(contact.arms);
     Some(share_velocity(&contact, &(pair.u[1] - pair.u[0]), pair.rate))
 }
 
-/// The core's rule with its change of ṗ times `factor`.
 fn scaled_change(pair: &Pair, factor: f64) -> Option<[Vector3<f64>; 2]> {
     let after = core_rule(pair)?;
     Some([0, 1].map(|k| pair.rate[k] + (after[k] - pair.rate[k]) * factor))

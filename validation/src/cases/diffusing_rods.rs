@@ -7,9 +7,7 @@ use crate::oracle::reference::big::{Bits, double};
 use crate::oracle::reference::isotropic::{Covariance, PAIRS, QUADRUPLES};
 use crate::oracle::reference::motion::{Motion as Free, Unit};
 
-/// A flow, an aspect ratio and C_I.
 type Asked = ([[f64; 3]; 3], f64, f64);
-/// A function that returns the motion to solve.
 type Model = fn(Asked) -> Motion;
 
 pub fn cases() -> Vec<Case> {

@@ -1,12 +1,10 @@
 //! The paper's equations, and the code that implements them: with the registry of cases this makes the traceability
 //! table.
 
-/// One numbered equation of the paper.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Equation {
     /// The number, such as `15` or `A.13`.
     pub number: &'static str,
-    /// The content in words.
     pub says: &'static str,
     /// The implementation in a run, as `file.rs: item` (or a folder in place of the file).
     pub code: &'static [&'static str],
@@ -92,7 +90,6 @@ mod tests {
         }
     }
 
-    /// Every Rust file of the core.
     fn core(folder: &Path, files: &mut Vec<PathBuf>) {
         for entry in std::fs::read_dir(folder).unwrap() {
             let path = entry.unwrap().path();

@@ -112,7 +112,6 @@ fn runs(effort: &Effort, stream: u64) -> Runs {
     Runs { replicas: effort.pick(100, 2000), seed: effort.seed(stream) }
 }
 
-/// One goodness of fit for each scene with points.
 fn agreement(source: &Source, change: Change, effort: &Effort) -> Result<Vec<Evidence>, FileError> {
     let (curves, late) = judged(source, effort)?;
     if curves.is_empty() {

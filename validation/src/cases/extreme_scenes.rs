@@ -14,7 +14,6 @@ use shearbed::model::jeffery::couette_rate;
 struct Model {
     /// Returns the directions of the rods after the steps so far.
     directions: fn(&Suspension) -> Vec<Vector3<f64>>,
-    /// The result of a step for two rods at given places.
     pair: Pair,
     /// A change to the scenes that count how often rods meet.
     meeting: fn(&mut Scene),
@@ -22,7 +21,6 @@ struct Model {
 
 const CORE: Model = Model { directions: |suspension| suspension.directions(), pair: step_of_the_core, meeting: |_| {} };
 
-/// A function that runs a scene.
 type Program = fn(&Scene) -> Ended;
 
 pub fn cases() -> Vec<Case> {

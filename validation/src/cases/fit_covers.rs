@@ -42,7 +42,6 @@ const STEPS_PER_PERIOD: u64 = 100;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Way {
     AsItIs,
-    /// The interval is half as long.
     HalfAsLong,
     /// The simulated curve counts as exact.
     SimulationExact,
@@ -80,7 +79,6 @@ pub fn cases() -> Vec<Case> {
     ]
 }
 
-/// The simulations, which run once.
 struct Pool {
     /// Each replica at every node: with the model's spread of r_e, then without it.
     replicas: Vec<Coefficients>,
@@ -139,7 +137,6 @@ fn pool(effort: &Effort) -> Result<Pool, String> {
 
 static SIMULATED: Shared<(), Result<Pool, String>> = Shared::new();
 
-/// The fit of repeat number `k`.
 fn repeat(pool: &Pool, way: Way, seed: u64, k: u64) -> Result<Fit, String> {
     let mut rng = Pcg64Dxsm::seed_from_u64(seed.wrapping_add(k.wrapping_mul(0x9E37_79B9_7F4A_7C15)));
     let noise: Vec<f64> = (0..POINTS).map(|_| StandardNormal.sample(&mut rng)).collect();
@@ -161,7 +158,6 @@ fn repeat(pool: &Pool, way: Way, seed: u64, k: u64) -> Result<Fit, String> {
     fitted(&measured, &pool.basis, &vec![(pool.range.from, pool.range.to)], &drawn)
 }
 
-/// The results of a fit that the cases use.
 struct Fitted {
     /// Lower and upper ends of the 68 and 95 % intervals.
     intervals: [(f64, f64); 2],
@@ -245,7 +241,6 @@ fn covers(way: &Way, effort: &Effort) -> Result<Vec<Evidence>, String> {
 /// The distance from the distribution of χ² to detect.
 const DISTANCE: f64 = 0.15;
 
-/// Number of repeats that show [`DISTANCE`].
 fn laws(effort: &Effort) -> u64 {
     effort.pick(1, 4) * kolmogorov_samples(DISTANCE)
 }

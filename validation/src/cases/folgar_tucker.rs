@@ -98,15 +98,12 @@ fn seven(read: &fn(f64) -> f64, effort: &Effort) -> Vec<Evidence> {
     ]
 }
 
-/// An estimate of C_I from rods that are watched.
 struct Estimator {
     /// The map of Jeffery's motion over a strain.
     alone: fn(f64) -> Matrix3<f64>,
-    /// C_I of the means.
     of: fn(&Means) -> f64,
 }
 
-/// The planted C_I of the synthetic rods.
 const PLANTED: f64 = 0.01;
 /// Λ of r_e = 3, at which the mistake Λ = 1 shows.
 const LAMBDA: f64 = 0.8;
@@ -159,9 +156,7 @@ fn effective(estimator: &Estimator, effort: &Effort) -> Vec<Evidence> {
 /// The cause of rotation in addition to the liquid.
 #[derive(Clone, Copy)]
 enum Turned {
-    /// The suspension's collisions, with a change.
     ByKicks(Change),
-    /// Rotary diffusion.
     ByDiffusion,
 }
 

@@ -49,7 +49,6 @@ type Problem = (f64, f64, &'static [usize]);
 const UNIFORM: [Problem; 4] = [(1.5, 0.0, &[2, 20]), (5.0, 0.0, &[10]), (11.6, 0.0, &[2, 10]), (50.0, 0.0, &[20])];
 const UNEQUAL: [Problem; 3] = [(11.6, 3.6, &[10, 20]), (14.2, 8.5, &[20]), (5.0, 7.2, &[10])];
 
-/// X̄_i of many free rods.
 fn compare(problems: &[Problem], change: Change, effort: &Effort) -> Vec<Evidence> {
     let problems = (0..).zip(problems);
     problems.flat_map(|(stream, problem)| compare_one(*problem, change, effort, effort.seed(stream))).collect()

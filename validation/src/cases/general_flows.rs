@@ -164,7 +164,6 @@ fn answerable(problem: &FlowProblem) -> bool {
     condition < 1e12 && 1e3 * 2f64.powi(-106) * turned.powi(3) * condition <= MAX_ERROR_RAD
 }
 
-/// The outcomes of problems with similar condition numbers.
 #[derive(Clone, Copy, Default)]
 struct Decades {
     answered: u32,

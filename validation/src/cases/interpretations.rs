@@ -10,13 +10,11 @@ pub(super) const LINE: f64 = 0.005;
 
 const CONCENTRATION_PER_CM3: f64 = 200.0;
 
-/// An alternative interpretation, and its effect on X̄₁.
 #[derive(Clone, Copy)]
 struct Alternative {
     model: Model,
     /// +1 if X̄₁ should be larger because rods are damped less, −1 if it should be smaller.
     sign: f64,
-    /// The least change.
     bound: f64,
     /// The effect beyond the bound, three standard errors below the pilot's mean, and its scatter.
     design: Design,

@@ -166,7 +166,6 @@ fn one_rod(change: &Change, effort: &Effort) -> Vec<Evidence> {
     ]
 }
 
-/// One rod at an output.
 struct Rod {
     direction: Vector3<f64>,
     phi: f64,

@@ -38,11 +38,8 @@ pub fn cases() -> Vec<Case> {
 /// to collide, and the chance that a collision kicks a rod by more than some factor times κ.
 type Expected = fn(&Fresh, &dyn Fn(f64) -> f64) -> f64;
 
-/// The results of the first step of one replica.
 struct Fresh {
-    /// Number of nearest pairs.
     pairs: f64,
-    /// The sum of the pairs' chances to collide.
     chances: f64,
     /// Number of rods that were kicked by more than κ.
     kicked: f64,
@@ -108,7 +105,6 @@ pub(super) fn fresh_scene(effort: &Effort, count: usize, steps_per_period: u64) 
     scene
 }
 
-/// The nearest pairs of a suspension and their chances to collide.
 fn pairs(scene: &mut Scene, suspension: &Suspension) -> Vec<Pair> {
     let interaction = lab::interaction(scene);
     let (alpha, m) = (interaction.alpha, interaction.m);

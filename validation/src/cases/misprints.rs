@@ -44,12 +44,10 @@ pub fn cases() -> Vec<Case> {
     ]
 }
 
-/// A steady velocity field.
 type Field = fn(Vector3<f64>) -> Vector3<f64>;
 /// A function that returns the component G_ij of a field.
 type Gradient = fn(Field, usize, usize) -> f64;
 
-/// ∂u_i/∂x_j of a linear field.
 fn slope(u: Field, i: usize, j: usize) -> f64 {
     let mut ahead = Vector3::zeros();
     ahead[j] = 1.0;

@@ -16,7 +16,7 @@ mod contact_rule;
 mod decay;
 mod diffusing_rods;
 mod encounters;
-pub mod equations;
+mod equations;
 mod experiments;
 mod extreme_scenes;
 mod extremes;

@@ -12,7 +12,6 @@ const ASPECT_RATIO: f64 = 11.6;
 /// Weak diffusion: C_I r_e³ is 0.3.
 const C_I: f64 = 2e-4;
 
-/// The two sides of the comparison.
 #[derive(Clone, Copy)]
 struct Orbits {
     /// The distribution function of C_b for weak diffusion.
@@ -42,7 +41,6 @@ pub fn cases() -> Vec<Case> {
     ]
 }
 
-/// Replicas with diffusion, shared by the controls.
 static OF_DIFFUSION: Shared<(), Vec<Shares>> = Shared::new();
 
 fn orbits(orbits: &Orbits, effort: &Effort) -> Vec<Evidence> {

@@ -3,7 +3,6 @@
 use super::*;
 use shearbed::run::ensemble::{self, Results};
 
-/// The value of each parameter at its limit.
 #[derive(Clone, Copy)]
 struct Limits {
     alpha: f64,

@@ -99,7 +99,6 @@ fn state(naive: &Naive, length_mm: f64) -> State {
     }
 }
 
-/// The largest differences.
 #[derive(Default)]
 struct Off {
     steps: u64,

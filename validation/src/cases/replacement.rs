@@ -40,7 +40,6 @@ pub fn cases() -> Vec<Case> {
     ]
 }
 
-/// The program that moves and replaces the rods.
 enum Volume {
     /// The core; `step` is a factor on the usual time step.
     Core { step: u64 },

@@ -25,7 +25,6 @@ pub fn x1(scene: &Scene, steps_per_period: u64, replicas: u64) -> Vec<f64> {
     lab::per_replica(&scene, replicas, |mean| mean(Channel::X[0], 1))
 }
 
-/// How one aspect ratio is judged.
 struct Size {
     aspect_ratio: f64,
     /// A number of steps a period that must be detected as too small.

@@ -112,7 +112,6 @@ fn peak_frequency(series: &[f64], per_unit: f64) -> f64 {
     grid.max_by(|a, b| power(*a).total_cmp(&power(*b))).unwrap_or(f64::NAN)
 }
 
-/// Number of rods in the control volume.
 type Count = usize;
 
 /// X̄₁ with few rods less X̄₁ with 500, at the same concentration. For every run of 500 there are as many small runs as
@@ -183,7 +182,6 @@ fn stays_put(from: &Periods, effort: &Effort) -> Vec<Evidence> {
         .collect()
 }
 
-/// The initial θ of every rod.
 type ThetaDeg = f64;
 
 fn in_plane(theta_deg: &ThetaDeg, effort: &Effort) -> Vec<Evidence> {

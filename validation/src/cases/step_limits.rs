@@ -30,7 +30,6 @@ const HALF_A_STEP_AHEAD: f64 = 7.0;
 /// limit meets that of the order, r_e = 2.5: five times is allowed.
 const OF_MIDPOINTS: f64 = 50.0;
 
-/// The project's integrator of this name.
 fn named(name: &str) -> Vec<Integrator> {
     let mut all = crate::methods::integrators::own();
     all.retain(|integrator| integrator.name == name);

@@ -18,9 +18,7 @@ use std::sync::LazyLock;
 
 const BITS: Bits = Bits(160);
 
-/// Numbers by both methods.
 struct Compared {
-    /// The quantity, and both methods.
     what: &'static str,
     /// The largest difference: one unit of the last digit that is claimed, or the accuracy of the second method.
     most: f64,

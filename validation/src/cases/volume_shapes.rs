@@ -10,7 +10,6 @@ type Shape = [f64; 3];
 const CUBE: Shape = [1.0; 3];
 /// H₁/H₂ = 1, as for the cube.
 const FLAT: Shape = [2.0, 2.0, 0.25];
-/// H₁/H₂ = 8.
 const TALL: Shape = [4.0, 0.5, 0.5];
 
 pub fn cases() -> Vec<Case> {

@@ -7,10 +7,8 @@ use crate::oracle::naive::collision_probability;
 use crate::studies::suspensions::free::{Free, exponents};
 use crate::studies::suspensions::{blocks, law};
 
-/// Ways to choose initial directions, with their claimed exponents.
 type Starts = Vec<Start>;
 
-/// The claimed exponent of N in the bias of the rods.
 type Exponent = f64;
 
 pub fn cases() -> Vec<Case> {

@@ -1,6 +1,5 @@
 //! Plain text for the writers: finds `code`, cited equations and figures, subscripts.
 
-/// A part of a text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Piece<'a> {
     /// Plain text, which may have subscripts.

@@ -10,7 +10,6 @@ use std::sync::mpsc::channel;
 use std::thread::spawn;
 use std::time::Duration;
 
-/// The study of the cost of accuracy.
 pub const STUDY: Study = Study {
     name: "cost-of-accuracy",
     title: "What an answer costs: error against run time",

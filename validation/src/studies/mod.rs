@@ -8,14 +8,14 @@
 //! [`integrators`].
 
 mod bisect;
-pub mod coefficients;
+pub(crate) mod coefficients;
 mod cost;
 pub mod figures;
 pub mod integrators;
 pub mod kicks;
 pub mod interpretations;
 pub mod speed;
-pub mod stability;
+pub(crate) mod stability;
 pub mod suspensions;
 mod tensors;
 pub mod work_precision;

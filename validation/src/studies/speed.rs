@@ -33,7 +33,6 @@ fn run(request: &Request) -> Result<Option<Findings>, String> {
     Ok(Some(Findings::new(answer(&speed.checks), exhibits, [("speed.json", build::json(&speed)?)])))
 }
 
-/// The table of targets and measurements.
 fn table(speed: &Speed) -> ReportTable {
     let target = |check: &Check| match check.target {
         Target::AtMost(most) => format!("≤ {most} {}", check.unit),

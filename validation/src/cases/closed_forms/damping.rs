@@ -2,7 +2,6 @@
 
 use super::*;
 
-/// A factor on the model's σ.
 pub(super) type Factor = f64;
 
 /// The first harmonic's amplitude around t, ∫ X̄_1 cos(4πt/T) over half a period, at t* against t = ¼.

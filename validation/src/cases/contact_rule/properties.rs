@@ -4,14 +4,12 @@ use super::*;
 
 type Property = fn(ContactRule, &Pair) -> Option<f64>;
 
-/// The pair after a change of each rod.
 fn changed(pair: &Pair, change: impl Fn(&mut Pair, usize)) -> Pair {
     let mut changed = *pair;
     (0..2).for_each(|k| change(&mut changed, k));
     changed
 }
 
-/// The sum of both differences.
 fn difference(a: [Vector3<f64>; 2], b: [Vector3<f64>; 2]) -> f64 {
     (a[0] - b[0]).norm() + (a[1] - b[1]).norm()
 }

@@ -4,23 +4,18 @@ use super::*;
 use shearbed::model::collision::share_velocity;
 use shearbed::model::contact::contact;
 
-/// A pair of rods at given places.
 pub(super) struct Placed {
     second: UnitVector3<f64>,
     /// A's arm, in rod lengths.
     arm: f64,
 }
 
-/// The result of a step for two rods.
 pub(super) enum Stepped {
     Turned(Vec<Vector3<f64>>),
-    /// The rods made no contact.
     Free,
-    /// The run stopped, with this message.
     Stopped(String),
 }
 
-/// A function that steps two rods.
 pub(super) type Pair = fn(&Scene, &Placed) -> Stepped;
 
 /// The direction of A: between axes 1 and 3.

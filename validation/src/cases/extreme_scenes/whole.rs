@@ -8,13 +8,10 @@ pub(super) const TRACE: f64 = 64.0 * f64::EPSILON;
 pub(super) const TRACE_BECAUSE: &str =
     "2 · 4 ulp of |p|², and the roundings of a mean over twenty rods and two replicas";
 
-/// The end of a scene.
 pub(super) struct Ended {
-    /// The largest |tr⟨pp⟩ − 1|.
     pub(super) trace: f64,
     /// True if the run finished with finite means and standard errors.
     pub(super) finite: bool,
-    /// X̄₁ at the end.
     pub(super) last_x1: f64,
 }
 

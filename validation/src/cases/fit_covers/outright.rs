@@ -13,7 +13,6 @@ const REPLICAS: u64 = 120;
 const OFF: f64 = 0.1;
 const EFFECT: f64 = 0.3;
 
-/// The simulations, which run once.
 struct Simulated {
     basis: Basis,
     /// For each replica: the coefficients at every node, then the points at [`OWN`].

@@ -7,7 +7,6 @@ use crate::oracle::exponential::{Rod, Span};
 use rand::Rng;
 use rand_pcg::Pcg64;
 
-/// A rod, its strain, and the oracle's final direction.
 #[derive(Clone, Copy, Debug)]
 pub struct FlowProblem {
     pub rod: Rod,
@@ -16,23 +15,19 @@ pub struct FlowProblem {
 }
 
 impl FlowProblem {
-    /// A problem with the oracle's answer, if there is one.
     pub fn new(rod: Rod, strain: f64) -> Option<Self> {
         let truth = rod.settled(Span::Strain(strain))?;
         Some(Self { rod, strain, truth })
     }
 }
 
-/// The kind of problems that are drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
-    /// Problems of every kind.
     Any,
     /// Long ones that start at or beside the direction that the flow rotates most: there a bound counts.
     Hard,
 }
 
-/// The first `count` random problems of a seed.
 pub fn random(kind: Kind, seed: u64, count: u64) -> Vec<FlowProblem> {
     (0..count).into_par_iter().map(|index| one(kind, seed, index)).collect()
 }

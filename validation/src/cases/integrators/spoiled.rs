@@ -2,7 +2,6 @@
 
 use super::*;
 
-/// An integrator from a step function in (φ, θ).
 pub(in crate::cases) fn in_angles(
     order: u32,
     step: fn(&RodProblem, Vector2<f64>, f64) -> Vector2<f64>,
@@ -10,7 +9,6 @@ pub(in crate::cases) fn in_angles(
     vec![Integrator::in_angles("in angles", order, step)]
 }
 
-/// An integrator from a step function in p.
 pub(in crate::cases) fn in_p(
     order: u32,
     keeps_length: bool,
@@ -37,7 +35,6 @@ pub(super) fn spoiled(change: fn(RodProblem) -> (RodProblem, f64)) -> Integrator
     })
 }
 
-/// An integrator that always returns an error.
 pub(in crate::cases) fn refuses() -> Integrator {
     Integrator::new("refuses", Theory::Exact, |_, _, _| Err(Failure::Gave("no".into())))
 }

@@ -46,7 +46,6 @@ fn placed(figure: &Figure, x: &[f64], y: &[f64], x_error: Errors, y_error: Error
         .collect()
 }
 
-/// Draws the axes and the data, all within `area`.
 pub(super) fn draw<DB: Backend>(figure: &Figure, legend: &Legend, area: &DrawingArea<DB, Shift>) -> Drawn {
     let looks = looks(figure);
     let curves: Vec<_> =

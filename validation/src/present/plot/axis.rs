@@ -14,7 +14,6 @@ pub(super) fn place(value: f64, log: bool) -> f64 {
     if placed.abs() <= LARGEST { placed } else { f64::NAN }
 }
 
-/// An axis in placed values.
 pub(super) struct Axis {
     pub(super) low: f64,
     pub(super) high: f64,

@@ -2,7 +2,6 @@
 
 use super::style::{FINE, text_width};
 
-/// A text and its box.
 #[derive(Clone, Debug)]
 pub(crate) struct Box {
     pub(super) text: String,
@@ -21,7 +20,6 @@ fn number(tag: &str, name: &str) -> f64 {
     attribute(tag, name).and_then(|text| text.parse().ok()).unwrap_or(0.0)
 }
 
-/// The boxes of all texts of a picture.
 pub(super) fn boxes(svg: &str) -> Vec<Box> {
     let of = |part: &str| {
         let (tag, rest) = part.split_once('>')?;

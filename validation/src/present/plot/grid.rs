@@ -12,14 +12,11 @@ const CELL_HEIGHT: i32 = 15 * FINE;
 const GAP: i32 = 10 * FINE;
 const KEY: i32 = 16 * FINE;
 
-/// Positions and sizes in a picture of maps.
 pub(super) struct Layout {
-    /// Number of panels side by side.
     across: usize,
     /// Width of the rows' names, left of each panel.
     names: i32,
     cell_width: i32,
-    /// Width of the picture.
     width: i32,
     /// The rows of the legend: classes with their left edges.
     keys: Vec<Vec<(usize, i32)>>,

@@ -24,14 +24,12 @@ enum Mark {
     Band,
 }
 
-/// An entry and its position in its row.
 struct Entry {
     mark: Mark,
     label: String,
     x: i32,
 }
 
-/// All entries of the legend.
 pub(super) struct Legend {
     rows: Vec<Vec<Entry>>,
     /// Entries beside the axes: index of the series, its sample, and the lines of its label.
@@ -39,7 +37,6 @@ pub(super) struct Legend {
 }
 
 impl Legend {
-    /// The legend of a picture of this width.
     pub(super) fn of(figure: &Figure, width: i32) -> Self {
         let looks = looks(figure);
         let curves = figure.curves.iter().map(|curve| &curve.label);
@@ -65,12 +62,10 @@ impl Legend {
         Self { rows: rows(above, width), beside }
     }
 
-    /// The height of the rows above the axes.
     pub(super) fn height(&self) -> i32 {
         self.rows.len() as i32 * ROW
     }
 
-    /// The height of the labels beside the axes.
     pub(super) fn height_beside(&self) -> i32 {
         self.beside.len() as i32 * self.entry_height()
     }

@@ -19,7 +19,6 @@ pub(super) const LOW_DROP: f32 = 0.16;
 /// Width of a letter that the fonts lack: as wide as high, as the widest letters are.
 const UNKNOWN: f64 = 1.0;
 
-/// A letter of one of the fonts.
 #[derive(Clone, Copy)]
 struct Glyph {
     face: &'static Face<'static>,

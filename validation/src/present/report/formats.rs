@@ -4,12 +4,10 @@ use super::Line;
 use crate::judge::accept::{Rule, Verdict};
 use crate::present::markup::powers;
 
-/// A number with three significant digits.
 pub(super) fn number(value: f64) -> String {
     digits(value, 3)
 }
 
-/// A number with `digits` significant digits.
 pub(crate) fn digits(value: f64, digits: i32) -> String {
     let sign = if value < 0.0 { "−" } else { "" };
     let size = value.abs();
@@ -48,7 +46,6 @@ pub(super) fn bounds(line: &Line) -> (String, String) {
     }
 }
 
-/// A share of a tolerance in percent.
 pub(super) fn share(used: f64) -> String {
     match used {
         used if used.is_nan() => "not a number".into(),
@@ -88,7 +85,6 @@ pub(super) fn detail(rule: &Rule) -> String {
     }
 }
 
-/// A waiting time.
 pub(super) fn seconds(seconds: f64) -> String {
     match seconds {
         s if s < 0.01 => "< 0.01 s".into(),

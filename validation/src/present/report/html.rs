@@ -47,7 +47,6 @@ pub(super) fn write(report: &Report) -> Result<String, String> {
         .map_err(|error| format!("cannot write the report: {error}"))
 }
 
-/// The cases of each kind that has any.
 fn groups(report: &Report) -> Vec<Json> {
     let cases = |judges| report.cases.iter().filter(move |row| row.judges == judges);
     let kinds = Judges::ALL.into_iter().filter(|judges| cases(*judges).next().is_some());

@@ -5,7 +5,6 @@ use crate::files::text::escaped;
 use crate::present::markup::{Piece, pieces, powers, subscripts};
 use std::collections::BTreeSet;
 
-/// The anchors of a report.
 pub(super) struct Anchors {
     known: BTreeSet<String>,
     /// Names of figures in the report's order: a number links to its first figure.
@@ -21,7 +20,6 @@ impl Anchors {
         Self { known: cases.chain(equations).collect(), figures }
     }
 
-    /// A text as HTML.
     pub(super) fn html(&self, text: &str) -> String {
         let pieces = pieces(text);
         let linked = |k: usize| match pieces.get(k) {

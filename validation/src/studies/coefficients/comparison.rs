@@ -74,7 +74,6 @@ fn curve(label: &str, all: &[Shares], quantity: Quantity) -> Curve {
     Curve::of(label, quantity.edges(), |edge| (edge, Some(mean(edge)).filter(|s| *s > 0.0).unwrap_or(f64::NAN)))
 }
 
-/// The tail of the jumps, and the steady orbits.
 pub(super) fn figures(one: &Compared) -> [ReportFigure; 2] {
     let diffusion = format!("diffusion of C_I = {:.1e}", one.c_i.value);
     let curves = |quantity| [curve("kicks", &one.kicks, quantity), curve(&diffusion, &one.diffusion, quantity)];

@@ -32,18 +32,12 @@ pub fn diffused(scene: &Scene, c_i: f64, watch: Watch, replicas: u64, (effort, s
     (0..replicas).into_par_iter().map(one).collect()
 }
 
-/// A suspension, and diffusion with its measured C_I.
 #[derive(Clone, Debug)]
 pub struct Compared {
-    /// The suspension.
     pub setting: Setting,
-    /// The suspension's C_I.
     pub c_i: Estimate,
-    /// Strain of a jump.
     pub strain: f64,
-    /// Replicas of the suspension.
     pub kicks: Vec<Shares>,
-    /// Replicas with diffusion.
     pub diffusion: Vec<Shares>,
 }
 

@@ -5,10 +5,8 @@ use crate::methods::coefficients::{Means, free, watched};
 use crate::studies::interpretations::damping_rate;
 use rand::RngExt;
 
-/// A suspension.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Setting {
-    /// n a³.
     pub n_a3: f64,
     /// r_e, the same for all rods.
     pub aspect_ratio: f64,
@@ -18,7 +16,6 @@ pub struct Setting {
     pub update: Update,
     /// Factor on the number of time steps that resolves the motion.
     pub finer: u64,
-    /// The rods' places.
     pub places: Places,
 }
 
@@ -33,7 +30,6 @@ pub enum Places {
     Redrawn,
 }
 
-/// A suspension with `kick`.
 pub const fn kick(n_a3: f64, aspect_ratio: f64, alpha: f64, finer: u64) -> Setting {
     Setting { n_a3, aspect_ratio, alpha, update: Update::Kick, finer, places: Places::Carried }
 }
@@ -68,10 +64,8 @@ pub fn settings(full: bool) -> Vec<Setting> {
 /// Factor on the number of time steps that resolves the motion, for the comparison of suspensions.
 pub const FINER: u64 = 4;
 
-/// The results for one suspension.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Coefficients {
-    /// The suspension.
     pub setting: Setting,
     /// φ r_p of cylinders of the same length, with r_p = r_e.
     pub phi_rp: f64,
@@ -79,7 +73,6 @@ pub struct Coefficients {
     pub replicas: u64,
     /// Periods before the window; the window has as many.
     pub periods: u64,
-    /// C_I.
     pub c_i: Estimate,
     /// C_I from each of the components 11, 22 and 33 of J alone.
     pub own: [Estimate; 3],
@@ -100,7 +93,6 @@ pub struct Coefficients {
     pub spheroids: Estimate,
 }
 
-/// Rods of a replica.
 const RODS: usize = 100;
 
 /// Measures the suspensions one after the other.
@@ -114,7 +106,6 @@ fn periods(setting: Setting) -> u64 {
     (1.0 / (setting.n_a3 * setting.alpha / 0.5)).ceil().clamp(5.0, 50.0) as u64
 }
 
-/// The scene of a suspension.
 pub fn scene(setting: Setting, effort: &Effort) -> Scene {
     let mut scene = lab::interacting_scene(effort);
     scene.particles.count = RODS;

@@ -7,7 +7,6 @@ use crate::judge::statistics::student;
 use crate::methods::coefficients::jumps::{Quantity, above};
 use crate::oracle::diffusion::orbits::{mean_over_orbits, shear_stress_of_isotropic, shear_stress_of_orbit};
 
-/// C_I, and the rods' stress.
 pub const STUDY: Study = Study {
     name: "folgar-tucker",
     title: "The field's coefficient: C_I and the rods' stress",
@@ -83,7 +82,6 @@ fn no_diffusion(one: &Compared) -> String {
     )
 }
 
-/// r_e and α of a row.
 fn kind(row: &Coefficients) -> (f64, f64) {
     (row.setting.aspect_ratio, row.setting.alpha)
 }
@@ -162,7 +160,6 @@ fn koch(rows: &[Coefficients]) -> ReportTable {
     )
 }
 
-/// The rods' steady stress.
 fn stress(rows: &[Coefficients]) -> ReportTable {
     let mut columns = setting_columns();
     for (k, name) in ["σ_12/(μ_fiber G)", "N_1/(μ_fiber G)", "N_2/(μ_fiber G)"].into_iter().enumerate() {
@@ -194,7 +191,6 @@ fn points(label: String, rows: &[&Coefficients], x: impl Fn(&Coefficients) -> f6
     Points::with_bars(label, rows, |row| (x(row), row.c_i.value, student(0.05, row.replicas) * row.c_i.se))
 }
 
-/// C_I against n a³, for every r_e and α.
 fn against_concentration(rows: &[Coefficients]) -> ReportFigure {
     let at_step: Vec<_> = rows.iter().filter(|row| kicked(row) && row.setting.finer == FINER).collect();
     let mut kinds: Vec<_> = at_step.iter().map(|row| kind(row)).collect();

@@ -6,12 +6,10 @@ use super::*;
 /// The distance of one replica of the model from the averaged motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Apart {
-    /// X̄₁ of the model less that of the averaged motion.
     pub x1: f64,
     /// The mean over rods of sin² of the angle between a rod and itself in the averaged motion: 0 on the same path,
     /// ⅔ for unrelated directions.
     pub square: f64,
-    /// X̄₁ of the averaged motion.
     pub averaged_x1: f64,
 }
 
@@ -39,18 +37,12 @@ pub fn apart(scene: &Scene, steps: u64, change: fn(&mut NaiveProblem), replica: 
     }
 }
 
-/// The comparison of the model with the averaged motion at one step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AveragedStep {
-    /// Steps per period.
     pub steps_per_period: u64,
-    /// `min_contact_arm` in rod lengths.
     pub min_contact_arm: f64,
-    /// X̄₁ of the model less that of the averaged motion.
     pub x1: Sample,
-    /// The mean sin² of the angle between the two paths.
     pub square: Sample,
-    /// X̄₁ of the averaged motion.
     pub averaged_x1: Sample,
 }
 
@@ -80,16 +72,12 @@ pub fn scene(effort: &Effort, steps_per_period: u64, min_contact_arm: f64) -> Sc
     scene
 }
 
-/// The comparison of both updates at one step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BothUpdates {
-    /// Steps per period.
     pub steps_per_period: u64,
-    /// `min_contact_arm` in rod lengths.
     pub min_contact_arm: f64,
     /// X̄₁ at t/T = 1 with `rotation`.
     pub rotation_x1: Sample,
-    /// X̄₁ with `angles` less that with `rotation`.
     pub change: Sample,
 }
 

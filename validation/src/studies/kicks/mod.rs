@@ -4,9 +4,9 @@
 //! A kick is |ṗ′ − ṗ|Δt, the effect of the collision. The whole turn |ṗ′|Δt also contains Jeffery's own |ṗ|Δt, which at
 //! 200 steps a period exceeds 0.1 rad in every flip without any collision.
 
-pub mod averaged;
+pub(crate) mod averaged;
 pub mod study;
-pub mod tail;
+pub(crate) mod tail;
 
 use super::*;
 use crate::oracle::kicks::chance_of_pair;

@@ -70,7 +70,6 @@ struct Limit {
     replicas: [u64; 2],
 }
 
-/// The scene whose kicks are counted.
 const SCENE: &str = "fig4-n50";
 
 /// The steps per period for the counts in single periods.
@@ -257,7 +256,6 @@ fn update(study: &Limit) -> ReportTable {
     )
 }
 
-/// The rates against the step.
 fn figure(study: &Limit) -> ReportFigure {
     let points = |label: &str, value: fn(&Counts) -> f64| {
         Points::with_bars(label, &study.steps, |row| {

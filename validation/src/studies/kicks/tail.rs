@@ -7,9 +7,7 @@ use super::*;
 pub struct Exponent {
     /// The threshold; only values above it are used.
     pub threshold: f64,
-    /// The number of values above it.
     pub count: u64,
-    /// Hill's estimate.
     pub alpha: f64,
     /// The standard error α/√count.
     pub se: f64,

@@ -7,7 +7,6 @@ use crate::oracle::reference::table::{self, Start};
 use shearbed::run::memory;
 use std::hint::black_box;
 
-/// The size of the study.
 #[derive(Clone, Copy)]
 pub(super) struct Amount {
     /// Number of measurements; the least of them counts.
@@ -35,7 +34,6 @@ pub(super) struct Speed {
     pub by_concentration: Vec<Step>,
 }
 
-/// A measurement with its target.
 #[derive(Serialize)]
 pub(super) struct Check {
     pub what: &'static str,
@@ -72,7 +70,6 @@ impl Check {
     }
 }
 
-/// The time of a step of interacting rods.
 #[derive(Clone, Copy, Serialize)]
 pub(super) struct Step {
     pub rods: usize,
@@ -253,7 +250,6 @@ fn memory_rate(all: &rayon::ThreadPool, amount: Amount) -> Check {
     }
 }
 
-/// The parallel efficiency of replicas.
 fn replicas(pools: [&rayon::ThreadPool; 2], amount: Amount) -> Result<Check, String> {
     let threads = pools[1].current_num_threads();
     let mut scene = lab::interacting_scene(&Effort::gate());
@@ -264,7 +260,6 @@ fn replicas(pools: [&rayon::ThreadPool; 2], amount: Amount) -> Result<Check, Str
     efficiency(what, &scene, (0.9, &work), pools, amount)
 }
 
-/// The parallel efficiency of one run of many rods.
 fn one_large_run(pools: [&rayon::ThreadPool; 2], amount: Amount) -> Result<Check, String> {
     let mut scene = lab::interacting_scene(&Effort::gate());
     scene.particles.count = amount.large_run;

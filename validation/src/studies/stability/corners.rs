@@ -15,25 +15,20 @@ pub fn exact(aspect_ratio: f64, shear_rate_per_s: f64, p: &UnitVector3<f64>, tur
     end.map_or(Vector3::repeat(f64::NAN), UnitVector3::into_inner)
 }
 
-/// Shear rates in 1/s.
 const SHEAR_RATES: [f64; 3] = [1e-30, 0.5, 1e30];
 
-/// Durations in periods.
 pub const TURNS: [f64; 14] =
     [1e-9, 1e-6, 1e-3, 0.25, 1.0 / 3.0, 0.37, 0.5, 1.0, 10.0, 1e3, 1e6, 1e8, 1e8 + 0.25, 1e8 + 0.37];
 
 /// The largest errors over shear rates, durations and starts; NaN is kept.
 #[derive(Clone, Copy, Debug)]
 pub struct Worst {
-    /// ||p| − 1|.
     pub length: f64,
-    /// The change of C_b.
     pub orbit: f64,
     /// The angle to the closed form over the bound of [`map::round_off_at_once`].
     pub angle: f64,
 }
 
-/// The largest errors at this aspect ratio.
 pub fn worst(aspect_ratio: f64, motion: &Motion) -> Worst {
     let mut worst = Worst { length: 0.0, orbit: 0.0, angle: 0.0 };
     for turns in TURNS {

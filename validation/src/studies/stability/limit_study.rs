@@ -8,7 +8,6 @@ use crate::methods::integrators::limits::{Ladder, Limit, ONE_STEP, Property, TEN
 /// The aspect ratios at which limits are sought: all of them over one step, the first seven over ten periods.
 const LIMIT_RATIOS: [f64; 9] = [1.01, 1.5, 2.0, 2.5, 3.0, 11.6, 100.0, 1e4, 1e5];
 
-/// How a property is shown.
 struct Shown {
     name: &'static str,
     title: &'static str,

@@ -5,7 +5,6 @@ use super::*;
 use crate::methods::integrators::Failure;
 use crate::studies::work_precision::order::round_off;
 
-/// The outcome of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Fate {
@@ -19,7 +18,6 @@ pub enum Fate {
     LengthLost,
     /// A component is infinite or NaN.
     NotFinite,
-    /// The integrator returned an error.
     Refused,
     /// The run would take more steps than the budget allows.
     NotRun,
@@ -45,12 +43,10 @@ impl Fate {
         }
     }
 
-    /// A one-character code.
     pub fn sign(self) -> &'static str {
         self.names()[0]
     }
 
-    /// A description in words.
     pub fn words(self) -> &'static str {
         self.names()[1]
     }
@@ -64,20 +60,14 @@ impl Fate {
 /// One run: a rod that must end at a place after some periods.
 #[derive(Clone, Copy, Debug)]
 pub struct Run {
-    /// r_e.
     pub aspect_ratio: f64,
-    /// t/T.
     pub turns: f64,
-    /// The place where it must end.
     pub end: Place,
-    /// The setting of the integrator.
     pub setting: Setting,
 }
 
-/// The result of a run.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Cell {
-    /// The outcome.
     pub found: Fate,
     /// The angle to the closed form in rad, if the end is finite.
     pub error_rad: Option<f64>,
@@ -105,7 +95,6 @@ impl Run {
         }
     }
 
-    /// Runs an integrator and returns the outcome.
     pub fn of(&self, integrator: &Integrator) -> Cell {
         let start = self.end.before(self.turns).direction(self.aspect_ratio);
         let problem = RodProblem::new(self.aspect_ratio, self.turns);
@@ -143,7 +132,6 @@ impl Cell {
         Self { found, error_rad: None, length: None, orbit: None, reason }
     }
 
-    /// The cell of a run that was skipped, with the reason.
     pub fn not_run(reason: String) -> Self {
         Self::without(Fate::NotRun, Some(reason))
     }
@@ -152,13 +140,10 @@ impl Cell {
 /// The aspect ratios of the map: nearly a sphere, rods up to 10⁸, discs down to 10⁻⁸.
 pub const ASPECT_RATIOS: [f64; 11] = [1e-8, 1e-4, 0.1, 1.0 + 1e-12, 1.01, 2.0, 11.6, 100.0, 1e4, 1e6, 1e8];
 
-/// The steps of the map, in periods.
 pub const STEPS: [f64; 13] = [1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 0.1, 1.0, 10.0, 100.0, 1e3];
 
-/// The tolerances of the map.
 pub const TOLERANCES: [f64; 7] = [1e-1, 1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12];
 
-/// The durations of the map, in periods.
 pub const PERIODS: [f64; 6] = [1.0, 10.0, 1e2, 1e4, 1e6, 1e8];
 
 /// The time from φ = 0.2 to φ = 1 in periods, which is added to whole periods so that a run covers a flip.

@@ -57,7 +57,6 @@ pub fn answer(figures: &[ReportFigure]) -> String {
     }
 }
 
-/// The maps as pictures.
 pub fn figures(integrators: &[Integrator]) -> Vec<ReportFigure> {
     vec![steps(integrators), tolerances(integrators), starts(integrators), durations(integrators)]
 }
@@ -202,7 +201,6 @@ fn durations(integrators: &[Integrator]) -> ReportFigure {
     )
 }
 
-/// A picture of maps with the same rows and columns.
 fn figure(words: [&str; 2], caption: impl Into<String>, axes: [&str; 2], grid: Grid) -> ReportFigure {
     let mut figure = ReportFigure::new(words, caption, axes);
     figure.figure.grid = Some(Grid {
@@ -213,13 +211,11 @@ fn figure(words: [&str; 2], caption: impl Into<String>, axes: [&str; 2], grid: G
     figure.judged("A.1 to A.5", &["stability-map"])
 }
 
-/// The classes of outcomes.
 fn classes(cells: impl IntoIterator<Item = Cell>) -> Vec<usize> {
     cells.into_iter().map(|cell| cell.found.class()).collect()
 }
 
 impl Fate {
-    /// The classes that a map distinguishes.
     const CLASSES: [&'static str; 6] = ["right", "stable but wrong", "length lost", "not finite", "refused", "not run"];
 
     /// The index of the outcome's class in [`Self::CLASSES`]: the first two outcomes are right.
@@ -228,7 +224,6 @@ impl Fate {
     }
 }
 
-/// An aspect ratio as a short text.
 pub(super) fn ratio(r: f64) -> String {
     match r {
         r if r > 1.0 && r < 1.0 + 1e-9 => format!("1 + {}", power_of_ten((r - 1.0).log10().round() as i32)),

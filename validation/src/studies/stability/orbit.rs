@@ -32,7 +32,6 @@ impl Place {
         Self { cos: self.cos * cos + self.sin * sin, sin: self.sin * cos - self.cos * sin, ..*self }
     }
 
-    /// The direction at this place.
     pub fn direction(&self, aspect_ratio: f64) -> UnitVector3<f64> {
         let p = Vector3::new(self.c * self.cos, aspect_ratio * self.c * self.sin, self.z);
         // Scaled first: no square overflows or vanishes.
@@ -45,7 +44,6 @@ impl Place {
         (in_plane / (in_plane + p.z.abs()) - self.bounded_orbit_constant()).abs()
     }
 
-    /// C_b = C/(1 + C).
     pub fn bounded_orbit_constant(&self) -> f64 {
         self.c / (self.c + self.z.abs())
     }

@@ -6,7 +6,6 @@ use super::maps::{self, MOST_STEPS, ratio, tolerances_from_fine, with_theory, wi
 use super::*;
 use crate::studies::integrators;
 
-/// The study of stability.
 pub const STUDY: Study = Study {
     name: "stability",
     title: "Integrators: stability",
@@ -88,7 +87,6 @@ fn ends(integrators: &[Integrator]) -> [ReportTable; 2] {
     ]
 }
 
-/// The largest errors at each aspect ratio.
 fn corners_table() -> ReportTable {
     type Row = (f64, Worst);
     ReportTable::new(

@@ -3,14 +3,10 @@
 use super::*;
 use statrs::function::gamma::digamma;
 
-/// The standard deviation of means over blocks of replicas.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Block {
-    /// Number of replicas in a block.
     pub replicas: u64,
-    /// Number of blocks.
     pub blocks: u64,
-    /// The standard deviation of the blocks' means.
     pub deviation: f64,
 }
 

@@ -18,27 +18,21 @@ pub const QUARTERS: u64 = 8;
 /// The factor on α of the second scene: 0.4 for 0.5.
 const OTHER_ALPHA: f64 = 0.8;
 
-/// The correlations at one time.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Saving {
-    /// t/T.
     pub turns: f64,
     /// The correlation with the same run at half the time step.
     pub finer: f64,
     /// The correlation with the other α.
     pub other_alpha: f64,
-    /// The correlation with the free rods.
     pub free: f64,
 }
 
-/// The results on shared random numbers.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Coupled {
     /// Steps per period of the coarse runs; the fine ones have twice as many.
     pub steps_per_period: u64,
-    /// Replicas of each run.
     pub replicas: u64,
-    /// The correlations at each quarter of a period.
     pub rows: Vec<Saving>,
 }
 
@@ -67,7 +61,6 @@ impl Saving {
     }
 }
 
-/// Measures all three correlations on a scene.
 pub fn measure(scene: &Scene, replicas: u64) -> Result<Coupled, String> {
     let steps = scene.steps_per_unit().div_ceil(4) * 4;
     let own = interacting(scene, steps, 1.0, QUARTERS, replicas)?;
@@ -129,12 +122,10 @@ pub fn controlled(x1: &[f64], free: &[f64], free_mean: f64) -> Estimate {
     Estimate::mean_of(&corrected)
 }
 
-/// The values of all replicas at one mark.
 pub fn at(values: &Values, mark: usize) -> Vec<f64> {
     values.iter().map(|replica| replica[mark]).collect()
 }
 
-/// The table of savings by shared random numbers.
 pub fn table(coupled: &Coupled) -> ReportTable {
     ReportTable::new(
         ["suspension-coupled", "Shared random numbers: the factor by which they save runs"],

@@ -5,12 +5,9 @@ use crate::studies::bisect::bisect;
 use nalgebra::{DMatrix, DVector};
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
-/// A mean for each level, and their covariances.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Means {
-    /// The means.
     pub values: Vec<f64>,
-    /// The covariance of each pair of means.
     pub covariance: DMatrix<f64>,
     /// The smallest number of replicas of a mean.
     fewest: usize,
@@ -19,13 +16,9 @@ pub struct Means {
 /// y = intercept + slope·x.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Line {
-    /// y at x = 0.
     pub intercept: f64,
-    /// The standard error of `intercept`.
     pub intercept_se: f64,
-    /// The slope.
     pub slope: f64,
-    /// The standard error of `slope`.
     pub slope_se: f64,
     /// The residual sum of squares, weighted by the inverse covariances.
     pub chi_square: f64,
@@ -36,7 +29,6 @@ pub struct Line {
 /// An order w of y = a + b hʷ.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Order {
-    /// w.
     pub order: f64,
     /// Half the width of the interval in which χ² is within 1 of its minimum.
     pub se: f64,
@@ -122,7 +114,6 @@ impl Means {
         Some(Order { order: best, se: 0.5 * (end(high) - end(low)) })
     }
 
-    /// The levels from `first` on.
     pub fn from(&self, first: usize) -> Self {
         let count = self.values.len() - first;
         Self {

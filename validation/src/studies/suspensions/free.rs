@@ -18,7 +18,6 @@ pub struct Free {
     pub aspect_ratio: f64,
     /// σ of r_e, in percent of its mean.
     pub sd_percent: f64,
-    /// t/T.
     pub turns: f64,
 }
 
@@ -28,10 +27,8 @@ pub const SCENES: [Free; 2] = [
     Free { scene: "fig6-polydisperse", aspect_ratio: 11.6, sd_percent: 3.6, turns: 0.95 },
 ];
 
-/// The error and time for one number of rods.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Point {
-    /// N.
     pub rods: usize,
     /// The root mean square of X̄₁ less the closed form.
     pub error: f64,
@@ -41,34 +38,26 @@ pub struct Point {
     pub seconds: Seconds,
 }
 
-/// A start's error against its run time.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct StartCurve {
-    /// The start's name.
     pub start: &'static str,
     /// The exponent by theory.
     pub theory: f64,
     /// The exponent found over the points with 10³ rods and more: with fewer, the lattice does not resolve the
     /// stretched rods yet.
     pub exponent: f64,
-    /// The standard error of `exponent`, over groups of trials.
     pub exponent_se: f64,
     /// The points, from few rods to many.
     pub points: Vec<Point>,
 }
 
-/// All starts for one suspension.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Bench {
-    /// The suspension.
     pub free: Free,
-    /// X̄₁ by the closed form.
     pub exact: f64,
-    /// The curve of each start.
     pub curves: Vec<StartCurve>,
 }
 
-/// The size of the study.
 #[derive(Clone, Copy, Debug)]
 pub struct Amount {
     /// N = 10², 10^2.5, … up to 10^this/2.
@@ -78,9 +67,7 @@ pub struct Amount {
 }
 
 impl Amount {
-    /// The amount for daily reports.
     pub const QUICK: Self = Self { half_decades: 10, trials: 32 };
-    /// The amount for `shearbed bench` and full reports.
     pub const FULL: Self = Self { half_decades: 12, trials: 64 };
 }
 

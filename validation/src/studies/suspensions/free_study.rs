@@ -7,7 +7,6 @@ use crate::studies::work_precision::Budget;
 use crate::studies::work_precision::rows::seconds;
 use crate::studies::work_precision::study::{NOT_REACHED, time};
 
-/// The study of the initial directions of free rods.
 pub const STUDY: Study = Study {
     name: "free-suspensions",
     title: "Free suspensions: error against run time",
@@ -62,7 +61,6 @@ fn points_csv(benches: &[Bench]) -> Result<String, String> {
     columns_csv(points, columns)
 }
 
-/// The time that each start needs for each error.
 fn table(benches: &[Bench]) -> ReportTable {
     type Of<'a> = (&'a Bench, &'a StartCurve);
     let rows = benches.iter().flat_map(|bench| bench.curves.iter().map(move |c| (bench, c)));
@@ -88,7 +86,6 @@ fn table(benches: &[Bench]) -> ReportTable {
     )
 }
 
-/// Error against run time, a curve for each start.
 fn figure(bench: &Bench) -> ReportFigure {
     let free = &bench.free;
     let curve = |curve: &StartCurve| {

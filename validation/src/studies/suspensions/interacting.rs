@@ -57,7 +57,6 @@ fn run(request: &Request) -> Result<Option<Findings>, String> {
 /// The built-in scene of the study: the paper's Fig. 7, rods of one size.
 const SCENE: &str = "fig7-n50";
 
-/// The size of the study.
 struct Amount {
     /// Replicas of the jobs over steps and rods.
     replicas: Replicas,
@@ -67,7 +66,6 @@ struct Amount {
     unbounded: Option<(u64, usize, u64)>,
     /// The number of runs of the split for each of [`TARGETS`].
     repeats: [u64; 3],
-    /// Replicas of the coupled runs.
     coupled: u64,
 }
 
@@ -99,7 +97,6 @@ struct Answer {
     realised: Option<Realised>,
 }
 
-/// The results of the study.
 #[derive(Serialize)]
 struct Interacting {
     scene: &'static str,

@@ -2,11 +2,11 @@
 //! replicas, the cost of a given error, and which coupled estimates pay. Results are plain data; the
 //! studies are [`free_study`] and [`interacting`].
 
-pub mod blocks;
-pub mod coupled;
-pub mod fit;
-pub mod free;
-pub mod free_study;
+pub(crate) mod blocks;
+pub(crate) mod coupled;
+pub(crate) mod fit;
+pub(crate) mod free;
+pub(crate) mod free_study;
 pub mod interacting;
 pub mod job;
 pub mod law;

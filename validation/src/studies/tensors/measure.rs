@@ -18,7 +18,6 @@ pub struct Off {
     pub closure: &'static str,
     pub a22: f64,
     pub exact_a22: f64,
-    /// The largest |a_ij − exact|.
     pub error: f64,
 }
 

@@ -4,7 +4,6 @@ use super::measure::{FLOWS, Fitted, Off, Work, errors, fitted, work};
 use super::*;
 use crate::methods::tensors::Closure;
 
-/// The study of closures.
 pub const STUDY: Study = Study {
     name: "closures",
     title: "Closures against the exact distribution",
