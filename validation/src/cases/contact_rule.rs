@@ -85,7 +85,7 @@ fn any_pair(random: &mut Pcg64Dxsm) -> Pair {
     Pair { x, p, u, rate }
 }
 
-fn invariants(rule: &ContactRule, effort: &Effort) -> Vec<Evidence> {
+fn invariants(rule: &ContactRule, effort: &Effort) -> [Evidence; PROPERTIES.len()] {
     let mut random = Pcg64Dxsm::seed_from_u64(effort.seed(0));
     let mut worst = [0.0f64; PROPERTIES.len()];
     for _ in 0..effort.pick(2_000, 50_000) {
@@ -95,14 +95,8 @@ fn invariants(rule: &ContactRule, effort: &Effort) -> Vec<Evidence> {
             *worst = larger(*worst, violation);
         }
     }
-    PROPERTIES
-        .iter()
-        .zip(worst)
-        .map(|((what, _), worst)| {
-            let because = "some dozens of roundings, over the kick times the condition of its arm";
-            Evidence::within(*what, worst, 64.0 * f64::EPSILON, because)
-        })
-        .collect()
+    let because = "some dozens of roundings, over the kick times the condition of its arm";
+    std::array::from_fn(|k| Evidence::within(PROPERTIES[k].0, worst[k], 64.0 * f64::EPSILON, because))
 }
 
 /// A function that returns (φ̇′, θ̇′) from a direction and ṗ′.
@@ -118,7 +112,7 @@ fn printed_a13(p: &UnitVector3<f64>, rate: &Vector3<f64>) -> (f64, f64) {
 }
 
 /// Compares the rates with those of a turning rod's angles, by central differences.
-fn against_turning(rates: &AngleRates, _: &Effort) -> Vec<Evidence> {
+fn against_turning(rates: &AngleRates, _: &Effort) -> [Evidence; 2] {
     let mut worst = [0.0f64; 2];
     for (phi, theta) in [(0.3, 0.2), (1.0, 0.8), (2.2, 1.4), (-1.5, 2.6), (-2.8, 1.0)] {
         let p = orientation::from_angles(phi, theta);
@@ -136,11 +130,8 @@ fn against_turning(rates: &AngleRates, _: &Effort) -> Vec<Evidence> {
         }
     }
     let because = "the central difference's own error: Δt²/6 times a third derivative of 8(|ṗ|/sin θ)³ ≤ 8·5³ at most";
-    ["error of φ̇′ in rad per unit time", "error of θ̇′ in rad per unit time"]
-        .into_iter()
-        .zip(worst)
-        .map(|(what, worst)| Evidence::within(what, worst, 2e-6, because))
-        .collect()
+    [("φ̇′", worst[0]), ("θ̇′", worst[1])]
+        .map(|(rate, worst)| Evidence::within(format!("error of {rate} in rad per unit time"), worst, 2e-6, because))
 }
 
 pub fn cases() -> Vec<Case> {

@@ -84,7 +84,7 @@ fn body_frame(rate: &Rate, _: &Effort) -> Vec<Evidence> {
     vec![Evidence::within("largest difference of ṗ/G", worst, 32.0 * f64::EPSILON, because)]
 }
 
-fn rates_of_angles(rate: &Rate, _: &Effort) -> Vec<Evidence> {
+fn rates_of_angles(rate: &Rate, _: &Effort) -> [Evidence; 2] {
     let along_phi = |phi: f64| Vector3::new(-phi.sin(), phi.cos(), 0.0);
     let along_theta =
         |phi: f64, theta: f64| Vector3::new(theta.cos() * phi.cos(), theta.cos() * phi.sin(), -theta.sin());
@@ -97,12 +97,9 @@ fn rates_of_angles(rate: &Rate, _: &Effort) -> Vec<Evidence> {
         (found.dot(&along_theta(phi, theta)) - expected).abs()
     });
     let because = "a dozen roundings of numbers up to 1, over sin θ ≥ 0.39";
-    [("φ̇", phi_off), ("θ̇", theta_off)]
-        .into_iter()
-        .map(|(rate, worst)| {
-            Evidence::within(format!("largest error of {rate}/G"), worst, 32.0 * f64::EPSILON, because)
-        })
-        .collect()
+    [("φ̇", phi_off), ("θ̇", theta_off)].map(|(rate, worst)| {
+        Evidence::within(format!("largest error of {rate}/G"), worst, 32.0 * f64::EPSILON, because)
+    })
 }
 
 /// Outputs per period, an even number.

@@ -3,29 +3,27 @@
 use super::*;
 use shearbed::run::ensemble::{self, Results};
 
-#[derive(Clone, Copy)]
-struct Limits {
-    alpha: f64,
-    concentration_per_cm3: f64,
-    m: f64,
-    count: usize,
-    sd_percent: f64,
-    aspect_ratio: f64,
-}
+/// The changes that take a scene to a limit: of α, n, m, the number of rods, σ, and r_e.
+type Limits = [Change; 6];
 
-const TAKEN: Limits = Limits {
-    alpha: 1e-300,
-    concentration_per_cm3: 1e-30,
-    m: 1e9,
-    count: 1,
-    sd_percent: 1e-12,
-    aspect_ratio: 1.0 + 1e-12,
-};
+const TAKEN: Limits = [
+    |scene| lab::interaction(scene).alpha = 1e-300,
+    |scene| lab::interaction(scene).concentration_per_cm3 = Some(1e-30),
+    |scene| lab::interaction(scene).m = 1e9,
+    |scene| scene.particles.count = 1,
+    |scene| scene.particles.aspect_ratio_sd_percent = 1e-12,
+    |scene| scene.particles.aspect_ratio = 1.0 + 1e-12,
+];
 
 /// A function that returns the standard error of the mean of independent values.
 type StandardError = fn(&[f64]) -> f64;
 
 pub fn cases() -> Vec<Case> {
+    let taken = |which: usize, change: Change| {
+        let mut limits = TAKEN;
+        limits[which] = change;
+        limits
+    };
     vec![
         Case::core("reductions")
             .claim(
@@ -34,12 +32,12 @@ pub fn cases() -> Vec<Case> {
             )
             .source("eqs 7, 11")
             .under_test(TAKEN)
-            .mistake("α = ½", Limits { alpha: 0.5, ..TAKEN })
-            .mistake("n = 50 per cm³", Limits { concentration_per_cm3: 50.0, ..TAKEN })
-            .mistake("m = 3", Limits { m: 3.0, ..TAKEN })
-            .mistake("100 rods for one", Limits { count: 100, ..TAKEN })
-            .mistake("σ = 10⁻⁶ %", Limits { sd_percent: 1e-6, ..TAKEN })
-            .mistake("r_e = 1 + 10⁻⁶", Limits { aspect_ratio: 1.0 + 1e-6, ..TAKEN })
+            .mistake("α = ½", taken(0, |scene| lab::interaction(scene).alpha = 0.5))
+            .mistake("n = 50 per cm³", taken(1, |scene| lab::interaction(scene).concentration_per_cm3 = Some(50.0)))
+            .mistake("m = 3", taken(2, |scene| lab::interaction(scene).m = 3.0))
+            .mistake("100 rods for one", taken(3, |scene| scene.particles.count = 100))
+            .mistake("σ = 10⁻⁶ %", taken(4, |scene| scene.particles.aspect_ratio_sd_percent = 1e-6))
+            .mistake("r_e = 1 + 10⁻⁶", taken(5, |scene| scene.particles.aspect_ratio = 1.0 + 1e-6))
             .check(reductions),
         Case::program("standard-errors")
             .claim("Standard errors are those of independent replicas, or of rods where there is one replica.")
@@ -70,43 +68,28 @@ pub(super) fn difference(a: &Scene, b: &Scene) -> f64 {
     pairs.map(|(a, b)| (a - b).abs()).fold(0.0, larger)
 }
 
-fn reductions(limits: &Limits, effort: &Effort) -> Vec<Evidence> {
-    let mut free = lab::free_scene(effort);
-    free.particles.aspect_ratio_sd_percent = 3.6;
-    let mut interacting = free.clone();
-    lab::interaction(&mut interacting);
-    let with = |change: &dyn Fn(&mut Scene)| lab::changed(interacting.clone(), change);
-    let alpha = with(&|scene| lab::interaction(scene).alpha = limits.alpha);
-    let thin = with(&|scene| lab::interaction(scene).concentration_per_cm3 = Some(limits.concentration_per_cm3));
-    let steep = with(&|scene| lab::interaction(scene).m = limits.m);
-    let one = with(&|scene| scene.particles.count = limits.count);
-    let mut one_free = free.clone();
-    one_free.particles.count = limits.count;
-
-    let mut uniform = lab::free_scene(effort);
-    uniform.time.duration = 3.0;
-    let mut narrow = uniform.clone();
-    narrow.particles.aspect_ratio_sd_percent = limits.sd_percent;
-
-    let mut round = lab::free_scene(effort);
-    round.particles.aspect_ratio = limits.aspect_ratio;
-    let mut sphere = lab::free_scene(effort);
-    sphere.particles.aspect_ratio = 1.0;
-
-    vec![
-        Evidence::exact("α = 10⁻³⁰⁰ against free rods", difference(&alpha, &free)),
-        Evidence::exact("n = 10⁻³⁰ per cm³ against free rods", difference(&thin, &free)),
-        Evidence::exact("m = 10⁹ against free rods", difference(&steep, &free)),
-        Evidence::exact("one interacting rod against one free rod", difference(&one, &one_free)),
+fn reductions(limits: &Limits, effort: &Effort) -> [Evidence; 6] {
+    let uniform = lab::free_scene(effort);
+    let free = lab::changed(uniform.clone(), |scene| scene.particles.aspect_ratio_sd_percent = 3.6);
+    let interacting = Scene { interaction: lab::interacting_scene(effort).interaction, ..free.clone() };
+    let long = lab::changed(uniform.clone(), |scene| scene.time.duration = 3.0);
+    let sphere = lab::changed(uniform.clone(), |scene| scene.particles.aspect_ratio = 1.0);
+    let at = |which: usize, scene: &Scene| lab::changed(scene.clone(), limits[which]);
+    let apart = |which: usize, scene: &Scene, limit: &Scene| difference(&at(which, scene), limit);
+    [
+        Evidence::exact("α = 10⁻³⁰⁰ against free rods", apart(0, &interacting, &free)),
+        Evidence::exact("n = 10⁻³⁰ per cm³ against free rods", apart(1, &interacting, &free)),
+        Evidence::exact("m = 10⁹ against free rods", apart(2, &interacting, &free)),
+        Evidence::exact("one interacting rod against one free rod", apart(3, &interacting, &at(3, &free))),
         Evidence::within(
             "σ = 10⁻¹² % against σ = 0",
-            difference(&narrow, &uniform),
+            apart(4, &long, &long),
             1e-11,
             "a phase of 6π shifted by σ, grown by r_e at the flip",
         ),
         Evidence::within(
             "r_e = 1 + 10⁻¹² against a sphere",
-            difference(&round, &sphere),
+            apart(5, &uniform, &sphere),
             1e-11,
             "the map differs by r_e − 1",
         ),

@@ -50,12 +50,6 @@ fn name(mistake: Mistake) -> &'static str {
     }
 }
 
-/// The model that is compared with the reference: the core, or a naive model with a mistake.
-enum Model {
-    Core(Box<Suspension>),
-    Broken(Box<Naive>),
-}
-
 /// The state after a step: places in rod lengths, directions, and colliding pairs.
 struct State {
     places: Vec<[f64; 3]>,
@@ -63,32 +57,25 @@ struct State {
     pairs: Vec<(usize, usize)>,
 }
 
-impl Model {
-    fn new(scene: &Scene, replica: u64, mistake: Option<Mistake>) -> Self {
-        match mistake {
-            None => Self::Core(Box::new(lab::suspension(scene, replica))),
-            Some(_) => Self::Broken(Box::new(Naive::new(problem(scene, replica, mistake)))),
-        }
-    }
+/// Takes a step; `None` if the model stopped.
+type Step = Box<dyn FnMut() -> Option<State>>;
 
-    /// Takes a step; `None` if the model stopped.
-    fn step(&mut self, length_mm: f64) -> Option<State> {
-        Some(match self {
-            Self::Core(core) => {
-                let pairs = core.step().ok()?.iter().map(|collision| collision.rods.into()).collect();
-                let [x1, x2, x3] = core.positions_in_lengths();
-                State {
-                    places: (0..x1.len()).map(|rod| [x1[rod], x2[rod], x3[rod]]).collect(),
-                    directions: core.directions().into_iter().map(Into::into).collect(),
-                    pairs,
-                }
-            }
-            Self::Broken(naive) => {
-                naive.step();
-                state(naive, length_mm)
-            }
-        })
+/// The model that is compared with the reference: the core, or a naive model with a mistake.
+fn model(scene: &Scene, replica: u64, mistake: Option<Mistake>) -> Step {
+    if mistake.is_some() {
+        let (mut naive, length_mm) = (Naive::new(problem(scene, replica, mistake)), scene.particles.length_mm);
+        return Box::new(move || {
+            naive.step();
+            Some(state(&naive, length_mm))
+        });
     }
+    let mut core = lab::suspension(scene, replica);
+    Box::new(move || {
+        let pairs = core.step().ok()?.iter().map(|collision| collision.rods.into()).collect();
+        let [x1, x2, x3] = core.positions_in_lengths();
+        let places = (0..x1.len()).map(|rod| [x1[rod], x2[rod], x3[rod]]).collect();
+        Some(State { places, directions: core.directions().into_iter().map(Into::into).collect(), pairs })
+    })
 }
 
 fn state(naive: &Naive, length_mm: f64) -> State {
@@ -144,7 +131,7 @@ fn against_reference(mistake: &Option<Mistake>, effort: &Effort) -> Vec<Evidence
 
 fn compare(scene: &Scene, replica: u64, mistake: Option<Mistake>, off: &mut Off) {
     let length_mm = scene.particles.length_mm;
-    let mut model = Model::new(scene, replica, mistake);
+    let mut step = model(scene, replica, mistake);
     let mut reference = Naive::new(problem(scene, replica, None));
     let units = match scene.time.unit {
         scene::TimeUnit::Strain | scene::TimeUnit::Second => scene.time.duration as u64,
@@ -154,7 +141,7 @@ fn compare(scene: &Scene, replica: u64, mistake: Option<Mistake>, off: &mut Off)
         let before = state(&reference, length_mm);
         reference.step();
         let expected = state(&reference, length_mm);
-        let Some(state) = model.step(length_mm) else {
+        let Some(state) = step() else {
             off.pairs += 1;
             return;
         };

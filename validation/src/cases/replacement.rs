@@ -119,13 +119,13 @@ fn follow(volume: &Volume, effort: &Effort, count: usize) -> Places {
     let mut suspension = lab::suspension(&scene, 0);
     let sides = suspension.sides_in_lengths();
     let mut draws = stream(scene.ensemble.seed, 0, 0);
-    let mut rods: Vec<[f64; 3]> = (0..count).map(|_| [(); 3].map(|()| draws.random::<f64>())).collect();
+    let mut rods = match volume {
+        Volume::Core { .. } => in_sides(&suspension, sides),
+        Volume::Wrong(_) => (0..count).map(|_| [(); 3].map(|()| draws.random::<f64>())).collect(),
+    };
     let mut places = Places::default();
     for _ in 0..STEPS / step {
-        let before = match volume {
-            Volume::Core { .. } => in_sides(&suspension, sides),
-            Volume::Wrong(_) => rods.clone(),
-        };
+        let before = rods.clone();
         match volume {
             Volume::Core { .. } => {
                 places.outside += usize::from(suspension.step().is_err());

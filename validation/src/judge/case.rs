@@ -52,6 +52,12 @@ impl Findings for Vec<Evidence> {
     }
 }
 
+impl<const N: usize> Findings for [Evidence; N] {
+    fn evidence(self) -> Vec<Evidence> {
+        self.into()
+    }
+}
+
 impl<E: fmt::Display> Findings for Result<Vec<Evidence>, E> {
     fn evidence(self) -> Vec<Evidence> {
         self.unwrap_or_else(|error| vec![Evidence::exact(error.to_string(), f64::NAN)])

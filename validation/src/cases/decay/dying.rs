@@ -51,7 +51,7 @@ pub(super) fn undamped(_: &mut Scene) {}
 
 /// The remaining share of the amplitudes after two periods: b for X̄_i or X̄_1, and a for the other. X̄_i decays less
 /// than twice as fast as X̄_j if a_i > a_j².
-pub(super) fn on_all_axes(axes: &Axes, effort: &Effort) -> Vec<Evidence> {
+pub(super) fn on_all_axes(axes: &Axes, effort: &Effort) -> [Evidence; 4] {
     // A pilot of 200 replicas: a − b² of 0.127 ± 0.039 (mean and deviation), 0.213 ± 0.055, 0.284 ± 0.046, 0.234 ±
     // 0.051.
     let narrow = Design::new(0.11, 0.046);
@@ -73,20 +73,14 @@ pub(super) fn on_all_axes(axes: &Axes, effort: &Effort) -> Vec<Evidence> {
         let value = |s: &[[f64; 2]; 3]| share + (s[axis][1] - share * s[axis][0]) / start;
         swings.iter().map(value).collect::<Vec<_>>()
     });
-    [(1, 0, narrow), (2, 0, wide), (0, 1, wide), (0, 2, wide)]
-        .into_iter()
-        .map(|(i, j, design)| {
-            let mean = Sample::of(&left[j]).mean;
-            // a − b² to first order in each replica's deviation, so that its mean is a − b² of the means.
-            let difference = left[i].iter().zip(&left[j]).map(|(a, b)| a - 2.0 * mean * b + mean * mean);
-            Evidence::new(
-                format!("share of the amplitude left at t/T = 2, X̄_{} less the square of that of X̄_{}", i + 1, j + 1),
-                Sample::of(difference).exceeds(
-                    0.0,
-                    design.effect,
-                    "\"similar\" has no number in the paper: rates within a factor of two",
-                ),
-            )
-        })
-        .collect()
+    [(1, 0, narrow), (2, 0, wide), (0, 1, wide), (0, 2, wide)].map(|(i, j, design)| {
+        let mean = Sample::of(&left[j]).mean;
+        // a − b² to first order in each replica's deviation, so that its mean is a − b² of the means.
+        let difference = left[i].iter().zip(&left[j]).map(|(a, b)| a - 2.0 * mean * b + mean * mean);
+        let because = "\"similar\" has no number in the paper: rates within a factor of two";
+        Evidence::new(
+            format!("share of the amplitude left at t/T = 2, X̄_{} less the square of that of X̄_{}", i + 1, j + 1),
+            Sample::of(difference).exceeds(0.0, design.effect, because),
+        )
+    })
 }

@@ -10,11 +10,8 @@ pub(super) struct Placed {
     arm: f64,
 }
 
-pub(super) enum Stepped {
-    Turned(Vec<Vector3<f64>>),
-    Free,
-    Stopped(String),
-}
+/// Directions after a step, none if the rods made no contact; or the message of a run that stopped.
+type Stepped = Result<Vec<Vector3<f64>>, String>;
 
 pub(super) type Pair = fn(&Scene, &Placed) -> Stepped;
 
@@ -31,13 +28,10 @@ pub(super) fn step_of_the_core(scene: &Scene, placed: &Placed) -> Stepped {
     let along = placed.arm * first().into_inner();
     let at = [vec![0.0, along.x], vec![middle, middle + BESIDE], vec![0.0, along.z]];
     if suspension.place(at, &[first(), placed.second]).is_none() {
-        return Stepped::Free;
+        return Ok(Vec::new());
     }
-    match suspension.step() {
-        Ok([]) => Stepped::Free,
-        Ok(_) => Stepped::Turned(suspension.directions()),
-        Err(error) => Stepped::Stopped(error.to_string()),
-    }
+    let collided = !suspension.step().map_err(|error| error.to_string())?.is_empty();
+    Ok(if collided { suspension.directions() } else { Vec::new() })
 }
 
 /// The distance of B from A along axis 2, in rod lengths.
@@ -48,7 +42,7 @@ pub(super) fn step_with_squares(scene: &Scene, placed: &Placed) -> Stepped {
     let p = [first(), placed.second];
     let separation = placed.arm * p[0].into_inner() + Vector3::new(0.0, BESIDE, 0.0);
     let Some(contact) = contact(&separation, &p[0], &p[1], [0.0; 2]) else {
-        return Stepped::Free;
+        return Ok(Vec::new());
     };
     let shape = shape_factor(scene.particles.aspect_ratio);
     let free = p.map(|p| couette_rate(&p, shape, 1.0));
@@ -59,11 +53,7 @@ pub(super) fn step_with_squares(scene: &Scene, placed: &Placed) -> Stepped {
         let (sin, cos) = (speed * strain).sin_cos();
         (p[k].into_inner() * cos + rates[k] * (sin / speed)).normalize()
     });
-    if turned.iter().all(|p| p.sum().is_finite()) {
-        Stepped::Turned(turned.into())
-    } else {
-        Stepped::Stopped("not finite".into())
-    }
+    if turned.iter().all(|p| p.sum().is_finite()) { Ok(turned.into()) } else { Err("not finite".into()) }
 }
 
 /// Directions after one step of pairs at given places, and the number of pairs that ended wrongly.
@@ -85,8 +75,8 @@ pub(super) fn ends(pair: Pair, effort: &Effort) -> (Vec<Vector3<f64>>, f64) {
         (y, 1e-320, true),
     ] {
         match pair(&scene, &Placed { second, arm }) {
-            Stepped::Turned(turned) if !overflows => directions.extend(turned),
-            Stepped::Stopped(text) if overflows => {
+            Ok(turned) if !overflows && !turned.is_empty() => directions.extend(turned),
+            Err(text) if overflows => {
                 let words = ["rod ", "step 0", &seed, "arm"];
                 unlike += f64::from(!words.iter().all(|word| text.contains(word)));
             }
