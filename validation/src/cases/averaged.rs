@@ -77,11 +77,9 @@ fn averaged(limit: &Limit, effort: &Effort) -> Vec<Evidence> {
             "0.6 × the mean sin² between the two paths at {coarse} steps a period, less that at {fine}, over the sum \
              of both; half a period"
         ),
-        Sample::of(falls).exceeds(
-            0.0,
-            design.effect,
-            "∝ Δt in the limit, an eighth; paths that do not converge stay as far apart, −0.2",
-        ),
+        Sample::of(falls)
+            .exceeds(0.0, design.effect)
+            .because("∝ Δt in the limit, an eighth; paths that do not converge stay as far apart, −0.2"),
     )]
 }
 
@@ -129,25 +127,21 @@ fn updates([rotation, angles]: &[Update; 2], _: &Effort) -> Vec<Evidence> {
             "how much the two ends of a kick of 1 rad come nearer as Δt goes from 10⁻² to 10⁻⁸",
             same,
             1e-14,
-            "round-off: only rate × Δt counts",
-        ),
+        )
+        .because("round-off: only rate × Δt counts"),
         Evidence::exact(
             "by how much less than 0.1 the sine of the angle between the two ends is on average",
             (0.1 - distance).max(0.0),
         ),
-        Evidence::within(
-            "order in Δt of the distance of both ends at a given rate, less 2",
-            order(rated),
-            2e-3,
-            because,
-        ),
+        Evidence::within("order in Δt of the distance of both ends at a given rate, less 2", order(rated), 2e-3)
+            .because(because),
         Evidence::within(
             "order in Δt of what a colliding rod is off Jeffery's path where the kick is 0, less 2; by rotation",
             order(off_path[0]),
             2e-3,
-            because,
-        ),
-        Evidence::within("the same by angles", order(off_path[1]), 2e-3, because),
+        )
+        .because(because),
+        Evidence::within("the same by angles", order(off_path[1]), 2e-3).because(because),
     ]
 }
 
@@ -191,12 +185,8 @@ fn pushed(kick: &Kick, _: &Effort) -> Vec<Evidence> {
         opening += u32::from(line.x * line.y > 0.0);
     }
     vec![
-        Evidence::within(
-            "dr/dt while colliding over h² ℓ·D·ℓ/(2 r sin²χ), less 1",
-            worst,
-            1e-5,
-            "left out: terms in 1 − Λ = 2·10⁻⁸ over h ℓ·D·ℓ ≥ 0.02, and the square of the turn, 10⁻⁸",
-        ),
+        Evidence::within("dr/dt while colliding over h² ℓ·D·ℓ/(2 r sin²χ), less 1", worst, 1e-5)
+            .because("left out: terms in 1 − Λ = 2·10⁻⁸ over h ℓ·D·ℓ ≥ 0.02, and the square of the turn, 10⁻⁸"),
         Evidence::exact(
             format!("pairs, of which {opening} open, with an arm that moves the other way"),
             f64::from(wrong),

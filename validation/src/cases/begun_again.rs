@@ -42,12 +42,9 @@ fn begins_again(way: &Way, effort: &Effort) -> Vec<Evidence> {
     let differences: Vec<f64> = differences.collect();
     vec![Evidence::new(
         "X̄₁ at t/T = 1½, begun again at t = T less straight on",
-        Sample::of(&differences).is(
-            0.0,
-            0.0,
-            EFFECT,
-            "the same rods, with other collisions; with r_e drawn anew they fall out of step more slowly",
-        ),
+        Sample::of(&differences)
+            .is(0.0, 0.0, EFFECT)
+            .because("the same rods, with other collisions; with r_e drawn anew they fall out of step more slowly"),
     )]
 }
 

@@ -135,12 +135,14 @@ fn changing_flows(run: &Run, effort: &Effort) -> Vec<Evidence> {
             "reversed shear, extension and a mixed flow: largest angle to the start over the plan's bound",
             reversals.into_iter().fold(0.0, larger),
             1.0,
-            "what a bound is, with four roundings of a direction to double",
-        ),
+        )
+        .because("what a bound is, with four roundings of a direction to double"),
         Evidence::within(
             "three flows: largest angle in rad to the oracle's direction",
             off.fold(f64::NEG_INFINITY, larger),
             1e-12,
+        )
+        .because(
             "the oracle's direction is rounded to double between flows; they turn 10⁻¹⁶ rad into 10⁻¹³ at most, a \
              rod's r_e of 13 times e^(½ of the strains)",
         ),
@@ -148,7 +150,7 @@ fn changing_flows(run: &Run, effort: &Effort) -> Vec<Evidence> {
             "three flows: relative error of the seconds",
             (moved.seconds / seconds - 1.0).abs(),
             16.0 * f64::EPSILON,
-            "roundings of three quotients and their sum",
-        ),
+        )
+        .because("roundings of three quotients and their sum"),
     ]
 }

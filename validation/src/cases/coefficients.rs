@@ -105,16 +105,14 @@ fn fourth_moments(read: &Read, effort: &Effort) -> Vec<Evidence> {
             let expected = moments::fourth(ASPECT_RATIO, 0.2, indices(*channel));
             Evidence::new(
                 format!("{} at t/T = 0.2", channel.name()),
-                Sample::of(own).is(expected, 0.0, design.effect, "exact; a third of what the mistakes change"),
+                Sample::of(own).is(expected, 0.0, design.effect).because("exact; a third of what the mistakes change"),
             )
         })
         .collect();
-    evidence.push(Evidence::within(
-        "the largest |Σ_k a_ijkk − a_ij| of a suspension",
-        traces(read, effort),
-        1e-13,
-        "sums of 50 rods' products, each rounded a few times by 1.1e-16 of itself",
-    ));
+    evidence.push(
+        Evidence::within("the largest |Σ_k a_ijkk − a_ij| of a suspension", traces(read, effort), 1e-13)
+            .because("sums of 50 rods' products, each rounded a few times by 1.1e-16 of itself"),
+    );
     evidence
 }
 
@@ -185,7 +183,9 @@ fn particle_stress(stress: &Stress, effort: &Effort) -> Vec<Evidence> {
             let own = values.iter().map(|values: &[f64; 3]| values[k]);
             evidence.push(Evidence::new(
                 format!("{} {when}", channel.name()),
-                Sample::of(own).is(expected[k], 0.0, design.effect, "exact; a third of what the mistakes change"),
+                Sample::of(own)
+                    .is(expected[k], 0.0, design.effect)
+                    .because("exact; a third of what the mistakes change"),
             ));
         }
     }
@@ -231,10 +231,7 @@ fn stress_in_pascals(pascals: &Pascals, effort: &Effort) -> Vec<Evidence> {
                 )
             }))
         });
-        Evidence::within(
-            format!("the largest difference over μ G n a³, {name}"),
-            worst(off),
-            1e-13,
+        Evidence::within(format!("the largest difference over μ G n a³, {name}"), worst(off), 1e-13).because(
             "sums of 50 rods' products with coefficients up to 1, each rounded a few times by 1.1e-16 of itself",
         )
     };

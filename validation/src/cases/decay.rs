@@ -162,9 +162,9 @@ fn free_amplitude(change: &Change, effort: &Effort) -> Vec<Evidence> {
     let design = Design::new(0.09, 0.045);
     let amplitudes = amplitudes(&scene, effort.samples(design), &[0, 8]);
     let half = "\"approximately half\": 0.5 to one digit; r_e = 3 has 0.35 by the closed form";
-    let start = Sample::of(&amplitudes[0]).is(0.5, 0.05, design.effect, half);
+    let start = Sample::of(&amplitudes[0]).is(0.5, 0.05, design.effect).because(half);
     let constant = "constant: the same phases come back to round-off";
-    let change = Sample::of_differences(&amplitudes[1], &amplitudes[0]).is(0.0, 1e-12, design.effect, constant);
+    let change = Sample::of_differences(&amplitudes[1], &amplitudes[0]).is(0.0, 1e-12, design.effect).because(constant);
     vec![Evidence::new("amplitude at t = 0, in rod lengths", start), Evidence::new("its change by t/T = 4", change)]
 }
 
@@ -176,7 +176,8 @@ fn faster(order: &Order, effort: &Effort) -> [Evidence; 2] {
     });
     let because = "an order without a number; the same seeds in all three";
     [(0, 1, "first less second"), (1, 2, "second less third")].map(|(a, b, which)| {
-        let fall = Sample::of_differences(&amplitudes[a], &amplitudes[b]).exceeds(0.0, order.design.effect, because);
+        let fall =
+            Sample::of_differences(&amplitudes[a], &amplitudes[b]).exceeds(0.0, order.design.effect).because(because);
         Evidence::new(format!("fall of the amplitude at t/T = 1½, {which}"), fall)
     })
 }
@@ -197,7 +198,7 @@ fn collisions_damp(change: &Change, effort: &Effort) -> Vec<Evidence> {
             let because = "\"much\" has no number in the paper: two curves as far apart as twice the width of a line";
             evidence.push(Evidence::new(
                 format!("amplitude without less with collisions at t/T = {when}, σ = {sd} %"),
-                fall.exceeds(2.0 * LINE, design.effect, because),
+                fall.exceeds(2.0 * LINE, design.effect).because(because),
             ));
         }
     }

@@ -182,11 +182,7 @@ fn same_alpha(change: &Change, effort: &Effort) -> Result<Vec<Evidence>, String>
         se: short.se.hypot(long.se),
         samples: (short.points + long.points) as u64,
     }
-    .is(
-        0.0,
-        0.0,
-        1.0,
-        "points that would show α = 1.5 beside 0.5, a standard error of about 0.1; blunter ones say nothing",
-    );
+    .is(0.0, 0.0, 1.0)
+    .because("points that would show α = 1.5 beside 0.5, a standard error of about 0.1; blunter ones say nothing");
     Ok(vec![Evidence::new(what, rule)])
 }

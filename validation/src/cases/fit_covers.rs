@@ -232,7 +232,9 @@ fn covers(way: &Way, effort: &Effort) -> Result<Vec<Evidence>, String> {
                        taken for exact, or half the length, misses more than the effect";
         Evidence::new(
             what,
-            Sample::of(fits.iter().map(|fit| inside(fit, k))).is(CONFIDENCES[k], ALLOWANCE[k], EFFECT[k], because),
+            Sample::of(fits.iter().map(|fit| inside(fit, k)))
+                .is(CONFIDENCES[k], ALLOWANCE[k], EFFECT[k])
+                .because(because),
         )
     };
     Ok(vec![rule(0), rule(1), outright::off(*way == Way::StraightLines, effort)?])

@@ -105,14 +105,12 @@ fn where_errors_show(scale: &f64, _: &Effort) -> Vec<Evidence> {
             "largest angle between two directions along the flow, a tenth of a period apart, times r_e",
             along,
             1.0,
+        )
+        .because(
             "A.4: π/2 − φ = cot(κ)/r_e, and cot κ changes by 2 cot 72° = 0.65 between the two, for the longest rods",
         ),
-        Evidence::within(
-            "½ over the smallest angle between the flip and a tenth of a period before",
-            flip,
-            1.0,
-            "from φ = 1 to a rod along the flow, π/2",
-        ),
+        Evidence::within("½ over the smallest angle between the flip and a tenth of a period before", flip, 1.0)
+            .because("from φ = 1 to a rod along the flow, π/2"),
     ]
 }
 
@@ -130,8 +128,9 @@ fn digits(rate: &Rate, _: &Effort) -> Vec<Evidence> {
     }
     let because = "a square, a sum, a quotient, a root: a dozen roundings";
     vec![
-        Evidence::within("relative error of r_e read off the right-hand side", worst, 12.0 * f64::EPSILON, because),
-        Evidence::within("relative error of the period read off it", period, 12.0 * f64::EPSILON, because),
+        Evidence::within("relative error of r_e read off the right-hand side", worst, 12.0 * f64::EPSILON)
+            .because(because),
+        Evidence::within("relative error of the period read off it", period, 12.0 * f64::EPSILON).because(because),
     ]
 }
 
@@ -173,9 +172,9 @@ fn eigenvalues(slope: &Slope, _: &Effort) -> Vec<Evidence> {
             "by how much the largest eigenvalue of ∂ṗ/∂p exceeds theory, over 1152 directions",
             above.max(0.0),
             1e-13,
-            because,
-        ),
-        Evidence::within("relative difference of the two where theory has it largest", apart, 1e-13, because),
+        )
+        .because(because),
+        Evidence::within("relative difference of the two where theory has it largest", apart, 1e-13).because(because),
     ]
 }
 
@@ -224,10 +223,8 @@ fn index_bounds(integrators: &Integrators, _: &Effort) -> Vec<Evidence> {
                 larger(worst, study.richardson.map_or(f64::NAN, |richardson| richardson.true_error / richardson.index));
         }
     }
-    vec![Evidence::within(
-        "largest error over its index",
-        worst,
-        1.0,
-        "the index is 1.25 times the error where the error falls with the order of theory",
-    )]
+    vec![
+        Evidence::within("largest error over its index", worst, 1.0)
+            .because("the index is 1.25 times the error where the error falls with the order of theory"),
+    ]
 }

@@ -96,13 +96,13 @@ fn orders(integrators: &Integrators, _: &Effort) -> Vec<Evidence> {
                 .fold(larger(worst, enough), larger);
         }
         if matches!(integrator.theory, Theory::Order(_)) {
-            evidence.push(Evidence::within(
-                format!("observed order against theory, {}", integrator.name),
-                worst,
-                ORDER_TOLERANCE,
-                "the next power of Δt is a tenth or less of the leading one on the last two pairs above \
+            evidence.push(
+                Evidence::within(format!("observed order against theory, {}", integrator.name), worst, ORDER_TOLERANCE)
+                    .because(
+                        "the next power of Δt is a tenth or less of the leading one on the last two pairs above \
                  round-off",
-            ));
+                    ),
+            );
         }
     }
     evidence
@@ -123,8 +123,8 @@ fn lengths(integrators: &Integrators, _: &Effort) -> Vec<Evidence> {
                 format!("|p| − 1 at the end, {}", integrator.name),
                 off,
                 4.0 * f64::from(steps) * f64::EPSILON,
-                "each step, of 1024 or of one, rounds |p| by four roundings at most",
             )
+            .because("each step, of 1024 or of one, rounds |p| by four roundings at most")
         })
         .collect()
 }
@@ -141,10 +141,7 @@ fn round_off(integrators: &Integrators, _: &Effort) -> Vec<Evidence> {
             }
         }
     }
-    vec![Evidence::within(
-        "largest angle to the closed form",
-        worst,
-        32.0 * f64::EPSILON,
+    vec![Evidence::within("largest angle to the closed form", worst, 32.0 * f64::EPSILON).because(
         "near a whole turn the phase that is left is small, and its relative error ε moves φ by ε, \
          not by r_e ε; a few dozen roundings of the propagator and the closed form",
     )]
@@ -161,14 +158,18 @@ fn adaptive(integrators: &Integrators, _: &Effort) -> Vec<Evidence> {
             let steps = steps[usize::from(integrator.name == radau().name)];
             let (problem, start) = RodProblem::mid_flip(r);
             let error = grade(&integrator, &problem, &start, Setting::Tolerance(1e-11));
-            evidence.push(Evidence::within(
-                format!("angle to the closed form at a tolerance of 10⁻¹¹, r_e = {r}, {}", integrator.name),
-                // An integrator that gives up is off by as much as can be.
-                error.map_or(std::f64::consts::FRAC_PI_2, |errors| errors.orientation_rad),
-                steps * 1e-11 * r,
-                "each step is off by the tolerance, in a direction of its own; their sum is a phase, which \
+            evidence.push(
+                Evidence::within(
+                    format!("angle to the closed form at a tolerance of 10⁻¹¹, r_e = {r}, {}", integrator.name),
+                    // An integrator that gives up is off by as much as can be.
+                    error.map_or(std::f64::consts::FRAC_PI_2, |errors| errors.orientation_rad),
+                    steps * 1e-11 * r,
+                )
+                .because(
+                    "each step is off by the tolerance, in a direction of its own; their sum is a phase, which \
                  r_e magnifies",
-            ));
+                ),
+            );
         }
     }
     evidence

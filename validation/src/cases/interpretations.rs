@@ -107,9 +107,7 @@ fn matters(alternative: &Alternative, effort: &Effort) -> Vec<Evidence> {
     let changes = changes.iter().map(|change| alternative.sign * change);
     vec![Evidence::new(
         "how much X̄₁ at t/T = ½ changes, in the direction expected",
-        Sample::of(changes).exceeds(
-            alternative.bound,
-            alternative.design.effect,
+        Sample::of(changes).exceeds(alternative.bound, alternative.design.effect).because(
             "more than the width of a drawn line, 1 % of the amplitude ½ of free rods; for \"a little\" any change \
              that is beyond chance",
         ),
@@ -121,12 +119,9 @@ fn does_not_matter(model: &Model, effort: &Effort) -> Vec<Evidence> {
     let design = Design::new(0.0214, 0.0395);
     vec![Evidence::new(
         "change of X̄₁ at t/T = ½",
-        Sample::of(changes(*model, effort, effort.samples(design))).is(
-            0.0,
-            0.5 * LINE,
-            design.effect,
-            "half the width of a drawn line; the control changes 0.027",
-        ),
+        Sample::of(changes(*model, effort, effort.samples(design)))
+            .is(0.0, 0.5 * LINE, design.effect)
+            .because("half the width of a drawn line; the control changes 0.027"),
     )]
 }
 

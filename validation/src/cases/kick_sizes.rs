@@ -53,7 +53,8 @@ fn heavy((angles, min_arm): &(Angles, f64), effort: &Effort) -> Vec<Evidence> {
         ),
     ];
     let evidence = hills.map(|(what, hill, because)| {
-        let rule = Sample { mean: hill.alpha, se: hill.se, samples: hill.count }.is(1.0, 0.01, design.effect, because);
+        let rule =
+            Sample { mean: hill.alpha, se: hill.se, samples: hill.count }.is(1.0, 0.01, design.effect).because(because);
         Evidence::new(format!("Hill's exponent of {what}"), rule)
     });
     evidence.into()
@@ -103,17 +104,9 @@ fn bounded((angles, share): &(Angles, f64), effort: &Effort) -> Vec<Evidence> {
     }
     vec![
         Evidence::exact("collisions that are missing to 2000", 2000usize.saturating_sub(collisions) as f64),
-        Evidence::within(
-            "largest difference of a kick from |g|Δt/(2|r|), over its conditioning",
-            worst[0],
-            1e-13,
-            "some hundred roundings, ε each",
-        ),
-        Evidence::within(
-            "the largest kick over its bound, less 1 where it is above",
-            worst[1],
-            1e-12,
-            "round-off of kicks at the bound",
-        ),
+        Evidence::within("largest difference of a kick from |g|Δt/(2|r|), over its conditioning", worst[0], 1e-13)
+            .because("some hundred roundings, ε each"),
+        Evidence::within("the largest kick over its bound, less 1 where it is above", worst[1], 1e-12)
+            .because("round-off of kicks at the bound"),
     ]
 }

@@ -74,10 +74,7 @@ fn formula(expected: &Expected, effort: &Effort) -> Vec<Evidence> {
         let ratios = replicas.iter().map(|fresh| fresh.kicked / expected(fresh, &chance));
         Evidence::new(
             format!("rods kicked by more than {threshold_rad} rad over those expected, {steps} steps a period"),
-            Sample::of(ratios).is(
-                1.0,
-                0.003,
-                design.effect,
+            Sample::of(ratios).is(1.0, 0.003, design.effect).because(
                 "left out, 10⁻³ each: the next term in GΔt/κ, terms in (1 − Λ)/Y², the cube's corners, to \
                  which distant neighbours point; the nearest of the controls is 1 − π/4 = 0.21 off",
             ),
@@ -134,11 +131,9 @@ fn memory(counted: &Counted, effort: &Effort) -> Vec<Evidence> {
     let mut evidence = vec![Evidence::new(
         "kicks > 0.1 rad of opening pairs at 100 steps a period, less those at 800, over both; α = \
          4",
-        Sample::of(falls).exceeds(
-            0.1,
-            fall.effect,
-            "they would be equal if the rate did not depend on Δt, and are 1 : 3",
-        ),
+        Sample::of(falls)
+            .exceeds(0.1, fall.effect)
+            .because("they would be equal if the rate did not depend on Δt, and are 1 : 3"),
     )];
     // Pilot of 4,650 replicas at seeds 9001 to 9010: 0.35 for both.
     let off = Design::new(0.5, 0.39);
@@ -151,10 +146,7 @@ fn memory(counted: &Counted, effort: &Effort) -> Vec<Evidence> {
                 "kicks > 0.1 rad of closing pairs over the formula's number, less 1; {steps} steps a \
                  period, α = ½"
             ),
-            Sample::of(offs).is(
-                0.0,
-                0.05,
-                off.effect,
+            Sample::of(offs).is(0.0, 0.05, off.effect).because(
                 "the formula takes the separation to be independent of the directions; a pair that \
                  collides is no longer so, by the share of P_c ≈ 0.05",
             ),

@@ -79,7 +79,8 @@ fn gives_back_velocity(component: &Gradient, _: &Effort) -> Vec<Evidence> {
     fields
         .iter()
         .map(|(name, u)| {
-            Evidence::within(format!("largest angle between thread and line, {name}"), error(*u), 1e-11, because)
+            Evidence::within(format!("largest angle between thread and line, {name}"), error(*u), 1e-11)
+                .because(because)
         })
         .collect()
 }
@@ -120,7 +121,10 @@ fn shadows(model: &Shadows, _: &Effort) -> Vec<Evidence> {
             worst = larger(worst, (shadow - expected).abs());
         }
     }
-    vec![Evidence::within("largest error of a shadow", worst, 4.0 * f64::EPSILON, "a few roundings of numbers up to 1")]
+    vec![
+        Evidence::within("largest error of a shadow", worst, 4.0 * f64::EPSILON)
+            .because("a few roundings of numbers up to 1"),
+    ]
 }
 
 /// True if a rod moves by A.7–A.14, given whether it collided.
@@ -153,12 +157,8 @@ fn free_rods_keep_c(by_contact: &Moves, effort: &Effort) -> Vec<Evidence> {
         before = after;
     }
     vec![
-        Evidence::within(
-            "largest change of C_b of a free rod in one step",
-            free_change,
-            ROUND_OFF,
-            "the exact motion keeps C to round-off",
-        ),
+        Evidence::within("largest change of C_b of a free rod in one step", free_change, ROUND_OFF)
+            .because("the exact motion keeps C to round-off"),
         Evidence::new(
             format!("of {colliding} colliding rods, those whose C_b stayed to round-off"),
             // If no rod is said to collide, every rod counts as free, and the evidence above covers all rods.

@@ -126,14 +126,10 @@ fn period(motion: &Motion, _: &Effort) -> Vec<Evidence> {
             "relative error of the period, plane Couette flow by its closed form",
             worst[0],
             8.0 * f64::EPSILON,
-            because,
-        ),
-        Evidence::within(
-            "relative error of the period, the same flow about other axes",
-            worst[1],
-            8.0 * f64::EPSILON,
-            because,
-        ),
+        )
+        .because(because),
+        Evidence::within("relative error of the period, the same flow about other axes", worst[1], 8.0 * f64::EPSILON)
+            .because(because),
     ]
 }
 
@@ -170,10 +166,7 @@ fn orbit_constant(motion: &Motion, _: &Effort) -> Vec<Evidence> {
             }
         }
     }
-    vec![Evidence::within(
-        "largest relative drift of C up to 10⁴ periods",
-        worst,
-        16.0 * f64::EPSILON,
+    vec![Evidence::within("largest relative drift of C up to 10⁴ periods", worst, 16.0 * f64::EPSILON).because(
         "one evaluation, however many periods it spans: C is a ratio of lengths without cancellation, some sixteen \
          roundings",
     )]
@@ -202,12 +195,10 @@ fn closed_form_motion(motion: &Motion, _: &Effort) -> Vec<Evidence> {
             }
         }
     }
-    vec![Evidence::within(
-        "angle between the two, over max(r_e, 1/r_e)·(1 + t/T)",
-        worst,
-        32.0 * f64::EPSILON,
-        "a rounding of the phase, 2π(t/T)ε, grows by dφ/d(phase) ≤ max(r_e, 1/r_e) at the flip",
-    )]
+    vec![
+        Evidence::within("angle between the two, over max(r_e, 1/r_e)·(1 + t/T)", worst, 32.0 * f64::EPSILON)
+            .because("a rounding of the phase, 2π(t/T)ε, grows by dφ/d(phase) ≤ max(r_e, 1/r_e) at the flip"),
+    ]
 }
 
 fn rk4_step(flow: &VelocityGradient, r: f64, p: &UnitVector3<f64>, dt: f64) -> UnitVector3<f64> {
@@ -257,12 +248,13 @@ fn mean_angle(angle: &Angle, _: &Effort) -> Vec<Evidence> {
     }
     let because = "the quadrature asks for 10⁻¹⁴ on each panel of a quarter";
     vec![
-        Evidence::within("difference of ⟨φ⟩ over the quadrature's tolerance, r_e from 1 to 1000", worst, 1.0, because),
+        Evidence::within("difference of ⟨φ⟩ over the quadrature's tolerance, r_e from 1 to 1000", worst, 1.0)
+            .because(because),
         Evidence::within(
             "difference of π/2 − ⟨φ⟩ and its first term, over that tolerance and the next term, r_e from 10⁵ to 10⁷",
             thread,
             1.0,
-            because,
-        ),
+        )
+        .because(because),
     ]
 }

@@ -59,20 +59,15 @@ fn orbits(orbits: &Orbits, effort: &Effort) -> Vec<Evidence> {
     vec![
         Evidence::new(
             "share of diffusing rods with C_b above ½, less the closed form's",
-            less(&of_diffusion, 1.0 - (orbits.weak)(0.5, ASPECT_RATIO)).is(
-                0.0,
-                0.015,
-                weak.effect,
-                "a third of what isotropic directions differ by, 0.046",
-            ),
+            less(&of_diffusion, 1.0 - (orbits.weak)(0.5, ASPECT_RATIO))
+                .is(0.0, 0.015, weak.effect)
+                .because("a third of what isotropic directions differ by, 0.046"),
         ),
         Evidence::new(
             "share of colliding rods with C_b above ½, less that of isotropic directions",
-            less(&of_collisions, 1.0 - orbit_constant_cdf(0.5, ASPECT_RATIO)).exceeds(
-                0.0,
-                high.effect,
-                "\"far more\": the table of docs/src/theory/coefficients.md has 0.22",
-            ),
+            less(&of_collisions, 1.0 - orbit_constant_cdf(0.5, ASPECT_RATIO))
+                .exceeds(0.0, high.effect)
+                .because("\"far more\": the table of docs/src/theory/coefficients.md has 0.22"),
         ),
     ]
 }

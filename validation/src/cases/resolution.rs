@@ -81,11 +81,8 @@ fn coarser_step(size: &Size, coarse: bool, effort: &Effort) -> Evidence {
     let fine = DEFAULT.get(effort, default, || x1(&scene, default, replicas));
     Evidence::new(
         format!("X̄₁ at r_e = {}: {steps} steps a period less {default}", size.aspect_ratio),
-        Sample::of_differences(&x1(&scene, steps, replicas), &fine).is(
-            0.0,
-            LINE,
-            size.design.effect,
-            "0.01: a drawn line of the paper's figures",
-        ),
+        Sample::of_differences(&x1(&scene, steps, replicas), &fine)
+            .is(0.0, LINE, size.design.effect)
+            .because("0.01: a drawn line of the paper's figures"),
     )
 }

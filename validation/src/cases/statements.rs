@@ -69,7 +69,7 @@ fn period(change: &Change, effort: &Effort) -> [Evidence; 2] {
         });
         let because = "\"practically unaffected\": 2 %, a maximum at t/T = 2 that is 0.04 off on an axis of six \
                        periods; |p_1| has the period T/2";
-        let rule = Sample::of(&frequencies).is(2.0, 0.04, design.effect, because);
+        let rule = Sample::of(&frequencies).is(2.0, 0.04, design.effect).because(because);
         Evidence::new(format!("frequency of X̄₁ in 1/T, {name}"), rule)
     })
 }
@@ -131,7 +131,9 @@ fn enough_rods(count: &Count, effort: &Effort) -> [Evidence; 2] {
                        line; rods near a face have fewer neighbours";
         Evidence::new(
             format!("bias of X̄₁ at t/T = {}, {count} rods against {MANY}", k + 1),
-            Sample::of(few.chunks(share).zip(&many).map(difference)).is(0.0, 2.0 * LINE, design.effect, because),
+            Sample::of(few.chunks(share).zip(&many).map(difference))
+                .is(0.0, 2.0 * LINE, design.effect)
+                .because(because),
         )
     })
 }
@@ -158,7 +160,7 @@ fn stays_put(from: &Periods, effort: &Effort) -> [Evidence; 3] {
     [0, 1, 2].map(|axis| {
         let drift = Sample::of(drifts.iter().map(|drifts| drifts[axis]));
         let because = "\"constant\": within the width of a drawn line over a period";
-        let rule = drift.is(0.0, LINE, designs[axis].effect, because);
+        let rule = drift.is(0.0, LINE, designs[axis].effect).because(because);
         Evidence::new(format!("drift of X̄_{} over a period", axis + 1), rule)
     })
 }
@@ -207,21 +209,19 @@ fn in_plane(theta_deg: &ThetaDeg, effort: &Effort) -> Vec<Evidence> {
     let round_off = "cos 90° is 6·10⁻¹⁷, which kicks ∝ 1/r grow: 60-fold at most in ten times these steps, and x \
                      times that with a probability ∝ 1/x";
     vec![
-        Evidence::within("largest |p_3| within one period", most, 1e-9, round_off),
+        Evidence::within("largest |p_3| within one period", most, 1e-9).because(round_off),
         Evidence::within(
             "largest mean angle in rad between rods with and without interactions after one period by `kick`",
             kicked,
             1e-9,
-            round_off,
-        ),
+        )
+        .because(round_off),
         Evidence::new(
             "half the mean angle in rad between rods with and without interactions after one period by `rotation` at \
              200 steps, less that at 800 steps",
-            Sample::of(fall).exceeds(
-                0.0,
-                design.effect,
-                "an observed order above ½: nearer to 1, the straight turn's, than to 0",
-            ),
+            Sample::of(fall)
+                .exceeds(0.0, design.effect)
+                .because("an observed order above ½: nearer to 1, the straight turn's, than to 0"),
         ),
     ]
 }

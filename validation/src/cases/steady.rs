@@ -34,10 +34,7 @@ fn steady_angle(change: &Change, effort: &Effort) -> Vec<Evidence> {
         });
         evidence.push(Evidence::new(
             format!("steady φ̄ in rad, r_e = {r}"),
-            Sample::of(&means).is(
-                closed_form::mean_angle(r),
-                0.01,
-                design.effect,
+            Sample::of(&means).is(closed_form::mean_angle(r), 0.01, design.effect).because(
                 "\"agree closely\": 0.01 rad, the width of a line on an axis from 0 to π/2; collisions bias the phase \
                  a little",
             ),

@@ -122,18 +122,10 @@ fn symmetries(mapping: &Mapping, effort: &Effort) -> Vec<Evidence> {
         ),
         Evidence::exact("lengths 8 times larger, concentration 512 times less", difference(&lengths, &base)),
         Evidence::exact("a shear rate of 5·10⁻³¹ 1/s", difference(&times, &base)),
-        Evidence::within(
-            "every rod turned head to tail, interacting",
-            difference(&tail, &head),
-            1e-10,
-            "the turned angles are rounded to 10⁻¹⁶, which kicks ∝ 1/r grow",
-        ),
-        Evidence::within(
-            "free rods in the mirrored flow from mirrored angles",
-            difference(&mirror, &straight),
-            0.0,
-            "every product has the same factors up to sign",
-        ),
+        Evidence::within("every rod turned head to tail, interacting", difference(&tail, &head), 1e-10)
+            .because("the turned angles are rounded to 10⁻¹⁶, which kicks ∝ 1/r grow"),
+        Evidence::within("free rods in the mirrored flow from mirrored angles", difference(&mirror, &straight), 0.0)
+            .because("every product has the same factors up to sign"),
     ]
 }
 
@@ -208,7 +200,7 @@ fn mirrored(mirror: &Mirror, effort: &Effort) -> [Evidence; 3] {
         let apart = here.iter().zip(&there).map(|(a, b)| a[axis] - b[axis]);
         Evidence::new(
             format!("change of X̄_{} over a period, flow less mirrored flow", axis + 1),
-            Sample::of(apart).is(0.0, 0.0, designs[axis].effect, "a symmetry of the model; independent seeds"),
+            Sample::of(apart).is(0.0, 0.0, designs[axis].effect).because("a symmetry of the model; independent seeds"),
         )
     })
 }

@@ -70,9 +70,7 @@ fn paths(change: &Change, effort: &Effort) -> Vec<Evidence> {
     vec![Evidence::new(
         "mean square angle (rad²) between 400 and 800 steps a period, less half of that between \
          100 and 200",
-        Sample::of(excess).exceeds(
-            0.0,
-            design.effect,
+        Sample::of(excess).exceeds(0.0, design.effect).because(
             "paths that converge with order ½ or more would bring a quarter or less; the mean square \
              is some 0.035",
         ),
@@ -135,28 +133,21 @@ fn shared(beside: &Beside, effort: &Effort) -> Vec<Evidence> {
     vec![
         Evidence::new(
             "share of the variance that free rods explain, less the share that half the step does",
-            Sample::of_differences(&by_free, &by_finer).exceeds(
-                0.0,
-                more.effect,
-                "the better control variate; the two differ by a fifth of the variance",
-            ),
+            Sample::of_differences(&by_free, &by_finer)
+                .exceeds(0.0, more.effect)
+                .because("the better control variate; the two differ by a fifth of the variance"),
         ),
         Evidence::new(
             "artanh of the correlation of X̄₁ between α and 0.8 α at T/4",
-            Sample::of(fisher).exceeds(
-                0.75f64.atanh(),
-                common.effect,
-                "1/(1 − ρ) independent runs for each that shares: four at ρ = ¾; there is 0.87",
-            ),
+            Sample::of(fisher)
+                .exceeds(0.75f64.atanh(), common.effect)
+                .because("1/(1 − ρ) independent runs for each that shares: four at ρ = ¾; there is 0.87"),
         ),
         Evidence::new(
             "X̄₁ of the free rods at T/4",
-            Sample::of(&free).is(
-                free_mean(&changed(beside.mean), 0.25),
-                0.0,
-                mean.effect,
-                "the control variate's mean is a closed form; a rod a tenth longer has 10 % less",
-            ),
+            Sample::of(&free)
+                .is(free_mean(&changed(beside.mean), 0.25), 0.0, mean.effect)
+                .because("the control variate's mean is a closed form; a rod a tenth longer has 10 % less"),
         ),
     ]
 }

@@ -8,7 +8,7 @@ pub use effort::{Effort, GATE_SEED};
 pub use judges::Judges;
 pub use outcome::{Control, Judged, Outcome};
 
-use crate::judge::accept::{Rule, Text, Verdict};
+use crate::judge::accept::{Rule, Text, Unreasoned, Verdict};
 use outcome::overall;
 use serde::{Deserialize, Serialize};
 use std::fmt;
@@ -24,9 +24,9 @@ pub struct Evidence {
 }
 
 impl Evidence {
-    /// The rule that `error` is at most `tolerance`, with its reason.
-    pub fn within(what: impl Into<String>, error: f64, tolerance: f64, because: impl Into<Text>) -> Self {
-        Self::new(what, Rule::within(error, tolerance, because))
+    /// The rule that `error` is at most `tolerance`.
+    pub fn within(what: impl Into<String>, error: f64, tolerance: f64) -> Unreasoned<Self> {
+        Unreasoned(Self::new(what, Rule::within(error, tolerance, "")))
     }
 
     /// The rule that `error` is 0.
@@ -37,6 +37,12 @@ impl Evidence {
     /// The rule `rule` for the quantity `what`.
     pub fn new(what: impl Into<String>, rule: Rule) -> Self {
         Self { what: what.into(), rule }
+    }
+}
+
+impl AsMut<Text> for Evidence {
+    fn as_mut(&mut self) -> &mut Text {
+        self.rule.as_mut()
     }
 }
 

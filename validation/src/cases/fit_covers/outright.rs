@@ -66,10 +66,7 @@ pub fn off(straight: bool, effort: &Effort) -> Result<Evidence, String> {
     };
     Ok(Evidence::new(
         "r_e of points simulated at that r_e itself, less it, in standard uncertainties",
-        Sample::of(simulated.at_own.iter().zip(&simulated.at_nodes).map(off)).is(
-            0.0,
-            OFF,
-            EFFECT,
+        Sample::of(simulated.at_own.iter().zip(&simulated.at_nodes).map(off)).is(0.0, OFF, EFFECT).because(
             "a tenth costs a 68 % interval 0.3 % of its share; straight lines between the nodes are off by more than \
              the effect",
         ),

@@ -81,12 +81,8 @@ pub fn listed_scenes(run: &Run, _: &Effort) -> Vec<Evidence> {
         run(&scene).is_none()
     });
     vec![
-        Evidence::within(
-            "largest error of |p_i| at the end over the bound that the plan states",
-            share,
-            1.0,
-            "what a bound is: the start's rounding and the map's",
-        ),
+        Evidence::within("largest error of |p_i| at the end over the bound that the plan states", share, 1.0)
+            .because("what a bound is: the start's rounding and the map's"),
         Evidence::exact("scenes refused, or with an end that is no number", refused + unknown),
         Evidence::exact(
             "a flow of three real rates, on which an eigenvalue solver hung, that is given a period",
