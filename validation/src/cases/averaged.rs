@@ -72,15 +72,14 @@ fn averaged(limit: &Limit, effort: &Effort) -> Vec<Evidence> {
     let falls = (coarse.iter().zip(&fine))
         .map(|(coarse, fine)| (0.6 * coarse.square - fine.square) / (coarse.square + fine.square));
     let [coarse, fine] = steps;
-    vec![Evidence::new(
-        format!(
+    vec![
+        Evidence::on(format!(
             "0.6 × the mean sin² between the two paths at {coarse} steps a period, less that at {fine}, over the sum \
              of both; half a period"
-        ),
-        Sample::of(falls)
-            .exceeds(0.0, design.effect)
-            .because("∝ Δt in the limit, an eighth; paths that do not converge stay as far apart, −0.2"),
-    )]
+        ))
+        .exceeds(Sample::of(falls), 0.0, design.effect)
+        .because("∝ Δt in the limit, an eighth; paths that do not converge stay as far apart, −0.2"),
+    ]
 }
 
 type Update = fn(&UnitVector3<f64>, &Vector3<f64>, f64) -> (UnitVector3<f64>, f64);
@@ -123,25 +122,22 @@ fn updates([rotation, angles]: &[Update; 2], _: &Effort) -> Vec<Evidence> {
     };
     let because = "the next term of the series is GΔt = 10⁻⁴ times derivatives of a rate, of order 1/sin³ θ < 20";
     vec![
-        Evidence::within(
-            "how much the two ends of a kick of 1 rad come nearer as Δt goes from 10⁻² to 10⁻⁸",
-            same,
-            1e-14,
-        )
-        .because("round-off: only rate × Δt counts"),
+        Evidence::on("how much the two ends of a kick of 1 rad come nearer as Δt goes from 10⁻² to 10⁻⁸")
+            .within(same, 1e-14)
+            .because("round-off: only rate × Δt counts"),
         Evidence::exact(
             "by how much less than 0.1 the sine of the angle between the two ends is on average",
             (0.1 - distance).max(0.0),
         ),
-        Evidence::within("order in Δt of the distance of both ends at a given rate, less 2", order(rated), 2e-3)
+        Evidence::on("order in Δt of the distance of both ends at a given rate, less 2")
+            .within(order(rated), 2e-3)
             .because(because),
-        Evidence::within(
+        Evidence::on(
             "order in Δt of what a colliding rod is off Jeffery's path where the kick is 0, less 2; by rotation",
-            order(off_path[0]),
-            2e-3,
         )
+        .within(order(off_path[0]), 2e-3)
         .because(because),
-        Evidence::within("the same by angles", order(off_path[1]), 2e-3).because(because),
+        Evidence::on("the same by angles").within(order(off_path[1]), 2e-3).because(because),
     ]
 }
 
@@ -185,7 +181,8 @@ fn pushed(kick: &Kick, _: &Effort) -> Vec<Evidence> {
         opening += u32::from(line.x * line.y > 0.0);
     }
     vec![
-        Evidence::within("dr/dt while colliding over h² ℓ·D·ℓ/(2 r sin²χ), less 1", worst, 1e-5)
+        Evidence::on("dr/dt while colliding over h² ℓ·D·ℓ/(2 r sin²χ), less 1")
+            .within(worst, 1e-5)
             .because("left out: terms in 1 − Λ = 2·10⁻⁸ over h ℓ·D·ℓ ≥ 0.02, and the square of the turn, 10⁻⁸"),
         Evidence::exact(
             format!("pairs, of which {opening} open, with an arm that moves the other way"),

@@ -40,12 +40,11 @@ fn begins_again(way: &Way, effort: &Effort) -> Vec<Evidence> {
     let replicas = effort.samples(Design { effect: EFFECT, sd: SD });
     let differences = (0..replicas).into_par_iter().map(|replica| again_less_straight(&scene, *way, replica));
     let differences: Vec<f64> = differences.collect();
-    vec![Evidence::new(
-        "X̄₁ at t/T = 1½, begun again at t = T less straight on",
-        Sample::of(&differences)
-            .is(0.0, 0.0, EFFECT)
+    vec![
+        Evidence::on("X̄₁ at t/T = 1½, begun again at t = T less straight on")
+            .is(Sample::of(&differences), 0.0, 0.0, EFFECT)
             .because("the same rods, with other collisions; with r_e drawn anew they fall out of step more slowly"),
-    )]
+    ]
 }
 
 fn again_less_straight(scene: &Scene, way: Way, replica: u64) -> f64 {

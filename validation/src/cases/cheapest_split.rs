@@ -70,19 +70,21 @@ fn realised(respell: &Respell, effort: &Effort) -> Vec<Evidence> {
     let ratio = (found.scatter.value / said.scatter).powi(2);
     let [of_repeats, of_study] = [repeats, STUDY.1].map(|count| 2.0 / (9.0 * (count as f64 - 1.0)));
     vec![
-        Evidence::new(
-            "bias of the steps and replicas that the rule says for an error of 0.02, against 400 steps",
-            Sample { mean: found.bias.value, se: found.bias.se, samples: repeats }
-                .is(0.0, said.bias + constants.bias(Scope::OwnRods(RODS), 400.0, RODS as f64), 0.05)
-                .because("the bias that the rule allows for, and that of the reference; two steps are off by more"),
-        ),
-        Evidence::new(
-            "cube root of the variance of repeats over the one that the rule says",
-            Sample { mean: ratio.cbrt(), se: (of_repeats + of_study).sqrt(), samples: repeats }
-                .is(1.0 - of_repeats + of_study, 0.0, 0.5)
-                .because(
-                    "both variances are estimates; a quarter of the replicas or less bring ∛4, 0.59 more, at least",
-                ),
-        ),
+        Evidence::on("bias of the steps and replicas that the rule says for an error of 0.02, against 400 steps")
+            .is(
+                Sample { mean: found.bias.value, se: found.bias.se, samples: repeats },
+                0.0,
+                said.bias + constants.bias(Scope::OwnRods(RODS), 400.0, RODS as f64),
+                0.05,
+            )
+            .because("the bias that the rule allows for, and that of the reference; two steps are off by more"),
+        Evidence::on("cube root of the variance of repeats over the one that the rule says")
+            .is(
+                Sample { mean: ratio.cbrt(), se: (of_repeats + of_study).sqrt(), samples: repeats },
+                1.0 - of_repeats + of_study,
+                0.0,
+                0.5,
+            )
+            .because("both variances are estimates; a quarter of the replicas or less bring ∛4, 0.59 more, at least"),
     ]
 }

@@ -104,7 +104,7 @@ fn phase_means(motion: &Motion, _: &Effort) -> Vec<Evidence> {
         }
     }
     let because = "four panels to the quadrature's tolerance of 10⁻¹³, times four for the quarter period";
-    vec![Evidence::within("largest difference of a time mean", worst, 1.6e-12).because(because)]
+    vec![Evidence::on("largest difference of a time mean").within(worst, 1.6e-12).because(because)]
 }
 
 fn orbit_distribution(orbit: &Orbit, effort: &Effort) -> Vec<Evidence> {
@@ -134,12 +134,9 @@ fn orbit_distribution(orbit: &Orbit, effort: &Effort) -> Vec<Evidence> {
             "p of C_b having the closed distribution after 137 steps",
             lab::uniform(levels, distance, "Kolmogorov–Smirnov; half of what eq. 13 without r_e is off by"),
         ),
-        Evidence::within(
-            "largest change of a rod's C_b",
-            if failed { f64::NAN } else { change },
-            4.0 * r * f64::EPSILON,
-        )
-        .because("four roundings of a direction, each grown by r_e in C"),
+        Evidence::on("largest change of a rod's C_b")
+            .within(if failed { f64::NAN } else { change }, 4.0 * r * f64::EPSILON)
+            .because("four roundings of a direction, each grown by r_e in C"),
     ]
 }
 
@@ -161,12 +158,11 @@ fn plateau(change: &Change, effort: &Effort) -> Vec<Evidence> {
     let mut evidence = Vec::new();
     for (axis, channel) in Channel::X.into_iter().enumerate() {
         let sample = lab::at_output(&results, channel, 49, scene.particles.count as u64);
-        evidence.push(Evidence::new(
-            format!("X̄_{} at t/T = 12¼, against the phase means", axis + 1),
-            sample
-                .is((below[axis] + 4.0 * middle[axis] + above[axis]) / 6.0, 0.0, design.effect)
+        evidence.push(
+            Evidence::on(format!("X̄_{} at t/T = 12¼, against the phase means", axis + 1))
+                .is(sample, (below[axis] + 4.0 * middle[axis] + above[axis]) / 6.0, 0.0, design.effect)
                 .because("the phase means over isotropic orbits and r_e, to 10⁻⁶; independent rods"),
-        ));
+        );
     }
     evidence
 }

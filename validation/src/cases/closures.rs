@@ -56,14 +56,12 @@ fn check(of: &Of, _: &Effort) -> Vec<Evidence> {
         equation.rate_with(&a, &of(closure, &a)).amax()
     });
     vec![
-        Evidence::within("rate of the published steady tensors, 1/G = 1", worst(rest), 1e-9)
+        Evidence::on("rate of the published steady tensors, 1/G = 1")
+            .within(worst(rest), 1e-9)
             .because("ten published decimals, times rates below 1, and what tolerances of 1e-12 there leave"),
-        Evidence::within(
-            "a_ijkl of free rods, off the elliptic integrals",
-            worst([0.5, 2.0, 5.0].map(|strain| free(*of, strain))),
-            1e-12,
-        )
-        .because("trapezoid rules with 3e-17 of the integrand, some thousand roundings"),
+        Evidence::on("a_ijkl of free rods, off the elliptic integrals")
+            .within(worst([0.5, 2.0, 5.0].map(|strain| free(*of, strain))), 1e-12)
+            .because("trapezoid rules with 3e-17 of the integrand, some thousand roundings"),
     ]
 }
 

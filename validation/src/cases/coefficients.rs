@@ -103,14 +103,14 @@ fn fourth_moments(read: &Read, effort: &Effort) -> Vec<Evidence> {
         .map(|(k, channel)| {
             let own = values.iter().map(|value| value[k]);
             let expected = moments::fourth(ASPECT_RATIO, 0.2, indices(*channel));
-            Evidence::new(
-                format!("{} at t/T = 0.2", channel.name()),
-                Sample::of(own).is(expected, 0.0, design.effect).because("exact; a third of what the mistakes change"),
-            )
+            Evidence::on(format!("{} at t/T = 0.2", channel.name()))
+                .is(Sample::of(own), expected, 0.0, design.effect)
+                .because("exact; a third of what the mistakes change")
         })
         .collect();
     evidence.push(
-        Evidence::within("the largest |Σ_k a_ijkk − a_ij| of a suspension", traces(read, effort), 1e-13)
+        Evidence::on("the largest |Σ_k a_ijkk − a_ij| of a suspension")
+            .within(traces(read, effort), 1e-13)
             .because("sums of 50 rods' products, each rounded a few times by 1.1e-16 of itself"),
     );
     evidence
@@ -181,12 +181,11 @@ fn particle_stress(stress: &Stress, effort: &Effort) -> Vec<Evidence> {
     {
         for (k, channel) in channels.iter().enumerate() {
             let own = values.iter().map(|values: &[f64; 3]| values[k]);
-            evidence.push(Evidence::new(
-                format!("{} {when}", channel.name()),
-                Sample::of(own)
-                    .is(expected[k], 0.0, design.effect)
+            evidence.push(
+                Evidence::on(format!("{} {when}", channel.name()))
+                    .is(Sample::of(own), expected[k], 0.0, design.effect)
                     .because("exact; a third of what the mistakes change"),
-            ));
+            );
         }
     }
     evidence
@@ -231,7 +230,7 @@ fn stress_in_pascals(pascals: &Pascals, effort: &Effort) -> Vec<Evidence> {
                 )
             }))
         });
-        Evidence::within(format!("the largest difference over μ G n a³, {name}"), worst(off), 1e-13).because(
+        Evidence::on(format!("the largest difference over μ G n a³, {name}")).within(worst(off), 1e-13).because(
             "sums of 50 rods' products with coefficients up to 1, each rounded a few times by 1.1e-16 of itself",
         )
     };

@@ -96,7 +96,7 @@ fn invariants(rule: &ContactRule, effort: &Effort) -> [Evidence; PROPERTIES.len(
         }
     }
     let because = "some dozens of roundings, over the kick times the condition of its arm";
-    std::array::from_fn(|k| Evidence::within(PROPERTIES[k].0, worst[k], 64.0 * f64::EPSILON).because(because))
+    std::array::from_fn(|k| Evidence::on(PROPERTIES[k].0).within(worst[k], 64.0 * f64::EPSILON).because(because))
 }
 
 /// A function that returns (φ̇′, θ̇′) from a direction and ṗ′.
@@ -131,7 +131,7 @@ fn against_turning(rates: &AngleRates, _: &Effort) -> [Evidence; 2] {
     }
     let because = "the central difference's own error: Δt²/6 times a third derivative of 8(|ṗ|/sin θ)³ ≤ 8·5³ at most";
     [("φ̇′", worst[0]), ("θ̇′", worst[1])].map(|(rate, worst)| {
-        Evidence::within(format!("error of {rate} in rad per unit time"), worst, 2e-6).because(because)
+        Evidence::on(format!("error of {rate} in rad per unit time")).within(worst, 2e-6).because(because)
     })
 }
 

@@ -162,10 +162,15 @@ fn free_amplitude(change: &Change, effort: &Effort) -> Vec<Evidence> {
     let design = Design::new(0.09, 0.045);
     let amplitudes = amplitudes(&scene, effort.samples(design), &[0, 8]);
     let half = "\"approximately half\": 0.5 to one digit; r_e = 3 has 0.35 by the closed form";
-    let start = Sample::of(&amplitudes[0]).is(0.5, 0.05, design.effect).because(half);
-    let constant = "constant: the same phases come back to round-off";
-    let change = Sample::of_differences(&amplitudes[1], &amplitudes[0]).is(0.0, 1e-12, design.effect).because(constant);
-    vec![Evidence::new("amplitude at t = 0, in rod lengths", start), Evidence::new("its change by t/T = 4", change)]
+    let change = Sample::of_differences(&amplitudes[1], &amplitudes[0]);
+    vec![
+        Evidence::on("amplitude at t = 0, in rod lengths")
+            .is(Sample::of(&amplitudes[0]), 0.5, 0.05, design.effect)
+            .because(half),
+        Evidence::on("its change by t/T = 4")
+            .is(change, 0.0, 1e-12, design.effect)
+            .because("constant: the same phases come back to round-off"),
+    ]
 }
 
 fn faster(order: &Order, effort: &Effort) -> [Evidence; 2] {
@@ -174,11 +179,12 @@ fn faster(order: &Order, effort: &Effort) -> [Evidence; 2] {
         let scene = lab::changed(lab::free_scene(effort), |scene| (order.set)(scene, value));
         self::amplitudes(&scene, replicas, &[3]).remove(0)
     });
-    let because = "an order without a number; the same seeds in all three";
+
     [(0, 1, "first less second"), (1, 2, "second less third")].map(|(a, b, which)| {
-        let fall =
-            Sample::of_differences(&amplitudes[a], &amplitudes[b]).exceeds(0.0, order.design.effect).because(because);
-        Evidence::new(format!("fall of the amplitude at t/T = 1½, {which}"), fall)
+        let fall = Sample::of_differences(&amplitudes[a], &amplitudes[b]);
+        Evidence::on(format!("fall of the amplitude at t/T = 1½, {which}"))
+            .exceeds(fall, 0.0, order.design.effect)
+            .because("an order without a number; the same seeds in all three")
     })
 }
 
@@ -196,10 +202,11 @@ fn collisions_damp(change: &Change, effort: &Effort) -> Vec<Evidence> {
         for (k, when) in [(0, "1"), (1, "2")] {
             let fall = Sample::of_differences(&without[k], &with[k]);
             let because = "\"much\" has no number in the paper: two curves as far apart as twice the width of a line";
-            evidence.push(Evidence::new(
-                format!("amplitude without less with collisions at t/T = {when}, σ = {sd} %"),
-                fall.exceeds(2.0 * LINE, design.effect).because(because),
-            ));
+            evidence.push(
+                Evidence::on(format!("amplitude without less with collisions at t/T = {when}, σ = {sd} %"))
+                    .exceeds(fall, 2.0 * LINE, design.effect)
+                    .because(because),
+            );
         }
     }
     evidence

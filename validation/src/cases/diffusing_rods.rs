@@ -38,17 +38,17 @@ pub fn cases() -> Vec<Case> {
 fn distribution(model: &Model, effort: &Effort) -> Result<Vec<Evidence>, NoAnswer> {
     const ROUNDING: &str = "both solutions are refined to 4e-12";
     Ok(vec![
-        Evidence::within("a_33 and a_3333 in uniaxial extension, off the closed form", extension(*model)?, 1e-11)
+        Evidence::on("a_33 and a_3333 in uniaxial extension, off the closed form")
+            .within(extension(*model)?, 1e-11)
             .because(ROUNDING),
-        Evidence::within(
-            "rate of a_ij by its own equation, steady, in flows of all kinds",
-            standing(*model, effort)?,
-            1e-10,
-        )
-        .because("a_ijkl and a_ij to 4e-12, times rates of up to 10"),
-        Evidence::within("a_ij and a_ijkl of C_I = 0, off the elliptic integrals", without_diffusion(*model)?, 1e-11)
+        Evidence::on("rate of a_ij by its own equation, steady, in flows of all kinds")
+            .within(standing(*model, effort)?, 1e-10)
+            .because("a_ijkl and a_ij to 4e-12, times rates of up to 10"),
+        Evidence::on("a_ij and a_ijkl of C_I = 0, off the elliptic integrals")
+            .within(without_diffusion(*model)?, 1e-11)
             .because(ROUNDING),
-        Evidence::within("a_ii as C_I → 0, off the mean over orbits", weak(*model)?, 1e-7)
+        Evidence::on("a_ii as C_I → 0, off the mean over orbits")
+            .within(weak(*model)?, 1e-7)
             .because("extrapolated from C_I = 2.5e-4 and 5e-4, where the fourth power is left"),
     ])
 }

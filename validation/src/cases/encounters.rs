@@ -51,9 +51,11 @@ fn limits(reach: &Formula, _: &Effort) -> Vec<Evidence> {
     vec![
         Evidence::exact("s* of R = 1, where P_c is certain", certain),
         Evidence::exact("scenes in which R = 0 does not reach everyone", bounded),
-        Evidence::within("P_c(s*(R)) over R, less 1, over 1 + m", worst, 8.0 * f64::EPSILON)
+        Evidence::on("P_c(s*(R)) over R, less 1, over 1 + m")
+            .within(worst, 8.0 * f64::EPSILON)
             .because("round-off of the two powers, m times that of their bases"),
-        Evidence::within("s* of R = 1/27 for α = ½, m = 3, less a rod length", by_hand, 4.0 * f64::EPSILON)
+        Evidence::on("s* of R = 1/27 for α = ½, m = 3, less a rod length")
+            .within(by_hand, 4.0 * f64::EPSILON)
             .because("roundings of 1/27, of its root, and of two operations on 3"),
     ]
 }
@@ -89,12 +91,11 @@ fn frequency(change: &Change, effort: &Effort) -> Vec<Evidence> {
                 suspension.counters().candidates as f64 / expected
             })
             .collect();
-        Evidence::new(
-            format!("candidates over the sum of P_c, {count} rods, α = {alpha}, m = {m}, n = {concentration} per cm³"),
-            Sample::of(&ratios)
-                .is(1.0, 0.0, design.effect)
-                .because("unbiased; an α a tenth larger makes 13 % more at 300 rods, and 25 % at 25"),
-        )
+        Evidence::on(format!(
+            "candidates over the sum of P_c, {count} rods, α = {alpha}, m = {m}, n = {concentration} per cm³"
+        ))
+        .is(Sample::of(&ratios), 1.0, 0.0, design.effect)
+        .because("unbiased; an α a tenth larger makes 13 % more at 300 rods, and 25 % at 25")
     });
     evidence.into()
 }

@@ -177,12 +177,14 @@ fn same_alpha(change: &Change, effort: &Effort) -> Result<Vec<Evidence>, String>
         "best α: {:.3} ± {:.3} at r_e = 11.6, {:.3} ± {:.3} at 14.2; their difference",
         short.alpha, short.se, long.alpha, long.se
     );
-    let rule = Sample {
+    let difference = Sample {
         mean: long.alpha - short.alpha,
         se: short.se.hypot(long.se),
         samples: (short.points + long.points) as u64,
-    }
-    .is(0.0, 0.0, 1.0)
-    .because("points that would show α = 1.5 beside 0.5, a standard error of about 0.1; blunter ones say nothing");
-    Ok(vec![Evidence::new(what, rule)])
+    };
+    Ok(vec![
+        Evidence::on(what).is(difference, 0.0, 0.0, 1.0).because(
+            "points that would show α = 1.5 beside 0.5, a standard error of about 0.1; blunter ones say nothing",
+        ),
+    ])
 }

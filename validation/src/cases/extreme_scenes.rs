@@ -87,8 +87,8 @@ fn extreme_suspensions(model: &Model, effort: &Effort) -> Vec<Evidence> {
         length = larger(length, off_length(&p));
     }
     vec![
-        Evidence::within("largest ||p| − 1|", length, LENGTH).because(LENGTH_BECAUSE),
-        Evidence::within("largest |tr⟨pp⟩ − 1| of whole runs", trace, TRACE).because(TRACE_BECAUSE),
+        Evidence::on("largest ||p| − 1|").within(length, LENGTH).because(LENGTH_BECAUSE),
+        Evidence::on("largest |tr⟨pp⟩ − 1| of whole runs").within(trace, TRACE).because(TRACE_BECAUSE),
         Evidence::exact(
             "rods that met although n = 10⁻³⁰ per cm³, or did not although α = 10³⁰⁰",
             meetings(model, effort),

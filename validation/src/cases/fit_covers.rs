@@ -230,12 +230,9 @@ fn covers(way: &Way, effort: &Effort) -> Result<Vec<Evidence>, String> {
         let what = format!("share of {:.0} % intervals that hold the planted α", 100.0 * CONFIDENCES[k]);
         let because = "the level; the allowance is the error of a covariance estimated from 80 replicas; a curve \
                        taken for exact, or half the length, misses more than the effect";
-        Evidence::new(
-            what,
-            Sample::of(fits.iter().map(|fit| inside(fit, k)))
-                .is(CONFIDENCES[k], ALLOWANCE[k], EFFECT[k])
-                .because(because),
-        )
+        Evidence::on(what)
+            .is(Sample::of(fits.iter().map(|fit| inside(fit, k))), CONFIDENCES[k], ALLOWANCE[k], EFFECT[k])
+            .because(because)
     };
     Ok(vec![rule(0), rule(1), outright::off(*way == Way::StraightLines, effort)?])
 }

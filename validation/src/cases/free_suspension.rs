@@ -72,10 +72,11 @@ fn compare_one((r, sd, sevenths): Problem, change: Change, effort: &Effort, seed
     for &output in sevenths {
         for (axis, reference) in expected(output as f64 / 7.0).into_iter().enumerate() {
             let sample = lab::at_output(&results, Channel::X[axis], output, scene.particles.count as u64);
-            evidence.push(Evidence::new(
-                format!("X̄_{} at t/T = {output}/7, r_e = {r}, σ = {sd} %", axis + 1),
-                sample.is(reference, 0.0, DESIGN.effect).because("the closed form is exact to 10⁻⁹; independent rods"),
-            ));
+            evidence.push(
+                Evidence::on(format!("X̄_{} at t/T = {output}/7, r_e = {r}, σ = {sd} %", axis + 1))
+                    .is(sample, reference, 0.0, DESIGN.effect)
+                    .because("the closed form is exact to 10⁻⁹; independent rods"),
+            );
         }
     }
     evidence
@@ -99,5 +100,5 @@ fn half_period(change: &Change, effort: &Effort) -> Vec<Evidence> {
         Err(_) => worst = f64::NAN,
     }
     let because = "the phases are equal bits; the sums of 1000 terms are rounded alike up to signs of zero";
-    vec![Evidence::within("largest |X̄_i(t + T/2) − X̄_i(t)|", worst, 1e-14).because(because)]
+    vec![Evidence::on("largest |X̄_i(t + T/2) − X̄_i(t)|").within(worst, 1e-14).because(because)]
 }

@@ -200,17 +200,17 @@ fn general_flows(motion: &Motion, effort: &Effort) -> Vec<Evidence> {
     }
     let mut evidence = vec![
         Evidence::exact("answers that are off by more than their bound", wrong),
-        Evidence::within("largest error over its bound", share, 1.0).because("what a bound is"),
+        Evidence::on("largest error over its bound").within(share, 1.0).because("what a bound is"),
         Evidence::exact("refused, though 106 bits can answer", needless),
     ];
     for (k, found) in decades.iter().enumerate().filter(|(_, found)| found.answered + found.refused > 0) {
         let Decades { answered, refused, worst, bound } = found;
         evidence.push(
-            Evidence::within(
-                format!("worst of {answered} answers, condition number up to 10^{}; {refused} refused", 2 * (k + 1)),
-                *worst,
-                *bound,
-            )
+            Evidence::on(format!(
+                "worst of {answered} answers, condition number up to 10^{}; {refused} refused",
+                2 * (k + 1)
+            ))
+            .within(*worst, *bound)
             .because("the largest bound among them"),
         );
     }

@@ -101,15 +101,11 @@ fn where_errors_show(scale: &f64, _: &Effort) -> Vec<Evidence> {
         flip = larger(flip, 0.5 / apart_rad(&at(0.0), &at(0.1)));
     }
     vec![
-        Evidence::within(
-            "largest angle between two directions along the flow, a tenth of a period apart, times r_e",
-            along,
-            1.0,
-        )
+        Evidence::on("largest angle between two directions along the flow, a tenth of a period apart, times r_e").within(along, 1.0)
         .because(
             "A.4: π/2 − φ = cot(κ)/r_e, and cot κ changes by 2 cot 72° = 0.65 between the two, for the longest rods",
         ),
-        Evidence::within("½ over the smallest angle between the flip and a tenth of a period before", flip, 1.0)
+        Evidence::on("½ over the smallest angle between the flip and a tenth of a period before").within(flip, 1.0)
             .because("from φ = 1 to a rod along the flow, π/2"),
     ]
 }
@@ -128,9 +124,10 @@ fn digits(rate: &Rate, _: &Effort) -> Vec<Evidence> {
     }
     let because = "a square, a sum, a quotient, a root: a dozen roundings";
     vec![
-        Evidence::within("relative error of r_e read off the right-hand side", worst, 12.0 * f64::EPSILON)
+        Evidence::on("relative error of r_e read off the right-hand side")
+            .within(worst, 12.0 * f64::EPSILON)
             .because(because),
-        Evidence::within("relative error of the period read off it", period, 12.0 * f64::EPSILON).because(because),
+        Evidence::on("relative error of the period read off it").within(period, 12.0 * f64::EPSILON).because(because),
     ]
 }
 
@@ -168,13 +165,12 @@ fn eigenvalues(slope: &Slope, _: &Effort) -> Vec<Evidence> {
     }
     let because = "eigenvalues of a matrix near 1, whose two largest are apart by 1.1 or more where they are largest";
     vec![
-        Evidence::within(
-            "by how much the largest eigenvalue of ∂ṗ/∂p exceeds theory, over 1152 directions",
-            above.max(0.0),
-            1e-13,
-        )
-        .because(because),
-        Evidence::within("relative difference of the two where theory has it largest", apart, 1e-13).because(because),
+        Evidence::on("by how much the largest eigenvalue of ∂ṗ/∂p exceeds theory, over 1152 directions")
+            .within(above.max(0.0), 1e-13)
+            .because(because),
+        Evidence::on("relative difference of the two where theory has it largest")
+            .within(apart, 1e-13)
+            .because(because),
     ]
 }
 
@@ -224,7 +220,8 @@ fn index_bounds(integrators: &Integrators, _: &Effort) -> Vec<Evidence> {
         }
     }
     vec![
-        Evidence::within("largest error over its index", worst, 1.0)
+        Evidence::on("largest error over its index")
+            .within(worst, 1.0)
             .because("the index is 1.25 times the error where the error falls with the order of theory"),
     ]
 }

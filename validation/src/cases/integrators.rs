@@ -97,7 +97,8 @@ fn orders(integrators: &Integrators, _: &Effort) -> Vec<Evidence> {
         }
         if matches!(integrator.theory, Theory::Order(_)) {
             evidence.push(
-                Evidence::within(format!("observed order against theory, {}", integrator.name), worst, ORDER_TOLERANCE)
+                Evidence::on(format!("observed order against theory, {}", integrator.name))
+                    .within(worst, ORDER_TOLERANCE)
                     .because(
                         "the next power of Δt is a tenth or less of the leading one on the last two pairs above \
                  round-off",
@@ -119,12 +120,9 @@ fn lengths(integrators: &Integrators, _: &Effort) -> Vec<Evidence> {
                 Theory::Adaptive => (Setting::Tolerance(1e-6), 1024),
             };
             let off = grade(&integrator, &problem, &start, setting).map_or(1.0, |e| e.length);
-            Evidence::within(
-                format!("|p| − 1 at the end, {}", integrator.name),
-                off,
-                4.0 * f64::from(steps) * f64::EPSILON,
-            )
-            .because("each step, of 1024 or of one, rounds |p| by four roundings at most")
+            Evidence::on(format!("|p| − 1 at the end, {}", integrator.name))
+                .within(off, 4.0 * f64::from(steps) * f64::EPSILON)
+                .because("each step, of 1024 or of one, rounds |p| by four roundings at most")
         })
         .collect()
 }
@@ -141,7 +139,7 @@ fn round_off(integrators: &Integrators, _: &Effort) -> Vec<Evidence> {
             }
         }
     }
-    vec![Evidence::within("largest angle to the closed form", worst, 32.0 * f64::EPSILON).because(
+    vec![Evidence::on("largest angle to the closed form").within(worst, 32.0 * f64::EPSILON).because(
         "near a whole turn the phase that is left is small, and its relative error ε moves φ by ε, \
          not by r_e ε; a few dozen roundings of the propagator and the closed form",
     )]
@@ -159,8 +157,11 @@ fn adaptive(integrators: &Integrators, _: &Effort) -> Vec<Evidence> {
             let (problem, start) = RodProblem::mid_flip(r);
             let error = grade(&integrator, &problem, &start, Setting::Tolerance(1e-11));
             evidence.push(
-                Evidence::within(
-                    format!("angle to the closed form at a tolerance of 10⁻¹¹, r_e = {r}, {}", integrator.name),
+                Evidence::on(format!(
+                    "angle to the closed form at a tolerance of 10⁻¹¹, r_e = {r}, {}",
+                    integrator.name
+                ))
+                .within(
                     // An integrator that gives up is off by as much as can be.
                     error.map_or(std::f64::consts::FRAC_PI_2, |errors| errors.orientation_rad),
                     steps * 1e-11 * r,

@@ -27,7 +27,7 @@ pub fn cases() -> Vec<Case> {
     ]
 }
 
-fn heavy((angles, min_arm): &(Angles, f64), effort: &Effort) -> Vec<Evidence> {
+fn heavy((angles, min_arm): &(Angles, f64), effort: &Effort) -> [Evidence; 2] {
     let mut fresh = fresh_scene(effort, 1000, 200);
     lab::interaction(&mut fresh).min_contact_arm = *min_arm;
     let mut run = lab::interacting_scene(effort);
@@ -52,12 +52,10 @@ fn heavy((angles, min_arm): &(Angles, f64), effort: &Effort) -> Vec<Evidence> {
             "the tail is (1 − 1/(140Y²))/Y, from Y = 1.4: 0.0026 off; terms in 1 − Λ = 0.015 over Y² as much",
         ),
     ];
-    let evidence = hills.map(|(what, hill, because)| {
-        let rule =
-            Sample { mean: hill.alpha, se: hill.se, samples: hill.count }.is(1.0, 0.01, design.effect).because(because);
-        Evidence::new(format!("Hill's exponent of {what}"), rule)
-    });
-    evidence.into()
+    hills.map(|(what, hill, because)| {
+        let sample = Sample { mean: hill.alpha, se: hill.se, samples: hill.count };
+        Evidence::on(format!("Hill's exponent of {what}")).is(sample, 1.0, 0.01, design.effect).because(because)
+    })
 }
 
 fn bounded((angles, share): &(Angles, f64), effort: &Effort) -> Vec<Evidence> {
@@ -104,9 +102,11 @@ fn bounded((angles, share): &(Angles, f64), effort: &Effort) -> Vec<Evidence> {
     }
     vec![
         Evidence::exact("collisions that are missing to 2000", 2000usize.saturating_sub(collisions) as f64),
-        Evidence::within("largest difference of a kick from |g|Δt/(2|r|), over its conditioning", worst[0], 1e-13)
+        Evidence::on("largest difference of a kick from |g|Δt/(2|r|), over its conditioning")
+            .within(worst[0], 1e-13)
             .because("some hundred roundings, ε each"),
-        Evidence::within("the largest kick over its bound, less 1 where it is above", worst[1], 1e-12)
+        Evidence::on("the largest kick over its bound, less 1 where it is above")
+            .within(worst[1], 1e-12)
             .because("round-off of kicks at the bound"),
     ]
 }

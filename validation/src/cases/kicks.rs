@@ -72,12 +72,13 @@ fn formula(expected: &Expected, effort: &Effort) -> Vec<Evidence> {
         let constant = 6.0 * PI * tail_of_isotropic(scene.particles.aspect_ratio);
         let chance = |factor: f64| constant * chance_of_threads(factor * scaled);
         let ratios = replicas.iter().map(|fresh| fresh.kicked / expected(fresh, &chance));
-        Evidence::new(
-            format!("rods kicked by more than {threshold_rad} rad over those expected, {steps} steps a period"),
-            Sample::of(ratios).is(1.0, 0.003, design.effect).because(
-                "left out, 10⁻³ each: the next term in GΔt/κ, terms in (1 − Λ)/Y², the cube's corners, to \
+        Evidence::on(format!(
+            "rods kicked by more than {threshold_rad} rad over those expected, {steps} steps a period"
+        ))
+        .is(Sample::of(ratios), 1.0, 0.003, design.effect)
+        .because(
+            "left out, 10⁻³ each: the next term in GΔt/κ, terms in (1 − Λ)/Y², the cube's corners, to \
                  which distant neighbours point; the nearest of the controls is 1 − π/4 = 0.21 off",
-            ),
         )
     });
     evidence.collect()
@@ -128,29 +129,31 @@ fn memory(counted: &Counted, effort: &Effort) -> Vec<Evidence> {
     let [coarse, fine] = [100, 800].map(|steps| run(4.0, steps, 1, effort.samples(fall), 1));
     let both = Sample::of(coarse.iter().chain(&fine).map(|c| 2.0 * c.opening[OVER])).mean;
     let falls = coarse.iter().zip(&fine).map(|(coarse, fine)| (coarse.opening[OVER] - fine.opening[OVER]) / both);
-    let mut evidence = vec![Evidence::new(
-        "kicks > 0.1 rad of opening pairs at 100 steps a period, less those at 800, over both; α = \
+    let mut evidence = vec![
+        Evidence::on(
+            "kicks > 0.1 rad of opening pairs at 100 steps a period, less those at 800, over both; α = \
          4",
-        Sample::of(falls)
-            .exceeds(0.1, fall.effect)
-            .because("they would be equal if the rate did not depend on Δt, and are 1 : 3"),
-    )];
+        )
+        .exceeds(Sample::of(falls), 0.1, fall.effect)
+        .because("they would be equal if the rate did not depend on Δt, and are 1 : 3"),
+    ];
     // Pilot of 4,650 replicas at seeds 9001 to 9010: 0.35 for both.
     let off = Design::new(0.5, 0.39);
     for (steps, stream) in [(200, 2), (400, 3)] {
         let counts = run(0.5, steps, stream, effort.samples(off), 50);
         let fresh = Sample::of(counts.iter().map(|c| c.fresh_closing[OVER])).mean;
         let offs = counts.iter().map(|c| (c.closing[OVER] - c.fresh_closing[OVER]) / fresh);
-        evidence.push(Evidence::new(
-            format!(
+        evidence.push(
+            Evidence::on(format!(
                 "kicks > 0.1 rad of closing pairs over the formula's number, less 1; {steps} steps a \
                  period, α = ½"
-            ),
-            Sample::of(offs).is(0.0, 0.05, off.effect).because(
+            ))
+            .is(Sample::of(offs), 0.0, 0.05, off.effect)
+            .because(
                 "the formula takes the separation to be independent of the directions; a pair that \
                  collides is no longer so, by the share of P_c ≈ 0.05",
             ),
-        ));
+        );
     }
     evidence
 }

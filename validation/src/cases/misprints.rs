@@ -79,7 +79,8 @@ fn gives_back_velocity(component: &Gradient, _: &Effort) -> Vec<Evidence> {
     fields
         .iter()
         .map(|(name, u)| {
-            Evidence::within(format!("largest angle between thread and line, {name}"), error(*u), 1e-11)
+            Evidence::on(format!("largest angle between thread and line, {name}"))
+                .within(error(*u), 1e-11)
                 .because(because)
         })
         .collect()
@@ -122,7 +123,8 @@ fn shadows(model: &Shadows, _: &Effort) -> Vec<Evidence> {
         }
     }
     vec![
-        Evidence::within("largest error of a shadow", worst, 4.0 * f64::EPSILON)
+        Evidence::on("largest error of a shadow")
+            .within(worst, 4.0 * f64::EPSILON)
             .because("a few roundings of numbers up to 1"),
     ]
 }
@@ -157,7 +159,8 @@ fn free_rods_keep_c(by_contact: &Moves, effort: &Effort) -> Vec<Evidence> {
         before = after;
     }
     vec![
-        Evidence::within("largest change of C_b of a free rod in one step", free_change, ROUND_OFF)
+        Evidence::on("largest change of C_b of a free rod in one step")
+            .within(free_change, ROUND_OFF)
             .because("the exact motion keeps C to round-off"),
         Evidence::new(
             format!("of {colliding} colliding rods, those whose C_b stayed to round-off"),

@@ -122,13 +122,11 @@ fn period(motion: &Motion, _: &Effort) -> Vec<Evidence> {
     }
     let because = "the root is found to the last bit; eight roundings of the phase";
     vec![
-        Evidence::within(
-            "relative error of the period, plane Couette flow by its closed form",
-            worst[0],
-            8.0 * f64::EPSILON,
-        )
-        .because(because),
-        Evidence::within("relative error of the period, the same flow about other axes", worst[1], 8.0 * f64::EPSILON)
+        Evidence::on("relative error of the period, plane Couette flow by its closed form")
+            .within(worst[0], 8.0 * f64::EPSILON)
+            .because(because),
+        Evidence::on("relative error of the period, the same flow about other axes")
+            .within(worst[1], 8.0 * f64::EPSILON)
             .because(because),
     ]
 }
@@ -166,7 +164,7 @@ fn orbit_constant(motion: &Motion, _: &Effort) -> Vec<Evidence> {
             }
         }
     }
-    vec![Evidence::within("largest relative drift of C up to 10⁴ periods", worst, 16.0 * f64::EPSILON).because(
+    vec![Evidence::on("largest relative drift of C up to 10⁴ periods").within(worst, 16.0 * f64::EPSILON).because(
         "one evaluation, however many periods it spans: C is a ratio of lengths without cancellation, some sixteen \
          roundings",
     )]
@@ -196,7 +194,8 @@ fn closed_form_motion(motion: &Motion, _: &Effort) -> Vec<Evidence> {
         }
     }
     vec![
-        Evidence::within("angle between the two, over max(r_e, 1/r_e)·(1 + t/T)", worst, 32.0 * f64::EPSILON)
+        Evidence::on("angle between the two, over max(r_e, 1/r_e)·(1 + t/T)")
+            .within(worst, 32.0 * f64::EPSILON)
             .because("a rounding of the phase, 2π(t/T)ε, grows by dφ/d(phase) ≤ max(r_e, 1/r_e) at the flip"),
     ]
 }
@@ -248,13 +247,13 @@ fn mean_angle(angle: &Angle, _: &Effort) -> Vec<Evidence> {
     }
     let because = "the quadrature asks for 10⁻¹⁴ on each panel of a quarter";
     vec![
-        Evidence::within("difference of ⟨φ⟩ over the quadrature's tolerance, r_e from 1 to 1000", worst, 1.0)
+        Evidence::on("difference of ⟨φ⟩ over the quadrature's tolerance, r_e from 1 to 1000")
+            .within(worst, 1.0)
             .because(because),
-        Evidence::within(
+        Evidence::on(
             "difference of π/2 − ⟨φ⟩ and its first term, over that tolerance and the next term, r_e from 10⁵ to 10⁷",
-            thread,
-            1.0,
         )
+        .within(thread, 1.0)
         .because(because),
     ]
 }

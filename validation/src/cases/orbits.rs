@@ -57,17 +57,11 @@ fn orbits(orbits: &Orbits, effort: &Effort) -> Vec<Evidence> {
     let of_collisions = kicked(&suspension, watch, effort.samples(high));
     let less = |all: &[Shares], share: f64| Sample::of(above(all, Quantity::Orbit, 0.5).iter().map(|own| own - share));
     vec![
-        Evidence::new(
-            "share of diffusing rods with C_b above ½, less the closed form's",
-            less(&of_diffusion, 1.0 - (orbits.weak)(0.5, ASPECT_RATIO))
-                .is(0.0, 0.015, weak.effect)
-                .because("a third of what isotropic directions differ by, 0.046"),
-        ),
-        Evidence::new(
-            "share of colliding rods with C_b above ½, less that of isotropic directions",
-            less(&of_collisions, 1.0 - orbit_constant_cdf(0.5, ASPECT_RATIO))
-                .exceeds(0.0, high.effect)
-                .because("\"far more\": the table of docs/src/theory/coefficients.md has 0.22"),
-        ),
+        Evidence::on("share of diffusing rods with C_b above ½, less the closed form's")
+            .is(less(&of_diffusion, 1.0 - (orbits.weak)(0.5, ASPECT_RATIO)), 0.0, 0.015, weak.effect)
+            .because("a third of what isotropic directions differ by, 0.046"),
+        Evidence::on("share of colliding rods with C_b above ½, less that of isotropic directions")
+            .exceeds(less(&of_collisions, 1.0 - orbit_constant_cdf(0.5, ASPECT_RATIO)), 0.0, high.effect)
+            .because("\"far more\": the table of docs/src/theory/coefficients.md has 0.22"),
     ]
 }

@@ -81,9 +81,11 @@ fn reductions(limits: &Limits, effort: &Effort) -> [Evidence; 6] {
         Evidence::exact("n = 10⁻³⁰ per cm³ against free rods", apart(1, &interacting, &free)),
         Evidence::exact("m = 10⁹ against free rods", apart(2, &interacting, &free)),
         Evidence::exact("one interacting rod against one free rod", apart(3, &interacting, &at(3, &free))),
-        Evidence::within("σ = 10⁻¹² % against σ = 0", apart(4, &long, &long), 1e-11)
+        Evidence::on("σ = 10⁻¹² % against σ = 0")
+            .within(apart(4, &long, &long), 1e-11)
             .because("a phase of 6π shifted by σ, grown by r_e at the flip"),
-        Evidence::within("r_e = 1 + 10⁻¹² against a sphere", apart(5, &uniform, &sphere), 1e-11)
+        Evidence::on("r_e = 1 + 10⁻¹² against a sphere")
+            .within(apart(5, &uniform, &sphere), 1e-11)
             .because("the map differs by r_e − 1"),
     ]
 }
@@ -110,8 +112,8 @@ fn standard_errors(standard_error: &StandardError, effort: &Effort) -> Vec<Evide
     });
     let because = "two ways of summing sixteen squares";
     vec![
-        Evidence::within("relative error of the errors over replicas", over_replicas, 1e-12).because(because),
-        Evidence::within("relative error of the errors over rods", over_rods, 1e-12).because(because),
+        Evidence::on("relative error of the errors over replicas").within(over_replicas, 1e-12).because(because),
+        Evidence::on("relative error of the errors over rods").within(over_rods, 1e-12).because(because),
     ]
 }
 

@@ -113,13 +113,13 @@ fn against_reference(mistake: &Option<Mistake>, effort: &Effort) -> Vec<Evidence
             format!("problems in which other rods collided, in {} steps with {} collisions", off.steps, off.collisions),
             off.pairs as f64,
         ),
-        Evidence::within("largest difference of places in rod lengths, after up to one period", off.places, 1e-11)
+        Evidence::on("largest difference of places in rod lengths, after up to one period")
+            .within(off.places, 1e-11)
             .because("round-off of 200 sums of lengths up to 100"),
-        Evidence::within(
+        Evidence::on(
             "largest difference of directions after one step from the same state, over the condition of its contacts",
-            off.step,
-            256.0 * f64::EPSILON,
         )
+        .within(off.step, 256.0 * f64::EPSILON)
         .because(
             "some hundred roundings of the reference's tensors and frames; directions off by ε and places x by ε|x| \
              move an arm r by ε(1 + |x|)/sin², and the angle turned, ∝ 1/r, by that over r",

@@ -85,7 +85,8 @@ fn replacement(volume: &Volume, effort: &Effort) -> Vec<Evidence> {
     let even = "Kolmogorov–Smirnov; long steps move x_1 by 0.12 at the least";
     vec![
         Evidence::exact("rods outside the volume", outside as f64),
-        Evidence::within("largest |x_2 − overshoot modulo H| of new rods, over H", overshoot_off, 4.0 * f64::EPSILON)
+        Evidence::on("largest |x_2 − overshoot modulo H| of new rods, over H")
+            .within(overshoot_off, 4.0 * f64::EPSILON)
             .because("five roundings of numbers near 1, half an ε each"),
         Evidence::exact("new rods that kept x_1 or x_3", places.unchanged as f64),
         Evidence::new(

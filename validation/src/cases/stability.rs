@@ -62,17 +62,13 @@ fn corners(integrators: &Integrators, effort: &Effort) -> Vec<Evidence> {
     }
     vec![
         Evidence::exact("cells in which a subject without steps, other than in angles, is not at round-off", exact),
-        Evidence::within("largest angle to the closed form, A.4 and A.5 in angles", angles, 4e-5).because(
+        Evidence::on("largest angle to the closed form, A.4 and A.5 in angles").within(angles, 4e-5).because(
             "the starting phase is added to t/T before whole turns are taken out: rounded to half an ulp of 10³, \
              6·10⁻¹⁴, times 2π r_e = 6·10⁸",
         ),
-        Evidence::within("largest ||p| − 1| of who keeps it", length, 4.0 * most_steps as f64 * f64::EPSILON)
+        Evidence::on("largest ||p| − 1| of who keeps it").within(length, 4.0 * most_steps as f64 * f64::EPSILON)
             .because("each step rounds |p| by four roundings at most"),
-        Evidence::within(
-            "largest angle over (GΔt)² where 10⁻³ ≤ GΔt ≤ ½ and the order is 2 or 4, over one period",
-            accurate,
-            4.0,
-        )
+        Evidence::on("largest angle over (GΔt)² where 10⁻³ ≤ GΔt ≤ ½ and the order is 2 or 4, over one period").within(accurate, 4.0)
         .because(
             "a step of order 2 is off by (GΔt)³/6 times a third derivative, 3 at most by A.2, and a flip lasts some \
              8/G: 4 (GΔt)²; order 4 is nearer; below 10⁻³ round-off is more",

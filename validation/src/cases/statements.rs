@@ -69,8 +69,9 @@ fn period(change: &Change, effort: &Effort) -> [Evidence; 2] {
         });
         let because = "\"practically unaffected\": 2 %, a maximum at t/T = 2 that is 0.04 off on an axis of six \
                        periods; |p_1| has the period T/2";
-        let rule = Sample::of(&frequencies).is(2.0, 0.04, design.effect).because(because);
-        Evidence::new(format!("frequency of X̄₁ in 1/T, {name}"), rule)
+        Evidence::on(format!("frequency of X̄₁ in 1/T, {name}"))
+            .is(Sample::of(&frequencies), 2.0, 0.04, design.effect)
+            .because(because)
     })
 }
 
@@ -129,12 +130,9 @@ fn enough_rods(count: &Count, effort: &Effort) -> [Evidence; 2] {
         };
         let because = "\"not significantly\": less than two curves are told apart by, twice the width of a \
                        line; rods near a face have fewer neighbours";
-        Evidence::new(
-            format!("bias of X̄₁ at t/T = {}, {count} rods against {MANY}", k + 1),
-            Sample::of(few.chunks(share).zip(&many).map(difference))
-                .is(0.0, 2.0 * LINE, design.effect)
-                .because(because),
-        )
+        Evidence::on(format!("bias of X̄₁ at t/T = {}, {count} rods against {MANY}", k + 1))
+            .is(Sample::of(few.chunks(share).zip(&many).map(difference)), 0.0, 2.0 * LINE, design.effect)
+            .because(because)
     })
 }
 
@@ -159,9 +157,9 @@ fn stays_put(from: &Periods, effort: &Effort) -> [Evidence; 3] {
     });
     [0, 1, 2].map(|axis| {
         let drift = Sample::of(drifts.iter().map(|drifts| drifts[axis]));
-        let because = "\"constant\": within the width of a drawn line over a period";
-        let rule = drift.is(0.0, LINE, designs[axis].effect).because(because);
-        Evidence::new(format!("drift of X̄_{} over a period", axis + 1), rule)
+        Evidence::on(format!("drift of X̄_{} over a period", axis + 1))
+            .is(drift, 0.0, LINE, designs[axis].effect)
+            .because("\"constant\": within the width of a drawn line over a period")
     })
 }
 
@@ -209,20 +207,16 @@ fn in_plane(theta_deg: &ThetaDeg, effort: &Effort) -> Vec<Evidence> {
     let round_off = "cos 90° is 6·10⁻¹⁷, which kicks ∝ 1/r grow: 60-fold at most in ten times these steps, and x \
                      times that with a probability ∝ 1/x";
     vec![
-        Evidence::within("largest |p_3| within one period", most, 1e-9).because(round_off),
-        Evidence::within(
-            "largest mean angle in rad between rods with and without interactions after one period by `kick`",
-            kicked,
-            1e-9,
-        )
-        .because(round_off),
-        Evidence::new(
+        Evidence::on("largest |p_3| within one period").within(most, 1e-9).because(round_off),
+        Evidence::on("largest mean angle in rad between rods with and without interactions after one period by `kick`")
+            .within(kicked, 1e-9)
+            .because(round_off),
+        Evidence::on(
             "half the mean angle in rad between rods with and without interactions after one period by `rotation` at \
              200 steps, less that at 800 steps",
-            Sample::of(fall)
-                .exceeds(0.0, design.effect)
-                .because("an observed order above ½: nearer to 1, the straight turn's, than to 0"),
-        ),
+        )
+        .exceeds(Sample::of(fall), 0.0, design.effect)
+        .because("an observed order above ½: nearer to 1, the straight turn's, than to 0"),
     ]
 }
 

@@ -122,9 +122,11 @@ fn symmetries(mapping: &Mapping, effort: &Effort) -> Vec<Evidence> {
         ),
         Evidence::exact("lengths 8 times larger, concentration 512 times less", difference(&lengths, &base)),
         Evidence::exact("a shear rate of 5·10⁻³¹ 1/s", difference(&times, &base)),
-        Evidence::within("every rod turned head to tail, interacting", difference(&tail, &head), 1e-10)
+        Evidence::on("every rod turned head to tail, interacting")
+            .within(difference(&tail, &head), 1e-10)
             .because("the turned angles are rounded to 10⁻¹⁶, which kicks ∝ 1/r grow"),
-        Evidence::within("free rods in the mirrored flow from mirrored angles", difference(&mirror, &straight), 0.0)
+        Evidence::on("free rods in the mirrored flow from mirrored angles")
+            .within(difference(&mirror, &straight), 0.0)
             .because("every product has the same factors up to sign"),
     ]
 }
@@ -198,9 +200,8 @@ fn mirrored(mirror: &Mirror, effort: &Effort) -> [Evidence; 3] {
     let (here, there) = (changes(&straight), changes(&mirrored));
     [0, 1, 2].map(|axis| {
         let apart = here.iter().zip(&there).map(|(a, b)| a[axis] - b[axis]);
-        Evidence::new(
-            format!("change of X̄_{} over a period, flow less mirrored flow", axis + 1),
-            Sample::of(apart).is(0.0, 0.0, designs[axis].effect).because("a symmetry of the model; independent seeds"),
-        )
+        Evidence::on(format!("change of X̄_{} over a period, flow less mirrored flow", axis + 1))
+            .is(Sample::of(apart), 0.0, 0.0, designs[axis].effect)
+            .because("a symmetry of the model; independent seeds")
     })
 }

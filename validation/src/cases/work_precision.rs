@@ -67,12 +67,9 @@ fn rates(starts: &Starts, effort: &Effort) -> Vec<Evidence> {
     let exponent = |start: &Start| {
         let errors = |n| free.errors(start, n, TRIALS * groups, effort.seed(0));
         let tried = [1000, 20_000].map(errors);
-        Evidence::new(
-            format!("exponent of N, {} starts", start.name),
-            Sample::of(exponents(&tried, groups)).is(start.exponents[0], 0.05, design.effect).because(
-                "0.05 for what is left of higher powers at 10³ rods; the controls' exponents are ½ off or more",
-            ),
-        )
+        Evidence::on(format!("exponent of N, {} starts", start.name))
+            .is(Sample::of(exponents(&tried, groups)), start.exponents[0], 0.05, design.effect)
+            .because("0.05 for what is left of higher powers at 10³ rods; the controls' exponents are ½ off or more")
     };
     starts.iter().map(exponent).collect()
 }
@@ -96,12 +93,11 @@ fn replicas(number: &Number, effort: &Effort) -> Vec<Evidence> {
     };
     let replicas = GROUP * effort.samples(design);
     let x1: Vec<_> = (0..replicas).into_par_iter().map(x1).collect();
-    vec![Evidence::new(
-        "exponent of M in the standard deviation of block means",
-        Sample::of(blocks::replicas_exponents(&x1, GROUP as usize))
-            .is(-0.5, 0.0, design.effect)
+    vec![
+        Evidence::on("exponent of M in the standard deviation of block means")
+            .is(Sample::of(blocks::replicas_exponents(&x1, GROUP as usize)), -0.5, 0.0, design.effect)
             .because("independent replicas, in groups of 256; a deviation that is √2 as large from two on makes 0.07"),
-    )]
+    ]
 }
 
 /// α and m of the interaction whose candidates are counted: a long reach gives many.
@@ -149,11 +145,8 @@ fn faces(exponent: &Exponent, effort: &Effort) -> Vec<Evidence> {
         .into_par_iter()
         .map(|replica| lost(RODS[0], replica) - ratio * lost(RODS[1], replica))
         .collect();
-    vec![Evidence::new(
-        "share of collisions lost at 64 rods, less the loss at 512 times what the exponent asks for",
-        Sample::of(&differences).is(0.0, 0.02, design.effect).because(
+    vec![Evidence::on("share of collisions lost at 64 rods, less the loss at 512 times what the exponent asks for").is(Sample::of(&differences), 0.0, 0.02, design.effect).because(
             "63 others are a density of n(1 − 1/64), 0.011 of the candidates; edges, where two faces take the same, ∝ \
              N^(−2/3), 0.002 of them. 1/N would be off by three times the loss of 0.1",
-        ),
-    )]
+        )]
 }

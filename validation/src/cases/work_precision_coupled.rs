@@ -67,14 +67,17 @@ fn paths(change: &Change, effort: &Effort) -> Vec<Evidence> {
     let replicas = effort.samples(design);
     let (coarse, fine) = (mean_squares(&scene, 100, replicas), mean_squares(&scene, 400, replicas));
     let excess = fine.iter().zip(&coarse).map(|(fine, coarse)| fine - 0.5 * coarse);
-    vec![Evidence::new(
-        "mean square angle (rad²) between 400 and 800 steps a period, less half of that between \
+    vec![
+        Evidence::on(
+            "mean square angle (rad²) between 400 and 800 steps a period, less half of that between \
          100 and 200",
-        Sample::of(excess).exceeds(0.0, design.effect).because(
+        )
+        .exceeds(Sample::of(excess), 0.0, design.effect)
+        .because(
             "paths that converge with order ½ or more would bring a quarter or less; the mean square \
              is some 0.035",
         ),
-    )]
+    ]
 }
 
 /// X̄₁ at T/4 of the scene, and of the same scene at half the step.
@@ -131,23 +134,14 @@ fn shared(beside: &Beside, effort: &Effort) -> Vec<Evidence> {
     let correlations = correlations(own, &other);
     let fisher = correlations.iter().map(|value| rho.atanh() + (value - rho) / (1.0 - rho * rho));
     vec![
-        Evidence::new(
-            "share of the variance that free rods explain, less the share that half the step does",
-            Sample::of_differences(&by_free, &by_finer)
-                .exceeds(0.0, more.effect)
-                .because("the better control variate; the two differ by a fifth of the variance"),
-        ),
-        Evidence::new(
-            "artanh of the correlation of X̄₁ between α and 0.8 α at T/4",
-            Sample::of(fisher)
-                .exceeds(0.75f64.atanh(), common.effect)
-                .because("1/(1 − ρ) independent runs for each that shares: four at ρ = ¾; there is 0.87"),
-        ),
-        Evidence::new(
-            "X̄₁ of the free rods at T/4",
-            Sample::of(&free)
-                .is(free_mean(&changed(beside.mean), 0.25), 0.0, mean.effect)
-                .because("the control variate's mean is a closed form; a rod a tenth longer has 10 % less"),
-        ),
+        Evidence::on("share of the variance that free rods explain, less the share that half the step does")
+            .exceeds(Sample::of_differences(&by_free, &by_finer), 0.0, more.effect)
+            .because("the better control variate; the two differ by a fifth of the variance"),
+        Evidence::on("artanh of the correlation of X̄₁ between α and 0.8 α at T/4")
+            .exceeds(Sample::of(fisher), 0.75f64.atanh(), common.effect)
+            .because("1/(1 − ρ) independent runs for each that shares: four at ρ = ¾; there is 0.87"),
+        Evidence::on("X̄₁ of the free rods at T/4")
+            .is(Sample::of(&free), free_mean(&changed(beside.mean), 0.25), 0.0, mean.effect)
+            .because("the control variate's mean is a closed form; a rod a tenth longer has 10 % less"),
     ]
 }

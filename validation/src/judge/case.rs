@@ -8,7 +8,8 @@ pub use effort::{Effort, GATE_SEED};
 pub use judges::Judges;
 pub use outcome::{Control, Judged, Outcome};
 
-use crate::judge::accept::{Rule, Text, Unreasoned, Verdict};
+use crate::judge::accept::{Rule, Text, Verdict};
+use crate::judge::statistics::Sample;
 use outcome::overall;
 use serde::{Deserialize, Serialize};
 use std::fmt;
@@ -24,9 +25,9 @@ pub struct Evidence {
 }
 
 impl Evidence {
-    /// The rule that `error` is at most `tolerance`.
-    pub fn within(what: impl Into<String>, error: f64, tolerance: f64) -> Unreasoned<Self> {
-        Unreasoned(Self::new(what, Rule::within(error, tolerance, "")))
+    /// Evidence on the quantity `what`, of which the rule and its reason follow.
+    pub fn on(what: impl Into<String>) -> Quantity {
+        Quantity(what.into())
     }
 
     /// The rule that `error` is 0.
@@ -40,9 +41,38 @@ impl Evidence {
     }
 }
 
-impl AsMut<Text> for Evidence {
-    fn as_mut(&mut self) -> &mut Text {
-        self.rule.as_mut()
+/// A measured quantity, in a few words.
+pub struct Quantity(String);
+
+impl Quantity {
+    /// The rule that `error` is at most `tolerance`.
+    pub fn within(self, error: f64, tolerance: f64) -> Bound {
+        Bound(self, Box::new(move |because| Rule::Within { error, tolerance, because }))
+    }
+
+    /// The rule that the mean of a sample is `reference` up to `allowance`; the sample must be large enough to show
+    /// `effect` beyond it.
+    pub fn is(self, sample: Sample, reference: f64, allowance: f64, effect: f64) -> Bound {
+        let Sample { mean, se, samples } = sample;
+        Bound(self, Box::new(move |because| Rule::Mean { mean, se, samples, reference, allowance, effect, because }))
+    }
+
+    /// The rule that the mean of a sample exceeds `bound`; the sample must be large enough to show an excess of
+    /// `effect`.
+    pub fn exceeds(self, sample: Sample, bound: f64, effect: f64) -> Bound {
+        let Sample { mean, se, samples } = sample;
+        Bound(self, Box::new(move |because| Rule::Above { mean, se, samples, bound, effect, because }))
+    }
+}
+
+/// A quantity with its bound, which still lacks the reason for it.
+#[must_use]
+pub struct Bound(Quantity, Box<dyn FnOnce(Text) -> Rule>);
+
+impl Bound {
+    /// Adds the reason for the tolerance, or for the allowance and the effect.
+    pub fn because(self, reason: impl Into<Text>) -> Evidence {
+        Evidence { what: self.0.0, rule: (self.1)(reason.into()) }
     }
 }
 

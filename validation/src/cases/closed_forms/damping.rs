@@ -32,18 +32,16 @@ pub(super) fn spread_damping(factor: &Factor, effort: &Effort) -> Vec<Evidence> 
         });
         let at = (middle as f64 - 0.5) / 40.0;
         let what = format!("first harmonic at t/T = {at:.4} over that at once, σ = {sd} %");
-        evidence.push(Evidence::new(
-            format!("{what}, against the quadrature"),
-            Sample::of(&shares)
-                .is(expected, 0.0, design.effect)
+        evidence.push(
+            Evidence::on(format!("{what}, against the quadrature"))
+                .is(Sample::of(&shares), expected, 0.0, design.effect)
                 .because("the quadrature is exact to 10⁻⁶; independent replicas"),
-        ));
-        evidence.push(Evidence::new(
-            format!("{what}, against the formula"),
-            Sample::of(&shares)
-                .is((-(at / end).powi(2)).exp(), sd / 100.0, design.effect)
+        );
+        evidence.push(
+            Evidence::on(format!("{what}, against the formula"))
+                .is(Sample::of(&shares), (-(at / end).powi(2)).exp(), sd / 100.0, design.effect)
                 .because("the formula is of first order in σ: off by less than σ of the first amplitude"),
-        ));
+        );
     }
     evidence
 }
@@ -68,9 +66,11 @@ pub(super) fn in_plane_start(change: &Change, effort: &Effort) -> Vec<Evidence> 
     }
     let out_of_plane = x3.iter().copied().fold(0.0, larger);
     vec![
-        Evidence::within("largest error of (X̄_1, X̄_2)", worst, 4.0 * TAU * f64::EPSILON * r)
+        Evidence::on("largest error of (X̄_1, X̄_2)")
+            .within(worst, 4.0 * TAU * f64::EPSILON * r)
             .because("a phase of two turns, 4π, rounded once here and once in the oracle, grows by r_e at the flip"),
-        Evidence::within("largest X̄_3", out_of_plane, 1e-15)
+        Evidence::on("largest X̄_3")
+            .within(out_of_plane, 1e-15)
             .because("cos 90° is 6·10⁻¹⁷, grown by the stretch of q at most r_e-fold"),
     ]
 }

@@ -15,27 +15,28 @@ pub(super) fn dies_out(change: &Change, effort: &Effort) -> Vec<Evidence> {
     let (both, added, alone) = (Design::new(0.13, 0.042), Design::new(0.013, 0.036), Design::new(0.06, 0.032));
     let spread = measured(&scene(3.6), both);
     let margin = spread[0].iter().zip(&spread[3]).map(|(first, last)| first / E - last);
-    let mut evidence = vec![Evidence::new(
-        "1/e of the first amplitude less that at t/T = 4, n = 50 per cm³, σ = 3.6 %",
-        Sample::of(margin)
-            .exceeds(0.0, both.effect)
+    let mut evidence = vec![
+        Evidence::on("1/e of the first amplitude less that at t/T = 4, n = 50 per cm³, σ = 3.6 %")
+            .exceeds(Sample::of(margin), 0.0, both.effect)
             .because("\"a few\" is read as four, \"die out\" as below 1/e, where a decay has its time"),
-    )];
+    ];
     // The spread of r_e alone brings the amplitude below 1/e: the effect of collisions is judged against that.
     let mut free = scene(3.6);
     free.interaction = None;
     let (without, with) = (measured(&free, added), measured(&scene(3.6), added));
-    evidence.push(Evidence::new(
-        "amplitude at t/T = 4 without collisions less that with them, n = 50 per cm³, σ = 3.6 %",
-        Sample::of_differences(&without[3], &with[3]).exceeds(0.0, added.effect).because("an order without a number"),
-    ));
+    evidence.push(
+        Evidence::on("amplitude at t/T = 4 without collisions less that with them, n = 50 per cm³, σ = 3.6 %")
+            .exceeds(Sample::of_differences(&without[3], &with[3]), 0.0, added.effect)
+            .because("an order without a number"),
+    );
     let uniform = measured(&scene(0.0), alone);
     for (k, which) in [(1, "0 and 1"), (2, "1 and 2"), (3, "2 and 4")] {
         let fall = Sample::of_differences(&uniform[k - 1], &uniform[k]);
-        evidence.push(Evidence::new(
-            format!("fall of the amplitude between t/T = {which}, n = 50 per cm³, σ = 0"),
-            fall.exceeds(0.0, alone.effect).because("an order without a number"),
-        ));
+        evidence.push(
+            Evidence::on(format!("fall of the amplitude between t/T = {which}, n = 50 per cm³, σ = 0"))
+                .exceeds(fall, 0.0, alone.effect)
+                .because("an order without a number"),
+        );
     }
     evidence
 }
@@ -76,9 +77,12 @@ pub(super) fn on_all_axes(axes: &Axes, effort: &Effort) -> [Evidence; 4] {
         // a − b² to first order in each replica's deviation, so that its mean is a − b² of the means.
         let difference = left[i].iter().zip(&left[j]).map(|(a, b)| a - 2.0 * mean * b + mean * mean);
         let because = "\"similar\" has no number in the paper: rates within a factor of two";
-        Evidence::new(
-            format!("share of the amplitude left at t/T = 2, X̄_{} less the square of that of X̄_{}", i + 1, j + 1),
-            Sample::of(difference).exceeds(0.0, design.effect).because(because),
-        )
+        Evidence::on(format!(
+            "share of the amplitude left at t/T = 2, X̄_{} less the square of that of X̄_{}",
+            i + 1,
+            j + 1
+        ))
+        .exceeds(Sample::of(difference), 0.0, design.effect)
+        .because(because)
     })
 }

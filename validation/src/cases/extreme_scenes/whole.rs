@@ -124,7 +124,7 @@ pub(super) fn extreme_scenes(program: &Program, effort: &Effort) -> Vec<Evidence
     let apart = worst(ended[free..].iter().map(|ended| (ended.last_x1 - 1.0).abs()));
     vec![
         Evidence::exact("scenes that stopped or had a result that is not finite", failed),
-        Evidence::within("largest |tr⟨pp⟩ − 1|", trace, TRACE).because(TRACE_BECAUSE),
-        Evidence::within("largest |X̄₁ − 1| at the end of an extension", apart, LENGTH).because(LENGTH_BECAUSE),
+        Evidence::on("largest |tr⟨pp⟩ − 1|").within(trace, TRACE).because(TRACE_BECAUSE),
+        Evidence::on("largest |X̄₁ − 1| at the end of an extension").within(apart, LENGTH).because(LENGTH_BECAUSE),
     ]
 }

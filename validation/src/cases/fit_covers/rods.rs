@@ -74,7 +74,9 @@ pub(super) fn hold(treatment: &Treatment, effort: &Effort) -> Result<Vec<Evidenc
     let ratio = |k: u64| repeat((pool, &offset), *treatment, seed(k));
     let below: Result<Vec<f64>, String> =
         (0..count).into_par_iter().map(|k| ratio(k).map(|ratio| 1.0 - ratio)).collect();
-    let because = "with a tenth more a right model would be rejected twice as often as due";
-    let rule = Sample::of(&below?).exceeds(-0.1, EXCESS).because(because);
-    Ok(vec![Evidence::new("1 − χ² per degree of freedom", rule)])
+    Ok(vec![
+        Evidence::on("1 − χ² per degree of freedom")
+            .exceeds(Sample::of(&below?), -0.1, EXCESS)
+            .because("with a tenth more a right model would be rejected twice as often as due"),
+    ])
 }

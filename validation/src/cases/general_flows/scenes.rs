@@ -81,7 +81,8 @@ pub fn listed_scenes(run: &Run, _: &Effort) -> Vec<Evidence> {
         run(&scene).is_none()
     });
     vec![
-        Evidence::within("largest error of |p_i| at the end over the bound that the plan states", share, 1.0)
+        Evidence::on("largest error of |p_i| at the end over the bound that the plan states")
+            .within(share, 1.0)
             .because("what a bound is: the start's rounding and the map's"),
         Evidence::exact("scenes refused, or with an end that is no number", refused + unknown),
         Evidence::exact(

@@ -25,15 +25,12 @@ pub(super) fn integrated_motion(motion: &Motion, _: &Effort) -> Vec<Evidence> {
             }
         }
         evidence.push(
-            Evidence::within(
-                format!("angle to the integrator's direction up to strain 30, over its own error, {name}"),
-                worst,
-                1.0,
-            )
-            .because(
-                "each step is off by atol + rtol |p| = 2·10⁻¹³, and grows r_e² = 135-fold at most, from \
+            Evidence::on(format!("angle to the integrator's direction up to strain 30, over its own error, {name}"))
+                .within(worst, 1.0)
+                .because(
+                    "each step is off by atol + rtol |p| = 2·10⁻¹³, and grows r_e² = 135-fold at most, from \
              along the flow to the flip",
-            ),
+                ),
         );
     }
     evidence

@@ -17,20 +17,14 @@ pub(super) fn at_least(integrators: &Integrators, _: &Effort) -> Vec<Evidence> {
             let ratio = theory::runge_kutta_order_at_least(order, *r) / longest;
             if ratio < 1.0 { 0.0 } else { ratio - 1.0 }
         };
-        evidence.push(Evidence::within(
-            format!("relative excess of the bound over the longest step without overtaking, {}", integrator.name),
-            RATIOS.iter().zip(longest).map(above).fold(0.0, larger),
-            1e-6).because("a bound from below, and for explicit Euler the limit itself: too few rods find a step too long, which is \
+        evidence.push(Evidence::on(format!("relative excess of the bound over the longest step without overtaking, {}", integrator.name)).within(RATIOS.iter().zip(longest).map(above).fold(0.0, larger), 1e-6).because("a bound from below, and for explicit Euler the limit itself: too few rods find a step too long, which is \
              no excuse; the bisection ends at 10⁻⁷"));
         if order == 4 {
             let off = classical.iter().zip(longest).map(|(first, longest)| (longest / first - 1.0).abs());
             evidence.push(
-                Evidence::within(
-                    format!("relative difference to the first of order 4, {}", integrator.name),
-                    off.fold(0.0, larger),
-                    1e-6,
-                )
-                .because("the bisection ends at 10⁻⁷"),
+                Evidence::on(format!("relative difference to the first of order 4, {}", integrator.name))
+                    .within(off.fold(0.0, larger), 1e-6)
+                    .because("the bisection ends at 10⁻⁷"),
             );
             if classical.is_empty() {
                 classical = longest.into();
@@ -51,20 +45,13 @@ pub(super) fn near_a_sphere(integrators: &Integrators, _: &Effort) -> Vec<Eviden
     for integrator in integrators() {
         let longest = |property, ladder| bisect(ladder, |h| holds(&integrator, property, r, h));
         evidence.push(
-            Evidence::within(
-                "relative difference of the longest step that turns and 2√6",
-                off(longest(Property::Turning, ONE_STEP), theory::rk4_turning_of_a_sphere()),
-                2e-5,
-            )
+            Evidence::on("relative difference of the longest step that turns and 2√6").within(off(longest(Property::Turning, ONE_STEP), theory::rk4_turning_of_a_sphere()), 2e-5)
             .because(
                 "rates of rods of r_e = 1 + 10⁻⁵ differ by Λ = 10⁻⁵, and of 512 rods one is within δ = π/1024 of the \
              fastest: δ² = 10⁻⁵",
             ),
         );
-        evidence.push(Evidence::within(
-            "relative difference of the longest step with a bounded length and 4√2",
-            off(longest(Property::Length, TEN_PERIODS), theory::rk4_length_of_a_sphere()),
-            3e-3).because("|R|² = 1 + 0.89(y² − 8): in the 22 steps of ten periods |p| grows to 1.5 at y² = 8.04, which is 0.26 % \
+        evidence.push(Evidence::on("relative difference of the longest step with a bounded length and 4√2").within(off(longest(Property::Length, TEN_PERIODS), theory::rk4_length_of_a_sphere()), 3e-3).because("|R|² = 1 + 0.89(y² − 8): in the 22 steps of ten periods |p| grows to 1.5 at y² = 8.04, which is 0.26 % \
              more"));
     }
     evidence
@@ -86,7 +73,8 @@ pub(super) fn frozen(integrators: &Integrators, _: &Effort) -> Vec<Evidence> {
         }
     }
     vec![
-        Evidence::within("largest step with a bounded length over 2.785/(ΛG)", worst, 0.99)
+        Evidence::on("largest step with a bounded length over 2.785/(ΛG)")
+            .within(worst, 0.99)
             .because("a hundredth below is told from equal: ten periods find a growth of 10⁻³ a step"),
     ]
 }

@@ -9,7 +9,7 @@ mod tests;
 
 pub use sizes::{Design, kolmogorov_samples, upper_tail};
 
-use crate::judge::statistics::{Sample, student};
+use crate::judge::statistics::student;
 use serde::{Deserialize, Serialize};
 use sizes::{massart, needed_noncentrality, noncentral};
 use std::borrow::Cow;
@@ -231,44 +231,5 @@ pub fn judge(rule: &Rule) -> Verdict {
         (false, _) => Verdict::Fail,
         (true, false) => Verdict::Underpowered,
         (true, true) => Verdict::Pass,
-    }
-}
-
-impl Sample {
-    /// The rule that this mean is `reference` up to `allowance`; the sample must be large enough to show `effect`
-    /// beyond it.
-    pub fn is(self, reference: f64, allowance: f64, effect: f64) -> Unreasoned<Rule> {
-        let Self { mean, se, samples } = self;
-        Unreasoned(Rule::Mean { mean, se, samples, reference, allowance, effect, because: Text::default() })
-    }
-
-    /// The rule that this mean exceeds `bound`; the sample must be large enough to show an excess of `effect`.
-    pub fn exceeds(self, bound: f64, effect: f64) -> Unreasoned<Rule> {
-        let Self { mean, se, samples } = self;
-        Unreasoned(Rule::Above { mean, se, samples, bound, effect, because: Text::default() })
-    }
-}
-
-/// A rule, or evidence by one, that still lacks the reason for its bound.
-#[must_use]
-pub struct Unreasoned<T>(pub(super) T);
-
-impl<T: AsMut<Text>> Unreasoned<T> {
-    /// Adds the reason for the tolerance, or for the allowance and the effect.
-    pub fn because(mut self, reason: impl Into<Text>) -> T {
-        *self.0.as_mut() = reason.into();
-        self.0
-    }
-}
-
-impl AsMut<Text> for Rule {
-    fn as_mut(&mut self) -> &mut Text {
-        match self {
-            Self::Within { because, .. }
-            | Self::Mean { because, .. }
-            | Self::Above { because, .. }
-            | Self::PValue { because, .. }
-            | Self::NoData { supply: because } => because,
-        }
     }
 }
