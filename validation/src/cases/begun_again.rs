@@ -29,7 +29,7 @@ const STEPS_PER_PERIOD: u64 = 100;
 const SD: f64 = 0.013;
 const EFFECT: f64 = 0.01;
 
-fn begins_again(way: &Way, effort: &Effort) -> Vec<Evidence> {
+fn begins_again(way: &Way, effort: &Effort) -> Evidence {
     let mut scene = lab::interacting_scene(effort);
     scene.particles.aspect_ratio_sd_percent = 8.5;
     scene.particles.length_sd_percent = 20.0;
@@ -40,11 +40,9 @@ fn begins_again(way: &Way, effort: &Effort) -> Vec<Evidence> {
     let replicas = effort.samples(Design { effect: EFFECT, sd: SD });
     let differences = (0..replicas).into_par_iter().map(|replica| again_less_straight(&scene, *way, replica));
     let differences: Vec<f64> = differences.collect();
-    vec![
-        Evidence::on("X̄₁ at t/T = 1½, begun again at t = T less straight on")
-            .is(Sample::of(&differences), 0.0, 0.0, EFFECT)
-            .because("the same rods, with other collisions; with r_e drawn anew they fall out of step more slowly"),
-    ]
+    Evidence::on("X̄₁ at t/T = 1½, begun again at t = T less straight on")
+        .is(Sample::of(&differences), 0.0, 0.0, EFFECT)
+        .because("the same rods, with other collisions; with r_e drawn anew they fall out of step more slowly")
 }
 
 fn again_less_straight(scene: &Scene, way: Way, replica: u64) -> f64 {

@@ -87,8 +87,8 @@ fn double_alpha(scene: &mut Scene) {
 const SUPPLY: &str = "put the digitised points (CSV) and their provenance (TOML) into the source's folder under DIR \
     and run `shearbed validate --data DIR`; docs/src/validation/points.md has the format";
 
-fn no_data(what: impl Into<String>) -> Vec<Evidence> {
-    vec![Evidence::new(what, Rule::NoData { supply: SUPPLY.into() })]
+fn no_data(what: impl Into<String>) -> Evidence {
+    Evidence::new(what, Rule::NoData { supply: SUPPLY.into() })
 }
 
 /// The points of a source that are judged, and the number of those that are not.
@@ -115,7 +115,7 @@ fn runs(effort: &Effort, stream: u64) -> Runs {
 fn agreement(source: &Source, change: Change, effort: &Effort) -> Result<Vec<Evidence>, FileError> {
     let (curves, late) = judged(source, effort)?;
     if curves.is_empty() {
-        return Ok(no_data(format!("points of {}", source.label)));
+        return Ok(vec![no_data(format!("points of {}", source.label))]);
     }
     let scenes = source.scenes.iter().zip(0..);
     let mut evidence = Vec::new();
@@ -165,7 +165,7 @@ fn fit(comparison: &Comparison, late: usize, source: &Source) -> Evidence {
 
 /// The difference of the two best α. The control doubles α in the model at r_e = 14.2, which the estimate does not
 /// know.
-fn same_alpha(change: &Change, effort: &Effort) -> Result<Vec<Evidence>, String> {
+fn same_alpha(change: &Change, effort: &Effort) -> Result<Evidence, String> {
     let points = |source| judged(source, effort).map_err(|error| error.to_string());
     let ((short, _), (long, _)) = (points(&OKAGAWA_MASON)?, points(&ANCZUROWSKI)?);
     if short.is_empty() || long.is_empty() {
@@ -182,9 +182,7 @@ fn same_alpha(change: &Change, effort: &Effort) -> Result<Vec<Evidence>, String>
         se: short.se.hypot(long.se),
         samples: (short.points + long.points) as u64,
     };
-    Ok(vec![
-        Evidence::on(what).is(difference, 0.0, 0.0, 1.0).because(
-            "points that would show α = 1.5 beside 0.5, a standard error of about 0.1; blunter ones say nothing",
-        ),
-    ])
+    Ok(Evidence::on(what)
+        .is(difference, 0.0, 0.0, 1.0)
+        .because("points that would show α = 1.5 beside 0.5, a standard error of about 0.1; blunter ones say nothing"))
 }

@@ -244,15 +244,15 @@ fn laws(effort: &Effort) -> u64 {
     effort.pick(1, 4) * kolmogorov_samples(DISTANCE)
 }
 
-fn refuses(way: &Way, effort: &Effort) -> Result<Vec<Evidence>, String> {
+fn refuses(way: &Way, effort: &Effort) -> Result<Evidence, String> {
     let fits = repeats(*way, effort);
     let fits = fits.as_ref().as_ref().map_err(Clone::clone)?;
-    Ok(vec![Evidence::new(
+    Ok(Evidence::new(
         "p-values of χ² over repeats: uniform",
         lab::uniform(
             fits.iter().take(laws(effort) as usize).map(|fit| fit.p).collect(),
             DISTANCE,
             "Kolmogorov–Smirnov; without the spread of r_e the p-values crowd at 0, a distance near 1",
         ),
-    )])
+    ))
 }

@@ -126,7 +126,7 @@ pub fn one_alpha(points: &[f64], u: f64, replicas: u64, model: &[Coefficients]) 
     fitted(&measured, &Basis::new(1), &vec![(range.from, range.to)], model)
 }
 
-fn accepted(change: &Change, effort: &Effort) -> Result<Vec<Evidence>, String> {
+fn accepted(change: &Change, effort: &Effort) -> Result<Evidence, String> {
     let replicas = effort.pick(REPLICAS, 4 * REPLICAS);
     let model = MODEL.get(effort, (), || model(effort, replicas));
     let model = model.as_ref().as_ref().map_err(Clone::clone)?;
@@ -135,7 +135,7 @@ fn accepted(change: &Change, effort: &Effort) -> Result<Vec<Evidence>, String> {
         .map(|mean| mean + NOISE * rng.sample::<f64, _>(StandardNormal))
         .collect();
     let fit = one_alpha(&points, NOISE, replicas, model)?;
-    Ok(vec![Evidence::new(
+    Ok(Evidence::new(
         "p-value of χ² of one α for both suspensions",
         Rule::PValue {
             p: fit.best.goodness.p_value(),
@@ -145,5 +145,5 @@ fn accepted(change: &Change, effort: &Effort) -> Result<Vec<Evidence>, String> {
             because: "with these replicas χ² of cut lines is 5.5 of its standard deviations above what is accepted"
                 .into(),
         },
-    )])
+    ))
 }

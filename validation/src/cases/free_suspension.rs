@@ -82,7 +82,7 @@ fn compare_one((r, sd, sevenths): Problem, change: Change, effort: &Effort, seed
     evidence
 }
 
-fn half_period(change: &Change, effort: &Effort) -> Vec<Evidence> {
+fn half_period(change: &Change, effort: &Effort) -> Evidence {
     let mut scene = lab::free_scene(effort);
     scene.particles.count = 1000;
     scene.time.duration = 5.0;
@@ -100,5 +100,5 @@ fn half_period(change: &Change, effort: &Effort) -> Vec<Evidence> {
         Err(_) => worst = f64::NAN,
     }
     let because = "the phases are equal bits; the sums of 1000 terms are rounded alike up to signs of zero";
-    vec![Evidence::on("largest |X̄_i(t + T/2) − X̄_i(t)|").within(worst, 1e-14).because(because)]
+    Evidence::on("largest |X̄_i(t + T/2) − X̄_i(t)|").within(worst, 1e-14).because(because)
 }

@@ -1,7 +1,7 @@
 //! The claims of `docs/src/verification/integrators.md` on the problem and the integrators, beyond orders and limits.
 
 use super::integrators::Integrators;
-use super::integrators::spoiled::in_p;
+use super::integrators::in_p;
 use super::*;
 use crate::methods::integrators::*;
 use crate::studies::stability::orbit::Place;
@@ -174,7 +174,7 @@ fn eigenvalues(slope: &Slope, _: &Effort) -> Vec<Evidence> {
     ]
 }
 
-fn lose_length(integrators: &Integrators, _: &Effort) -> Vec<Evidence> {
+fn lose_length(integrators: &Integrators, _: &Effort) -> Evidence {
     let (problem, start) = RodProblem::mid_flip(11.6);
     let steps = 1024;
     let keeps = |integrator: &Integrator| {
@@ -187,13 +187,13 @@ fn lose_length(integrators: &Integrators, _: &Effort) -> Vec<Evidence> {
     };
     let all = integrators();
     let losing = all.iter().filter(|integrator| !integrator.keeps_length && integrator.theory != Theory::Exact);
-    vec![Evidence::exact(
+    Evidence::exact(
         "subjects that keep |p| to round-off without being said to",
         losing.filter(|integrator| keeps(integrator)).count() as f64,
-    )]
+    )
 }
 
-fn coarse(strain: &f64, _: &Effort) -> Vec<Evidence> {
+fn coarse(strain: &f64, _: &Effort) -> Evidence {
     let (problem, start) = RodProblem::mid_flip(11.6);
     let steps = Setting::Steps((problem.strain() / strain).round() as u64);
     let mut unlike = 0.0;
@@ -207,10 +207,10 @@ fn coarse(strain: &f64, _: &Effort) -> Vec<Evidence> {
         };
         unlike += f64::from(!as_said);
     }
-    vec![Evidence::exact("of the two, not as said", unlike)]
+    Evidence::exact("of the two, not as said", unlike)
 }
 
-fn index_bounds(integrators: &Integrators, _: &Effort) -> Vec<Evidence> {
+fn index_bounds(integrators: &Integrators, _: &Effort) -> Evidence {
     let (problem, start) = RodProblem::mid_flip(11.6);
     let mut worst = 0.0f64;
     for integrator in integrators() {
@@ -219,9 +219,7 @@ fn index_bounds(integrators: &Integrators, _: &Effort) -> Vec<Evidence> {
                 larger(worst, study.richardson.map_or(f64::NAN, |richardson| richardson.true_error / richardson.index));
         }
     }
-    vec![
-        Evidence::on("largest error over its index")
-            .within(worst, 1.0)
-            .because("the index is 1.25 times the error where the error falls with the order of theory"),
-    ]
+    Evidence::on("largest error over its index")
+        .within(worst, 1.0)
+        .because("the index is 1.25 times the error where the error falls with the order of theory")
 }

@@ -1,12 +1,9 @@
 //! Integrators of a free rod: the claims of `docs/src/verification/integrators.md`. Nothing here is timed.
 
-pub(super) mod spoiled;
-
 use super::*;
 use crate::methods::integrators::*;
 use crate::studies::work_precision::order::{self, ORDER_TOLERANCE};
 use nalgebra::Vector2;
-use spoiled::{in_angles, in_p, spoiled, whole_turns};
 
 /// A function that makes the integrators under test, for each check.
 pub(super) type Integrators = fn() -> Vec<Integrator>;
@@ -127,7 +124,7 @@ fn lengths(integrators: &Integrators, _: &Effort) -> Vec<Evidence> {
         .collect()
 }
 
-fn round_off(integrators: &Integrators, _: &Effort) -> Vec<Evidence> {
+fn round_off(integrators: &Integrators, _: &Effort) -> Evidence {
     let mut worst = 0.0f64;
     for integrator in integrators() {
         for r in [1.01, 2.0, 11.6, 100.0, 1e4, 1e6] {
@@ -139,10 +136,10 @@ fn round_off(integrators: &Integrators, _: &Effort) -> Vec<Evidence> {
             }
         }
     }
-    vec![Evidence::on("largest angle to the closed form").within(worst, 32.0 * f64::EPSILON).because(
+    Evidence::on("largest angle to the closed form").within(worst, 32.0 * f64::EPSILON).because(
         "near a whole turn the phase that is left is small, and its relative error ε moves φ by ε, \
          not by r_e ε; a few dozen roundings of the propagator and the closed form",
-    )]
+    )
 }
 
 /// r_e, and the steps that Dormand–Prince and Radau take at a tolerance of 10⁻¹¹ (52, 78, 122 and 327, 458, 689),
@@ -174,4 +171,38 @@ fn adaptive(integrators: &Integrators, _: &Effort) -> Vec<Evidence> {
         }
     }
     evidence
+}
+
+pub(super) fn in_angles(order: u32, step: fn(&RodProblem, Vector2<f64>, f64) -> Vector2<f64>) -> Vec<Integrator> {
+    vec![Integrator::in_angles("in angles", order, step)]
+}
+
+pub(super) fn in_p(
+    order: u32,
+    keeps_length: bool,
+    step: fn(&RodProblem, Vector3<f64>, f64) -> Vector3<f64>,
+) -> Vec<Integrator> {
+    let integrator = Integrator::in_p("in p", order, step);
+    vec![if keeps_length { integrator.keeping_length() } else { integrator }]
+}
+
+/// The exact propagator without removal of whole periods from the phase.
+pub(super) fn whole_turns() -> Integrator {
+    Integrator::new("whole turns", Theory::Exact, |problem, p, _| {
+        let (sin, cos) = (TAU * problem.turns).sin_cos();
+        let r = problem.aspect_ratio;
+        Ok(Vector3::new(p.x * cos - p.y / r * sin, r * p.x * sin + p.y * cos, p.z).normalize())
+    })
+}
+
+/// Dormand–Prince applied to a changed problem, with a factor on its tolerance.
+fn spoiled(change: fn(RodProblem) -> (RodProblem, f64)) -> Integrator {
+    Integrator::new("spoiled", Theory::Adaptive, move |problem, start, setting| {
+        let (problem, factor) = change(*problem);
+        dormand_prince().advance(&problem, start, Setting::Tolerance(factor * setting.tolerance()?))
+    })
+}
+
+pub(super) fn refuses() -> Integrator {
+    Integrator::new("refuses", Theory::Exact, |_, _, _| Err(Failure::Gave("no".into())))
 }

@@ -75,13 +75,13 @@ fn rates(r: &Rate, check: impl Fn(Vector3<f64>, &Matrix3<f64>, f64, [f64; 2]) ->
     worst
 }
 
-fn body_frame(rate: &Rate, _: &Effort) -> Vec<Evidence> {
+fn body_frame(rate: &Rate, _: &Effort) -> Evidence {
     let worst = rates(rate, |found, gradient, r, [phi, theta]| {
         let p = orientation::from_angles(phi, theta);
         (found - printed::direction_rate_per_s(gradient, r, &p)).norm()
     });
     let because = "some dozens of roundings of numbers up to 1, in the frame of the particle and back";
-    vec![Evidence::on("largest difference of ṗ/G").within(worst, 32.0 * f64::EPSILON).because(because)]
+    Evidence::on("largest difference of ṗ/G").within(worst, 32.0 * f64::EPSILON).because(because)
 }
 
 fn rates_of_angles(rate: &Rate, _: &Effort) -> [Evidence; 2] {

@@ -112,7 +112,7 @@ fn observed_shadows(phi: f64, theta: f64) -> [f64; 3] {
     sums.map(|sum| sum.value)
 }
 
-fn shadows(model: &Shadows, _: &Effort) -> Vec<Evidence> {
+fn shadows(model: &Shadows, _: &Effort) -> Evidence {
     let mut worst = 0.0f64;
     for (phi, theta) in [(0.0f64, 0.3f64), (0.4, 1.0), (1.3, 1.5), (2.5, 2.2), (-0.9, 0.0)] {
         let p = Vector3::new(theta.sin() * phi.cos(), theta.sin() * phi.sin(), theta.cos());
@@ -122,11 +122,9 @@ fn shadows(model: &Shadows, _: &Effort) -> Vec<Evidence> {
             worst = larger(worst, (shadow - expected).abs());
         }
     }
-    vec![
-        Evidence::on("largest error of a shadow")
-            .within(worst, 4.0 * f64::EPSILON)
-            .because("a few roundings of numbers up to 1"),
-    ]
+    Evidence::on("largest error of a shadow")
+        .within(worst, 4.0 * f64::EPSILON)
+        .because("a few roundings of numbers up to 1")
 }
 
 /// True if a rod moves by A.7–A.14, given whether it collided.

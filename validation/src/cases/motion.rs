@@ -149,7 +149,7 @@ fn root(f: impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> Option<f64> {
     }
 }
 
-fn orbit_constant(motion: &Motion, _: &Effort) -> Vec<Evidence> {
+fn orbit_constant(motion: &Motion, _: &Effort) -> Evidence {
     let mut worst = 0.0f64;
     for r in [1.01, 2.0, 11.6, 14.2, 100.0, 1e4] {
         let flow = couette(0.5);
@@ -164,10 +164,10 @@ fn orbit_constant(motion: &Motion, _: &Effort) -> Vec<Evidence> {
             }
         }
     }
-    vec![Evidence::on("largest relative drift of C up to 10⁴ periods").within(worst, 16.0 * f64::EPSILON).because(
+    Evidence::on("largest relative drift of C up to 10⁴ periods").within(worst, 16.0 * f64::EPSILON).because(
         "one evaluation, however many periods it spans: C is a ratio of lengths without cancellation, some sixteen \
          roundings",
-    )]
+    )
 }
 
 /// Directions in general position.
@@ -178,7 +178,7 @@ fn starts() -> Vec<UnitVector3<f64>> {
         .collect()
 }
 
-fn closed_form_motion(motion: &Motion, _: &Effort) -> Vec<Evidence> {
+fn closed_form_motion(motion: &Motion, _: &Effort) -> Evidence {
     let mut worst = 0.0f64;
     for r in [0.02, 0.5, 1.0, 1.01, 2.0, 11.6, 14.2, 100.0, 1e4] {
         let flow = couette(0.5);
@@ -193,11 +193,9 @@ fn closed_form_motion(motion: &Motion, _: &Effort) -> Vec<Evidence> {
             }
         }
     }
-    vec![
-        Evidence::on("angle between the two, over max(r_e, 1/r_e)·(1 + t/T)")
-            .within(worst, 32.0 * f64::EPSILON)
-            .because("a rounding of the phase, 2π(t/T)ε, grows by dφ/d(phase) ≤ max(r_e, 1/r_e) at the flip"),
-    ]
+    Evidence::on("angle between the two, over max(r_e, 1/r_e)·(1 + t/T)")
+        .within(worst, 32.0 * f64::EPSILON)
+        .because("a rounding of the phase, 2π(t/T)ε, grows by dφ/d(phase) ≤ max(r_e, 1/r_e) at the flip")
 }
 
 fn rk4_step(flow: &VelocityGradient, r: f64, p: &UnitVector3<f64>, dt: f64) -> UnitVector3<f64> {

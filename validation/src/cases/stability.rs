@@ -1,7 +1,7 @@
 //! Limits of stability of integrators of a free rod, as stated in `docs/src/verification/integrators.md`.
 
 use super::integrators::Integrators;
-use super::integrators::spoiled::{in_angles, in_p, refuses, whole_turns};
+use super::integrators::{in_angles, in_p, refuses, whole_turns};
 use super::*;
 use crate::methods::integrators::*;
 use crate::studies::stability::map::{self, ASPECT_RATIOS, Cell, Fate, STEPS, TOLERANCES};

@@ -77,7 +77,7 @@ fn rates(starts: &Starts, effort: &Effort) -> Vec<Evidence> {
 /// A function from the number of a replica to the number that is used in its place.
 type Number = fn(u64) -> u64;
 
-fn replicas(number: &Number, effort: &Effort) -> Vec<Evidence> {
+fn replicas(number: &Number, effort: &Effort) -> Evidence {
     const GROUP: u64 = 256;
     const COUNT: usize = 10;
     let mut scene = lab::interacting_scene(effort);
@@ -93,11 +93,9 @@ fn replicas(number: &Number, effort: &Effort) -> Vec<Evidence> {
     };
     let replicas = GROUP * effort.samples(design);
     let x1: Vec<_> = (0..replicas).into_par_iter().map(x1).collect();
-    vec![
-        Evidence::on("exponent of M in the standard deviation of block means")
-            .is(Sample::of(blocks::replicas_exponents(&x1, GROUP as usize)), -0.5, 0.0, design.effect)
-            .because("independent replicas, in groups of 256; a deviation that is √2 as large from two on makes 0.07"),
-    ]
+    Evidence::on("exponent of M in the standard deviation of block means")
+        .is(Sample::of(blocks::replicas_exponents(&x1, GROUP as usize)), -0.5, 0.0, design.effect)
+        .because("independent replicas, in groups of 256; a deviation that is √2 as large from two on makes 0.07")
 }
 
 /// α and m of the interaction whose candidates are counted: a long reach gives many.
@@ -116,7 +114,7 @@ fn without_faces(density: f64) -> f64 {
     middles.map(at).sum::<f64>() / f64::from(count)
 }
 
-fn faces(exponent: &Exponent, effort: &Effort) -> Vec<Evidence> {
+fn faces(exponent: &Exponent, effort: &Effort) -> Evidence {
     const RODS: [usize; 2] = [64, 512];
     let mut scene = lab::interacting_scene(effort);
     // Steps so short that no rod moves: the rods stay at random places.
@@ -145,8 +143,10 @@ fn faces(exponent: &Exponent, effort: &Effort) -> Vec<Evidence> {
         .into_par_iter()
         .map(|replica| lost(RODS[0], replica) - ratio * lost(RODS[1], replica))
         .collect();
-    vec![Evidence::on("share of collisions lost at 64 rods, less the loss at 512 times what the exponent asks for").is(Sample::of(&differences), 0.0, 0.02, design.effect).because(
+    Evidence::on("share of collisions lost at 64 rods, less the loss at 512 times what the exponent asks for")
+        .is(Sample::of(&differences), 0.0, 0.02, design.effect)
+        .because(
             "63 others are a density of n(1 − 1/64), 0.011 of the candidates; edges, where two faces take the same, ∝ \
              N^(−2/3), 0.002 of them. 1/N would be off by three times the loss of 0.1",
-        )]
+        )
 }

@@ -60,24 +60,22 @@ fn mean_squares(scene: &Scene, steps: u64, replicas: u64) -> Vec<f64> {
     pairs.map(|(one, other)| law::apart(one, other, 0).powi(2)).collect()
 }
 
-fn paths(change: &Change, effort: &Effort) -> Vec<Evidence> {
+fn paths(change: &Change, effort: &Effort) -> Evidence {
     let scene = lab::changed(lab::interacting_scene(effort), change);
     // Pilot of 1,716 replicas at seeds 9001 to 9006: 0.0217 ± 0.0005, each 0.0229.
     let design = Design::new(0.018, 0.0255);
     let replicas = effort.samples(design);
     let (coarse, fine) = (mean_squares(&scene, 100, replicas), mean_squares(&scene, 400, replicas));
     let excess = fine.iter().zip(&coarse).map(|(fine, coarse)| fine - 0.5 * coarse);
-    vec![
-        Evidence::on(
-            "mean square angle (rad²) between 400 and 800 steps a period, less half of that between \
+    Evidence::on(
+        "mean square angle (rad²) between 400 and 800 steps a period, less half of that between \
          100 and 200",
-        )
-        .exceeds(Sample::of(excess), 0.0, design.effect)
-        .because(
-            "paths that converge with order ½ or more would bring a quarter or less; the mean square \
+    )
+    .exceeds(Sample::of(excess), 0.0, design.effect)
+    .because(
+        "paths that converge with order ½ or more would bring a quarter or less; the mean square \
              is some 0.035",
-        ),
-    ]
+    )
 }
 
 /// X̄₁ at T/4 of the scene, and of the same scene at half the step.

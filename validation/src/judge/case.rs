@@ -88,15 +88,21 @@ impl Findings for Vec<Evidence> {
     }
 }
 
+impl Findings for Evidence {
+    fn evidence(self) -> Vec<Evidence> {
+        vec![self]
+    }
+}
+
 impl<const N: usize> Findings for [Evidence; N] {
     fn evidence(self) -> Vec<Evidence> {
         self.into()
     }
 }
 
-impl<E: fmt::Display> Findings for Result<Vec<Evidence>, E> {
+impl<T: Findings, E: fmt::Display> Findings for Result<T, E> {
     fn evidence(self) -> Vec<Evidence> {
-        self.unwrap_or_else(|error| vec![Evidence::exact(error.to_string(), f64::NAN)])
+        self.map_or_else(|error| vec![Evidence::exact(error.to_string(), f64::NAN)], T::evidence)
     }
 }
 

@@ -7,7 +7,6 @@
 //! it a place in [`ALL`]; `tests/program/example_study.rs` is a whole one. To add an integrator, add it to
 //! [`integrators`].
 
-mod bisect;
 pub(crate) mod coefficients;
 mod cost;
 pub mod figures;
@@ -56,10 +55,20 @@ pub const ALL: [Study; 11] = [
     suspensions::free_study::STUDY,
     suspensions::interacting::STUDY,
     coefficients::study::STUDY,
-    tensors::study::STUDY,
+    tensors::STUDY,
     cost::STUDY,
     speed::STUDY,
 ];
+
+/// Halves the interval from `holds` to `fails` so many times: the last place where the property was seen to hold, and
+/// the last where it was not.
+fn bisect(mut holds: f64, mut fails: f64, halvings: u32, is_true: impl Fn(f64) -> bool) -> [f64; 2] {
+    for _ in 0..halvings {
+        let middle = 0.5 * (holds + fails);
+        if is_true(middle) { holds = middle } else { fails = middle }
+    }
+    [holds, fails]
+}
 
 #[cfg(test)]
 mod tests {

@@ -65,7 +65,7 @@ static OFFSETS: Shared<(), DVector<f64>> = Shared::new();
 const EXCESS: f64 = 0.2;
 const DEVIATION: f64 = 0.6;
 
-pub(super) fn hold(treatment: &Treatment, effort: &Effort) -> Result<Vec<Evidence>, String> {
+pub(super) fn hold(treatment: &Treatment, effort: &Effort) -> Result<Evidence, String> {
     let pool = SIMULATED.get(effort, (), || pool(effort));
     let pool = pool.as_ref().as_ref().map_err(Clone::clone)?;
     let offset = OFFSETS.get(effort, (), || offset(pool));
@@ -74,9 +74,7 @@ pub(super) fn hold(treatment: &Treatment, effort: &Effort) -> Result<Vec<Evidenc
     let ratio = |k: u64| repeat((pool, &offset), *treatment, seed(k));
     let below: Result<Vec<f64>, String> =
         (0..count).into_par_iter().map(|k| ratio(k).map(|ratio| 1.0 - ratio)).collect();
-    Ok(vec![
-        Evidence::on("1 − χ² per degree of freedom")
-            .exceeds(Sample::of(&below?), -0.1, EXCESS)
-            .because("with a tenth more a right model would be rejected twice as often as due"),
-    ])
+    Ok(Evidence::on("1 − χ² per degree of freedom")
+        .exceeds(Sample::of(&below?), -0.1, EXCESS)
+        .because("with a tenth more a right model would be rejected twice as often as due"))
 }

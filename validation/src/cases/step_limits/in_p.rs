@@ -57,7 +57,7 @@ pub(super) fn near_a_sphere(integrators: &Integrators, _: &Effort) -> Vec<Eviden
     evidence
 }
 
-pub(super) fn frozen(integrators: &Integrators, _: &Effort) -> Vec<Evidence> {
+pub(super) fn frozen(integrators: &Integrators, _: &Effort) -> Evidence {
     let mut worst = 0.0f64;
     for integrator in integrators() {
         for r in [1.5, 2.0, 3.0, 11.6, 100.0] {
@@ -72,9 +72,7 @@ pub(super) fn frozen(integrators: &Integrators, _: &Effort) -> Vec<Evidence> {
             );
         }
     }
-    vec![
-        Evidence::on("largest step with a bounded length over 2.785/(ΛG)")
-            .within(worst, 0.99)
-            .because("a hundredth below is told from equal: ten periods find a growth of 10⁻³ a step"),
-    ]
+    Evidence::on("largest step with a bounded length over 2.785/(ΛG)")
+        .within(worst, 0.99)
+        .because("a hundredth below is told from equal: ten periods find a growth of 10⁻³ a step")
 }

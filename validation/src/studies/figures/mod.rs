@@ -1,6 +1,5 @@
 //! Figures 4 to 12 of the paper, drawn from the built-in scenes in the paper's own axes.
 
-mod amplitude;
 mod beside;
 mod measured;
 mod paper;

@@ -1,8 +1,7 @@
 //! The content of each figure, with its caption.
 
-use super::amplitude::amplitude;
 use super::measured::measured;
-use super::run::{Run, Runs};
+use super::run::{Run, Runs, amplitude};
 use super::*;
 use crate::oracle::closed_form;
 

@@ -1,7 +1,7 @@
 //! Longest steps GΔt by theory, for some integrators and properties; derived in `docs/src/developer/step-limits.md`.
 
+use super::*;
 use crate::methods::integrators::limits::Property;
-use crate::studies::bisect::bisect;
 use std::f64::consts::{FRAC_1_SQRT_2, PI};
 
 /// A theory of a limit: the integrator, its property, and GΔt against r_e.

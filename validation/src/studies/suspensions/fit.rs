@@ -1,7 +1,6 @@
 //! Straight lines through means that share random numbers, and the observed order.
 
 use super::*;
-use crate::studies::bisect::bisect;
 use nalgebra::{DMatrix, DVector};
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 

@@ -7,7 +7,6 @@
 use super::job::{Job, x1};
 use super::law::{FACES, JobMean, Law};
 use super::*;
-use crate::studies::bisect::bisect;
 
 /// The errors of X̄₁ for which splits are sought.
 pub const TARGETS: [f64; 3] = [1e-2, 3e-3, 1e-3];

@@ -1,6 +1,0 @@
-//! Closures against the exact distribution.
-
-mod measure;
-pub mod study;
-
-use super::*;
