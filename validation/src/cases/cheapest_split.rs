@@ -1,6 +1,6 @@
 //! The claims of `docs/src/verification/integrators.md` about the cheapest split of a run.
 
-use super::work_precision_coupled::first;
+use super::work_precision::first;
 use super::*;
 use crate::judge::statistics::covariance;
 use crate::studies::suspensions::coupled::interacting;

@@ -30,7 +30,6 @@ mod integrator_claims;
 mod integrators;
 mod interpretations;
 mod jeffery_equations;
-mod kick_sizes;
 mod kicks;
 mod misprints;
 mod motion;
@@ -49,7 +48,6 @@ mod times;
 mod two_methods;
 mod volume_shapes;
 mod work_precision;
-mod work_precision_coupled;
 
 // What most cases use: the files of this folder begin with `use super::*`.
 use crate::judge::accept::{Design, Rule, kolmogorov_samples};
@@ -84,7 +82,6 @@ pub fn all() -> Vec<Case> {
         inflow::cases(),
         volume_shapes::cases(),
         kicks::cases(),
-        kick_sizes::cases(),
         averaged::cases(),
         free_suspension::cases(),
         closed_forms::cases(),
@@ -104,7 +101,6 @@ pub fn all() -> Vec<Case> {
         stability::cases(),
         step_limits::cases(),
         work_precision::cases(),
-        work_precision_coupled::cases(),
         cheapest_split::cases(),
         decay::cases(),
         statements::cases(),

@@ -124,6 +124,25 @@ pub struct About {
 }
 
 impl About {
+    fn new(name: &'static str, judges: Judges) -> Self {
+        Self { name, judges, claim: "", source: "", equations: Vec::new() }
+    }
+
+    /// The claim, in one sentence.
+    pub fn claim(self, claim: &'static str) -> Self {
+        Self { claim, ..self }
+    }
+
+    /// The equations that the case tests, then figures, sections or pages in words: `eqs 4, A.7–A.9; Fig. 6`.
+    pub fn source(self, source: &'static str) -> Self {
+        Self { source, equations: equations(source), ..self }
+    }
+
+    /// The implementation under test: a function, a scene, a model.
+    pub fn under_test<S>(self, implementation: S) -> UnderTest<S> {
+        UnderTest { about: self, implementation, mistakes: Vec::new() }
+    }
+
     /// The tags of the case: the kind that it judges, and its equations as `eq-15`.
     pub fn tags(&self) -> Vec<String> {
         let equations = self.equations.iter().map(|number| format!("eq-{number}"));
@@ -159,39 +178,39 @@ pub struct Case {
 
 impl Case {
     /// A case that verifies the simulator's core.
-    pub fn core(name: &'static str) -> Draft {
-        Draft::new(name, Judges::Core)
+    pub fn core(name: &'static str) -> About {
+        About::new(name, Judges::Core)
     }
 
     /// A case that verifies whole runs and the program.
-    pub fn program(name: &'static str) -> Draft {
-        Draft::new(name, Judges::Program)
+    pub fn program(name: &'static str) -> About {
+        About::new(name, Judges::Program)
     }
 
     /// A case that verifies integrators.
-    pub fn integrator(name: &'static str) -> Draft {
-        Draft::new(name, Judges::Integrator)
+    pub fn integrator(name: &'static str) -> About {
+        About::new(name, Judges::Integrator)
     }
 
     /// A case that verifies an oracle.
-    pub fn oracle(name: &'static str) -> Draft {
-        Draft::new(name, Judges::Oracle)
+    pub fn oracle(name: &'static str) -> About {
+        About::new(name, Judges::Oracle)
     }
 
     /// A case on a modelling choice where the paper is open.
-    pub fn interpretation(name: &'static str) -> Draft {
-        Draft::new(name, Judges::Interpretation)
+    pub fn interpretation(name: &'static str) -> About {
+        About::new(name, Judges::Interpretation)
     }
 
     /// A case on a sentence of the paper.
-    pub fn statement(name: &'static str) -> Draft {
-        Draft::new(name, Judges::Statement)
+    pub fn statement(name: &'static str) -> About {
+        About::new(name, Judges::Statement)
     }
 
     /// A case that validates the model by measured points. If these are too few to catch a control, it is not the
     /// code's fault, and the case is underpowered.
-    pub fn measurement(name: &'static str) -> Draft {
-        Draft::new(name, Judges::Measurement)
+    pub fn measurement(name: &'static str) -> About {
+        About::new(name, Judges::Measurement)
     }
 
     /// Runs the check, then every control. Without data, controls are not run, as they could not fail.
@@ -212,33 +231,6 @@ impl Case {
             controls,
             seconds: start.elapsed().as_secs_f64(),
         }
-    }
-}
-
-/// A case that still lacks its implementation under test.
-pub struct Draft(About);
-
-impl Draft {
-    fn new(name: &'static str, judges: Judges) -> Self {
-        Self(About { name, judges, claim: "", source: "", equations: Vec::new() })
-    }
-
-    /// The claim, in one sentence.
-    pub fn claim(mut self, claim: &'static str) -> Self {
-        self.0.claim = claim;
-        self
-    }
-
-    /// The equations that the case tests, then figures, sections or pages in words: `eqs 4, A.7–A.9; Fig. 6`.
-    pub fn source(mut self, source: &'static str) -> Self {
-        self.0.source = source;
-        self.0.equations = equations(source);
-        self
-    }
-
-    /// The implementation under test: a function, a scene, a model.
-    pub fn under_test<S>(self, implementation: S) -> UnderTest<S> {
-        UnderTest { about: self.0, implementation, mistakes: Vec::new() }
     }
 }
 

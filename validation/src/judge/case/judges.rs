@@ -37,27 +37,28 @@ impl Judges {
 
     /// One word for `validate --tag`.
     pub fn tag(self) -> &'static str {
-        match self {
-            Self::Core => "core",
-            Self::Program => "program",
-            Self::Integrator => "integrator",
-            Self::Oracle => "oracle",
-            Self::Interpretation => "interpretation",
-            Self::Statement => "statement",
-            Self::Measurement => "measurement",
-        }
+        self.words()[0]
     }
 
     /// The plural for the report's headline.
     pub fn name(self) -> &'static str {
+        self.words()[1]
+    }
+
+    /// The heading of its cases.
+    pub(crate) fn title(self) -> &'static str {
+        self.words()[2]
+    }
+
+    fn words(self) -> [&'static str; 3] {
         match self {
-            Self::Core => "core",
-            Self::Program => "program",
-            Self::Integrator => "integrators",
-            Self::Oracle => "oracles",
-            Self::Interpretation => "interpretations",
-            Self::Statement => "paper's statements",
-            Self::Measurement => "measured points",
+            Self::Core => ["core", "core", "Verification of the core"],
+            Self::Program => ["program", "program", "Verification of the program"],
+            Self::Integrator => ["integrator", "integrators", "Integrators"],
+            Self::Oracle => ["oracle", "oracles", "Oracles and the paper’s formulas"],
+            Self::Interpretation => ["interpretation", "interpretations", "Open choices of the model"],
+            Self::Statement => ["statement", "paper's statements", "The paper’s statements"],
+            Self::Measurement => ["measurement", "measured points", "Measured points"],
         }
     }
 }

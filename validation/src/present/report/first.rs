@@ -7,19 +7,6 @@ use crate::judge::case::Judges;
 use crate::present::plot::{self, Figure};
 use serde_json::{Value as Json, json};
 
-/// The heading of the cases of a kind.
-pub(super) fn title(judges: Judges) -> &'static str {
-    match judges {
-        Judges::Core => "Verification of the core",
-        Judges::Program => "Verification of the program",
-        Judges::Integrator => "Integrators",
-        Judges::Oracle => "Oracles and the paper’s formulas",
-        Judges::Interpretation => "Open choices of the model",
-        Judges::Statement => "The paper’s statements",
-        Judges::Measurement => "Measured points",
-    }
-}
-
 /// What it means that the cases of a kind pass.
 pub(super) fn means(judges: Judges) -> &'static str {
     match judges {
@@ -43,7 +30,7 @@ pub(super) fn cards(report: &Report) -> Vec<Json> {
         let worst = [Verdict::Fail, Verdict::Underpowered, Verdict::NoData].into_iter().find(|v| has(*v));
         json!({
             "tag": part.judges.tag(),
-            "name": title(part.judges),
+            "name": part.judges.title(),
             "count": count(part),
             "class": worst.unwrap_or(Verdict::Pass),
         })

@@ -53,7 +53,7 @@ fn groups(report: &Report) -> Vec<Json> {
     let group = |judges: Judges| {
         json!({
             "tag": judges.tag(),
-            "name": super::first::title(judges),
+            "name": judges.title(),
             "means": super::first::means(judges),
             "cases": cases(judges).map(|row| case(report, row)).collect::<Vec<_>>(),
         })
