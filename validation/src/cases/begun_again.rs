@@ -33,8 +33,7 @@ fn begins_again(way: &Way, effort: &Effort) -> Evidence {
     let mut scene = lab::interacting_scene(effort);
     scene.particles.aspect_ratio_sd_percent = 8.5;
     scene.particles.length_sd_percent = 20.0;
-    scene.time.duration = 2.0;
-    scene.time.steps_per_unit = Some(STEPS_PER_PERIOD);
+    scene.time = Time { steps_per_unit: Some(STEPS_PER_PERIOD), ..Time::periods(2.0) };
     // 100 rods at 50 per cm³.
     lab::set_box_mm(&mut scene, [20.0, 10.0, 10.0]);
     let replicas = effort.samples(Design { effect: EFFECT, sd: SD });

@@ -144,8 +144,7 @@ fn plateau(change: &Change, effort: &Effort) -> Vec<Evidence> {
     scene.particles.count = effort.samples(design) as usize;
     scene.particles.aspect_ratio_sd_percent = 3.6;
     // A quarter period past t/T = 12, where rods in phase would be far from their mean; exp(−(t/t*)²) = 2·10⁻⁷.
-    scene.time.duration = 12.25;
-    scene.time.outputs_per_unit = Some(4);
+    scene.time = Time { outputs_per_unit: Some(4), ..Time::periods(12.25) };
     let (r, sd) = (scene.particles.aspect_ratio, 0.01 * scene.particles.aspect_ratio_sd_percent);
     change(&mut scene);
     let results = ensemble::run(&lab::plan(&scene));
@@ -179,8 +178,7 @@ fn spread_damping(factor: &Factor, effort: &Effort) -> Vec<Evidence> {
         let s = sd / 100.0 * (r * r - 1.0) / (r * r + 1.0);
         let end = 1.0 / (2.0 * SQRT_2 * PI * s);
         scene.particles.aspect_ratio_sd_percent = sd * factor;
-        scene.time.outputs_per_unit = Some(40);
-        scene.time.duration = end.round() + 1.0;
+        scene.time = Time { outputs_per_unit: Some(40), ..Time::periods(end.round() + 1.0) };
         // Half a period is 20 outputs; the window closest to the predicted time.
         let middle = (end * 40.0).round() as usize;
         let harmonic = |from: usize, value: &dyn Fn(usize) -> f64| {

@@ -81,8 +81,7 @@ const ASPECT_RATIO: f64 = 3.0;
 fn a_fifth(observable: Observable, effort: &Effort) -> Scene {
     let mut scene = lab::free_scene(effort);
     scene.particles.aspect_ratio = ASPECT_RATIO;
-    scene.time.duration = 0.2;
-    scene.time.outputs_per_unit = Some(5);
+    scene.time = Time { outputs_per_unit: Some(5), ..Time::periods(0.2) };
     scene.output.observables = vec![observable];
     scene
 }
@@ -167,8 +166,7 @@ fn particle_stress(stress: &Stress, effort: &Effort) -> Vec<Evidence> {
     let scene = a_fifth(Observable::ParticleStress, effort);
     let fifth = lab::per_replica(&scene, effort.samples(design), |mean| read(mean, 1));
     let mut scene = scene;
-    scene.time.duration = 0.5;
-    scene.time.outputs_per_unit = Some(80);
+    scene.time = Time { outputs_per_unit: Some(80), ..Time::periods(0.5) };
     let half = lab::per_replica(&scene, effort.samples(design), |mean| {
         let all: Vec<_> = (0..40).map(|output| read(mean, output)).collect();
         std::array::from_fn(|k| all.iter().map(|values| values[k]).sum::<f64>() / 40.0)

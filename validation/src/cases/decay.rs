@@ -148,8 +148,7 @@ fn amplitudes(scene: &Scene, replicas: u64, half_periods: &[usize]) -> Vec<Vec<f
 
 /// The scene up to the quarter period after t = kT/2, with outputs at quarter periods.
 fn quarters(mut scene: Scene, half_periods: usize) -> Scene {
-    scene.time.duration = (2 * half_periods + 1) as f64 / 4.0;
-    scene.time.outputs_per_unit = Some(4);
+    scene.time = Time { outputs_per_unit: Some(4), ..Time::periods((2 * half_periods + 1) as f64 / 4.0) };
     scene
 }
 

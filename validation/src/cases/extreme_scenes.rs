@@ -162,9 +162,8 @@ fn scenes(effort: &Effort) -> Vec<Scene> {
         scene(|scene| scene.flow = Flow::Shear { shear_rate_per_s: 1e30 }),
         scene(|scene| lab::interaction(scene).min_contact_arm = f64::MIN_POSITIVE),
         scene(|scene| {
-            scene.time.duration = 3e-5;
-            scene.time.steps_per_unit = Some(10_000_000);
-            scene.time.outputs_per_unit = Some(100_000);
+            scene.time =
+                Time { steps_per_unit: Some(10_000_000), outputs_per_unit: Some(100_000), ..Time::periods(3e-5) };
             lab::interaction(scene).alpha = 1e3;
         }),
         scene(|scene| {

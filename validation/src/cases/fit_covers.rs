@@ -114,8 +114,7 @@ fn pool(effort: &Effort) -> Result<Pool, String> {
         let mut scene = lab::interacting_scene(effort);
         scene.particles.aspect_ratio_sd_percent = sd_percent;
         scene.particles.count = RODS;
-        scene.time.duration = 1.5;
-        scene.time.steps_per_unit = Some(STEPS_PER_PERIOD);
+        scene.time = Time { steps_per_unit: Some(STEPS_PER_PERIOD), ..Time::periods(1.5) };
         Scenes::new(vec![set(&scene, effort.seed(70), TimeColumn::Periods)?], vec![range.clone()]).map_err(String::from)
     };
     let basis = Basis::new(1);
@@ -154,8 +153,19 @@ fn repeat(pool: &Pool, way: Way, seed: u64, k: u64) -> Result<Fit, String> {
         drawn = vec![mean; DRAWN];
     }
     let data = data(|k| pool.truth[k] + NOISE * noise[k]);
-    let measured = Measured { data: &data, ranges: std::slice::from_ref(&pool.range), rods: &Rods::none(1) };
-    fitted(&measured, &pool.basis, &vec![(pool.range.from, pool.range.to)], &drawn)
+    fit(&data, &pool.range, &Rods::none(1), &pool.basis, &drawn)
+}
+
+/// The fit of one parameter over its whole range.
+pub(super) fn fit(
+    data: &[Datum],
+    range: &Range,
+    rods: &Rods,
+    basis: &Basis,
+    drawn: &[Coefficients],
+) -> Result<Fit, String> {
+    let measured = Measured { data, ranges: std::slice::from_ref(range), rods };
+    fitted(&measured, basis, &vec![(range.from, range.to)], drawn)
 }
 
 struct Fitted {

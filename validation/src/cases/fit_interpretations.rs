@@ -5,7 +5,7 @@
 //! effect where rods are far apart, so that α would depend on the concentration. Who draws cannot be found in this way:
 //! `docs/src/theory/fits.md`.
 
-use super::fit_covers::set;
+use super::fit_covers::{fit, set};
 use super::*;
 use crate::judge::lab::problem;
 use crate::methods::least_squares::Datum;
@@ -16,7 +16,7 @@ use crate::oracle::naive::{Lines, Naive, mean_projections};
 use crate::serve::fit::Range;
 use crate::serve::fit::data::TimeColumn;
 use crate::serve::fit::scenes::{AS_WRITTEN, Scenes};
-use crate::serve::fit::search::{Fit, Measured, fitted};
+use crate::serve::fit::search::Fit;
 use crate::studies::interpretations::Change;
 use rand_distr::StandardNormal;
 
@@ -58,8 +58,7 @@ fn scene(effort: &Effort, concentration_per_cm3: f64) -> Scene {
     let mut scene = lab::interacting_scene(effort);
     lab::interaction(&mut scene).concentration_per_cm3 = Some(concentration_per_cm3);
     scene.particles.count = RODS;
-    scene.time.duration = 0.5;
-    scene.time.steps_per_unit = Some(STEPS_PER_PERIOD);
+    scene.time = Time { steps_per_unit: Some(STEPS_PER_PERIOD), ..Time::periods(0.5) };
     scene
 }
 
@@ -120,10 +119,8 @@ pub fn model(effort: &Effort, replicas: u64) -> Result<Vec<Coefficients>, String
 
 /// The fit of a common α of both suspensions to points that are means of `replicas` replicas.
 pub fn one_alpha(points: &[f64], u: f64, replicas: u64, model: &[Coefficients]) -> Result<Fit, String> {
-    let range = range()?;
     let rods = Rods { over_measured: vec![1.0 / replicas as f64; CONCENTRATIONS.len()], in_u: false };
-    let measured = Measured { data: &data(|k| points[k], u), ranges: std::slice::from_ref(&range), rods: &rods };
-    fitted(&measured, &Basis::new(1), &vec![(range.from, range.to)], model)
+    fit(&data(|k| points[k], u), &range()?, &rods, &Basis::new(1), model)
 }
 
 fn accepted(change: &Change, effort: &Effort) -> Result<Evidence, String> {

@@ -60,8 +60,7 @@ fn compare_one((r, sd, sevenths): Problem, change: Change, effort: &Effort, seed
     scene.particles.count = effort.samples(DESIGN) as usize;
     scene.particles.aspect_ratio = r;
     scene.particles.aspect_ratio_sd_percent = sd;
-    scene.time.duration = 3.0;
-    scene.time.outputs_per_unit = Some(7);
+    scene.time = Time { outputs_per_unit: Some(7), ..Time::periods(3.0) };
     change(&mut scene);
     let expected = |turns| match sd {
         0.0 => isotropic::mean_projections(r, turns),
@@ -85,8 +84,7 @@ fn compare_one((r, sd, sevenths): Problem, change: Change, effort: &Effort, seed
 fn half_period(change: &Change, effort: &Effort) -> Evidence {
     let mut scene = lab::free_scene(effort);
     scene.particles.count = 1000;
-    scene.time.duration = 5.0;
-    scene.time.outputs_per_unit = Some(20);
+    scene.time = Time { outputs_per_unit: Some(20), ..Time::periods(5.0) };
     change(&mut scene);
     let mut worst = 0.0f64;
     match ensemble::run(&lab::plan(&scene)) {

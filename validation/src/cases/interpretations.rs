@@ -132,8 +132,7 @@ fn changes(model: Model, effort: &Effort, replicas: u64) -> Vec<f64> {
 
 fn by_core(change: fn(&mut Interaction), effort: &Effort, replicas: u64) -> Vec<f64> {
     let mut scene = lab::interacting_scene(effort);
-    scene.time.duration = 0.5;
-    scene.time.outputs_per_unit = Some(2);
+    scene.time = Time { outputs_per_unit: Some(2), ..Time::periods(0.5) };
     let interaction = lab::interaction(&mut scene);
     interaction.concentration_per_cm3 = Some(CONCENTRATION_PER_CM3);
     change(interaction);

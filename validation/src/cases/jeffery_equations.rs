@@ -113,8 +113,7 @@ fn one_rod(change: &Change, effort: &Effort) -> Vec<Evidence> {
             scene.particles.count = 1;
             scene.particles.aspect_ratio = r;
             scene.particles.orientation = Orientation::Given { phi_deg, theta_deg };
-            scene.time.duration = 3.0;
-            scene.time.outputs_per_unit = Some(OUTPUTS as u64);
+            scene.time = Time { outputs_per_unit: Some(OUTPUTS as u64), ..Time::periods(3.0) };
             scene.output.observables =
                 vec![Observable::OrientationTensor, Observable::MeanAngle, Observable::OrbitConstant];
             change(&mut scene);

@@ -92,8 +92,7 @@ fn reductions(limits: &Limits, effort: &Effort) -> [Evidence; 6] {
 
 fn standard_errors(standard_error: &StandardError, effort: &Effort) -> Vec<Evidence> {
     let mut scene = lab::interacting_scene(effort);
-    scene.time.duration = 0.5;
-    scene.time.outputs_per_unit = Some(10);
+    scene.time = Time { outputs_per_unit: Some(10), ..Time::periods(0.5) };
     scene.ensemble.replicas = 16;
     let over_replicas = run(&scene).map_or(f64::NAN, |results| {
         let expected = |output| standard_error(&per_replica(&scene, 16, |mean| mean(Channel::X[0], output)));

@@ -8,8 +8,7 @@ pub fn scene(effort: &Effort, aspect_ratio: f64, concentration_per_cm3: f64) -> 
     let mut scene = lab::interacting_scene(effort);
     scene.particles.aspect_ratio = aspect_ratio;
     lab::interaction(&mut scene).concentration_per_cm3 = Some(concentration_per_cm3);
-    scene.time.duration = 0.5;
-    scene.time.outputs_per_unit = Some(2);
+    scene.time = Time { outputs_per_unit: Some(2), ..Time::periods(0.5) };
     scene
 }
 

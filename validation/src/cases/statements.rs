@@ -59,9 +59,7 @@ fn period(change: &Change, effort: &Effort) -> [Evidence; 2] {
     [("unequal aspect ratios", polydisperse), ("collisions", interacting)].map(|(name, kind)| {
         let mut scene = lab::free_scene(effort);
         kind(&mut scene);
-        scene.time.duration = 4.0;
-        scene.time.steps_per_unit = Some(200);
-        scene.time.outputs_per_unit = Some(50);
+        scene.time = Time { steps_per_unit: Some(200), outputs_per_unit: Some(50), ..Time::periods(4.0) };
         change(&mut scene);
         let frequencies = per_replica(&scene, effort.samples(design), |mean| {
             let series: Vec<f64> = (0..=200).map(|output| mean(Channel::X[0], output)).collect();
@@ -115,8 +113,7 @@ fn enough_rods(count: &Count, effort: &Effort) -> [Evidence; 2] {
         let mut scene = lab::paper_scene(effort);
         scene.ensemble.seed = effort.seed(stream);
         scene.particles.count = count;
-        scene.time.duration = 2.0;
-        scene.time.outputs_per_unit = Some(1);
+        scene.time = Time { outputs_per_unit: Some(1), ..Time::periods(2.0) };
         per_replica(&scene, replicas, |mean| [1, 2].map(|output| mean(Channel::X[0], output) - mean(Channel::X[0], 0)))
     };
     // A pilot of 200 by `rotation`: two rods are off by 0.041 and 0.061, differences scatter by 0.015 at most.
@@ -143,8 +140,7 @@ type Periods = f64;
 fn stays_put(from: &Periods, effort: &Effort) -> [Evidence; 3] {
     let mut scene = lab::paper_scene(effort);
     lab::interaction(&mut scene).concentration_per_cm3 = Some(1000.0);
-    scene.time.duration = from + 2.0;
-    scene.time.outputs_per_unit = Some(10);
+    scene.time = Time { outputs_per_unit: Some(10), ..Time::periods(from + 2.0) };
     let start = (*from as usize) * 10;
     // From the start X̄_2 and X̄_3 drift by 0.044 and 0.056 in a pilot of 100 replicas; the steady state scattered by
     // 0.005, 0.008 and 0.011.

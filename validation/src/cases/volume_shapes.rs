@@ -55,8 +55,7 @@ fn x1(shape: Shape, effort: &Effort) -> Arc<Vec<f64>> {
         scene.particles.count = RODS;
         let side = 10.0 * (RODS as f64 / 200.0).cbrt();
         lab::set_box_mm(&mut scene, shape.map(|share| share * side));
-        scene.time.duration = 0.5;
-        scene.time.outputs_per_unit = Some(2);
+        scene.time = Time { outputs_per_unit: Some(2), ..Time::periods(0.5) };
         lab::per_replica(&scene, effort.samples(DESIGN), |mean| mean(Channel::X[0], 1))
     })
 }

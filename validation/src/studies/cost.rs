@@ -152,9 +152,7 @@ fn costs(error: f64, steps: &[Step], others: &[Measured]) -> Vec<Cost> {
 fn scene(steps_per_period: u64) -> Scene {
     let mut scene = lab::interacting_scene(&crate::judge::case::Effort::gate());
     lab::interaction(&mut scene).update = Update::Kick;
-    scene.time.duration = 2.0;
-    scene.time.outputs_per_unit = Some(1);
-    scene.time.steps_per_unit = Some(steps_per_period);
+    scene.time = Time { steps_per_unit: Some(steps_per_period), outputs_per_unit: Some(1), ..Time::periods(2.0) };
     scene
 }
 

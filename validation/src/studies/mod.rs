@@ -39,7 +39,7 @@ use serde::Serialize;
 use shearbed::model::jeffery::{shape_factor, strain_per_period};
 use shearbed::observable::Channel;
 use shearbed::run::{ensemble, run_replica};
-use shearbed::scene::{Scene, Update};
+use shearbed::scene::{Scene, Time, Update};
 use shearbed::{Plan, Suspension};
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;

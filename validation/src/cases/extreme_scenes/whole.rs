@@ -99,8 +99,7 @@ pub(super) fn extreme_scenes(program: &Program, effort: &Effort) -> Vec<Evidence
     scenes.push(scene(&|scene| {
         scene.particles.count = 1;
         scene.output.observables = FEW.to_vec();
-        scene.time.duration = effort.pick(1e4, 1e5);
-        scene.time.outputs_per_unit = Some(1);
+        scene.time = Time { outputs_per_unit: Some(1), ..Time::periods(effort.pick(1e4, 1e5)) };
     }));
     let free = scenes.len();
     let longest = effort.pick(1e4, 1e6);

@@ -28,8 +28,7 @@ fn simulated(effort: &Effort) -> Result<Simulated, String> {
     let range = Range::parse(RANGE)?;
     let mut scene = lab::interacting_scene(effort);
     scene.interaction = None;
-    scene.time.duration = 1.6;
-    scene.time.steps_per_unit = None;
+    scene.time = Time::periods(1.6);
     let scenes = Scenes::new(vec![set(&scene, effort.seed(72), TimeColumn::Strain)?], vec![range.clone()])?;
     let mut points = data(|_| f64::NAN);
     for point in &mut points {
@@ -47,8 +46,7 @@ fn simulated(effort: &Effort) -> Result<Simulated, String> {
     for (point, value) in points.iter_mut().zip(curve.iter()) {
         point.value = *value;
     }
-    let measured = Measured { data: &points, ranges: std::slice::from_ref(&range), rods: &Rods::none(1) };
-    let fit = fitted(&measured, &basis, &vec![(range.from, range.to)], &at_nodes)?;
+    let fit = fit(&points, &range, &Rods::none(1), &basis, &at_nodes)?;
     let uncertainty = fit.best.covariance()[(0, 0)].sqrt();
     Ok(Simulated { influence: &fit.best.influence / uncertainty, basis, at_nodes, at_own })
 }

@@ -52,9 +52,7 @@ fn repeat((pool, offset): (&Pool, &DVector<f64>), treatment: Treatment, seed: u6
         point.u = READING;
     }
     let rods = Rods { over_measured: vec![1.0 / MEASURED as f64], in_u: false };
-    let range = pool.range.clone();
-    let sides = vec![(range.from, range.to)];
-    let fit = fitted(&Measured { data: &data, ranges: &[range], rods: &rods }, &pool.basis, &sides, &drawn)?;
+    let fit = fit(&data, &pool.range, &rods, &pool.basis, &drawn)?;
     let goodness = &fit.best.goodness;
     Ok(goodness.chi_square_of_points() / goodness.freedom as f64)
 }

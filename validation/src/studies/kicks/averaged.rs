@@ -37,28 +37,21 @@ pub fn apart(scene: &Scene, steps: u64, change: fn(&mut NaiveProblem), replica: 
     }
 }
 
+/// What replicas find at one step and with one shortest arm, in rod lengths.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct AveragedStep {
+pub struct AtStep<const N: usize> {
     pub steps_per_period: u64,
     pub min_contact_arm: f64,
-    pub x1: Sample,
-    pub square: Sample,
-    pub averaged_x1: Sample,
+    pub samples: [Sample; N],
 }
 
-/// Runs `replicas` replicas with this step and shortest arm.
-pub fn row(effort: &Effort, steps_per_period: u64, min_contact_arm: f64, replicas: u64) -> AveragedStep {
+/// X̄₁ of the averaged motion, that of the model less it, and sin² between the paths ([`Apart`]).
+pub fn row(effort: &Effort, steps_per_period: u64, min_contact_arm: f64, replicas: u64) -> AtStep<3> {
     let scene = scene(effort, steps_per_period, min_contact_arm);
     let distances: Vec<_> =
         (0..replicas).into_par_iter().map(|replica| apart(&scene, steps_per_period, |_| {}, replica)).collect();
-    let sample = |value: fn(&Apart) -> f64| Sample::of(distances.iter().map(value).collect::<Vec<_>>());
-    AveragedStep {
-        steps_per_period,
-        min_contact_arm,
-        x1: sample(|apart| apart.x1),
-        square: sample(|apart| apart.square),
-        averaged_x1: sample(|apart| apart.averaged_x1),
-    }
+    let values: [fn(&Apart) -> f64; 3] = [|apart| apart.averaged_x1, |apart| apart.x1, |apart| apart.square];
+    AtStep { steps_per_period, min_contact_arm, samples: values.map(|value| Sample::of(distances.iter().map(value))) }
 }
 
 /// 50 rods at 400 per cm³, for one period: eight times as dense as in Fig. 7, so that a few replicas show the limit.
@@ -72,27 +65,14 @@ pub fn scene(effort: &Effort, steps_per_period: u64, min_contact_arm: f64) -> Sc
     scene
 }
 
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct BothUpdates {
-    pub steps_per_period: u64,
-    pub min_contact_arm: f64,
-    /// X̄₁ at t/T = 1 with `rotation`.
-    pub rotation_x1: Sample,
-    pub change: Sample,
-}
-
-/// Runs `replicas` replicas of the scene of the averaged motion with both updates for a period.
-pub fn both_updates(effort: &Effort, steps_per_period: u64, min_contact_arm: f64, replicas: u64) -> BothUpdates {
+/// X̄₁ at t/T = 1 of the scene of the averaged motion with `rotation`, and that with `angles` less it.
+pub fn both_updates(effort: &Effort, steps_per_period: u64, min_contact_arm: f64, replicas: u64) -> AtStep<2> {
     let x1 = |update| {
         let mut scene = scene(effort, steps_per_period, min_contact_arm);
         lab::interaction(&mut scene).update = update;
         lab::per_replica(&scene, replicas, |mean| mean(Channel::X[0], 1))
     };
     let (rotation, angles) = (x1(Update::Rotation), x1(Update::Angles));
-    BothUpdates {
-        steps_per_period,
-        min_contact_arm,
-        rotation_x1: Sample::of(&rotation),
-        change: Sample::of_differences(&angles, &rotation),
-    }
+    let samples = [Sample::of(&rotation), Sample::of_differences(&angles, &rotation)];
+    AtStep { steps_per_period, min_contact_arm, samples }
 }

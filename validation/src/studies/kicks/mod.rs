@@ -169,16 +169,15 @@ pub struct StepCounts {
 impl StepCounts {
     /// The mean over replicas of a number per replica.
     pub fn mean(&self, value: impl Fn(&Counts) -> f64) -> Sample {
-        Sample::of(self.counts.iter().map(value).collect::<Vec<_>>())
+        Sample::of(self.counts.iter().map(value))
     }
 }
 
 /// Counts the kicks of a scene at `steps_per_period` over a window of periods.
 pub fn rates(scene: &Scene, steps_per_period: u64, periods: Range<u64>, replicas: u64, counted: Counted) -> StepCounts {
     let mut scene = scene.clone();
-    scene.time.steps_per_unit = Some(steps_per_period);
-    scene.time.outputs_per_unit = Some(1);
-    scene.time.duration = periods.end as f64;
+    scene.time =
+        Time { steps_per_unit: Some(steps_per_period), outputs_per_unit: Some(1), ..Time::periods(periods.end as f64) };
     StepCounts {
         steps_per_period,
         counts: (0..replicas).into_par_iter().map(|replica| count(&scene, replica, periods.clone(), counted)).collect(),

@@ -1,5 +1,6 @@
 //! The study of the limit Δt → 0: kicks against the step, their tail, the averaged motion, the two updates.
 
+use super::averaged::AtStep;
 use super::tail::{self, Exponent};
 use super::*;
 use crate::input::scenes;
@@ -64,8 +65,8 @@ struct Limit {
     periods: Vec<StepCounts>,
     /// Exponents of the tail, each with a description of its kicks.
     tails: Vec<(String, Exponent)>,
-    averaged: Vec<averaged::AveragedStep>,
-    updates: Vec<averaged::BothUpdates>,
+    averaged: Vec<AtStep<3>>,
+    updates: Vec<AtStep<2>>,
     /// Replicas behind the counts, and behind the averaged motion.
     replicas: [u64; 2],
 }
@@ -110,9 +111,7 @@ fn measure(effort: &Effort) -> Result<Limit, String> {
 fn tails(scene: &Scene, replicas: u64) -> Vec<(String, Exponent)> {
     let with = |steps, arm| {
         let mut scene = scene.clone();
-        scene.time.steps_per_unit = Some(steps);
-        scene.time.outputs_per_unit = Some(1);
-        scene.time.duration = 2.0;
+        scene.time = Time { steps_per_unit: Some(steps), outputs_per_unit: Some(1), ..Time::periods(2.0) };
         lab::interaction(&mut scene).min_contact_arm = arm;
         scene
     };
@@ -215,8 +214,16 @@ fn exponents(study: &Limit) -> ReportTable {
     )
 }
 
+fn samples<'a, const N: usize>(names: [&str; N]) -> Vec<Column<'a, AtStep<N>>> {
+    let mut columns = vec![
+        number("min_contact_arm", decimals(4), |row: &AtStep<N>| row.min_contact_arm),
+        field("steps per period", |row: &AtStep<N>| row.steps_per_period),
+    ];
+    columns.extend((0..N).map(|k| estimate(names[k], move |row: &AtStep<N>| row.samples[k])));
+    columns
+}
+
 fn averages(study: &Limit) -> ReportTable {
-    type Of<'a> = &'a averaged::AveragedStep;
     ReportTable::new(
         ["averaged-motion", "The model against the averaged motion"],
         format!(
@@ -226,18 +233,11 @@ fn averages(study: &Limit) -> ReportTable {
             study.replicas[1]
         ),
         &study.averaged,
-        vec![
-            number("min_contact_arm", decimals(4), |r: &Of| r.min_contact_arm),
-            field("steps per period", |r: &Of| r.steps_per_period),
-            estimate("averaged X̄₁", |r: &Of| r.averaged_x1),
-            estimate("model − averaged", |r: &Of| r.x1),
-            estimate("mean sin² between paths", |r: &Of| r.square),
-        ],
+        samples(["averaged X̄₁", "model − averaged", "mean sin² between paths"]),
     )
 }
 
 fn update(study: &Limit) -> ReportTable {
-    type Of<'a> = &'a averaged::BothUpdates;
     ReportTable::new(
         ["updates", "The update `angles` against `rotation`"],
         format!(
@@ -247,12 +247,7 @@ fn update(study: &Limit) -> ReportTable {
             2 * study.replicas[1]
         ),
         &study.updates,
-        vec![
-            number("min_contact_arm", decimals(4), |r: &Of| r.min_contact_arm),
-            field("steps per period", |r: &Of| r.steps_per_period),
-            estimate("X̄₁ by rotation", |r: &Of| r.rotation_x1),
-            estimate("angles − rotation", |r: &Of| r.change),
-        ],
+        samples(["X̄₁ by rotation", "angles − rotation"]),
     )
 }
 

@@ -190,8 +190,7 @@ fn free_plan(rods: usize, outputs: u64, sd_percent: f64) -> Plan {
     let mut scene = lab::free_scene(&Effort::gate());
     scene.particles.count = rods;
     scene.particles.aspect_ratio_sd_percent = sd_percent;
-    scene.time.duration = 1.0;
-    scene.time.outputs_per_unit = Some(outputs);
+    scene.time = Time { outputs_per_unit: Some(outputs), ..Time::periods(1.0) };
     scene.ensemble.replicas = 1;
     lab::plan(&scene)
 }
@@ -263,8 +262,7 @@ fn replicas(pools: [&rayon::ThreadPool; 2], amount: Amount) -> Result<Check, Str
 fn one_large_run(pools: [&rayon::ThreadPool; 2], amount: Amount) -> Result<Check, String> {
     let mut scene = lab::interacting_scene(&Effort::gate());
     scene.particles.count = amount.large_run;
-    scene.time.duration = 0.04;
-    scene.time.outputs_per_unit = Some(25);
+    scene.time = Time { outputs_per_unit: Some(25), ..Time::periods(0.04) };
     scene.ensemble.replicas = 1;
     let what = "one large run over all cores: the time on one core over that on all, and over their number";
     let work = format!("; {:.0e} rods, 8 steps and the draws", amount.large_run as f64);

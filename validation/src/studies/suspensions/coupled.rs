@@ -92,9 +92,7 @@ pub fn interacting(scene: &Scene, steps: u64, alpha: f64, quarters: u64, replica
 pub fn free(scene: &Scene, quarters: u64, replicas: u64) -> Result<Values, String> {
     let mut scene = scene.clone();
     scene.interaction = None;
-    scene.time.steps_per_unit = None;
-    scene.time.duration = quarters as f64 / 4.0;
-    scene.time.outputs_per_unit = Some(4);
+    scene.time = Time { outputs_per_unit: Some(4), ..Time::periods(quarters as f64 / 4.0) };
     scene.output.observables = vec![Observable::Projections];
     let plan = Plan::new(&scene).map_err(|error| error.to_string())?;
     (0..replicas)

@@ -4,7 +4,6 @@
 use super::*;
 use serde::Deserialize;
 use shearbed::model::orientation::bounded_orbit_constant;
-use shearbed::scene::Time;
 
 /// Number of values at which distribution functions are evaluated: 0.1, 0.2, … 0.9.
 pub const PLACES: usize = 9;
