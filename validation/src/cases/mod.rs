@@ -10,11 +10,10 @@ pub mod catalogue;
 mod changing_flows;
 mod cheapest_split;
 mod closed_forms;
-mod closures;
 mod coefficients;
 mod contact_rule;
 mod decay;
-mod diffusing_rods;
+mod diffusion;
 mod encounters;
 mod equations;
 mod experiments;
@@ -25,7 +24,6 @@ pub mod fit_interpretations;
 mod folgar_tucker;
 mod free_suspension;
 mod general_flows;
-mod inflow;
 mod integrator_claims;
 mod integrators;
 mod interpretations;
@@ -33,7 +31,6 @@ mod jeffery_equations;
 mod kicks;
 mod misprints;
 mod motion;
-mod orbits;
 mod published;
 mod reductions;
 mod reference;
@@ -79,7 +76,6 @@ pub fn all() -> Vec<Case> {
         misprints::cases(),
         encounters::cases(),
         replacement::cases(),
-        inflow::cases(),
         volume_shapes::cases(),
         kicks::cases(),
         averaged::cases(),
@@ -110,9 +106,7 @@ pub fn all() -> Vec<Case> {
         published::cases(),
         coefficients::cases(),
         folgar_tucker::cases(),
-        closures::cases(),
-        orbits::cases(),
-        diffusing_rods::cases(),
+        diffusion::cases(),
         two_methods::cases(),
     ]
     .into_iter()

@@ -178,14 +178,4 @@ mod tests {
         let readable = |value| Estimate { value, se: 2.0 }.readable();
         assert!(readable(-4.0) && !readable(3.9));
     }
-
-    /// The jackknife of a mean is the mean's own standard error.
-    #[test]
-    fn the_jackknife_of_a_mean_by_hand() {
-        let values = [1.0, 2.0, 6.0];
-        let without = values.map(|value| (9.0 - value) / 2.0);
-        let estimate = Estimate::jackknife(3.0, &without);
-        assert_eq!(estimate.value, 3.0);
-        assert!((estimate.se - Sample::of(values).se).abs() < 1e-15);
-    }
 }

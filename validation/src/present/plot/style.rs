@@ -214,16 +214,9 @@ pub(super) fn cut(text: &str, room: i32, size: f64) -> String {
     if text_width(text, size) <= room {
         return text.to_owned();
     }
-    let mut kept = String::new();
-    for letter in text.chars() {
-        kept.push(letter);
-        if text_width(&kept, size) + text_width("…", size) > room {
-            kept.pop();
-            break;
-        }
-    }
-    kept.push('…');
-    kept
+    let fits = |end: &usize| text_width(&text[..*end], size) + text_width("…", size) <= room;
+    let end = text.char_indices().map(|(at, _)| at).take_while(fits).last().unwrap_or(0);
+    format!("{}…", &text[..end])
 }
 
 /// The lines of a text within the width `room`, four at most; a word that is too wide is cut.

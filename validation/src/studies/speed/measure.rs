@@ -100,8 +100,7 @@ pub(super) fn measure(amount: Amount) -> Result<Speed, String> {
         memory_rate(&all, amount),
     ];
     checks.extend(against_naive(&by_rods));
-    checks.push(replicas([&one, &all], amount)?);
-    checks.push(one_large_run([&one, &all], amount)?);
+    checks.extend(efficiencies([&one, &all], amount)?);
     checks.extend([memory_of_a_rod(), plan_of_a_scene(amount), certified(&all, amount)]);
     Ok(Speed { threads, checks, by_rods, by_concentration })
 }
@@ -249,24 +248,20 @@ fn memory_rate(all: &rayon::ThreadPool, amount: Amount) -> Check {
     }
 }
 
-fn replicas(pools: [&rayon::ThreadPool; 2], amount: Amount) -> Result<Check, String> {
-    let threads = pools[1].current_num_threads();
-    let mut scene = lab::interacting_scene(&Effort::gate());
-    scene.time.duration = 1.0;
-    scene.ensemble.replicas = 64 * threads as u64;
+/// The parallel efficiency of replicas, and of one run of many rods.
+fn efficiencies(pools: [&rayon::ThreadPool; 2], amount: Amount) -> Result<[Check; 2], String> {
+    let replicas = 64 * pools[1].current_num_threads() as u64;
+    let mut small = lab::interacting_scene(&Effort::gate());
+    small.time.duration = 1.0;
+    let mut large = small.clone();
+    small.ensemble.replicas = replicas;
+    large.particles.count = amount.large_run;
+    large.time = Time { outputs_per_unit: Some(25), ..Time::periods(0.04) };
     let what = "replicas over all cores: the time on one core over that on all, and over their number";
-    let work = format!(", {} replicas", 64 * threads);
-    efficiency(what, &scene, (0.9, &work), pools, amount)
-}
-
-fn one_large_run(pools: [&rayon::ThreadPool; 2], amount: Amount) -> Result<Check, String> {
-    let mut scene = lab::interacting_scene(&Effort::gate());
-    scene.particles.count = amount.large_run;
-    scene.time = Time { outputs_per_unit: Some(25), ..Time::periods(0.04) };
-    scene.ensemble.replicas = 1;
+    let of_replicas = efficiency(what, &small, (0.9, &format!(", {replicas} replicas")), pools, amount)?;
     let what = "one large run over all cores: the time on one core over that on all, and over their number";
     let work = format!("; {:.0e} rods, 8 steps and the draws", amount.large_run as f64);
-    efficiency(what, &scene, (0.85, &work), pools, amount)
+    Ok([of_replicas, efficiency(what, &large, (0.85, &work), pools, amount)?])
 }
 
 /// The time of a scene on one thread over that on all, and over their number.
