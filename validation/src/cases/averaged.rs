@@ -74,7 +74,7 @@ fn averaged(limit: &Limit, effort: &Effort) -> Evidence {
     let [coarse, fine] = steps;
     Evidence::on(format!(
         "0.6 × the mean sin² between the two paths at {coarse} steps a period, less that at {fine}, over the sum \
-             of both; half a period"
+         of both; half a period"
     ))
     .exceeds(Sample::of(falls), 0.0, design.effect)
     .because("∝ Δt in the limit, an eighth; paths that do not converge stay as far apart, −0.2")

@@ -138,7 +138,7 @@ fn changing_flows(run: &Run, effort: &Effort) -> Vec<Evidence> {
             .within(off.fold(f64::NEG_INFINITY, larger), 1e-12)
             .because(
                 "the oracle's direction is rounded to double between flows; they turn 10⁻¹⁶ rad into 10⁻¹³ at most, a \
-             rod's r_e of 13 times e^(½ of the strains)",
+                 rod's r_e of 13 times e^(½ of the strains)",
             ),
         Evidence::on("three flows: relative error of the seconds")
             .within((moved.seconds / seconds - 1.0).abs(), 16.0 * f64::EPSILON)

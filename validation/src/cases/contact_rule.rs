@@ -110,25 +110,20 @@ fn printed_a13(p: &UnitVector3<f64>, rate: &Vector3<f64>) -> (f64, f64) {
 
 /// Compares the rates with those of a turning rod's angles, by central differences.
 fn against_turning(rates: &AngleRates, _: &Effort) -> [Evidence; 2] {
-    let mut worst = [0.0f64; 2];
-    for (phi, theta) in [(0.3, 0.2), (1.0, 0.8), (2.2, 1.4), (-1.5, 2.6), (-2.8, 1.0)] {
+    let angles = [(0.3, 0.2), (1.0, 0.8), (2.2, 1.4), (-1.5, 2.6), (-2.8, 1.0)];
+    let errors = pairs(angles, [[0.3, -0.8, 0.5], [-0.2, 0.1, 0.9], [0.7, 0.7, -0.1]]).map(|((phi, theta), along)| {
         let p = orientation::from_angles(phi, theta);
-        for direction in [[0.3, -0.8, 0.5], [-0.2, 0.1, 0.9], [0.7, 0.7, -0.1]] {
-            let rate = Vector3::from(direction).cross(&p);
-            let dt = 1e-4;
-            let (ahead, _) = turn(&p, &rate, dt);
-            let (behind, _) = turn(&p, &-rate, dt);
-            let ((phi_1, theta_1), (phi_0, theta_0)) = (orientation::angles(&ahead), orientation::angles(&behind));
-            let (phi_rate, theta_rate) = rates(&p, &rate);
-            let errors = [phi_rate - (phi_1 - phi_0) / (2.0 * dt), theta_rate - (theta_1 - theta_0) / (2.0 * dt)];
-            for (worst, error) in worst.iter_mut().zip(errors) {
-                *worst = larger(*worst, error.abs());
-            }
-        }
-    }
+        let rate = Vector3::from(along).cross(&p);
+        let dt = 1e-4;
+        let [ahead, behind] = [rate, -rate].map(|rate| orientation::angles(&turn(&p, &rate, dt).0));
+        let (phi_rate, theta_rate) = rates(&p, &rate);
+        let off = |rate: f64, ahead: f64, behind: f64| (rate - (ahead - behind) / (2.0 * dt)).abs();
+        (off(phi_rate, ahead.0, behind.0), off(theta_rate, ahead.1, behind.1))
+    });
+    let (phi, theta): (Vec<_>, Vec<_>) = errors.unzip();
     let because = "the central difference's own error: Δt²/6 times a third derivative of 8(|ṗ|/sin θ)³ ≤ 8·5³ at most";
-    [("φ̇′", worst[0]), ("θ̇′", worst[1])].map(|(rate, worst)| {
-        Evidence::on(format!("error of {rate} in rad per unit time")).within(worst, 2e-6).because(because)
+    [("φ̇′", phi), ("θ̇′", theta)].map(|(rate, errors)| {
+        Evidence::on(format!("error of {rate} in rad per unit time")).within(worst(errors), 2e-6).because(because)
     })
 }
 

@@ -217,11 +217,7 @@ fn standing(model: Model, effort: &Effort) -> Result<f64, NoAnswer> {
         let gradient = [0; 3].map(|_| [0; 3].map(|_| between(-1.0, 1.0)));
         asked.push((gradient, 30f64.powf(between(-0.5, 1.0)), 10f64.powf(between(-2.0, 0.0))));
     }
-    let mut worst = 0.0;
-    for asked in asked {
-        worst = larger(worst, rate(asked, &steady(&model(asked))?).amax());
-    }
-    Ok(worst)
+    asked.into_iter().try_fold(0.0, |worst, asked| Ok(larger(worst, rate(asked, &steady(&model(asked))?).amax())))
 }
 
 fn rate((gradient, r, c_i): Asked, means: &Means) -> Matrix3<f64> {

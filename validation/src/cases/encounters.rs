@@ -32,27 +32,23 @@ pub fn cases() -> Vec<Case> {
 type Formula = fn(f64, f64, f64) -> f64;
 
 fn limits(reach: &Formula, _: &Effort) -> Vec<Evidence> {
-    let mut worst = 0.0f64;
-    let mut certain = 0.0f64;
-    let mut bounded = 0.0;
-    for alpha in [1e-3f64, 0.1, 0.5, 1.0, 7.0] {
-        for m in [0.1, 0.7, 1.0, 3.0, 4.5, 50.0] {
-            for r in (1..20).map(|k| f64::from(k) / 20.0) {
-                let back = collision_probability(reach(r, alpha, m), 1.0, alpha, m);
-                let error = ((back - r) / r / (1.0 + m)).abs();
-                worst = larger(worst, error);
-            }
-            certain = larger(certain, reach(1.0, alpha, m).abs());
-            bounded += f64::from(u8::from(reach(0.0, alpha, m) != f64::INFINITY));
-        }
-    }
+    let scenes = || pairs([1e-3f64, 0.1, 0.5, 1.0, 7.0], [0.1, 0.7, 1.0, 3.0, 4.5, 50.0]);
+    let errors = pairs(scenes(), 1..20).map(|((alpha, m), k)| {
+        let r = f64::from(k) / 20.0;
+        let back = collision_probability(reach(r, alpha, m), 1.0, alpha, m);
+        ((back - r) / r / (1.0 + m)).abs()
+    });
+    let bounded = scenes().filter(|(alpha, m)| reach(0.0, *alpha, *m) != f64::INFINITY).count();
     // By hand: α = 0.5 and m = 3 give (1/3)³ at s = a.
     let by_hand = reach(1.0 / 27.0, 0.5, 3.0) - 1.0;
     vec![
-        Evidence::exact("s* of R = 1, where P_c is certain", certain),
-        Evidence::exact("scenes in which R = 0 does not reach everyone", bounded),
+        Evidence::exact(
+            "s* of R = 1, where P_c is certain",
+            worst(scenes().map(|(alpha, m)| reach(1.0, alpha, m).abs())),
+        ),
+        Evidence::exact("scenes in which R = 0 does not reach everyone", bounded as f64),
         Evidence::on("P_c(s*(R)) over R, less 1, over 1 + m")
-            .within(worst, 8.0 * f64::EPSILON)
+            .within(worst(errors), 8.0 * f64::EPSILON)
             .because("round-off of the two powers, m times that of their bases"),
         Evidence::on("s* of R = 1/27 for α = ½, m = 3, less a rod length")
             .within(by_hand, 4.0 * f64::EPSILON)

@@ -85,7 +85,7 @@ fn double_alpha(scene: &mut Scene) {
 }
 
 const SUPPLY: &str = "put the digitised points (CSV) and their provenance (TOML) into the source's folder under DIR \
-    and run `shearbed validate --data DIR`; docs/src/validation/points.md has the format";
+                      and run `shearbed validate --data DIR`; docs/src/validation/points.md has the format";
 
 fn no_data(what: impl Into<String>) -> Evidence {
     Evidence::new(what, Rule::NoData { supply: SUPPLY.into() })
@@ -157,7 +157,7 @@ fn fit(comparison: &Comparison, late: usize, source: &Source) -> Evidence {
         enough: 3,
         distance: None,
         because: "χ² over all points with their full covariance; three points can tell a shape from a shift, and the \
-            controls show the power"
+                  controls show the power"
             .into(),
     };
     Evidence::new(what, rule)

@@ -101,17 +101,14 @@ fn extreme_motion(motion: &Motion, _: &Effort) -> Vec<Evidence> {
 
 /// The largest ||p| − 1| and change of C_b over a thousand consecutive steps.
 fn thousand_steps(motion: &Motion) -> (f64, f64) {
-    let (mut length, mut drift) = (0.0f64, 0.0f64);
-    for r in ASPECT_RATIOS {
-        for step in STEPS {
-            let start = UnitVector3::new_normalize(Vector3::new(0.3, -0.5, 0.8));
-            let bounded = |p: &Vector3<f64>| orientation::bounded_orbit_constant([p.x, p.y, p.z], r);
-            let end = (0..1000).fold(start.into_inner(), |p, _| motion(r, 0.5, &UnitVector3::new_unchecked(p), step));
-            length = larger(length, off_length(&end));
-            drift = larger(drift, (bounded(&end) - bounded(&start)).abs());
-        }
-    }
-    (length, drift)
+    let start = UnitVector3::new_normalize(Vector3::new(0.3, -0.5, 0.8));
+    let errors = pairs(ASPECT_RATIOS, STEPS).map(|(r, step)| {
+        let bounded = |p: &Vector3<f64>| orientation::bounded_orbit_constant([p.x, p.y, p.z], r);
+        let end = (0..1000).fold(start.into_inner(), |p, _| motion(r, 0.5, &UnitVector3::new_unchecked(p), step));
+        (off_length(&end), (bounded(&end) - bounded(&start)).abs())
+    });
+    let (length, drift): (Vec<_>, Vec<_>) = errors.unzip();
+    (worst(length), worst(drift))
 }
 
 fn extreme_flows(motion: &FlowMotion, _: &Effort) -> Vec<Evidence> {
@@ -163,30 +160,22 @@ fn extreme_flows(motion: &FlowMotion, _: &Effort) -> Vec<Evidence> {
 fn apart_where_rates_meet(motion: &FlowMotion) -> f64 {
     let next = 1.0 + f64::EPSILON;
     let (near, beside) = (5.4e-15, 7.06e-16);
-    let mut worst = 0.0f64;
-    for (l, p) in [
+    let starts = [
         ([1.0, -2.0, next], [beside, 1.0, -near]),
         ([1.0, -2.0, 1.0], [beside, 1.0, -near]),
         ([-2.0, next, 1.0], [1.0, -near, beside]),
         ([next, 1.0, -2.0], [near, beside, -1.0]),
-    ] {
-        for rate in [1e-30, 1.0, 1e30] {
-            let l = Vector3::from(l) * rate;
-            let flow = VelocityGradient::new(Matrix3::from_diagonal(&l)).expect("finite");
-            let start = UnitVector3::new_unchecked(Vector3::from(p));
-            for r in [1.5, 11.6, 1e8] {
-                for strain in [1e2, 1861.0, 2550.0, 1e6, 1e12] {
-                    let time_s = strain / rate;
-                    // Differences of rates that nearly meet are exact, and the component along the third axis tends to
-                    // 0.
-                    let grown = l.map(|l_ii| (shape_factor(r) * (l_ii - l.max()) * time_s).exp());
-                    let expected = start.component_mul(&grown).normalize();
-                    let off = motion(&flow, r, &start, time_s).cross(&expected).norm();
-                    // A result that is not finite counts as a right angle.
-                    worst = worst.max(if off.is_finite() { off } else { 1.0 });
-                }
-            }
-        }
-    }
-    worst
+    ];
+    let runs = pairs([1.5, 11.6, 1e8], [1e2, 1861.0, 2550.0, 1e6, 1e12]);
+    worst(pairs(pairs(starts, [1e-30, 1.0, 1e30]), runs).map(|(((l, p), rate), (r, strain))| {
+        let (l, time_s) = (Vector3::from(l) * rate, strain / rate);
+        let flow = VelocityGradient::new(Matrix3::from_diagonal(&l)).expect("finite");
+        let start = UnitVector3::new_unchecked(Vector3::from(p));
+        // Differences of rates that nearly meet are exact, and the component along the third axis tends to 0.
+        let grown = l.map(|l_ii| (shape_factor(r) * (l_ii - l.max()) * time_s).exp());
+        let expected = start.component_mul(&grown).normalize();
+        let off = motion(&flow, r, &start, time_s).cross(&expected).norm();
+        // A result that is not finite counts as a right angle.
+        if off.is_finite() { off } else { 1.0 }
+    }))
 }

@@ -67,36 +67,24 @@ fn compare_one((r, sd, sevenths): Problem, change: Change, effort: &Effort, seed
         sd => isotropic::mean_projections_polydisperse(r, sd, turns),
     };
     let results = ensemble::run(&lab::plan(&scene));
-    let mut evidence = Vec::new();
-    for &output in sevenths {
-        for (axis, reference) in expected(output as f64 / 7.0).into_iter().enumerate() {
-            let sample = lab::at_output(&results, Channel::X[axis], output, scene.particles.count as u64);
-            evidence.push(
-                Evidence::on(format!("X̄_{} at t/T = {output}/7, r_e = {r}, σ = {sd} %", axis + 1))
-                    .is(sample, reference, 0.0, DESIGN.effect)
-                    .because("the closed form is exact to 10⁻⁹; independent rods"),
-            );
-        }
-    }
-    evidence
+    let evidence = pairs(sevenths.iter().copied(), 0..3).map(|(output, axis)| {
+        let sample = lab::at_output(&results, Channel::X[axis], output, scene.particles.count as u64);
+        Evidence::on(format!("X̄_{} at t/T = {output}/7, r_e = {r}, σ = {sd} %", axis + 1))
+            .is(sample, expected(output as f64 / 7.0)[axis], 0.0, DESIGN.effect)
+            .because("the closed form is exact to 10⁻⁹; independent rods")
+    });
+    evidence.collect()
 }
 
-fn half_period(change: &Change, effort: &Effort) -> Evidence {
+fn half_period(change: &Change, effort: &Effort) -> Result<Evidence, String> {
     let mut scene = lab::free_scene(effort);
     scene.particles.count = 1000;
     scene.time = Time { outputs_per_unit: Some(20), ..Time::periods(5.0) };
     change(&mut scene);
-    let mut worst = 0.0f64;
-    match ensemble::run(&lab::plan(&scene)) {
-        Ok(results) => {
-            for channel in results.series.iter().flat_map(|series| &series.columns) {
-                for (k, later) in channel.mean.iter().enumerate().skip(10) {
-                    worst = larger(worst, (later - channel.mean[k - 10]).abs());
-                }
-            }
-        }
-        Err(_) => worst = f64::NAN,
-    }
-    let because = "the phases are equal bits; the sums of 1000 terms are rounded alike up to signs of zero";
-    Evidence::on("largest |X̄_i(t + T/2) − X̄_i(t)|").within(worst, 1e-14).because(because)
+    let results = ensemble::run(&lab::plan(&scene)).map_err(|error| error.to_string())?;
+    let means = results.series.iter().flat_map(|series| &series.columns).map(|column| &column.mean);
+    let changes = means.flat_map(|mean| mean.iter().zip(&mean[10..]).map(|(before, later)| (later - before).abs()));
+    Ok(Evidence::on("largest |X̄_i(t + T/2) − X̄_i(t)|")
+        .within(worst(changes), 1e-14)
+        .because("the phases are equal bits; the sums of 1000 terms are rounded alike up to signs of zero"))
 }

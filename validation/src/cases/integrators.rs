@@ -78,32 +78,23 @@ pub fn cases() -> Vec<Case> {
 }
 
 fn orders(integrators: &Integrators, _: &Effort) -> Vec<Evidence> {
-    let mut evidence = Vec::new();
-    for integrator in integrators() {
-        let mut worst = 0.0f64;
-        for r in [2.0, 11.6] {
+    let stepped = integrators().into_iter().filter(|integrator| matches!(integrator.theory, Theory::Order(_)));
+    let judged = stepped.map(|integrator| {
+        let off = [2.0, 11.6].map(|r| {
             let (problem, start) = RodProblem::mid_flip(r);
-            let Some(study) = order::study(&integrator, &problem, &start, 8) else {
-                continue;
-            };
+            let study = order::study(&integrator, &problem, &start, 8).expect("it has steps");
             // Fewer than two pairs above round-off show no order: it counts as 0.
-            let enough = if study.judged.len() == 2 { 0.0 } else { f64::from(study.theory) };
-            worst = (study.judged.iter())
-                .map(|order| (order - f64::from(study.theory)).abs())
-                .fold(larger(worst, enough), larger);
-        }
-        if matches!(integrator.theory, Theory::Order(_)) {
-            evidence.push(
-                Evidence::on(format!("observed order against theory, {}", integrator.name))
-                    .within(worst, ORDER_TOLERANCE)
-                    .because(
-                        "the next power of Δt is a tenth or less of the leading one on the last two pairs above \
-                 round-off",
-                    ),
-            );
-        }
-    }
-    evidence
+            let theory = f64::from(study.theory);
+            let enough = if study.judged.len() == 2 { 0.0 } else { theory };
+            larger(enough, worst(study.judged.iter().map(|order| (order - theory).abs())))
+        });
+        let because = "the next power of Δt is a tenth or less of the leading one on the last two pairs above \
+                       round-off";
+        Evidence::on(format!("observed order against theory, {}", integrator.name))
+            .within(worst(off), ORDER_TOLERANCE)
+            .because(because)
+    });
+    judged.collect()
 }
 
 fn lengths(integrators: &Integrators, _: &Effort) -> Vec<Evidence> {
@@ -125,18 +116,14 @@ fn lengths(integrators: &Integrators, _: &Effort) -> Vec<Evidence> {
 }
 
 fn round_off(integrators: &Integrators, _: &Effort) -> Evidence {
-    let mut worst = 0.0f64;
-    for integrator in integrators() {
-        for r in [1.01, 2.0, 11.6, 100.0, 1e4, 1e6] {
-            for whole in [0.0, 16.0, 1e6] {
-                let (problem, start) = RodProblem::mid_flip(r);
-                let later = RodProblem::new(r, problem.turns + whole);
-                let error = grade(&integrator, &later, &start, Setting::Once);
-                worst = larger(worst, error.map_or(f64::NAN, |errors| errors.orientation_rad));
-            }
-        }
-    }
-    Evidence::on("largest angle to the closed form").within(worst, 32.0 * f64::EPSILON).because(
+    let runs = pairs([1.01, 2.0, 11.6, 100.0, 1e4, 1e6], [0.0, 16.0, 1e6]);
+    let all = integrators();
+    let errors = pairs(&all, runs).map(|(integrator, (r, whole))| {
+        let (problem, start) = RodProblem::mid_flip(r);
+        let later = RodProblem::new(r, problem.turns + whole);
+        grade(integrator, &later, &start, Setting::Once).map_or(f64::NAN, |errors| errors.orientation_rad)
+    });
+    Evidence::on("largest angle to the closed form").within(worst(errors), 32.0 * f64::EPSILON).because(
         "near a whole turn the phase that is left is small, and its relative error ε moves φ by ε, \
          not by r_e ε; a few dozen roundings of the propagator and the closed form",
     )
@@ -147,30 +134,20 @@ fn round_off(integrators: &Integrators, _: &Effort) -> Evidence {
 const STEPS: [(f64, [f64; 2]); 3] = [(1.5, [60.0, 330.0]), (3.0, [80.0, 460.0]), (11.6, [130.0, 700.0])];
 
 fn adaptive(integrators: &Integrators, _: &Effort) -> Vec<Evidence> {
-    let mut evidence = Vec::new();
-    for integrator in integrators() {
-        for (r, steps) in STEPS {
-            let steps = steps[usize::from(integrator.name == radau().name)];
-            let (problem, start) = RodProblem::mid_flip(r);
-            let error = grade(&integrator, &problem, &start, Setting::Tolerance(1e-11));
-            evidence.push(
-                Evidence::on(format!(
-                    "angle to the closed form at a tolerance of 10⁻¹¹, r_e = {r}, {}",
-                    integrator.name
-                ))
-                .within(
-                    // An integrator that gives up is off by as much as can be.
-                    error.map_or(std::f64::consts::FRAC_PI_2, |errors| errors.orientation_rad),
-                    steps * 1e-11 * r,
-                )
-                .because(
-                    "each step is off by the tolerance, in a direction of its own; their sum is a phase, which \
-                 r_e magnifies",
-                ),
-            );
-        }
-    }
-    evidence
+    let all = integrators();
+    let judged = pairs(&all, STEPS).map(|(integrator, (r, steps))| {
+        let steps = steps[usize::from(integrator.name == radau().name)];
+        let (problem, start) = RodProblem::mid_flip(r);
+        let error = grade(integrator, &problem, &start, Setting::Tolerance(1e-11));
+        // An integrator that gives up is off by as much as can be.
+        let error = error.map_or(FRAC_PI_2, |errors| errors.orientation_rad);
+        let because = "each step is off by the tolerance, in a direction of its own; their sum is a phase, which \
+                       r_e magnifies";
+        Evidence::on(format!("angle to the closed form at a tolerance of 10⁻¹¹, r_e = {r}, {}", integrator.name))
+            .within(error, steps * 1e-11 * r)
+            .because(because)
+    });
+    judged.collect()
 }
 
 pub(super) fn in_angles(order: u32, step: fn(&RodProblem, Vector2<f64>, f64) -> Vector2<f64>) -> Vec<Integrator> {

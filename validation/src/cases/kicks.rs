@@ -95,7 +95,7 @@ fn formula(expected: &Expected, effort: &Effort) -> Vec<Evidence> {
         .is(Sample::of(ratios), 1.0, 0.003, design.effect)
         .because(
             "left out, 10⁻³ each: the next term in GΔt/κ, terms in (1 − Λ)/Y², the cube's corners, to \
-                 which distant neighbours point; the nearest of the controls is 1 − π/4 = 0.21 off",
+             which distant neighbours point; the nearest of the controls is 1 − π/4 = 0.21 off",
         )
     });
     evidence.collect()
@@ -149,7 +149,7 @@ fn memory(counted: &Counted, effort: &Effort) -> Vec<Evidence> {
     let mut evidence = vec![
         Evidence::on(
             "kicks > 0.1 rad of opening pairs at 100 steps a period, less those at 800, over both; α = \
-         4",
+             4",
         )
         .exceeds(Sample::of(falls), 0.1, fall.effect)
         .because("they would be equal if the rate did not depend on Δt, and are 1 : 3"),

@@ -50,7 +50,7 @@ mod work_precision;
 use crate::judge::accept::{Design, Rule, kolmogorov_samples};
 use crate::judge::case::{Case, Effort, Evidence};
 use crate::judge::lab::{self, Change, Shared, per_replica};
-use crate::judge::statistics::{Estimate, Sample, larger, worst};
+use crate::judge::statistics::{Estimate, Sample, larger, pairs, worst};
 use crate::oracle::closed_form;
 use nalgebra::{Matrix3, Rotation3, UnitVector3, Vector3};
 use rand::{RngExt, SeedableRng};

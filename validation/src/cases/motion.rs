@@ -105,30 +105,25 @@ pub fn cases() -> Vec<Case> {
     ]
 }
 
-fn period(motion: &Motion, _: &Effort) -> Vec<Evidence> {
-    let mut worst = [0.0f64; 2];
-    for r in [1.01, 1.1, 1.5, 2.0, 3.96, 11.6, 14.2, 50.0, 1e3, 1e4, 1e5, 1e6] {
-        for (which, flow, start, across) in
-            [(0, couette(0.5), Vector3::x_axis(), 1), (1, turned_couette(0.5), Vector3::y_axis(), 2)]
-        {
-            let expected = closed_form::period_s(0.5, r);
-            // The component along the flow goes from − to + only when the rod has turned round.
-            let flow_component = |t: f64| motion(&flow, r, &start, t)[across];
-            let crossing = root(flow_component, 0.8 * expected, 1.2 * expected);
-            // If a rod does not return within a fifth of a period, the error is at least that much.
-            let error = crossing.map_or(0.2, |t| (t / expected - 1.0).abs());
-            worst[which] = larger(worst[which], error);
-        }
-    }
-    let because = "the root is found to the last bit; eight roundings of the phase";
-    vec![
-        Evidence::on("relative error of the period, plane Couette flow by its closed form")
-            .within(worst[0], 8.0 * f64::EPSILON)
-            .because(because),
-        Evidence::on("relative error of the period, the same flow about other axes")
-            .within(worst[1], 8.0 * f64::EPSILON)
-            .because(because),
+fn period(motion: &Motion, _: &Effort) -> [Evidence; 2] {
+    let error = |r: f64, flow: &VelocityGradient, start: &UnitVector3<f64>, across: usize| {
+        let expected = closed_form::period_s(0.5, r);
+        // The component along the flow goes from − to + only when the rod has turned round.
+        let flow_component = |t: f64| motion(flow, r, start, t)[across];
+        let crossing = root(flow_component, 0.8 * expected, 1.2 * expected);
+        // If a rod does not return within a fifth of a period, the error is at least that much.
+        crossing.map_or(0.2, |t| (t / expected - 1.0).abs())
+    };
+    [
+        ("plane Couette flow by its closed form", couette(0.5), Vector3::x_axis(), 1),
+        ("the same flow about other axes", turned_couette(0.5), Vector3::y_axis(), 2),
     ]
+    .map(|(name, flow, start, across)| {
+        let ratios = [1.01, 1.1, 1.5, 2.0, 3.96, 11.6, 14.2, 50.0, 1e3, 1e4, 1e5, 1e6];
+        Evidence::on(format!("relative error of the period, {name}"))
+            .within(worst(ratios.map(|r| error(r, &flow, &start, across))), 8.0 * f64::EPSILON)
+            .because("the root is found to the last bit; eight roundings of the phase")
+    })
 }
 
 /// A root of `f` where it rises through 0 between `low` and `high`, by bisection to the last bit.
@@ -150,21 +145,14 @@ fn root(f: impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> Option<f64> {
 }
 
 fn orbit_constant(motion: &Motion, _: &Effort) -> Evidence {
-    let mut worst = 0.0f64;
-    for r in [1.01, 2.0, 11.6, 14.2, 100.0, 1e4] {
-        let flow = couette(0.5);
-        let period = closed_form::period_s(0.5, r);
-        for start in starts() {
-            let c = start.x.hypot(start.y / r) / start.z.abs();
-            for turns in [0.1, 0.3, 17.77, 999.9, 1e4 - 0.123, 1e4] {
-                let p = motion(&flow, r, &start, turns * period);
-                // C from p itself (eq. 13): tan θ would lose digits for a rod nearly in the plane.
-                let now = p.x.hypot(p.y / r) / p.z.abs();
-                worst = larger(worst, (now / c - 1.0).abs());
-            }
-        }
-    }
-    Evidence::on("largest relative drift of C up to 10⁴ periods").within(worst, 16.0 * f64::EPSILON).because(
+    let rods = pairs([1.01, 2.0, 11.6, 14.2, 100.0, 1e4], starts());
+    let drift = pairs(rods, [0.1, 0.3, 17.77, 999.9, 1e4 - 0.123, 1e4]).map(|((r, start), turns)| {
+        let p = motion(&couette(0.5), r, &start, turns * closed_form::period_s(0.5, r));
+        // C from p itself (eq. 13): tan θ would lose digits for a rod nearly in the plane.
+        let c = |p: &UnitVector3<f64>| p.x.hypot(p.y / r) / p.z.abs();
+        (c(&p) / c(&start) - 1.0).abs()
+    });
+    Evidence::on("largest relative drift of C up to 10⁴ periods").within(worst(drift), 16.0 * f64::EPSILON).because(
         "one evaluation, however many periods it spans: C is a ratio of lengths without cancellation, some sixteen \
          roundings",
     )
@@ -179,22 +167,15 @@ fn starts() -> Vec<UnitVector3<f64>> {
 }
 
 fn closed_form_motion(motion: &Motion, _: &Effort) -> Evidence {
-    let mut worst = 0.0f64;
-    for r in [0.02, 0.5, 1.0, 1.01, 2.0, 11.6, 14.2, 100.0, 1e4] {
-        let flow = couette(0.5);
-        let period = closed_form::period_s(0.5, r);
-        for start in starts() {
-            let (phi0, theta0) = orientation::angles(&start);
-            for turns in [0.0, 0.05, 0.2499, 0.5, 0.7, 1.3, 4.9] {
-                let (phi, theta) = closed_form::angles_at(phi0, theta0, r, turns);
-                let expected = orientation::from_angles(phi, theta);
-                let error = apart(&motion(&flow, r, &start, turns * period), &expected);
-                worst = larger(worst, error / (r.max(1.0 / r) * (1.0 + turns)));
-            }
-        }
-    }
+    let rods = pairs([0.02, 0.5, 1.0, 1.01, 2.0, 11.6, 14.2, 100.0, 1e4], starts());
+    let off = pairs(rods, [0.0, 0.05, 0.2499, 0.5, 0.7, 1.3, 4.9]).map(|((r, start), turns)| {
+        let (phi, theta) = orientation::angles(&start);
+        let (phi, theta) = closed_form::angles_at(phi, theta, r, turns);
+        let moved = motion(&couette(0.5), r, &start, turns * closed_form::period_s(0.5, r));
+        apart(&moved, &orientation::from_angles(phi, theta)) / (r.max(1.0 / r) * (1.0 + turns))
+    });
     Evidence::on("angle between the two, over max(r_e, 1/r_e)·(1 + t/T)")
-        .within(worst, 32.0 * f64::EPSILON)
+        .within(worst(off), 32.0 * f64::EPSILON)
         .because("a rounding of the phase, 2π(t/T)ε, grows by dφ/d(phase) ≤ max(r_e, 1/r_e) at the flip")
 }
 

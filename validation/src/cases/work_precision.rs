@@ -217,7 +217,7 @@ fn paths(change: &Change, effort: &Effort) -> Evidence {
     .exceeds(Sample::of(excess), 0.0, design.effect)
     .because(
         "paths that converge with order ½ or more would bring a quarter or less; the mean square \
-             is some 0.035",
+         is some 0.035",
     )
 }
 

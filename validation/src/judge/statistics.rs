@@ -76,6 +76,15 @@ pub fn worst(errors: impl IntoIterator<Item = f64>) -> f64 {
     errors.into_iter().fold(0.0, larger)
 }
 
+/// Every pair of an item of one list and an item of the other.
+pub fn pairs<A: Clone, B: Clone>(
+    first: impl IntoIterator<Item = A>,
+    second: impl IntoIterator<Item = B>,
+) -> impl Iterator<Item = (A, B)> {
+    let second: Vec<B> = second.into_iter().collect();
+    first.into_iter().flat_map(move |a| second.clone().into_iter().map(move |b| (a.clone(), b)))
+}
+
 /// The covariance of pairs; surplus values of the longer list are ignored.
 pub fn covariance(a: &[f64], b: &[f64]) -> f64 {
     let count = a.len().min(b.len());

@@ -2,38 +2,28 @@
 
 use super::*;
 
-pub(super) fn integrated_motion(motion: &Motion, _: &Effort) -> Vec<Evidence> {
-    let flows = [
+pub(super) fn integrated_motion(motion: &Motion, _: &Effort) -> [Evidence; 6] {
+    [
         ("plane Couette flow", [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 0.0]]),
         ("planar extension", [[1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, 0.0]]),
         ("uniaxial extension", [[-0.5, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, -0.5]]),
         ("elliptic planar flow", [[0.0, -1.0, 0.0], [0.4, 0.0, 0.0], [0.0, 0.0, 0.0]]),
         ("spiral, all nine components", [[0.1, -0.9, 0.3], [0.8, 0.2, -0.4], [-0.2, 0.5, -0.3]]),
         ("three real rates, all nine components", [[0.9, 0.3, 0.1], [0.4, -0.2, 0.2], [0.1, 0.3, -0.7]]),
-    ];
-    let mut evidence = Vec::new();
-    for (name, rows) in flows {
+    ]
+    .map(|(name, rows)| {
         let flow = VelocityGradient::new(Matrix3::from_fn(|i, j| rows[i][j])).expect("finite components");
-        let mut worst = 0.0f64;
-        for r in [0.2, 1.0, 3.0, 11.6] {
-            for start in starts() {
-                for time in [0.3, 2.0, 30.0] {
-                    let (expected, steps) = integrate(rows, r, &start, time);
-                    let own = f64::from(steps) * 2.0 * TOLERANCE * GROWTH;
-                    worst = larger(worst, apart(&motion(&flow, r, &start, time), &expected) / own);
-                }
-            }
-        }
-        evidence.push(
-            Evidence::on(format!("angle to the integrator's direction up to strain 30, over its own error, {name}"))
-                .within(worst, 1.0)
-                .because(
-                    "each step is off by atol + rtol |p| = 2·10⁻¹³, and grows r_e² = 135-fold at most, from \
-             along the flow to the flip",
-                ),
-        );
-    }
-    evidence
+        let rods = pairs([0.2, 1.0, 3.0, 11.6], starts());
+        let off = pairs(rods, [0.3, 2.0, 30.0]).map(|((r, start), time)| {
+            let (expected, steps) = integrate(rows, r, &start, time);
+            apart(&motion(&flow, r, &start, time), &expected) / (f64::from(steps) * 2.0 * TOLERANCE * GROWTH)
+        });
+        let because = "each step is off by atol + rtol |p| = 2·10⁻¹³, and grows r_e² = 135-fold at most, from \
+                       along the flow to the flip";
+        Evidence::on(format!("angle to the integrator's direction up to strain 30, over its own error, {name}"))
+            .within(worst(off), 1.0)
+            .because(because)
+    })
 }
 
 /// Jeffery's equation written independently, in the form that the integrator needs.

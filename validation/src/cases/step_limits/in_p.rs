@@ -48,7 +48,7 @@ pub(super) fn near_a_sphere(integrators: &Integrators, _: &Effort) -> Vec<Eviden
             Evidence::on("relative difference of the longest step that turns and 2√6").within(off(longest(Property::Turning, ONE_STEP), theory::rk4_turning_of_a_sphere()), 2e-5)
             .because(
                 "rates of rods of r_e = 1 + 10⁻⁵ differ by Λ = 10⁻⁵, and of 512 rods one is within δ = π/1024 of the \
-             fastest: δ² = 10⁻⁵",
+                 fastest: δ² = 10⁻⁵",
             ),
         );
         evidence.push(Evidence::on("relative difference of the longest step with a bounded length and 4√2").within(off(longest(Property::Length, TEN_PERIODS), theory::rk4_length_of_a_sphere()), 3e-3).because("|R|² = 1 + 0.89(y² − 8): in the 22 steps of ten periods |p| grows to 1.5 at y² = 8.04, which is 0.26 % \
@@ -58,21 +58,15 @@ pub(super) fn near_a_sphere(integrators: &Integrators, _: &Effort) -> Vec<Eviden
 }
 
 pub(super) fn frozen(integrators: &Integrators, _: &Effort) -> Evidence {
-    let mut worst = 0.0f64;
-    for integrator in integrators() {
-        for r in [1.5, 2.0, 3.0, 11.6, 100.0] {
-            let ladder = crate::methods::integrators::limits::Ladder { least: 1.0, ..TEN_PERIODS };
-            let frozen = 2.785 * theory::euler_order(r);
-            worst = larger(
-                worst,
-                match bisect(ladder, |h| holds(&integrator, Property::Length, r, h)) {
-                    Limit::At(strain) => strain / frozen,
-                    _ => f64::INFINITY,
-                },
-            );
+    let ladder = crate::methods::integrators::limits::Ladder { least: 1.0, ..TEN_PERIODS };
+    let all = integrators();
+    let shares = pairs(&all, [1.5, 2.0, 3.0, 11.6, 100.0]).map(|(integrator, r)| {
+        match bisect(ladder, |h| holds(integrator, Property::Length, r, h)) {
+            Limit::At(strain) => strain / (2.785 * theory::euler_order(r)),
+            _ => f64::INFINITY,
         }
-    }
+    });
     Evidence::on("largest step with a bounded length over 2.785/(ΛG)")
-        .within(worst, 0.99)
+        .within(worst(shares), 0.99)
         .because("a hundredth below is told from equal: ten periods find a growth of 10⁻³ a step")
 }
