@@ -1,5 +1,5 @@
-//! Rods with rotary diffusion: closures of their tensors, their orbits, and their distribution against results that need no
-//! harmonics.
+//! Rods with rotary diffusion: closures of their tensors, their orbits, and their distribution against results that
+//! need no harmonics.
 
 use super::*;
 use crate::methods::coefficients::jumps::{Quantity, Shares, Watch, above};

@@ -102,7 +102,8 @@ fn where_errors_show(scale: &f64, _: &Effort) -> Vec<Evidence> {
         Evidence::on("largest angle between two directions along the flow, a tenth of a period apart, times r_e")
             .within(worst(ratios.map(|r| apart(r, [0.2, 0.3]) * r)), 1.0)
             .because(
-                "A.4: π/2 − φ = cot(κ)/r_e, and cot κ changes by 2 cot 72° = 0.65 between the two, for the longest rods",
+                "A.4: π/2 − φ = cot(κ)/r_e, and cot κ changes by 2 cot 72° = 0.65 between the two, for the longest \
+                 rods",
             ),
         Evidence::on("½ over the smallest angle between the flip and a tenth of a period before")
             .within(worst(ratios.map(|r| 0.5 / apart(r, [0.0, 0.1]))), 1.0)

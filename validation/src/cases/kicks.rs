@@ -1,4 +1,5 @@
-//! The frequency, the tail and the upper bound of kicks, and their dependence on the time step (docs/src/theory/time-step.md).
+//! The frequency, the tail and the upper bound of kicks, and their dependence on the time step
+//! (docs/src/theory/time-step.md).
 
 use super::*;
 use crate::oracle::kicks::{chance_of_threads, kicks, largest_kick, tail_of_isotropic};

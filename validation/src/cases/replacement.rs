@@ -1,5 +1,5 @@
-//! The control volume: rods that leave it are replaced, by eq. 14 in plane Couette flow and by another rule in other flows
-//! that keep the liquid's volume, so that it stays evenly filled.
+//! The control volume: rods that leave it are replaced, by eq. 14 in plane Couette flow and by another rule in other
+//! flows that keep the liquid's volume, so that it stays evenly filled.
 
 use super::*;
 use crate::oracle::naive::{Mistake, carry, stream};

@@ -66,13 +66,15 @@ fn corners(integrators: &Integrators, effort: &Effort) -> Vec<Evidence> {
             "the starting phase is added to t/T before whole turns are taken out: rounded to half an ulp of 10³, \
              6·10⁻¹⁴, times 2π r_e = 6·10⁸",
         ),
-        Evidence::on("largest ||p| − 1| of who keeps it").within(length, 4.0 * most_steps as f64 * f64::EPSILON)
+        Evidence::on("largest ||p| − 1| of who keeps it")
+            .within(length, 4.0 * most_steps as f64 * f64::EPSILON)
             .because("each step rounds |p| by four roundings at most"),
-        Evidence::on("largest angle over (GΔt)² where 10⁻³ ≤ GΔt ≤ ½ and the order is 2 or 4, over one period").within(accurate, 4.0)
-        .because(
-            "a step of order 2 is off by (GΔt)³/6 times a third derivative, 3 at most by A.2, and a flip lasts some \
-             8/G: 4 (GΔt)²; order 4 is nearer; below 10⁻³ round-off is more",
-        ),
+        Evidence::on("largest angle over (GΔt)² where 10⁻³ ≤ GΔt ≤ ½ and the order is 2 or 4, over one period")
+            .within(accurate, 4.0)
+            .because(
+                "a step of order 2 is off by (GΔt)³/6 times a third derivative, 3 at most by A.2, and a flip lasts \
+                 some 8/G: 4 (GΔt)²; order 4 is nearer; below 10⁻³ round-off is more",
+            ),
         Evidence::exact("cells without a direction and without an error", silent),
     ]
 }

@@ -32,10 +32,13 @@ fn steady_angle(change: &Change, effort: &Effort) -> Vec<Evidence> {
         let means = lab::per_replica(&scene, effort.samples(design), |mean| {
             (outputs - 100..outputs).map(|output| mean(Channel::PHI, output)).sum::<f64>() / 100.0
         });
-        evidence.push(Evidence::on(format!("steady φ̄ in rad, r_e = {r}")).is(Sample::of(&means), closed_form::mean_angle(r), 0.01, design.effect).because(
-                "\"agree closely\": 0.01 rad, the width of a line on an axis from 0 to π/2; collisions bias the phase \
-                 a little",
-            ));
+        let because = "\"agree closely\": 0.01 rad, the width of a line on an axis from 0 to π/2; collisions bias the \
+                       phase a little";
+        evidence.push(
+            Evidence::on(format!("steady φ̄ in rad, r_e = {r}"))
+                .is(Sample::of(&means), closed_form::mean_angle(r), 0.01, design.effect)
+                .because(because),
+        );
     }
     evidence
 }

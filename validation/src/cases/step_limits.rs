@@ -203,11 +203,12 @@ fn agrees(claimed: &Claimed, _: &Effort) -> Vec<Evidence> {
                 Limit::Beyond(_) | Limit::Below(_) => f64::INFINITY,
             }
         });
-        Evidence::on(format!("relative difference of the longest step and theory, {}", integrator.name)).within(worst.into_iter().fold(0.0, larger), claimed.found_late * (PI / 1024.0).powi(2))
-        .because(
-            "δ² times what stretches δ: of 512 rods one is within δ = π/1024 of the extreme one, where what is judged \
-             is flat",
-        )
+        Evidence::on(format!("relative difference of the longest step and theory, {}", integrator.name))
+            .within(worst.into_iter().fold(0.0, larger), claimed.found_late * (PI / 1024.0).powi(2))
+            .because(
+                "δ² times what stretches δ: of 512 rods one is within δ = π/1024 of the extreme one, where what is \
+                 judged is flat",
+            )
     };
     (claimed.integrators)().into_iter().map(judged).collect()
 }

@@ -17,8 +17,14 @@ pub(super) fn at_least(integrators: &Integrators, _: &Effort) -> Vec<Evidence> {
             let ratio = theory::runge_kutta_order_at_least(order, *r) / longest;
             if ratio < 1.0 { 0.0 } else { ratio - 1.0 }
         };
-        evidence.push(Evidence::on(format!("relative excess of the bound over the longest step without overtaking, {}", integrator.name)).within(RATIOS.iter().zip(longest).map(above).fold(0.0, larger), 1e-6).because("a bound from below, and for explicit Euler the limit itself: too few rods find a step too long, which is \
-             no excuse; the bisection ends at 10⁻⁷"));
+        let quantity = "relative excess of the bound over the longest step without overtaking";
+        let because = "a bound from below, and for explicit Euler the limit itself: too few rods find a step too \
+                       long, which is no excuse; the bisection ends at 10⁻⁷";
+        evidence.push(
+            Evidence::on(format!("{quantity}, {}", integrator.name))
+                .within(RATIOS.iter().zip(longest).map(above).fold(0.0, larger), 1e-6)
+                .because(because),
+        );
         if order == 4 {
             let off = classical.iter().zip(longest).map(|(first, longest)| (longest / first - 1.0).abs());
             evidence.push(
@@ -44,15 +50,20 @@ pub(super) fn near_a_sphere(integrators: &Integrators, _: &Effort) -> Vec<Eviden
     let mut evidence = Vec::new();
     for integrator in integrators() {
         let longest = |property, ladder| bisect(ladder, |h| holds(&integrator, property, r, h));
-        evidence.push(
-            Evidence::on("relative difference of the longest step that turns and 2√6").within(off(longest(Property::Turning, ONE_STEP), theory::rk4_turning_of_a_sphere()), 2e-5)
-            .because(
+        let turning = off(longest(Property::Turning, ONE_STEP), theory::rk4_turning_of_a_sphere());
+        let length = off(longest(Property::Length, TEN_PERIODS), theory::rk4_length_of_a_sphere());
+        evidence.extend([
+            Evidence::on("relative difference of the longest step that turns and 2√6").within(turning, 2e-5).because(
                 "rates of rods of r_e = 1 + 10⁻⁵ differ by Λ = 10⁻⁵, and of 512 rods one is within δ = π/1024 of the \
                  fastest: δ² = 10⁻⁵",
             ),
-        );
-        evidence.push(Evidence::on("relative difference of the longest step with a bounded length and 4√2").within(off(longest(Property::Length, TEN_PERIODS), theory::rk4_length_of_a_sphere()), 3e-3).because("|R|² = 1 + 0.89(y² − 8): in the 22 steps of ten periods |p| grows to 1.5 at y² = 8.04, which is 0.26 % \
-             more"));
+            Evidence::on("relative difference of the longest step with a bounded length and 4√2")
+                .within(length, 3e-3)
+                .because(
+                    "|R|² = 1 + 0.89(y² − 8): in the 22 steps of ten periods |p| grows to 1.5 at y² = 8.04, which is \
+                     0.26 % more",
+                ),
+        ]);
     }
     evidence
 }
