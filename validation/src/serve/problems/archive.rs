@@ -15,11 +15,6 @@ const VERSION: &str = env!("CARGO_PKG_VERSION");
 /// A block of a tar file, in bytes.
 const BLOCK: usize = 512;
 
-/// The name of the archive's only folder.
-fn folder() -> String {
-    format!("shearbed-problems-{VERSION}")
-}
-
 /// The archive's bytes: each problem's folder, `README.md`, `LICENSE`, `CITATION.cff`, and `SHA256SUMS` over all of
 /// them.
 pub fn archive() -> Vec<u8> {
@@ -32,23 +27,19 @@ pub fn archive() -> Vec<u8> {
         let of = files(problem).into_iter();
         contents.extend(of.map(|(file, text)| (format!("{}/{file}", problem.problem.name), text)));
     }
-    let sum = |(name, text): (&String, &String)| format!("{}  {name}\n", hex(Sha256::digest(text).as_ref()));
+    let hex = |text: &String| Sha256::digest(text).iter().map(|byte| format!("{byte:02x}")).collect::<String>();
+    let sum = |(name, text): (&String, &String)| format!("{}  {name}\n", hex(text));
     let sums: String = contents.iter().map(sum).collect();
     contents.insert("SHA256SUMS".to_owned(), sums);
-    let folder = folder();
     let mut tar = Vec::new();
     for (name, text) in &contents {
-        tar.extend(header(&format!("{folder}/{name}"), text.len()));
+        tar.extend(header(&format!("shearbed-problems-{VERSION}/{name}"), text.len()));
         tar.extend(text.as_bytes());
         tar.resize(tar.len().next_multiple_of(BLOCK), 0);
     }
     // Two empty blocks end the archive.
     tar.resize(tar.len() + 2 * BLOCK, 0);
     tar
-}
-
-fn hex(bytes: &[u8]) -> String {
-    bytes.iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
 /// The header of a file: fields at fixed places, numbers in octal, and a checksum.
@@ -75,20 +66,15 @@ fn readme() -> String {
     let problems: String = all().iter().map(|def| format!("- `{}`: {}\n", def.name, def.title)).collect();
     format!(
         "# Reference problems for rigid rods in shear flow\n\n{} problems with certified answers, version {VERSION}, \
-            format \
-         {FORMAT}. Any program that moves rigid rods (fibres, ellipsoids) by Jeffery's equation, or after Lee & \
-         Springer (1982), \
-         can be verified with them.\n\n\
+         format {FORMAT}. Any program that moves rigid rods (fibres, ellipsoids) by Jeffery's equation, or after Lee & \
+         Springer (1982), can be verified with them.\n\n\
          Each folder has a description to read (`README.md`) and one for programs (`problem.json`), the start \
-         (`start.csv`, or pairs of \
-         rods in `inputs.csv`) and the certified answer (`certified.csv`) with more digits than a double holds. \
-         `sha256sum -c SHA256SUMS` checks the files.\n\n\
-         Write your answers to `mine/NAME/answer.csv` and compare them as the pages say, or with the program that \
-         made the \
-         problems: `shearbed grade shearbed-problems-{VERSION} mine`.\n\n## The problems\n\n{problems}\n\
-         ## Sources\n\nW. I. Lee and G. S. Springer, J. Reinforced Plastics and Composites 1, 279 (1982): the \
-         equations that are \
-         cited by number. G. B. Jeffery, Proc. R. Soc. A 102, 161 (1922): the motion of an ellipsoid.\n\n\
+         (`start.csv`, or pairs of rods in `inputs.csv`) and the certified answer (`certified.csv`) with more digits \
+         than a double holds. `sha256sum -c SHA256SUMS` checks the files.\n\n\
+         Write your answers to `mine/NAME/answer.csv` and compare them as the pages say, or with the program that made \
+         the problems: `shearbed grade shearbed-problems-{VERSION} mine`.\n\n## The problems\n\n{problems}\n\
+         ## Sources\n\nW. I. Lee and G. S. Springer, J. Reinforced Plastics and Composites 1, 279 (1982): the equations \
+         that are cited by number. G. B. Jeffery, Proc. R. Soc. A 102, 161 (1922): the motion of an ellipsoid.\n\n\
          Licence: `LICENSE`. How to cite: `CITATION.cff`.\n",
         all().len(),
     )

@@ -31,7 +31,7 @@ const fn problem(
     times: &'static [f64],
 ) -> DiffusionProblem {
     let diffusion = Diffusion::PerS(d_r_per_s);
-    DiffusionProblem { name, title, gradient_per_s, aspect_ratio, diffusion, planar_start, times, fourth: None }
+    DiffusionProblem { name, title, gradient_per_s, aspect_ratio, diffusion, planar_start, times }
 }
 
 /// The certified answers, written by `examples/certify.rs`.
@@ -48,7 +48,7 @@ pub fn certify() -> Result<String, NoAnswer> {
 
 pub(super) fn problems() -> Vec<ProblemDef> {
     let built = |problem: &'static DiffusionProblem| {
-        ProblemDef::new(problem.name, problem.title, |def| folgar_tucker::built(def, problem, TABLE, 0..6))
+        ProblemDef::new(problem.name, problem.title, |def| folgar_tucker::built(def, problem, TABLE, false))
     };
     PROBLEMS.iter().map(built).collect()
 }

@@ -1,19 +1,15 @@
 //! Problems whose answer is the solution of a closed equation: they test whether a tensor code solves its own equation.
 
-use super::asked::{AXES, COUETTE, SHEAR_RATE_PER_S};
+use super::asked::{ASKEW, COUETTE, NEEDLE, SECOND, SHEAR_RATE_PER_S, UNIAXIAL, matrix};
 use super::table::twelve_decimals;
-use super::{Built, Closed, FORMAT, Kind, Metric, Problem, ProblemDef};
+use super::{Built, Closed, Kind, Problem, ProblemDef};
 use crate::files::csv::split;
 use crate::methods::tensors::fourth::PAIRS;
 use crate::methods::tensors::{self, APART, Closure, Equation, Model, at};
 use nalgebra::Matrix3;
 
-/// An aspect ratio at which Λ = 1 in doubles.
-const NEEDLE: f64 = 1e100;
 const THIRD: f64 = 1.0 / 3.0;
 const RANDOM: [[f64; 3]; 3] = [[THIRD, 0.0, 0.0], [0.0, THIRD, 0.0], [0.0, 0.0, THIRD]];
-const UNIAXIAL: [[f64; 3]; 3] = [[-0.25, 0.0, 0.0], [0.0, -0.25, 0.0], [0.0, 0.0, 0.5]];
-const ASKEW: [[f64; 3]; 3] = [[0.25, -0.5, 0.125], [0.75, 0.125, -0.25], [0.375, 0.625, -0.375]];
 
 /// Times in 1/G, G = 0.5/s.
 const TIMES: [f64; 6] = [1.0, 2.0, 4.0, 7.0, 12.0, 20.0];
@@ -77,8 +73,6 @@ impl ClosureProblem {
     }
 }
 
-const COLUMNS: [&str; 6] = ["a11", "a22", "a33", "a12", "a13", "a23"];
-
 /// The certified answers, written by `examples/certify.rs`: a table is the same on every machine.
 const TABLE: &str = include_str!("data/closed.csv");
 
@@ -92,7 +86,7 @@ const AGREED: f64 = 1e-12;
 ///
 /// An error if the two differ by more than 10⁻¹², or if one fails.
 pub fn certify() -> Result<String, String> {
-    let mut table = format!("setting,time_s,{}\n", COLUMNS.join(","));
+    let mut table = format!("setting,time_s,{}\n", SECOND.join(","));
     for problem in &PROBLEMS {
         let (equation, times_s, name) = (problem.equation(), problem.times_s(), problem.name);
         let start = problem.closed.start();
@@ -123,56 +117,39 @@ pub(super) fn problems() -> Vec<ProblemDef> {
 fn built(def: &ProblemDef, problem: &ClosureProblem) -> Built {
     let rows = TABLE.lines().map(split);
     let Closed { closure, model, .. } = problem.closed;
-    Built {
-        certified: rows.filter(|row| row[0] == problem.name).map(|row| row[1..].into()).collect(),
-        problem: Problem {
-            format: FORMAT,
-            version: super::version(def.name),
-            name: def.name.into(),
-            title: def.title.into(),
-            summary: format!(
-                "The orientation tensor a_ij(t) by the model {} with the {} closure of a_ijkl, {} The answer is that \
-                 of this closed equation, not of the distribution of rods, which the problems folgar-tucker-* ask for.",
-                model.name(),
-                closure.name(),
-                if problem.closed.start == RANDOM {
-                    "from a_ij = δ_ij/3 at t = 0."
-                } else {
-                    "from the a_ij(0) of problem.json, whose axes are apart: the model needs them."
-                }
-            ),
-            kind: Kind::Tensor,
-            gradient_per_s: problem.gradient_per_s,
-            aspect_ratio: problem.aspect_ratio,
-            aspect_ratio_sd_percent: 0.0,
-            c_i: None,
-            d_r_per_s: None,
-            planar_start: false,
-            closed: Some(problem.closed),
-            formula: None,
-            times_s: problem.times_s(),
-            time_step_s: None,
-            columns: std::iter::once("time_s").chain(COLUMNS).map(String::from).collect(),
-            metric: Metric::Absolute,
-            tolerance: 1e-10,
-            because: "A fourth-order method comes to about 10 ε^(4/5) = 3e-12 per unit of strain, and an error fades \
-                within some 17 units: 5e-11; twice that is left. Certified values are good to 1e-12: two writings of \
-                the equation with two integrators agree to that. Closures differ from each other by 1e-4 to 1e-1."
-                .into(),
-            equations: vec![model.source().into(), closure.source().into()],
-            axes: AXES.into(),
-            ensemble: None,
-        },
-        start: Vec::new(),
-        inputs: Vec::new(),
-    }
+    let certified = rows.filter(|row| row[0] == problem.name).map(|row| row[1..].into()).collect();
+    let problem = Problem {
+        summary: format!(
+            "The orientation tensor a_ij(t) by the model {} with the {} closure of a_ijkl, {} The answer is that of \
+             this closed equation, not of the distribution of rods, which the problems folgar-tucker-* ask for.",
+            model.name(),
+            closure.name(),
+            if problem.closed.start == RANDOM {
+                "from a_ij = δ_ij/3 at t = 0."
+            } else {
+                "from the a_ij(0) of problem.json, whose axes are apart: the model needs them."
+            }
+        ),
+        gradient_per_s: problem.gradient_per_s,
+        aspect_ratio: problem.aspect_ratio,
+        closed: Some(problem.closed),
+        times_s: problem.times_s(),
+        tolerance: 1e-10,
+        because: "A fourth-order method comes to about 10 ε^(4/5) = 3e-12 per unit of strain, and an error fades \
+            within some 17 units: 5e-11; twice that is left. Certified values are good to 1e-12: two writings of the \
+            equation with two integrators agree to that. Closures differ from each other by 1e-4 to 1e-1."
+            .into(),
+        equations: vec![model.source().into(), closure.source().into()],
+        ..Problem::new(def, Kind::Tensor, &SECOND)
+    };
+    Built::new(problem, certified)
 }
 
 impl Closed {
     /// The equation in a flow with this velocity gradient, 1/s.
     pub fn equation(&self, gradient_per_s: &[[f64; 3]; 3], aspect_ratio: f64) -> Equation {
         Equation {
-            gradient_per_s: Matrix3::from_fn(|i, j| gradient_per_s[i][j]),
+            gradient_per_s: matrix(gradient_per_s),
             // (r² − 1)/(r² + 1), also where r² overflows a double.
             shape_factor: 1.0 - 2.0 / (1.0 + aspect_ratio * aspect_ratio),
             closure: self.closure,
@@ -182,7 +159,7 @@ impl Closed {
 
     /// a_ij at t = 0.
     pub fn start(&self) -> Matrix3<f64> {
-        Matrix3::from_fn(|i, j| self.start[i][j])
+        matrix(&self.start)
     }
 }
 

@@ -1,8 +1,9 @@
 //! Problems of the contact rule (A.7 to A.14).
 
-use super::asked::{AXES, COUETTE, direction, period_s};
+use super::asked::{COUETTE, direction, period_s};
+use super::check::{ANGLES, RATES};
 use super::tolerance::rounded_up;
-use super::{Built, FORMAT, Kind, Metric, Problem, ProblemDef};
+use super::{Built, Kind, Problem, ProblemDef};
 use crate::files::csv::split;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Dxsm;
@@ -57,50 +58,34 @@ static PROBLEMS: LazyLock<[ContactProblem; 2]> = LazyLock::new(|| {
 });
 
 pub(super) fn problems() -> Vec<ProblemDef> {
-    let def = |problem: &'static ContactProblem| ProblemDef::new(problem.name, problem.title, |_| problem.built());
+    let def = |problem: &'static ContactProblem| ProblemDef::new(problem.name, problem.title, |def| problem.built(def));
     PROBLEMS.iter().map(def).collect()
 }
 
 impl ContactProblem {
-    fn built(&self) -> Built {
-        let mut rows = self.table.lines().map(split);
-        let columns = rows.next().unwrap_or_default();
-        Built {
-            problem: Problem {
-                format: FORMAT,
-                version: super::version(self.name),
-                name: self.name.into(),
-                title: self.title.into(),
-                summary: summary(self.step_s),
-                kind: Kind::Contact,
-                gradient_per_s: COUETTE,
-                aspect_ratio: ASPECT_RATIO,
-                aspect_ratio_sd_percent: 0.0,
-                times_s: Vec::new(),
-                c_i: None,
-                d_r_per_s: None,
-                planar_start: false,
-                closed: None,
-                formula: None,
-                time_step_s: self.step_s,
-                columns,
-                metric: Metric::Relative,
-                tolerance: rounded_up(100.0 * f64::EPSILON * self.condition),
-                because: format!(
-                    "100 ε κ, rounded up to one digit. κ = {} is the largest condition number of the snapshots: by how \
-                     much more an answer changes, relatively, than the 14 numbers of its pair when each is changed by \
-                     a small fraction. A right code takes about 100 roundings from the pair to the answer, none worse \
-                     than such a change by ε.",
-                    self.condition
-                ),
-                equations: vec![self.equation.into()],
-                axes: AXES.into(),
-                ensemble: None,
-            },
-            start: Vec::new(),
-            inputs: pairs().iter().map(|pair| pair.to_vec()).collect(),
-            certified: rows.collect(),
-        }
+    /// The columns after the number of the snapshot.
+    fn columns(&self) -> &'static [&'static str] {
+        if self.step_s.is_some() { &ANGLES } else { &RATES }
+    }
+
+    fn built(&self, def: &ProblemDef) -> Built {
+        let problem = Problem {
+            summary: summary(self.step_s),
+            aspect_ratio: ASPECT_RATIO,
+            time_step_s: self.step_s,
+            tolerance: rounded_up(100.0 * f64::EPSILON * self.condition),
+            because: format!(
+                "100 ε κ, rounded up to one digit. κ = {} is the largest condition number of the snapshots: by how \
+                 much more an answer changes, relatively, than the 14 numbers of its pair when each is changed by a \
+                 small fraction. A right code takes about 100 roundings from the pair to the answer, none worse than \
+                 such a change by ε.",
+                self.condition
+            ),
+            equations: vec![self.equation.into()],
+            ..Problem::new(def, Kind::Contact, self.columns())
+        };
+        let inputs = pairs().iter().map(|pair| pair.to_vec()).collect();
+        Built { inputs, ..Built::new(problem, self.table.lines().skip(1).map(split).collect()) }
     }
 }
 

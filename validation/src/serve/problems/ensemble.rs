@@ -5,8 +5,8 @@
 //! --replicas 20000 --seed 1982` wrote `data/fig7-n50.csv`, and the same with fig4-n50 wrote `data/fig4-n50.csv`; rows
 //! at other times are left out.
 
-use super::asked::{AXES, COUETTE, period_s};
-use super::{Built, Ensemble, FORMAT, Kind, Metric, Problem, ProblemDef};
+use super::asked::period_s;
+use super::{Built, Ensemble, Kind, Problem, ProblemDef};
 use crate::judge::statistics::student;
 
 /// Columns `t_over_T,x1,x1_se,x2,x2_se,x3,x3_se`.
@@ -42,60 +42,41 @@ fn built(def: &ProblemDef, sd_percent: f64, table: &str) -> Built {
     });
     // Two problems, three means per time, two sides.
     let level = FALSE_ALARM_RATE / (2.0 * 3.0 * rows.len() as f64);
-    let critical = (100.0 * student(level, LEAST)).ceil() / 100.0;
-    Built {
-        certified: certified.collect(),
-        problem: Problem {
-            format: FORMAT,
-            version: super::version(def.name),
-            name: def.name.into(),
-            title: def.title.into(),
-            summary: "The model of Lee & Springer (1982) with the paper's rods in plane Couette flow: free rods turn \
-                by Jeffery's equation, neighbours collide at random, and the mean projections x_i = ⟨|p_i|⟩ oscillate \
-                and die out. Your answer is an average over replicas with standard errors, and is compared within both \
-                errors."
-                .into(),
-            kind: Kind::Ensemble,
-            gradient_per_s: COUETTE,
-            aspect_ratio: ASPECT_RATIO,
-            aspect_ratio_sd_percent: sd_percent,
-            times_s,
-            c_i: None,
-            d_r_per_s: None,
-            planar_start: false,
-            closed: None,
-            formula: None,
-            time_step_s: None,
-            columns: ["time_s", "x1", "x1_se", "x2", "x2_se", "x3", "x3_se"].map(String::from).into(),
-            metric: Metric::StandardErrors,
-            tolerance: critical,
-            because: format!(
-                "Student's t with {} degrees of freedom ({LEAST} replicas, the fewest allowed) at the level at which a \
-                 right answer fails one of the {} comparisons of both such problems with a probability of \
-                 {FALSE_ALARM_RATE:e}; rounded up to hundredths.",
-                LEAST - 1,
-                2 * 3 * rows.len()
-            ),
-            equations: vec![format!(
-                "the model of Lee & Springer (1982), eqs 4 to 14 and A.1 to A.13; in the step of a collision a rod \
-                 turns about p × ṗ′ by |ṗ′|Δt. {REPLICAS} replicas of this project's simulator with update = \
-                 \"rotation\", seed 1982, judged by the independent naive reference"
-            )],
-            axes: AXES.into(),
-            ensemble: Some(Ensemble {
-                count: 100,
-                length_mm: 0.72,
-                concentration_per_cm3: 50.0,
-                alpha: 0.5,
-                m: 3.0,
-                steps_per_period: 200,
-                certified_replicas: REPLICAS,
-                // A replica's means spread by up to 0.0322: `LEAST` replicas give 0.00102, known to 2.2 %. With this
-                // and the tolerance of 3.83 such errors, a bias of 0.008 fails with a probability of 99.9 %.
-                largest_standard_error: 0.0011,
-            }),
-        },
-        start: Vec::new(),
-        inputs: Vec::new(),
-    }
+    let certified = certified.collect();
+    let problem = Problem {
+        summary: "The model of Lee & Springer (1982) with the paper's rods in plane Couette flow: free rods turn by \
+            Jeffery's equation, neighbours collide at random, and the mean projections x_i = ⟨|p_i|⟩ oscillate and die \
+            out. Your answer is an average over replicas with standard errors, and is compared within both errors."
+            .into(),
+        aspect_ratio: ASPECT_RATIO,
+        aspect_ratio_sd_percent: sd_percent,
+        tolerance: (100.0 * student(level, LEAST)).ceil() / 100.0,
+        because: format!(
+            "Student's t with {} degrees of freedom ({LEAST} replicas, the fewest allowed) at the level at which a \
+             right answer fails one of the {} comparisons of both such problems with a probability of \
+             {FALSE_ALARM_RATE:e}; rounded up to hundredths.",
+            LEAST - 1,
+            2 * 3 * rows.len()
+        ),
+        equations: vec![format!(
+            "the model of Lee & Springer (1982), eqs 4 to 14 and A.1 to A.13; in the step of a collision a rod turns \
+             about p × ṗ′ by |ṗ′|Δt. {REPLICAS} replicas of this project's simulator with update = \"rotation\", seed \
+             1982, judged by the independent naive reference"
+        )],
+        ensemble: Some(Ensemble {
+            count: 100,
+            length_mm: 0.72,
+            concentration_per_cm3: 50.0,
+            alpha: 0.5,
+            m: 3.0,
+            steps_per_period: 200,
+            certified_replicas: REPLICAS,
+            // A replica's means spread by up to 0.0322: `LEAST` replicas give 0.00102, known to 2.2 %. With this and
+            // the tolerance of 3.83 such errors, a bias of 0.008 fails with a probability of 99.9 %.
+            largest_standard_error: 0.0011,
+        }),
+        times_s,
+        ..Problem::new(def, Kind::Ensemble, &["x1", "x1_se", "x2", "x2_se", "x3", "x3_se"])
+    };
+    Built::new(problem, certified)
 }

@@ -1,15 +1,11 @@
 //! Problems of free rods in flows other than u₂ = G x₁.
 
-use super::asked::{ANY_FLOW, Asked, COUETTE, SHEAR_RATE_PER_S, direction, period_s};
+use super::asked::{Asked, COUETTE, SHEAR_RATE_PER_S, direction, matrix};
+use nalgebra::{Matrix3, Rotation3, Vector3};
 
 pub(super) fn extension(rates_per_s: [f64; 3], name: &str) -> Asked {
-    let diagonal = |i: usize| {
-        let mut row = [0.0; 3];
-        row[i] = rates_per_s[i];
-        row
-    };
     Asked {
-        gradient_per_s: [0, 1, 2].map(diagonal),
+        gradient_per_s: Matrix3::from_diagonal(&rates_per_s.into()).into(),
         aspect_ratio: 11.6,
         start: vec![
             direction(1.5, 1.3),
@@ -25,43 +21,34 @@ pub(super) fn extension(rates_per_s: [f64; 3], name: &str) -> Asked {
              start near the compressed plane or axis leave it slowly, and what is lost there grows. There is no \
              rotation and no period."
         ),
-        equations: ANY_FLOW,
     }
+}
+
+/// Three rods in a flow with the period of plane Couette flow.
+fn three(gradient_per_s: [[f64; 3]; 3], summary: &str) -> Asked {
+    let start = vec![direction(0.2, 1.0), direction(2.4, 1.9), direction(5.0, 0.4)];
+    Asked { gradient_per_s, ..Asked::couette(5.0, start, &[0.1, 0.35, 0.5, 1.05], summary) }
 }
 
 pub(super) fn turned() -> Asked {
     // Couette flow in axes turned by Euler angles 0.7, 0.4, 1.1: L' = R L Rᵀ, rounded to doubles, which are exact here.
-    let (r1, r2, r3) = (rotation(0.7), rotation(1.1), tilt(0.4));
-    let turn = product(&product(&r1, &r3), &r2);
-    let gradient_per_s = product(&product(&turn, &COUETTE), &transposed(&turn));
-    let aspect_ratio = 5.0;
-    let t = period_s(aspect_ratio);
-    Asked {
-        gradient_per_s,
-        aspect_ratio,
-        start: vec![direction(0.2, 1.0), direction(2.4, 1.9), direction(5.0, 0.4)],
-        times_s: vec![0.1 * t, 0.35 * t, 0.5 * t, 1.05 * t],
-        summary: "Three free rods of r_e = 5 in plane Couette flow whose axes lie askew: all nine entries of the \
-            gradient are different from 0. The entries are rounded to doubles and taken as they are. A transposed \
-            gradient, or axes of the wrong hand, show here."
-            .into(),
-        equations: ANY_FLOW,
-    }
+    let about = |axis, angle| Rotation3::from_axis_angle(&axis, angle).into_inner();
+    let turn = about(Vector3::z_axis(), 0.7) * about(Vector3::x_axis(), 0.4) * about(Vector3::z_axis(), 1.1);
+    let gradient: Matrix3<f64> = turn * matrix(&COUETTE) * turn.transpose();
+    three(
+        gradient.transpose().into(),
+        "Three free rods of r_e = 5 in plane Couette flow whose axes lie askew: all nine entries of the gradient are \
+         different from 0. The entries are rounded to doubles and taken as they are. A transposed gradient, or axes of \
+         the wrong hand, show here.",
+    )
 }
 
 pub(super) fn mirrored() -> Asked {
-    let aspect_ratio = 5.0;
-    let t = period_s(aspect_ratio);
-    Asked {
-        gradient_per_s: [[0.0, SHEAR_RATE_PER_S, 0.0], [0.0; 3], [0.0; 3]],
-        aspect_ratio,
-        start: vec![direction(0.2, 1.0), direction(2.4, 1.9), direction(5.0, 0.4)],
-        times_s: vec![0.1 * t, 0.35 * t, 0.5 * t, 1.05 * t],
-        summary: "Three free rods of r_e = 5 in u_1 = G x_2: plane Couette flow with the axes of gradient and flow \
-            exchanged, which turns the other way round. A code that has its own flow built in fails here."
-            .into(),
-        equations: ANY_FLOW,
-    }
+    three(
+        [[0.0, SHEAR_RATE_PER_S, 0.0], [0.0; 3], [0.0; 3]],
+        "Three free rods of r_e = 5 in u_1 = G x_2: plane Couette flow with the axes of gradient and flow exchanged, \
+         which turns the other way round. A code that has its own flow built in fails here.",
+    )
 }
 
 pub(super) fn spiral() -> Asked {
@@ -73,24 +60,5 @@ pub(super) fn spiral() -> Asked {
         summary: "Three free rods of r_e = 3 in a flow that turns and stretches at once: W + ΛD has one real \
             eigenvalue and a complex pair, and rods spiral into an axis that is none of the coordinate axes."
             .into(),
-        equations: ANY_FLOW,
     }
-}
-
-fn rotation(angle: f64) -> [[f64; 3]; 3] {
-    let (s, c) = angle.sin_cos();
-    [[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]]
-}
-
-fn tilt(angle: f64) -> [[f64; 3]; 3] {
-    let (s, c) = angle.sin_cos();
-    [[1.0, 0.0, 0.0], [0.0, c, -s], [0.0, s, c]]
-}
-
-fn transposed(m: &[[f64; 3]; 3]) -> [[f64; 3]; 3] {
-    [0, 1, 2].map(|i| [0, 1, 2].map(|j| m[j][i]))
-}
-
-fn product(a: &[[f64; 3]; 3], b: &[[f64; 3]; 3]) -> [[f64; 3]; 3] {
-    [0, 1, 2].map(|i| [0, 1, 2].map(|j| (0..3).map(|k| a[i][k] * b[k][j]).sum()))
 }

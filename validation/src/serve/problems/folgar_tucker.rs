@@ -1,20 +1,19 @@
 //! Problems of means over infinitely many rods with rotary diffusion D_r = C_I γ̇ (Folgar & Tucker 1984), without a
 //! closure.
 
-use super::asked::{AXES, COUETTE, SHEAR_RATE_PER_S};
+use super::asked::{ASKEW, COUETTE, NEEDLE, SECOND, SHEAR_RATE_PER_S, UNIAXIAL};
 use super::table::twelve_decimals;
-use super::{Built, FORMAT, Kind, Metric, Problem, ProblemDef};
+use super::{Built, Kind, Problem, ProblemDef};
+use crate::files::csv::split;
 use crate::oracle::diffusion::{self, Means, Motion, NoAnswer, Start};
 
-/// An aspect ratio at which Λ = 1 in doubles.
-const NEEDLE: f64 = 1e100;
 /// A time at which every distribution here is steady, s: e^{−6D_r t} is below e^{−1000}.
 const LATE_S: f64 = 1e8;
 const PLANAR: [[f64; 3]; 3] = [[-0.25, 0.0, 0.0], [0.0, 0.25, 0.0], [0.0; 3]];
-const UNIAXIAL: [[f64; 3]; 3] = [[-0.25, 0.0, 0.0], [0.0, -0.25, 0.0], [0.0, 0.0, 0.5]];
-/// Shear with an extension along the vorticity axis, and a gradient with all nine entries.
+/// Shear with an extension along the vorticity axis.
 const STRETCHED: [[f64; 3]; 3] = [[-0.0625, 0.0, 0.0], [0.5, -0.0625, 0.0], [0.0, 0.0, 0.125]];
-const ASKEW: [[f64; 3]; 3] = [[0.25, -0.5, 0.125], [0.75, 0.125, -0.25], [0.375, 0.625, -0.375]];
+
+const DOUBLED: &[f64] = &[0.5, 1.0, 2.0, 4.0, 8.0];
 
 /// A flow, rods, and the times of the answer in units of 1/G, G = 0.5/s; no times for the steady distribution.
 pub(super) struct DiffusionProblem {
@@ -25,8 +24,6 @@ pub(super) struct DiffusionProblem {
     pub diffusion: Diffusion,
     pub planar_start: bool,
     pub times: &'static [f64],
-    /// The name of a further problem that asks for the fourth moments too.
-    pub fourth: Option<&'static str>,
 }
 
 /// The rotary diffusivity.
@@ -40,46 +37,39 @@ pub(super) enum Diffusion {
 
 #[rustfmt::skip]
 const PROBLEMS: [DiffusionProblem; 14] = [
-    problem("folgar-tucker-shear-0.1", "a_ij(t) in shear, C_I = \
-        0.1", COUETTE, NEEDLE, 0.1, &[0.5, 1.0, 2.0, 4.0, 8.0], None),
-    problem("folgar-tucker-shear-0.0311", "a_ij(t) in shear, C_I = \
-        0.0311", COUETTE, NEEDLE, 0.0311, &[1.0, 2.0, 4.0, 6.25, 10.0, 65.0], None),
-    problem("folgar-tucker-shear-0.01", "a_ij(t) in shear, C_I = \
-        0.01", COUETTE, NEEDLE, 0.01, &[1.0, 2.0, 4.0, 7.0, 12.0, 20.0], Some("folgar-tucker-fourth-shear-0.01")),
-    problem("folgar-tucker-shear-0.001", "a_ij(t) in shear, C_I = \
-        0.001", COUETTE, NEEDLE, 0.001, &[1.0, 3.0, 6.0, 10.0], None),
-    problem("folgar-tucker-rods-5", "a_ij(t) in shear, r_e = 5, C_I = \
-        0.01", COUETTE, 5.0, 0.01, &[1.0, 4.0, 8.0, 16.0, 32.0], None),
-    problem("folgar-tucker-discs", "a_ij(t) in shear, r_e = 0.2, C_I = \
-        0.02", COUETTE, 0.2, 0.02, &[1.0, 4.0, 8.0, 16.0], None),
-    problem("folgar-tucker-planar-extension", "a_ij(t) in planar extension, C_I = \
-        0.01", PLANAR, NEEDLE, 0.01, &[0.5, 1.0, 2.0, 4.0, 8.0], None),
-    problem("folgar-tucker-uniaxial-extension", "a_ij(t) in uniaxial extension, C_I = \
-        0.05", UNIAXIAL, 11.6, 0.05, &[0.5, 1.0, 2.0, 4.0, 8.0], None),
-    problem("folgar-tucker-mixed", "a_ij(t) in a flow without symmetry, C_I = \
-        0.02", ASKEW, 3.0, 0.02, &[0.5, 1.0, 2.0, 4.0, 8.0], Some("folgar-tucker-fourth-mixed")),
-    problem("folgar-tucker-steady-shear-0.01", "Steady a_ij in shear, C_I = \
-        0.01", COUETTE, NEEDLE, 0.01, &[], Some("folgar-tucker-fourth-steady")),
-    problem("folgar-tucker-steady-shear-0.001", "Steady a_ij in shear, C_I = 0.001", COUETTE, NEEDLE, 0.001, &[], None),
-    problem("folgar-tucker-steady-weak", "Steady a_ij in shear, r_e = 11.6, C_I = \
-        0.0001", COUETTE, 11.6, 1e-4, &[], None),
-    problem("folgar-tucker-steady-stretched", "Steady a_ij in stretched shear, C_I = \
-        0.005", STRETCHED, 20.0, 0.005, &[], None),
-    problem("folgar-tucker-steady-mixed", "Steady a_ij in a flow without symmetry, C_I = \
-        0.02", ASKEW, 3.0, 0.02, &[], None),
+    ft("folgar-tucker-shear-0.1", "a_ij(t) in shear", COUETTE, NEEDLE, 0.1, DOUBLED),
+    ft("folgar-tucker-shear-0.0311", "a_ij(t) in shear", COUETTE, NEEDLE, 0.0311, &[1.0, 2.0, 4.0, 6.25, 10.0, 65.0]),
+    ft("folgar-tucker-shear-0.01", "a_ij(t) in shear", COUETTE, NEEDLE, 0.01, &[1.0, 2.0, 4.0, 7.0, 12.0, 20.0]),
+    ft("folgar-tucker-shear-0.001", "a_ij(t) in shear", COUETTE, NEEDLE, 0.001, &[1.0, 3.0, 6.0, 10.0]),
+    ft("folgar-tucker-rods-5", "a_ij(t) in shear, r_e = 5", COUETTE, 5.0, 0.01, &[1.0, 4.0, 8.0, 16.0, 32.0]),
+    ft("folgar-tucker-discs", "a_ij(t) in shear, r_e = 0.2", COUETTE, 0.2, 0.02, &[1.0, 4.0, 8.0, 16.0]),
+    ft("folgar-tucker-planar-extension", "a_ij(t) in planar extension", PLANAR, NEEDLE, 0.01, DOUBLED),
+    ft("folgar-tucker-uniaxial-extension", "a_ij(t) in uniaxial extension", UNIAXIAL, 11.6, 0.05, DOUBLED),
+    ft("folgar-tucker-mixed", "a_ij(t) in a flow without symmetry", ASKEW, 3.0, 0.02, DOUBLED),
+    ft("folgar-tucker-steady-shear-0.01", "Steady a_ij in shear", COUETTE, NEEDLE, 0.01, &[]),
+    ft("folgar-tucker-steady-shear-0.001", "Steady a_ij in shear", COUETTE, NEEDLE, 0.001, &[]),
+    ft("folgar-tucker-steady-weak", "Steady a_ij in shear, r_e = 11.6", COUETTE, 11.6, 1e-4, &[]),
+    ft("folgar-tucker-steady-stretched", "Steady a_ij in stretched shear", STRETCHED, 20.0, 0.005, &[]),
+    ft("folgar-tucker-steady-mixed", "Steady a_ij in a flow without symmetry", ASKEW, 3.0, 0.02, &[]),
 ];
 
-const fn problem(
+/// Further problems of the fourth moments: name, title, and the problem with the same rods.
+const OF_FOURTH: [(&str, &str, &str); 3] = [
+    ("folgar-tucker-fourth-shear-0.01", "a_ijkl(t) in shear, C_I = 0.01", "folgar-tucker-shear-0.01"),
+    ("folgar-tucker-fourth-mixed", "a_ijkl(t) in a flow without symmetry, C_I = 0.02", "folgar-tucker-mixed"),
+    ("folgar-tucker-fourth-steady", "Steady a_ijkl in shear, C_I = 0.01", "folgar-tucker-steady-shear-0.01"),
+];
+
+const fn ft(
     name: &'static str,
     title: &'static str,
     gradient_per_s: [[f64; 3]; 3],
     aspect_ratio: f64,
     c_i: f64,
     times: &'static [f64],
-    fourth: Option<&'static str>,
 ) -> DiffusionProblem {
     let diffusion = Diffusion::Ci(c_i);
-    DiffusionProblem { name, title, gradient_per_s, aspect_ratio, diffusion, planar_start: false, times, fourth }
+    DiffusionProblem { name, title, gradient_per_s, aspect_ratio, diffusion, planar_start: false, times }
 }
 
 impl DiffusionProblem {
@@ -103,8 +93,7 @@ impl DiffusionProblem {
     }
 }
 
-/// The columns of second and fourth moments.
-pub(super) const SECOND: [&str; 6] = ["a11", "a22", "a33", "a12", "a13", "a23"];
+/// The columns of fourth moments.
 #[rustfmt::skip]
 pub(super) const FOURTH: [&str; 15] = [
     "a1111", "a1112", "a1113", "a1122", "a1123", "a1133", "a1222", "a1223", "a1233", "a1333", "a2222", "a2223", "a2233",
@@ -135,43 +124,29 @@ pub(super) fn certified(problems: &[DiffusionProblem]) -> Result<String, NoAnswe
 }
 
 pub(super) fn problems() -> Vec<ProblemDef> {
-    let second = PROBLEMS
-        .iter()
-        .map(|problem| ProblemDef::new(problem.name, problem.title, |def| built(def, problem, TABLE, 0..6)));
-    let fourth = PROBLEMS.iter().filter_map(|problem| {
-        let title = if problem.times.is_empty() {
-            "Steady a_ijkl in shear, C_I = 0.01"
-        } else if problem.name.ends_with("mixed") {
-            "a_ijkl(t) in a flow without symmetry, C_I = 0.02"
-        } else {
-            "a_ijkl(t) in shear, C_I = 0.01"
-        };
-        Some(ProblemDef::new(problem.fourth?, title, |def| built(def, problem, TABLE, 6..21)))
+    let second = PROBLEMS.iter().map(|problem| {
+        let Diffusion::Ci(c_i) = problem.diffusion else { unreachable!("these rods have a C_I") };
+        let title: &'static str = Box::leak(format!("{}, C_I = {c_i}", problem.title).into());
+        ProblemDef::new(problem.name, title, |def| built(def, problem, TABLE, false))
+    });
+    let fourth = OF_FOURTH.iter().flat_map(|(name, title, of)| {
+        let problem = PROBLEMS.iter().filter(|problem| problem.name == *of);
+        problem.map(|problem| ProblemDef::new(name, title, |def| built(def, problem, TABLE, true)))
     });
     second.chain(fourth).collect()
 }
 
-/// The problem with the columns `values` of the table's rows.
-pub(super) fn built(
-    def: &ProblemDef,
-    problem: &DiffusionProblem,
-    table: &'static str,
-    values: std::ops::Range<usize>,
-) -> Built {
-    let fields = table.lines().map(|line| line.split(',').collect::<Vec<_>>());
-    let of = |row: Vec<&str>| {
-        let picked = row[2..][values.clone()].iter();
-        std::iter::once(&row[1]).chain(picked).map(|field| (*field).to_owned()).collect::<Vec<String>>()
-    };
-    let mut rows = fields;
-    let columns = rows.next().map(of).unwrap_or_default();
-    let steady = problem.times.is_empty();
+/// The problem of the second or the fourth moments in the table's rows.
+pub(super) fn built(def: &ProblemDef, problem: &DiffusionProblem, table: &str, fourth: bool) -> Built {
+    let values = if fourth { 8..23 } else { 2..8 };
+    let rows = table.lines().map(split).filter(|row| row[0] == problem.name);
+    let certified = rows.map(|row| [&row[1..2], &row[values.clone()]].concat()).collect();
     let rods = match problem.aspect_ratio {
         NEEDLE => "Λ = 1 (r_e = 1e100)".to_owned(),
         r => format!("r_e = {r}"),
     };
-    let moments = if values.start == 0 { "a_ij = ⟨p_i p_j⟩" } else { "a_ijkl = ⟨p_i p_j p_k p_l⟩" };
-    let when = if steady {
+    let moments = if fourth { "a_ijkl = ⟨p_i p_j p_k p_l⟩" } else { "a_ij = ⟨p_i p_j⟩" };
+    let when = if problem.times.is_empty() {
         "once the distribution is steady: the row's time stands for any that is late enough"
     } else if problem.planar_start {
         "in time, from directions at random in the plane of axes 1 and 2 at t = 0: a = diag(½, ½, 0)"
@@ -182,48 +157,31 @@ pub(super) fn built(
         Diffusion::Ci(c_i) => (Some(c_i), None, format!("D_r = C_I γ̇, C_I = {c_i}, γ̇ = (2D:D)^½")),
         Diffusion::PerS(d_r) => (None, Some(d_r), format!("D_r = {d_r}/s")),
     };
-    Built {
-        certified: rows.filter(|row| row[0] == problem.name).map(of).collect(),
-        problem: Problem {
-            format: FORMAT,
-            version: super::version(def.name),
-            name: def.name.into(),
-            title: def.title.into(),
-            summary: format!(
-                "{moments} of infinitely many rods of {rods} with the rotary diffusivity {diffusivity}, {when}. The \
-                 answer is that of the distribution, ∂ψ/∂t = D_r∇²ψ − ∇·(ṗψ) on the sphere with \
-                 Jeffery's ṗ, and not of a closure: a code with a closure of a_ijkl misses it by what the closure \
-                 costs."
-            ),
-            kind: Kind::Tensor,
-            gradient_per_s: problem.gradient_per_s,
-            aspect_ratio: problem.aspect_ratio,
-            aspect_ratio_sd_percent: 0.0,
-            c_i,
-            d_r_per_s,
-            planar_start: problem.planar_start,
-            closed: None,
-            formula: None,
-            times_s: problem.times_s(),
-            time_step_s: None,
-            columns,
-            metric: Metric::Absolute,
-            tolerance: 1e-9,
-            because: "Diffusion makes every error on the way fade, so a fourth-order method comes to about 10 ε^(4/5) \
-                = 3e-12 per unit of strain, 2e-10 for the longest time here; five times that is left for the number of \
-                harmonics or cells. Certified values are good to 4e-12. Closures miss by 1e-3 to 1e-1."
+    let problem = Problem {
+        summary: format!(
+            "{moments} of infinitely many rods of {rods} with the rotary diffusivity {diffusivity}, {when}. The answer \
+             is that of the distribution, ∂ψ/∂t = D_r∇²ψ − ∇·(ṗψ) on the sphere with Jeffery's ṗ, and not of a \
+             closure: a code with a closure of a_ijkl misses it by what the closure costs."
+        ),
+        gradient_per_s: problem.gradient_per_s,
+        aspect_ratio: problem.aspect_ratio,
+        c_i,
+        d_r_per_s,
+        planar_start: problem.planar_start,
+        times_s: problem.times_s(),
+        tolerance: 1e-9,
+        because: "Diffusion makes every error on the way fade, so a fourth-order method comes to about 10 ε^(4/5) = \
+            3e-12 per unit of strain, 2e-10 for the longest time here; five times that is left for the number of \
+            harmonics or cells. Certified values are good to 4e-12. Closures miss by 1e-3 to 1e-1."
+            .into(),
+        equations: vec![
+            "Folgar & Tucker 1984, J. Reinf. Plast. Comp. 3, 98: the Fokker–Planck equation, by even spherical \
+             harmonics; A.1 for ṗ"
                 .into(),
-            equations: vec![
-                "Folgar & Tucker 1984, J. Reinf. Plast. Comp. 3, 98: the Fokker–Planck equation, by even spherical \
-                 harmonics; A.1 for ṗ"
-                    .into(),
-            ],
-            axes: AXES.into(),
-            ensemble: None,
-        },
-        start: Vec::new(),
-        inputs: Vec::new(),
-    }
+        ],
+        ..Problem::new(def, Kind::Tensor, if fourth { &FOURTH } else { &SECOND })
+    };
+    Built::new(problem, certified)
 }
 
 #[cfg(test)]

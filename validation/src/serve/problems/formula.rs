@@ -2,8 +2,8 @@
 
 pub(crate) mod inputs;
 
-use super::asked::AXES;
-use super::{Built, Closed, FORMAT, Kind, Metric, Problem, ProblemDef};
+use super::asked::SECOND;
+use super::{Built, Closed, Kind, Problem, ProblemDef};
 use crate::files::csv::split;
 use crate::methods::tensors::fourth::PAIRS;
 use crate::methods::tensors::{Closure, Equation, Fourth, Model, second};
@@ -33,7 +33,6 @@ pub enum Formula {
 }
 
 const ROD: [&str; 3] = ["p1", "p2", "p3"];
-const TENSOR: [&str; 6] = ["a11", "a22", "a33", "a12", "a13", "a23"];
 #[rustfmt::skip]
 const FLOW: [&str; 10] = [
     "l11_per_s", "l12_per_s", "l13_per_s", "l21_per_s", "l22_per_s", "l23_per_s", "l31_per_s", "l32_per_s", "l33_per_s",
@@ -54,8 +53,8 @@ impl Formula {
     pub fn inputs(&self) -> Vec<&'static str> {
         match self {
             Self::Pdot => [&["row"], &ROD[..], &FLOW].concat(),
-            Self::Closure { .. } => [&["row"], &TENSOR[..]].concat(),
-            Self::Dadt { .. } => [&["row"], &TENSOR[..], &FLOW].concat(),
+            Self::Closure { .. } => [&["row"], &SECOND[..]].concat(),
+            Self::Dadt { .. } => [&["row"], &SECOND[..], &FLOW].concat(),
         }
     }
 
@@ -200,7 +199,7 @@ fn pdot(row: &[f64]) -> [Big; 3] {
 
 pub(super) fn problems() -> Vec<ProblemDef> {
     let def =
-        |problem: &'static FormulaProblem| ProblemDef::new(&problem.name, &problem.title, move |_| problem.built());
+        |problem: &'static FormulaProblem| ProblemDef::new(&problem.name, &problem.title, |def| problem.built(def));
     PROBLEMS.iter().map(def).collect()
 }
 
@@ -216,19 +215,18 @@ impl FormulaProblem {
         rows.map(|row| row[1..].into()).collect()
     }
 
-    fn built(&self) -> Built {
+    fn built(&self, def: &ProblemDef) -> Built {
         let inputs = (self.inputs)(&self.formula);
-        let (asked, equations): (String, Vec<String>) = match self.formula {
+        let (asked, equations): (String, Vec<&str>) = match self.formula {
             Formula::Pdot => (
                 "ṗ in 1/s of a rod with the direction p in the flow L with the aspect ratio r_e".into(),
                 vec![
                     "Jeffery's equation (A.1 of Lee & Springer 1982): ṗ = Wp + Λ(Dp − p(p·Dp)), W = (L − Lᵀ)/2, D = \
-                      (L + Lᵀ)/2, Λ = (r_e² − 1)/(r_e² + 1)"
-                        .into(),
+                      (L + Lᵀ)/2, Λ = (r_e² − 1)/(r_e² + 1)",
                 ],
             ),
             Formula::Closure { closure } => {
-                (format!("a_ijkl by the {} closure", closure.name()), vec![closure.source().into()])
+                (format!("a_ijkl by the {} closure", closure.name()), vec![closure.source()])
             }
             Formula::Dadt { closure, model } => (
                 format!(
@@ -236,47 +234,29 @@ impl FormulaProblem {
                     model.name(),
                     closure.name()
                 ),
-                vec![model.source().into(), closure.source().into(), RATE.into()],
+                vec![model.source(), closure.source(), RATE],
             ),
         };
-        Built {
-            certified: self.certified(&inputs),
-            problem: Problem {
-                format: FORMAT,
-                version: super::version(&self.name),
-                name: self.name.clone(),
-                title: self.title.clone(),
-                summary: format!(
-                    "A formula, without time: {asked}, for each of the {} rows of `inputs.csv` ({}). Each row has its \
-                     own numbers: the gradient and the aspect ratio of problem.json stand for nothing.",
-                    inputs.len(),
-                    self.formula.inputs().join(",")
-                ),
-                kind: Kind::Formula,
-                gradient_per_s: [[0.0; 3]; 3],
-                aspect_ratio: 1.0,
-                aspect_ratio_sd_percent: 0.0,
-                c_i: None,
-                d_r_per_s: None,
-                planar_start: false,
-                closed: None,
-                formula: Some(self.formula),
-                times_s: Vec::new(),
-                time_step_s: None,
-                columns: std::iter::once(&"row").chain(self.formula.answers()).map(|name| (*name).into()).collect(),
-                metric: Metric::Absolute,
-                tolerance: 1e-11,
-                because: "A formula takes some hundred roundings of numbers of about 1, and the terms of IBOF are up \
-                    to 10³ times their sum: a right code in double precision is off by less than 1e-12. Certified \
-                    values are rounded to twelve decimals. Ten times that is allowed."
-                    .into(),
-                equations,
-                axes: AXES.into(),
-                ensemble: None,
-            },
-            start: Vec::new(),
-            inputs,
-        }
+        let problem = Problem {
+            summary: format!(
+                "A formula, without time: {asked}, for each of the {} rows of `inputs.csv` ({}). Each row has its own \
+                 numbers: the gradient and the aspect ratio of problem.json stand for nothing.",
+                inputs.len(),
+                self.formula.inputs().join(",")
+            ),
+            gradient_per_s: [[0.0; 3]; 3],
+            aspect_ratio: 1.0,
+            formula: Some(self.formula),
+            tolerance: 1e-11,
+            because: "A formula takes some hundred roundings of numbers of about 1, and the terms of IBOF are up to \
+                10³ times their sum: a right code in double precision is off by less than 1e-12. Certified values are \
+                rounded to twelve decimals. Ten times that is allowed."
+                .into(),
+            equations: equations.into_iter().map(String::from).collect(),
+            ..Problem::new(def, Kind::Formula, self.formula.answers())
+        };
+        let certified = self.certified(&inputs);
+        Built { inputs, ..Built::new(problem, certified) }
     }
 }
 

@@ -34,6 +34,7 @@ pub use table::Table;
 
 use crate::methods::tensors::{Closure, Model};
 use crate::oracle::diffusion;
+use asked::{AXES, COUETTE, matrix};
 use nalgebra::Matrix3;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -185,6 +186,40 @@ fn shear_rate_per_s(gradient_per_s: Matrix3<f64>) -> Option<f64> {
 const LATE: f64 = 1e6;
 
 impl Problem {
+    /// A problem in plane Couette flow with the metric and the keys of its kind; what is left is empty.
+    fn new(def: &ProblemDef, kind: Kind, columns: &[&str]) -> Self {
+        Self {
+            format: FORMAT,
+            version: version(def.name),
+            name: def.name.into(),
+            title: def.title.into(),
+            summary: String::new(),
+            kind,
+            gradient_per_s: COUETTE,
+            aspect_ratio: 11.6,
+            aspect_ratio_sd_percent: 0.0,
+            c_i: None,
+            d_r_per_s: None,
+            planar_start: false,
+            closed: None,
+            formula: None,
+            times_s: Vec::new(),
+            time_step_s: None,
+            columns: kind.keys().iter().chain(columns).map(|name| (*name).into()).collect(),
+            metric: check::form(kind).0,
+            tolerance: 0.0,
+            because: String::new(),
+            equations: Vec::new(),
+            axes: AXES.into(),
+            ensemble: None,
+        }
+    }
+
+    /// The velocity gradient L in 1/s.
+    pub fn gradient(&self) -> Matrix3<f64> {
+        matrix(&self.gradient_per_s)
+    }
+
     /// The motion of rods with rotary diffusion; `None` for others.
     pub fn diffusing(&self) -> Option<diffusion::Motion> {
         let (l, r) = (self.gradient_per_s, self.aspect_ratio);
@@ -201,14 +236,12 @@ impl Problem {
 
     /// True if the steady state is asked for: by a single time, so late that any later one has the same answer.
     pub fn is_steady(&self) -> bool {
-        let norm = self.gradient_per_s.as_flattened().iter().map(|g| g * g).sum::<f64>().sqrt();
-        self.kind == Kind::Tensor && matches!(self.times_s[..], [time] if time * norm > LATE)
+        self.kind == Kind::Tensor && matches!(self.times_s[..], [time] if time * self.gradient().norm() > LATE)
     }
 
     /// G in 1/s in plane Couette flow u_2 = G x_1; `None` in other flows.
     pub fn shear_rate_per_s(&self) -> Option<f64> {
-        let l = &self.gradient_per_s;
-        shear_rate_per_s(Matrix3::from_fn(|i, j| l[i][j]))
+        shear_rate_per_s(self.gradient())
     }
 
     /// a_ij at t = 0 of a tensor problem.
@@ -358,6 +391,11 @@ impl ProblemDef {
 }
 
 impl Built {
+    /// A problem without a start or inputs.
+    fn new(problem: Problem, certified: Vec<Vec<String>>) -> Self {
+        Self { problem, start: Vec::new(), inputs: Vec::new(), certified }
+    }
+
     /// The problem as it would be read from the folder `dir` after an export.
     ///
     /// # Panics

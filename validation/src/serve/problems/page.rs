@@ -10,13 +10,13 @@ pub(super) fn page(built: &Built) -> String {
     if let Some(ensemble) = &problem.ensemble {
         page += &format!("{}\n\n", model(problem, ensemble));
     }
+    let mut steps = "";
     if problem.kind != Kind::Formula {
-        page += &flow(problem);
+        let [x, y, z] = problem.gradient_per_s.map(|[x, y, z]| format!("[{x}, {y}, {z}]"));
+        page += &format!("The flow is u = L x with L = [{x}, {y}, {z}] in 1/s, row i and column j being ∂u_i/∂x_j. ");
+        steps =
+            ", or one file a step size, `steps-100.csv`, `steps-200.csv` and so on, so that an order can be read off";
     }
-    let steps = match problem.kind {
-        Kind::Formula => "",
-        _ => ", or one file a step size, `steps-100.csv`, `steps-200.csv` and so on, so that an order can be read off",
-    };
     page += &format!(
         "Axes: {}.\n\nWrite `answer.csv` with the columns `{}`{steps}.\n\n",
         problem.axes,
@@ -28,29 +28,17 @@ pub(super) fn page(built: &Built) -> String {
         problem.tolerance,
         problem.because
     );
-    if problem.closed.is_some() || problem.formula.is_some() {
-        page += &format!("The equation: {}.\n", problem.equations.join("; "));
-        return page;
-    }
     let values = match problem.kind {
-        Kind::Ensemble => "The means in `certified.csv` are a reference of this program, not certified; they",
-        _ => "The certified values in `certified.csv`",
+        _ if problem.closed.is_some() || problem.formula.is_some() => "The equation",
+        Kind::Ensemble => "The means in `certified.csv` are a reference of this program, not certified; they come from",
+        _ => "The certified values in `certified.csv` come from",
     };
-    page += &format!("{values} come from: {}.\n", problem.equations.join("; "));
-    page
-}
-
-fn flow(problem: &Problem) -> String {
-    let l = matrix(&problem.gradient_per_s);
-    format!("The flow is u = L x with L = {l} in 1/s, row i and column j being ∂u_i/∂x_j. ")
+    page + &format!("{values}: {}.\n", problem.equations.join("; "))
 }
 
 fn asked(built: &Built) -> String {
     let problem = &built.problem;
-    let times = || {
-        let times: Vec<_> = problem.times_s.iter().map(|time| format!("{time:?}")).collect();
-        times.join(", ")
-    };
+    let times = || problem.times_s.iter().map(|time| format!("{time:?}")).collect::<Vec<_>>().join(", ");
     match problem.kind {
         Kind::Rods => format!(
             "The directions at t = {2} s of the {0} of `start.csv` (`rod,p1,p2,p3` at t = 0, of aspect ratio {1}). \
@@ -77,10 +65,7 @@ fn asked(built: &Built) -> String {
             },
             if problem.planar_start { "at random in the plane of axes 1 and 2" } else { "isotropic" },
             aspect_ratio(problem.aspect_ratio),
-            match problem.aspect_ratio_sd_percent {
-                0.0 => String::new(),
-                sd => format!(" (Gaussian, standard deviation {sd} % of the mean)"),
-            },
+            spread(problem),
             times()
         ),
         Kind::Formula => format!(
@@ -107,36 +92,33 @@ fn aspect_ratio(r_e: f64) -> String {
     if r_e < 1e9 { format!("r_e = {r_e}") } else { format!("r_e = {r_e:e} (Λ = 1)") }
 }
 
+fn spread(problem: &Problem) -> String {
+    match problem.aspect_ratio_sd_percent {
+        0.0 => String::new(),
+        sd => format!(" (Gaussian, standard deviation {sd} % of the mean)"),
+    }
+}
+
 fn model(problem: &Problem, ensemble: &Ensemble) -> String {
     format!(
         "A replica is {} rods of length a = {} mm and r_e = {}{} in the cube [0, H]³, H = (N/n)^(1/3), at n = {} rods \
-            per cm³, with \
-         α = {} and m = {}, stepped with {} steps a period T = 2π(r_e + 1/r_e)/G of the mean r_e. P_c has no Δt, so \
-         the step is part \
-         of the model. At t = 0 centres are uniform in the cube and axes isotropic (eq. 12).\n\n\
+         per cm³, with α = {} and m = {}, stepped with {} steps a period T = 2π(r_e + 1/r_e)/G of the mean r_e. P_c has \
+         no Δt, so the step is part of the model. At t = 0 centres are uniform in the cube and axes isotropic (eq. \
+         12).\n\n\
          Each step, from the state at its start: every rod i finds its nearest neighbour j by centre distance s, \
-         without images, \
-         and draws R_i uniform in [0, 1); (i, j) is a candidate when (α/(s/a + α))^m > R_i (eqs 7 to 9). Candidates \
-         are taken \
-         closest first, each rod in one collision at most. A pair that is parallel, or has an arm of exactly 0, makes \
-         no contact. \
-         The two rods of a collision turn about p × ṗ′ by |ṗ′|Δt with ṗ′ of A.7 to A.13, their contact lines being \
-         infinite; all \
-         others take Jeffery's exact step. Then x_2 grows by G x_1 Δt; a rod that leaves at x_2 ≥ H comes back at x_2 \
-         − H with \
-         x_1 = H√R, x_3 = H R′ (eq. 14), its axis and r_e kept.\n\n\
+         without images, and draws R_i uniform in [0, 1); (i, j) is a candidate when (α/(s/a + α))^m > R_i (eqs 7 to \
+         9). Candidates are taken closest first, each rod in one collision at most. A pair that is parallel, or has an \
+         arm of exactly 0, makes no contact. The two rods of a collision turn about p × ṗ′ by |ṗ′|Δt with ṗ′ of A.7 to \
+         A.13, their contact lines being infinite; all others take Jeffery's exact step. Then x_2 grows by G x_1 Δt; a \
+         rod that leaves at x_2 ≥ H comes back at x_2 − H with x_1 = H√R, x_3 = H R′ (eq. 14), its axis and r_e \
+         kept.\n\n\
          x_1, x_2, x_3 in the columns are the means over rods and replicas of |p_1|, |p_2|, |p_3|; `x1_se` is the \
-         standard error \
-         over replicas of x1. Take at least 1000 replicas, and enough for a standard error of {} or less. The \
-         reference means are \
-         from {} replicas.",
+         standard error over replicas of x1. Take at least 1000 replicas, and enough for a standard error of {} or \
+         less. The reference means are from {} replicas.",
         ensemble.count,
         ensemble.length_mm,
         problem.aspect_ratio,
-        match problem.aspect_ratio_sd_percent {
-            0.0 => String::new(),
-            sd => format!(" (Gaussian, standard deviation {sd} % of the mean)"),
-        },
+        spread(problem),
         ensemble.concentration_per_cm3,
         ensemble.alpha,
         ensemble.m,
@@ -161,9 +143,4 @@ fn metric(metric: Metric) -> &'static str {
             "The error of a value is its difference from the reference in units of (se² + reference se²)^(1/2)."
         }
     }
-}
-
-fn matrix(rows: &[[f64; 3]; 3]) -> String {
-    let row = |row: &[f64; 3]| format!("[{}, {}, {}]", row[0], row[1], row[2]);
-    format!("[{}, {}, {}]", row(&rows[0]), row(&rows[1]), row(&rows[2]))
 }

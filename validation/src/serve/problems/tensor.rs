@@ -1,7 +1,7 @@
 //! Problems of means over infinitely many free rods that are isotropic at t = 0.
 
-use super::asked::{AXES, COUETTE, direction, period_s};
-use super::{Built, FORMAT, Kind, Metric, Problem, ProblemDef, tolerance};
+use super::asked::{COUETTE, SECOND, direction, periods_s};
+use super::{Built, Kind, Problem, ProblemDef, tolerance};
 use crate::files::csv::split;
 use crate::oracle::reference::big::{Bits, digits};
 use crate::oracle::reference::isotropic::Covariance;
@@ -28,8 +28,7 @@ pub(super) fn problems() -> Vec<ProblemDef> {
 
 /// Times up to a period, not only at its points of symmetry.
 fn couette_times(aspect_ratio: f64) -> Vec<f64> {
-    let turns = [0.02, 0.1, 0.2, 0.25, 0.4, 0.5, 0.7, 1.0];
-    turns.map(|turns| turns * period_s(aspect_ratio)).into()
+    periods_s(aspect_ratio, &[0.02, 0.1, 0.2, 0.25, 0.4, 0.5, 0.7, 1.0])
 }
 
 fn moments(def: &ProblemDef, gradient_per_s: [[f64; 3]; 3], aspect_ratio: f64, times_s: Vec<f64>) -> Built {
@@ -45,95 +44,57 @@ fn moments(def: &ProblemDef, gradient_per_s: [[f64; 3]; 3], aspect_ratio: f64, t
         let values = moments.iter().map(|x| digits(x, DIGITS));
         std::iter::once(format!("{time:?}")).chain(values).collect()
     };
-    Built {
-        certified: times_s.iter().map(row).collect(),
-        problem: Problem {
-            summary: format!(
-                "The orientation tensor a_ij = ⟨p_i p_j⟩ of infinitely many free rods of r_e = {aspect_ratio} that are \
-                 isotropic at t = 0, exact (elliptic integrals). A closure approximation of a_ijkl misses these values \
-                 by the error of the closure; a code that follows rods needs a quadrature over their starts that has \
-                 converged."
-            ),
-            columns: ["time_s", "a11", "a22", "a33", "a12", "a13", "a23"].map(String::from).into(),
-            because: because(of_rods),
-            equations: vec![
-                "the solution of Jeffery's equation (A.4 and A.5 of Lee & Springer 1982), averaged over isotropic \
-                 starts (their eq. 12): a_ij = ½∫ (adj M)_ij (det M)^(-3/2) dx, M = (F Fᵀ)⁻¹ + x, F = exp((W + ΛD)t), \
-                 from x = 0 to infinity"
-                    .into(),
-            ],
-            ..problem(def, &motion, times_s, of_rods)
-        },
-        start: Vec::new(),
-        inputs: Vec::new(),
-    }
+    let certified = times_s.iter().map(row).collect();
+    let problem = Problem {
+        summary: format!(
+            "The orientation tensor a_ij = ⟨p_i p_j⟩ of infinitely many free rods of r_e = {aspect_ratio} that are \
+             isotropic at t = 0, exact (elliptic integrals). A closure approximation of a_ijkl misses these values by \
+             the error of the closure; a code that follows rods needs a quadrature over their starts that has \
+             converged."
+        ),
+        gradient_per_s,
+        aspect_ratio,
+        times_s,
+        tolerance: of_rods,
+        because: because(of_rods),
+        equations: vec![
+            "the solution of Jeffery's equation (A.4 and A.5 of Lee & Springer 1982), averaged over isotropic starts \
+             (their eq. 12): a_ij = ½∫ (adj M)_ij (det M)^(-3/2) dx, M = (F Fᵀ)⁻¹ + x, F = exp((W + ΛD)t), from x = 0 \
+             to infinity"
+                .into(),
+        ],
+        ..Problem::new(def, Kind::Tensor, &SECOND)
+    };
+    Built::new(problem, certified)
 }
 
 fn unequal_rods(def: &ProblemDef) -> Built {
     const SD_PERCENT: f64 = 3.6;
     let motion = Motion { gradient_per_s: COUETTE, aspect_ratio: 11.6 };
-    let turns = [0.25, 0.5, 0.75, 1.0, 2.0, 3.0];
-    let times_s = turns.map(|turns| turns * period_s(motion.aspect_ratio)).to_vec();
-    let strain = motion.strain(times_s[turns.len() - 1], Unit::Second);
-    let of_rods = tolerance::couette(motion.aspect_ratio, strain);
-    Built {
-        certified: unequal_table(),
-        problem: Problem {
-            summary: "Mean projections x_i = ⟨|p_i|⟩ of infinitely many free rods, isotropic at t = 0, whose r_e is \
-                Gaussian with mean 11.6 and a standard deviation of 3.6 % (the paper's): each has its own period, so \
-                the phases mix and the oscillation dies out without any collision. By quadrature over r_e."
+    let times_s = periods_s(motion.aspect_ratio, &[0.25, 0.5, 0.75, 1.0, 2.0, 3.0]);
+    let of_rods = tolerance::couette(motion.aspect_ratio, motion.strain(times_s[times_s.len() - 1], Unit::Second));
+    let problem = Problem {
+        summary: "Mean projections x_i = ⟨|p_i|⟩ of infinitely many free rods, isotropic at t = 0, whose r_e is \
+            Gaussian with mean 11.6 and a standard deviation of 3.6 % (the paper's): each has its own period, so the \
+            phases mix and the oscillation dies out without any collision. By quadrature over r_e."
+            .into(),
+        aspect_ratio_sd_percent: SD_PERCENT,
+        times_s,
+        tolerance: of_rods,
+        because: because(of_rods),
+        equations: vec![
+            "the solution of Jeffery's equation (A.4 and A.5 of Lee & Springer 1982), averaged over isotropic starts \
+             (their eq. 12): means of |p_i| (their eq. 4) are elliptic integrals; then averaged over a Gaussian r_e \
+             (their eq. 11)"
                 .into(),
-            aspect_ratio_sd_percent: SD_PERCENT,
-            columns: ["time_s", "x1", "x2", "x3"].map(String::from).into(),
-            because: because(of_rods),
-            equations: vec![
-                "the solution of Jeffery's equation (A.4 and A.5 of Lee & Springer 1982), averaged over isotropic \
-                 starts (their eq. 12): means of |p_i| (their eq. 4) are elliptic integrals; then averaged over a \
-                 Gaussian r_e (their eq. 11)"
-                    .into(),
-            ],
-            ..problem(def, &motion, times_s, of_rods)
-        },
-        start: Vec::new(),
-        inputs: Vec::new(),
-    }
+        ],
+        ..Problem::new(def, Kind::Tensor, &["x1", "x2", "x3"])
+    };
+    Built::new(problem, UNEQUAL.lines().skip(1).map(split).collect())
 }
 
 /// The certified answer of `unequal-rods`, written by `examples/certify.rs`, which takes minutes.
 const UNEQUAL: &str = include_str!("data/unequal-rods.csv");
-
-fn unequal_table() -> Vec<Vec<String>> {
-    UNEQUAL.lines().skip(1).map(split).collect()
-}
-
-/// The problem with the values that these problems share.
-fn problem(def: &ProblemDef, motion: &Motion, times_s: Vec<f64>, tolerance: f64) -> Problem {
-    Problem {
-        format: FORMAT,
-        version: super::version(def.name),
-        name: def.name.into(),
-        title: def.title.into(),
-        summary: String::new(),
-        kind: Kind::Tensor,
-        gradient_per_s: motion.gradient_per_s,
-        aspect_ratio: motion.aspect_ratio,
-        aspect_ratio_sd_percent: 0.0,
-        times_s,
-        c_i: None,
-        d_r_per_s: None,
-        planar_start: false,
-        closed: None,
-        formula: None,
-        time_step_s: None,
-        columns: Vec::new(),
-        metric: Metric::Absolute,
-        tolerance,
-        because: String::new(),
-        equations: Vec::new(),
-        axes: AXES.into(),
-        ensemble: None,
-    }
-}
 
 fn because(tolerance: f64) -> String {
     format!(
@@ -171,7 +132,8 @@ mod tests {
         assert_eq!(built.certified.len(), built.problem.times_s.len());
         for (time, row) in built.problem.times_s.iter().zip(&built.certified) {
             assert_eq!(format!("{time:?}"), row[0]);
-            let by_doubles = |sd_percent| mean_projections_polydisperse(r, sd_percent, time / period_s(r));
+            let by_doubles =
+                |sd_percent| mean_projections_polydisperse(r, sd_percent, time / super::super::asked::period_s(r));
             let off = |expected: [f64; 3]| {
                 let found = row[1..].iter().map(|x| x.parse::<f64>().unwrap());
                 found.zip(expected).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)

@@ -7,8 +7,9 @@
 //!   ∫ κ (2ε + 10 ε^{4/5} |dp/ds|) ds,
 //! with 2 for two such roundings and 10 for the difference between methods of one order.
 
-use crate::oracle::reference::big::{Bits, double};
-use crate::oracle::reference::motion::{Matrix, Motion, Unit, matrix, product};
+use crate::oracle::reference::big::{Big, Bits, double};
+use crate::oracle::reference::motion::{Motion, Unit, matrix, product};
+use nalgebra::{Matrix3, Vector3};
 
 const ROUNDING: f64 = 2.0 * f64::EPSILON;
 
@@ -49,14 +50,15 @@ pub fn general(motion: &Motion, start: &[[f64; 3]], end_s: f64) -> f64 {
     let half = (motion.map(&half_step, Unit::Second, bits)).expect("seconds have a meaning");
     let none = matrix(|i, j| bits.of(f64::from(u8::from(i == j))));
     let powers = std::iter::successors(Some(none), |map| Some(product(map, &half)));
-    let maps: Vec<_> = powers.take(2 * STEPS + 1).map(|map| doubles(&map)).collect();
+    let rounded = |x: &Big| double(&Bits(64).round(x.clone()));
+    let maps: Vec<_> = powers.take(2 * STEPS + 1).map(|m| Matrix3::from_fn(|i, j| rounded(&m[i][j]))).collect();
     let strain = motion.strain(end_s, Unit::Second) / STEPS as f64;
     let lost = |p0: &[f64; 3]| {
-        let p = |half: usize| unit(image(&maps[half], *p0));
+        let p = |half: usize| (maps[half] * Vector3::from(*p0)).normalize();
         let sum = (0..STEPS).map(|k| {
             let (before, now, after) = (p(2 * k), p(2 * k + 1), p(2 * k + 2));
-            let turned = length(difference(after, before)) / strain;
-            growth(&maps[2 * STEPS - (2 * k + 1)], now) * (ROUNDING + truncation() * turned)
+            let turned = (after - before).norm() / strain;
+            growth(&maps[2 * STEPS - (2 * k + 1)], &now) * (ROUNDING + truncation() * turned)
         });
         sum.sum::<f64>() * strain
     };
@@ -71,20 +73,18 @@ pub const BECAUSE_GENERAL: &str = "A right code in double precision evaluates �
     one digit.";
 
 /// |∂(Fp/|Fp|)/∂p| = |(1 − qq)F|/|Fp|, q = Fp/|Fp|, for changes of p across p.
-fn growth(map: &[[f64; 3]; 3], p: [f64; 3]) -> f64 {
-    let carried = image(map, p);
-    let q = unit(carried);
+fn growth(map: &Matrix3<f64>, p: &Vector3<f64>) -> f64 {
+    let carried = map * p;
+    let q = carried.normalize();
     // Two directions perpendicular to p.
-    let axis = (0..3).min_by(|i, j| p[*i].abs().total_cmp(&p[*j].abs())).unwrap_or(0);
-    let mut other = [0.0; 3];
-    other[axis] = 1.0;
-    let first = unit(cross(p, other));
-    let squares = [first, cross(p, first)].map(|across| {
-        let moved = image(map, across);
-        let along = dot(moved, q);
-        length(difference(moved, q.map(|x| x * along))).powi(2)
+    let mut other = Vector3::zeros();
+    other[p.iamin()] = 1.0;
+    let first = p.cross(&other).normalize();
+    let squares = [first, p.cross(&first)].map(|across| {
+        let moved = map * across;
+        (moved - q * moved.dot(&q)).norm_squared()
     });
-    (squares[0] + squares[1]).sqrt() / length(carried)
+    (squares[0] + squares[1]).sqrt() / carried.norm()
 }
 
 /// `x` > 0 rounded up to one significant digit.
@@ -93,34 +93,6 @@ pub fn rounded_up(x: f64) -> f64 {
     let unit = 10f64.powi(exponent);
     // Through text, so that 5e-11 is not 5.000000000000001e-11.
     format!("{}e{exponent}", (x / unit).ceil()).parse().unwrap_or(x)
-}
-
-fn doubles(m: &Matrix) -> [[f64; 3]; 3] {
-    [0, 1, 2].map(|i| [0, 1, 2].map(|j| double(&Bits(64).round(m[i][j].clone()))))
-}
-
-fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [0, 1, 2].map(|i| a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3])
-}
-
-fn difference(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [0, 1, 2].map(|i| a[i] - b[i])
-}
-
-fn length(x: [f64; 3]) -> f64 {
-    dot(x, x).sqrt()
-}
-
-fn unit(x: [f64; 3]) -> [f64; 3] {
-    x.map(|component| component / length(x))
-}
-
-fn image(m: &[[f64; 3]; 3], x: [f64; 3]) -> [f64; 3] {
-    m.map(|row| dot(row, x))
 }
 
 #[cfg(test)]

@@ -20,22 +20,12 @@ pub fn certify() -> Vec<(&'static str, String)> {
             std::iter::once(snapshot.to_string()).chain(values).collect::<Vec<_>>().join(",") + "\n"
         };
         let rows: String = rods.par_iter().enumerate().map(row).collect();
-        (problem.name, problem.columns().join(",") + "\n" + &rows)
+        (problem.name, format!("snapshot,{}\n{rows}", problem.columns().join(",")))
     };
     PROBLEMS.iter().map(table).collect()
 }
 
 impl ContactProblem {
-    fn columns(&self) -> Vec<String> {
-        let of_a: &[_] = match self.step_s {
-            None => &["a_pdot1_per_s", "a_pdot2_per_s", "a_pdot3_per_s"],
-            Some(_) => &["a_phi_rate_per_s", "a_theta_rate_per_s", "a_phi_rad", "a_theta_rad"],
-        };
-        let of_b = of_a.iter().map(|name| name.replacen("a_", "b_", 1));
-        let of_a = of_a.iter().map(|name| (*name).to_owned());
-        std::iter::once("snapshot".to_owned()).chain(of_a).chain(of_b).collect()
-    }
-
     /// The answer for a rod after the contact: ṗ′, or the angles and their rates.
     pub(super) fn answer(&self, rod: &Touched) -> Vec<Big> {
         match self.step_s {

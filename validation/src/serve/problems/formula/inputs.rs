@@ -1,6 +1,7 @@
 //! The rows that formulas are asked about: fixed random numbers, and corners.
 
 use super::Formula;
+use crate::methods::tensors::fourth::PAIRS;
 use crate::methods::tensors::{Closure, Model};
 use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3};
 use rand::{RngExt, SeedableRng};
@@ -104,10 +105,6 @@ fn is_smooth(formula: &Formula) -> bool {
     }
 }
 
-fn six(a: &Matrix3<f64>) -> [f64; 6] {
-    [a[(0, 0)], a[(1, 1)], a[(2, 2)], a[(0, 1)], a[(0, 2)], a[(1, 2)]]
-}
-
 /// Rows of `inputs.csv` of a formula of a_ij, without their numbers.
 pub(super) fn of_tensors(formula: &Formula) -> Vec<Vec<f64>> {
     let mut random = Numbers(Pcg64Dxsm::seed_from_u64(1987));
@@ -115,12 +112,12 @@ pub(super) fn of_tensors(formula: &Formula) -> Vec<Vec<f64>> {
     if is_smooth(formula) {
         tensors.extend(corners());
     }
-    let row = |(row, a): (usize, &Matrix3<f64>)| match formula {
-        Formula::Dadt { .. } => {
+    let row = |(row, a): (usize, &Matrix3<f64>)| match (formula, PAIRS.map(|place| a[place])) {
+        (Formula::Dadt { .. }, six) => {
             let l = random.gradient(row);
-            [&six(a)[..], l.transpose().as_slice(), &[RATIOS[row % RATIOS.len()]]].concat()
+            [&six[..], l.transpose().as_slice(), &[RATIOS[row % RATIOS.len()]]].concat()
         }
-        _ => six(a).to_vec(),
+        (_, six) => six.to_vec(),
     };
     tensors.iter().enumerate().map(row).collect()
 }
