@@ -19,3 +19,18 @@ pub mod output;
 pub mod text;
 
 pub use error::FileError;
+
+use std::path::{Path, PathBuf};
+
+/// The entries of a folder, sorted by name.
+///
+/// # Errors
+///
+/// A folder that cannot be read.
+pub fn entries(folder: &Path) -> Result<Vec<PathBuf>, FileError> {
+    let refused = |error: std::io::Error| FileError::unreadable(folder, &error);
+    let entries = std::fs::read_dir(folder).map_err(refused)?;
+    let mut paths = entries.map(|entry| Ok(entry.map_err(refused)?.path())).collect::<Result<Vec<_>, FileError>>()?;
+    paths.sort();
+    Ok(paths)
+}

@@ -22,7 +22,7 @@ pub use compare::{Runs, alpha, compare};
 pub use comparison::{AlphaFit, Comparison, Point};
 pub use provenance::{Axis, Key, Layout, OBSERVABLES, Projection, Provenance, Time};
 
-use crate::files::{FileError, bounded};
+use crate::files::{FileError, bounded, entries};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
@@ -95,7 +95,7 @@ pub fn read(data: &Path, source: &Source) -> Result<Vec<MeasuredCurve>, FileErro
     if !folder.exists() {
         return Ok(Vec::new());
     }
-    let paths = files(&folder)?;
+    let paths = entries(&folder)?;
     let with = |extension: &str| {
         let extension = extension.to_owned();
         paths.iter().filter(move |path| path.extension().is_some_and(|found| *found == *extension))
@@ -126,10 +126,10 @@ pub fn check(data: &Path) -> Result<(), FileError> {
     }
     let folders = SOURCES.map(|source| source.folder);
     let strange = |path: &PathBuf| path.is_dir() && !folders.iter().any(|folder| path.ends_with(folder));
-    let inside = files(data)?;
+    let inside = entries(data)?;
     let mut unread: Vec<PathBuf> = inside.iter().filter(|path| path.is_file()).cloned().collect();
     for folder in inside.iter().filter(|path| strange(path)) {
-        unread.extend(files(folder)?);
+        unread.extend(entries(folder)?);
     }
     match unread.iter().find(|path| path.extension().is_some_and(|extension| extension == "csv")) {
         Some(path) => {
@@ -148,7 +148,7 @@ pub fn digest(data: &Path) -> Result<BTreeMap<String, u32>, FileError> {
         if !folder.exists() {
             continue;
         }
-        for path in files(&folder)?.iter().filter(|path| path.is_file()) {
+        for path in entries(&folder)?.iter().filter(|path| path.is_file()) {
             let (_, crc32) =
                 bounded::length_and_crc32(path, MOST_BYTES).map_err(|error| FileError::unreadable(path, &error))?;
             let name = path.strip_prefix(data).unwrap_or(path).display().to_string();
@@ -177,13 +177,4 @@ pub fn read_text(path: &Path) -> Result<String, FileError> {
     let text = bounded::text(path, MOST_BYTES).map_err(|error| FileError::unreadable(path, &error))?;
     let text = text.strip_prefix('\u{feff}').map_or(text.clone(), str::to_owned);
     if text.trim().is_empty() { Err(FileError::line(path, 1, "the file is empty")) } else { Ok(text) }
-}
-
-/// The entries of a folder, sorted by name.
-fn files(folder: &Path) -> Result<Vec<PathBuf>, FileError> {
-    let refused = |error: std::io::Error| FileError::unreadable(folder, &error);
-    let entries = std::fs::read_dir(folder).map_err(refused)?;
-    let mut paths = entries.map(|entry| Ok(entry.map_err(refused)?.path())).collect::<Result<Vec<_>, FileError>>()?;
-    paths.sort();
-    Ok(paths)
 }

@@ -1,6 +1,7 @@
 //! The error of an answer against the certified one, and its drifts.
 
 use super::answer::Answer;
+use crate::judge::statistics::worst;
 use crate::methods::integrators::apart_rad;
 use crate::serve::problems::{LoadedProblem, Metric};
 use nalgebra::Vector3;
@@ -35,45 +36,34 @@ pub fn compare(loaded: &LoadedProblem, answer: &Answer) -> Compared {
     let certified = |row: usize| &loaded.certified.rows[row][keys..];
     let distance = |row: usize| match loaded.problem.metric {
         Metric::Angle => direction_error(&answer.rows[row], certified(row)),
-        Metric::Absolute => largest(answer.rows[row].iter().zip(certified(row)).map(|(a, b)| (a - b).abs())),
+        Metric::Absolute => worst(answer.rows[row].iter().zip(certified(row)).map(|(a, b)| (a - b).abs())),
         Metric::Relative => relative(names, &answer.rows[row], certified(row)),
         Metric::StandardErrors => standard_errors(names, &answer.rows[row], certified(row)),
     };
     // Of an infinite value, or one whose square is, no distance says anything.
     let error_of = |row: usize| {
-        if answer.rows[row].iter().all(|value| value.is_finite()) {
-            Some(distance(row)).filter(|error| error.is_finite()).unwrap_or(f64::NAN)
-        } else {
-            f64::NAN
-        }
+        let finite = answer.rows[row].iter().all(|value| value.is_finite());
+        finite.then(|| distance(row)).filter(|error| error.is_finite()).unwrap_or(f64::NAN)
     };
-    let worst = (0..answer.rows.len()).map(|row| (row, error_of(row))).reduce(|a, b| {
+    let largest = (0..answer.rows.len()).map(|row| (row, error_of(row))).reduce(|a, b| {
         let worse = b.1.is_nan() || b.1 > a.1;
         if worse && !a.1.is_nan() { b } else { a }
     });
-    let (row, error) = worst.unwrap_or((0, f64::NAN));
+    let (row, error) = largest.unwrap_or((0, f64::NAN));
     let largest_se = largest_standard_error(names, answer);
     let enough = loaded.problem.ensemble.as_ref().map_or(f64::INFINITY, |ensemble| ensemble.largest_standard_error);
     let directions = loaded.problem.metric == Metric::Angle;
+    let rate = loaded.problem.shear_rate_per_s().filter(|_| directions);
     Compared {
         error,
         row,
         remark: remark(loaded, answer, row, error, largest_se),
         length_drift: directions
-            .then(|| largest(answer.rows.iter().map(|p| (Vector3::from_row_slice(p).norm() - 1.0).abs()))),
-        orbit_drift: loaded.problem.shear_rate_per_s().filter(|_| directions).map(|_| orbit_drift(loaded, answer)),
-        phase_lost_per_period: loaded
-            .problem
-            .shear_rate_per_s()
-            .filter(|_| directions)
-            .and_then(|rate| phase_lost(loaded, answer, rate)),
+            .then(|| worst(answer.rows.iter().map(|p| (Vector3::from_row_slice(p).norm() - 1.0).abs()))),
+        orbit_drift: rate.map(|_| orbit_drift(loaded, answer)),
+        phase_lost_per_period: rate.and_then(|rate| phase_lost(loaded, answer, rate)),
         too_little_data: largest_se.is_nan() || largest_se > enough,
     }
-}
-
-/// The largest value, or NaN if one of them is NaN.
-fn largest(values: impl Iterator<Item = f64>) -> f64 {
-    values.fold(0.0, |a: f64, b| if a.is_nan() || b.is_nan() { f64::NAN } else { a.max(b) })
 }
 
 fn direction_error(p: &[f64], certified: &[f64]) -> f64 {
@@ -93,7 +83,7 @@ fn relative(names: &[String], values: &[f64], certified: &[f64]) -> f64 {
             sum(&|k| values[k] - certified[k]) / sum(&|k| certified[k]).max(f64::MIN_POSITIVE)
         }
     };
-    largest(["a_", "b_"].into_iter().map(of_rod))
+    worst(["a_", "b_"].into_iter().map(of_rod))
 }
 
 /// Indices of the pairs of columns x and `x_se`.
@@ -106,7 +96,7 @@ fn with_errors(names: &[String]) -> impl Iterator<Item = (usize, usize)> + '_ {
 
 /// The largest difference of means, in units of their combined standard error.
 pub(super) fn standard_errors(names: &[String], values: &[f64], certified: &[f64]) -> f64 {
-    largest(with_errors(names).map(|(mean, se)| {
+    worst(with_errors(names).map(|(mean, se)| {
         let se = values[se].hypot(certified[se]);
         (values[mean] - certified[mean]).abs() / se.max(f64::MIN_POSITIVE)
     }))
@@ -115,8 +105,8 @@ pub(super) fn standard_errors(names: &[String], values: &[f64], certified: &[f64
 /// The largest standard error; NaN if one is not above 0, as the mean of a random sample has an error.
 fn largest_standard_error(names: &[String], answer: &Answer) -> f64 {
     let of_row =
-        |row: &Vec<f64>| largest(with_errors(names).map(|(_, se)| if row[se] > 0.0 { row[se] } else { f64::NAN }));
-    largest(answer.rows.iter().map(of_row))
+        |row: &Vec<f64>| worst(with_errors(names).map(|(_, se)| if row[se] > 0.0 { row[se] } else { f64::NAN }));
+    worst(answer.rows.iter().map(of_row))
 }
 
 /// A message about a standard error that is not above 0, if there is one.
@@ -179,7 +169,7 @@ fn orbit_drift(loaded: &LoadedProblem, answer: &Answer) -> f64 {
     let rods = loaded.start.len();
     let r = loaded.problem.aspect_ratio;
     let c_b = |p: [f64; 3]| orientation::bounded_orbit_constant(p, r);
-    largest(
+    worst(
         (answer.rows.iter().enumerate())
             .map(|(row, p)| (c_b([p[0], p[1], p[2]]) - c_b(loaded.start[row % rods])).abs()),
     )

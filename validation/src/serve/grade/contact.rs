@@ -1,9 +1,9 @@
 //! Diagnosis of answers about two rods in contact: known mistakes in A.7 to A.14.
 
 use super::answer::Answer;
+use super::nearness::Near;
 use crate::serve::problems::LoadedProblem;
 use crate::serve::problems::contact::{Variant, answers};
-use nalgebra::Matrix3;
 
 const MISTAKES: [(&str, Variant); 4] = [
     ("a kick with the wrong sign", kicked(-1.0)),
@@ -17,12 +17,11 @@ const fn kicked(kick: f64) -> Variant {
 }
 
 /// The mistakes whose answers are nearer than `nearer_than`, each with its distance.
-pub(super) fn near(loaded: &LoadedProblem, answer: &Answer, nearer_than: f64) -> Vec<(f64, String)> {
+pub(super) fn near(loaded: &LoadedProblem, answer: &Answer, nearer_than: f64) -> Vec<Near> {
     let Some(inputs) = &loaded.inputs else {
         return Vec::new();
     };
-    let (l, step_s) = (&loaded.problem.gradient_per_s, loaded.problem.time_step_s);
-    let gradient = Matrix3::from_fn(|i, j| l[i][j]);
+    let (gradient, step_s) = (loaded.problem.gradient(), loaded.problem.time_step_s);
     let of_mistake = |(name, variant): &(&str, Variant)| {
         let mut largest: f64 = 0.0;
         for (values, pair) in answer.rows.iter().zip(&inputs.rows) {
@@ -34,39 +33,33 @@ pub(super) fn near(loaded: &LoadedProblem, answer: &Answer, nearer_than: f64) ->
                 largest = largest.max(if off.is_nan() { f64::INFINITY } else { off.sqrt() });
             }
         }
-        Some((largest, (*name).to_owned()))
+        Some(Near::new(largest, name))
     };
     // A.13 concerns the angles only, not ṗ′.
     let applies = |(_, variant): &&(&str, Variant)| !variant.printed || step_s.is_some();
     let near = MISTAKES.iter().filter(applies).filter_map(of_mistake);
-    near.filter(|(distance, _)| *distance <= nearer_than).collect()
+    near.filter(|near| near.distance <= nearer_than).collect()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::serve::problems;
+    use crate::serve::problems::loaded;
 
     /// Each mistake is recognised from its own answers and from no others; correct answers have none.
     #[test]
     fn each_mistake_is_named_by_its_own_answers() {
         for name in ["contact-rule", "contact-angles"] {
-            let built = problems::named(name).unwrap();
-            let loaded = built.loaded(name.into());
-            let (l, step_s) = (loaded.problem.gradient_per_s, loaded.problem.time_step_s);
-            let gradient = Matrix3::from_fn(|i, j| l[i][j]);
+            let loaded = loaded(name);
+            let (gradient, step_s) = (loaded.problem.gradient(), loaded.problem.time_step_s);
             let named = |variant: Variant| {
                 let inputs = loaded.inputs.as_ref().unwrap();
                 let row = |pair: &Vec<f64>| answers(&gradient, &pair[1..], step_s, variant).concat();
                 let answer =
                     Answer { path: name.into(), rows: inputs.rows.iter().map(row).collect(), lines: Vec::new() };
                 let near = near(&loaded, &answer, 1e-3);
-                near.into_iter()
-                    .map(|(distance, name)| {
-                        assert!(distance < 1e-14, "{name}: {distance}");
-                        name
-                    })
-                    .collect::<Vec<_>>()
+                assert!(near.iter().all(|near| near.distance < 1e-14), "{near:?}");
+                near.into_iter().map(|near| near.name).collect::<Vec<_>>()
             };
             for (mistake, variant) in MISTAKES {
                 // Without Δt there are no angles.

@@ -3,50 +3,45 @@
 use super::answer::Answer;
 use super::contact;
 use super::means;
-use super::mistakes::{self, Mistake};
+use super::mistakes::{self, Mistake, Setting};
 pub use super::nearness::Diagnosis;
-use super::nearness::{NEARER, apart, setting};
+use super::nearness::{CURVE, NEARER, Near, apart, said};
 use super::rates;
 use super::tensors;
 use crate::methods::integrators::apart_rad;
 use crate::serve::problems::{Kind, LoadedProblem};
 use nalgebra::Vector3;
 
-/// Above this number of names none is reported: most mistakes share a curve that has come to rest.
-const MOST_NAMES: usize = 4;
-
 /// The diagnosis of an answer whose error is `error`; empty if the error is within the tolerance or NaN.
 pub fn diagnose(loaded: &LoadedProblem, answer: &Answer, error: f64) -> Diagnosis {
     if error.is_nan() || error <= loaded.problem.tolerance {
         return Diagnosis::default();
     }
-    let tolerance = loaded.problem.tolerance;
+    let (tolerance, nearer_than) = (loaded.problem.tolerance, NEARER * error);
     match loaded.problem.kind {
-        Kind::Contact => said(contact::near(loaded, answer, NEARER * error), tolerance),
+        Kind::Contact => said(CURVE, contact::near(loaded, answer, nearer_than), tolerance, ""),
         Kind::Formula => tensors::formulas::diagnose(loaded, answer, error),
         Kind::Ensemble => Diagnosis { said: means::ensemble(loaded, answer), ..Diagnosis::default() },
         _ if loaded.problem.aspect_ratio_sd_percent > 0.0 => {
-            said(means::unequal(loaded, answer, NEARER * error), tolerance)
+            said(CURVE, means::unequal(loaded, answer, nearer_than), tolerance, "")
         }
-        Kind::Rods if rests(loaded, answer, NEARER * error) => {
-            let said = "every rod is where it started: nothing has moved".to_owned();
-            Diagnosis { said: Some(said), ..Diagnosis::default() }
+        Kind::Rods if rests(loaded, answer, nearer_than) => {
+            Diagnosis::sentence("every rod is where it started: nothing has moved")
         }
         Kind::Tensor if loaded.problem.diffusing().is_some() || loaded.problem.closed.is_some() => {
             tensors::diagnose(loaded, answer, error)
         }
         _ => {
-            let nearer_than = NEARER * error;
             let known = mistakes::all();
             let near: Vec<_> = (known.iter())
-                .filter_map(|mistake| Some((distance(loaded, answer, mistake)?, mistake.name.clone())))
-                .filter(|(distance, _)| *distance <= nearer_than)
+                .filter_map(|mistake| Some(Near::new(distance(loaded, answer, mistake)?, &mistake.name)))
+                .filter(|near| near.distance <= nearer_than)
                 .collect();
-            let found = said(near, tolerance);
+            let found = said(CURVE, near, tolerance, "");
             if found.suspects.is_empty()
                 && let Some(said) = not_unit(loaded, answer, nearer_than)
             {
-                return Diagnosis { said: Some(said), ..Diagnosis::default() };
+                return Diagnosis::sentence(&said);
             }
             let rests = |name: &String| {
                 let mistake = known.iter().find(|mistake| mistake.name == *name);
@@ -54,7 +49,7 @@ pub fn diagnose(loaded: &LoadedProblem, answer: &Answer, error: f64) -> Diagnosi
             };
             // A result that other mistakes reach as well is no evidence for this one.
             let said = found.said.filter(|_| !found.suspects.iter().any(rests));
-            let rates = rates::rates(loaded, answer, &setting(loaded), nearer_than);
+            let rates = rates::rates(loaded, answer, &Setting::from(&loaded.problem), nearer_than);
             Diagnosis { said, suspects: found.suspects, rates }
         }
     }
@@ -111,26 +106,6 @@ fn not_unit(loaded: &LoadedProblem, answer: &Answer, nearer_than: f64) -> Option
     right.then(|| format!("only the directions' length is wrong: |p| is {least:.6} to {most:.6}, where 1 is due"))
 }
 
-/// The nearest curve, and those that are indistinguishable from it here.
-fn said(mut near: Vec<(f64, String)>, tolerance: f64) -> Diagnosis {
-    near.retain(|(distance, _)| distance.is_finite());
-    near.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let Some((nearest, _)) = near.first() else {
-        return Diagnosis::default();
-    };
-    let nearest = nearest.max(f64::EPSILON);
-    near.retain(|(distance, _)| *distance <= (10.0 * nearest).max(tolerance));
-    // Plane Couette flow is its own mirror image in axis 3: reversals in the start and in the answer are the same.
-    let found: Vec<_> = near.iter().map(|(_, name)| name.clone()).collect();
-    near.retain(|(_, name)| {
-        !name.strip_suffix(mistakes::IN_THE_START).is_some_and(|name| found.iter().any(|other| other == name))
-    });
-    let suspects: Vec<_> = near.into_iter().map(|(_, name)| name).collect();
-    let names = suspects.join(" or of ");
-    let said = (suspects.len() <= MOST_NAMES).then(|| format!("this is the curve of {names}, to {nearest:.0e}"));
-    Diagnosis { said, suspects, rates: Vec::new() }
-}
-
 /// The largest of the distances; `None` where one is missing or not finite.
 fn largest(distances: impl Iterator<Item = Option<f64>>) -> Option<f64> {
     let finite = |distance: Option<f64>| distance.filter(|distance| distance.is_finite());
@@ -139,7 +114,7 @@ fn largest(distances: impl Iterator<Item = Option<f64>>) -> Option<f64> {
 
 /// The rows of an answer with this mistake, at times multiplied by `part`; `None` if the mistake does not apply.
 fn rows(loaded: &LoadedProblem, mistake: &Mistake, part: f64) -> Option<Vec<Vec<f64>>> {
-    let (problem, setting) = (&loaded.problem, setting(loaded));
+    let (problem, setting) = (&loaded.problem, Setting::from(&loaded.problem));
     match problem.kind {
         Kind::Rods => {
             let starts = |time: &f64| {
@@ -192,11 +167,7 @@ fn between(loaded: &LoadedProblem, found: &[Vec<f64>], curve: &[Vec<f64>], has_l
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::serve::problems;
-
-    fn loaded(name: &str) -> LoadedProblem {
-        problems::named(name).unwrap().loaded(name.into())
-    }
+    use crate::serve::problems::loaded;
 
     /// The answer of a program that has this mistake and is correct otherwise.
     fn answer(loaded: &LoadedProblem, name: &str) -> Answer {
@@ -222,7 +193,6 @@ mod tests {
         let found = diagnose(&whole, &answer(&whole, "W halved twice"), 0.35);
         assert_eq!(found.suspects, ["W halved twice"]);
         assert!(found.said.is_some());
-        assert!(said(vec![(f64::INFINITY, "far".into())], 1.0).suspects.is_empty());
         let rows = (0..whole.certified.rows.len()).map(|row| whole.start[row % whole.start.len()].to_vec()).collect();
         let said = diagnose(&whole, &Answer { rows, ..Answer::certified(&whole) }, 0.35).said.unwrap();
         assert!(said.ends_with("nothing has moved"), "{said}");
@@ -247,7 +217,7 @@ mod tests {
             let of_row = |row: usize| {
                 let (start, time) = (loaded.start[row % loaded.start.len()], row / loaded.start.len());
                 let p = Vector3::from(start);
-                let map = mistakes::right_map(&setting(&loaded), 0.833 * loaded.problem.times_s[time]);
+                let map = mistakes::right_map(&Setting::from(&loaded.problem), 0.833 * loaded.problem.times_s[time]);
                 (map.unwrap() * p).normalize().as_slice().to_vec()
             };
             let certified = Answer::certified(&loaded);

@@ -43,11 +43,8 @@ pub fn steps(problems: &[LoadedProblem], graded: &[Graded]) -> Option<Figure> {
         x_name: "steps".into(),
         y_name: "error (rad)".into(),
         curves,
-        points: Vec::new(),
         x_log: true,
         y_log: true,
-        x_span: None,
-        y_span: None,
         ..Figure::default()
     })
 }
@@ -94,11 +91,11 @@ fn own_errors(subject: &Integrator, loaded: &LoadedProblem, rate: f64, counts: &
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::serve::problems;
+    use crate::serve::problems::loaded;
 
     #[test]
     fn errors_on_one_problem_are_drawn_with_both_axes_logarithmic() {
-        let problems = ["mid-flip-2", "mid-flip-11.6"].map(|name| problems::named(name).unwrap().loaded(name.into()));
+        let problems = ["mid-flip-2", "mid-flip-11.6"].map(loaded);
         let of =
             |loaded, error| Graded { errors: vec![(64, error), (128, 0.1 * error)], ..Graded::without_answer(loaded) };
         let figure = steps(&problems, &[of(&problems[0], 1e-2), of(&problems[1], 1e-3)]).unwrap();

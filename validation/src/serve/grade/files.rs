@@ -9,10 +9,10 @@ use super::layout::FileOptions;
 use super::order;
 use super::read::read;
 use super::{Graded, Verdict};
-use crate::files::FileError;
 use crate::files::text::Shown;
+use crate::files::{FileError, entries};
 use crate::serve::problems::{LoadedProblem, Metric};
-use std::fs;
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 /// A user's claim about the error of a program.
@@ -46,52 +46,38 @@ pub fn grade(problems: &[LoadedProblem], mine: &Path, options: &Options) -> Vec<
     all
 }
 
-/// The files of an answer: a single one, or one for each number of steps, in ascending order.
-struct AnswerFiles {
-    answer: Option<PathBuf>,
-    steps: Vec<(u64, PathBuf)>,
-}
-
 /// Allowed extensions of an answer's file.
 const ENDINGS: [&str; 5] = ["csv", "txt", "dat", "dump", "lammpstrj"];
 
-fn find(dir: &Path) -> Result<AnswerFiles, FileError> {
-    let failed = |error: std::io::Error| FileError::unreadable(dir, &error);
-    let mut found = AnswerFiles { answer: None, steps: Vec::new() };
+/// The file of a single answer, and those for each number of steps.
+fn find(dir: &Path) -> Result<(Option<PathBuf>, BTreeMap<u64, PathBuf>), FileError> {
+    let (mut answer, mut ladder) = (None::<PathBuf>, BTreeMap::new());
     if !dir.exists() {
-        return Ok(found);
+        return Ok((answer, ladder));
     }
-    let mut paths = Vec::new();
-    for entry in fs::read_dir(dir).map_err(failed)? {
-        paths.push(entry.map_err(failed)?.path());
-    }
-    paths.sort();
-    for path in paths {
+    for path in entries(dir)? {
         let ending = path.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
         let stem = path.file_stem().and_then(|stem| stem.to_str()).unwrap_or_default();
         if !ENDINGS.contains(&ending) {
             continue;
         }
         if stem == "answer" {
-            if let Some(other) = &found.answer {
-                let other = other.shown();
-                return Err(FileError::whole(&path, format!("there is {other} too; one of them is allowed")));
+            if let Some(other) = &answer {
+                let message = format!("there is {} too; one of them is allowed", other.shown());
+                return Err(FileError::whole(&path, message));
             }
-            found.answer = Some(path);
+            answer = Some(path);
         } else if let Some(number) = stem.strip_prefix("steps-") {
             match number.parse() {
-                Ok(steps @ 1..) if !found.steps.iter().any(|(other, _)| *other == steps) => {
-                    found.steps.push((steps, path));
-                }
+                Ok(steps @ 1..) if !ladder.contains_key(&steps) => ladder.insert(steps, path),
                 _ => {
                     let message = format!("steps-{number}: a whole number from 1 is allowed, once each");
                     return Err(FileError::whole(&path, message));
                 }
-            }
+            };
         }
     }
-    found.steps.sort();
-    Ok(found)
+    Ok((answer, ladder))
 }
 
 /// Grades the answer in the folder `dir` to one problem.
@@ -100,17 +86,17 @@ fn find(dir: &Path) -> Result<AnswerFiles, FileError> {
 ///
 /// A file that cannot be read: file, line and column.
 pub fn grade_one(loaded: &LoadedProblem, dir: &Path, options: &Options) -> Result<Graded, FileError> {
-    let found = find(dir)?;
+    let (single, ladder) = find(dir)?;
     let read = |path: &PathBuf| read(path, loaded, &options.file, &options.dump);
     let mut errors = Vec::new();
     let mut finest = None;
-    for (steps, path) in &found.steps {
+    for (steps, path) in &ladder {
         let answer = read(path)?;
         errors.push((*steps, compare(loaded, &answer).error));
         finest = Some((Some(*steps), answer));
     }
     // A file without steps is the answer; the others only give the order.
-    if let Some(path) = &found.answer {
+    if let Some(path) = &single {
         finest = Some((None, read(path)?));
     }
     let mut graded = Graded::without_answer(loaded);

@@ -4,9 +4,10 @@
 use super::answer::Answer;
 use super::compare::standard_errors;
 use super::mistakes::{self, Mistake, Setting, right_map};
+use super::nearness::Near;
 use crate::methods::projections::projections;
 use crate::serve::problems::{LoadedProblem, Problem};
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::Vector3;
 use rayon::prelude::*;
 
 /// Nodes in r_e from −6 to 6 standard deviations: the trapezoid rule for a Gaussian times an analytic function
@@ -32,8 +33,7 @@ fn over_shapes(problem: &Problem, of: impl Fn(f64) -> Option<Vector3<f64>>) -> O
 }
 
 fn setting(problem: &Problem, aspect_ratio: f64) -> Setting {
-    let l = &problem.gradient_per_s;
-    Setting { gradient_per_s: Matrix3::from_fn(|i, j| l[i][j]), aspect_ratio }
+    Setting { aspect_ratio, ..Setting::from(problem) }
 }
 
 /// ⟨|p_i|⟩ of free rods in a program with this mistake.
@@ -54,7 +54,7 @@ fn free_of_one_shape(problem: &Problem, time_s: f64) -> Option<Vector3<f64>> {
 }
 
 /// The mistakes about free unequal rods whose answers are nearer than `nearer_than`, each with its distance.
-pub(super) fn unequal(loaded: &LoadedProblem, answer: &Answer, nearer_than: f64) -> Vec<(f64, String)> {
+pub(super) fn unequal(loaded: &LoadedProblem, answer: &Answer, nearer_than: f64) -> Vec<Near> {
     let problem = &loaded.problem;
     let distance = |of: &dyn Fn(f64) -> Option<Vector3<f64>>| {
         let mut largest: f64 = 0.0;
@@ -68,15 +68,12 @@ pub(super) fn unequal(loaded: &LoadedProblem, answer: &Answer, nearer_than: f64)
         Some(largest)
     };
     let mut near: Vec<_> = (mistakes::all().into_par_iter())
-        .filter_map(|mistake| Some((distance(&|time| by_mistake(problem, &mistake, time))?, mistake.name)))
+        .filter_map(|mistake| Some(Near::new(distance(&|time| by_mistake(problem, &mistake, time))?, &mistake.name)))
         .collect();
-    if let Some(distance) = distance(&|time| free_of_one_shape(problem, time)) {
-        near.push((distance, ONE_SHAPE.to_owned()));
-    }
+    let one_shape = distance(&|time| free_of_one_shape(problem, time));
+    near.extend(one_shape.map(|distance| Near::new(distance, "rods of one r_e, the mean")));
     near
 }
-
-const ONE_SHAPE: &str = "rods of one r_e, the mean";
 
 /// A diagnosis of a suspension: the wrong means with which the answer agrees as well as a right answer may with the
 /// right ones.

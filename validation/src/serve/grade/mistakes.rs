@@ -4,6 +4,7 @@
 
 mod physical;
 
+use crate::serve::problems::Problem;
 use nalgebra::{Matrix3, Vector3};
 use shearbed::model::flow::VelocityGradient;
 use shearbed::motion::{Propagator, Span};
@@ -15,6 +16,12 @@ pub struct Setting {
     pub gradient_per_s: Matrix3<f64>,
     /// r_e.
     pub aspect_ratio: f64,
+}
+
+impl From<&Problem> for Setting {
+    fn from(problem: &Problem) -> Self {
+        Self { gradient_per_s: problem.gradient(), aspect_ratio: problem.aspect_ratio }
+    }
 }
 
 type Curve = Box<dyn Fn(&Setting, &Vector3<f64>, f64) -> Option<Vector3<f64>> + Send + Sync>;
@@ -200,8 +207,8 @@ fn scaled(setting: Setting, factor: f64) -> Setting {
     Setting { gradient_per_s: factor * setting.gradient_per_s, ..setting }
 }
 
-/// The phase ωt = Gt/(r_e + 1/r_e).
-fn right_phase(setting: &Setting, time_s: f64) -> Option<f64> {
+/// The phase ωt = Gt/(r_e + 1/r_e) of the correct motion, 2π per period, in plane Couette flow.
+pub fn right_phase(setting: &Setting, time_s: f64) -> Option<f64> {
     let r = setting.aspect_ratio;
     Some(couette_per_s(setting)? * time_s / (r + 1.0 / r))
 }
@@ -217,11 +224,6 @@ fn by_angles(p: &Vector3<f64>, convert: fn(f64) -> f64) -> Vector3<f64> {
     let phi = convert(p.y.atan2(p.x));
     let theta = convert(p.x.hypot(p.y).atan2(p.z));
     Vector3::new(theta.sin() * phi.cos(), theta.sin() * phi.sin(), theta.cos())
-}
-
-/// ωt of the correct motion, 2π per period, in plane Couette flow.
-pub fn phase(setting: &Setting, time_s: f64) -> Option<f64> {
-    right_phase(setting, time_s)
 }
 
 /// The end of a mistake's name if the start is changed in place of the answer.

@@ -1,13 +1,18 @@
 //! How near an answer must be to a mistake's curve, and what is said of it then.
 
-use super::mistakes::Setting;
+use super::mistakes::IN_THE_START;
 use crate::methods::integrators::apart_rad;
-use crate::serve::problems::LoadedProblem;
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::Vector3;
 
 /// An answer belongs to a mistake's curve if it is a thousand times nearer to it than to the truth: for one direction
 /// and some fifty curves this happens by chance with a probability of 10⁻⁴, for several rows far more rarely.
 pub(super) const NEARER: f64 = 1e-3;
+
+/// What a wrong answer in time is.
+pub(super) const CURVE: &str = "this is the curve";
+
+/// Above this number of names none is reported: most mistakes share a curve that has come to rest.
+const MOST_NAMES: usize = 4;
 
 /// The diagnosis of an answer to one problem.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -20,9 +25,11 @@ pub struct Diagnosis {
     pub rates: Vec<f64>,
 }
 
-pub(super) fn setting(loaded: &LoadedProblem) -> Setting {
-    let l = &loaded.problem.gradient_per_s;
-    Setting { gradient_per_s: Matrix3::from_fn(|i, j| l[i][j]), aspect_ratio: loaded.problem.aspect_ratio }
+impl Diagnosis {
+    /// A sentence without a known mistake.
+    pub(super) fn sentence(said: &str) -> Self {
+        Self { said: Some(said.to_owned()), ..Self::default() }
+    }
 }
 
 /// The angle between two directions or ||p| − 1|, whichever is larger; for a mistake with a length of its own, the
@@ -33,4 +40,46 @@ pub(super) fn apart(found: &Vector3<f64>, expected: &Vector3<f64>, has_length: b
     } else {
         apart_rad(found, expected).max((found.norm() - 1.0).abs())
     }
+}
+
+/// An answer that a wrong code may give.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Near {
+    pub(super) distance: f64,
+    /// The name, to stand after "this is the curve of".
+    pub(super) name: String,
+    /// The name of the mistake alone, which other problems may share.
+    pub(super) suspect: String,
+    pub(super) advice: &'static str,
+    /// The number of differences from what is asked.
+    pub(super) changes: u8,
+}
+
+impl Near {
+    pub(super) fn new(distance: f64, name: &str) -> Self {
+        Self { distance, name: name.to_owned(), suspect: name.to_owned(), advice: "", changes: 1 }
+    }
+}
+
+/// The nearest of `near` with the fewest changes, and those that are indistinguishable from it here, in words after
+/// `what`; `rest` is added.
+pub(super) fn said(what: &str, mut near: Vec<Near>, tolerance: f64, rest: &str) -> Diagnosis {
+    near.sort_by(|a, b| a.distance.total_cmp(&b.distance));
+    let Some(nearest) = near.first().map(|near| near.distance.max(f64::EPSILON)) else { return Diagnosis::default() };
+    near.retain(|near| near.distance <= (10.0 * nearest).max(tolerance));
+    let fewest = near.iter().map(|near| near.changes).min().unwrap_or_default();
+    near.retain(|near| near.changes == fewest);
+    // Plane Couette flow is its own mirror image in axis 3: reversals in the start and in the answer are the same.
+    let found: Vec<_> = near.iter().map(|near| near.name.clone()).collect();
+    near.retain(|near| !near.name.strip_suffix(IN_THE_START).is_some_and(|name| found.iter().any(|own| own == name)));
+    let names: Vec<_> = near.iter().map(|near| near.name.as_str()).collect();
+    let advice = near[0].advice;
+    let shared = !advice.is_empty() && near.iter().all(|near| near.advice == advice);
+    let advice = if shared { format!("; {advice}") } else { String::new() };
+    let said = format!("{what} of {}, to {nearest:.0e}{rest}{advice}", names.join(" or of "));
+    let said = (names.len() <= MOST_NAMES).then_some(said);
+    let mut suspects: Vec<_> = near.into_iter().map(|near| near.suspect).collect();
+    suspects.sort();
+    suspects.dedup();
+    Diagnosis { said, suspects, rates: Vec::new() }
 }

@@ -95,11 +95,10 @@ fn by_rate(passing: &[&LoadedProblem], wrong: &[&Graded]) -> Option<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::serve::problems;
+    use crate::serve::problems::loaded;
 
     fn problems() -> Vec<LoadedProblem> {
-        let names = ["mid-flip-2", "mid-flip-11.6", "spiral", "sphere"];
-        names.map(|name| problems::named(name).unwrap().loaded(name.into())).into()
+        ["mid-flip-2", "mid-flip-11.6", "spiral", "sphere"].map(loaded).into()
     }
 
     fn graded(problems: &[LoadedProblem], of: &[(Verdict, &[&str], &[f64])]) -> Vec<Graded> {

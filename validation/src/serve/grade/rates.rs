@@ -2,8 +2,8 @@
 //! turned; in other flows, the rate is sought at which a correct rod comes nearest.
 
 use super::answer::Answer;
-use super::mistakes::{Motion, Setting, phase};
-use super::nearness::{apart, setting};
+use super::mistakes::{Motion, Setting, right_phase};
+use super::nearness::apart;
 use crate::judge::statistics::worst;
 use crate::serve::problems::{Kind, LoadedProblem};
 use nalgebra::{Matrix3, Vector3};
@@ -30,7 +30,7 @@ pub(super) fn rates(loaded: &LoadedProblem, answer: &Answer, setting: &Setting, 
     let (Some(motion), Some(first)) = (Motion::of(setting), loaded.problem.times_s.first()) else {
         return Vec::new();
     };
-    let candidates = match phase(setting, *first) {
+    let candidates = match right_phase(setting, *first) {
         Some(due) => by_phase(loaded, answer, setting, due).unwrap_or_default(),
         None => nearest(loaded, answer, &motion),
     };
@@ -104,7 +104,7 @@ pub(super) fn shows(loaded: &LoadedProblem, rate: f64) -> bool {
     let certified = Answer::certified(loaded);
     let nearer_than = 2.0 * loaded.problem.tolerance;
     let fits = |motion: Motion| fits(loaded, &certified, &motion, rate, nearer_than);
-    loaded.problem.kind == Kind::Rods && !Motion::of(&setting(loaded)).is_some_and(fits)
+    loaded.problem.kind == Kind::Rods && !Motion::of(&Setting::from(&loaded.problem)).is_some_and(fits)
 }
 
 fn fits(loaded: &LoadedProblem, answer: &Answer, motion: &Motion, rate: f64, nearer_than: f64) -> bool {

@@ -6,7 +6,7 @@ pub(super) mod formulas;
 mod layouts;
 
 use super::answer::Answer;
-use super::nearness::{Diagnosis, NEARER};
+use super::nearness::{CURVE, Diagnosis, NEARER, Near, said};
 use crate::judge::statistics::worst;
 use crate::methods::tensors::fourth::PAIRS;
 use crate::methods::tensors::wrong::{CLOSURES, MISTAKES, Mistake, Stand};
@@ -18,30 +18,11 @@ use layouts::LAYOUTS;
 use nalgebra::Matrix3;
 use rayon::prelude::*;
 
-/// What a wrong answer in time is.
-const CURVE: &str = "this is the curve";
-
-/// Above this number of names none is reported.
-const MOST_NAMES: usize = 4;
-
 /// The tolerance of a step of the integration of a curve; of a rough one, which saves time, and how far that may be
 /// off.
 const STEP: f64 = 1e-11;
 const ROUGH: f64 = 1e-6;
 const OFF: f64 = 1e-4;
-
-/// An answer that a wrong code may give.
-#[derive(Clone, Debug, PartialEq)]
-struct Near {
-    distance: f64,
-    /// The name, to stand after "this is the curve of".
-    name: String,
-    /// The name of the mistake alone, which other problems may share.
-    suspect: String,
-    advice: &'static str,
-    /// The number of differences from what is asked.
-    changes: u8,
-}
 
 /// A closed equation that a code may solve.
 struct Candidate {
@@ -239,8 +220,7 @@ pub(super) fn diagnose(loaded: &LoadedProblem, answer: &Answer, error: f64) -> D
     let parts = closed.equation(&problem.gradient_per_s, problem.aspect_ratio).parts();
     let is_second = problem.columns.len() == PAIRS.len() + 1;
     if is_second && answer.rows.iter().all(|row| (tensor(row) - start).amax() <= most) {
-        let said = "a_ij stays where it started: nothing has moved".to_owned();
-        return Diagnosis { said: Some(said), ..Diagnosis::default() };
+        return Diagnosis::sentence("a_ij stays where it started: nothing has moved");
     }
     near.extend(in_other_layouts(&[certified(loaded)], answer, most));
     let has_c_i = problem.d_r_per_s.is_none();
@@ -259,7 +239,7 @@ pub(super) fn diagnose(loaded: &LoadedProblem, answer: &Answer, error: f64) -> D
         near.par_extend(exact.filter_map(|Change { name, advice, parts }| {
             let distance = from_exact(problem, &answer.rows, parts, most)?;
             let name = if name.is_empty() { "the distribution, without a closure" } else { name };
-            Some(Near { distance, name: name.to_owned(), suspect: name.to_owned(), advice, changes: 1 })
+            Some(Near { advice, ..Near::new(distance, name) })
         }));
     }
     // More changes are sought only where fewer explain nothing: that is what a code is likely to have, and it saves
@@ -320,26 +300,6 @@ fn of_closures(
         (own != Some(closure)).then_some((candidate.near, curve))
     };
     CLOSURES.par_iter().enumerate().filter_map(curve).collect()
-}
-
-/// The nearest candidates with the fewest changes, in words after `what`; `rest` is added.
-fn said(what: &str, mut near: Vec<Near>, tolerance: f64, rest: &str) -> Diagnosis {
-    near.sort_by(|a, b| a.distance.total_cmp(&b.distance));
-    let Some(nearest) = near.first().map(|near| near.distance) else { return Diagnosis::default() };
-    near.retain(|near| near.distance <= (10.0 * nearest).max(tolerance));
-    let fewest = near.iter().map(|near| near.changes).min().unwrap_or_default();
-    near.retain(|near| near.changes == fewest);
-    let names: Vec<_> = near.iter().map(|near| near.name.as_str()).collect();
-    let advice = near[0].advice;
-    let shared = !advice.is_empty() && near.iter().all(|near| near.advice == advice);
-    let advice = if shared { format!("; {advice}") } else { String::new() };
-    let nearest = nearest.max(f64::EPSILON);
-    let said = format!("{what} of {}, to {nearest:.0e}{rest}{advice}", names.join(" or of "));
-    let said = (names.len() <= MOST_NAMES).then_some(said);
-    let mut suspects: Vec<_> = near.into_iter().map(|near| near.suspect).collect();
-    suspects.sort();
-    suspects.dedup();
-    Diagnosis { said, suspects, rates: Vec::new() }
 }
 
 /// The largest error, with its column and time.

@@ -453,3 +453,9 @@ pub fn free_rods() -> Vec<&'static str> {
 pub fn named(name: &str) -> Option<&'static Built> {
     all().iter().find(|def| def.name == name).map(ProblemDef::built)
 }
+
+/// The problem of this name as it would be read from a folder of its name.
+#[cfg(test)]
+pub(crate) fn loaded(name: &str) -> LoadedProblem {
+    named(name).expect("a problem of this name").loaded(name.into())
+}

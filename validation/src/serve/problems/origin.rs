@@ -52,8 +52,7 @@ pub(super) fn origin(loaded: &LoadedProblem, json: &str) -> Result<Origin, FileE
 fn differs(name: &str, due: &str) -> String {
     format!(
         "{name} is a problem of this program, which has {due} there; `shearbed problems export` writes it afresh, and \
-            a problem \
-         of your own needs a name of its own"
+         a problem of your own needs a name of its own"
     )
 }
 
@@ -64,10 +63,9 @@ fn same(path: &Path, name: &str, found: &Table, due: &Table) -> Result<(), FileE
             return Err(FileError::at(path, found.line(at), k as u64 + 1, message));
         }
     }
-    if found.rows.len() == due.rows.len() {
-        Ok(())
-    } else {
+    if found.rows.len() != due.rows.len() {
         let message = format!("{} rows: {}", found.rows.len(), differs(name, &due.rows.len().to_string()));
-        Err(FileError::whole(path, message))
+        return Err(FileError::whole(path, message));
     }
+    Ok(())
 }

@@ -4,9 +4,7 @@ use super::check;
 use super::origin::origin;
 use super::table::{self, LONGEST_EXCERPT, Table, line_of};
 use super::{FORMAT, Kind, LoadedProblem, Origin, Problem};
-use crate::files::FileError;
-use crate::files::text;
-use std::fs;
+use crate::files::{FileError, entries, text};
 use std::path::Path;
 
 /// The problems in the folders of `dir`, by name. Folders without `problem.json` are ignored.
@@ -17,15 +15,7 @@ use std::path::Path;
 /// range, a table with other columns, fields or keys than the problem has, a number that is not finite, a folder with
 /// the name of a built-in problem that differs from it, and a folder without any problem.
 pub fn read(dir: &Path) -> Result<Vec<LoadedProblem>, FileError> {
-    let failed = |error: std::io::Error| FileError::unreadable(dir, &error);
-    let mut folders = Vec::new();
-    for entry in fs::read_dir(dir).map_err(failed)? {
-        let folder = entry.map_err(failed)?.path();
-        if folder.join("problem.json").exists() {
-            folders.push(folder);
-        }
-    }
-    folders.sort();
+    let folders: Vec<_> = (entries(dir)?.into_iter()).filter(|folder| folder.join("problem.json").exists()).collect();
     if folders.is_empty() {
         let message = "no problems here: no folder in it has a problem.json; `shearbed problems export` writes them";
         return Err(FileError::whole(dir, message));

@@ -70,12 +70,7 @@ pub fn echo(protocol: Protocol, mut input: impl BufRead, mut output: impl Write)
 /// The least time in s of a request for one rod to the program `echo`.
 fn pipe_s(echo: &str, protocol: Protocol, timeout: Duration) -> Option<f64> {
     let program = Program::start(echo, protocol, timeout).ok()?;
-    let question = Question {
-        gradient_per_s: [[0.0; 3], [1.0, 0.0, 0.0], [0.0; 3]],
-        aspect_ratio: ASPECT_RATIO,
-        start: vec![[0.36, 0.48, 0.8]],
-        end_s: 1.0,
-    };
+    let question = Question::couette(ASPECT_RATIO, vec![[0.36, 0.48, 0.8]], 1.0);
     let times: Option<Vec<_>> = (0..ECHOES).map(|_| Some(program.ask(&question, Setting::Steps(1)).ok()?.1)).collect();
     times?.into_iter().min().map(|least| least.as_secs_f64())
 }
@@ -86,7 +81,7 @@ pub fn bench(program: &Program, echo: &str) -> Bench {
     Bench {
         aspect_ratio: ASPECT_RATIO,
         program: curve(&program.integrator(), ASPECT_RATIO, budget),
-        pipe_s: pipe_s(echo, program.protocol(), program.timeout()),
+        pipe_s: pipe_s(echo, program.protocol, program.timeout),
         ours: integrators::all().iter().map(|subject| curve(subject, ASPECT_RATIO, Budget::QUICK)).collect(),
     }
 }
@@ -123,7 +118,6 @@ impl Bench {
             x_name: "run time (s), without the pipe's".into(),
             y_name: "angle to the closed form (rad)".into(),
             curves: std::iter::once(&program).chain(&self.ours).map(line).collect(),
-            points: Vec::new(),
             x_log: true,
             y_log: true,
             x_span: Some((1e-8, 0.1)),

@@ -36,7 +36,7 @@ pub enum Mode {
 pub fn prepared(program: Program, any_form: bool) -> (Program, Mode) {
     let ask = |program: &Program, setting| {
         program.during("the first request");
-        program.ask(&first(), setting)
+        program.ask(&Question::couette(2.0, vec![[1.0, 0.0, 0.0]], 1.0), setting)
     };
     let is_answer = |found: &Result<_, Asked>| matches!(found, Ok(_) | Err(Asked::Says(_)));
     let found = ask(&program, Setting::Steps(8));
@@ -47,15 +47,6 @@ pub fn prepared(program: Program, any_form: bool) -> (Program, Mode) {
     // What breaks at the tolerance is shown by the ladder of tolerances.
     let by_tolerance = refuses(found) && !refuses(ask(&program, Setting::Tolerance(1e-3)));
     (program, if by_tolerance { Mode::Tolerance } else { Mode::Steps })
-}
-
-fn first() -> Question {
-    Question {
-        gradient_per_s: [[0.0; 3], [1.0, 0.0, 0.0], [0.0; 3]],
-        aspect_ratio: 2.0,
-        start: vec![[1.0, 0.0, 0.0]],
-        end_s: 1.0,
-    }
 }
 
 /// One setting with its answer.
@@ -120,14 +111,15 @@ fn formula(program: &Program, problem: &LoadedProblem) -> Graded {
     let mut graded = Graded::without_answer(problem);
     let size = [problem.certified.rows.len(), problem.problem.columns.len() - 1];
     match program.ask_table(&tables::of_formula(problem), size) {
-        Ok((rows, _)) => {
-            judge(&mut graded, problem, &printed(rows), Claim::default());
+        Ok((rows, _)) => judge(&mut graded, problem, &printed(rows), Claim::default()),
+        Err(asked) => {
+            graded.note = Some(asked.to_string());
+            graded.verdict = match asked {
+                Asked::Says(_) => Verdict::Refused,
+                Asked::Breach(_) => Verdict::Fail,
+                Asked::Late(_) => Verdict::NotReached,
+            };
         }
-        Err(Asked::Says(words)) => {
-            (graded.verdict, graded.note) = (Verdict::Refused, Some(format!("the program says: {words}")));
-        }
-        Err(Asked::Breach(words)) => (graded.verdict, graded.note) = (Verdict::Fail, Some(words)),
-        Err(Asked::Late(words)) => (graded.verdict, graded.note) = (Verdict::NotReached, Some(words)),
     }
     graded
 }
@@ -147,7 +139,7 @@ fn climbed(
         let (rows, took) = answer(setting)?;
         Ok(Rung::of(problem, setting, rows, took))
     };
-    let (rungs, mut end) = climb(problem, mode, program.timeout(), claim.order, ask);
+    let (rungs, mut end) = climb(problem, mode, program.timeout, claim.order, ask);
     if matches!(end, End::Reached) {
         end = jumps::judged(&rungs, of.tolerance, ask);
     }
@@ -216,14 +208,11 @@ fn why(graded: &Graded, finest: Option<&Rung>, words: String) -> String {
     if !error.is_finite() {
         return format!("with {setting} the answer is not finite; {words}");
     }
-    let mut said = match setting {
+    let said = match setting {
         Setting::Tolerance(asked) => {
             format!("it claims success at the tolerance {asked:.0e} and is off by {error:.1e}")
         }
         _ => format!("with {setting} it is off by {error:.1e}"),
     };
-    if let Some(needed) = graded.steps_needed() {
-        said += &format!("; {needed}");
-    }
-    format!("{said}; {words}")
+    [Some(said), graded.steps_needed(), Some(words)].into_iter().flatten().collect::<Vec<_>>().join("; ")
 }

@@ -23,42 +23,27 @@ const LAST_WORDS: usize = 2048;
 const GRACE: Duration = Duration::from_secs(5);
 
 /// The reason why there is no next line.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum Trouble {
     /// Nothing came in time.
+    #[error(
+        "no answer within {} s; it was stopped (is standard output flushed after each line?)",
+        .0.as_secs_f64()
+    )]
     Hung(Duration),
     /// The program ended: its exit code or signal, and the end of what it wrote to standard error.
-    Ended(String, String),
+    #[error("the program ended: {0}")]
+    Ended(String),
     /// It closed its standard output and went on.
+    #[error("it closed its standard output and went on; it was stopped")]
     Closed,
     /// The line with this number is longer than [`LONGEST_LINE`].
+    #[error("line {0} of standard output is longer than {LONGEST_LINE} bytes; the program was stopped")]
     TooLong(u64),
 }
 
-impl std::fmt::Display for Trouble {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            Self::Hung(limit) => write!(
-                f,
-                "no answer within {} s; it was stopped (is standard output flushed after each line?)",
-                limit.as_secs_f64()
-            ),
-            Self::Ended(how, words) if words.is_empty() => write!(f, "the program ended: {how}"),
-            Self::Ended(how, words) => {
-                write!(f, "the program ended: {how}; its last words on standard error: {words}")
-            }
-            Self::Closed => write!(f, "it closed its standard output and went on; it was stopped"),
-            Self::TooLong(line) => {
-                write!(f, "line {line} of standard output is longer than {LONGEST_LINE} bytes; the program was stopped")
-            }
-        }
-    }
-}
-
-enum Heard {
-    Line(Vec<u8>),
-    TooLong,
-}
+/// A line of the program; none if it is too long.
+type Heard = Option<Vec<u8>>;
 
 /// A running program. When dropped, the program and its descendants are killed.
 pub struct Pipe {
@@ -124,11 +109,11 @@ impl Pipe {
     fn counted(&mut self, heard: Heard) -> Result<(u64, String), Trouble> {
         self.heard += 1;
         match heard {
-            Heard::Line(bytes) => {
+            Some(bytes) => {
                 let text = String::from_utf8_lossy(&bytes);
                 Ok((self.heard, text.trim_end_matches(['\n', '\r']).to_owned()))
             }
-            Heard::TooLong => Err(Trouble::TooLong(self.heard)),
+            None => Err(Trouble::TooLong(self.heard)),
         }
     }
 
@@ -178,13 +163,16 @@ impl Pipe {
         if !self.has_ended() {
             return Trouble::Closed;
         }
-        let how = self.stop().0.map_or("nobody knows how".to_owned(), |status| status.to_string());
+        let mut how = self.stop().0.map_or("nobody knows how".to_owned(), |status| status.to_string());
         // Its last output may still be on the way; a child process may hold standard error open.
         let _ = self.all_said.recv_timeout(GRACE);
         let words = self.last_words.lock().unwrap_or_else(PoisonError::into_inner);
         let words = String::from_utf8_lossy(&words).trim().replace('\n', " | ");
         let start = words.char_indices().rev().nth(299).map_or(0, |(at, _)| at);
-        Trouble::Ended(how, words[start..].to_owned())
+        if !words.is_empty() {
+            how += &format!("; its last words on standard error: {}", &words[start..]);
+        }
+        Trouble::Ended(how)
     }
 
     /// True if the program has ended; it is not reaped, so that its id stays reserved until [`Pipe::stop`].
@@ -227,7 +215,7 @@ fn read_lines(stdout: ChildStdout, heard: SyncSender<Heard>) {
     let mut reader = BufReader::new(stdout);
     while let Ok(line @ [_, ..]) = next_line(&mut reader).as_deref() {
         let too_long = line.len() > LONGEST_LINE;
-        let sent = heard.send(if too_long { Heard::TooLong } else { Heard::Line(line.to_owned()) });
+        let sent = heard.send((!too_long).then(|| line.to_owned()));
         if too_long || sent.is_err() {
             return;
         }

@@ -30,14 +30,24 @@ pub struct Question {
     pub end_s: f64,
 }
 
+impl Question {
+    /// In plane Couette flow with G = 1/s.
+    pub(super) fn couette(aspect_ratio: f64, start: Vec<[f64; 3]>, end_s: f64) -> Self {
+        Self { gradient_per_s: [[0.0; 3], [1.0, 0.0, 0.0], [0.0; 3]], aspect_ratio, start, end_s }
+    }
+}
+
 /// A program behind the protocol.
 #[derive(Clone)]
 pub struct Program {
     words: Vec<String>,
     name: String,
-    theory: Theory,
-    timeout: Duration,
-    protocol: Protocol,
+    /// The assumed theory of its error.
+    pub(super) theory: Theory,
+    /// The longest time for one answer.
+    pub(super) timeout: Duration,
+    /// The form of its lines.
+    pub(super) protocol: Protocol,
     axes: Axes,
     state: Arc<Mutex<State>>,
 }
@@ -63,23 +73,17 @@ struct State {
 }
 
 /// The reason why there is no answer.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum Asked {
     /// The program's own error message.
+    #[error("the program says: {0}")]
     Says(String),
     /// The program broke the protocol, now or too often to be asked again.
+    #[error("{0}")]
     Breach(String),
     /// No answer came in time, or earlier answers were late too often.
+    #[error("{0}")]
     Late(String),
-}
-
-impl std::fmt::Display for Asked {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            Self::Says(words) => write!(f, "the program says: {words}"),
-            Self::Breach(words) | Self::Late(words) => write!(f, "{words}"),
-        }
-    }
 }
 
 impl Program {
@@ -113,16 +117,6 @@ impl Program {
         Self { axes, ..self }
     }
 
-    /// The longest time for one answer.
-    pub fn timeout(&self) -> Duration {
-        self.timeout
-    }
-
-    /// The form of the program's lines.
-    pub fn protocol(&self) -> Protocol {
-        self.protocol
-    }
-
     /// Sets the task of the following questions, for messages.
     pub fn during(&self, what: &str) {
         self.state().during = what.to_owned();
@@ -140,20 +134,20 @@ impl Program {
 
     /// Asks a question and returns directions, which may be NaN, and the time that the answer took.
     pub fn ask(&self, question: &Question, setting: Setting) -> Result<(Vec<[f64; 3]>, Duration), Asked> {
-        self.asked(|state| state.ask(self, question, setting)).and_then(|(answer, took)| match answer {
-            Answer::Directions(p) => Ok((p, took)),
-            Answer::Error(reason) => Err(Asked::Says(reason)),
-        })
+        self.asked(|state| state.ask(self, question, setting))
     }
 
     /// Asks for a table of so many rows and columns, as JSON alone, and returns it with the time that the answer took.
     /// `request` has all keys but the id.
     pub fn ask_table(&self, request: &Value, size: [usize; 2]) -> Result<(Vec<Vec<f64>>, Duration), Asked> {
-        let (table, took) = self.asked(|state| state.ask_table(self, request, size))?;
-        table.map(|table| (table, took)).map_err(Asked::Says)
+        self.asked(|state| state.ask_table(self, request, size))
     }
 
-    fn asked<T>(&self, ask: impl FnOnce(&mut State) -> Result<T, Breach>) -> Result<(T, Duration), Asked> {
+    /// Asks unless the program is given up or out of time; `ask` returns the answer or the program's own error.
+    fn asked<T>(
+        &self,
+        ask: impl FnOnce(&mut State) -> Result<Result<T, String>, Breach>,
+    ) -> Result<(T, Duration), Asked> {
         let mut state = self.state();
         if let Some(reason) = &state.given_up {
             let words = format!("not asked: {reason}");
@@ -163,7 +157,8 @@ impl Program {
             return Err(Asked::Late("not asked: out of time".to_owned()));
         }
         let asked = Instant::now();
-        ask(&mut state).map(|answer| (answer, asked.elapsed())).map_err(|breach| state.breached(breach))
+        let answer = ask(&mut state).map_err(|breach| state.breached(breach))?;
+        answer.map(|answer| (answer, asked.elapsed())).map_err(Asked::Says)
     }
 
     /// Runs a study that may ask for as long as one answer may take, and then for the current answer. `None` if that
@@ -181,15 +176,7 @@ impl Program {
 
     /// Closes the program's input and waits for its end. `Err` says what was wrong with the end.
     pub fn close(&self) -> Result<(), String> {
-        match self.state().pipe.take() {
-            Some(pipe) => pipe.close(),
-            None => Ok(()),
-        }
-    }
-
-    /// The assumed theory of the program's error.
-    pub fn theory(&self) -> Theory {
-        self.theory
+        self.state().pipe.take().map_or(Ok(()), Pipe::close)
     }
 
     /// The program as an integrator of one rod in plane Couette flow with G = 1/s, comparable with the project's own.
@@ -207,16 +194,10 @@ impl Program {
         starts: &[UnitVector3<f64>],
         setting: Setting,
     ) -> Result<Vec<Vector3<f64>>, Failure> {
-        let question = Question {
-            gradient_per_s: [[0.0; 3], [1.0, 0.0, 0.0], [0.0; 3]],
-            aspect_ratio: problem.aspect_ratio,
-            start: starts.iter().map(|p| [p.x, p.y, p.z]).collect(),
-            end_s: problem.strain(),
-        };
-        match self.ask(&question, setting) {
-            Ok((p, _)) => Ok(p.into_iter().map(Vector3::from).collect()),
-            Err(asked) => Err(Failure::Gave(asked.to_string())),
-        }
+        let start = starts.iter().map(|p| [p.x, p.y, p.z]).collect();
+        let question = Question::couette(problem.aspect_ratio, start, problem.strain());
+        let (p, _) = self.ask(&question, setting).map_err(|asked| Failure::Gave(asked.to_string()))?;
+        Ok(p.into_iter().map(Vector3::from).collect())
     }
 
     fn state(&self) -> MutexGuard<'_, State> {
@@ -253,10 +234,7 @@ impl State {
         let (line, text) = self.exchange(program, request)?;
         let answer = (program.protocol.read(&text, self.asked, question.start.len()))
             .map_err(|reason| wrong(format!("line {line} of standard output: {reason}")))?;
-        Ok(match answer {
-            Answer::Directions(p) => Answer::Directions(p.into_iter().map(|p| axes.to_ours(p)).collect()),
-            answer => answer,
-        })
+        Ok(answer.map(|p| p.into_iter().map(|p| axes.to_ours(p)).collect()))
     }
 
     /// The table of the answer, or the program's own error.
@@ -276,11 +254,9 @@ impl State {
 
     /// Sends a line and returns the next one with its number.
     fn exchange(&mut self, program: &Program, request: String) -> Result<(u64, String), Breach> {
-        if self.pipe.is_none() {
-            self.pipe = Some(Pipe::start(&program.words).map_err(wrong)?);
-        }
-        let Some(pipe) = &mut self.pipe else {
-            return Err(wrong("it does not run".to_owned()));
+        let pipe = match &mut self.pipe {
+            Some(pipe) => pipe,
+            none => none.insert(Pipe::start(&program.words).map_err(wrong)?),
         };
         pipe.nothing_more(Duration::ZERO).map_err(wrong)?;
         pipe.send(request);
@@ -332,6 +308,5 @@ fn ids_ascend_and_their_gaps_are_not_all_alike() {
 
 #[test]
 fn lines_that_come_again_are_counted_and_none_is_lost() {
-    let told = in_a_row(&["a", "a", "b", "a"].map(String::from));
-    assert_eq!(told, ["a (2 times)", "b", "a"]);
+    assert_eq!(in_a_row(&["a", "a", "b", "a"].map(String::from)), ["a (2 times)", "b", "a"]);
 }

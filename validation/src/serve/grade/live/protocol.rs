@@ -74,17 +74,18 @@ impl Protocol {
 pub fn read(line: &str, id: u64, rods: usize) -> Result<Answer, String> {
     let found = match content(line, id, "p", |answer| answer.p)? {
         Ok(found) => found,
-        Err(reason) => return Ok(Answer::Error(reason)),
+        Err(reason) => return Ok(Err(reason)),
     };
     match found {
         Value::Array(found) if found.len() == rods => {
             let all: Result<_, _> = found.iter().enumerate().map(|(k, p)| direction(k, p)).collect();
-            all.map(Answer::Directions)
+            all.map(Ok)
         }
         Value::Array(found) => Err(format!("{} rods where {rods} were asked", found.len())),
         other => Err(format!("\"p\" is {}; a list of directions is allowed", excerpt(&other.to_string()))),
     }
 }
+
 /// Parses the table of so many rows and columns in the answer to request `id`, or the program's own error. `Err` says
 /// what is wrong with the line.
 pub fn table(line: &str, id: u64, [rows, columns]: [usize; 2]) -> Result<Result<Vec<Vec<f64>>, String>, String> {
@@ -110,13 +111,9 @@ fn content(
     of: impl Fn(Line) -> Option<Value>,
 ) -> Result<Result<Value, String>, String> {
     let answer = parse(line)?;
-    match answer.id.as_ref().map(|found| (found, found.as_u64())) {
-        Some((_, Some(found))) if found == id => {}
-        Some((found, _)) => {
-            let found = start(&found.to_string(), 60);
-            return Err(format!("it answers id {found} where {id} was asked"));
-        }
-        None => return Err(format!("it has no \"id\": {}", excerpt(line))),
+    let found = answer.id.as_ref().ok_or_else(|| format!("it has no \"id\": {}", excerpt(line)))?;
+    if found.as_u64() != Some(id) {
+        return Err(format!("it answers id {} where {id} was asked", start(&found.to_string(), 60)));
     }
     let error = answer.error.clone();
     match (error, of(answer)) {
@@ -124,10 +121,7 @@ fn content(
         (Some(Value::String(reason)), None) => Ok(Err(reason)),
         (Some(Value::Null) | None, Some(found)) => Ok(Ok(found)),
         (Some(Value::Null) | None, None) => Err(format!("neither \"{name}\" nor \"error\": {}", excerpt(line))),
-        (Some(other), _) => {
-            let other = excerpt(&other.to_string());
-            Err(format!("\"error\" is {other}; a text is allowed"))
-        }
+        (Some(other), _) => Err(format!("\"error\" is {}; a text is allowed", excerpt(&other.to_string()))),
     }
 }
 
@@ -138,24 +132,16 @@ fn number(value: &Value) -> Option<f64> {
 
 fn direction(rod: usize, value: &Value) -> Result<[f64; 3], String> {
     let wrong = || format!("rod {rod} is {}; three numbers are allowed", excerpt(&value.to_string()));
-    let components = value.as_array().filter(|found| found.len() == 3).ok_or_else(wrong)?;
-    let mut p = [0.0; 3];
-    for (slot, component) in p.iter_mut().zip(components) {
-        *slot = number(component).ok_or_else(wrong)?;
-    }
-    Ok(p)
+    let numbers = value.as_array().and_then(|found| found.iter().map(number).collect::<Option<Vec<_>>>());
+    numbers.and_then(|numbers| numbers.try_into().ok()).ok_or_else(wrong)
 }
 
 /// The keys of an answer, each at most once; others are ignored.
 #[derive(Deserialize)]
 struct Line {
-    #[serde(default)]
     id: Option<Value>,
-    #[serde(default)]
     error: Option<Value>,
-    #[serde(default)]
     p: Option<Value>,
-    #[serde(default)]
     rows: Option<Value>,
 }
 
@@ -167,18 +153,12 @@ fn parse(line: &str) -> Result<Line, String> {
             Err(error) => Err(format!("not JSON ({error}): {}", excerpt(line))),
         };
     }
-    let strict = serde_json::from_str(line);
-    let error = match strict {
-        Ok(value) => return Ok(value),
-        Err(error) => error,
-    };
-    // Longer words first, as they contain the shorter ones.
-    let words = ["-Infinity", "Infinity", "-inf", "inf", "-NaN", "NaN", "-nan", "nan"];
-    let without = words.iter().fold(line.to_owned(), |text, word| text.replace(word, "null"));
-    match serde_json::from_str(&without) {
-        Ok(value) => Ok(value),
-        Err(_) => Err(format!("not JSON ({error}): {}", excerpt(line))),
-    }
+    serde_json::from_str(line).or_else(|error| {
+        // Longer words first, as they contain the shorter ones.
+        let words = ["-Infinity", "Infinity", "-inf", "inf", "-NaN", "NaN", "-nan", "nan"];
+        let without = words.iter().fold(line.to_owned(), |text, word| text.replace(word, "null"));
+        serde_json::from_str(&without).map_err(|_| format!("not JSON ({error}): {}", excerpt(line)))
+    })
 }
 
 #[cfg(test)]
@@ -205,13 +185,12 @@ mod tests {
 
     #[test]
     fn answers_are_read() {
-        let p = Answer::Directions(vec![[1.0, 0.0, -2.5]]);
-        assert_eq!(read(r#"{"id": 3, "p": [[1, 0.0, -2.5]], "more": {}}"#, 3, 1), Ok(p));
-        let refused = Ok(Answer::Error("too stiff".into()));
-        assert_eq!(read(r#"{"id": 3, "error": "too stiff"}"#, 3, 1), refused);
+        let p = vec![[1.0, 0.0, -2.5]];
+        assert_eq!(read(r#"{"id": 3, "p": [[1, 0.0, -2.5]], "more": {}}"#, 3, 1), Ok(Ok(p)));
+        assert_eq!(read(r#"{"id": 3, "error": "too stiff"}"#, 3, 1), Ok(Err("too stiff".into())));
         for line in [r#"{"id":3,"p":[[NaN,0,1]]}"#, r#"{"id":3,"p":[[-Infinity,0,1]]}"#, r#"{"id":3,"p":[[null,0,1]]}"#]
         {
-            let Ok(Answer::Directions(p)) = read(line, 3, 1) else { panic!("{line}") };
+            let p = read(line, 3, 1).unwrap().unwrap();
             assert!(p[0][0].is_nan() && p[0][2] == 1.0);
         }
     }

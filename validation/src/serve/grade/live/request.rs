@@ -23,11 +23,5 @@ pub struct Request<'a> {
     pub tolerance: Option<f64>,
 }
 
-/// The content of a well-formed answer.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Answer {
-    /// A direction for each rod; components that were NaN, infinite or null are NaN.
-    Directions(Vec<[f64; 3]>),
-    /// The program's own error.
-    Error(String),
-}
+/// The directions of the rods, or the program's own error; components that were NaN, infinite or null are NaN.
+pub type Answer = Result<Vec<[f64; 3]>, String>;

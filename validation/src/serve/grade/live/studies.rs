@@ -62,7 +62,7 @@ const LADDER: Ladder = Ladder { least: 0.01, most: 100.0, factor: 1.25 };
 pub fn studies(program: &Program, echo: &str) -> Studies {
     Studies {
         work_precision: program.within_time("work against precision", || bench::bench(program, echo)),
-        limits: match program.theory() {
+        limits: match program.theory {
             Theory::Order(_) => program.within_time("longest steps", || limits(program)),
             _ => Some(Vec::new()),
         },
@@ -86,8 +86,8 @@ fn limits(program: &Program) -> Vec<Longest> {
 fn rows(program: &Program) -> Vec<MapRow> {
     let subject = program.integrator();
     let cell = |aspect_ratio: f64, k: usize| {
-        let mut run = map::by_step(program.theory(), aspect_ratio, STEPS[k], MOST_STEPS);
-        if program.theory() == Theory::Adaptive {
+        let mut run = map::by_step(program.theory, aspect_ratio, STEPS[k], MOST_STEPS);
+        if program.theory == Theory::Adaptive {
             run = map::by_step(Theory::Order(1), aspect_ratio, 0.1, MOST_STEPS);
             run.setting = Setting::Tolerance(TOLERANCES[k]);
         }

@@ -34,14 +34,14 @@ pub fn read(line: &str, id: u64, rods: usize) -> Result<Answer, String> {
     }
     let rest: Vec<_> = words.collect();
     if rest.first() == Some(&"error") {
-        return Ok(Answer::Error(rest[1..].join(" ")));
+        return Ok(Err(rest[1..].join(" ")));
     }
     if rest.len() != 3 * rods {
         let found = rest.len();
         return Err(format!("{found} numbers after the id where {} were asked ({rods} rods)", 3 * rods));
     }
     let numbers: Vec<f64> = rest.iter().map(|word| number(word)).collect::<Result<_, _>>()?;
-    Ok(Answer::Directions(numbers.chunks(3).map(|p| [p[0], p[1], p[2]]).collect()))
+    Ok(Ok(numbers.chunks(3).map(|p| [p[0], p[1], p[2]]).collect()))
 }
 
 /// Parses a number as printed by C, C++, Fortran, Julia, Octave or Python. Infinities become NaN.
@@ -79,15 +79,15 @@ mod tests {
 
     #[test]
     fn answers_are_read_and_whatever_else_is_refused_with_its_reason() {
-        let p = |x: f64| Ok(Answer::Directions(vec![[1.0, x, -2.5]]));
+        let p = |x: f64| Ok(Ok(vec![[1.0, x, -2.5]]));
         for line in ["3 1 0.125 -2.5", " 3  1.0\t1.25E-01 -2.5 ", "3 1.D0 0.125d0 -25.0D-1\r"] {
             assert_eq!(read(line, 3, 1), p(0.125), "{line}");
         }
         for word in ["NaN", "nan", "-inf", "Infinity", "-Infinity"] {
-            let Ok(Answer::Directions(p)) = read(&format!("3 1 {word} -2.5"), 3, 1) else { panic!("{word}") };
+            let p = read(&format!("3 1 {word} -2.5"), 3, 1).unwrap().unwrap();
             assert!(p[0][1].is_nan() && p[0][2] == -2.5);
         }
-        assert_eq!(read("3 error too stiff", 3, 1), Ok(Answer::Error("too stiff".into())));
+        assert_eq!(read("3 error too stiff", 3, 1), Ok(Err("too stiff".into())));
         for (line, reason) in [
             ("", "empty"),
             ("step 1 of 10", "does not begin with the request's id"),

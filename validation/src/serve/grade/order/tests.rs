@@ -1,4 +1,5 @@
 use super::*;
+use crate::serve::problems::loaded;
 
 fn of(errors: &[f64]) -> Orders {
     let errors: Vec<_> = (0..).map(|k| 10u64 << k).zip(errors.iter().copied()).collect();
@@ -64,7 +65,6 @@ fn what_right_methods_show_is_not_refuted_and_lost_orders_are() {
 
 #[test]
 fn a_claim_that_is_too_low_fails_where_no_problem_shows_it_and_none_explains_it() {
-    let loaded = |name: &str| crate::serve::problems::named(name).unwrap().loaded(name.into());
     let settled = |of: &[(&str, Order, Verdict)]| {
         let problems: Vec<_> = of.iter().map(|(name, ..)| loaded(name)).collect();
         let one = |(loaded, (_, order, verdict)): (&LoadedProblem, &(&str, Order, Verdict))| Graded {
@@ -97,11 +97,10 @@ fn a_claim_that_is_too_low_fails_where_no_problem_shows_it_and_none_explains_it(
 
 #[test]
 fn right_answers_alone_are_said_to_have_an_unclear_order() {
-    let problem = |name: &str| crate::serve::problems::named(name).unwrap().loaded(name.into());
     let of = |(name, order, verdict): (&str, Order, Verdict)| Graded {
         verdict,
         order_found: Some(order),
-        ..Graded::without_answer(&problem(name))
+        ..Graded::without_answer(&loaded(name))
     };
     let graded = [
         ("shear-plane", Order::Seen, Verdict::Pass),
@@ -115,7 +114,7 @@ fn right_answers_alone_are_said_to_have_an_unclear_order() {
 
 #[test]
 fn an_error_that_stays_is_not_blamed_on_the_order() {
-    let loaded = crate::serve::problems::named("spiral").unwrap().loaded("spiral".into());
+    let loaded = loaded("spiral");
     let said = |order: f64| {
         let graded = Graded { observed_order: Some(order), error: Some(3.1e-3), ..Graded::without_answer(&loaded) };
         other(&graded, 4.0)

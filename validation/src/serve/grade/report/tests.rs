@@ -1,9 +1,9 @@
 use super::*;
 use crate::present::xml::is_well_formed;
-use crate::serve::problems;
+use crate::serve::problems::loaded;
 
 fn report() -> Report {
-    let sphere = problems::named("sphere").unwrap().loaded("sphere".into());
+    let sphere = loaded("sphere");
     let graded = |name: &str, verdict, error| Graded {
         name: name.to_owned(),
         verdict,

@@ -1,12 +1,12 @@
 //! Diagnosis of answers to formulas, row by row: the same mistakes as in curves, without an integration.
 
 use super::estimate::words;
-use super::{CLOSURES, Near, apart, index, near_of, said};
+use super::{CLOSURES, Near, apart, index, near_of};
 use crate::methods::tensors::fourth::PAIRS;
 use crate::methods::tensors::wrong::{MISTAKES, Mistake, spread};
 use crate::methods::tensors::{Closure, Equation, Model, Parts};
 use crate::serve::grade::answer::Answer;
-use crate::serve::grade::nearness::{Diagnosis, NEARER};
+use crate::serve::grade::nearness::{Diagnosis, NEARER, said};
 use crate::serve::problems::formula::{components, equation, tensor};
 use crate::serve::problems::{Formula, LoadedProblem};
 use nalgebra::Vector3;
@@ -106,19 +106,19 @@ fn of_rods(rows: &Rows, answer: &Answer, most: f64) -> Vec<Near> {
         };
         rows.iter().zip(parts).map(of).collect()
     };
-    let near = |name: String, advice| Near { distance: 0.0, suspect: name.clone(), name, advice, changes: 1 };
+    let near = |name: &str, advice| Near { advice, ..Near::new(0.0, name) };
     let mut all = Vec::new();
     for mistake in &MISTAKES {
         if let Some(parts) = spoilt(&parts, Some(mistake)) {
             let name = mistake.name.replace("𝔸:D", "p(p·Dp)").replace("Da + aD", "Dp");
             let advice = if name == mistake.name { mistake.advice } else { "ṗ = Wp + Λ(Dp − p(p·Dp))" };
-            all.extend(within(near(name, advice), answer, &rates(&parts), most));
+            all.extend(within(near(&name, advice), answer, &rates(&parts), most));
         }
     }
     let right = rates(&parts);
     all.extend(ORDERS.iter().filter_map(|(order, name)| {
         let turned = right.iter().map(|rate| order.map(|k| rate[k]).to_vec()).collect();
-        within(near((*name).to_owned(), ""), answer, &turned, most)
+        within(near(name, ""), answer, &turned, most)
     }));
     all
 }

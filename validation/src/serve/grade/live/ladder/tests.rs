@@ -2,6 +2,9 @@ use super::climb::{hopeless, reached, within};
 use super::jumps::falling_order;
 use super::*;
 use crate::serve::grade::live::program::Asked;
+use crate::serve::grade::mistakes;
+use crate::serve::problems::loaded;
+use nalgebra::Vector3;
 use std::cell::Cell;
 
 const TOLERANCE: f64 = 1e-6;
@@ -153,7 +156,7 @@ fn climbed_to(claimed: Option<f64>, rungs: impl Fn(i32) -> (f64, f64)) -> (Loade
 }
 
 fn climbed_in(mode: Mode, claimed: Option<f64>, rungs: impl Fn(i32) -> (f64, f64)) -> (LoadedProblem, Vec<f64>, End) {
-    let problem = crate::serve::problems::named("mid-flip-2").unwrap().loaded("mid-flip-2".into());
+    let problem = loaded("mid-flip-2");
     let asked = Cell::new(0);
     let ask = |setting: Setting| -> Result<Rung, Asked> {
         let (error, seconds) = rungs(asked.replace(asked.get() + 1));
@@ -272,15 +275,10 @@ fn a_tolerance_far_worse_than_both_its_neighbours_is_no_methods() {
 
 #[test]
 fn two_answers_on_the_curve_of_one_mistake_are_wrong_before_time_is_up() {
-    use crate::serve::grade::mistakes;
-    use crate::serve::problems;
-    let problem = last_time(&problems::named("mid-flip-2").unwrap().loaded("here".into()));
-    let setting = mistakes::Setting {
-        gradient_per_s: nalgebra::Matrix3::from_fn(|i, j| problem.problem.gradient_per_s[i][j]),
-        aspect_ratio: problem.problem.aspect_ratio,
-    };
-    let (start, time_s) = (nalgebra::Vector3::from(problem.start[0]), problem.problem.times_s[0]);
-    let rung = |steps: u64, p: nalgebra::Vector3<f64>| {
+    let problem = last_time(&loaded("mid-flip-2"));
+    let setting = mistakes::Setting::from(&problem.problem);
+    let (start, time_s) = (Vector3::from(problem.start[0]), problem.problem.times_s[0]);
+    let rung = |steps: u64, p: Vector3<f64>| {
         Rung::of(&problem, Setting::Steps(steps), vec![p.as_slice().to_vec()], Duration::ZERO)
     };
     let of = |name: &str, late: f64| {
