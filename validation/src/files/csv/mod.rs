@@ -27,6 +27,18 @@ pub fn not_allowed(column: &str, cell: &str, expected: &str) -> String {
 /// What [`Row::number`] expects.
 pub const FINITE: &str = "a finite number with a decimal point";
 
+/// The text of a table with these rows of cells, in quotes where they need them.
+///
+/// # Errors
+///
+/// Rows with different numbers of cells.
+pub fn text(rows: &[Vec<String>]) -> Result<String, String> {
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    rows.iter().try_for_each(|row| writer.write_record(row)).map_err(|error| error.to_string())?;
+    let bytes = writer.into_inner().map_err(|error| error.to_string())?;
+    String::from_utf8(bytes).map_err(|error| error.to_string())
+}
+
 /// The cells of a line between commas: trimmed, and without their quotes.
 pub fn split(text: &str) -> Vec<String> {
     let mut cells = Vec::new();

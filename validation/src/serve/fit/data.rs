@@ -96,8 +96,7 @@ pub fn read(path: &Path, set: usize, reading: &Reading) -> Result<Points, FileEr
         if let Some(name) = header.iter().find(like).filter(|_| here.is_empty()) {
             return Err(refused(format!(
                 "column `{name}` does not say its unit: `t_s` for seconds, `t_over_T` for periods and `strain` for Gt \
-                    are allowed; \
-                 rename it in this line"
+                 are allowed; rename it in this line"
             )));
         }
         let found = if here.is_empty() {
@@ -112,28 +111,24 @@ pub fn read(path: &Path, set: usize, reading: &Reading) -> Result<Points, FileEr
     let left_out = |name: &&&str| given.is_some() && **name == LEFT_OUT;
     let mut u_column = None;
     for name in header.iter().filter(|name| !left_out(name)) {
-        let (value, is_uncertainty) = match name.strip_suffix("_u") {
-            Some(value) => (value, true),
-            None => (*name, false),
-        };
+        let of_uncertainty = name.strip_suffix("_u");
+        let value = of_uncertainty.unwrap_or(name);
         if value == time.name() {
             continue;
         }
         if let Some(value) = name.strip_suffix("_se").filter(|value| known.iter().any(|known| known == value)) {
             return Err(refused(format!(
                 "column `{name}`: a measured value's standard uncertainty is named `{value}_u`; rename the column if \
-                    that is what \
-                 it has"
+                 that is what it has"
             )));
         }
         if !known.iter().any(|known| known == value) {
             return Err(refused(format!(
                 "column `{name}` is not allowed: expected a time ({times}), x1, x2, x3 or another column of `shearbed \
-                    run` \
-                 (phi, c_b, a11, …), and after a name `_u` for its uncertainty"
+                 run` (phi, c_b, a11, …), and after a name `_u` for its uncertainty"
             )));
         }
-        if is_uncertainty {
+        if of_uncertainty.is_some() {
             u_column = u_column.or_else(|| Some((*name).to_owned()));
         } else {
             columns.push(value.to_owned());

@@ -1,21 +1,10 @@
 //! Profiles of a model with several minima.
 
-use super::range::Range;
-use super::search::{Fit, Measured, fitted};
+use super::search::Fit;
+use super::tests::over_box;
 use crate::methods::least_squares::Datum;
-use crate::methods::least_squares::basis::Basis;
-use crate::methods::least_squares::emulator::{Replica, coefficients};
+use crate::methods::least_squares::emulator::Replica;
 use crate::methods::least_squares::likelihood::Rods;
-
-fn ranges(over: [&str; 2]) -> Vec<Range> {
-    over.map(|text| Range::parse(text).unwrap()).to_vec()
-}
-
-fn points(values: &[(f64, f64)]) -> Vec<Datum> {
-    (values.iter().enumerate())
-        .map(|(k, (value, u))| Datum { value: *value, u: *u, ..Datum::place(0, "x1", k as f64) })
-        .collect()
-}
 
 /// b² determines the size of b, a b its sign given that of a, and a is hardly determined: as a passes 0, b changes its
 /// sign.
@@ -25,11 +14,10 @@ fn two_signs(values: &[f64]) -> Result<Replica, String> {
 }
 
 fn of_two_signs() -> Fit {
-    let (ranges, basis) = (ranges(["a.a=-1:1", "a.b=-1:1"]), Basis::new(2));
-    let found = coefficients(&basis, &two_signs, &|node| node.to_vec(), 0..2, &|| ()).unwrap();
-    let data = points(&[(0.49, 0.01), (-0.35, 0.05), (-0.5, 0.6)]);
-    let measured = Measured { data: &data, ranges: &ranges, rods: &Rods::none(1) };
-    fitted(&measured, &basis, &vec![(-1.0, 1.0); 2], &found).unwrap()
+    let points = [(0.49, 0.01), (-0.35, 0.05), (-0.5, 0.6)].into_iter().enumerate();
+    let point = |(k, (value, u)): (usize, (f64, f64))| Datum { value, u, ..Datum::place(0, "x1", k as f64) };
+    let data: Vec<_> = points.map(point).collect();
+    over_box(&data, &Rods::none(1), &["a.a=-1:1", "a.b=-1:1"], &vec![(-1.0, 1.0); 2], &two_signs, 2)
 }
 
 #[test]

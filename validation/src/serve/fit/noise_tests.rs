@@ -1,14 +1,12 @@
 //! Fits of points that hardly determine a parameter, with a noisy model: by chance its curves differ from one value to
 //! another, which would make intervals too short.
 
-use super::range::Range;
-use super::search::{Fit, Measured, fitted};
-use super::tests::{enough, normal, share};
-use crate::judge::accept::{Verdict, judge};
+use super::search::Fit;
+use super::tests::{enough, inside, judged_share, normal, over_box};
+use crate::judge::accept::Verdict;
 use crate::judge::statistics::Sample;
 use crate::methods::least_squares::Datum;
-use crate::methods::least_squares::basis::Basis;
-use crate::methods::least_squares::emulator::{Replica, coefficients};
+use crate::methods::least_squares::emulator::Replica;
 use crate::methods::least_squares::likelihood::Rods;
 use crate::methods::least_squares::profile::profile;
 use rand::SeedableRng;
@@ -44,10 +42,6 @@ fn model(slope: f64, seed: u64) -> impl Fn(&[f64]) -> Result<Replica, String> + 
     }
 }
 
-fn ranges() -> Vec<Range> {
-    vec![Range::parse("a.a=-1:1").unwrap()]
-}
-
 fn points(seed: u64) -> Vec<Datum> {
     let mut rng = Pcg64Dxsm::seed_from_u64(seed);
     let point = |(k, value): (usize, f64)| Datum {
@@ -59,10 +53,7 @@ fn points(seed: u64) -> Vec<Datum> {
 }
 
 fn fit(data: &[Datum], slope: f64, seed: u64) -> Fit {
-    let (ranges, basis) = (ranges(), Basis::new(1));
-    let found = coefficients(&basis, &model(slope, seed), &|node| node.to_vec(), 0..REPLICAS, &|| ());
-    let measured = Measured { data, ranges: &ranges, rods: &Rods::none(1) };
-    fitted(&measured, &basis, &vec![(-1.0, 1.0)], &found.unwrap()).unwrap()
+    over_box(data, &Rods::none(1), &["a.a=-1:1"], &vec![(-1.0, 1.0)], &model(slope, seed), REPLICAS)
 }
 
 /// The control: the noise in the slopes counts as information of the points.
@@ -73,12 +64,8 @@ fn believed(fit: &Fit) -> Fit {
 
 /// Returns whether the intervals of 68 and 95 % contain the planted value, and the p-value.
 fn asked(fit: &Fit) -> ([bool; 2], f64) {
-    let inside = [0.68, 0.95].map(|confidence| {
-        let ends = fit.interval(0, confidence);
-        (ends.low..=ends.high).contains(&PLANTED)
-    });
     let law = ChiSquared::new((POINTS - 1) as f64).unwrap();
-    (inside, law.sf(fit.best.chi_square))
+    (inside(fit, PLANTED), law.sf(fit.best.chi_square))
 }
 
 /// If 0.4 of the points' apparent information is noise, intervals are √0.6 as long and contain the truth in 56 and 87
@@ -88,6 +75,7 @@ const EFFECT: f64 = 0.1;
 /// Allows for the covariance of a replica, half of V, being itself estimated from [`REPLICAS`] replicas.
 const ALLOWANCE: f64 = 0.02;
 const REPLICAS: u64 = 100;
+const RULE: [f64; 2] = [ALLOWANCE, EFFECT];
 
 #[test]
 fn the_noise_of_replicas_makes_no_interval_short() {
@@ -100,15 +88,12 @@ fn the_noise_of_replicas_makes_no_interval_short() {
     let noise = all.iter().map(|(_, _, noise)| noise).sum::<f64>() / count as f64;
     assert!((0.33..0.5).contains(&noise), "{noise}");
     for (which, confidence) in [0.68, 0.95].into_iter().enumerate() {
-        let own = share(all.iter().map(|(own, ..)| own.0[which]), confidence, ALLOWANCE, EFFECT);
-        assert_eq!(judge(&own), Verdict::Pass, "{own:?}");
+        judged_share(Verdict::Pass, all.iter().map(|(own, ..)| own.0[which]), confidence, RULE);
     }
-    let believed = share(all.iter().map(|(_, believed, _)| believed.0[0]), 0.68, ALLOWANCE, EFFECT);
-    assert_eq!(judge(&believed), Verdict::Fail, "{believed:?}");
+    judged_share(Verdict::Fail, all.iter().map(|(_, believed, _)| believed.0[0]), 0.68, RULE);
     // χ² is neither too large nor too small.
     for above in [0.05, 0.95] {
-        let own = share(all.iter().map(|(own, ..)| own.1 > above), 1.0 - above, ALLOWANCE, EFFECT);
-        assert_eq!(judge(&own), Verdict::Pass, "{own:?}");
+        judged_share(Verdict::Pass, all.iter().map(|(own, ..)| own.1 > above), 1.0 - above, RULE);
     }
 }
 

@@ -7,6 +7,7 @@ use super::error::Warning;
 use super::hypothesis::Tested;
 use super::range::Range;
 use super::search::{Fit, MOST_SHARE};
+use crate::files::csv;
 use crate::input::experiment::{Bias, bias};
 use crate::methods::least_squares::Datum;
 use crate::methods::least_squares::likelihood::{CAUSES, EMULATOR, REPLICAS, correlation_of};
@@ -146,8 +147,7 @@ fn warnings(
         if let Some(k) = another_minimum(&fit.profiles[axis].rise) {
             all.push(Warning::Other(format!(
                 "{}: {:.4} describes the points nearly as well as {:.4} (its χ² is {:.2} higher, with a ridge between \
-                    them): give the \
-                 whole interval, not the best value",
+                 them): give the whole interval, not the best value",
                 range.label(),
                 fit.value(axis, fit.profiles[axis].place[k]),
                 found.estimate,
@@ -218,7 +218,7 @@ pub fn residuals_csv(report: &Report, times: &[&str]) -> Result<String, String> 
         let place = [(r.set + 1).to_string(), times[r.set].to_owned(), r.time.to_string(), r.column.clone()];
         place.into_iter().chain(numbers).collect()
     }));
-    csv_of(&rows)
+    csv::text(&rows)
 }
 
 /// `profiles.csv`: χ² − χ²_min along each parameter, corrected for the noise of the replicas.
@@ -229,7 +229,7 @@ pub fn profiles_csv(fit: &Fit) -> Result<String, String> {
             vec![fit.ranges[axis].label(), fit.value(axis, *place).to_string(), rise.to_string()]
         }));
     }
-    csv_of(&rows)
+    csv::text(&rows)
 }
 
 /// `design.csv`: each point that could be measured, its standard deviation given the measured points, and the
@@ -249,16 +249,7 @@ pub fn design_csv(fit: &Fit, candidates: &[Candidate], times: &[&str]) -> Result
         let numbers = [one.u, one.spread].into_iter().chain(one.leaves.iter().copied());
         place.into_iter().chain(numbers.map(|number| number.to_string())).collect()
     }));
-    csv_of(&rows)
-}
-
-fn csv_of(rows: &[Vec<String>]) -> Result<String, String> {
-    let mut writer = csv::Writer::from_writer(Vec::new());
-    for row in rows {
-        writer.write_record(row).map_err(|error| error.to_string())?;
-    }
-    let bytes = writer.into_inner().map_err(|error| error.to_string())?;
-    String::from_utf8(bytes).map_err(|error| error.to_string())
+    csv::text(&rows)
 }
 
 /// The confidence levels of the drawn profiles, each with its rise of χ².

@@ -1,12 +1,10 @@
 //! Fits of points that scatter as replicas do, with a covariance from few replicas.
 
-use super::range::Range;
-use super::search::{Fit, Measured, fitted};
-use super::tests::{enough, normal, share};
-use crate::judge::accept::{Verdict, judge};
+use super::search::Fit;
+use super::tests::{enough, inside, judged_share, normal, over_box};
+use crate::judge::accept::Verdict;
 use crate::methods::least_squares::Datum;
-use crate::methods::least_squares::basis::Basis;
-use crate::methods::least_squares::emulator::{Replica, coefficients};
+use crate::methods::least_squares::emulator::Replica;
 use crate::methods::least_squares::likelihood::{CAUSES, Rods};
 use crate::methods::least_squares::profile::profile;
 use nalgebra::DMatrix;
@@ -58,11 +56,8 @@ fn fit(seed: u64) -> Fit {
             Ok(mean.iter().zip(own).map(|(mean, own)| [mean + own; 3]).collect())
         }))
     };
-    let (ranges, basis) = (vec![Range::parse("a.a=-1:1").unwrap()], Basis::new(1));
-    let found = coefficients(&basis, &model, &|node| node.to_vec(), 0..REPLICAS, &|| ()).unwrap();
     let rods = Rods { over_measured: vec![1.0], in_u: false };
-    let measured = Measured { data: &data, ranges: &ranges, rods: &rods };
-    fitted(&measured, &basis, &vec![(-1.0, 1.0)], &found).unwrap()
+    over_box(&data, &rods, &["a.a=-1:1"], &vec![(-1.0, 1.0)], &model, REPLICAS)
 }
 
 /// The control: V counts as known.
@@ -75,11 +70,7 @@ fn believed(fit: &Fit) -> Fit {
 
 /// Returns whether the intervals of 68 and 95 % contain the planted value, and the p-value.
 fn asked(fit: &Fit) -> ([bool; 2], f64) {
-    let inside = [0.68, 0.95].map(|confidence| {
-        let ends = fit.interval(0, confidence);
-        (ends.low..=ends.high).contains(&PLANTED)
-    });
-    (inside, fit.best.goodness.p_value())
+    (inside(fit, PLANTED), fit.best.goodness.p_value())
 }
 
 /// With q = 19 and n − 1 = 99 a covariance taken as known is 0.81 of the right one and the estimates' covariance is
@@ -87,6 +78,7 @@ fn asked(fit: &Fit) -> ([bool; 2], f64) {
 const EFFECT: f64 = 0.09;
 /// The correction is exact up to terms ∝ 1/n, 1 % here.
 const ALLOWANCE: f64 = 0.01;
+const RULE: [f64; 2] = [ALLOWANCE, EFFECT];
 
 #[test]
 fn a_covariance_of_few_replicas_makes_no_interval_short() {
@@ -101,15 +93,10 @@ fn a_covariance_of_few_replicas_makes_no_interval_short() {
     let excess = all.iter().map(|(.., excess)| excess).sum::<f64>() / count as f64;
     assert!((0.15..20.0 / 99.0).contains(&excess), "{excess}");
     for (which, confidence) in [0.68, 0.95].into_iter().enumerate() {
-        let own = share(all.iter().map(|(own, ..)| own.0[which]), confidence, ALLOWANCE, EFFECT);
-        assert_eq!(judge(&own), Verdict::Pass, "{own:?}");
+        judged_share(Verdict::Pass, all.iter().map(|(own, ..)| own.0[which]), confidence, RULE);
     }
-    let control = share(all.iter().map(|(_, believed, _)| believed.0[0]), 0.68, ALLOWANCE, EFFECT);
-    assert_eq!(judge(&control), Verdict::Fail, "{control:?}");
+    judged_share(Verdict::Fail, all.iter().map(|(_, believed, _)| believed.0[0]), 0.68, RULE);
     // A χ² that is too large makes p-values small.
-    let p = |p: f64| p > 0.5;
-    let own = share(all.iter().map(|(own, ..)| p(own.1)), 0.5, ALLOWANCE, EFFECT);
-    assert_eq!(judge(&own), Verdict::Pass, "{own:?}");
-    let control = share(all.iter().map(|(_, believed, _)| p(believed.1)), 0.5, ALLOWANCE, EFFECT);
-    assert_eq!(judge(&control), Verdict::Fail, "{control:?}");
+    judged_share(Verdict::Pass, all.iter().map(|(own, ..)| own.1 > 0.5), 0.5, RULE);
+    judged_share(Verdict::Fail, all.iter().map(|(_, believed, _)| believed.1 > 0.5), 0.5, RULE);
 }

@@ -5,10 +5,11 @@ use super::elsewhere::look_elsewhere;
 use super::pictures::best_curves;
 use super::range::Range;
 use super::report::{levels, report};
-use super::search::{Fit, FitProblem, Measured, Watch, search};
+use super::search::{Fit, FitProblem, Measured, Watch, fitted, search, values};
 use crate::judge::accept::{Rule, Verdict, judge};
 use crate::methods::least_squares::Datum;
-use crate::methods::least_squares::emulator::{Prediction, Replica};
+use crate::methods::least_squares::basis::Basis;
+use crate::methods::least_squares::emulator::{Model, Prediction, Replica, Sides, coefficients};
 use crate::methods::least_squares::likelihood::Rods;
 use crate::methods::least_squares::profile::{region, rise_of_several};
 use nalgebra::{DMatrix, DVector};
@@ -63,14 +64,37 @@ fn ranges(over: &[&str]) -> Vec<Range> {
     over.iter().map(|text| Range::parse(text).unwrap()).collect()
 }
 
+/// The whole fit of a model to points that share no rods.
+pub(super) fn searched(data: &[Datum], over: &[&str], model: &Model<'_>, most_replicas: u64) -> Fit {
+    let measured = Measured { data, ranges: &ranges(over), rods: &Rods::none(1) };
+    search(&FitProblem { measured, model, most_replicas }, &Watch::SILENT).unwrap()
+}
+
+/// The fit over one fixed box, without a search.
+pub(super) fn over_box(
+    data: &[Datum],
+    rods: &Rods,
+    over: &[&str],
+    sides: &Sides,
+    model: &Model<'_>,
+    replicas: u64,
+) -> Fit {
+    let (ranges, basis) = (ranges(over), Basis::new(over.len()));
+    let value = |node: &[f64]| values(&ranges, sides, node);
+    let found = coefficients(&basis, model, &value, 0..replicas, &|| ()).unwrap();
+    fitted(&Measured { data, ranges: &ranges, rods }, &basis, sides, &found).unwrap()
+}
+
+/// Whether the intervals of 68 and 95 % of the first parameter contain a value.
+pub(super) fn inside(fit: &Fit, value: f64) -> [bool; 2] {
+    [0.68, 0.95].map(|confidence| {
+        let ends = fit.interval(0, confidence);
+        (ends.low..=ends.high).contains(&value)
+    })
+}
+
 fn fit(data: &[Datum], over: &[&str], seed: u64, scatter: f64, most_replicas: u64) -> Fit {
-    let model = model(seed, scatter);
-    let problem = FitProblem {
-        measured: Measured { data, ranges: &ranges(over), rods: &Rods::none(1) },
-        model: &model,
-        most_replicas,
-    };
-    search(&problem, &Watch::SILENT).unwrap()
+    searched(data, over, &model(seed, scatter), most_replicas)
 }
 
 const ONE: [&str; 1] = ["a.rate=0.05:5"];
@@ -87,15 +111,13 @@ fn without_noise_the_planted_values_are_found() {
     };
     // The rest is the error of the polynomial over the last box, some five standard deviations wide: below a hundredth
     // of one.
-    let found = fit(&exact(0.8, 1.0), &ONE, 1, 1e-9, 100);
-    let interval = found.interval(0, 0.68);
-    let value = found.value(0, found.best.place[0]);
-    assert!((value - 0.8).abs() < 0.01 * (interval.high - interval.low), "{value} {interval:?}");
-    let found = fit(&exact(0.3, 1.1), &TWO, 1, 1e-9, 100);
-    for (axis, planted) in [0.3, 1.1].into_iter().enumerate() {
-        let interval = found.interval(axis, 0.68);
-        let value = found.value(axis, found.best.place[axis]);
-        assert!((value - planted).abs() < 0.01 * (interval.high - interval.low), "{value} {interval:?}");
+    for (over, planted) in [(&ONE[..], [0.8, 1.0]), (&TWO, [0.3, 1.1])] {
+        let found = fit(&exact(planted[0], planted[1]), over, 1, 1e-9, 100);
+        for (axis, planted) in planted.into_iter().take(over.len()).enumerate() {
+            let interval = found.interval(axis, 0.68);
+            let value = found.value(axis, found.best.place[axis]);
+            assert!((value - planted).abs() < 0.01 * (interval.high - interval.low), "{value} {interval:?}");
+        }
     }
 }
 
@@ -166,13 +188,7 @@ fn surface_of(of: fn(f64, f64, f64) -> f64, [x, y]: [f64; 2]) -> Fit {
             Ok(times().map(|time| [of(x, y, time) + offset; 3]).collect::<Vec<Prediction>>())
         }))
     };
-    let ranges = ranges(&["a.x=-6:6", "a.y=-60:60"]);
-    let problem = FitProblem {
-        measured: Measured { data: &data, ranges: &ranges, rods: &Rods::none(1) },
-        model: &model,
-        most_replicas: 100,
-    };
-    search(&problem, &Watch::SILENT).unwrap()
+    searched(&data, &["a.x=-6:6", "a.y=-60:60"], &model, 100)
 }
 
 /// The shoelace formula.
@@ -260,11 +276,17 @@ fn repeats(count: u64, scatter: f64, most_replicas: u64) -> Vec<Repeat> {
     (0..count).into_par_iter().map(one).collect()
 }
 
-/// The rule that the share of true values is `reference`, up to an error of `allowance`, and that it must detect
+/// Judges that the share of true values is `reference`, up to an error of `allowance`, with a rule that must detect
 /// `effect`.
-pub(super) fn share(inside: impl Iterator<Item = bool>, reference: f64, allowance: f64, effect: f64) -> Rule {
+pub(super) fn judged_share(
+    verdict: Verdict,
+    inside: impl Iterator<Item = bool>,
+    reference: f64,
+    [allowance, effect]: [f64; 2],
+) {
     let all: Vec<f64> = inside.map(|inside| f64::from(u8::from(inside))).collect();
-    mean(&all, (reference, (reference * (1.0 - reference)).sqrt()), allowance, effect)
+    let rule = mean(&all, (reference, (reference * (1.0 - reference)).sqrt()), allowance, effect);
+    assert_eq!(judge(&rule), verdict, "{rule:?}");
 }
 
 /// The rule that values with a known standard deviation have this mean, up to an error of `allowance`, and that it must
@@ -293,6 +315,7 @@ pub(super) fn enough(sd: f64, effect: f64) -> usize {
 const ALLOWANCE: f64 = 0.01;
 /// An interval half as long holds the planted value in 0.38 and 0.67 of the repeats, 0.30 and 0.28 fewer.
 const EFFECT: f64 = 0.27;
+const RULE: [f64; 2] = [ALLOWANCE, EFFECT];
 
 #[test]
 fn intervals_hold_the_planted_value_as_often_as_they_say() {
@@ -304,14 +327,11 @@ fn intervals_hold_the_planted_value_as_often_as_they_say() {
     let found = repeats(count as u64, 0.02, 40);
     for (which, confidence) in [(0, 0.68), (1, 0.95)] {
         let inside = found.iter().flat_map(|repeat| repeat.inside.map(|of| of[which]));
-        let rule = share(inside, confidence, ALLOWANCE, EFFECT);
-        assert_eq!(judge(&rule), Verdict::Pass, "{rule:?}");
+        judged_share(Verdict::Pass, inside, confidence, RULE);
         let inside = found.iter().flat_map(|repeat| repeat.inside_half.map(|of| of[which]));
-        let half = share(inside, confidence, ALLOWANCE, EFFECT);
-        assert_eq!(judge(&half), Verdict::Fail, "{half:?}");
+        judged_share(Verdict::Fail, inside, confidence, RULE);
     }
-    let rule = share(found.iter().map(|repeat| repeat.p >= 0.05), 0.95, ALLOWANCE, EFFECT);
-    assert_eq!(judge(&rule), Verdict::Pass, "{rule:?}");
+    judged_share(Verdict::Pass, found.iter().map(|repeat| repeat.p >= 0.05), 0.95, RULE);
 }
 
 /// A straight line a + b t whose replicas have an offset each.
@@ -334,12 +354,7 @@ fn a_straight_line_has_the_estimate_and_the_intervals_of_the_textbook() {
         datum.value += 1.0 + 0.5 * datum.time;
     }
     // One range is linear, the other logarithmic; a and b are strongly correlated, as t starts at 1.
-    let problem = FitProblem {
-        measured: Measured { data: &data, ranges: &ranges(&["line.a=-3:5", "line.b=0.1:4"]), rods: &Rods::none(1) },
-        model: &line,
-        most_replicas: 50,
-    };
-    let fit = search(&problem, &Watch::SILENT).unwrap();
+    let fit = searched(&data, &["line.a=-3:5", "line.b=0.1:4"], &line, 50);
 
     // Generalised least squares in closed form.
     let replicas = fit.emulator.replicas();

@@ -4,7 +4,7 @@
 
 use super::axis::{Axis, shown};
 use super::{Pairs, Point};
-use crate::files::csv::Table;
+use crate::files::csv::{self, Table};
 use crate::files::difference::difference;
 use crate::files::output::{Claim, Origin, Output, OutputError, RECORD, Record, Refused, ResultFolder};
 use crate::files::text::{Shown, cell};
@@ -118,16 +118,13 @@ impl Folder {
     /// these.
     fn others(&self) -> Result<Vec<String>, Refused> {
         let points = self.folder.dir().join("points");
-        let list =
-            |dir: &Path| -> Result<Vec<PathBuf>, Refused> {
-                let failed = |reason| OutputError { path: dir.to_owned(), reason };
-                match fs::read_dir(dir) {
-                    Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(Vec::new()),
-                    entries => (entries.map_err(failed)?)
-                        .map(|entry| Ok(entry.map_err(failed)?.path()))
-                        .collect::<Result<Vec<_>, Refused>>(),
-                }
-            };
+        let list = |dir: &Path| -> Result<Vec<PathBuf>, Refused> {
+            let failed = |reason| OutputError { path: dir.to_owned(), reason };
+            match fs::read_dir(dir) {
+                Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(Vec::new()),
+                entries => entries.map_err(failed)?.map(|entry| Ok(entry.map_err(failed)?.path())).collect(),
+            }
+        };
         let foreign = |path: &Path| {
             let what = "was not written by `shearbed sweep`: move it away";
             Refused(format!("{}: {what}; nothing was changed", path.shown()))
@@ -266,7 +263,7 @@ impl Folder {
             }
         }
         let path = self.folder.dir().join("sweep.csv");
-        let text = csv(&rows).map_err(|error| Refused(format!("{}: {error}", path.shown())))?;
+        let text = csv::text(&rows).map_err(|error| Refused(format!("{}: {error}", path.shown())))?;
         let table = [("sweep.csv".to_owned(), text)];
         let record = Record::new(self.folder.origin(), &[&table[..], &self.first, &records].concat());
         self.claim.write(&record, &table, self.folder.earlier(&self.claim), &[])?;
@@ -286,13 +283,4 @@ fn last_row(path: &Path, text: &str) -> Result<(Vec<String>, Vec<String>), FileE
     }
     let last = last.ok_or_else(|| table.error("there is no row below the header"))?;
     Ok((table.names().to_vec(), last))
-}
-
-fn csv(rows: &Rows) -> Result<String, String> {
-    let mut writer = csv::Writer::from_writer(Vec::new());
-    for row in rows {
-        writer.write_record(row).map_err(|error| error.to_string())?;
-    }
-    let bytes = writer.into_inner().map_err(|error| error.to_string())?;
-    String::from_utf8(bytes).map_err(|error| error.to_string())
 }

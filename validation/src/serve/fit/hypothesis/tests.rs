@@ -1,13 +1,11 @@
 //! Tests of hypotheses: against the textbook for a straight model, and the rate at which a true one is rejected for a
 //! curved model.
 
-use super::super::search::{Measured, fitted, values};
-use super::super::tests::{enough, mean, normal};
+use super::super::tests::{enough, mean, normal, over_box};
 use super::*;
 use crate::judge::accept::{Verdict, judge};
 use crate::methods::least_squares::Datum;
-use crate::methods::least_squares::basis::Basis;
-use crate::methods::least_squares::emulator::{Replica, coefficients};
+use crate::methods::least_squares::emulator::Replica;
 use crate::methods::least_squares::likelihood::Rods;
 use rand::SeedableRng;
 use rand_pcg::Pcg64Dxsm;
@@ -45,7 +43,6 @@ fn points(curve: Curve, rates: [f64; 2], seed: u64) -> Vec<Datum> {
 /// The fit over one fixed box.
 fn fit(curve: Curve, rates: [f64; 2], seed: u64) -> Fit {
     let data = points(curve, rates, seed);
-    let ranges = ["1:a.rate=0.2:2", "2:a.rate=0.3:1.8"].map(|text| Range::parse(text).unwrap());
     let sides = vec![(0.3_f64.ln(), 1.8_f64.ln()), (0.3, 1.8)];
     let model = |values: &[f64]| {
         let values = values.to_vec();
@@ -54,11 +51,7 @@ fn fit(curve: Curve, rates: [f64; 2], seed: u64) -> Fit {
             Ok(places().map(|(set, time)| [curve(values[set], time) + offset; 3]).collect())
         }))
     };
-    let basis = Basis::new(2);
-    let value = |node: &[f64]| values(&ranges, &sides, node);
-    let found = coefficients(&basis, &model, &value, 0..REPLICAS, &|| ()).unwrap();
-    let measured = Measured { data: &data, ranges: &ranges, rods: &Rods::none(2) };
-    fitted(&measured, &basis, &sides, &found).unwrap()
+    over_box(&data, &Rods::none(2), &["1:a.rate=0.2:2", "2:a.rate=0.3:1.8"], &sides, &model, REPLICAS)
 }
 
 fn tested(fit: &Fit, text: &str) -> Tested {

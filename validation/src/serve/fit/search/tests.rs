@@ -1,20 +1,18 @@
 use super::*;
 use crate::methods::least_squares::emulator::Replica;
-use crate::methods::least_squares::likelihood::Rods;
+use crate::serve::fit::tests::searched;
 
 /// Of a straight line, along which χ² rises as a square.
 #[test]
 fn a_closer_box_is_three_quarters_as_wide() {
-    let ranges = [Range::parse("a.rate=-9:9").unwrap()];
     let model = |values: &[f64]| {
         let value = values[0];
         Ok(Replica::whole(move |_| Ok(vec![[value; 3]; 4])))
     };
     let data: Vec<_> = (0..4).map(|k| Datum { value: 0.0, u: 0.2, ..Datum::place(0, "x1", f64::from(k)) }).collect();
-    let measured = Measured { data: &data, ranges: &ranges, rods: &Rods::none(1) };
-    let fit = search(&FitProblem { measured, model: &model, most_replicas: 3 }, &Watch::SILENT).unwrap();
+    let fit = searched(&data, &["a.rate=-9:9"], &model, 3);
     let width = |far: f64| {
-        let sides = other_sides(&fit, &whole(&ranges), far).0;
+        let sides = other_sides(&fit, &whole(&fit.ranges), far).0;
         sides[0].1 - sides[0].0
     };
     // Five standard deviations of 0.1 to either side, and 3.75.
