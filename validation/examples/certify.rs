@@ -6,18 +6,17 @@
 
 use shearbed_validation::oracle::reference::big::digits;
 use shearbed_validation::oracle::reference::unequal::means_to_22_digits;
-use shearbed_validation::serve::problems::{self, brownian, closed, folgar_tucker, formula};
+use shearbed_validation::serve::problems::{self, TABLES};
 
 fn main() {
-    let table = match std::env::args().nth(1).as_deref() {
-        Some("brownian") => brownian::certify().map_err(|why| why.to_string()),
-        Some("closed") => closed::certify(),
-        Some(name @ ("contact-rule" | "contact-angles")) => Ok(contact(name)),
-        Some("folgar-tucker") => folgar_tucker::certify().map_err(|why| why.to_string()),
-        Some("formulas") => formula::certify(),
-        Some("unequal-rods") => Ok(unequal_rods()),
-        _ => Err("brownian, closed, contact-angles, contact-rule, folgar-tucker, formulas or unequal-rods is allowed"
-            .to_owned()),
+    let name = std::env::args().nth(1).unwrap_or_default();
+    let contact = |name: &str| problems::certify_contacts().into_iter().find(|(of, _)| *of == name);
+    let table = match TABLES.iter().find(|(of, _)| *of == name) {
+        Some((_, certify)) => certify(),
+        None if name == "unequal-rods" => Ok(unequal_rods()),
+        None => contact(&name).map(|(_, table)| table).ok_or_else(|| {
+            "brownian, closed, contact-angles, contact-rule, folgar-tucker, formulas or unequal-rods is allowed".into()
+        }),
     };
     match table {
         Ok(table) => print!("{table}"),
@@ -26,11 +25,6 @@ fn main() {
             std::process::exit(1);
         }
     }
-}
-
-fn contact(name: &str) -> String {
-    let tables = problems::certify_contacts();
-    tables.into_iter().find(|(of, _)| *of == name).map(|(_, table)| table).unwrap_or_default()
 }
 
 fn unequal_rods() -> String {

@@ -136,7 +136,6 @@ fn values(code: &Code, loaded: &LoadedProblem, strain: f64) -> Rows {
     }
 }
 
-/// An answer as a file.
 fn text(loaded: &LoadedProblem, rows: &Rows) -> String {
     let row = |(key, six): &(f64, [f64; 6])| {
         let values: Vec<_> = six.iter().map(|x| format!("{x:e}")).collect();

@@ -26,7 +26,8 @@ pub fn open(path: &Path) -> io::Result<File> {
 /// Those of the system, and `InvalidInput` if the file is not a regular one; the message names its kind.
 #[expect(clippy::disallowed_methods, reason = "every other function of this crate opens files by this one")]
 pub fn open_with(path: &Path, options: &mut OpenOptions) -> io::Result<File> {
-    without_waiting(options);
+    #[cfg(unix)]
+    std::os::unix::fs::OpenOptionsExt::custom_flags(options, NONBLOCK);
     match options.open(path) {
         Ok(file) => {
             regular(&file)?;
@@ -131,20 +132,9 @@ pub fn text(path: &Path, most: u64) -> io::Result<String> {
     })
 }
 
-/// Sets options so that opening a pipe or a device returns at once.
-#[cfg(unix)]
-fn without_waiting(options: &mut OpenOptions) {
-    use std::os::unix::fs::OpenOptionsExt;
-    options.custom_flags(NONBLOCK);
-}
-
-/// Opening a pipe returns at once.
+/// Opening a pipe or a device returns at once.
 #[cfg(unix)]
 const NONBLOCK: i32 = rustix::fs::OFlags::NONBLOCK.bits() as i32;
-
-/// Sets options so that opening a pipe or a device returns at once.
-#[cfg(not(unix))]
-fn without_waiting(_: &mut OpenOptions) {}
 
 fn size(bytes: u64) -> String {
     match bytes {
@@ -153,23 +143,14 @@ fn size(bytes: u64) -> String {
     }
 }
 
-#[cfg(unix)]
 fn name(kind: FileType) -> &'static str {
-    use std::os::unix::fs::FileTypeExt;
-    match () {
-        () if kind.is_dir() => "a folder",
-        () if kind.is_fifo() => "a pipe",
-        () if kind.is_socket() => "a socket",
-        () => "a device",
+    #[cfg(unix)]
+    if std::os::unix::fs::FileTypeExt::is_fifo(&kind) {
+        return "a pipe";
+    } else if std::os::unix::fs::FileTypeExt::is_socket(&kind) {
+        return "a socket";
     }
-}
-
-#[cfg(not(unix))]
-fn name(kind: FileType) -> &'static str {
-    match kind.is_dir() {
-        true => "a folder",
-        false => "a device",
-    }
+    if kind.is_dir() { "a folder" } else { "a device" }
 }
 
 #[cfg(all(test, unix))]

@@ -27,7 +27,6 @@ use std::path::Path;
 
 /// The start of every checkpoint, before the number of its format.
 const HEAD: &str = "shearbed checkpoint ";
-/// The number of the format.
 const FORMAT: u32 = 3;
 /// Size in bytes of the checksum at the end.
 const SUM: u64 = 4;

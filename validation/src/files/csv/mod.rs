@@ -114,7 +114,6 @@ fn commas(first: &str) -> Result<(), String> {
 /// A table with a header, read row by row.
 pub struct Table<R> {
     rows: Rows<R>,
-    /// The line of the header.
     line: u64,
     names: Vec<String>,
     /// The first line, if it is a row.

@@ -91,7 +91,6 @@ impl Claim {
         self.place(&stage, RECORD, RECORD)
     }
 
-    /// Writes one file in place of another.
     pub(super) fn write_file(&self, name: &str, contents: &[u8]) -> Result<(), OutputError> {
         let stage = Stage::new(&self.dir).map_err(at(&self.path))?;
         fill(&stage.dir, &self.path, &[(name.to_owned(), contents)])?;

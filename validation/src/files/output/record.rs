@@ -17,9 +17,7 @@ use std::path::Path;
 
 /// The name of the file, which is written last.
 pub const RECORD: &str = "shearbed.json";
-/// The number of the format.
 const FORMAT: u32 = 1;
-/// Size limit of a record in bytes.
 const MOST_BYTES: u64 = 64 << 20;
 
 /// A command and everything on which its results depend; checkpoints have one too.

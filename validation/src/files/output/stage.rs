@@ -34,7 +34,6 @@ pub fn stop(code: i32) -> ! {
 pub(super) struct Stage {
     above: Dir,
     name: String,
-    /// The folder.
     pub(super) dir: Dir,
     /// Says that a process is at work there.
     pub(super) lock: File,

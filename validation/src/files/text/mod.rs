@@ -38,24 +38,19 @@ pub fn readable(text: &str) -> Cow<'_, str> {
     if !text.contains(commands) {
         return Cow::Borrowed(text);
     }
-    let written = |text: &mut String, c: char| if commands(c) { text.extend(c.escape_unicode()) } else { text.push(c) };
+    Cow::Owned(written_out(text, |c| c.escape_unicode().to_string()))
+}
+
+/// The text with every character of `commands` as `escape` writes it.
+fn written_out(text: &str, escape: impl Fn(char) -> String) -> String {
     let mut all = String::new();
-    text.chars().for_each(|c| written(&mut all, c));
-    Cow::Owned(all)
+    text.chars().for_each(|c| if commands(c) { all += &escape(c) } else { all.push(c) });
+    all
 }
 
 /// JSON in which the characters that [`readable`] writes out are escaped too; it has the same values.
 pub(crate) fn json(text: &str) -> String {
-    let written = |text: &mut String, c: char| {
-        if commands(c) {
-            c.encode_utf16(&mut [0; 2]).iter().for_each(|unit| *text += &format!("\\u{unit:04x}"))
-        } else {
-            text.push(c)
-        }
-    };
-    let mut all = String::new();
-    text.chars().for_each(|c| written(&mut all, c));
-    all
+    written_out(text, |c| c.encode_utf16(&mut [0; 2]).iter().map(|unit| format!("\\u{unit:04x}")).collect())
 }
 
 /// A readable text inside XML or HTML, between tags or in quotes.

@@ -14,7 +14,6 @@ use nalgebra::{DMatrix, DVector, RowDVector};
 use shearbed::Scene;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
-/// A deliberate change of a scene.
 type Change = fn(&mut Scene);
 
 /// Number of runs of the model, and their random numbers.

@@ -22,7 +22,6 @@ pub(super) struct Solver {
 }
 
 impl Covariance {
-    /// The variance of each point.
     pub(super) fn variances(&self) -> DVector<f64> {
         let shared = self.shared.column_iter().map(|column| column.norm_squared());
         &self.own + DVector::from_iterator(self.own.len(), shared)

@@ -5,7 +5,6 @@ use shearbed::Error;
 use shearbed::scene::SceneProblem;
 use shearbed::scene::document::{Document, Table};
 
-/// Reads a TOML text.
 pub(super) fn document(file: &str, text: &str) -> Result<Document, FileError> {
     Document::parse(file, text).map_err(|error| match error {
         Error::Text { mut problems, .. } if !problems.is_empty() => located(file, problems.remove(0)),
@@ -26,7 +25,6 @@ pub(super) struct Keys<'a> {
 }
 
 impl<'a> Keys<'a> {
-    /// The root table of a file.
     pub(super) fn of_file(file: &'a str, document: &'a Document) -> Self {
         Self { file, path: String::new(), table: document.root() }
     }
@@ -45,7 +43,6 @@ impl<'a> Keys<'a> {
         located(self.file, self.table.refused(key, format!("expected {allowed}")))
     }
 
-    /// True if the table has the key.
     pub(super) fn has(&self, key: &str) -> bool {
         self.table.has(key)
     }
@@ -69,7 +66,6 @@ impl<'a> Keys<'a> {
         numbers.filter(finite).ok_or_else(|| self.refused(key, allowed))
     }
 
-    /// The table at `key`.
     pub(super) fn table(&self, key: &str, allowed: &str) -> Result<Self, FileError> {
         let table = self.table.table(key).ok_or_else(|| self.refused(key, allowed))?;
         Ok(self.inner(key, table))

@@ -9,7 +9,6 @@ use std::path::Path;
 pub(crate) struct Dataset {
     /// Name of the column or dataset; empty for an export of two columns.
     pub(crate) name: String,
-    /// The points in the order of the file.
     pub(crate) rows: Vec<DataRow>,
 }
 

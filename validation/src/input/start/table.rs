@@ -130,7 +130,6 @@ impl Order {
         Self { rod: table.place(ROD), one_value, last: None, first: None }
     }
 
-    /// Checks the next row.
     fn next(&mut self, row: &Row<'_>) -> Result<(), FileError> {
         let read = |place: Option<usize>| place.map(|place| row.finite(place)).transpose();
         let mut values = [None; ONE_VALUE.len()];

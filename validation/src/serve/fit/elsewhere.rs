@@ -120,7 +120,6 @@ fn at_best(
     Ok(watch.replicas(replicas, one)?.into_iter().unzip())
 }
 
-/// A range along which the model is run.
 struct Line<'a> {
     problem: &'a FitProblem<'a>,
     watch: &'a Watch<'a>,

@@ -180,7 +180,6 @@ impl Hypothesis {
     }
 }
 
-/// Two keys with a given difference.
 struct Tied<'a> {
     fit: &'a Fit,
     axes: [usize; 2],

@@ -9,7 +9,6 @@ use crate::methods::least_squares::likelihood::REPLICAS;
 use crate::methods::least_squares::profile::{region, rise_of_several};
 use crate::present::plot::{Curve, FITTED, Figure, MEASURED, Points, names as letters};
 
-/// Number of times of a drawn curve.
 const TIMES: usize = 200;
 
 /// The largest number of replicas behind a drawn curve.

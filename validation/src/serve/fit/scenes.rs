@@ -252,9 +252,7 @@ impl Scenes {
 /// The place of one point in the outputs of a scene.
 #[derive(Clone, Copy, Debug)]
 struct Look {
-    /// Index of the point.
     point: usize,
-    /// The measured column.
     channel: Channel,
     /// Its time, and the standard uncertainty of that, in outputs.
     outputs: f64,

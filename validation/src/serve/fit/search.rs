@@ -131,11 +131,9 @@ struct Search<'a> {
     rounds: u64,
 }
 
-/// What a search does after the fit over a box.
 enum Next {
     /// More replicas, up to this number.
     Replicas(u64),
-    /// Another box.
     Box(Sides),
     Done,
 }

@@ -56,7 +56,6 @@ pub(super) struct Collector<'a> {
     ahead: usize,
     /// The line number of each row that was read, those at t = 0 first.
     lines: Vec<Option<u64>>,
-    /// The index of the last row.
     last: usize,
     rows: Vec<Vec<f64>>,
     /// True if any time is late enough.

@@ -38,7 +38,6 @@ impl std::str::FromStr for Axes {
 }
 
 impl std::fmt::Display for Axes {
-    /// The text that `from_str` parses.
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let mut words = [""; 3];
         for (ours, axis) in

@@ -49,7 +49,6 @@ pub fn steps(problems: &[LoadedProblem], graded: &[Graded]) -> Option<Figure> {
     })
 }
 
-/// The errors that can be drawn.
 fn drawn(graded: &Graded) -> Vec<(u64, f64)> {
     let finite = graded.errors.iter().filter(|(_, error)| error.is_finite());
     finite.copied().collect()

@@ -46,7 +46,6 @@ pub fn grade(problems: &[LoadedProblem], mine: &Path, options: &Options) -> Vec<
     all
 }
 
-/// Allowed extensions of an answer's file.
 const ENDINGS: [&str; 5] = ["csv", "txt", "dat", "dump", "lammpstrj"];
 
 /// The file of a single answer, and those for each number of steps.

@@ -9,7 +9,6 @@ use minijinja::value::Serde;
 use minijinja::{Environment, UndefinedBehavior, Value};
 use serde::Serialize;
 
-/// The values of the template.
 #[derive(Serialize)]
 struct Page<'a> {
     style: &'static str,
@@ -28,7 +27,6 @@ struct Page<'a> {
     remarks: &'a [String],
 }
 
-/// A row of the table of problems.
 #[derive(Serialize)]
 struct ProblemRow<'a> {
     word: &'static str,

@@ -31,13 +31,11 @@ struct Columns {
 fn columns(header: &str) -> Result<Columns, String> {
     let names: Vec<_> = header.split_whitespace().collect();
     let at = |name: &str| names.iter().position(|found| *found == name);
-    let all = |wanted: [&str; 4]| -> Option<[usize; 4]> {
-        Some([at(wanted[0])?, at(wanted[1])?, at(wanted[2])?, at(wanted[3])?])
-    };
+    let all = |wanted: [&str; 4]| wanted.map(at).into_iter().collect::<Option<Vec<_>>>()?.try_into().ok();
     let compute = names.iter().find_map(|name| name.strip_suffix("[1]"));
     let of_compute = || {
-        let column = |k: usize| at(&format!("{}[{k}]", compute?));
-        Some([column(1)?, column(2)?, column(3)?, column(4)?])
+        let names = [1, 2, 3, 4].map(|k| format!("{}[{k}]", compute.unwrap_or_default()));
+        all(names.each_ref().map(String::as_str))
     };
     let quaternion = all(["quatw", "quati", "quatj", "quatk"])
         .or_else(|| all(["c_quatw", "c_quati", "c_quatj", "c_quatk"]))
@@ -81,19 +79,17 @@ pub(super) fn read(
             Some("TIME") => time_s = Some(value(&mut lines)?),
             Some("NUMBER OF ATOMS") => {
                 let found = value(&mut lines)?;
-                if found != problem.start.len() as f64 {
-                    let message = format!("{found} atoms; the problem has {} rods", problem.start.len());
-                    return Err(lines.error(1, message));
-                }
                 atoms = problem.start.len();
+                if found != atoms as f64 {
+                    return Err(lines.error(1, format!("{found} atoms; the problem has {atoms} rods")));
+                }
             }
-            Some(units) if units.starts_with("UNITS") => skip(&mut lines, 1)?,
-            Some(bounds) if bounds.starts_with("BOX BOUNDS") => skip(&mut lines, 3)?,
+            Some(units) if units.starts_with("UNITS") => drop(next(&mut lines)?),
+            Some(bounds) if bounds.starts_with("BOX BOUNDS") => (0..3).try_for_each(|_| next(&mut lines).map(drop))?,
             Some(header) if header.starts_with("ATOMS") => {
-                let time = time_s.take().ok_or_else(|| {
-                    lines
-                        .error(0, "no time: --timestep-s must say how long a step is, or the dump must have ITEM: TIME")
-                })?;
+                const NO_TIME: &str =
+                    "no time: --timestep-s must say how long a step is, or the dump must have ITEM: TIME";
+                let time = time_s.take().ok_or_else(|| lines.error(0, NO_TIME))?;
                 let columns = columns(&header["ATOMS".len()..]).map_err(|message| lines.error(0, message))?;
                 snapshot(&mut lines, &mut collector, &columns, atoms, time, axes, options)?;
             }
@@ -105,16 +101,12 @@ pub(super) fn read(
     collector.finish(&path, last)
 }
 
-fn value(lines: &mut Lines) -> Result<f64, FileError> {
-    let line = lines.next_line()?.ok_or_else(|| lines.error(0, "the dump ends here"))?;
-    number(line.trim()).map_err(|message| lines.error(1, message))
+fn next(lines: &mut Lines) -> Result<String, FileError> {
+    lines.next_line()?.ok_or_else(|| lines.error(0, "the dump ends here"))
 }
 
-fn skip(lines: &mut Lines, count: usize) -> Result<(), FileError> {
-    for _ in 0..count {
-        lines.next_line()?.ok_or_else(|| lines.error(0, "the dump ends here"))?;
-    }
-    Ok(())
+fn value(lines: &mut Lines) -> Result<f64, FileError> {
+    number(next(lines)?.trim()).map_err(|message| lines.error(1, message))
 }
 
 fn snapshot(
@@ -129,21 +121,16 @@ fn snapshot(
     // LAMMPS writes atoms in any order: the id identifies the rod.
     let mut found = Vec::new();
     for _ in 0..atoms {
-        let line = lines.next_line()?.ok_or_else(|| lines.error(0, "the dump ends here"))?;
+        let line = next(lines)?;
         let fields: Vec<_> = line.split_whitespace().collect();
         if fields.len() != columns.count {
             let message = format!("{} fields; the snapshot has {} columns", fields.len(), columns.count);
             return Err(lines.error(fields.len(), message));
         }
         let at = |column: usize| number(fields[column]).map_err(|message| lines.error(column + 1, message));
-        let mut q = [0.0; 4];
-        for (slot, column) in q.iter_mut().zip(columns.quaternion) {
-            *slot = at(column)?;
-        }
-        let mut shape = None;
-        if let Some(places) = columns.shape {
-            shape = Some([at(places[0])?, at(places[1])?, at(places[2])?]);
-        }
+        let [w, i, j, k] = columns.quaternion;
+        let q = [at(w)?, at(i)?, at(j)?, at(k)?];
+        let shape = columns.shape.map(|[x, y, z]| Ok([at(x)?, at(y)?, at(z)?])).transpose()?;
         let by_shape = shape.and_then(odd_one);
         if let (Some(given), Some(by_shape)) = (options.rod_axis, by_shape)
             && given != by_shape
@@ -187,9 +174,7 @@ fn odd_one([x, y, z]: [f64; 3]) -> Option<usize> {
 
 /// An axis of the body in space, by the quaternion w + ix + jy + kz.
 fn direction([w, i, j, k]: [f64; 4], axis: usize) -> Vector3<f64> {
-    let mut body = Vector3::zeros();
-    body[axis] = 1.0;
-    UnitQuaternion::new_normalize(Quaternion::new(w, i, j, k)) * body
+    UnitQuaternion::new_normalize(Quaternion::new(w, i, j, k)) * Vector3::ith(axis, 1.0)
 }
 
 #[cfg(test)]

@@ -54,12 +54,10 @@ impl Foreign {
 fn known(name: &str) -> &str {
     match name {
         "time" | "t" => "time_s",
-        "A2_0" => "a11",
-        "A2_1" => "a12",
-        "A2_2" => "a13",
-        "A2_3" => "a22",
-        "A2_4" => "a23",
-        "A2_5" => "a33",
+        "A2_0" | "A2_1" | "A2_2" | "A2_3" | "A2_4" | "A2_5" => {
+            let component = usize::from(name.as_bytes()[3] - b'0');
+            Foreign::Openfoam.columns()[1 + component]
+        }
         other => other,
     }
 }
@@ -83,15 +81,13 @@ impl Layout {
         let separator = [',', ';', '\t'].into_iter().find(|letter| first.contains(*letter)).unwrap_or(' ');
         let header: Vec<_> = split(first.trim_start_matches('#').trim(), separator).collect();
         let first_is_row = header.iter().all(|field| csv::number(field).is_some());
-        let wants_tensor = problem.kind == Kind::Tensor;
-        let names: Vec<String> = match (&options.columns, options.foreign, first_is_row) {
-            (Some(columns), _, _) => columns.clone(),
-            (None, Some(foreign), _) => foreign.columns().iter().map(|name| (*name).to_owned()).collect(),
-            (None, None, false) => header.iter().map(|name| known(name.trim_matches('"')).to_owned()).collect(),
-            (None, None, true) if wants_tensor && header.len() == 10 => {
-                Foreign::Fiberoripy.columns().iter().map(|name| (*name).to_owned()).collect()
-            }
-            (None, None, true) => {
+        let of_tensor = problem.kind == Kind::Tensor && header.len() == 10;
+        let foreign = options.foreign.or((first_is_row && of_tensor).then_some(Foreign::Fiberoripy));
+        let names: Vec<&str> = match (&options.columns, foreign) {
+            (Some(columns), _) => columns.iter().map(String::as_str).collect(),
+            (None, Some(foreign)) => foreign.columns().to_vec(),
+            (None, None) if !first_is_row => header.iter().map(|name| known(name.trim_matches('"'))).collect(),
+            (None, None) => {
                 let message = format!(
                     "there is no header; it must be {:?}, or --columns or --layout must say what the columns are",
                     problem.columns.join(",")
@@ -140,7 +136,7 @@ fn in_order(name: &str, kind: Kind) -> String {
 /// Index pairs in the order of columns.
 const PAIRS: [(char, char); 6] = [('1', '1'), ('2', '2'), ('3', '3'), ('1', '2'), ('1', '3'), ('2', '3')];
 
-fn fields(names: &[String], problem: &Problem, axes: Axes) -> Result<Vec<Field>, (usize, String)> {
+fn fields(names: &[&str], problem: &Problem, axes: Axes) -> Result<Vec<Field>, (usize, String)> {
     let keys = problem.kind.keys();
     let of_program = |column: &String| {
         let (name, sign) = axes.theirs(column);
@@ -154,7 +150,7 @@ fn fields(names: &[String], problem: &Problem, axes: Axes) -> Result<Vec<Field>,
             _ => String::new(),
         };
         let value = |name: &str| theirs.iter().position(|(column, _)| *column == in_order(name, problem.kind));
-        let field = if name == "-" {
+        let field = if *name == "-" {
             Field::Nothing
         } else if let Some(key) = keys.iter().position(|key| key == name) {
             Field::Key(key)
@@ -174,23 +170,16 @@ fn fields(names: &[String], problem: &Problem, axes: Axes) -> Result<Vec<Field>,
         }
         fields.push(field);
     }
-    let there = |wanted: &str, is: &dyn Fn(&Field) -> bool| {
-        if fields.iter().any(is) {
-            Ok(())
-        } else {
-            Err((0, format!("column {wanted:?} is missing; asked for are {}", problem.columns.join(","))))
-        }
-    };
-    for (k, key) in keys.iter().enumerate() {
-        // A single rod needs no number.
-        if *key != "rod" {
-            there(key, &|field| *field == Field::Key(k))?;
+    // A single rod needs no number.
+    let keys = keys.iter().enumerate().filter(|(_, key)| **key != "rod");
+    let needed = keys.map(|(k, key)| (Field::Key(k), *key));
+    let values = theirs.iter().enumerate().map(|(k, (column, sign))| (Field::Value(k, *sign), column.as_str()));
+    match needed.chain(values).find(|(field, _)| !fields.contains(field)) {
+        None => Ok(fields),
+        Some((_, column)) => {
+            Err((0, format!("column {column:?} is missing; asked for are {}", problem.columns.join(","))))
         }
     }
-    for (k, (column, _)) in theirs.iter().enumerate() {
-        there(column, &|field| matches!(field, Field::Value(at, _) if *at == k))?;
-    }
-    Ok(fields)
 }
 
 /// Parses a field as a number. NaN and infinities written as such are valid; a number too large for a double is an

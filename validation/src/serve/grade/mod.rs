@@ -159,7 +159,6 @@ impl Graded {
         self.phase_lost_per_period = compared.phase_lost_per_period.filter(finite);
     }
 
-    /// Sets the diagnosis of an answer.
     fn set_diagnosis(&mut self, found: diagnosis::Diagnosis) {
         (self.diagnosis, self.suspects, self.rates) = (found.said, found.suspects, found.rates);
     }
@@ -181,12 +180,10 @@ impl Graded {
         })
     }
 
-    /// The observed order with its sign, as text.
     fn order_text(&self) -> String {
         self.observed_order.map_or("–".into(), |order| format!("{order:+.2}"))
     }
 
-    /// The setting of the program, as text.
     fn setting_text(&self) -> String {
         match (self.steps, self.asked_tolerance) {
             (Some(steps), _) => format!("{steps} steps"),

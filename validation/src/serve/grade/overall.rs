@@ -22,7 +22,6 @@ pub fn overall(problems: &[LoadedProblem], graded: &[Graded]) -> Vec<String> {
     if named.is_empty() { by_rate(&passing(problems, graded), &wrong).into_iter().collect() } else { named }
 }
 
-/// The problems that pass.
 fn passing<'a>(problems: &'a [LoadedProblem], graded: &[Graded]) -> Vec<&'a LoadedProblem> {
     let passes = |loaded: &&LoadedProblem| {
         let of = |graded: &&Graded| graded.name == loaded.problem.name;

@@ -91,12 +91,10 @@ pub fn json(report: &Report) -> Result<String, String> {
     crate::files::build::json(report)
 }
 
-/// A number with two digits, as text.
 fn number(value: Option<f64>) -> String {
     value.map_or(NOTHING.into(), |value| format!("{value:.1e}"))
 }
 
-/// The author of the problem, in one word.
 fn origin(graded: &Graded) -> &'static str {
     match graded.reference {
         Origin::BuiltIn => BUILT_IN,
@@ -117,9 +115,7 @@ pub(super) struct Column {
     pub(super) of: fn(&Graded, Format) -> String,
 }
 
-/// A cell without a value.
 pub(super) const NOTHING: &str = "–";
-/// The reference of a problem of this program.
 pub(super) const BUILT_IN: &str = "built-in";
 
 pub(super) const COLUMNS: [Column; 8] = [
@@ -149,7 +145,6 @@ fn verdicts(report: &Report) -> ReportTable {
     )
 }
 
-/// The remarks on a problem.
 pub(super) fn words(graded: &Graded) -> Vec<&str> {
     let parts = [graded.diagnosis.as_deref(), graded.note.as_deref()];
     parts.into_iter().flatten().collect()

@@ -7,7 +7,6 @@ use crate::files::build::BUILD;
 use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
 
-/// The licence of the problems: that of the program.
 const LICENCE: &str = include_str!("data/LICENSE-MIT");
 
 const VERSION: &str = env!("CARGO_PKG_VERSION");

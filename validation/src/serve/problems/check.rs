@@ -51,7 +51,6 @@ const RATIOS: [f64; 2] = [1e-100, 1e100];
 const DIFFUSION: [f64; 2] = [1e-9, 1e9];
 /// The largest σ of r_e in percent: r_e is still positive six σ below its mean.
 const MOST_SPREAD: f64 = 15.0;
-/// The largest number of characters of a text.
 const LONGEST: usize = 10_000;
 
 /// A refused key: its name, and the reason.

@@ -74,18 +74,13 @@ impl ClosureProblem {
 }
 
 /// The certified answers, written by `examples/certify.rs`: a table is the same on every machine.
-const TABLE: &str = include_str!("data/closed.csv");
+pub(super) const TABLE: &str = include_str!("data/closed.csv");
 
 /// The largest difference of two solutions.
 const AGREED: f64 = 1e-12;
 
-/// Computes the table afresh, with twelve decimals: each value from two formulations of the equation with two
-/// integrators.
-///
-/// # Errors
-///
-/// An error if the two differ by more than 10⁻¹², or if one fails.
-pub fn certify() -> Result<String, String> {
+/// Computes the table: each value from two formulations of the equation with two integrators.
+pub(super) fn certify() -> Result<String, String> {
     let mut table = format!("setting,time_s,{}\n", SECOND.join(","));
     for problem in &PROBLEMS {
         let (equation, times_s, name) = (problem.equation(), problem.times_s(), problem.name);
@@ -165,13 +160,7 @@ impl Closed {
 
 #[cfg(test)]
 mod tests {
-    use super::super::table::holds;
     use super::*;
-
-    #[test]
-    fn the_table_is_computed_anew() {
-        holds(&certify().unwrap(), TABLE, 2e-12, ["0.6", "0.7"]);
-    }
 
     /// Every problem detects another closure, another model and another start.
     #[test]

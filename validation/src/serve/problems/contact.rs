@@ -10,7 +10,7 @@ use rand_pcg::Pcg64Dxsm;
 use std::f64::consts::TAU;
 use std::sync::LazyLock;
 
-const SNAPSHOTS: usize = 1000;
+pub(crate) const SNAPSHOTS: usize = 1000;
 /// Length and aspect ratio of the paper's rods.
 const LENGTH_MM: f64 = 0.72;
 const ASPECT_RATIO: f64 = 11.6;

@@ -134,17 +134,13 @@ static PROBLEMS: LazyLock<Vec<FormulaProblem>> = LazyLock::new(|| {
 });
 
 /// The certified answers of closures and rates, written by `examples/certify.rs`: a table is the same on every machine.
-const TABLE: &str = include_str!("data/formulas.csv");
+pub(super) const TABLE: &str = include_str!("data/formulas.csv");
 
 /// The largest difference of two ways to compute a value, 1 or 1/s.
 const AGREED: f64 = 2e-12;
 
-/// Computes the table afresh, with twelve decimals: each value by two formulations.
-///
-/// # Errors
-///
-/// An error if the two differ by more than 2·10⁻¹².
-pub fn certify() -> Result<String, String> {
+/// Computes the table: each value by two formulations.
+pub(super) fn certify() -> Result<String, String> {
     let mut table = String::from("setting,row,values\n");
     for problem in PROBLEMS.iter().filter(|problem| problem.formula != Formula::Pdot) {
         for (k, row) in (problem.inputs)(&problem.formula).iter().enumerate() {

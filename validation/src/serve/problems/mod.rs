@@ -7,15 +7,15 @@
 
 mod archive;
 mod asked;
-pub mod brownian;
+mod brownian;
 mod check;
-pub mod closed;
+mod closed;
 pub(crate) mod contact;
 mod ensemble;
 mod export;
 mod flows;
-pub mod folgar_tucker;
-pub mod formula;
+mod folgar_tucker;
+pub(crate) mod formula;
 mod origin;
 mod page;
 mod read;
@@ -438,6 +438,17 @@ pub fn all() -> &'static [ProblemDef] {
     });
     &ALL
 }
+
+/// Computes a table of certified answers, with twelve decimals; an error says why it cannot be certified.
+pub type Certify = fn() -> Result<String, String>;
+
+/// The tables that are computed in moments, by the names of their files in `data`.
+pub const TABLES: [(&str, Certify); 4] = [
+    ("brownian", brownian::certify),
+    ("closed", closed::certify),
+    ("folgar-tucker", folgar_tucker::certify),
+    ("formulas", formula::certify),
+];
 
 /// Every problem with its certified answer.
 pub fn built() -> Vec<&'static Built> {

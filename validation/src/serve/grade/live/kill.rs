@@ -17,7 +17,6 @@ fn running() -> MutexGuard<'static, BTreeSet<u32>> {
     RUNNING.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Starts a program in a process group of its own.
 pub(super) fn start(command: &mut Command) -> io::Result<Child> {
     let mut running = running();
     family::adopt();

@@ -49,7 +49,6 @@ pub fn prepared(program: Program, any_form: bool) -> (Program, Mode) {
     (program, if by_tolerance { Mode::Tolerance } else { Mode::Steps })
 }
 
-/// One setting with its answer.
 struct Rung {
     setting: Setting,
     answer: Answer,

@@ -55,7 +55,6 @@ pub struct Program {
 #[derive(Default)]
 struct State {
     pipe: Option<Pipe>,
-    /// The id of the last request.
     asked: u64,
     /// Number of answers that were waited for in vain.
     hangs: u32,
@@ -205,7 +204,6 @@ impl Program {
     }
 }
 
-/// A breach of the protocol.
 struct Breach {
     what: String,
     /// What kept the answer from coming.

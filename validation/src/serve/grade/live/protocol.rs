@@ -38,7 +38,6 @@ impl Protocol {
         }
     }
 
-    /// The line of a request.
     pub(super) fn write(self, request: &Request<'_>) -> Result<String, String> {
         match self {
             Self::Json => serde_json::to_string(request).map_err(|error| error.to_string()),

@@ -40,16 +40,13 @@ pub struct MapRow {
     pub found: Vec<map::Fate>,
 }
 
-/// Aspect ratios of the longest steps.
 const LIMIT_RATIOS: [f64; 2] = [2.0, 11.6];
 
-/// Aspect ratios of the map.
 const MAP_RATIOS: [f64; 6] = [0.1, 1.01, 2.0, 11.6, 100.0, 1e4];
 
 /// Steps of the map, in periods.
 const STEPS: [f64; 5] = [1e-4, 1e-3, 1e-2, 0.1, 1.0];
 
-/// Tolerances of the map.
 const TOLERANCES: [f64; 5] = [1e-2, 1e-4, 1e-6, 1e-8, 1e-10];
 
 /// The largest number of steps in a run of the map.

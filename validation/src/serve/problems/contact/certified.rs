@@ -92,7 +92,6 @@ pub(super) fn angles(rod: &Touched, step: &Big) -> Vec<Big> {
     vec![phi_rate, theta_rate, phi, theta]
 }
 
-/// The unit vector in the direction of `p`.
 pub(super) fn axis(p: &[Big]) -> Vector {
     let p = [0, 1, 2].map(|i| p[i].clone());
     let size = length(&p);

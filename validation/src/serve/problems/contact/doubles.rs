@@ -6,7 +6,6 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-/// The rule, correct or with a mistake.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Variant {
     /// The factor on the change of ṗ.

@@ -1,14 +1,9 @@
 //! Formulas by second ways: the derivative of the exact motion, limits in closed form, and laws.
 
-use super::super::table::holds;
 use super::*;
+use crate::oracle::reference::big::{double, length};
 use crate::oracle::reference::motion::{Motion, Unit, image};
 use nalgebra::Vector3;
-
-#[test]
-fn the_table_is_computed_anew() {
-    holds(&certify().unwrap(), TABLE, 4e-12, [",0.2", ",0.3"]);
-}
 
 /// ṗ is the derivative at t = 0 of the exact motion, q/|q| with a matrix exponential.
 #[test]
@@ -23,7 +18,7 @@ fn pdot_is_the_derivative_of_the_exact_motion() {
             let at = |time: f64| {
                 let map = motion.map(&WIDE.of(time), Unit::Second, WIDE).unwrap();
                 let q = image(&map, &[0, 1, 2].map(|i| WIDE.of(row[i])));
-                let size = crate::oracle::reference::big::length(&q);
+                let size = length(&q);
                 q.map(|x| x / &size)
             };
             let (before, after) = (at(-step), at(step));
@@ -31,13 +26,13 @@ fn pdot_is_the_derivative_of_the_exact_motion() {
             let off = |sign: f64| {
                 let each = (0..3).map(|i| {
                     let slope = (&after[i] - &before[i]) / WIDE.of(2.0 * step);
-                    crate::oracle::reference::big::double(&(slope - WIDE.of(sign) * &asked[i])).abs()
+                    double(&(slope - WIDE.of(sign) * &asked[i])).abs()
                 });
                 each.fold(0.0, f64::max)
             };
             // |p| is 1 to a rounding, and the formula takes p as it is.
             assert!(off(1.0) < 2e-15, "{} {row:?}: {:e}", problem.name, off(1.0));
-            assert!(off(-1.0) > 1e-4 || asked.iter().all(|x| crate::oracle::reference::big::double(x).abs() < 1e-3));
+            assert!(off(-1.0) > 1e-4 || asked.iter().all(|x| double(x).abs() < 1e-3));
         }
     }
 }
