@@ -12,8 +12,6 @@ use rand::SeedableRng;
 use rand_distr::{Distribution, StandardNormal};
 use rand_pcg::Pcg64Dxsm;
 use rayon::prelude::*;
-use shearbed_validation::input::scenes;
-use shearbed_validation::input::start::Starts;
 use shearbed_validation::judge::statistics::Sample;
 use shearbed_validation::methods::least_squares::Datum;
 use shearbed_validation::methods::least_squares::likelihood::{EMULATOR, REPLICAS, Rods};
@@ -22,7 +20,6 @@ use shearbed_validation::serve::fit::data::TimeColumn;
 use shearbed_validation::serve::fit::elsewhere::look_elsewhere;
 use shearbed_validation::serve::fit::scenes::{AS_WRITTEN, Scenes, Set};
 use shearbed_validation::serve::fit::search::{Fit, FitProblem, Measured, Watch, search};
-use shearbed_validation::serve::sweep::KeyValue;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 use std::collections::BTreeMap;
 
@@ -54,8 +51,7 @@ fn points(value: impl Fn(usize) -> f64) -> Vec<Datum> {
 
 /// Fig. 4 at 50 and 2000 per cm³ with 20 rods in fifty steps: the model judges itself.
 fn scenes(seed: u64, over: &[Range]) -> Result<Scenes, String> {
-    let text = scenes::find("fig4-n50").ok_or("no scene")?.text;
-    let set = |concentration: f64| -> Result<Set, String> {
+    let set = |concentration: f64| {
         let settings = [
             "time.periods=1.2".into(),
             "time.steps_per_period=50".into(),
@@ -63,14 +59,7 @@ fn scenes(seed: u64, over: &[Range]) -> Result<Scenes, String> {
             "particles.count=20".into(),
             format!("interaction.concentration_per_cm3={concentration}"),
         ];
-        Ok(Set {
-            source: "fig4".into(),
-            text: text.into(),
-            starts: Starts::default(),
-            settings: settings.iter().map(|text: &String| KeyValue::parse(text)).collect::<Result<_, _>>()?,
-            seed,
-            time: TimeColumn::Strain,
-        })
+        Set::built_in("fig4-n50", &settings, seed, TimeColumn::Strain)
     };
     Ok(Scenes::new(vec![set(50.0)?, set(2000.0)?], over.to_vec())?)
 }

@@ -18,8 +18,6 @@ use rand::{RngExt, SeedableRng};
 use rand_distr::StandardNormal;
 use rand_pcg::Pcg64Dxsm;
 use rayon::prelude::*;
-use shearbed_validation::input::scenes;
-use shearbed_validation::input::start::Starts;
 use shearbed_validation::judge::lab::problem;
 use shearbed_validation::methods::least_squares::Datum;
 use shearbed_validation::methods::least_squares::likelihood::{RODS, Rods};
@@ -29,7 +27,7 @@ use shearbed_validation::serve::fit::data::TimeColumn;
 use shearbed_validation::serve::fit::report::report;
 use shearbed_validation::serve::fit::scenes::{AS_WRITTEN, Scenes, Set};
 use shearbed_validation::serve::fit::search::{FitProblem, Measured, Watch, search};
-use shearbed_validation::serve::sweep::{self, KeyValue};
+use shearbed_validation::serve::sweep;
 
 const PLANTED: f64 = 0.8;
 const TIMES: usize = 20;
@@ -45,14 +43,7 @@ fn set(count: usize, seed: u64) -> Result<Set, String> {
         format!("interaction.alpha={PLANTED}"),
         format!("particles.count={count}"),
     ];
-    Ok(Set {
-        source: "fig4".into(),
-        text: scenes::find("fig4-n50").ok_or("no scene")?.text.into(),
-        starts: Starts::default(),
-        settings: settings.iter().map(|text: &String| KeyValue::parse(text)).collect::<Result<_, _>>()?,
-        seed,
-        time: TimeColumn::Periods,
-    })
+    Set::built_in("fig4-n50", &settings, seed, TimeColumn::Periods)
 }
 
 /// Mean and standard deviation over the rods of |p₁| at each time.

@@ -127,14 +127,12 @@ impl Record {
         let why: Vec<_> = self.why.iter().map(|(why, times)| format!("{why} ({times})")).collect();
         let controls = self.controls.iter().map(|(mistake, margins)| {
             let (drawn, still): (Vec<f64>, Vec<_>) = margins.iter().partition(|m| m.is_finite());
-            let still = match still.len() {
-                0 => String::new(),
-                seeds => format!(", without scatter at {seeds} seeds"),
-            };
-            let n = drawn.len() as f64;
+            let still =
+                if still.is_empty() { String::new() } else { format!(", without scatter at {} seeds", still.len()) };
             if drawn.is_empty() {
                 return format!("{mistake}{still}");
             }
+            let n = drawn.len() as f64;
             let mean = drawn.iter().sum::<f64>() / n;
             let sd = (drawn.iter().map(|m| (m - mean).powi(2)).sum::<f64>() / (n - 1.0).max(1.0)).sqrt();
             let least = drawn.iter().copied().fold(f64::INFINITY, f64::min);

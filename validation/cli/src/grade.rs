@@ -245,7 +245,7 @@ fn program(args: &Args, command: &str, reference: Option<&Path>) -> Result<Done,
     let theory = live::theory(mode == Mode::Tolerance, observed.filter_map(|graded| graded.observed_order).next());
     let program = program.with_theory(theory);
     let studies = (!args.brief && rods && program.given_up().is_none())
-        .then(|| live::studies(&program, &echo(program.protocol())));
+        .then(|| live::studies(&program, &echo(program.protocol)));
     let left_out = studies.iter().flat_map(live::Studies::left_out);
     let mut remarks: Vec<_> = left_out
         .map(|what| format!("{what}: not measured, as the program needs longer for it than --timeout, or broke off"))

@@ -135,18 +135,6 @@ fn complaint(entry: &Entry, graded: &[Graded]) -> Option<String> {
     }
 }
 
-/// A family of the table: right or wrong, and its counts.
-#[derive(Default)]
-struct Row {
-    integrators: usize,
-    gradings: usize,
-    pass: usize,
-    late: usize,
-    fail: usize,
-    seen: usize,
-    good: usize,
-}
-
 fn all(only: &str, timeout_s: f64, quick: bool) -> ExitCode {
     let rods = shearbed_validation::serve::problems::free_rods();
     let problems = live::built_in(|name| if quick { QUICK.contains(&name) } else { rods.contains(&name) });
@@ -166,32 +154,28 @@ fn all(only: &str, timeout_s: f64, quick: bool) -> ExitCode {
             graded
         })
         .collect();
-    let mut table: Vec<((String, bool), Row)> = Vec::new();
-    for (entry, graded) in entries.iter().zip(&results) {
-        let key = (entry.family.clone(), entry.right);
-        let at = table.iter().position(|(known, _)| *known == key).unwrap_or_else(|| {
-            table.push((key, Row::default()));
-            table.len() - 1
-        });
-        let row = &mut table[at].1;
-        let count = |verdict: Verdict| graded.iter().filter(|graded| graded.verdict == verdict).count();
-        row.integrators += 1;
-        row.gradings += graded.len();
-        row.pass += count(Verdict::Pass);
-        row.late += count(Verdict::NotReached);
-        row.fail += count(Verdict::Fail);
-        row.seen += graded.iter().filter(|graded| graded.order_found == Some(Order::Seen)).count();
-        row.good += usize::from(complaint(entry, graded).is_none());
+    let mut families: Vec<(&str, bool)> = Vec::new();
+    for entry in &entries {
+        let family = (entry.family.as_str(), entry.right);
+        if !families.contains(&family) {
+            families.push(family);
+        }
     }
     println!("| integrators | how many | graded | PASS | NOT REACHED | FAIL | order seen | verdict right |");
     println!("| --- | --- | --- | --- | --- | --- | --- | --- |");
-    for ((family, right), row) in &table {
-        let kind = if *right { "" } else { ", one coefficient wrong" };
+    for (family, right) in families {
+        let own = || entries.iter().zip(&results).filter(|(entry, _)| (&*entry.family, entry.right) == (family, right));
+        let count = |is: &dyn Fn(&Graded) -> bool| own().flat_map(|(_, all)| all).filter(|one| is(one)).count();
+        let [pass, late, fail] = [Verdict::Pass, Verdict::NotReached, Verdict::Fail]
+            .map(|verdict| count(&|graded| graded.verdict == verdict));
+        let seen = count(&|graded| graded.order_found == Some(Order::Seen));
+        let good = own().filter(|(entry, graded)| complaint(entry, graded).is_none()).count();
+        let kind = if right { "" } else { ", one coefficient wrong" };
+        let (integrators, gradings) = (own().count(), count(&|_| true));
         println!(
-            "| {family}{kind} | {} | {} | {} | {} | {} | {} | {} of {} |",
-            row.integrators, row.gradings, row.pass, row.late, row.fail, row.seen, row.good, row.integrators
+            "| {family}{kind} | {integrators} | {gradings} | {pass} | {late} | {fail} | {seen} | {good} of {integrators} |"
         );
     }
-    let good = table.iter().all(|(_, row)| row.good == row.integrators);
+    let good = entries.iter().zip(&results).all(|(entry, graded)| complaint(entry, graded).is_none());
     if good { ExitCode::SUCCESS } else { ExitCode::FAILURE }
 }

@@ -55,9 +55,12 @@ pub fn determinant(a: &M) -> f64 {
     sum(|j| a[0][j] * (a[1][(j + 1) % 3] * a[2][(j + 2) % 3] - a[1][(j + 2) % 3] * a[2][(j + 1) % 3]))
 }
 
-pub fn hybrid(a: &M, at: [usize; 4]) -> f64 {
-    let f = 1.0 - 27.0 * determinant(a);
+pub fn hybrid_by(a: &M, at: [usize; 4], f: f64) -> f64 {
     f * quadratic(a, at) + (1.0 - f) * linear(a, at)
+}
+
+pub fn hybrid(a: &M, at: [usize; 4]) -> f64 {
+    hybrid_by(a, at, 1.0 - 27.0 * determinant(a))
 }
 
 impl Code {

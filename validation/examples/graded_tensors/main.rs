@@ -8,14 +8,13 @@
 
 mod code;
 
-use code::{Code, M, delta, double, hybrid, linear, linear_by, quadratic};
+use code::{Code, M, delta, double, hybrid, hybrid_by, linear, linear_by, quadratic};
 use rayon::prelude::*;
 use shearbed_validation::methods::tensors::Model;
 use shearbed_validation::serve::grade::{self, Claim, DumpOptions, FileOptions, Graded, Options, Verdict};
 use shearbed_validation::serve::problems::{self, Formula, LoadedProblem};
 use std::array::from_fn;
 use std::fs;
-use std::path::Path;
 
 /// A wrong code: its name, what its diagnosis must contain, and the mistake.
 type Wrong = (&'static str, &'static str, fn(&mut Code));
@@ -67,16 +66,10 @@ const WRONG: &[Wrong] = &[
         c.closure = |a, at| linear_by(a, at, 1.0 / 7.0, -1.0 / 245.0);
     }),
     ("f and 1 − f", "a hybrid closure with f and 1 − f exchanged", |c| {
-        c.closure = |a, at| {
-            let f = 27.0 * code::determinant(a);
-            f * quadratic(a, at) + (1.0 - f) * linear(a, at)
-        };
+        c.closure = |a, at| hybrid_by(a, at, 27.0 * code::determinant(a));
     }),
     ("f = (3a:a − 1)/2", "a hybrid closure with f = (3 a:a − 1)/2", |c| {
-        c.closure = |a, at| {
-            let f = 0.5 * (3.0 * double(a, a) - 1.0);
-            f * quadratic(a, at) + (1.0 - f) * linear(a, at)
-        };
+        c.closure = |a, at| hybrid_by(a, at, 0.5 * (3.0 * double(a, a) - 1.0));
     }),
     ("engineering shear", "2 a_12 for a_12", |c| {
         c.written = |x| [x[0], x[1], x[2], 2.0 * x[3], 2.0 * x[4], 2.0 * x[5]];
@@ -151,20 +144,16 @@ fn graded(problems: &[LoadedProblem], answers: &[Rows]) -> (Vec<Graded>, Vec<Str
         fs::create_dir(&folder).expect("a folder");
         fs::write(folder.join("answer.csv"), text(loaded, rows)).expect("a file");
     }
-    grade_in(dir.path(), problems)
+    let dump = DumpOptions { timestep_s: None, rod_axis: None };
+    let options = Options { file: FileOptions::default(), dump, claim: Claim::default() };
+    let graded = grade::grade(problems, dir.path(), &options);
+    let overall = grade::overall(problems, &graded);
+    (graded, overall)
 }
 
 /// Answers with steps of this strain: short ones for a code that is to pass.
 fn answers(code: &Code, problems: &[LoadedProblem], strain: f64) -> Vec<Rows> {
     problems.iter().map(|loaded| values(code, loaded, strain)).collect()
-}
-
-fn grade_in(dir: &Path, problems: &[LoadedProblem]) -> (Vec<Graded>, Vec<String>) {
-    let dump = DumpOptions { timestep_s: None, rod_axis: None };
-    let options = Options { file: FileOptions::default(), dump, claim: Claim::default() };
-    let graded = grade::grade(problems, dir, &options);
-    let overall = grade::overall(problems, &graded);
-    (graded, overall)
 }
 
 /// One wrong code on one closure: how many of its problems are wrong, named right and named wrong, and what was said.
@@ -222,14 +211,17 @@ fn all(only: &str, settings: &[Setting]) -> Vec<Row> {
     each.into_par_iter().map(|(wrong, setting)| judged(wrong, setting)).collect()
 }
 
+fn sum(rows: &[Row], of: fn(&Row) -> usize) -> usize {
+    rows.iter().map(of).sum()
+}
+
 fn main() {
     let rows = all(&std::env::args().nth(1).unwrap_or_default(), &settings());
     for row in &rows {
         println!("{}: {} of {} named", row.name, row.named, row.wrong);
         row.said.iter().for_each(|said| println!("    {said}"));
     }
-    let sum = |of: fn(&Row) -> usize| rows.iter().map(of).sum::<usize>();
-    println!("{} wrong answers, {} named", sum(|row| row.wrong), sum(|row| row.named));
+    println!("{} wrong answers, {} named", sum(&rows, |row| row.wrong), sum(&rows, |row| row.named));
 }
 
 #[test]
@@ -245,8 +237,7 @@ fn right_codes_pass_and_wrong_ones_are_caught_and_named() {
         assert_eq!(overall, [""; 0]);
     }
     let rows = all("", &settings);
-    let sum = |of: fn(&Row) -> usize| rows.iter().map(of).sum::<usize>();
-    let (wrong, named) = (sum(|row| row.wrong), sum(|row| row.named));
+    let (wrong, named) = (sum(&rows, |row| row.wrong), sum(&rows, |row| row.named));
     let said: Vec<_> =
         rows.iter().flat_map(|row| row.said.iter().map(|said| format!("{}: {said}", row.name))).collect();
     assert!(said.iter().all(|said| !said.ends_with("passes")), "{said:#?}");

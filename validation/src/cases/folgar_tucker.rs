@@ -76,7 +76,7 @@ fn seven(read: &fn(f64) -> f64, effort: &Effort) -> Vec<Evidence> {
         })
     });
     let [thin, edge] = model.each_ref().map(|all| all.iter().map(|c| read(*c)).collect::<Vec<f64>>());
-    let measured = folgar_tucker().rows;
+    let measured = folgar_tucker();
     let (x, y): (Vec<f64>, Vec<f64>) = measured.iter().map(|point| (point.phi_rp, point.c_i)).unzip();
     let least = y.iter().copied().fold(f64::INFINITY, f64::min);
     let below = edge.iter().map(|c| least / 3.0 - c);

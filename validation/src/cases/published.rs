@@ -26,7 +26,7 @@ pub fn cases() -> Vec<Case> {
                 (0.5 * strain_per_period(r), 0.5 * strain_per_period(r))
             })
             .check(|half_turn, _| {
-                let turns: Vec<f64> = sph_fibres().rows.iter().filter_map(first_half_turn).collect();
+                let turns: Vec<f64> = sph_fibres().iter().filter_map(first_half_turn).collect();
                 let mean = turns.iter().sum::<f64>() / turns.len() as f64;
                 let (least, most) = half_turn(SPH_ASPECT_RATIO);
                 // Without a mean, `outside` is NaN, which fails.

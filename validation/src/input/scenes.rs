@@ -47,6 +47,11 @@ pub fn find(name: &str) -> Option<&'static BuiltIn> {
     ALL.iter().find(|scene| scene.name == name)
 }
 
+/// The checked built-in scene called `name`, or `None`.
+pub fn scene(name: &str) -> Option<Scene> {
+    find(name)?.scene().ok()
+}
+
 /// Up to three names of built-in scenes of which `name` may be a misspelling, the closest first.
 pub fn close_to(name: &str) -> Vec<&'static str> {
     let mut close: Vec<_> = ALL

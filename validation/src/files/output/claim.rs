@@ -150,8 +150,7 @@ impl Claim {
 
     /// The folder that contains `name`, which is made if it does not exist, and the last part of the name.
     fn made(&self, name: &str) -> io::Result<(Dir, PathBuf)> {
-        let mut dir = self.dir.try_clone()?;
-        let path = Path::new(name);
+        let (mut dir, path) = (self.dir.try_clone()?, Path::new(name));
         for part in path.parent().into_iter().flat_map(Path::components) {
             match dir.create_dir(part) {
                 Err(error) if error.kind() != io::ErrorKind::AlreadyExists => return Err(error),

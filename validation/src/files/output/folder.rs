@@ -188,10 +188,8 @@ mod tests {
     }
 
     fn names(dir: &Path) -> Vec<String> {
-        let entries = fs::read_dir(dir).unwrap();
-        let mut names: Vec<_> = entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
-        names.sort();
-        names
+        let name = |path: PathBuf| path.file_name().unwrap().to_str().unwrap().to_owned();
+        crate::files::entries(dir).unwrap().into_iter().map(name).collect()
     }
 
     const WAY: &str = "; --force overwrites it, another --out leaves it; nothing was changed";
@@ -208,18 +206,20 @@ mod tests {
         assert_eq!(names(dir), ["a.csv", "b", "shearbed.json", "user.csv"]);
         assert!(!dir.join("b/c.csv").exists());
 
-        let shown = |what: &str| format!("{what}{WAY}");
-        assert_eq!(
-            refused(&folder(dir, "fit", 1), &["x.csv"]),
-            shown("shearbed.json: results of `shearbed run` are kept here")
-        );
-        assert_eq!(
-            refused(&folder(dir, "run", 2), &["a.csv"]),
-            shown("shearbed.json: results of `shearbed run` from other input are kept here: seed was 1 and is 2 now")
-        );
-        assert_eq!(refused(&own, &["a.csv", "user.csv"]), shown("user.csv: was not written by `shearbed run`"));
+        let kept = "shearbed.json: results of `shearbed run`";
+        for (folder, names, what) in [
+            (&folder(dir, "fit", 1), &["x.csv"][..], format!("{kept} are kept here")),
+            (
+                &folder(dir, "run", 2),
+                &["a.csv"],
+                format!("{kept} from other input are kept here: seed was 1 and is 2 now"),
+            ),
+            (&own, &["a.csv", "user.csv"], "user.csv: was not written by `shearbed run`".into()),
+        ] {
+            assert_eq!(refused(folder, names), what + WAY);
+        }
         fs::write(dir.join("a.csv"), "of b.csv\n").unwrap();
-        assert_eq!(refused(&own, &["a.csv"]), shown("a.csv: was changed after `shearbed run` wrote it"));
+        assert_eq!(refused(&own, &["a.csv"]), format!("a.csv: was changed after `shearbed run` wrote it{WAY}"));
         // Changed files stay too, even if they are no longer written.
         own.write(files(&["d.csv"])).unwrap();
         assert_eq!(names(dir), ["a.csv", "b", "d.csv", "shearbed.json", "user.csv"]);

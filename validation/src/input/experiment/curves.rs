@@ -35,8 +35,7 @@ pub(super) fn read(path: &Path, source: &Source) -> Result<Vec<MeasuredCurve>, F
     };
     let axis = &provenance.x;
     let period = |key: &Key| {
-        let scene = scenes::find(key.scene).and_then(|built_in| built_in.scene().ok());
-        scene.map_or(f64::NAN, |scene| axis.quantity.per_period(scene.particles.aspect_ratio))
+        scenes::scene(key.scene).map_or(f64::NAN, |scene| axis.quantity.per_period(scene.particles.aspect_ratio))
     };
     let shortest = provenance.curves.iter().map(period).fold(f64::INFINITY, f64::min);
     if axis.standard_uncertainty > MOST_UNCERTAIN * shortest {
@@ -108,8 +107,7 @@ fn convert(
             return Err(FileError::line(file, row.line, message));
         }
     }
-    let scene = scenes::find(key.scene).and_then(|built_in| built_in.scene().ok());
-    let particles = scene.map(|scene| scene.particles);
+    let particles = scenes::scene(key.scene).map(|scene| scene.particles);
     // A test checks that the scenes of every source exist and are valid.
     let (aspect_ratio, length_mm) = particles.map_or((f64::NAN, f64::NAN), |p| (p.aspect_ratio, p.length_mm));
     let period = provenance.x.quantity.per_period(aspect_ratio);

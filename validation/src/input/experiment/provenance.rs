@@ -111,19 +111,11 @@ pub(super) const INPUTS: [Input; 5] = [
     ("aspect_ratio_sd_percent", |scene| Some(&mut scene.particles.aspect_ratio_sd_percent)),
 ];
 
-/// The content of a provenance file.
+/// The content of a provenance file that the comparison uses.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Provenance {
-    /// The paper with the points.
-    pub paper: String,
     /// The figure or table of the paper.
     pub figure: String,
-    /// The person who digitised the points.
-    pub digitised_by: String,
-    /// The digitising tool and its version.
-    pub tool: String,
-    /// The date of digitising, as YYYY-MM-DD.
-    pub date: String,
     /// Layout of the CSV file.
     pub csv: Layout,
     /// Number of rods averaged in each point, if known.

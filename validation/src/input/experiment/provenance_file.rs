@@ -15,39 +15,28 @@ const QUANTITY_Y: &str = "\"fraction\" (of the rod's length) or \"mm\": the unit
 pub(super) fn parse(file: &str, text: &str, source: &Source) -> Result<Provenance, FileError> {
     let document = document(file, text)?;
     let all = Keys::of_file(file, &document);
-    all.only(&[
-        "paper",
-        "figure",
-        "digitised_by",
-        "tool",
-        "date",
-        "csv",
-        "rods",
-        "aspect_ratio",
-        "x",
-        "y",
-        "curve",
-        "inputs",
-    ])?;
+    const KNOWN: &str = "paper figure digitised_by tool date csv rods aspect_ratio x y curve inputs";
+    all.only(&KNOWN.split(' ').collect::<Vec<_>>())?;
     let layouts = "\"columns\" or \"webplotdigitizer\"";
     let csv = match all.text("csv", layouts)?.as_str() {
         "columns" => Layout::Columns,
         "webplotdigitizer" => Layout::WebPlotDigitizer,
         _ => return Err(all.refused("csv", layouts)),
     };
-    let rods = if all.has("rods") {
-        Some(all.number("rods", "a whole number ≥ 1", |n| n >= 1.0 && n.fract() == 0.0)?)
-    } else {
-        None
-    };
+    let whole = |n: f64| n >= 1.0 && n.fract() == 0.0;
+    let rods = all.has("rods").then(|| all.number("rods", "a whole number ≥ 1", whole)).transpose()?;
     let curves = curves(&all, csv, source)?;
     own_aspect_ratio(&all, &curves)?;
+    all.text("paper", "the paper that shows the points, as a text")?;
+    let figure = all.text("figure", "the figure or table, as a text")?;
+    all.text("digitised_by", "who read the points off, as a text")?;
+    all.text("tool", "with which tool and version, as a text")?;
+    let allowed = "the day of reading off, as \"YYYY-MM-DD\"";
+    if !is_day(&all.text("date", allowed)?) {
+        return Err(all.refused("date", allowed));
+    }
     Ok(Provenance {
-        paper: all.text("paper", "the paper that shows the points, as a text")?,
-        figure: all.text("figure", "the figure or table, as a text")?,
-        digitised_by: all.text("digitised_by", "who read the points off, as a text")?,
-        tool: all.text("tool", "with which tool and version, as a text")?,
-        date: date(&all)?,
+        figure,
         csv,
         rods,
         x: axis(&all.table("x", "the table [x] of the time axis")?, time)?,
@@ -55,12 +44,6 @@ pub(super) fn parse(file: &str, text: &str, source: &Source) -> Result<Provenanc
         curves,
         inputs: inputs(&all)?,
     })
-}
-
-fn date(all: &Keys<'_>) -> Result<String, FileError> {
-    let allowed = "the day of reading off, as \"YYYY-MM-DD\"";
-    let date = all.text("date", allowed)?;
-    if is_day(&date) { Ok(date) } else { Err(all.refused("date", allowed)) }
 }
 
 /// True if the text is a calendar day, as YYYY-MM-DD.
@@ -128,10 +111,9 @@ fn projection(table: &Keys<'_>) -> Result<Projection, FileError> {
 }
 
 fn no_shear_rate(table: &Keys<'_>) -> Result<(), FileError> {
-    if table.has("shear_rate_per_s") {
-        Err(table.refused("shear_rate_per_s", "only for x.quantity = \"t_s\""))
-    } else {
-        Ok(())
+    match table.has("shear_rate_per_s") {
+        true => Err(table.refused("shear_rate_per_s", "only for x.quantity = \"t_s\"")),
+        false => Ok(()),
     }
 }
 
@@ -183,8 +165,7 @@ fn own_aspect_ratio(all: &Keys<'_>, curves: &[Key]) -> Result<(), FileError> {
         return Ok(());
     }
     for key in curves {
-        let scene = scenes::find(key.scene).and_then(|built_in| built_in.scene().ok());
-        let own = scene.map_or(f64::NAN, |scene| scene.particles.aspect_ratio);
+        let own = scenes::scene(key.scene).map_or(f64::NAN, |scene| scene.particles.aspect_ratio);
         let allowed = format!(
             "the mean r_e of the measured rods, {own} in {}; the paper leaves its points of r_e = 3.96 out (Results, \
              after Fig. 5): rods that start parallel in the shear plane do not disturb each other in this model",
@@ -219,17 +200,8 @@ mod tests {
         for day in ["1973-01-31", "2024-02-29", "2000-02-29", "2026-12-31"] {
             assert!(is_day(day), "{day}");
         }
-        for none in [
-            "2026-13-45",
-            "2026-00-01",
-            "2026-04-31",
-            "2023-02-29",
-            "1900-02-29",
-            "2026-01-00",
-            "26-01-01",
-            "2026-1-1",
-            "2026-01-0１",
-        ] {
+        let none = "2026-13-45 2026-00-01 2026-04-31 2023-02-29 1900-02-29 2026-01-00 26-01-01 2026-1-1 2026-01-0１";
+        for none in none.split(' ') {
             assert!(!is_day(none), "{none}");
         }
     }

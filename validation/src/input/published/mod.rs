@@ -1,24 +1,4 @@
-//! Published results on related suspensions, shipped in `validation/published` with their provenance. The type of a set
-//! says whether it was measured or simulated.
-
-/// Marks results measured in an experiment.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Measured;
-
-/// Marks results computed by another program.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Simulated;
-
-/// A data set of one origin.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Published<Origin, Row> {
-    /// [`Measured`] or [`Simulated`].
-    pub origin: Origin,
-    /// The publication, and where this project read the data.
-    pub source: &'static str,
-    /// The rows of the data set.
-    pub rows: Vec<Row>,
-}
+//! Published results on related suspensions, shipped in `validation/published` with their provenance.
 
 /// C_I at a volume fraction times physical aspect ratio.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -32,21 +12,19 @@ pub struct Coefficient {
 /// One run: strain and a_11 at each output.
 pub type Run = Vec<[f64; 2]>;
 
-/// Seven measured C_I of Folgar & Tucker (1984), second-hand.
-pub fn folgar_tucker() -> Published<Measured, Coefficient> {
-    let text = include_str!("../../../published/folgar-tucker-1984/ci.csv");
-    Published {
-        origin: Measured,
-        source: "F. Folgar & C. L. Tucker, J. Reinforced Plastics and Composites 3 (1984) 98, as in fiberoripy dc16f7c",
-        rows: numbers(text).map(|row| Coefficient { phi_rp: row[0], c_i: row[1] }).collect(),
-    }
+/// Seven measured C_I of Folgar & Tucker, J. Reinforced Plastics and Composites 3 (1984) 98, second-hand: as in
+/// fiberoripy dc16f7c.
+pub fn folgar_tucker() -> Vec<Coefficient> {
+    let rows = numbers(include_str!("../../../published/folgar-tucker-1984/ci.csv"));
+    rows.map(|row| Coefficient { phi_rp: row[0], c_i: row[1] }).collect()
 }
 
 /// Physical aspect ratio of the fibres of [`sph_fibres`].
 pub const SPH_ASPECT_RATIO: f64 = 4.431_135;
 
-/// Five simulated runs of fibres at 1 % by volume, all along axis 1 at the start (Meyer et al. 2020).
-pub fn sph_fibres() -> Published<Simulated, Run> {
+/// Five simulated runs of fibres at 1 % by volume, all along axis 1 at the start: N. Meyer et al., J. Composites Science
+/// 4 (2020) 77, as in fiberoripy 8478bc4.
+pub fn sph_fibres() -> Vec<Run> {
     let texts = [
         include_str!("../../../published/sph-fibres/volfrac1-run1.csv"),
         include_str!("../../../published/sph-fibres/volfrac1-run2.csv"),
@@ -54,11 +32,7 @@ pub fn sph_fibres() -> Published<Simulated, Run> {
         include_str!("../../../published/sph-fibres/volfrac1-run4.csv"),
         include_str!("../../../published/sph-fibres/volfrac1-run5.csv"),
     ];
-    Published {
-        origin: Simulated,
-        source: "N. Meyer et al., J. Composites Science 4 (2020) 77, as in fiberoripy 8478bc4",
-        rows: texts.map(|text| numbers(text).map(|row| [row[0], row[1]]).collect()).into(),
-    }
+    texts.map(|text| numbers(text).map(|row| [row[0], row[1]]).collect()).into()
 }
 
 /// The numbers of every row except the header; NaN for cells that are no number, and a test checks that there are none.
@@ -84,9 +58,9 @@ mod tests {
     #[test]
     fn the_shipped_sets_are_whole() {
         let measured = folgar_tucker();
-        assert_eq!(measured.rows.len(), 7);
-        assert_eq!(measured.rows[6], Coefficient { phi_rp: 2.56, c_i: 0.0165 });
-        for run in sph_fibres().rows {
+        assert_eq!(measured.len(), 7);
+        assert_eq!(measured[6], Coefficient { phi_rp: 2.56, c_i: 0.0165 });
+        for run in sph_fibres() {
             assert_eq!(run.len(), 1003);
             assert_eq!(run[0], [0.0, 1.0]);
             assert!(run.iter().flatten().all(|number| number.is_finite()));

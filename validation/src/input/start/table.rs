@@ -25,29 +25,28 @@ const OTHERS: [&str; 1] = ["collided"];
 const OFF_UNIT: f64 = 1e-5;
 
 /// The columns of a group in the file, `None` if it has none.
-struct Group<const K: usize>(Option<[usize; K]>);
+type Group<const K: usize> = Option<[usize; K]>;
 
-impl<const K: usize> Group<K> {
-    fn new(names: [&str; K], table: &Table<&[u8]>) -> Result<Self, FileError> {
-        let places = names.map(|name| table.place(name));
-        let missing = names.iter().zip(places).find(|(_, place)| place.is_none());
-        match missing {
-            None => Ok(Self(Some(places.map(Option::unwrap_or_default)))),
-            Some(_) if places.iter().all(Option::is_none) => Ok(Self(None)),
-            Some((name, _)) => Err(table.error(format!("column {name} is missing; {} go together", names.join(", ")))),
-        }
+fn group<const K: usize>(names: [&str; K], table: &Table<&[u8]>) -> Result<Group<K>, FileError> {
+    let places = names.map(|name| table.place(name));
+    match names.iter().zip(places).find(|(_, place)| place.is_none()) {
+        None => Ok(Some(places.map(Option::unwrap_or_default))),
+        Some(_) if places.iter().all(Option::is_none) => Ok(None),
+        Some((name, _)) => Err(table.error(format!("column {name} is missing; {} go together", names.join(", ")))),
     }
+}
 
-    fn values(&self, number: impl Fn(usize) -> Result<f64, FileError>) -> Result<Option<[f64; K]>, FileError> {
-        let Some(places) = self.0 else {
-            return Ok(None);
-        };
-        let mut values = [0.0; K];
-        for (value, place) in values.iter_mut().zip(places) {
-            *value = number(place)?;
-        }
-        Ok(Some(values))
+/// The numbers of a row in a group.
+fn values<const K: usize>(
+    group: Group<K>,
+    number: impl Fn(usize) -> Result<f64, FileError>,
+) -> Result<Option<[f64; K]>, FileError> {
+    let Some(places) = group else { return Ok(None) };
+    let mut values = [0.0; K];
+    for (value, place) in values.iter_mut().zip(places) {
+        *value = number(place)?;
     }
+    Ok(Some(values))
 }
 
 /// The rods, row by row, and the line of each.
@@ -62,9 +61,9 @@ pub(super) fn read(path: &Path, bytes: &[u8]) -> Result<(OwnRods, Vec<u64>), Fil
         return Err(table
             .error(format!("unknown column {name:?}; allowed are those of rods.csv, separated by commas: {known}")));
     }
-    let (p, places) = (Group::new(P, &table)?, Group::new(PLACE, &table)?);
-    let (shape, length) = (Group::new(ASPECT_RATIO, &table)?, Group::new(LENGTH, &table)?);
-    if p.0.is_none() && places.0.is_none() && shape.0.is_none() && length.0.is_none() {
+    let (p, places) = (group(P, &table)?, group(PLACE, &table)?);
+    let (shape, length) = (group(ASPECT_RATIO, &table)?, group(LENGTH, &table)?);
+    if p.is_none() && places.is_none() && shape.is_none() && length.is_none() {
         let needed = "p1, p2 and p3, aspect_ratio, length_mm, or x1_mm, x2_mm and x3_mm";
         return Err(table.error(format!("no column of what a rod is: {needed}")));
     }
@@ -75,7 +74,7 @@ pub(super) fn read(path: &Path, bytes: &[u8]) -> Result<(OwnRods, Vec<u64>), Fil
         let number = |place: usize| row.finite(place);
         let positive = |place: usize| row.positive(place, "a finite number > 0");
         order.next(&row)?;
-        if let Some(direction) = p.values(number)? {
+        if let Some(direction) = values(p, number)? {
             // Only exactly rounded operations, for the same bits on every machine.
             let length = direction.map(|x| x * x).iter().sum::<f64>().sqrt();
             if (length - 1.0).abs() > OFF_UNIT {
@@ -86,20 +85,20 @@ pub(super) fn read(path: &Path, bytes: &[u8]) -> Result<(OwnRods, Vec<u64>), Fil
             push(&mut rods.p, direction.map(|x| x / length));
         }
         // Free rods have no position, and empty cells in rods.csv.
-        if !places.0.is_some_and(|places| places.iter().all(|place| row.is_blank(*place))) {
-            if rods.place_mm.is_none() && !lines.is_empty() && places.0.is_some() {
+        if !places.is_some_and(|places| places.iter().all(|place| row.is_blank(*place))) {
+            if rods.place_mm.is_none() && !lines.is_empty() && places.is_some() {
                 return Err(row.error("the rods before have no place: all have one, or none"));
             }
-            if let Some(x) = places.values(number)? {
+            if let Some(x) = values(places, number)? {
                 push(&mut rods.place_mm, x);
             }
         } else if rods.place_mm.is_some() {
             return Err(row.error("the rods before have a place: all have one, or none"));
         }
-        if let Some([r]) = shape.values(positive)? {
+        if let Some([r]) = values(shape, positive)? {
             rods.aspect_ratio.get_or_insert_default().push(r);
         }
-        if let Some([a]) = length.values(positive)? {
+        if let Some([a]) = values(length, positive)? {
             rods.length_mm.get_or_insert_default().push(a);
         }
         lines.push(row.line);

@@ -113,30 +113,22 @@ pub fn figures(
             }
         };
         let stem = if names.len() == 1 { String::new() } else { format!("_{}", set + 1) };
-        all.push((
-            format!("points{stem}"),
-            Figure {
-                title: format!("{name}: points and best fit"),
-                x_name: letters::time(times[set]),
-                y_name: of_set.iter().map(|c| letters::channel(c)).collect::<Vec<_>>().join(", "),
-                curves: of_set.iter().map(curve).collect(),
-                points: of_set.iter().map(|c| points(c, &|k| data[k].value)).collect(),
-                ..Figure::default()
-            },
-        ));
-        let residual = |k: usize| report.residuals[k].residual;
-        all.push((
-            format!("residuals{stem}"),
-            Figure {
-                title: format!("{name}: residuals"),
-                x_name: letters::time(times[set]),
-                y_name: "measured less best fit".into(),
-                curves: of_set.iter().map(zero).collect(),
-                points: of_set.iter().map(|c| points(c, &residual)).collect(),
-                y_span: Some((-0.001, 0.001)),
-                ..Figure::default()
-            },
-        ));
+        let figure = |title: &str, y_name: String, curves, points| Figure {
+            title: format!("{name}: {title}"),
+            x_name: letters::time(times[set]),
+            y_name,
+            curves,
+            points,
+            ..Figure::default()
+        };
+        let names = of_set.iter().map(|c| letters::channel(c)).collect::<Vec<_>>().join(", ");
+        let measured = of_set.iter().map(|c| points(c, &|k| data[k].value)).collect();
+        let best = figure("points and best fit", names, of_set.iter().map(curve).collect(), measured);
+        all.push((format!("points{stem}"), best));
+        let residuals = of_set.iter().map(|c| points(c, &|k| report.residuals[k].residual)).collect();
+        let zeros = of_set.iter().map(zero).collect();
+        let residuals = figure("residuals", "measured less best fit".into(), zeros, residuals);
+        all.push((format!("residuals{stem}"), Figure { y_span: Some((-0.001, 0.001)), ..residuals }));
     }
     all.extend((0..fit.ranges.len()).map(|axis| profile_of(fit, axis)));
     for b in 1..fit.ranges.len() {

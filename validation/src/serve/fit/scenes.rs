@@ -6,6 +6,7 @@ mod one_length;
 use super::data::TimeColumn;
 use super::error::{SceneError, Warning};
 use super::range::Range;
+use crate::input::scenes;
 use crate::input::start::Starts;
 use crate::methods::interpolate::interpolate;
 use crate::methods::least_squares::Datum;
@@ -33,6 +34,19 @@ pub struct Set {
     pub seed: u64,
     /// The unit of the points' times.
     pub time: TimeColumn,
+}
+
+impl Set {
+    /// A built-in scene with keys that are set as `KEY=VALUE`.
+    ///
+    /// # Errors
+    ///
+    /// A setting of another form, or a name of no scene.
+    pub fn built_in(name: &str, settings: &[String], seed: u64, time: TimeColumn) -> Result<Self, String> {
+        let text = scenes::find(name).ok_or("no scene")?.text.into();
+        let settings = settings.iter().map(|setting| KeyValue::parse(setting)).collect::<Result<_, _>>()?;
+        Ok(Self { source: name.into(), text, starts: Starts::default(), settings, seed, time })
+    }
 }
 
 /// A change of the model from the scene as written, to measure its effect.
@@ -125,9 +139,12 @@ impl Scenes {
 
     /// The end of the set's scene with these values, in the unit of its points' times.
     pub fn end(&self, set: usize, values: &[f64]) -> Result<f64, SceneError> {
-        let refused = |why: String| SceneError::Scene { scene: self.sets[set].source.clone(), why };
-        let plan = Plan::new(&self.scene(set, values)?).map_err(|error| refused(error.to_string()))?;
-        (self.sets[set].time.end_of(&plan)).ok_or_else(|| refused("has no period".into()))
+        let plan = Plan::new(&self.scene(set, values)?).map_err(|error| self.refused(set, &error.to_string()))?;
+        (self.sets[set].time.end_of(&plan)).ok_or_else(|| self.refused(set, "has no period"))
+    }
+
+    fn refused(&self, set: usize, why: &str) -> SceneError {
+        SceneError::Scene { scene: self.sets[set].source.clone(), why: why.to_owned() }
     }
 
     /// The same scenes at `factor` times their concentration, and that concentration; none for rods that do not
@@ -196,18 +213,17 @@ impl Scenes {
     }
 
     fn plan(&self, set: usize, values: &[f64], data: &[Datum], variant: Variant) -> Result<Plan, SceneError> {
-        let refused = |why: String| SceneError::Scene { scene: self.sets[set].source.clone(), why };
+        let refused = |why: &str| self.refused(set, why);
         let mut scene = self.scene(set, values)?;
-        let own = Plan::new(&scene).map_err(|error| refused(error.to_string()))?;
+        let own = Plan::new(&scene).map_err(|error| refused(&error.to_string()))?;
         if scene.flow.steps().is_some() {
-            return Err(refused(
-                "a fit needs one flow throughout: shear_rate_per_s or gradient_per_s in place of flow.steps".into(),
-            ));
+            let why = "a fit needs one flow throughout: shear_rate_per_s or gradient_per_s in place of flow.steps";
+            return Err(refused(why));
         }
         let per_unit = self.sets[set]
             .time
             .per_unit(&own)
-            .ok_or_else(|| refused("has no period: times as t_s or strain are allowed, not t_over_T".into()))?;
+            .ok_or_else(|| refused("has no period: times as t_s or strain are allowed, not t_over_T"))?;
         let here = data.iter().filter(|datum| datum.set == set);
         let last = here.map(|datum| (datum.time + OUTER * datum.u_time) / per_unit).fold(0.0, f64::max);
         // One output more than the last point needs, for the cubic interpolation.
@@ -231,7 +247,7 @@ impl Scenes {
         };
         let observables = Observable::ALL.into_iter().filter(needed).collect();
         scene.output = Output { observables, ..Output::default() };
-        Plan::new(&scene).map_err(|error| refused(error.to_string()))
+        Plan::new(&scene).map_err(|error| refused(&error.to_string()))
     }
 
     /// The model of the points `data` at these parameter values.

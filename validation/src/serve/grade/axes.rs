@@ -8,6 +8,9 @@ pub struct Axes {
     sign: [f64; 3],
 }
 
+/// The names of our axes.
+const NAMES: [&str; 3] = ["gradient", "flow", "vorticity"];
+
 impl Default for Axes {
     fn default() -> Self {
         Self { theirs: [0, 1, 2], sign: [1.0; 3] }
@@ -24,7 +27,7 @@ impl std::str::FromStr for Axes {
         let words: Vec<_> = text.split(',').map(str::trim).collect();
         for (k, word) in words.iter().enumerate() {
             let (sign, name) = word.strip_prefix('-').map_or((1.0, *word), |name| (-1.0, name));
-            let ours = ["gradient", "flow", "vorticity"].iter().position(|axis| *axis == name);
+            let ours = NAMES.iter().position(|axis| *axis == name);
             match ours {
                 Some(ours) if found[ours].is_none() => found[ours] = Some((k, sign)),
                 _ => return Err(allowed()),
@@ -39,11 +42,10 @@ impl std::str::FromStr for Axes {
 
 impl std::fmt::Display for Axes {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let mut words = [""; 3];
-        for (ours, axis) in
-            [["gradient", "-gradient"], ["flow", "-flow"], ["vorticity", "-vorticity"]].iter().enumerate()
-        {
-            words[self.theirs[ours]] = axis[usize::from(self.sign[ours] < 0.0)];
+        let mut words = [const { String::new() }; 3];
+        for (ours, axis) in NAMES.iter().enumerate() {
+            let sign = if self.sign[ours] < 0.0 { "-" } else { "" };
+            words[self.theirs[ours]] = format!("{sign}{axis}");
         }
         f.write_str(&words.join(","))
     }

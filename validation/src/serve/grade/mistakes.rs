@@ -114,11 +114,8 @@ fn couette_per_s(setting: &Setting) -> Option<f64> {
 }
 
 fn linear(name: &str, map: impl Fn(&Setting, f64) -> Option<Matrix3<f64>> + Send + Sync + 'static) -> Mistake {
-    Mistake {
-        name: name.to_owned(),
-        has_length: false,
-        kind: Kind::Linear { map: Box::new(map), start: Matrix3::identity(), end: Matrix3::identity() },
-    }
+    let kind = Kind::Linear { map: Box::new(map), start: Matrix3::identity(), end: Matrix3::identity() };
+    Mistake { name: name.to_owned(), has_length: false, kind }
 }
 
 /// The correct motion in another flow or with another aspect ratio.
@@ -168,12 +165,11 @@ pub fn all() -> Vec<Mistake> {
         moved("half the shear rate", |s| scaled(s, 0.5)),
         moved("twice the shear rate", |s| scaled(s, 2.0)),
         linear("T without 1/r_e", |setting, time| {
-            let phase = couette_per_s(setting)? * time / setting.aspect_ratio;
-            Some(turned(setting.aspect_ratio, 1.0 / setting.aspect_ratio, phase))
+            let r = setting.aspect_ratio;
+            Some(turned(r, 1.0 / r, couette_per_s(setting)? * time / r))
         }),
         linear("no 1/r_e at p_2 in the closed form", |setting, time| {
-            let phase = right_phase(setting, time)?;
-            Some(turned(setting.aspect_ratio, 1.0, phase))
+            Some(turned(setting.aspect_ratio, 1.0, right_phase(setting, time)?))
         }),
         moved("degrees for radians in the phase", |s| scaled(s, 1f64.to_degrees())),
         moved("radians for degrees in the phase", |s| scaled(s, 1f64.to_radians())),
@@ -184,20 +180,18 @@ pub fn all() -> Vec<Mistake> {
             let c = p.x.hypot(p.y / r);
             Some(Vector3::new(c * phase.cos(), r * c * phase.sin(), p.z))
         }),
-        curve("degrees for radians in the start", |setting, p, time| {
-            Some(right_map(setting, time)? * by_angles(p, f64::to_degrees))
-        }),
-        curve("degrees for radians in the answer", |setting, p, time| {
-            Some(by_angles(&(right_map(setting, time)? * p).normalize(), f64::to_degrees))
-        }),
-        curve("radians for degrees in the start", |setting, p, time| {
-            Some(right_map(setting, time)? * by_angles(p, f64::to_radians))
-        }),
-        curve("radians for degrees in the answer", |setting, p, time| {
-            Some(by_angles(&(right_map(setting, time)? * p).normalize(), f64::to_radians))
-        }),
-        Mistake { has_length: true, ..linear("p that is not normalised", right_map) },
     ];
+    for (name, convert) in
+        [("degrees for radians", f64::to_degrees as fn(f64) -> f64), ("radians for degrees", f64::to_radians)]
+    {
+        all.push(curve(&format!("{name} in the start"), move |setting, p, time| {
+            Some(right_map(setting, time)? * by_angles(p, convert))
+        }));
+        all.push(curve(&format!("{name} in the answer"), move |setting, p, time| {
+            Some(by_angles(&(right_map(setting, time)? * p).normalize(), convert))
+        }));
+    }
+    all.push(Mistake { has_length: true, ..linear("p that is not normalised", right_map) });
     all.extend(permuted());
     all.extend(physical::all());
     all
@@ -232,11 +226,7 @@ pub const IN_THE_START: &str = ", in the start";
 /// Components in another order or with another sign, in the answer or in the start.
 fn permuted() -> Vec<Mistake> {
     let order = |of: [usize; 3]| Matrix3::from_fn(|i, j| f64::from(u8::from(of[i] == j)));
-    let mirror = |axis: usize| {
-        let mut signs = Vector3::repeat(1.0);
-        signs[axis] = -1.0;
-        Matrix3::from_diagonal(&signs)
-    };
+    let mirror = |axis: usize| Matrix3::from_diagonal(&Vector3::from_fn(|i, _| if i == axis { -1.0 } else { 1.0 }));
     let changes = [
         ("p_1 and p_2 exchanged", order([1, 0, 2])),
         ("p_1 and p_3 exchanged", order([2, 1, 0])),

@@ -36,22 +36,17 @@ pub fn read(
     let layout = Layout::find(&first, &problem.problem, &FileOptions { foreign, ..options.clone() })
         .map_err(|(at, message)| lines.error(at, message))?;
     let mut collector = Collector::new(problem);
-    let mut row = layout.first_is_row.then_some(first);
     let mut last = lines.number();
-    loop {
-        let line = match row.take() {
-            Some(line) => line,
-            None => match lines.next_line()? {
-                Some(line) => plain(line),
-                None => return collector.finish(path, last),
-            },
-        };
+    let mut row = if layout.first_is_row { Some(first) } else { lines.next_line()?.map(plain) };
+    while let Some(line) = row {
         last = lines.number();
         let (keys, values) = fields(&line, &layout, problem).map_err(|(at, message)| lines.error(at, message))?;
         let place =
             |key: usize| layout.fields.iter().position(|field| *field == Field::Key(key)).map_or(0, |at| at + 1);
         collector.add(last, &keys, values).map_err(|(key, message)| lines.error(place(key), message))?;
+        row = lines.next_line()?.map(plain);
     }
+    collector.finish(path, last)
 }
 
 /// The keys and values of a row. `Err` has the field from 1, or 0, and what is wrong.
@@ -60,12 +55,7 @@ fn fields(line: &str, layout: &Layout, problem: &LoadedProblem) -> Result<(Vec<f
     let mut keys = vec![0.0; key_count];
     let mut values = vec![f64::NAN; problem.problem.columns.len() - key_count];
     let mut again = Vec::new();
-    let mut count = 0;
-    for (k, text) in layout.split(line).enumerate() {
-        count += 1;
-        let Some(field) = layout.fields.get(k) else {
-            continue;
-        };
+    for (k, (text, field)) in layout.split(line).zip(&layout.fields).enumerate() {
         let found = || number(text.trim_matches('"')).map_err(|message| (k + 1, message));
         match *field {
             Field::Key(at) => {
@@ -79,9 +69,9 @@ fn fields(line: &str, layout: &Layout, problem: &LoadedProblem) -> Result<(Vec<f
             Field::Nothing => {}
         }
     }
-    if count != layout.fields.len() {
-        let message = format!("{count} fields; the first line has {}", layout.fields.len());
-        return Err((count.min(layout.fields.len()) + usize::from(count < layout.fields.len()), message));
+    let (count, due) = (layout.split(line).count(), layout.fields.len());
+    if count != due {
+        return Err((due.min(count + 1), format!("{count} fields; the first line has {due}")));
     }
     for (column, at, other) in again {
         let sign = layout.fields.iter().find_map(|field| match field {

@@ -223,7 +223,7 @@ fn beside_measured(base: &[&Coefficients]) -> ReportFigure {
     )
     .points([
         points("this model, r_e = 11.6, α = 0.5".into(), base, |row| row.phi_rp),
-        Points::of(seven, &folgar_tucker().rows, |point| (point.phi_rp, point.c_i)),
+        Points::of(seven, &folgar_tucker(), |point| (point.phi_rp, point.c_i)),
     ])
     .judged(SOURCE, &["effective-ci", "folgar-tucker-seven"])
 }

@@ -17,11 +17,7 @@ fn synthetic(y: [f64; 3]) -> MeasuredCurve {
         channel: 1,
         points: [0.1, 0.2, 0.5].into_iter().zip(y).map(point).collect(),
         provenance: Provenance {
-            paper: "synthetic".to_owned(),
             figure: "synthetic".to_owned(),
-            digitised_by: "a test".to_owned(),
-            tool: "none".to_owned(),
-            date: "2000-01-01".to_owned(),
             csv: Layout::Columns,
             rods: None,
             x: axis_s,

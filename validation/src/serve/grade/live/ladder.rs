@@ -17,7 +17,7 @@ use crate::serve::grade::digits;
 use crate::serve::grade::files::{Claim, judge};
 use crate::serve::grade::order::other;
 use crate::serve::grade::{Graded, Order, Verdict};
-use crate::serve::problems::{Kind, LoadedProblem};
+use crate::serve::problems::{Kind, LoadedProblem, Problem};
 use climb::{End, climb, converges};
 use std::time::Duration;
 
@@ -83,13 +83,9 @@ pub fn grade(program: &Program, problem: &LoadedProblem, mode: Mode, claim: Clai
     match problem.problem.kind {
         Kind::Rods => {
             let last = last_time(problem);
-            let of = &last.problem;
-            let question = Question {
-                gradient_per_s: of.gradient_per_s,
-                aspect_ratio: of.aspect_ratio,
-                start: last.start.clone(),
-                end_s: of.times_s[0],
-            };
+            let Problem { gradient_per_s, aspect_ratio, .. } = last.problem;
+            let (start, end_s) = (last.start.clone(), last.problem.times_s[0]);
+            let question = Question { gradient_per_s, aspect_ratio, start, end_s };
             climbed(program, &last, mode, claim, |setting| {
                 let (p, took) = program.ask(&question, setting)?;
                 Ok((p.into_iter().map(Vec::from).collect(), took))
@@ -145,10 +141,10 @@ fn climbed(
     let mut graded = Graded::without_answer(problem);
     graded.set_orders(errors(&rungs), problem, claim.order);
     let refuted = graded.order_found == Some(Order::Lower);
-    let converging =
-        matches!(end, End::OutOfTime(_)).then(|| converges(problem, &rungs)).flatten().filter(|_| !refuted);
+    let late = matches!(end, End::OutOfTime(_));
+    let converging = late.then(|| converges(problem, &rungs)).flatten().filter(|_| !refuted);
     graded.verdict = match &end {
-        End::OutOfTime(_) if converging.is_some() => Verdict::Pass,
+        _ if converging.is_some() => Verdict::Pass,
         // Whether a mistake is named must not depend on how fast the machine is.
         End::OutOfTime(_) if stays_on_a_mistake(problem, &rungs) => Verdict::Fail,
         End::OutOfTime(_) => Verdict::NotReached,

@@ -47,7 +47,7 @@ pub struct Program {
     /// The longest time for one answer.
     pub(super) timeout: Duration,
     /// The form of its lines.
-    pub(super) protocol: Protocol,
+    pub protocol: Protocol,
     axes: Axes,
     state: Arc<Mutex<State>>,
 }

@@ -90,9 +90,8 @@ fn rows(program: &Program) -> Vec<MapRow> {
         }
         run.of(&subject).found
     };
-    let row =
-        |aspect_ratio: f64| MapRow { aspect_ratio, found: (0..STEPS.len()).map(|k| cell(aspect_ratio, k)).collect() };
-    MAP_RATIOS.map(row).into()
+    let found = |aspect_ratio: f64| (0..STEPS.len()).map(|k| cell(aspect_ratio, k)).collect();
+    MAP_RATIOS.map(|aspect_ratio| MapRow { aspect_ratio, found: found(aspect_ratio) }).into()
 }
 
 impl Studies {

@@ -8,18 +8,11 @@ use crate::files::csv;
 /// The request as one line: `id`, the nine ∂u_i/∂x_j row by row, r_e, the time in s, the number of steps or 0, the
 /// tolerance or 0, the number of rods, and three numbers for each rod.
 pub fn write(request: &Request<'_>) -> String {
-    let gradient = request.gradient_per_s.iter().flatten();
-    let numbers = gradient.chain([&request.aspect_ratio, &request.end_s]);
-    let mut line = request.id.to_string();
-    for number in numbers {
-        line += &format!(" {number:e}");
-    }
-    let (steps, tolerance) = (request.steps.unwrap_or(0), request.tolerance.unwrap_or(0.0));
-    line += &format!(" {steps} {tolerance:e} {}", request.start.len());
-    for number in request.start.iter().flatten() {
-        line += &format!(" {number:e}");
-    }
-    line
+    let joined = |numbers: &[f64]| numbers.iter().map(|number| format!(" {number:e}")).collect::<String>();
+    let gradient = joined(request.gradient_per_s.as_flattened());
+    let [r_e, end, tolerance] = [request.aspect_ratio, request.end_s, request.tolerance.unwrap_or(0.0)];
+    let (steps, rods, start) = (request.steps.unwrap_or(0), request.start.len(), joined(request.start.as_flattened()));
+    format!("{}{gradient} {r_e:e} {end:e} {steps} {tolerance:e} {rods}{start}", request.id)
 }
 
 /// Parses the answer to request `id` about `rods` rods: `id` and three numbers for each rod, or `id error REASON`.
@@ -47,12 +40,12 @@ pub fn read(line: &str, id: u64, rods: usize) -> Result<Answer, String> {
 /// Parses a number as printed by C, C++, Fortran, Julia, Octave or Python. Infinities become NaN.
 fn number(word: &str) -> Result<f64, String> {
     let wrong = || format!("{} is not a number", excerpt(word));
-    let number = csv::number(word).ok_or_else(wrong)?;
-    let written_out = word.bytes().any(|byte| byte.is_ascii_digit());
-    match number.is_finite() {
-        true => Ok(number),
-        false if written_out => Err(format!("{} is too large for a double", excerpt(word))),
-        false => Ok(f64::NAN),
+    match csv::number(word).ok_or_else(wrong)? {
+        number if number.is_finite() => Ok(number),
+        _ if word.bytes().any(|byte| byte.is_ascii_digit()) => {
+            Err(format!("{} is too large for a double", excerpt(word)))
+        }
+        _ => Ok(f64::NAN),
     }
 }
 

@@ -151,10 +151,6 @@ fn what_may_yet_come_within_the_tolerance_is_asked_on() {
 }
 
 /// Climbs on one problem with a timeout of a minute: returns the problem, the errors that were asked for, and the end.
-fn climbed_to(claimed: Option<f64>, rungs: impl Fn(i32) -> (f64, f64)) -> (LoadedProblem, Vec<f64>, End) {
-    climbed_in(Mode::Steps, claimed, rungs)
-}
-
 fn climbed_in(mode: Mode, claimed: Option<f64>, rungs: impl Fn(i32) -> (f64, f64)) -> (LoadedProblem, Vec<f64>, End) {
     let problem = loaded("mid-flip-2");
     let asked = Cell::new(0);
@@ -170,7 +166,7 @@ fn climbed_in(mode: Mode, claimed: Option<f64>, rungs: impl Fn(i32) -> (f64, f64
 fn an_order_is_no_answer_and_one_that_is_unclear_is_asked_on_to_round_off() {
     let fourth = |k: i32| (0.05 * 16f64.powi(-k), 0.0);
     for claimed in [None, Some(4.0)] {
-        let (problem, errors, end) = climbed_to(claimed, fourth);
+        let (problem, errors, end) = climbed_in(Mode::Steps, claimed, fourth);
         assert_eq!(end, End::Reached);
         let tolerance = problem.problem.tolerance;
         assert!(errors[errors.len() - 1] <= tolerance && errors[errors.len() - 2] > tolerance, "{errors:?}");
@@ -180,14 +176,14 @@ fn an_order_is_no_answer_and_one_that_is_unclear_is_asked_on_to_round_off() {
     let [with, without] = [Some(4.0), None].map(|claimed| climbed_in(Mode::Tolerance, claimed, tenth));
     assert_eq!((with.1, with.2), (without.1, without.2));
     // Neither the claimed order nor lower by a whole order.
-    let (problem, errors, end) = climbed_to(Some(4.6), fourth);
+    let (problem, errors, end) = climbed_in(Mode::Steps, Some(4.6), fourth);
     assert_eq!(end, End::Reached);
     assert!(errors[errors.len() - 1] <= 0.01 * problem.own_tolerance, "{errors:?}");
 }
 
 #[test]
 fn what_would_take_too_long_is_not_asked_unless_it_confirms() {
-    let end = |error: f64, seconds: f64| climbed_to(None, |_| (error, seconds)).2;
+    let end = |error: f64, seconds: f64| climbed_in(Mode::Steps, None, |_| (error, seconds)).2;
     assert!(matches!(end(0.5, 16.0), End::OutOfTime(words) if words.contains("finer ones would take too long")));
     // An answer within the tolerance is confirmed in twice its time.
     assert_eq!(end(1e-15, 29.0), End::Reached);
