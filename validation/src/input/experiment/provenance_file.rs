@@ -111,10 +111,10 @@ fn projection(table: &Keys<'_>) -> Result<Projection, FileError> {
 }
 
 fn no_shear_rate(table: &Keys<'_>) -> Result<(), FileError> {
-    match table.has("shear_rate_per_s") {
-        true => Err(table.refused("shear_rate_per_s", "only for x.quantity = \"t_s\"")),
-        false => Ok(()),
+    if table.has("shear_rate_per_s") {
+        return Err(table.refused("shear_rate_per_s", "only for x.quantity = \"t_s\""));
     }
+    Ok(())
 }
 
 fn curves(all: &Keys<'_>, csv: Layout, source: &Source) -> Result<Vec<Key>, FileError> {
