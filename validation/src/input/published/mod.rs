@@ -22,8 +22,8 @@ pub fn folgar_tucker() -> Vec<Coefficient> {
 /// Physical aspect ratio of the fibres of [`sph_fibres`].
 pub const SPH_ASPECT_RATIO: f64 = 4.431_135;
 
-/// Five simulated runs of fibres at 1 % by volume, all along axis 1 at the start: N. Meyer et al., J. Composites Science
-/// 4 (2020) 77, as in fiberoripy 8478bc4.
+/// Five simulated runs of fibres at 1 % by volume, all along axis 1 at the start: N. Meyer et al., J. Composites
+/// Science 4 (2020) 77, as in fiberoripy 8478bc4.
 pub fn sph_fibres() -> Vec<Run> {
     let texts = [
         include_str!("../../../published/sph-fibres/volfrac1-run1.csv"),

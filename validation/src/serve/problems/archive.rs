@@ -72,9 +72,9 @@ fn readme() -> String {
          than a double holds. `sha256sum -c SHA256SUMS` checks the files.\n\n\
          Write your answers to `mine/NAME/answer.csv` and compare them as the pages say, or with the program that made \
          the problems: `shearbed grade shearbed-problems-{VERSION} mine`.\n\n## The problems\n\n{problems}\n\
-         ## Sources\n\nW. I. Lee and G. S. Springer, J. Reinforced Plastics and Composites 1, 279 (1982): the equations \
-         that are cited by number. G. B. Jeffery, Proc. R. Soc. A 102, 161 (1922): the motion of an ellipsoid.\n\n\
-         Licence: `LICENSE`. How to cite: `CITATION.cff`.\n",
+         ## Sources\n\nW. I. Lee and G. S. Springer, J. Reinforced Plastics and Composites 1, 279 (1982): the \
+         equations that are cited by number. G. B. Jeffery, Proc. R. Soc. A 102, 161 (1922): the motion of an \
+         ellipsoid.\n\nLicence: `LICENSE`. How to cite: `CITATION.cff`.\n",
         all().len(),
     )
 }

@@ -102,8 +102,8 @@ fn spread(problem: &Problem) -> String {
 fn model(problem: &Problem, ensemble: &Ensemble) -> String {
     format!(
         "A replica is {} rods of length a = {} mm and r_e = {}{} in the cube [0, H]³, H = (N/n)^(1/3), at n = {} rods \
-         per cm³, with α = {} and m = {}, stepped with {} steps a period T = 2π(r_e + 1/r_e)/G of the mean r_e. P_c has \
-         no Δt, so the step is part of the model. At t = 0 centres are uniform in the cube and axes isotropic (eq. \
+         per cm³, with α = {} and m = {}, stepped with {} steps a period T = 2π(r_e + 1/r_e)/G of the mean r_e. P_c \
+         has no Δt, so the step is part of the model. At t = 0 centres are uniform in the cube and axes isotropic (eq. \
          12).\n\n\
          Each step, from the state at its start: every rod i finds its nearest neighbour j by centre distance s, \
          without images, and draws R_i uniform in [0, 1); (i, j) is a candidate when (α/(s/a + α))^m > R_i (eqs 7 to \
