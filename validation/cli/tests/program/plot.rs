@@ -3,111 +3,21 @@
 use crate::common::{limited, unequal};
 use serde_json::{Value, json};
 
+/// A PNG of the view box's size, that is read back.
 #[test]
-fn one_picture_is_drawn_from_several_runs_and_from_a_sweep() {
+fn a_picture_in_pixels_has_the_size_of_its_drawing() {
     let dir = unequal();
-    for (seed, out) in [(1, "a"), (2, "b")] {
-        dir.runs(&format!("run small.toml --seed {seed} --out {out} --quiet"));
-    }
-    dir.runs("plot a b --y x2 --out two.svg");
-    let picture = dir.read("two.svg");
-    for text in [">\na\n<", ">\nb\n<", "95 % band", "t/T"] {
-        assert!(picture.contains(text), "{text}");
-    }
-    // The same picture in pixels: a PNG of the view box's size, that is read back.
-    dir.runs("plot a b --y x2 --out two.png");
+    dir.runs("run small.toml --out a --quiet");
+    dir.runs("plot a --y x2 --out two.svg");
+    dir.runs("plot a --y x2 --out two.png");
     let file = std::fs::File::open(dir.at("two.png")).unwrap();
     let mut reader = png::Decoder::new(std::io::BufReader::new(file)).read_info().unwrap();
     let (width, height) = reader.info().size();
-    assert!(picture.contains(&format!("viewBox=\"0 0 {width} {height}\"")));
+    assert!(dir.read("two.svg").contains(&format!("viewBox=\"0 0 {width} {height}\"")));
     let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
     reader.next_frame(&mut pixels).unwrap();
     let colours: std::collections::BTreeSet<_> = pixels.chunks(3).collect();
     assert!(colours.len() > 50, "{} colours", colours.len());
-    dir.runs("sweep small.toml --over interaction.alpha=0.1,0.2 --quiet --out s");
-    dir.runs("plot s --out s.svg");
-    assert!(dir.read("s.svg").contains("α = 0.2"));
-}
-
-/// The columns of `sweep.csv` as curves, in the order of the values, of which there are more than nine.
-#[test]
-fn a_sweep_is_drawn_against_its_key() {
-    let dir = unequal();
-    dir.runs("sweep small.toml --over interaction.alpha=0.1:0.5:5 --over particles.count=20,30 --quiet --out k");
-    let plot = "plot k --y x2 --x interaction.alpha --out";
-    dir.runs(&format!("{plot} x.svg"));
-    let picture = dir.read("x.svg");
-    let place = |text: &str| picture.find(text).unwrap_or_else(|| panic!("{text}"));
-    // α across, a curve for each count, in the order of the sweep, at the last output.
-    assert!(place("N = 20") < place("N = 30"));
-    place(">\nα\n<");
-    place("A small scene, t/T = ");
-    dir.runs(&format!("{plot} first.svg --at 0"));
-    assert_ne!(picture, dir.read("first.svg"));
-}
-
-/// Synthetic points over a curve, and every flag of the look.
-#[test]
-fn points_are_drawn_over_curves_and_flags_change_the_look() {
-    let dir = unequal();
-    dir.runs("run small.toml --quiet --out a");
-    dir.write("points.csv", "t_over_T,x1,x1_u\n0.1,0.4,0.05\n0.3,0.2,0.05\n");
-    let plot = |arguments: &str| {
-        dir.runs(&format!("plot a --y x1 {arguments} --out p.svg --force"));
-        dir.read("p.svg")
-    };
-    let bare = plot("");
-    let over = plot("--data points.csv");
-    assert!(over.contains("X̄₁, measured ± u") && !bare.contains("measured"));
-    let all = plot(
-        "--data points.csv --title Damped --x-label turns --y-label share --legend model --legend ours --x-range \
-         0.05:0.4 --y-range 0.1:1 --log-y --size 700x500 --theme dark",
-    );
-    for text in
-        [">\nDamped\n<", ">\nturns\n<", ">\nshare\n<", ">\nmodel\n<", ">\nours\n<", "width=\"700\" height=\"500\""]
-    {
-        assert!(all.contains(text) && !over.contains(text), "{text}");
-    }
-    assert!(!over.contains("#181818") && all.contains("fill=\"#181818\""));
-}
-
-/// Every fault of a table, a record or a folder is refused by name; the same folder before it is drawn.
-#[test]
-fn what_was_not_written_so_is_not_drawn() {
-    let dir = unequal();
-    dir.runs("run small.toml --quiet --out a");
-    dir.runs("sweep small.toml --over interaction.alpha=0.1:0.7:7 --quiet --out s");
-    let table = dir.read("a/projections.csv");
-    let cells: Vec<&str> = table.lines().nth(2).unwrap().split(',').collect();
-    let row = |cells: &[&str]| table.replace(table.lines().nth(2).unwrap(), &cells.join(","));
-    let with = |place: usize, cell: &str| {
-        let mut cells = cells.clone();
-        cells[place] = cell;
-        row(&cells)
-    };
-    let first = table.lines().next().unwrap();
-    let edited = cells[3].replace(|c: char| c.is_ascii_digit(), "1");
-    for (text, said) in [
-        (with(3, "NaN"), "a/projections.csv:3: column x1: `NaN` is not allowed: expected a finite number"),
-        (with(3, "-inf"), "a/projections.csv:3: column x1: `-inf` is not allowed"),
-        (with(0, "-1"), "a/projections.csv:3: column t_over_T: `-1` is not allowed"),
-        (table.replacen("x2,", "x1,", 1), "a/projections.csv:1: column `x1` is there twice"),
-        (format!("{first}\n"), "a/projections.csv:1: has a header alone"),
-        (String::new(), "a/projections.csv:1: the file is empty"),
-        (with(3, &edited), "a/projections.csv: was changed after it was written"),
-    ] {
-        dir.write("a/projections.csv", text);
-        dir.refuses("plot a --out a.svg", said);
-    }
-    dir.runs("plot s --out s.svg");
-    let point = "s/points/3/projections.csv";
-    let whole = dir.read(point);
-    let at = whole.rfind(|c: char| c.is_ascii_digit()).unwrap();
-    let other = if whole[at..].starts_with('1') { "2" } else { "1" };
-    dir.write(point, format!("{}{other}{}", &whole[..at], &whole[at + 1..]));
-    dir.refuses("plot s --out t.svg", "s/points/3/projections.csv: was changed");
-    std::fs::remove_dir_all(dir.at("s/points/3")).unwrap();
-    dir.refuses("plot s --out t.svg", "s/points/3/shearbed.json: cannot be read");
 }
 
 /// The record of a file in a `shearbed.json`.

@@ -1,7 +1,7 @@
-//! Which build made a result, and the command that repeats it.
+//! Which build made a result.
 
 use crate::common::bounded::Bounded;
-use crate::common::{FREE, command, empty_folder, folder, shearbed};
+use crate::common::{FREE, empty_folder, folder, shearbed};
 use serde_json::Value;
 use std::fs;
 use std::path::Path;
@@ -50,23 +50,6 @@ fn every_record_names_the_commit_of_the_build() {
         assert!(record["rustc"].as_str().unwrap().starts_with("rustc "), "{arguments}");
         assert!(["release", "development"].contains(&record["build"].as_str().unwrap()));
     }
-}
-
-#[test]
-fn the_command_is_as_it_was_called_and_a_shell_repeats_it() {
-    let dir = folder();
-    let out = "it's $HOME; `a b`";
-    let arguments = ["validate", "--case", "jeffery-period", "--quiet", "--out", out];
-    assert!(command(dir.path(), "").args(arguments).ended().status.success());
-    let written = |name: &str| fs::read_to_string(dir.path().join(out).join(name)).unwrap();
-    let report: Value = serde_json::from_str(&written("report.json")).unwrap();
-    let line = report["origin"]["command"].as_str().unwrap().to_owned();
-    assert!(line.starts_with(env!("CARGO_BIN_EXE_shearbed")), "{line}");
-    assert!(written("report.md").contains(&format!("`` {line} ``")), "{line}");
-    fs::remove_dir_all(dir.path().join(out)).unwrap();
-    let again = Command::new("bash").args(["-c", &line]).current_dir(dir.path()).ended();
-    assert!(again.status.success());
-    assert!(dir.path().join(out).join("report.json").exists());
 }
 
 /// The build script by itself, in folders of its own.
@@ -125,27 +108,4 @@ fn the_build_script_knows_its_own_checkout_alone() {
     assert_eq!(commit(&other.join("vendor/shearbed")), "unknown");
     project(&other.join("untracked"));
     assert_eq!(commit(&other.join("untracked")), "unknown");
-}
-
-#[test]
-fn a_record_says_which_stages_ran_and_why_as_the_plan_does() {
-    let dir = folder();
-    dir.write("free.toml", FREE);
-    for (scene, out, moved) in [("small.toml", "a", true), ("free.toml", "b", false)] {
-        dir.runs(&format!("run {scene} --out {out}"));
-        let text = fs::read_to_string(dir.path().join(out).join("run.json")).unwrap();
-        let record: Value = serde_json::from_str(&text).unwrap();
-        let stages = record["plan"].as_array().unwrap();
-        let kept = |name: &str| stages.iter().find(|stage| stage["stage"] == name).unwrap()["kept"] == moved;
-        assert!(kept("translation") && kept("neighbours") && kept("contacts"), "{text}");
-        // One line each, as `shearbed plan` prints it.
-        let lines = record["plan_text"].as_str().unwrap().lines();
-        let lines: Vec<_> = lines.filter(|line| line.starts_with("keep ") || line.starts_with("drop ")).collect();
-        for (stage, line) in stages.iter().zip(&lines) {
-            let reason = stage["reason"].as_str().unwrap();
-            let word = if stage["kept"] == true { "keep " } else { "drop " };
-            assert!(line.starts_with(word) && line.ends_with(reason), "{line}: {stage}");
-        }
-        assert!(stages.len() > 8 && lines.len() == stages.len());
-    }
 }

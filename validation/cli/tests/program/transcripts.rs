@@ -1,7 +1,8 @@
 //! Commands and all that they print: `transcripts/*.md`. Each page has a folder of its own with `small.toml` and
-//! `unequal.toml`, in which bash runs its blocks `console`. Below a command stand its standard output, its standard
-//! error behind `! `, and its exit code behind `? ` where it is not 0. `[..]` stands for what differs between machines.
-//! With `SNAPSHOTS=overwrite` the pages are written as the program prints now.
+//! `unequal.toml`, in which bash runs its blocks `console`, with the functions of `functions.sh` and this repository at
+//! `$ROOT`. A command begins behind `$ ` and goes on behind `> `. Below it stand its standard output, its standard error
+//! behind `! `, and its exit code behind `? ` where it is not 0. `[..]` stands for what differs between machines. With
+//! `SNAPSHOTS=overwrite` the pages are written as the program prints now.
 
 use crate::common::bounded::{Bounded, bash};
 use crate::common::{UNEQUAL, folder};
@@ -12,10 +13,15 @@ use snapbox::filter::NormalizeToExpected;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+fn pages() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/program/transcripts")
+}
+
 /// What a command prints and how it ends, as lines of a page.
 fn printed(command: &str, dir: &Path) -> String {
     let same = [("COLUMNS", "100"), ("RAYON_NUM_THREADS", "2"), ("LC_ALL", "C.UTF-8")];
-    let ended = bash(dir, command).envs(same).ended();
+    let places = [("BASH_ENV", pages().join("functions.sh")), ("ROOT", pages().join("../../../../.."))];
+    let ended = bash(dir, command).envs(same).envs(places).ended();
     let [stdout, stderr] = [&ended.stdout, &ended.stderr].map(|bytes| String::from_utf8_lossy(bytes));
     let stdout = stdout.lines().map(|line| format!("{line}\n"));
     let stderr = stderr.lines().map(|line| format!("! {line}\n"));
@@ -28,13 +34,20 @@ fn replayed(page: &str) -> String {
     let dir = folder();
     dir.write("unequal.toml", UNEQUAL.as_str());
     let (mut now, mut inside) = (String::new(), false);
-    for line in page.lines() {
-        let command = line.strip_prefix("$ ").filter(|_| inside);
+    let mut lines = page.lines().peekable();
+    while let Some(line) = lines.next() {
+        let first = line.strip_prefix("$ ").filter(|_| inside);
         inside = line == "```console" || inside && line != "```";
-        if !inside || command.is_some() || line == "```console" {
+        if !inside || first.is_some() || line == "```console" {
             now += &format!("{line}\n");
         }
-        now.extend(command.map(|command| printed(command, dir.path())));
+        let Some(first) = first else { continue };
+        let mut command = first.to_owned();
+        while let Some(line) = lines.next_if(|line| line.starts_with("> ")) {
+            now += &format!("{line}\n");
+            command += &format!("\n{}", &line[2..]);
+        }
+        now += &printed(&command, dir.path());
     }
     now
 }
@@ -51,8 +64,8 @@ fn normalized(now: String, page: &str) -> String {
 
 #[test]
 fn commands_print_what_their_pages_show() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/program/transcripts");
-    let paths: Vec<PathBuf> = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
+    let mut paths: Vec<PathBuf> = fs::read_dir(pages()).unwrap().map(|entry| entry.unwrap().path()).collect();
+    paths.retain(|path| path.extension().is_some_and(|ending| ending == "md"));
     let wrong = paths.par_iter().map(|path| {
         let page = fs::read_to_string(path).unwrap();
         let now = normalized(replayed(&page), &page);
@@ -78,6 +91,7 @@ fn another_text_stream_or_exit_code_is_seen() {
         "$ true",
         "$ echo 1.5 s\n[..] s",
         "$ ls\nsmall.toml\nunequal.toml",
+        "$ cat <<END\n> a\n> END\na",
     ] {
         assert!(!seen(right), "{right}");
     }
