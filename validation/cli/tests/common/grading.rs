@@ -2,7 +2,6 @@
 
 use crate::bounded::Bounded;
 use serde_json::Value;
-use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -49,31 +48,21 @@ pub fn graded(arguments: &[&str]) -> Graded {
     }
 }
 
-/// Answers in a folder against the exported problems that it answers or `more` names. All of them would take twenty
-/// times as long to read.
-pub fn answers(mine: &Path, more: &[&str]) -> Graded {
+/// Answers in a folder against the exported problems that it answers. All of them would take twenty times as long to
+/// read.
+pub fn answers(mine: &Path) -> Graded {
     let entries = fs::read_dir(mine).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap());
-    let asked = more.windows(2).filter(|pair| pair[0] == "--problem").map(|pair| pair[1].to_owned());
-    let exported = |name: &String| REFERENCE.path().join(name).is_dir();
-    let names: BTreeSet<String> = entries.chain(asked).filter(exported).collect();
+    let names: Vec<String> = entries.collect();
     let reference = tempfile::tempdir().unwrap();
-    let names: Vec<&str> = names.iter().map(String::as_str).collect();
-    files(&some(reference.path(), &names), mine, more)
+    files(&some(reference.path(), &names), mine)
 }
 
 /// Answers in files against problems in a folder.
-pub fn files(reference: &Path, mine: &Path, more: &[&str]) -> Graded {
-    let folders = [reference, mine].map(|path| path.to_str().unwrap());
-    graded(&[&folders, more].concat())
+pub fn files(reference: &Path, mine: &Path) -> Graded {
+    graded(&[reference, mine].map(|path| path.to_str().unwrap()))
 }
 
 impl Graded {
-    /// What was printed, without line ends.
-    #[allow(dead_code)]
-    pub fn line(&self) -> String {
-        self.words.split_whitespace().collect::<Vec<_>>().join(" ")
-    }
-
     /// What is said of a problem.
     pub fn of(&self, name: &str) -> &Value {
         let grade = self.grade.as_ref().unwrap_or_else(|| panic!("{}", self.words));
@@ -84,10 +73,6 @@ impl Graded {
 
     pub fn verdict(&self, name: &str) -> &str {
         self.of(name)["verdict"].as_str().unwrap()
-    }
-
-    pub fn error(&self, name: &str) -> f64 {
-        self.of(name)["error"].as_f64().unwrap_or(f64::NAN)
     }
 
     pub fn order(&self, name: &str) -> f64 {
@@ -129,7 +114,7 @@ pub fn write(mine: &Path, name: &str, file: &str, text: impl AsRef<[u8]>) -> Pat
 }
 
 /// Some of the exported problems in a folder of their own.
-pub fn some(to: &Path, names: &[&str]) -> PathBuf {
+pub fn some(to: &Path, names: &[impl AsRef<Path>]) -> PathBuf {
     for name in names {
         fs::create_dir_all(to.join(name)).unwrap();
         for entry in fs::read_dir(REFERENCE.path().join(name)).unwrap() {
@@ -138,38 +123,4 @@ pub fn some(to: &Path, names: &[&str]) -> PathBuf {
         }
     }
     to.to_owned()
-}
-
-/// The certified rows, each with an error of `part` of the tolerance in the problem's own metric.
-pub fn off_by(name: &str, part: f64) -> Vec<Vec<String>> {
-    let (problem, mut rows) = problem(name);
-    let tolerance = problem["tolerance"].as_f64().unwrap() * part;
-    let columns = rows[0].clone();
-    for row in rows.iter_mut().skip(1) {
-        let number = |k: usize| row[k].parse::<f64>().unwrap();
-        match problem["metric"].as_str().unwrap() {
-            "angle" => {
-                // Turned by the angle towards the axis that is farthest off.
-                let p = [number(2), number(3), number(4)];
-                let axis = (0..3).min_by(|a, b| p[*a].abs().total_cmp(&p[*b].abs())).unwrap();
-                let mut across = [0.0; 3];
-                across[axis] = 1.0;
-                let along: f64 = p[axis];
-                let length = (1.0 - along * along).sqrt();
-                for i in 0..3 {
-                    let towards = (across[i] - along * p[i]) / length;
-                    row[2 + i] = format!("{:e}", p[i] * tolerance.cos() + towards * tolerance.sin());
-                }
-            }
-            "absolute" => row[1] = format!("{:e}", number(1) + tolerance),
-            "relative" => {
-                let of_a: Vec<_> = (0..columns.len()).filter(|k| columns[*k].starts_with("a_")).collect();
-                let length = of_a.iter().map(|k| number(*k).powi(2)).sum::<f64>().sqrt();
-                row[of_a[0]] = format!("{:e}", number(of_a[0]) + tolerance * length);
-            }
-            "standard-errors" => row[1] = format!("{:e}", number(1) + tolerance * number(2) * 2f64.sqrt()),
-            other => panic!("{other}"),
-        }
-    }
-    rows
 }

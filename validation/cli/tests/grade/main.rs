@@ -10,12 +10,6 @@ mod programs;
 
 mod closures;
 mod edited;
-mod layouts;
-mod means;
-mod numbers;
 mod peers;
 mod planted;
-mod refused;
 mod templates;
-mod tolerances;
-mod verdicts;

@@ -21,7 +21,7 @@ fn numpy_rk4_passes_with_order_4_and_euler_fails_with_order_1() {
             peers().join("recorded/numpy_rk4")
         }
     };
-    let rk4 = files(REFERENCE.path(), &mine, &[]);
+    let rk4 = files(REFERENCE.path(), &mine);
     assert_eq!(rk4.code, Some(0), "{}", rk4.words);
     for name in ["mid-flip-2", "mid-flip-11.6", "isotropic-11.6"] {
         assert_eq!(rk4.verdict(name), "PASS", "{}", rk4.words);
@@ -37,7 +37,7 @@ fn numpy_rk4_passes_with_order_4_and_euler_fails_with_order_1() {
     }
     let mine = dir.path().join("euler");
     run(&python, &[&script, REFERENCE.path(), &mine, Path::new("--euler")]);
-    let euler = files(REFERENCE.path(), &mine, &[]);
+    let euler = files(REFERENCE.path(), &mine);
     assert_eq!(euler.code, Some(1));
     // Whatever moves; contacts and formulas take no steps.
     let still = ["log-rolling", "contact-rule", "contact-angles"];
@@ -159,7 +159,7 @@ fn javascript_has_order_2() {
     let reference = some(&dir.path().join("ref"), &["log-rolling", "mid-flip-10000"]);
     let mine = dir.path().join("mine");
     run("node", &[&script, &reference, &mine]);
-    let found = files(&reference, &mine, &[]);
+    let found = files(&reference, &mine);
     assert_eq!((found.verdict("log-rolling"), found.verdict("mid-flip-10000")), ("PASS", "FAIL"), "{}", found.words);
 }
 
@@ -185,7 +185,7 @@ const CLOSURES: [(&str, f64); 2] = [("isotropic-3", 0.01503), ("isotropic-11.6",
 
 #[test]
 fn fiberoripy_is_right_until_rods_are_fibres_and_its_closure_is_no_solution() {
-    judge_fiberoripy(&files(REFERENCE.path(), &peers().join("recorded/fiberoripy-1.4.0"), &[]));
+    judge_fiberoripy(&files(REFERENCE.path(), &peers().join("recorded/fiberoripy-1.4.0")));
     let Some(python) = python("fiberoripy") else {
         return skipped("fiberoripy", "no python3 with fiberoripy: only its recorded answers were graded");
     };
@@ -203,7 +203,7 @@ fn fiberoripy_is_right_until_rods_are_fibres_and_its_closure_is_no_solution() {
     let reference = some(&dir.path().join("ref"), &[&slow, &formulas[..]].concat());
     let mine = dir.path().join("mine");
     run(&python, &[&script, &reference, &mine]);
-    let found = files(REFERENCE.path(), &mine, &[]);
+    let found = files(REFERENCE.path(), &mine);
     judge_fiberoripy(&found);
     assert!(formulas.len() > 15);
     for name in formulas {

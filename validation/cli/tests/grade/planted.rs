@@ -111,7 +111,7 @@ fn each_planted_mistake_gets_its_own_name_and_the_unspoilt_code_none() {
     fs::write(&jobs_file, list).unwrap();
     run(&python, &[&driver, &jobs_file]);
 
-    let judge = |name: &str| files(&place(name, "ref"), &place(name, "mine"), &[]);
+    let judge = |name: &str| files(&place(name, "ref"), &place(name, "mine"));
     let unspoilt = judge("unspoilt");
     assert_eq!(unspoilt.code, Some(0), "{}", unspoilt.words);
     for name in all {
