@@ -58,37 +58,3 @@ pub(super) fn list(cases: &[Case]) -> String {
     let cases_by_line: String = cases.iter().map(line).collect();
     format!("{cases_by_line}\n{} cases. Tags: what a case judges, and the equations that it tests.\n", cases.len())
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn names(names: &[&str], tags: &[&str]) -> Result<Vec<&'static str>, String> {
-        let owned = |words: &[&str]| words.iter().map(|word| (*word).to_owned()).collect::<Vec<_>>();
-        match chosen(&owned(names), &owned(tags)) {
-            Ok(cases) => Ok(cases.iter().map(|case| case.about.name).collect()),
-            Err(failure) => Err(failure.message_and_code().0),
-        }
-    }
-
-    #[test]
-    fn cases_are_chosen_by_name_and_by_tag() {
-        assert_eq!(names(&["jeffery-period"], &[]).unwrap(), ["jeffery-period"]);
-        let measured = names(&[], &["measurement"]).unwrap();
-        assert!(measured.contains(&"okagawa-mason-1973") && measured.len() < 10, "{measured:?}");
-        assert!(names(&[], &["eq-A.13"]).unwrap().contains(&"corrected-a13"));
-        assert_eq!(names(&[], &[]).unwrap().len(), cases::all().len());
-    }
-
-    #[test]
-    fn a_wrong_name_is_met_with_the_nearest() {
-        let error = names(&["jefery-period"], &[]).unwrap_err();
-        assert!(error.contains("did you mean jeffery-period?"), "{error}");
-        assert!(error.matches(',').count() <= MOST_SUGGESTED, "{error}");
-        let error = names(&[], &["measurements"]).unwrap_err();
-        assert!(error.contains("did you mean measurement?"), "{error}");
-        // A name that resembles no other gets no suggestion.
-        let error = names(&["zzz"], &[]).unwrap_err();
-        assert!(error.contains("zzz") && !error.contains("did you mean"), "{error}");
-    }
-}

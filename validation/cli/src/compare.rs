@@ -311,6 +311,3 @@ fn speeds(a: &Report, b: &Report) -> ReportTable {
         ],
     )
 }
-
-#[cfg(test)]
-mod tests;

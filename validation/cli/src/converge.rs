@@ -203,17 +203,3 @@ fn interacting(scene: &Scene, replicas: Replicas, warnings: Vec<String>, args: &
     let files = vec![("converge.csv", csv), ("replicas.csv", blocks), ("converge.json", json)];
     done(tables, files).map(Some)
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_scene_that_does_not_end_after_a_period_is_told_so() {
-        let mut scene = Scene::default();
-        scene.time = shearbed::scene::Time::periods(1.0);
-        assert!(other_end(&scene).is_empty());
-        scene.time.duration = 0.5;
-        assert!(other_end(&scene)[0].starts_with("time.periods = 0.5 is not used: "));
-    }
-}

@@ -92,29 +92,3 @@ impl Facts {
         parts.join(", ") + &rods.unwrap_or_default() + "\n"
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use shearbed_validation::input::scenes;
-
-    fn facts(n: f64) -> (Facts, Vec<String>) {
-        let mut scene = scenes::find("fig4-n50").unwrap().scene().unwrap();
-        scene.interaction.as_mut().unwrap().concentration_per_cm3 = Some(n);
-        let plan = Plan::new(&scene).unwrap();
-        (Facts::of(&plan), plan.warnings())
-    }
-
-    #[test]
-    fn fig_4_is_dilute_and_a_dense_one_is_warned_of() {
-        // 50 per cm³ of 0.072 cm.
-        let (dilute, none) = facts(50.0);
-        assert!((dilute.n_a3.unwrap() - 0.0186624).abs() < 1e-12 && none.is_empty());
-        assert_eq!(dilute.regime, Some("dilute"));
-        let (dense, warned) = facts(5000.0);
-        assert_eq!(dense.regime, Some("semi-dilute"));
-        assert!(warned[0].contains("n a³ = 1.866"), "{warned:?}");
-        assert_eq!(facts(50_000.0).0.regime, Some("concentrated"));
-        assert!(dilute.text().starts_with("T = 146.8"), "{}", dilute.text());
-    }
-}

@@ -30,31 +30,3 @@ pub(super) fn one_owner(flags: &[(&str, &str)]) -> Result<(), Failure> {
     }
     Ok(())
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_key_has_one_owner() {
-        let over = |keys: &[&'static str]| {
-            let flags: Vec<_> = keys.iter().map(|key| ("--over", *key)).collect();
-            one_owner(&flags).map_err(|failure| failure.message_and_code().0)
-        };
-        assert_eq!(over(&["ensemble.seed", "ensemble.replicas", "ensemble_x", "e"]), Ok(()));
-        for keys in [
-            ["particles", "particles.count"],
-            ["particles.count", "particles"],
-            ["particles.orientation.phi_deg", "particles.orientation"],
-            ["flow.x", "flow.x"],
-        ] {
-            let error = over(&keys).unwrap_err();
-            assert!(error.contains("one of the two is allowed"), "{error}");
-        }
-        let failure = one_owner(&[("--replicas", "ensemble.replicas"), ("--over", "ensemble")]).unwrap_err();
-        assert_eq!(
-            failure.message_and_code().0,
-            "--over ensemble and --replicas: both set ensemble.replicas; one of the two is allowed"
-        );
-    }
-}

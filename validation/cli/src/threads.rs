@@ -76,21 +76,3 @@ pub(super) fn on_threads<T: Send>(threads: Option<u64>, work: impl FnOnce() -> T
     let pool = pool.map_err(|error| Failure::Input(format!("--threads {count}: {error}; allowed: {ALLOWED}")))?;
     Ok(pool.install(work))
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_environment_has_the_limit_of_the_option() {
-        let of = |text: &str| of_environment(Some(text.into()));
-        for (text, count) in [("1024", Some(1024)), ("3", Some(3)), ("0", None), ("", None)] {
-            assert!(of(text).is_ok_and(|found| found == count), "{text}");
-        }
-        for text in ["1025", "100000", "99999999999999999999999", "many", "-1", "1.5", " 3"] {
-            let (message, code) = of(text).err().unwrap().message_and_code();
-            assert!(message.starts_with(&format!("RAYON_NUM_THREADS = {text} is not allowed")), "{message}");
-            assert_eq!(code, 2);
-        }
-    }
-}

@@ -242,20 +242,6 @@ mod tests {
     use rand::SeedableRng;
     use rand_distr::{Distribution, StandardNormal};
 
-    #[test]
-    fn times_and_rules_are_read() {
-        let seconds = |text: &str| time_limit(text).map(|limit| limit.as_secs_f64());
-        assert_eq!(seconds("90s"), Ok(90.0));
-        assert_eq!(seconds("10min"), Ok(600.0));
-        assert_eq!(seconds("1.5h"), Ok(5400.0));
-        for wrong in ["10", "s", "-1s", "0s", "NaNs", "1d", "infh", "1e9h", ""] {
-            assert!(seconds(wrong).is_err(), "{wrong}");
-        }
-        assert_eq!(rule("x1=1e-3"), Ok(("x1".to_owned(), 1e-3)));
-        assert_eq!([32, 40, 64, 72, 80, 90].map(next), [40, 48, 72, 81, 90, 101]);
-        assert_eq!(next(MAX_REPLICAS), MAX_REPLICAS);
-    }
-
     /// The ratio of the true standard error σ/√N to the allowed one, which `enough` replicas have, if N is found from
     /// the noisy one, for a single column at a single output, the hardest case: its mean and its 95 % quantile.
     fn excess(least: u64, enough: f64) -> (f64, f64) {

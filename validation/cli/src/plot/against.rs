@@ -73,23 +73,3 @@ fn value(point: &Pairs, key: &str) -> Result<(f64, Pairs), String> {
     let number = finite(&number).ok_or("its values are no numbers; a key with numbers is allowed")?;
     Ok((number, pairs))
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_point_has_the_value_of_a_key_and_what_is_left() {
-        let [alpha, orientation, count] =
-            [("interaction.alpha", "0.5"), ("particles.orientation", "in plane"), ("particles.count", "20")]
-                .map(|(key, value)| (key.to_owned(), value.to_owned()));
-        let point = vec![alpha.clone(), orientation.clone(), count.clone()];
-        let of = |key| value(&point, key);
-        assert_eq!(of("interaction.alpha"), Ok((0.5, vec![orientation.clone(), count])));
-        assert_eq!(of("particles.count"), Ok((20.0, vec![alpha, orientation])));
-        assert!(of("particles.orientation").unwrap_err().starts_with("its values are no numbers"));
-        let keys =
-            "the sweep goes over interaction.alpha, particles.orientation, particles.count, of which one is allowed";
-        assert_eq!(of("alpha").unwrap_err(), keys);
-    }
-}

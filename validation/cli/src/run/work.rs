@@ -35,7 +35,7 @@ impl Run<'_> {
             None => on_threads(self.args.threads.given, || work.alone())?,
         };
         work.bar.finish_and_clear();
-        stopped(&self.named.source, results)
+        results.map_err(|error| Failure::Input(format!("{}: {error}", self.named.source)))
     }
 
     /// Writes the checkpoint for the first time, and prints how much of the run it contains.
@@ -53,11 +53,6 @@ impl Run<'_> {
         };
         print(&format!("goes on from {}: {progress}\n", replicas.path().shown()))
     }
-}
-
-/// Adds the scene's name to the error of a run that stopped.
-fn stopped<T>(source: &str, results: Result<T, Error>) -> Result<T, Failure> {
-    results.map_err(|error| Failure::Input(format!("{source}: {error}")))
 }
 
 impl Work<'_> {
@@ -130,30 +125,5 @@ impl Work<'_> {
                 scene::warn("--checkpoint", [&lost]);
             }
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_run_that_stops_is_a_failure_that_names_the_rod() {
-        let error = Error::NonFinite {
-            rod: 7,
-            step: 41,
-            seed: 3,
-            replica: 2,
-            cause: "a contact arm of 1e-320 rod lengths turned it by inf rad".into(),
-        };
-        let failure = stopped::<()>("my.toml", Err(error)).expect_err("it stopped");
-        let (message, code) = failure.message_and_code();
-        assert_eq!(code, 2);
-        assert_eq!(
-            message,
-            "my.toml: rod 7 would become non-finite in step 41 of replica 2, seed 3: a contact arm of 1e-320 rod \
-                lengths \
-             turned it by inf rad"
-        );
     }
 }
