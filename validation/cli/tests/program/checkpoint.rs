@@ -141,36 +141,67 @@ fn a_signal_keeps_the_run_and_says_how_to_go_on() {
     running.end();
 }
 
+/// Killed again and again while replicas are added to a run that had finished.
 #[test]
-fn a_damaged_checkpoint_is_refused() {
+fn a_killed_extension_goes_on_to_the_same_bits() {
     let dir = folder();
-    dir.runs("run small.toml --checkpoint kept --out x");
-    let mut damaged = fs::read(dir.at("kept")).unwrap();
-    let at = damaged.len() / 2;
-    damaged[at] ^= 4;
-    dir.write("kept", &damaged);
-    dir.refuses("run small.toml --checkpoint kept --out x2", "is damaged: its checksum is");
+    for (name, until) in [("more", "--replicas 300"), ("until", "--until-se x1=0.0045")] {
+        let file = dir.at(name);
+        dir.runs(&format!("run small.toml --replicas 3 --checkpoint {name} --out {name}-out"));
+        for life in 0..4 {
+            let before = fs::read(&file).unwrap();
+            let life_of = format!(
+                "run small.toml {until} --checkpoint {name} --out {name}-out --every 0.01 --threads {}",
+                1 + life % 2
+            );
+            let mut running = Running::held_at_its_first_message(command(dir.path(), &life_of));
+            let more = || fs::read(&file).is_ok_and(|found| found != before);
+            if !running.reaches("more of the run is kept", more) {
+                break;
+            }
+            running.signal("-KILL");
+            running.end();
+            // Of what was left in the middle of writing the next life would warn first.
+            remove_left(dir.path());
+        }
+        dir.runs(&format!("run small.toml {until} --out {name}-whole"));
+        dir.runs(&format!("run small.toml {until} --checkpoint {name} --out {name}-out"));
+        assert!(results(&dir.at(&format!("{name}-out"))) == results(&dir.at(&format!("{name}-whole"))), "{name}");
+    }
 }
 
 #[test]
-fn finished_cases_are_not_run_again() {
+fn a_killed_sweep_goes_on_to_the_same_bytes() {
+    let sweep = "sweep small.toml --over interaction.alpha=0.1:1.2:12 --out killed --threads";
     let dir = folder();
-    let two = "validate --case jeffery-period --case gradient-of-eq-2 --checkpoint kept";
-    dir.runs(&format!("{two} --out first"));
-    let more = shearbed(dir.path(), &format!("{two} --case kick-bound --out more"));
-    assert!(more.stdout.contains("goes on from kept: finished cases: 2\n"), "{}", more.stdout);
-    let cases = |out: &str| dir.json(&format!("{out}/report.json"))["cases"].as_array().unwrap().clone();
-    let [first, more] = ["first", "more"].map(cases);
-    // Times too: they have not been taken again.
-    assert_eq!(first.len() + 1, more.len());
-    assert!(first.iter().all(|case| more.contains(case)), "{first:#?}\n{more:#?}");
-    dir.runs("validate --case kick-bound --case jeffery-period --out fresh");
-    for mut case in cases("fresh") {
-        let same = |other: &&serde_json::Value| other["name"] == case["name"];
-        let mut kept = more.iter().find(same).unwrap().clone();
-        kept["seconds"] = 0.into();
-        case["seconds"] = 0.into();
-        assert_eq!(kept, case);
+    let killed = dir.at("killed");
+    // Each life waits where it says that one more point is finished, until it is killed.
+    for life in 1..4 {
+        let mut running = Running::held_at_its_first_message(command(dir.path(), &format!("{sweep} 1")));
+        let point = killed.join(format!("points/{life:02}"));
+        running.wait_for("one more point is finished", || point.exists());
+        running.signal("-KILL");
+        assert_eq!(running.end().code, None);
+        let names = fs::read_dir(killed.join("points")).unwrap();
+        assert_eq!(names.count(), life);
     }
-    dir.refuses(&format!("{two} --seed 2"), "seed was 1 and is 2 now");
+    assert!(!killed.join("sweep.csv").exists());
+    // What a kill in the middle of a point leaves.
+    let left = killed.join("points/.shearbed-0123456789abcdef");
+    fs::create_dir(&left).unwrap();
+    fs::write(left.join("projections.csv"), "half a ta").unwrap();
+
+    let ended = shearbed(dir.path(), &format!("{sweep} 2"));
+    let said = "killed/points/.shearbed-0123456789abcdef: a shearbed that was killed left this folder";
+    assert!(ended.stderr.contains(said), "{}", ended.stderr);
+    let text = ended.stdout;
+    fs::remove_dir_all(left).unwrap();
+    assert!(text.starts_with("goes on from killed: 3 of 12 points are finished\n"), "{text}");
+    assert!(text.contains("points: 12, of which 3 were finished before"), "{text}");
+    dir.runs(&format!("{sweep} 1").replace("killed", "whole"));
+    assert_eq!(dir.files("killed"), dir.files("whole"));
+    // Once more: nothing is left to do, and nothing changes.
+    let whole = dir.files("killed");
+    dir.runs(&format!("{sweep} 1"));
+    assert_eq!(dir.files("killed"), whole);
 }

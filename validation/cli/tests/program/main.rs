@@ -14,17 +14,12 @@ mod example_case;
 #[rustfmt::skip]
 mod example_study;
 mod experiments;
-mod fit;
 mod folders;
 mod order;
 mod plot;
-mod provenance;
 mod report;
 mod resources;
-mod rods;
 mod run;
 mod supply;
-mod sweep;
 #[cfg(target_os = "linux")]
 mod transcripts;
-mod until;

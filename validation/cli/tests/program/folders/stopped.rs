@@ -1,7 +1,7 @@
-//! Runs that were killed, and folders that cannot be written.
+//! Commands that were killed.
 
-use crate::common::bounded::{Bounded, end};
-use crate::common::{command, files, folder, kill, names, remove_left, wait_for};
+use crate::common::bounded::end;
+use crate::common::{command, folder, kill, names, remove_left, wait_for};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Dxsm;
 use shearbed_validation::files::output::{RECORD, Record, Sum};
@@ -9,71 +9,6 @@ use std::fs;
 use std::path::Path;
 use std::process::Stdio;
 use std::time::Duration;
-
-/// What killed processes of other versions left, and what only looks so, is the user's to remove.
-#[test]
-fn hidden_names_of_others_stay_and_what_a_kill_left_is_reported() {
-    let dir = folder();
-    let run = "run small.toml --quiet --out x";
-    let left = "x/.shearbed-0123456789abcdef";
-    for name in [left, "x/.shearbed-0123456789abcdeg", "x/.shearbed-mine", ".shearbed-part", ".x.shearbed-part"] {
-        dir.write(&format!("{name}/projections.csv"), "mine");
-    }
-    dir.write("x/.shearbed-lock", "mine");
-    let before = files(dir.path());
-    for arguments in [
-        run,
-        "reference --aspect-ratio 5 --times 1 --out x/r.csv",
-        "run small.toml --out .shearbed-mine --checkpoint .shearbed-c",
-        run,
-    ] {
-        let said = dir.runs(arguments).stderr;
-        let reported = usize::from(!arguments.contains(".shearbed-mine"));
-        for part in [&format!("warning: {left}: a shearbed that was killed left this folder"), "warning: "] {
-            assert_eq!(said.matches(part).count(), reported, "{said}");
-        }
-    }
-    let after = files(dir.path());
-    for (name, bytes) in &before {
-        assert_eq!(after.get(name), Some(bytes), "{name}");
-    }
-    assert!(after.contains_key(".shearbed-mine/run.json") && after.contains_key(".shearbed-c"));
-}
-
-/// A umask that keeps this process out of the folders that it makes.
-#[cfg(target_os = "linux")]
-#[test]
-fn no_umask_leaves_half_a_folder() {
-    let dir = folder();
-    fs::set_permissions(dir.path(), std::os::unix::fs::PermissionsExt::from_mode(0o777)).unwrap();
-    dir.runs("run small.toml --quiet --out there");
-    fs::set_permissions(dir.at("there"), std::os::unix::fs::PermissionsExt::from_mode(0o777)).unwrap();
-    let before = files(dir.path());
-    // Root may do all: it becomes somebody else.
-    let is_root = rustix::process::geteuid().is_root();
-    let other = if is_root { "setpriv --reuid 65534 --regid 65534 --clear-groups" } else { "" };
-    // Under a path that others may read.
-    let (place, program) = (tempfile::tempdir().unwrap(), env!("CARGO_BIN_EXE_shearbed"));
-    fs::set_permissions(place.path(), std::os::unix::fs::PermissionsExt::from_mode(0o755)).unwrap();
-    let copy = place.path().join("shearbed");
-    fs::hard_link(program, &copy).or_else(|_| fs::copy(program, &copy).map(drop)).unwrap();
-    for umask in ["177", "277", "377", "477", "577", "677", "777"] {
-        for arguments in [
-            "run small.toml --quiet --out x/y",
-            "run small.toml --quiet --seed 2 --out there",
-            "sweep small.toml --over interaction.alpha=1,2 --quiet --out x",
-            "reference --aspect-ratio 5 --times 1 --out x/r.csv",
-            "reference --aspect-ratio 5 --times 1 --out r.csv",
-        ] {
-            let script = format!("umask {umask}; exec {other} {} {arguments}", copy.display());
-            let ended = std::process::Command::new("bash").args(["-c", &script]).current_dir(dir.path()).ended();
-            let said = String::from_utf8_lossy(&ended.stderr);
-            assert_eq!(ended.status.code(), Some(2), "{umask} {arguments}: {said}");
-            assert!(said.contains("cannot be written: "), "{umask} {arguments}: {said}");
-            assert_eq!(files(dir.path()), before, "{umask} {arguments}: {said}");
-        }
-    }
-}
 
 /// Commands that make folders and files, and that replace them.
 const COMMANDS: [&str; 6] = [

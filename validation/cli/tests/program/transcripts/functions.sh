@@ -55,3 +55,15 @@ keys() {
         match($0, /^      "[a-z_0-9]*": /) { name = substr($0, 8, RLENGTH - 10); of[name] = substr($0, RLENGTH + 1); sub(/,$/, "", of[name]) }
         /^    }/ { line = ""; for (k = 1; k in key; k++) line = line (k > 1 ? " " : "") of[key[k]]; print line; delete of }'
 }
+
+# Points of the mean curve of small.toml with a key, another seed than a fit's, with noise of 0.01 that is fixed: each
+# point is off by a Gaussian quantile, in an order without a pattern.
+points() {
+    shearbed run small.toml --set "$1" --set time.outputs_per_period=20 --seed 7 --replicas 400 --quiet --out truth --force
+    awk -F, -v OFMT=%.17g 'BEGIN { n = split("-1.6 -1.1 -0.8 -0.6 -0.5 -0.3 -0.2 -0.1 0.1 0.2 0.3 0.5 0.6 0.8 1.1 1.6 0.0 0.4 -0.4 0.7", off, " ") }
+        NR == 1 { print "t_over_T,x1,x1_u" }
+        NR > 2 { print $1 "," sprintf("%.17g", $4 + 0.01 * off[(7 * (NR - 3) + 3) % n + 1]) ",0.01" }' truth/projections.csv
+}
+
+# A number of a parameter, such as its estimate, in the record of a fit.
+of_fit() { sed -n "/\"parameters\"/,/^  }/{/\"$2\": {/,/}/s/^ *\"$3\": \([^,]*\),*/\1/p}" "$1/fit.json"; }
