@@ -48,19 +48,6 @@ pub static UNEQUAL: LazyLock<String> = LazyLock::new(|| {
     )
 });
 
-/// Free rods in random directions.
-pub const FREE: &str = r#"title = "Free rods"
-[flow]
-shear_rate_per_s = 0.5
-[particles]
-count = 20
-length_mm = 0.72
-aspect_ratio = 3
-orientation = "isotropic"
-[time]
-periods = 1
-"#;
-
 /// A folder in which a test runs commands.
 pub struct Folder(TempDir);
 
@@ -148,12 +135,6 @@ pub struct Ended {
 /// Runs a command to its end.
 pub fn shearbed(dir: &Path, arguments: &str) -> Ended {
     ended(&mut command(dir, arguments))
-}
-
-/// The same under the limits that a shell sets first.
-pub fn limited(dir: &Path, limits: &str, arguments: &str) -> Ended {
-    let script = format!("{limits}; exec {} {arguments}", env!("CARGO_BIN_EXE_shearbed"));
-    ended(Command::new("bash").args(["-c", &script]).current_dir(dir))
 }
 
 fn ended(command: &mut Command) -> Ended {

@@ -16,7 +16,6 @@ mod example_study;
 mod experiments;
 mod folders;
 mod order;
-mod plot;
 mod report;
 mod resources;
 mod run;
