@@ -14,24 +14,9 @@ use std::path::Path;
 /// What the command writes, or wrote.
 const NAMES: [&str; 5] = ["a.csv", "b.csv", "sub/c.csv", "sub/d.csv", "points/1/e.csv"];
 /// Names that programs take for hidden files, and folders.
-const OTHERS: [&str; 16] = [
-    ".shearbed-lock",
-    ".shearbed-ready",
-    ".shearbed-ready/a.csv",
-    ".shearbed-ready/sub/keys",
-    ".shearbed-part/b.csv",
-    ".shearbed-0123456789abcdeg",
-    ".shearbed-0123456789abcdeg/a.csv",
-    ".shearbed-mine",
-    ".checkpoint-kept.lock",
-    ".checkpoint-kept.part",
-    "kept",
-    "sub",
-    "sub/keys",
-    "points",
-    "points/1",
-    "notes.txt",
-];
+const OTHERS: &str = ".shearbed-lock .shearbed-ready .shearbed-ready/a.csv .shearbed-ready/sub/keys .shearbed-part/b.csv \
+    .shearbed-0123456789abcdeg .shearbed-0123456789abcdeg/a.csv .shearbed-mine .checkpoint-kept.lock \
+    .checkpoint-kept.part kept sub sub/keys points points/1 notes.txt";
 /// Places to which a link leads from the folder, inside it and outside.
 const TARGETS: [&str; 7] = ["../home", "../home/keys", "../made", "user", "user/keys", ".", "a.csv"];
 
@@ -63,7 +48,7 @@ fn any<'a>(random: &mut Pcg64Dxsm, of: &[&'a str]) -> &'a str {
 
 /// Puts files, folders and links of these names into a folder, as far as they fit together.
 fn scatter(random: &mut Pcg64Dxsm, out: &Path) {
-    let names: Vec<_> = NAMES.iter().chain(&OTHERS).copied().collect();
+    let names: Vec<_> = NAMES.into_iter().chain(OTHERS.split_whitespace()).collect();
     for _ in 0..random.random_range(0..14) {
         let name = any(random, &names);
         let path = out.join(name);
@@ -90,16 +75,8 @@ fn record(random: &mut Pcg64Dxsm, command: &str) -> String {
     names.extend(
         ["sub/keys", "../home/keys", "/etc/hostname", "link/keys"].into_iter().filter(|_| random.random_bool(0.3)),
     );
-    let files: Vec<_> = names
-        .into_iter()
-        .map(|name| {
-            if name.ends_with("keys") {
-                (name.to_owned(), "mine".to_owned())
-            } else {
-                (name.to_owned(), format!("old {name}"))
-            }
-        })
-        .collect();
+    let old = |name: &str| if name.ends_with("keys") { "mine".to_owned() } else { format!("old {name}") };
+    let files: Vec<_> = names.into_iter().map(|name| (name.to_owned(), old(name))).collect();
     let origin = ResultFolder::new(Path::new("."), command, json!({}), false).origin().clone();
     let text = Record::new(&origin, &files).file().1;
     match random.random_range(0..4) {

@@ -53,6 +53,7 @@ impl Taken {
 
 /// Files by name.
 type Files = [(&'static str, Vec<u8>)];
+type Set = Vec<(&'static str, Vec<u8>)>;
 /// Takes one set of files, of which some are mutated.
 type Take = dyn Fn(&Path, &Files) -> Result<Taken, String>;
 
@@ -60,7 +61,7 @@ type Take = dyn Fn(&Path, &Files) -> Result<Taken, String>;
 pub struct Target {
     name: &'static str,
     /// Files that are right, as a set of names and contents each.
-    corpus: Vec<Vec<(&'static str, Vec<u8>)>>,
+    corpus: Vec<Set>,
     take: Box<Take>,
 }
 
@@ -133,7 +134,7 @@ fn kind(why: &str) -> String {
 /// The input at work, from 1; 0 where none is.
 static BEGUN: AtomicU64 = AtomicU64::new(0);
 /// The input itself.
-static AT_WORK: Mutex<Vec<(&str, Vec<u8>)>> = Mutex::new(Vec::new());
+static AT_WORK: Mutex<Set> = Mutex::new(Vec::new());
 
 /// Ends the process where one input takes too long.
 fn watch() {

@@ -1,8 +1,9 @@
 //! Folders of measured points, of problems and of answers.
 
 use crate::{Files, Taken, Target};
+use shearbed_validation::files::FileError;
 use shearbed_validation::input::experiment::{self, SOURCES};
-use shearbed_validation::serve::grade::{self, Axes, Claim, DumpOptions, FileOptions, LineEnds, Options};
+use shearbed_validation::serve::grade::{self, Claim, DumpOptions, FileOptions, Options};
 use shearbed_validation::serve::problems::{self, LoadedProblem};
 use std::fs;
 use std::path::Path;
@@ -41,48 +42,34 @@ pub fn put(folder: &Path, files: &Files) -> Result<(), String> {
 }
 
 /// A refusal names the file, and a line that it has.
-pub fn named(why: &str, line: Option<usize>, files: &Files, file: &str) -> Result<Taken, String> {
-    let lines = files.iter().map(|(_, bytes)| 1 + bytes.iter().filter(|byte| **byte == b'\n').count()).max();
-    if why.is_empty() || file.is_empty() || line > lines {
-        return Err(format!("{file}, line {line:?} of {lines:?}: {why:?}"));
+pub fn refused(FileError { path, line, message, .. }: &FileError, files: &Files) -> Result<Taken, String> {
+    let lines = files.iter().map(|(_, bytes)| 1 + bytes.iter().filter(|byte| **byte == b'\n').count() as u64).max();
+    if message.is_empty() || path.as_os_str().is_empty() || Some(*line) > lines {
+        return Err(format!("{}, line {line} of {lines:?}: {message:?}", path.display()));
     }
-    Ok(Taken::Refused(why.to_owned()))
+    Ok(Taken::Refused(message.clone()))
 }
 
 /// Measured points with their provenance.
 pub fn data() -> Target {
-    let with = |change: fn(&str) -> String, csv: &str| {
-        vec![("a.toml", change(PROVENANCE).into_bytes()), ("a.csv", csv.as_bytes().to_vec())]
+    let with = |changes: &[(&str, &str)], csv: &str| {
+        let changed = changes.iter().fold(PROVENANCE.to_owned(), |text, (old, new)| text.replace(old, new));
+        vec![("a.toml", changed.into_bytes()), ("a.csv", csv.as_bytes().to_vec())]
     };
+    let column = ("observable = \"x1\"", "observable = \"x1\"\ndataset = \"n = 50\"");
+    let seconds = ("\"t_over_T\"", "\"t_s\"\nshear_rate_per_s = 0.5");
     Target {
         name: "data",
         corpus: vec![
-            with(str::to_owned, "t_over_T,x1,x1_u\n0,0.5,\n0.5,0.4,0.02\n1,0.3,\n"),
-            with(
-                |text| text.replace("t_over_T", "strain").replace("[0, 3]", "[0, 200]"),
-                "strain,x1,x3\n0,0.5,\n10,,0.3\n",
-            ),
-            with(
-                |text| {
-                    text.replace("\"columns\"", "\"webplotdigitizer\"")
-                        .replace("observable = \"x1\"", "observable = \"x1\"\ndataset = \"n = 50\"")
-                },
-                "n = 50,\nX,Y\n0.1, 0.5\n0.2, 0.4\n",
-            ),
-            with(
-                |text| text.replace("\"t_over_T\"", "\"t_s\"\nshear_rate_per_s = 0.5").replace("[0, 3]", "[0, 400]"),
-                "t_s,x1\n0,0.5\n80,0.4\n",
-            ),
+            with(&[], "t_over_T,x1,x1_u\n0,0.5,\n0.5,0.4,0.02\n1,0.3,\n"),
+            with(&[("t_over_T", "strain"), ("[0, 3]", "[0, 200]")], "strain,x1,x3\n0,0.5,\n10,,0.3\n"),
+            with(&[("\"columns\"", "\"webplotdigitizer\""), column], "n = 50,\nX,Y\n0.1, 0.5\n0.2, 0.4\n"),
+            with(&[seconds, ("[0, 3]", "[0, 400]")], "t_s,x1\n0,0.5\n80,0.4\n"),
         ],
         take: Box::new(|folder, files| {
             put(&folder.join(SOURCES[0].folder), files)?;
             if let Err(error) = experiment::check(folder) {
-                return named(
-                    &error.message,
-                    (error.line > 0).then_some(error.line as usize),
-                    files,
-                    &error.path.to_string_lossy(),
-                );
+                return refused(&error, files);
             }
             let curves =
                 experiment::read(folder, &SOURCES[0]).map_err(|error| format!("checked, and then: {error}"))?;
@@ -137,9 +124,7 @@ pub fn problems() -> Target {
             put(&folder.join(names.iter().find(|name| called(name)).unwrap_or(&FOREIGN)), files)?;
             match problems::read(folder) {
                 Ok(found) => Taken::if_finite(found.iter().all(finite), "a number"),
-                Err(error) => {
-                    named(&error.message, Some(error.line as usize), files, &error.path.display().to_string())
-                }
+                Err(error) => refused(&error, files),
             }
         }),
     }
@@ -173,19 +158,14 @@ pub fn answers() -> Target {
             let (name, answer) = &files[0];
             put(&folder.join(name), &[("answer.csv", answer.clone())])?;
             let asked = loaded.iter().find(|loaded| loaded.problem.name == *name).ok_or("no such problem")?;
-            let options = Options {
-                file: FileOptions { columns: None, foreign: None, axes: Axes::default(), ends: LineEnds::default() },
-                dump: DumpOptions { timestep_s: None, rod_axis: None },
-                claim: Claim::default(),
-            };
+            let dump = DumpOptions { timestep_s: None, rod_axis: None };
+            let options = Options { file: FileOptions::default(), dump, claim: Claim::default() };
             match grade::grade_one(asked, &folder.join(name), &options) {
                 Ok(graded) => {
                     let numbers = [graded.error, graded.length_drift, graded.orbit_drift];
                     Taken::if_finite(numbers.into_iter().flatten().all(f64::is_finite), "a number")
                 }
-                Err(error) => {
-                    named(&error.message, Some(error.line as usize), files, &error.path.display().to_string())
-                }
+                Err(error) => refused(&error, files),
             }
         }),
     }

@@ -1,7 +1,7 @@
 //! Points to fit, and folders of results that are drawn.
 
 use crate::checkpoints::RODS;
-use crate::readers::{named, put};
+use crate::readers::{put, refused};
 use crate::{Files, Taken, Target};
 use serde_json::{Value, json};
 use shearbed_validation::files::output::{RECORD, Sum};
@@ -26,12 +26,7 @@ pub fn fits() -> Target {
                         .all(|p| [p.time, p.u_time, p.value, p.u].iter().all(|x| x.is_finite()) && p.u > 0.0),
                     "a point",
                 ),
-                Err(error) => named(
-                    &error.message,
-                    (error.line > 0).then_some(error.line as usize),
-                    files,
-                    &error.path.to_string_lossy(),
-                ),
+                Err(error) => refused(&error, files),
             }
         }),
     }
