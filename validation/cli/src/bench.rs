@@ -1,6 +1,6 @@
 //! `shearbed bench`: runs the studies that have named parts, alone and with longer measurements.
 
-use super::finished::Finished;
+use super::finished::{Finished, measured};
 use super::{Failure, Writing, checkpoint, on_threads, print, progress, result_folder};
 use serde_json::json;
 use shearbed_validation::files::text::Shown;
@@ -9,7 +9,6 @@ use shearbed_validation::present::plot;
 use shearbed_validation::present::study::Request;
 use shearbed_validation::studies;
 use std::path::PathBuf;
-use std::time::Instant;
 
 /// Arguments of `bench`.
 #[derive(clap::Args)]
@@ -34,11 +33,10 @@ pub(super) fn bench(args: &Args) -> Result<(), Failure> {
     check(&args.cases)?;
     let wanted = |name: &str| args.cases.is_empty() || args.cases.iter().any(|case| case == name);
     let origin = ("bench", json!({ "cases": args.cases }), args.writing.force);
-    let path = args.checkpoint.as_deref();
-    let path = path.map(|path| checkpoint::check(path, &args.out)).transpose()?;
+    let path = checkpoint::check(args.checkpoint.as_deref(), &args.out)?;
     let folder = result_folder(&args.out, origin, 0, &[""; 0])?;
-    let open = |path: &PathBuf| Finished::open(path, "bench", json!({ "cases": args.cases }), args.writing.quiet);
-    let finished = path.as_ref().map(open).transpose()?;
+    let input = json!({ "cases": args.cases });
+    let finished = Finished::open(path.as_deref(), "bench", input, args.writing.quiet)?;
     let effort = Effort { full: true, ..Effort::gate() };
     let (mut files, mut tables) = (Vec::new(), String::new());
     let bar = progress(1, "", args.writing.quiet);
@@ -47,21 +45,9 @@ pub(super) fn bench(args: &Args) -> Result<(), Failure> {
             continue;
         }
         bar.set_message(study.title);
-        let kept = finished.as_ref().and_then(|finished| finished.study(study.name));
-        let found = match kept {
-            Some((found, _)) => found,
-            None => {
-                let start = Instant::now();
-                let found =
-                    on_threads(None, || study.found(&Request { effort: &effort, wanted: &wanted, finished: &|| () }))?;
-                let Some(found) = found.map_err(Failure::Failed)? else {
-                    continue;
-                };
-                let measured = (found, start.elapsed().as_secs_f64());
-                finished.as_ref().map_or(Ok(()), |finished| finished.add_study(study.name, &measured))?;
-                measured.0
-            }
-        };
+        let found = || study.found(&Request { effort: &effort, wanted: &wanted, finished: &|| () });
+        let run = || on_threads(None, found)?.map_err(Failure::Failed);
+        let Some((found, _)) = measured(finished.as_ref(), study.name, run)? else { continue };
         files.extend(found.files);
         for exhibit in found.exhibits {
             if let Some(figure) = exhibit.figure {

@@ -9,13 +9,14 @@ use std::path::{Component, Path, PathBuf};
 /// The extensions of result files.
 const ENDINGS: [&str; 9] = ["csv", "svg", "json", "pvd", "vtp", "html", "md", "xml", "png"];
 
-/// Checks a checkpoint's path and resolves its links; from then on the message after a signal says that the file is
-/// kept.
+/// Checks a checkpoint's path, if there is one, and resolves its links; from then on the message after a signal says
+/// that the file is kept.
 ///
 /// # Errors
 ///
 /// More than one rank; a name that the results in `out` may have, whether or not these files and folders exist.
-pub(super) fn check(checkpoint: &Path, out: &Path) -> Result<PathBuf, Failure> {
+pub(super) fn check(checkpoint: Option<&Path>, out: &Path) -> Result<Option<PathBuf>, Failure> {
+    let Some(checkpoint) = checkpoint else { return Ok(None) };
     let refused = |what: &str| Failure::Input(format!("--checkpoint {}: {what}", checkpoint.shown()));
     if cluster::size() > 1 {
         let ranks = cluster::size();
@@ -35,7 +36,7 @@ pub(super) fn check(checkpoint: &Path, out: &Path) -> Result<PathBuf, Failure> {
     }
     let kept = path.clone();
     on_stop(move || stays(&kept));
-    Ok(path)
+    Ok(Some(path))
 }
 
 /// The path with links resolved; the file or folder need not exist.

@@ -11,6 +11,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::Instant;
 
 /// Verdict, evidence, controls and seconds of a case.
 pub(super) type CaseResult = (Verdict, Vec<Judged>, Vec<Control>, f64);
@@ -33,8 +34,15 @@ pub(super) struct Finished {
 }
 
 impl Finished {
-    /// Opens or creates the checkpoint. A checkpoint of other input or of another build is an error.
-    pub(super) fn open(path: &Path, command: &'static str, input: Value, quiet: bool) -> Result<Self, Failure> {
+    /// Opens or creates the checkpoint, if there is to be one. A checkpoint of other input or of another build is an
+    /// error.
+    pub(super) fn open(
+        path: Option<&Path>,
+        command: &'static str,
+        input: Value,
+        quiet: bool,
+    ) -> Result<Option<Self>, Failure> {
+        let Some(path) = path else { return Ok(None) };
         let file = Checkpoint::open(path, command, input)?;
         let state: State = file.read()?.unwrap_or_default();
         file.write(&state)?;
@@ -56,7 +64,7 @@ impl Finished {
                 ),
             })
         });
-        Ok(Self { file, count, state: Mutex::new(state) })
+        Ok(Some(Self { file, count, state: Mutex::new(state) }))
     }
 
     /// The result of a finished case.
@@ -73,18 +81,6 @@ impl Finished {
         self.write(&state)
     }
 
-    /// The results of a finished study.
-    pub(super) fn study(&self, name: &str) -> Option<Measured> {
-        self.state().studies.get(name).cloned()
-    }
-
-    /// Adds a finished study and writes the checkpoint.
-    pub(super) fn add_study(&self, name: &str, measured: &Measured) -> Result<(), Failure> {
-        let mut state = self.state();
-        state.studies.insert(name.to_owned(), measured.clone());
-        self.write(&state)
-    }
-
     fn write(&self, state: &State) -> Result<(), Failure> {
         self.file.write(state)?;
         self.count.store(state.cases.len() + state.studies.len(), Ordering::Relaxed);
@@ -94,6 +90,27 @@ impl Finished {
     fn state(&self) -> MutexGuard<'_, State> {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
+}
+
+/// The findings of a study and its seconds: those that are finished, or those of a run, which are added. `None` if the
+/// study finds nothing here.
+pub(super) fn measured(
+    finished: Option<&Finished>,
+    name: &str,
+    run: impl FnOnce() -> Result<Option<Findings>, Failure>,
+) -> Result<Option<Measured>, Failure> {
+    if let Some(found) = finished.and_then(|finished| finished.state().studies.get(name).cloned()) {
+        return Ok(Some(found));
+    }
+    let start = Instant::now();
+    let Some(found) = run()? else { return Ok(None) };
+    let measured = (found, start.elapsed().as_secs_f64());
+    if let Some(finished) = finished {
+        let mut state = finished.state();
+        state.studies.insert(name.to_owned(), measured.clone());
+        finished.write(&state)?;
+    }
+    Ok(Some(measured))
 }
 
 #[cfg(test)]
@@ -141,15 +158,17 @@ mod tests {
     fn what_is_finished_is_there_again_and_nothing_else() {
         let dir = tempfile::tempdir().unwrap();
         let path = dir.path().join("kept");
-        let open = || Finished::open(&path, "validate", json!({ "seed": 1 }), true).unwrap();
+        let open = || Finished::open(Some(&path), "validate", json!({ "seed": 1 }), true).unwrap().unwrap();
         let ended: CaseResult = (Verdict::Pass, Vec::new(), Vec::new(), 0.3);
         let first = open();
-        first.add_study("figures", &(found(), 0.1)).unwrap();
+        let study = measured(Some(&first), "figures", || Ok(Some(found()))).unwrap();
         first.add_case("kick-bound", &ended).unwrap();
         drop(first);
         let again = open();
-        assert_eq!(again.study("figures"), Some((found(), 0.1)));
+        let kept = |name| measured(Some(&again), name, || Ok(None)).unwrap();
+        assert!(study.as_ref().is_some_and(|(findings, _)| *findings == found()));
+        assert_eq!(kept("figures"), study);
         assert_eq!(again.case("kick-bound"), Some(ended));
-        assert!(again.case("figures").is_none() && again.study("kick-bound").is_none());
+        assert!(again.case("figures").is_none() && kept("kick-bound").is_none());
     }
 }

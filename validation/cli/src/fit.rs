@@ -8,7 +8,7 @@ mod terminal;
 use super::{
     Failure, Threads, Writing, number, on_threads, print, progress, restart, result_folder, scene, spares_inputs, whole,
 };
-use advice::{UContains, of_fit, of_scene, of_warning};
+use advice::{of_fit, of_scene, of_warning};
 use input::{Input, input};
 use serde_json::{Value, json};
 use shearbed::Plan;
@@ -75,8 +75,8 @@ pub(super) struct Args {
     #[arg(long, value_name = "N", value_parser = whole(1, u64::MAX), allow_negative_numbers = true)]
     rods: Option<u64>,
     /// What u contains [default: reading]
-    #[arg(long, value_name = "WHAT", requires_if("rods", "rods"))]
-    u_contains: Option<UContains>,
+    #[arg(long, value_name = "WHAT", value_parser = advice::contents(), requires_if("rods", "rods"))]
+    u_contains: Option<Contents>,
     /// Test a value of a fitted key, or whether it has the same value in two sets
     /// (1:interaction.alpha=2:interaction.alpha); can be given more than once
     #[arg(long, value_name = "[SET:]KEY=VALUE", value_parser = Hypothesis::parse)]
@@ -181,8 +181,7 @@ fn work(args: &Args, input: &Input, watch: &Watch<'_>) -> Result<Done, Failure> 
     let from: Vec<f64> = args.over.iter().map(|range| range.from).collect();
     let count = |set| scenes.scene(set, &from).map(|scene| scene.particles.count as f64);
     let counts: Vec<f64> = (0..scenes.sets.len()).map(count).collect::<Result<_, _>>().map_err(refused)?;
-    let contents = args.u_contains.map(Into::into);
-    let rods = contents::rods(args.rods, contents, &counts);
+    let rods = contents::rods(args.rods, args.u_contains, &counts);
     let problem = FitProblem {
         measured: Measured { data, ranges: &args.over, rods: &rods },
         model: &model,
@@ -193,7 +192,7 @@ fn work(args: &Args, input: &Input, watch: &Watch<'_>) -> Result<Done, Failure> 
     let shifts = shifts(input, &fit, &model, watch).map_err(Failure::Input)?;
     let mut report = report::report(&fit, data, shifts);
     report.warnings.extend(unsearched);
-    report.warnings.extend(contents::warning(&fit, data, args.rods, contents, &counts));
+    report.warnings.extend(contents::warning(&fit, data, args.rods, args.u_contains, &counts));
     report.warnings.extend(scenes.moving_points());
     let test = |test: &Hypothesis| test.test(&fit).map_err(|error| Failure::Input(advice::of_test(test, &error)));
     report.tests = args.test.iter().map(test).collect::<Result<_, _>>()?;
@@ -235,7 +234,7 @@ fn asked(args: &Args, input: &Input) -> Result<Value, Failure> {
         "over": args.over,
         "set": args.settings.iter().map(set).collect::<Vec<_>>(),
         "rods": args.rods,
-        "u_contains": args.u_contains.map(Contents::from),
+        "u_contains": args.u_contains,
         "most_replicas": args.replicas,
     });
     // Without these flags the record is the same as before they existed.

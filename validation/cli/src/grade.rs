@@ -87,7 +87,7 @@ fn options(args: &Args) -> Options {
     Options {
         file: FileOptions {
             columns: args.columns.clone(),
-            foreign: args.layout.map(Into::into),
+            foreign: args.foreign(),
             axes: args.axes,
             ends: if args.windows_text { LineEnds::Windows } else { LineEnds::Unix },
         },
@@ -134,7 +134,7 @@ fn names(all: &[LoadedProblem]) -> Vec<String> {
 type Done = (Report, Vec<LoadedProblem>, Value);
 
 fn files(args: &Args, reference: &Path, mine: &Path) -> Result<Done, Failure> {
-    let all = problems::read(reference).map_err(|error| Failure::Input(error.to_string()))?;
+    let all = problems::read(reference)?;
     let names = names(&all);
     check_names(args, &names)?;
     let wanted = tolerances::with(&args.tolerances, chosen(args, all)?)?;
@@ -198,7 +198,7 @@ fn asked(args: &Args, reference: Option<&Path>) -> Result<Vec<LoadedProblem>, Fa
         default || by_name(&problem.name) || !own && live::can_be_asked(problem)
     };
     let mut all = match reference {
-        Some(dir) => problems::read(dir).map_err(|error| Failure::Input(error.to_string()))?,
+        Some(dir) => problems::read(dir)?,
         None => {
             check_names(args, &problems::all().iter().map(|def| def.name.to_owned()).collect::<Vec<_>>())?;
             let rods = problems::free_rods();

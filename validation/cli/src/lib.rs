@@ -48,7 +48,7 @@ use clap::{Parser, Subcommand};
 use serde_json::{Value, json};
 use shearbed_validation::files::output::{self, RECORD, Record, ResultFolder};
 use shearbed_validation::files::text::{Shown, complain};
-use shearbed_validation::files::{cluster, text};
+use shearbed_validation::files::{FileError, cluster, text};
 use shearbed_validation::oracle::reference::big::finite;
 use shearbed_validation::present::plot::Figure;
 use std::ffi::OsString;
@@ -193,7 +193,7 @@ fn with_name(arguments: Vec<OsString>) -> Vec<OsString> {
 
 /// Checks that a plan fits into memory with a replica on each thread; the error says why it does not.
 pub fn fits(plan: &shearbed::Plan, threads: Option<u64>, source: &str) -> Result<(), String> {
-    memory::check(plan, threads, false, source).map_err(|failure| failure.message_and_code().0)
+    memory::check(plan, threads, source).map_err(|failure| failure.message_and_code().0)
 }
 
 /// The message with the value that it is about on one line.
@@ -375,6 +375,12 @@ fn whole(least: u64, most: u64) -> impl Fn(&str) -> Result<u64, String> + Clone 
 impl From<output::Refused> for Failure {
     fn from(refused: output::Refused) -> Self {
         Self::Input(refused.0)
+    }
+}
+
+impl From<FileError> for Failure {
+    fn from(error: FileError) -> Self {
+        Self::Input(error.to_string())
     }
 }
 

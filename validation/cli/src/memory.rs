@@ -32,24 +32,13 @@ pub(super) fn check_start(on_threads: bool) -> Result<(), Failure> {
     }
 }
 
-/// Refuses a plan that needs more memory than is available, with `threads` replicas at a time, and with `vtk` files for
-/// ParaView. If the available memory is unknown, nothing is refused.
-pub(super) fn check(plan: &Plan, threads: Option<u64>, vtk: bool, source: &str) -> Result<(), Failure> {
-    check_beside(plan, threads, vtk, source, 0)
+/// Refuses a plan that needs more memory than is available, with `threads` replicas at a time.
+pub(super) fn check(plan: &Plan, threads: Option<u64>, source: &str) -> Result<(), Failure> {
+    check_each([(plan, source.to_owned())], threads, false, 0)
 }
 
-/// The same with `beside` further bytes for each replica.
-pub(super) fn check_beside(
-    plan: &Plan,
-    threads: Option<u64>,
-    vtk: bool,
-    source: &str,
-    beside: u64,
-) -> Result<(), Failure> {
-    check_each([(plan, source.to_owned())], threads, vtk, beside)
-}
-
-/// The same of several plans with the sources of their messages. The system is asked once.
+/// The same of several plans with the sources of their messages, with `vtk` files for ParaView and `beside` further
+/// bytes for each replica. The system is asked once. If the available memory is unknown, nothing is refused.
 pub(super) fn check_each<'a>(
     plans: impl IntoIterator<Item = (&'a Plan, String)>,
     threads: Option<u64>,

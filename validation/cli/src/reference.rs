@@ -182,14 +182,10 @@ fn values(args: &Args, motion: &Motion, asked: &Asked) -> Result<Table, NoValue>
 }
 
 fn csv(table: &Table) -> String {
-    let names = table.columns.iter().map(|column| column.name.clone());
-    let header: Vec<_> = names.collect();
-    let mut text = header.join(",") + "\n";
-    for row in &table.rows {
-        let fields: Vec<_> = row.iter().map(|value| value.map_or(String::new(), |x| format!("{x:?}"))).collect();
-        text += &(fields.join(",") + "\n");
-    }
-    text
+    let header = table.columns.iter().map(|column| column.name.clone()).collect();
+    let row = |row: &Vec<Option<f64>>| row.iter().map(|x| x.map_or(String::new(), |x| format!("{x:?}"))).collect();
+    let lines = std::iter::once(header).chain(table.rows.iter().map(row));
+    lines.map(|fields: Vec<String>| fields.join(",") + "\n").collect()
 }
 
 fn constants_csv(constants: &[Constant]) -> String {
@@ -286,27 +282,22 @@ fn refused(args: &Args, why: NoValue) -> Failure {
     })
 }
 
+fn number_or_inf(text: &str, allowed: impl Fn(f64) -> bool, words: &str) -> Result<f64, String> {
+    if text == "inf" { Ok(f64::INFINITY) } else { number(text, allowed, words) }
+}
+
 fn aspect_ratio(text: &str) -> Result<f64, String> {
-    match text {
-        "inf" => Ok(f64::INFINITY),
-        _ => number(text, |r| (1e-100..=1e100).contains(&r), "a number from 1e-100 to 1e100, or inf,"),
-    }
+    number_or_inf(text, |r| (1e-100..=1e100).contains(&r), "a number from 1e-100 to 1e100, or inf,")
 }
 
 fn c_i(text: &str) -> Result<f64, String> {
     let words = "0 (free rods), a number from 1e-9 to 1e9, or inf (all directions alike)";
-    match text {
-        "inf" => Ok(f64::INFINITY),
-        _ => number(text, |c| c == 0.0 || (1e-9..=1e9).contains(&c), words),
-    }
+    number_or_inf(text, |c| c == 0.0 || (1e-9..=1e9).contains(&c), words)
 }
 
 fn d_r(text: &str) -> Result<f64, String> {
     let words = "0 (free rods), a number from 1e-100 to 1e100, or inf (all directions alike)";
-    match text {
-        "inf" => Ok(f64::INFINITY),
-        _ => number(text, |d| d == 0.0 || (1e-100..=1e100).contains(&d), words),
-    }
+    number_or_inf(text, |d| d == 0.0 || (1e-100..=1e100).contains(&d), words)
 }
 
 fn rate(text: &str) -> Result<f64, String> {

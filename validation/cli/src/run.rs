@@ -132,12 +132,11 @@ impl<'a> Run<'a> {
         let named = args.chosen.load(&args.ensemble, &[])?;
         let plan = planned(args, &named)?;
         let beside = args.checkpoint.as_ref().map_or(0, |_| Halfway::bytes(&plan));
-        memory::check_beside(&plan, args.threads.given, args.vtk, &named.source, beside)?;
+        memory::check_each([(&plan, named.source.clone())], args.threads.given, args.vtk, beside)?;
         let out = args.out.clone().unwrap_or_else(|| Path::new("out").join(&named.stem));
         let inputs = inputs(args, &plan);
         agree("run", inputs.clone())?;
-        let path = args.checkpoint.as_deref();
-        let path = path.map(|path| checkpoint::check(path, &out)).transpose()?;
+        let path = checkpoint::check(args.checkpoint.as_deref(), &out)?;
         let names = names(&plan, args.vtk);
         if cluster::is_root() {
             spares_inputs(&out, &names, named.files())?;

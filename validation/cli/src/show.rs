@@ -51,7 +51,7 @@ pub(super) fn plan(args: &PlanArgs) -> Result<(), Failure> {
         said(plan.warnings())
     ))?;
     // A plan that `run` would refuse here is still shown: it may fit on another machine.
-    memory::check(&plan, None, false, &named.source)
+    memory::check(&plan, None, &named.source)
 }
 
 /// Lists the built-in scenes, or prints one.

@@ -1,6 +1,6 @@
 //! `shearbed validate`.
 
-use super::finished::{CaseResult, Finished};
+use super::finished::{CaseResult, Finished, measured};
 use super::{Failure, Threads, Writing, agree, checkpoint, choice, on_threads, print, progress, result_folder, whole};
 use serde_json::json;
 use shearbed::scene::MAX_SEED;
@@ -15,7 +15,6 @@ use shearbed_validation::present::study::Request;
 use shearbed_validation::studies;
 use shearbed_validation::studies::figures;
 use std::path::PathBuf;
-use std::time::Instant;
 
 /// Arguments of `validate`.
 #[derive(clap::Args)]
@@ -72,22 +71,17 @@ pub(super) fn validate(args: Args) -> Result<(), Failure> {
     }
     if let Some(data) = &args.data {
         // Invalid points are bad input, not a failed case.
-        experiment::check(data).map_err(|error| Failure::Input(error.to_string()))?;
+        experiment::check(data)?;
     }
     let names: Vec<_> = chosen.iter().map(|case| case.about.name).collect();
-    let data = (args.data.as_deref()).map(experiment::digest).transpose();
-    let data = data.map_err(|error| Failure::Input(error.to_string()))?;
+    let data = args.data.as_deref().map(experiment::digest).transpose()?;
     let input = json!({ "full": args.full, "seed": args.seed, "data": data });
     let mut agreed = input.clone();
     agreed["cases"] = json!(names);
     agree("validate", agreed.clone())?;
-    let path = args.checkpoint.as_deref();
-    let path = path.map(|path| checkpoint::check(path, &args.out)).transpose()?;
+    let path = checkpoint::check(args.checkpoint.as_deref(), &args.out)?;
     let folder = result_folder(&args.out, ("validate", agreed, args.writing.force), 0, &PAGES)?;
-    let finished = match &path {
-        Some(path) => Some(Finished::open(path, "validate", input, args.writing.quiet)?),
-        None => None,
-    };
+    let finished = Finished::open(path.as_deref(), "validate", input, args.writing.quiet)?;
     let effort = Effort { full: args.full, seed: args.seed, data: args.data };
     let (outcomes, sections) = on_threads(args.threads.given, || {
         let outcomes = outcomes(&chosen, &effort, finished.as_ref(), args.writing.quiet)?;
@@ -125,27 +119,23 @@ pub(super) fn validate(args: Args) -> Result<(), Failure> {
 fn gather(effort: &Effort, finished: Option<&Finished>, quiet: bool) -> Result<Option<Sections>, Failure> {
     let mut sections = Sections { equations: catalogue::equations(), ..Default::default() };
     for study in studies::ALL {
-        if let Some((found, seconds)) = finished.and_then(|finished| finished.study(study.name)) {
-            sections.add(ReportStudy::new(&study, found, seconds));
-            continue;
-        }
-        if !quiet {
-            print(&format!("study: {}\n", study.title))?;
-        }
-        // Only this study reports its pieces of work.
-        let work = if study.name == figures::STUDY.name {
-            figures::work(figures::Replicas::of(effort)).map_err(Failure::Failed)?
-        } else {
-            0
+        let run = || {
+            if !quiet {
+                print(&format!("study: {}\n", study.title))?;
+            }
+            // Only this study reports its pieces of work.
+            let work = if study.name == figures::STUDY.name {
+                figures::work(figures::Replicas::of(effort)).map_err(Failure::Failed)?
+            } else {
+                0
+            };
+            let bar = progress(work, "replicas", quiet || work == 0);
+            let found = study.found(&Request { effort, wanted: &|_| true, finished: &|| bar.inc(1) });
+            bar.finish_and_clear();
+            found.map_err(Failure::Failed)
         };
-        let bar = progress(work, "replicas", quiet || work == 0);
-        let start = Instant::now();
-        let found = study.found(&Request { effort, wanted: &|_| true, finished: &|| bar.inc(1) });
-        bar.finish_and_clear();
-        if let Some(found) = found.map_err(Failure::Failed)? {
-            let measured = (found, start.elapsed().as_secs_f64());
-            finished.map_or(Ok(()), |finished| finished.add_study(study.name, &measured))?;
-            sections.add(ReportStudy::new(&study, measured.0, measured.1));
+        if let Some((found, seconds)) = measured(finished, study.name, run)? {
+            sections.add(ReportStudy::new(&study, found, seconds));
         }
     }
     catalogue::name_judges(&mut sections);

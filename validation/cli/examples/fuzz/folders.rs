@@ -14,9 +14,9 @@ use std::path::Path;
 /// What the command writes, or wrote.
 const NAMES: [&str; 5] = ["a.csv", "b.csv", "sub/c.csv", "sub/d.csv", "points/1/e.csv"];
 /// Names that programs take for hidden files, and folders.
-const OTHERS: &str = ".shearbed-lock .shearbed-ready .shearbed-ready/a.csv .shearbed-ready/sub/keys .shearbed-part/b.csv \
-    .shearbed-0123456789abcdeg .shearbed-0123456789abcdeg/a.csv .shearbed-mine .checkpoint-kept.lock \
-    .checkpoint-kept.part kept sub sub/keys points points/1 notes.txt";
+const OTHERS: &str = ".shearbed-lock .shearbed-ready .shearbed-ready/a.csv .shearbed-ready/sub/keys \
+    .shearbed-part/b.csv .shearbed-0123456789abcdeg .shearbed-0123456789abcdeg/a.csv .shearbed-mine \
+    .checkpoint-kept.lock .checkpoint-kept.part kept sub sub/keys points points/1 notes.txt";
 /// Places to which a link leads from the folder, inside it and outside.
 const TARGETS: [&str; 7] = ["../home", "../home/keys", "../made", "user", "user/keys", ".", "a.csv"];
 

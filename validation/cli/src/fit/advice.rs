@@ -1,5 +1,6 @@
 //! What a fit says, in the words of the command: its flags beside the parameters, and what to change.
 
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use shearbed_validation::methods::least_squares::Datum;
 use shearbed_validation::methods::least_squares::emulator::Replica;
 use shearbed_validation::serve::fit::contents::Contents;
@@ -19,22 +20,12 @@ pub(super) fn range(text: &str) -> Result<Range, String> {
     Range::parse(text).map_err(of_set)
 }
 
-/// The values of `--u-contains`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
-pub(super) enum UContains {
-    /// The error of reading a point, independent of other points
-    Reading,
-    /// Also the scatter of the rods, as a standard error over rods does
-    Rods,
-}
-
-impl From<UContains> for Contents {
-    fn from(contents: UContains) -> Self {
-        match contents {
-            UContains::Reading => Self::Reading,
-            UContains::Rods => Self::Rods,
-        }
-    }
+/// A parser of `--u-contains`.
+pub(super) fn contents() -> impl TypedValueParser<Value = Contents> {
+    let reading = PossibleValue::new("reading").help("The error of reading a point, independent of other points");
+    let rods = PossibleValue::new("rods").help("Also the scatter of the rods, as a standard error over rods does");
+    let parser = PossibleValuesParser::new([reading, rods]);
+    parser.map(|word| if word == "rods" { Contents::Rods } else { Contents::Reading })
 }
 
 /// The model of `data` by `scenes`; an error names the flags.

@@ -82,7 +82,7 @@ pub(super) fn input(args: &Args) -> Result<Input, Failure> {
                 path.shown()
             )));
         }
-        let points = data::read(path, k, &reading).map_err(|error| Failure::Input(error.to_string()))?;
+        let points = data::read(path, k, &reading)?;
         if let (Some(u), Some(column)) = (args.u, &points.u_column) {
             return Err(Failure::Input(format!(
                 "--u {u}: {} has uncertainties of its own, in the column {column}; either these or --u are allowed",
@@ -148,7 +148,7 @@ pub(super) fn input(args: &Args) -> Result<Input, Failure> {
     let ends = [|range: &Range| range.from, |range: &Range| range.to];
     for values in ends.map(|end| args.over.iter().map(end).collect::<Vec<f64>>()) {
         for plan in scenes.plans(&values, &data, AS_WRITTEN).map_err(refused)? {
-            memory::check(&plan, args.threads.given, false, &stem)?;
+            memory::check(&plan, args.threads.given, &stem)?;
         }
     }
     Ok(Input { scenes, data, names, files, stem })

@@ -2,37 +2,35 @@
 
 use super::tolerances::Tolerance;
 use crate::{Writing, number};
+use clap::builder::PossibleValue;
 use shearbed_validation::serve::grade::live::Protocol;
 use shearbed_validation::serve::grade::{Axes, Foreign};
 use shearbed_validation::serve::problems::Kind;
 use std::path::PathBuf;
 
 /// The values of `--layout`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
-pub(super) enum Layout {
-    /// Without a header: t, then A row by row (nine numbers), as fiberoripy's and PySPH's tables
-    Fiberoripy,
-    /// Without a header: t, then A in the order 11, 22, 33, 12, 23, 13 of fiberpy's Mat2
-    Fiberpy,
-    /// time, A2_0 to A2_5: OpenFOAM's symmTensor xx, xy, xz, yy, yz, zz; a file of its probes is read without this flag
-    Openfoam,
+fn layouts() -> [PossibleValue; 3] {
+    [
+        ("fiberoripy", "Without a header: t, then A row by row (nine numbers), as fiberoripy's and PySPH's tables"),
+        ("fiberpy", "Without a header: t, then A in the order 11, 22, 33, 12, 23, 13 of fiberpy's Mat2"),
+        (
+            "openfoam",
+            "time, A2_0 to A2_5: OpenFOAM's symmTensor xx, xy, xz, yy, yz, zz; a file of its probes is read without \
+             this flag",
+        ),
+    ]
+    .map(|(name, help)| PossibleValue::new(name).help(help))
 }
 
-impl From<Layout> for Foreign {
-    fn from(layout: Layout) -> Self {
-        match layout {
-            Layout::Fiberoripy => Self::Fiberoripy,
-            Layout::Fiberpy => Self::Fiberpy,
-            Layout::Openfoam => Self::Openfoam,
-        }
+impl Args {
+    /// The layout of a known program.
+    pub(super) fn foreign(&self) -> Option<Foreign> {
+        self.layout.as_deref().map(|name| match name {
+            "fiberoripy" => Foreign::Fiberoripy,
+            "fiberpy" => Foreign::Fiberpy,
+            _ => Foreign::Openfoam,
+        })
     }
-}
-
-/// The values of `--flow`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
-pub(super) enum Flow {
-    /// Plane Couette flow, u_2 = G x_1
-    Couette,
 }
 
 /// Arguments of `grade`.
@@ -65,8 +63,9 @@ pub(crate) struct Args {
     #[arg(long, value_name = "KIND", value_parser = kind)]
     pub(super) kind: Option<Kind>,
     /// Grade problems in this flow only: couette, u_2 = G x_1
-    #[arg(long, value_name = "couette")]
-    pub(super) flow: Option<Flow>,
+    #[arg(long, value_name = "couette",
+        value_parser = [PossibleValue::new("couette").help("Plane Couette flow, u_2 = G x_1")])]
+    pub(super) flow: Option<String>,
     /// The answer's columns in the order of the file, - for one to leave out: time_s,rod,p3,p1,p2
     #[arg(
         long,
@@ -80,8 +79,8 @@ pub(crate) struct Args {
     #[arg(long, value_name = "AXES", default_value = "gradient,flow,vorticity", allow_hyphen_values = true)]
     pub(super) axes: Axes,
     /// The layout of a known program's tables
-    #[arg(long, value_name = "PROGRAM", conflicts_with = "command")]
-    pub(super) layout: Option<Layout>,
+    #[arg(long, value_name = "PROGRAM", value_parser = layouts(), conflicts_with = "command")]
+    pub(super) layout: Option<String>,
     /// Accept CR LF at line ends and a byte order mark; without this flag they are refused
     #[arg(long, conflicts_with = "command")]
     pub(super) windows_text: bool,

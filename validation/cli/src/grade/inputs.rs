@@ -2,7 +2,6 @@
 
 use super::Args;
 use crate::Failure;
-use clap::ValueEnum;
 use serde_json::{Value, json};
 use shearbed_validation::files::bounded;
 use shearbed_validation::files::text::Shown;
@@ -31,13 +30,13 @@ pub(super) fn of_program(args: &Args, reference: Option<&Path>, wanted: &[Loaded
         "reference_crc32": reference,
         "command": args.command,
         "protocol": args.protocol.map(Protocol::word),
-        "flow": args.flow.and_then(|flow| Some(flow.to_possible_value()?.get_name().to_owned())),
+        "flow": args.flow,
         "tolerances": wanted.iter().map(|loaded| loaded.problem.tolerance).collect::<Vec<_>>(),
         "timeout": args.timeout,
         "brief": args.brief,
         "all": args.all,
         "columns": args.columns,
-        "layout": args.layout.and_then(|layout| Some(layout.to_possible_value()?.get_name().to_owned())),
+        "layout": args.layout,
         "axes": args.axes.to_string(),
         "windows_text": args.windows_text,
         "timestep_s": args.timestep_s,

@@ -12,7 +12,7 @@ use std::path::Path;
 /// standard uncertainty.
 pub(super) fn points(path: &Path, runs: &[Run], channel: &str) -> Result<Points, Failure> {
     let at = |what: String| Failure::Input(format!("--data {}: {what}", path.shown()));
-    let read = data::read(path, 0, &Reading::default()).map_err(|error| Failure::Input(error.to_string()))?;
+    let read = data::read(path, 0, &Reading::default())?;
     let unit = |run: &Run| {
         let plan = Plan::new(&run.scene).map_err(|error| at(error.to_string()))?;
         read.time.per_unit(&plan).ok_or_else(|| {

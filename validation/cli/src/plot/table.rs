@@ -34,8 +34,7 @@ pub(super) fn channel(run: &Run, wanted: Option<&str>, left: &mut usize) -> Resu
         let sum = run.record.files.get(&name);
         let sum = sum.ok_or_else(|| at(format!(": is not listed in the folder's {RECORD}")))?;
         let file = bounded::open(&path).map_err(unread)?;
-        let refused = |error: FileError| Failure::Input(error.to_string());
-        let mut table = RunTable::new(&path, file, sum.bytes).map_err(refused)?;
+        let mut table = RunTable::new(&path, file, sum.bytes)?;
         let channels = table.channels();
         let chosen = match wanted {
             Some(wanted) => channels.iter().find(|channel| *channel == wanted),
@@ -45,7 +44,7 @@ pub(super) fn channel(run: &Run, wanted: Option<&str>, left: &mut usize) -> Resu
             known.extend(channels);
             continue;
         };
-        let [x, y, se] = table.columns(chosen, left).map_err(refused)?;
+        let [x, y, se] = table.columns(chosen, left)?;
         run.record.check(&name, &table.sum()).map_err(|why| at(format!(": {why}")))?;
         let half = pictures::half_widths(&run.scene);
         return Ok(Found {

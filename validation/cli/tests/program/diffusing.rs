@@ -92,30 +92,6 @@ impl Powers {
     }
 }
 
-/// The quadratic closure a_ijkl = a_ij a_kl by RK4, in u_2 = G x_1 with Λ = 1.
-fn closed(a: [f64; 4], rate: f64, diffusivity: f64, time_s: f64) -> [f64; 4] {
-    // a11, a22, a33, a12 with D:a = G a12.
-    let slope = |[a11, a22, a33, a12]: [f64; 4]| {
-        let pull = 2.0 * rate * a12;
-        [
-            -pull * a11 + 2.0 * diffusivity * (1.0 - 3.0 * a11),
-            2.0 * rate * a12 - pull * a22 + 2.0 * diffusivity * (1.0 - 3.0 * a22),
-            -pull * a33 + 2.0 * diffusivity * (1.0 - 3.0 * a33),
-            rate * a11 - pull * a12 - 6.0 * diffusivity * a12,
-        ]
-    };
-    let steps = (time_s / STEP_S).ceil();
-    let h = time_s / steps;
-    (0..steps as u64).fold(a, |a, _| {
-        let ahead = |k: [f64; 4], h: f64| [0, 1, 2, 3].map(|i| a[i] + h * k[i]);
-        let first = slope(a);
-        let second = slope(ahead(first, 0.5 * h));
-        let third = slope(ahead(second, 0.5 * h));
-        let fourth = slope(ahead(third, h));
-        [0, 1, 2, 3].map(|i| a[i] + h / 6.0 * (first[i] + 2.0 * (second[i] + third[i]) + fourth[i]))
-    })
-}
-
 #[test]
 fn a_code_of_power_moments_passes_and_wrong_ones_fail() {
     let built = problems::named("folgar-tucker-shear-0.1").unwrap().loaded("folgar-tucker-shear-0.1".into());
@@ -143,9 +119,6 @@ fn a_code_of_power_moments_passes_and_wrong_ones_fail() {
     ] {
         assert!(wrong > 2.0 * problem.tolerance, "{mistake}: {wrong:e}");
     }
-    let mut a = [1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0, 0.0];
-    a = closed(a, rate, c_i * rate, rows[0][0]);
-    assert!((a[1] - rows[0][2]).abs() > 1e-3, "a closure is not the distribution: {a:?}");
 }
 
 /// The stochastic run of rods that diffuse has the a_ij of their distribution, by harmonics: six components within five

@@ -2,20 +2,17 @@
 //! with noise of known size, and written where only these tests look.
 
 use crate::common::bounded::Bounded;
-use crate::common::{Folder, empty_folder};
+use crate::common::{Folder, command, empty_folder};
 use rand::SeedableRng;
 use rand_distr::{Distribution, StandardNormal};
 use rand_pcg::Pcg64Dxsm;
+use serde_json::Value;
 use shearbed::Plan;
 use shearbed::run::ensemble;
-use shearbed_validation::cases;
 use shearbed_validation::input::experiment::{ANCZUROWSKI, OKAGAWA_MASON, Runs};
 use shearbed_validation::input::{experiment, scenes};
-use shearbed_validation::judge::accept::Verdict;
-use shearbed_validation::judge::case::{Effort, Outcome};
 use std::fs;
 use std::path::Path;
-use std::process::Command;
 
 /// One standard deviation of reading off, in T and in the rod's length.
 const U_X: f64 = 0.004;
@@ -78,12 +75,6 @@ standard_uncertainty = {U_Y}
     fs::write(folder.join(format!("{scene_name}.csv")), lines.join("\n")).unwrap();
 }
 
-fn run(case: &str, data: Option<&Path>) -> Outcome {
-    let effort = Effort { data: data.map(Path::to_owned), ..Effort::gate() };
-    let all = cases::all();
-    all.iter().find(|found| found.about.name == case).unwrap().run(&effort)
-}
-
 /// A folder with a synthetic Fig. 4 of this α.
 fn okagawa(scenes: &[&str], alpha: f64) -> Folder {
     let dir = empty_folder();
@@ -93,37 +84,29 @@ fn okagawa(scenes: &[&str], alpha: f64) -> Folder {
     dir
 }
 
-/// Runs the program on a case in a folder of its own: its exit code, what it prints, its report.
-fn validate(case: &str, data: Option<&Path>) -> (Option<i32>, String, serde_json::Value) {
+/// Runs the program on a case in a folder of its own: its exit code, and the case and the summary of its report.
+fn validate(case: &str, data: &Path) -> (Option<i32>, Value, Value) {
     let dir = empty_folder();
-    let mut command = Command::new(env!("CARGO_BIN_EXE_shearbed"));
-    command.current_dir(dir.path()).args(["validate", "--case", case]);
-    if let Some(data) = data {
-        command.arg("--data").arg(data);
-    }
-    let ended = command.ended();
-    let text = [ended.stdout, ended.stderr].concat();
-    let report = fs::read_to_string(dir.at("out/report/report.json")).unwrap_or("null".to_owned());
-    (ended.status.code(), String::from_utf8(text).unwrap(), serde_json::from_str(&report).unwrap())
+    let code = command(dir.path(), "validate --case").arg(case).arg("--data").arg(data).ended().status.code();
+    let mut report = dir.json("out/report/report.json");
+    (code, report["cases"][0].take(), report["summary"].take())
 }
 
 #[test]
 fn a_synthetic_experiment_of_half_is_accepted() {
     let data = okagawa(&["fig4-n50", "fig4-n100"], 0.5);
-    let (code, text, report) = validate("okagawa-mason-1973", Some(data.path()));
-    assert_eq!(code, Some(0), "{text}");
-    assert_eq!(report["summary"]["pass"], 1);
-    let evidence = report["cases"][0]["evidence"].as_array().unwrap();
+    let (code, case, summary) = validate("okagawa-mason-1973", data.path());
+    assert_eq!((code, &summary["pass"]), (Some(0), &1.into()), "{case:#}");
+    let evidence = case["evidence"].as_array().unwrap();
     assert_eq!(evidence.len(), 2, "a scene without points is left out");
 }
 
 #[test]
 fn a_synthetic_experiment_of_one_is_rejected() {
     let data = okagawa(&["fig4-n50"], 1.0);
-    let (code, text, report) = validate("okagawa-mason-1973", Some(data.path()));
-    assert_eq!(code, Some(1), "{text}");
-    assert_eq!(report["summary"]["fail"], 1);
-    let evidence = report["cases"][0]["evidence"].as_array().unwrap();
+    let (code, case, summary) = validate("okagawa-mason-1973", data.path());
+    assert_eq!((code, &summary["fail"]), (Some(1), &1.into()), "{case:#}");
+    let evidence = case["evidence"].as_array().unwrap();
     assert!(evidence.iter().all(|judged| judged["verdict"] == "fail"));
 }
 
@@ -132,8 +115,8 @@ fn one_alpha_for_both_aspect_ratios() {
     let both = okagawa(&["fig4-n50"], 0.5);
     synthesise(both.path(), ANCZUROWSKI.folder, "fig5", &["x1", "x2", "x3"], 0.5);
     for case in ["alpha-same-for-both", "anczurowski-1967"] {
-        let outcome = run(case, Some(both.path()));
-        assert_eq!(outcome.verdict, Verdict::Pass, "{outcome:#?}");
+        let (code, case, _) = validate(case, both.path());
+        assert_eq!(code, Some(0), "{case:#}");
     }
 }
 
@@ -147,22 +130,6 @@ fn the_alpha_of_a_synthetic_experiment_is_found() {
 }
 
 #[test]
-fn without_points_there_is_no_verdict_and_no_failure() {
-    let empty = empty_folder();
-    for case in ["okagawa-mason-1973", "anczurowski-1967", "alpha-same-for-both"] {
-        for data in [None, Some(empty.path())] {
-            let outcome = run(case, data);
-            assert_eq!(outcome.verdict, Verdict::NoData);
-            assert!(outcome.controls.is_empty(), "no control is run without data");
-            let (code, text, report) = validate(case, data);
-            assert_eq!(code, Some(0), "{text}");
-            assert!(text.contains("no data"), "{text}");
-            assert_eq!((&report["summary"]["nodata"], &report["summary"]["pass"]), (&1.into(), &0.into()));
-        }
-    }
-}
-
-#[test]
 fn points_for_a_picture_are_in_the_models_units() {
     assert_eq!(experiment::points_for(None, "fig5").unwrap(), []);
     let dir = empty_folder();
@@ -173,26 +140,4 @@ fn points_for_a_picture_are_in_the_models_units() {
     assert!(points[..TIMES].windows(2).all(|pair| pair[0].x <= pair[1].x));
     assert_eq!((points[0].u_x, points[0].u_y), (U_X, U_Y));
     assert_eq!(experiment::points_for(Some(dir.path()), "fig4-n50").unwrap(), []);
-}
-
-#[test]
-fn a_bad_file_stops_the_program_before_any_case_runs() {
-    let data = okagawa(&["fig4-n50"], 0.5);
-    let csv = data.path().join("okagawa-mason-1973/fig4-n50.csv");
-    let text = fs::read_to_string(&csv).unwrap();
-    fs::write(&csv, text + "\n1.0,0.3x").unwrap();
-    let (code, text, report) = validate("jeffery-period", Some(data.path()));
-    assert_eq!((code, report), (Some(2), serde_json::Value::Null));
-    assert!(text.contains("fig4-n50.csv:18: column x1 Y: `0.3x` is not allowed"), "{text}");
-    assert!(!text.contains("pass"), "{text}");
-}
-
-#[test]
-fn what_is_shipped_has_no_points() {
-    let shipped = Path::new(env!("CARGO_MANIFEST_DIR")).join("../data");
-    experiment::check(&shipped).unwrap();
-    for source in &experiment::SOURCES {
-        assert!(shipped.join(source.folder).is_dir());
-        assert_eq!(experiment::read(&shipped, source).unwrap(), []);
-    }
 }

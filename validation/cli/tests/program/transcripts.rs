@@ -1,8 +1,8 @@
 //! Commands and all that they print: `transcripts/*.md`. Each page has a folder of its own with `small.toml` and
 //! `unequal.toml`, in which bash runs its blocks `console`, with the functions of `functions.sh` and this repository at
-//! `$ROOT`. A command begins behind `$ ` and goes on behind `> `. Below it stand its standard output, its standard error
-//! behind `! `, and its exit code behind `? ` where it is not 0. `[..]` stands for what differs between machines. With
-//! `SNAPSHOTS=overwrite` the pages are written as the program prints now.
+//! `$ROOT`. A command begins behind `$ ` and goes on behind `> `. Below it stand its standard output, its standard
+//! error behind `! `, and its exit code behind `? ` where it is not 0. `[..]` stands for what differs between machines.
+//! With `SNAPSHOTS=overwrite` the pages are written as the program prints now.
 
 use crate::common::bounded::{Bounded, bash};
 use crate::common::{UNEQUAL, folder};
