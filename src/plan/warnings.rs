@@ -274,7 +274,8 @@ mod tests {
     fn results_that_mean_little_are_warned_of_once() {
         let (rods, n, t) = ("orientation = \"isotropic\"", "concentration_per_cm3 = 50", "periods = 6");
         let start = |phi: f64, theta: f64| format!("orientation = {{ phi_deg = {phi:?}, theta_deg = {theta:?} }}");
-        let spread = start(90.0, 45.0) + "\naspect_ratio_sd_percent = 3.6";
+        let [spread, spread_in_plane] =
+            [45.0, 90.0].map(|theta| start(90.0, theta) + "\naspect_ratio_sd_percent = 3.6");
         let none = "";
         for (particles, interaction, time, expected) in [
             (rods, n, t, none),
@@ -303,6 +304,8 @@ mod tests {
             (&start(0.0, 0.0), n, t, "interaction has no effect: all rods start along the vorticity axis"),
             (&start(90.0, 45.0), n, t, "interaction has no effect: all rods start parallel with one r_e"),
             (&spread, n, t, none),
+            (&spread_in_plane, n, t, "interaction has no effect: all rods start parallel in the shear plane"),
+            (&start(30.0, 180.0), n, t, "interaction has no effect: all rods start along the vorticity axis"),
             (&start(90.0, 90.0), "concentration_per_cm3 = 50\nupdate = \"angles\"", t, "interaction has no effect"),
         ] {
             let found = warnings(particles, interaction, time);

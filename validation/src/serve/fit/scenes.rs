@@ -302,20 +302,6 @@ fn predict(plan: &Plan, looks: &[Look], replica: u64) -> Result<Vec<(usize, Pred
 #[cfg(test)]
 mod tests {
     use super::*;
-    use shearbed::scene::Orientation;
-
-    #[test]
-    fn parallel_rods_do_not_disturb_each_other_while_they_are_alike() {
-        let said = |theta_deg: f64, sd: f64| {
-            let mut scene = Scene::default();
-            scene.particles.orientation = Orientation::Given { phi_deg: 30.0, theta_deg };
-            scene.particles.aspect_ratio_sd_percent = sd;
-            apart(&scene).is_some()
-        };
-        assert!([0.0, 45.0, 90.0, 180.0].iter().all(|theta| said(*theta, 0.0)));
-        assert_eq!([0.0, 45.0, 90.0].map(|theta| said(theta, 3.6)), [true, false, true]);
-        assert_eq!(apart(&Scene::default()), None);
-    }
 
     /// Whether two keys are told apart depends on what is fitted, and on whether another length is in the scene.
     #[test]
