@@ -32,6 +32,7 @@ fn main() {
     let rustc = printed(Command::new(rustc).arg("--version"));
     println!("cargo::rustc-env=SHEARBED_RUSTC={}", known(rustc));
     println!("cargo::rustc-env=SHEARBED_COMMIT={}", known(commit(&root)));
+    println!("cargo::rustc-env=SHEARBED_PROFILE={}", known(std::env::var("PROFILE").ok()));
 }
 
 /// The commit of the sources, with `-dirty` where one of them is not as it is there; nothing outside a checkout of this

@@ -17,7 +17,7 @@ pub(super) fn chosen(names: &[String], tags: &[String]) -> Result<Vec<Case>, Fai
     let known: Vec<_> = all.iter().map(|case| case.about.name.to_owned()).collect();
     for name in names {
         if !known.contains(name) {
-            return Err(unknown("--case", name, "no case has this name", &known));
+            return Err(unknown("--case", name, "no case has this name", &known, LIST));
         }
     }
     let mut known: Vec<String> = all.iter().flat_map(|case| case.about.tags()).collect();
@@ -25,7 +25,7 @@ pub(super) fn chosen(names: &[String], tags: &[String]) -> Result<Vec<Case>, Fai
     known.dedup();
     for tag in tags {
         if !known.contains(tag) {
-            return Err(unknown("--tag", tag, "no case has this tag", &known));
+            return Err(unknown("--tag", tag, "no case has this tag", &known, LIST));
         }
     }
     let tagged = |case: &Case| case.about.tags().iter().any(|tag| tags.contains(tag));
@@ -34,7 +34,11 @@ pub(super) fn chosen(names: &[String], tags: &[String]) -> Result<Vec<Case>, Fai
     Ok(all)
 }
 
-fn unknown(flag: &str, word: &str, what: &str, known: &[String]) -> Failure {
+/// The command that lists the cases.
+const LIST: &str = "shearbed validate --list";
+
+/// The error for a word after a flag that is none of the `known` ones, all of which `list` prints.
+pub(super) fn unknown(flag: &str, word: &str, what: &str, known: &[String], list: &str) -> Failure {
     let mut near: Vec<_> = known.iter().map(|name| (strsim::jaro_winkler(word, name), name)).collect();
     near.retain(|(likeness, _)| *likeness >= NEAR);
     near.sort_by(|a, b| b.0.total_cmp(&a.0));
@@ -46,7 +50,7 @@ fn unknown(flag: &str, word: &str, what: &str, known: &[String]) -> Failure {
             format!("; did you mean {nearest}? Others that are near: {}.", rest.join(", "))
         }
     };
-    Failure::Input(format!("{flag} {word}: {what}{suggested} `shearbed validate --list` has all"))
+    Failure::Input(format!("{flag} {word}: {what}{suggested} `{list}` has all"))
 }
 
 /// The list of cases: name and tags, then the claim on a line of its own.

@@ -6,6 +6,7 @@ mod tolerances;
 
 pub(super) use args::Args;
 
+use super::choice::unknown as unknown_name;
 use super::{Failure, print, result_folder, spares_inputs};
 use serde_json::Value;
 use shearbed_validation::files::output::{self, RECORD, Record, ResultFolder};
@@ -98,18 +99,22 @@ fn options(args: &Args) -> Options {
 
 /// True if a problem of this name should be graded.
 fn asked_for(args: &Args, name: &str) -> bool {
-    args.problems.is_empty() || args.problems.iter().any(|asked| asked == name)
+    args.problems.is_empty() || args.problems.iter().any(|asked| is_meant(asked, name))
 }
 
-/// Refuses a name after `--problem` that is not one of `names`.
-fn check_names(args: &Args, names: &[String]) -> Result<(), Failure> {
-    match args.problems.iter().find(|name| !names.contains(name)) {
-        None => Ok(()),
-        Some(unknown) => Err(Failure::Input(format!(
-            "--problem {unknown}: no problem has this name; there are {}",
-            names.join(", ")
-        ))),
+/// True if a word after `--problem` is this name, or has a `*` in place of some of it.
+fn is_meant(word: &str, name: &str) -> bool {
+    match word.split_once('*') {
+        Some((head, tail)) => name.strip_prefix(head).is_some_and(|rest| rest.ends_with(tail)),
+        None => word == name,
     }
+}
+
+/// Refuses a word after `--problem` that means none of `names`.
+fn check_names(args: &Args, names: &[String]) -> Result<(), Failure> {
+    let unknown = args.problems.iter().find(|word| !names.iter().any(|name| is_meant(word, name)));
+    let refused = |word| unknown_name("--problem", word, "no problem has this name", names, "shearbed problems");
+    unknown.map_or(Ok(()), |word| Err(refused(word)))
 }
 
 /// The problems to grade.
@@ -192,7 +197,7 @@ const LONG: &str = "ten-thousand-periods";
 /// The problems to ask a program: those about single rods, and others that are asked for by name or kind.
 fn asked(args: &Args, reference: Option<&Path>) -> Result<Vec<LoadedProblem>, Failure> {
     let own = args.kind.is_none() && args.problems.is_empty();
-    let by_name = |name: &str| !args.problems.is_empty() && asked_for(args, name);
+    let by_name = |name: &String| args.problems.contains(name);
     let is_wanted = |LoadedProblem { problem, .. }: &LoadedProblem| {
         let default = own && problem.kind == Kind::Rods && problem.name != LONG;
         default || by_name(&problem.name) || !own && live::can_be_asked(problem)

@@ -6,7 +6,7 @@ use self::in_p::{at_least, frozen, near_a_sphere};
 use super::integrators::Integrators;
 use super::integrators::{in_angles, in_p};
 use super::*;
-use crate::methods::integrators::limits::{Limit, ONE_STEP, Property, TEN_PERIODS, bisect, holds};
+use crate::methods::integrators::limits::{LENGTHS, Limit, ONE_STEP, Property, bisect, holds};
 use crate::methods::integrators::*;
 use crate::studies::stability::theory;
 

@@ -14,7 +14,7 @@ pub struct Build {
     pub commit: &'static str,
     /// Version of the compiler.
     pub rustc: &'static str,
-    /// `release`, or `development` with debug assertions.
+    /// The profile of cargo: `release`, or `debug` as by `cargo run`, in which what computes is optimised.
     pub build: &'static str,
 }
 
@@ -24,7 +24,7 @@ pub const BUILD: Build = Build {
     version: env!("CARGO_PKG_VERSION"),
     commit: env!("SHEARBED_COMMIT"),
     rustc: env!("SHEARBED_RUSTC"),
-    build: if cfg!(debug_assertions) { "development" } else { "release" },
+    build: env!("SHEARBED_PROFILE"),
 };
 
 /// This build as an object to which the rest of a record can be added.

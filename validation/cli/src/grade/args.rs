@@ -56,7 +56,7 @@ pub(crate) struct Args {
     /// The folder for grade.html, grade.json, grade.md, junit.xml and pictures
     #[arg(long, value_name = "DIR", default_value = "out/grade")]
     pub(super) out: PathBuf,
-    /// Grade this problem only; can be given more than once
+    /// Grade this problem only, or those of a pattern as 'pdot-*'; can be given more than once
     #[arg(long = "problem", value_name = "NAME")]
     pub(super) problems: Vec<String>,
     /// Grade problems of this kind only: rods, tensor, formula, contact or ensemble

@@ -51,7 +51,7 @@ pub(super) fn near_a_sphere(integrators: &Integrators, _: &Effort) -> Vec<Eviden
     for integrator in integrators() {
         let longest = |property, ladder| bisect(ladder, |h| holds(&integrator, property, r, h));
         let turning = off(longest(Property::Turning, ONE_STEP), theory::rk4_turning_of_a_sphere());
-        let length = off(longest(Property::Length, TEN_PERIODS), theory::rk4_length_of_a_sphere());
+        let length = off(longest(Property::Length, LENGTHS), theory::rk4_length_of_a_sphere());
         evidence.extend([
             Evidence::on("relative difference of the longest step that turns and 2√6").within(turning, 2e-5).because(
                 "rates of rods of r_e = 1 + 10⁻⁵ differ by Λ = 10⁻⁵, and of 512 rods one is within δ = π/1024 of the \
@@ -69,7 +69,7 @@ pub(super) fn near_a_sphere(integrators: &Integrators, _: &Effort) -> Vec<Eviden
 }
 
 pub(super) fn frozen(integrators: &Integrators, _: &Effort) -> Evidence {
-    let ladder = crate::methods::integrators::limits::Ladder { least: 1.0, ..TEN_PERIODS };
+    let ladder = crate::methods::integrators::limits::Ladder { least: 1.0, ..LENGTHS };
     let all = integrators();
     let shares = pairs(&all, [1.5, 2.0, 3.0, 11.6, 100.0]).map(|(integrator, r)| {
         match bisect(ladder, |h| holds(integrator, Property::Length, r, h)) {

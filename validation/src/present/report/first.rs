@@ -1,6 +1,6 @@
 //! The first screen of the report: the verdict in parts, three pictures, and the cases to look at first.
 
-use super::formats::share;
+use super::formats::{number, share};
 use super::{CaseRow, Part, Report};
 use crate::judge::accept::Verdict;
 use crate::judge::case::Judges;
@@ -18,6 +18,24 @@ pub(super) fn means(judges: Judges) -> &'static str {
         Judges::Statement => "What the paper says in words of its model’s results.",
         Judges::Measurement => "Validation: the model against experiments.",
     }
+}
+
+/// The sizes of the errors, and what is not known, a line each; of the cases that this report has.
+pub(super) fn sizes(report: &Report) -> Vec<String> {
+    let error = |name: &str| {
+        let row = report.cases.iter().find(|row| row.name == name && row.verdict == Verdict::Pass)?;
+        row.worst().map(|line| number(line.error))
+    };
+    let free = error("propagator-closed-form")
+        .map(|error| format!("Free rods: Jeffery's closed form to {error} rad, over r_e and the periods."));
+    let colliding = error("naive-reference").map(|error| {
+        format!("Collisions: the same as those of an independent code with the same interpretation of the paper, to {error}.")
+    });
+    let measured = report.summary.parts.iter().find(|part| part.judges == Judges::Measurement).map(|part| {
+        let judged = part.cases - part.nodata;
+        format!("Experiments: {judged} of {} comparisons have measured points.", part.cases)
+    });
+    [free, colliding, measured].into_iter().flatten().collect()
 }
 
 /// The cards, one for each part of the verdict.

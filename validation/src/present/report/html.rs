@@ -1,6 +1,6 @@
 //! The report as one HTML file: the data for its template.
 
-use super::first::{cards, closest, thumbnails};
+use super::first::{cards, closest, sizes, thumbnails};
 use super::formats::{bounds, detail, number, seconds, share, verdict};
 use super::prose::Anchors;
 use super::{CaseRow, Line, Report, ReportFigure, ReportTable};
@@ -24,6 +24,7 @@ pub(super) fn write(report: &Report) -> Result<String, String> {
         "style": include_str!("report.css"),
         "script": include_str!("report.js"),
         "headline": report.headline(),
+        "sizes": sizes(report),
         "good": report.exit_code() == 0,
         "cards": cards(report),
         "thumbnails": thumbnails(report)?,

@@ -1,5 +1,6 @@
 //! The report as Markdown.
 
+use super::first::sizes;
 use super::formats::{bounds, seconds, verdict};
 use super::{CaseRow, Report, ReportEquation, ReportStudy};
 use crate::files::text::readable;
@@ -8,7 +9,9 @@ use crate::present::table::{ReportTable, of_words};
 
 pub(super) fn write(report: &Report) -> String {
     let origin = &report.origin;
-    let mut text = format!("# shearbed: validation report\n\n{}\n\n", report.headline());
+    let mut text = "# shearbed: verification report\n\n".to_owned();
+    text.extend(sizes(report).iter().map(|line| format!("{}\n\n", markdown(line))));
+    text += &format!("{}\n\n", report.headline());
     text += "| verdict | case | judges | claim | source | error | tolerance | because | controls caught | time |\n";
     text += "| --- | --- | --- | --- | --- | ---: | ---: | --- | ---: | ---: |\n";
     for case in &report.cases {

@@ -21,7 +21,7 @@ pub struct Origin {
     pub commit: String,
     /// Version of the compiler.
     pub rustc: String,
-    /// Kind of build: `release`, or `development` with debug assertions.
+    /// Profile of cargo: `release`, or `debug` as by `cargo run`, in which what computes is optimised.
     pub build: String,
     /// Model of the processor.
     pub processor: String,
