@@ -1,7 +1,7 @@
 //! Feeds the program's readers what people and machines might: mutated and generated scene files, folders of measured
 //! points, arguments of `sweep`, problems, answers, points to fit, folders of results, checkpoints, folders to write
-//! to. None may panic, hang, take memory without bound or let a number pass that is not finite, and whoever is refused
-//! is told where and why.
+//! to. None may panic, hang, take memory without bound or let a number pass that is not finite, and a refusal
+//! says where and why.
 //!
 //!     cargo run --release -p shearbed-cli --example fuzz -- TARGET COUNT [SEED]
 //!

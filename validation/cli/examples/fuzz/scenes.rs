@@ -67,11 +67,11 @@ pub fn scene() -> Target {
                         }
                         names(&problem.message)?;
                     }
-                    let told = error.to_string();
-                    if told.starts_with("scene.toml:") {
-                        Ok(Taken::Refused(told))
+                    let message = error.to_string();
+                    if message.starts_with("scene.toml:") {
+                        Ok(Taken::Refused(message))
                     } else {
-                        Err(format!("the file is not named: {told}"))
+                        Err(format!("the file is not named: {message}"))
                     }
                 }
                 Ok(plan) => run(&plan),

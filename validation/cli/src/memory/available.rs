@@ -82,13 +82,6 @@ mod tests {
     use std::fs;
 
     #[test]
-    fn lines_in_kilobytes_are_read() {
-        let text = "MemTotal:       24 kB\nMemFree:        3 kB\nMemAvailable:   17 kB\n";
-        assert_eq!(number_of(text, "MemAvailable:"), Some(17 * 1024));
-        assert_eq!(number_of("MemTotal: 24 kB", "MemAvailable:"), None);
-    }
-
-    #[test]
     fn limits_of_the_shell_count() {
         let limits = |space: &str, data: &str| {
             format!(

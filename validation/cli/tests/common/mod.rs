@@ -51,15 +51,11 @@ pub static UNEQUAL: LazyLock<String> = LazyLock::new(|| {
 /// A folder in which a test runs commands.
 pub struct Folder(TempDir);
 
-impl std::ops::Deref for Folder {
-    type Target = TempDir;
-
-    fn deref(&self) -> &TempDir {
-        &self.0
-    }
-}
-
 impl Folder {
+    pub fn path(&self) -> &Path {
+        self.0.path()
+    }
+
     pub fn at(&self, name: &str) -> PathBuf {
         self.path().join(name)
     }

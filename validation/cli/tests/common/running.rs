@@ -95,24 +95,24 @@ impl Captured {
     fn open() -> (Self, OwnedFd) {
         let (own, end) = UnixStream::pair().unwrap();
         own.set_read_timeout(Some(PATIENCE)).unwrap();
-        let told = Self { stream: BufReader::new(own), filler: 0 };
-        (told, end.into())
+        let captured = Self { stream: BufReader::new(own), filler: 0 };
+        (captured, end.into())
     }
 
     /// The same where nothing more can be written until somebody reads.
     fn full() -> (Self, OwnedFd) {
-        let (mut told, end) = Self::open();
+        let (mut captured, end) = Self::open();
         let mut end = UnixStream::from(end);
         end.set_nonblocking(true).unwrap();
         loop {
             match end.write(b"~") {
-                Ok(bytes) => told.filler += bytes,
+                Ok(bytes) => captured.filler += bytes,
                 Err(error) if error.kind() == ErrorKind::WouldBlock => break,
                 Err(error) => panic!("{error}"),
             }
         }
         end.set_nonblocking(false).unwrap();
-        (told, end.into())
+        (captured, end.into())
     }
 
     fn line(&mut self) -> String {

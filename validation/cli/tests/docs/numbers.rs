@@ -1,5 +1,5 @@
 //! Numbers of the text: `0.326<!--=fig4.x1-->` is the value of `fig4.x1` in docs/numbers.tsv, which has the command
-//! that prints it. `docs/numbers.sh` makes the table afresh.
+//! that prints it. `docs/numbers.sh` makes the table.
 
 use crate::bounded::{Bounded, bash};
 use crate::pages::{Page, places, readmes, root, under};

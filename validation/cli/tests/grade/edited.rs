@@ -51,9 +51,8 @@ fn judged(loaded: &LoadedProblem, mine: &Path) -> Result<(), String> {
         if let (None, Some(note)) = (graded[0].error, &graded[0].note) {
             return Err(note.clone());
         }
-        let told = serde_json::to_value(&graded[0]).map_err(|error| error.to_string())?;
-        if moved > 0.0 && told["verdict"] == "PASS" {
-            return Err(format!("a wrong answer passes: {told:#}"));
+        if moved > 0.0 && graded[0].verdict == grade::Verdict::Pass {
+            return Err(format!("a wrong answer passes: {:#?}", graded[0]));
         }
     }
     Ok(())
@@ -90,14 +89,14 @@ fn no_value_of_any_key_panics_or_is_taken_silently() {
             let called = if own { "my-own" } else { &name };
             fs::rename(reference.join(&name), reference.join(called)).unwrap();
             let path = reference.join(called).join("problem.json");
-            let mut told: Value = serde_json::from_str(&fs::read_to_string(&path).unwrap()).unwrap();
-            told["name"] = json!(called);
-            let mut keys: Vec<_> = told.as_object().unwrap().keys().cloned().collect();
+            let mut json: Value = serde_json::from_str(&fs::read_to_string(&path).unwrap()).unwrap();
+            json["name"] = json!(called);
+            let mut keys: Vec<_> = json.as_object().unwrap().keys().cloned().collect();
             keys.extend(["ensemble", "closed", "formula", "time_step_s", "surplus"].map(String::from));
             for key in keys {
                 let mut alike = 0;
-                for value in values.iter().filter(|value| told[&key] != **value) {
-                    let mut spoilt = told.clone();
+                for value in values.iter().filter(|value| json[&key] != **value) {
+                    let mut spoilt = json.clone();
                     spoilt[&key] = value.clone();
                     fs::write(&path, spoilt.to_string()).unwrap();
                     let mut fault = |what: String| wrong.push(format!("{called} ({name}), {key} = {value}: {what}"));
@@ -105,7 +104,7 @@ fn no_value_of_any_key_panics_or_is_taken_silently() {
                         Err(error) if error.path.starts_with(&reference) && !error.message.is_empty() => refused += 1,
                         Err(error) => fault(error.to_string()),
                         // An optional key that is not there is the default.
-                        Ok(_) if !own && value.is_null() && told[&key].is_null() => {}
+                        Ok(_) if !own && value.is_null() && json[&key].is_null() => {}
                         Ok(_) if !own => fault("taken silently".to_owned()),
                         Ok(found) => {
                             foreign += 1;

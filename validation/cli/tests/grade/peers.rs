@@ -62,7 +62,7 @@ fn numpy_rk4_passes_with_order_4_and_euler_fails_with_order_1() {
     assert_eq!(live.code, Some(0), "{}", live.words);
 }
 
-/// The suspension that `bench --case cost-of-accuracy` times, held to the core's: 40 replicas of 100 rods know X̄₁ to
+/// The suspension that `bench --case cost-of-accuracy` times, against the core's: 40 replicas of 100 rods know X̄₁ to
 /// 0.006, and a right one is 4.5 standard errors off at one seed in 10⁵; without collisions X̄₁ is ½.
 #[test]
 fn a_suspension_in_numpy_has_the_mean_of_the_core() {
@@ -130,11 +130,11 @@ fn c_compiled_with_cc_passes_with_order_4() {
     assert!((turning["strain"]["at"].as_f64().unwrap() / own - 1.0).abs() < 1e-3, "{turning} {own}");
 }
 
-/// Of the subject `RK4 in p`, by the same ladder.
+/// The limit of the project's own RK4 in p, by the same steps.
 fn own_turning_limit() -> f64 {
     use shearbed_validation::methods::integrators::limits::{Ladder, Limit, Property, bisect, holds};
-    let subjects = shearbed_validation::studies::integrators::all();
-    let rk4 = subjects.iter().find(|subject| subject.name == "RK4 in p").unwrap();
+    let all = shearbed_validation::studies::integrators::all();
+    let rk4 = all.iter().find(|integrator| integrator.name == "RK4 in p").unwrap();
     let ladder = Ladder { least: 0.01, most: 100.0, factor: 1.25 };
     match bisect(ladder, |strain| holds(rk4, Property::Turning, 11.6, strain)) {
         Limit::At(strain) => strain,

@@ -55,7 +55,7 @@ rods_at = [0.25, 1]
     }
 }
 
-/// A shear of the same rate in which axis 1 is along the vorticity and axis 3 along the gradient, told in strain.
+/// A shear of the same rate in which axis 1 is along the vorticity and axis 3 along the gradient, with times in strain.
 fn of_other_axes() -> Run {
     Run {
         scene: r#"[flow]

@@ -1,4 +1,4 @@
-//! How the program ends when it is told to, or when what it writes to has gone.
+//! How the program ends after a signal, or when what it writes to has gone.
 #![cfg(unix)]
 
 use crate::common::bounded::end;
