@@ -143,6 +143,11 @@ mod tests {
     }
 
     #[test]
+    fn pairs_are_all_pairs() {
+        assert!(pairs([1, 2], ["a", "b"]).eq([(1, "a"), (1, "b"), (2, "a"), (2, "b")]));
+    }
+
+    #[test]
     fn critical_values_of_any_number_of_samples_are_those_of_tables() {
         for (level, samples, expected) in [
             (0.05, 2, 12.706),
