@@ -84,6 +84,13 @@ fn a_command_repeats_the_run() {
     assert_eq!(row.command, command);
 }
 
+#[test]
+fn the_worst_line_is_the_first_of_the_worst_verdict() {
+    let rules = vec![Rule::within(0.9, 1.0, "synthetic"), mean(0.02), mean(0.02)];
+    let row = CaseRow::new(outcome("synthetic", Verdict::Underpowered, rules, &[]), &EFFORT);
+    assert_eq!(row.worst, Some(1));
+}
+
 /// Numbers are numbers, NaN is null; the worst line of passing evidence is the one nearest to its bound, of failing
 /// evidence the one with NaN.
 #[test]
