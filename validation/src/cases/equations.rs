@@ -111,8 +111,9 @@ mod tests {
                     format!("fn {item}("),
                     format!("fn {item}<"),
                     format!("pub {item}:"),
-                    // A row of a table of keys.
+                    // A row of a table of keys or of observables.
                     format!("\n        {item}: "),
+                    format!("\n    {item}: "),
                     format!("enum {item} "),
                     format!("struct {item}"),
                     format!("    {item},\n"),
