@@ -106,9 +106,11 @@ fn a_run_holds_what_it_says_and_its_steps_allocate_nothing() {
     }
 }
 
+type Change = fn(&mut Scene);
+
 /// Scenes of which something else than the rods is what is held.
 fn others() -> [(&'static str, Scene); 6] {
-    let rows: [(&str, fn(&mut Scene)); 6] = [
+    let rows: [(&str, Change); 6] = [
         ("sums", |scene| scene.time.outputs_per_unit = Some(50_000)),
         ("sums of replicas that wait", |scene| {
             (scene.time.outputs_per_unit, scene.ensemble.replicas) = (Some(2000), 100);

@@ -13,27 +13,26 @@ fn apart(a: &UnitVector3<f64>, b: &UnitVector3<f64>) -> f64 {
     a.cross(b).norm()
 }
 
+/// Any gradient of components up to 1, a direction and an aspect ratio.
+fn rod() -> impl Strategy<Value = (VelocityGradient, UnitVector3<f64>, f64)> {
+    (prop::array::uniform9(-1.0f64..1.0), 0.0f64..6.2, 0.0f64..3.1, 0.05f64..20.0).prop_map(|(l, phi, theta, r)| {
+        let flow = VelocityGradient::new(Matrix3::from_row_slice(&l)).unwrap();
+        (flow, orientation::from_angles(phi, theta), r)
+    })
+}
+
 proptest! {
     #![proptest_config(crate::fixed_seed(256))]
 
     #[test]
-    fn every_kind_of_flow_agrees_with_the_plain_exponential(
-        l in prop::array::uniform9(-1.0f64..1.0), phi in 0.0f64..6.2, theta in 0.0f64..3.1,
-        r in 0.05f64..20.0, time in 0.0f64..20.0
-    ) {
-        let flow = VelocityGradient::new(Matrix3::from_row_slice(&l)).unwrap();
-        let p = orientation::from_angles(phi, theta);
+    fn every_kind_of_flow_agrees_with_the_plain_exponential((flow, p, r) in rod(), time in 0.0f64..20.0) {
         let a = flow.vorticity() + jeffery::shape_factor(r) * flow.strain_rate();
         let plain = UnitVector3::new_normalize((a * time).exp() * p.as_ref());
         prop_assert!(apart(&Propagator::new(&flow, r).after(&p, time), &plain) < 1e-8);
     }
 
     #[test]
-    fn a_short_time_moves_at_jefferys_rate(
-        l in prop::array::uniform9(-1.0f64..1.0), phi in 0.0f64..6.2, theta in 0.0f64..3.1, r in 0.05f64..20.0
-    ) {
-        let flow = VelocityGradient::new(Matrix3::from_row_slice(&l)).unwrap();
-        let p = orientation::from_angles(phi, theta);
+    fn a_short_time_moves_at_jefferys_rate((flow, p, r) in rod()) {
         let dt = 1e-6;
         let moved = Propagator::new(&flow, r).after(&p, dt).into_inner();
         let rate = jeffery::rate(flow.per_s(), &p, jeffery::shape_factor(r));
@@ -43,11 +42,8 @@ proptest! {
     /// One flow in three parts equals that flow; a flow there and back returns the rod, whatever comes between.
     #[test]
     fn flows_one_after_another_are_their_product(
-        l in prop::array::uniform9(-1.0f64..1.0), phi in 0.0f64..6.2, theta in 0.0f64..3.1, r in 0.05f64..20.0,
-        strains in prop::array::uniform3(0.1f64..20.0), at in 0.0f64..1.0
+        (flow, p, r) in rod(), strains in prop::array::uniform3(0.1f64..20.0), at in 0.0f64..1.0
     ) {
-        let flow = VelocityGradient::new(Matrix3::from_row_slice(&l)).unwrap();
-        let p = orientation::from_angles(phi, theta);
         let [all, part] = [strains.iter().sum::<f64>(), at * strains.iter().sum::<f64>()];
         let steps = Propagator::of_steps(&strains.map(|strain| (flow, strain)), r);
         let once = Propagator::general(&flow, r);
@@ -69,14 +65,12 @@ proptest! {
     /// Also for tiny or huge seconds, with a trace, and by the map. Rounded times move a rod by 1e-11 at most here.
     #[test]
     fn a_time_is_the_same_in_seconds_strain_and_periods(
-        l in prop::array::uniform9(-1.0f64..1.0), phi in 0.0f64..6.2, theta in 0.0f64..3.1,
-        r in 0.05f64..20.0, power in -150i32..150, trace in -3.0f64..3.0
+        (flow, p, r) in rod(), power in -150i32..150, trace in -3.0f64..3.0
     ) {
         let scale = 10f64.powi(power);
-        let per_s = scale * Matrix3::from_row_slice(&l);
+        let per_s = scale * flow.per_s();
         let flow = VelocityGradient::new(per_s).unwrap();
         let rods = Propagator::general(&flow, r);
-        let p = orientation::from_angles(phi, theta);
         let time_s = 3.0 / scale;
         let moved = rods.moved(&p, Span::Seconds(time_s, 1.0)).unwrap();
         prop_assert!(moved.error < 1e-15, "{}", moved.error);

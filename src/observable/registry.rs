@@ -18,8 +18,10 @@ pub(super) struct Mean {
     pub weighs_rods: bool,
     pub is_density: bool,
     /// A tensor's name, and its trace summed over all rods.
-    pub trace: Option<(&'static str, fn(&[Sum]) -> f64)>,
+    pub trace: Option<(&'static str, Trace)>,
 }
+
+type Trace = fn(&[Sum]) -> f64;
 
 impl Mean {
     /// A mean of any range in any flow; what every mean gives itself is empty.

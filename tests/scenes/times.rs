@@ -18,13 +18,15 @@ fn x1(scene: &Scene) -> Vec<f64> {
     run(scene).column("x1").unwrap().mean.clone()
 }
 
+type Change<'a> = &'a dyn Fn(&mut Scene);
+
 /// Every kind of motion: in phase, each rod by itself, by steps, by maps, each by itself in any flow, and with all rods
 /// alike.
 pub(crate) fn every_motion() -> Vec<Scene> {
     let by_strain = |scene: &mut Scene| scene.time = Time::strain(2.0);
     let unequal = |scene: &mut Scene| scene.particles.aspect_ratio_sd_percent = 3.6;
     let alike = |scene: &mut Scene| scene.particles.orientation = Orientation::Given { phi_deg: 30.0, theta_deg: 80.0 };
-    let changes: [&[&dyn Fn(&mut Scene)]; 8] = [
+    let changes: [&[Change]; 8] = [
         &[],
         &[&unequal],
         &[&interacting],

@@ -123,6 +123,7 @@ pub fn orbit_constant_cdf(c_b: f64, aspect_ratio: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use super::super::jeffery::angle_rates_per_s;
     use super::super::quadrature::{integrate, mean_angle_by_quadrature, phase_means_by_quadrature, spread};
     use super::*;
 
@@ -131,21 +132,13 @@ mod tests {
         aspect_ratio.ln().abs() > 0.1
     }
 
-    /// Jeffery's φ̇ (A.2) and θ̇ (A.3) for G = 1/s.
-    fn jeffery(phi: f64, theta: f64, r: f64) -> (f64, f64) {
-        let phi_rate = ((r * phi.cos()).powi(2) + phi.sin().powi(2)) / (r * r + 1.0);
-        let shape = (r * r - 1.0) / (r * r + 1.0);
-        let theta_rate = 0.25 * shape * (2.0 * theta).sin() * (2.0 * phi).sin();
-        (phi_rate, theta_rate)
-    }
-
     #[test]
     fn period_is_the_time_of_one_turn_by_a_2() {
         for (u, v) in spread(30) {
             let (r, g) = (100f64.powf(2.0 * u - 1.0), 0.1 + v);
             let knee = r.atan();
             let breaks = [-FRAC_PI_2, -knee, 0.0, knee, FRAC_PI_2];
-            let half = integrate(|phi| 1.0 / (g * jeffery(phi, 1.0, r).0), &breaks, 1e-12);
+            let half = integrate(|phi| 1.0 / (g * angle_rates_per_s(1.0, r, phi, 1.0).0), &breaks, 1e-12);
             let ratio = 2.0 * half.value / period_s(g, r);
             assert!((ratio - 1.0).abs() < 1e-13, "{r} {ratio}");
             // Wrong variant: r_e alone for r_e + 1/r_e.
@@ -191,7 +184,7 @@ mod tests {
             let at = |turns| angles_at(phi0, theta0, r, turns);
             let (before, now, after) = (at(v - h), at(v), at(v + h));
             let per_s = 1.0 / (2.0 * h * period_s(1.0, r));
-            let (phi_rate, theta_rate) = jeffery(now.0, now.1, r);
+            let (phi_rate, theta_rate) = angle_rates_per_s(1.0, r, now.0, now.1);
             // Central differences: h²/6 · third derivative in turns, (2π)³ r_e² at most; round-off 1e-16/h.
             let tolerance = 1e-5;
             assert!(((after.0 - before.0) * per_s - phi_rate).abs() < tolerance * r.max(1.0));

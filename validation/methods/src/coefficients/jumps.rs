@@ -159,17 +159,14 @@ fn shares(values: &mut [f64], edges: &[f64]) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use shearbed::model::orientation::from_angles;
     use std::f64::consts::PI;
 
     const RATIO: f64 = 11.6;
 
-    fn direction(phi: f64, theta: f64) -> Vector3<f64> {
-        Vector3::new(theta.sin() * phi.cos(), theta.sin() * phi.sin(), theta.cos())
-    }
-
     #[test]
     fn a_rod_that_nothing_kicks_has_made_no_jump() {
-        let (from, carry) = (direction(0.3, 1.1), free(shape_factor(RATIO), 1.0));
+        let (from, carry) = (from_angles(0.3, 1.1).into_inner(), free(shape_factor(RATIO), 1.0));
         let to = (carry * from).normalize();
         // Opposite directions are the same rod.
         for to in [to, -to] {
@@ -185,7 +182,7 @@ mod tests {
 
     #[test]
     fn jumps_are_angles_between_lines() {
-        let from = direction(0.3, 1.1);
+        let from = from_angles(0.3, 1.1).into_inner();
         for kick in [0.01, 1.0, 3.0, PI - 0.02] {
             let axis = from.cross(&Vector3::z()).normalize();
             let to = from * kick.cos() + axis.cross(&from) * kick.sin();

@@ -17,11 +17,11 @@ pub use watched::watched;
 
 use crate::tensors::fourth::Fourth;
 use crate::tensors::models::diffusion;
-use nalgebra::{Matrix2, Matrix3, Matrix6, Vector2};
+use nalgebra::{Matrix2, Matrix3, Vector2};
 use shearbed_oracle::spheroid;
 
 /// Means over rods and over a window of time, of one replica or several.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Means {
     /// The tensor ⟨p_i p_j⟩.
     pub second: Matrix3<f64>,
@@ -31,13 +31,6 @@ pub struct Means {
     pub sixth: Matrix3<f64>,
     /// J, per unit of strain.
     pub gain: Matrix3<f64>,
-}
-
-impl Default for Means {
-    fn default() -> Self {
-        let [second, sixth, gain] = [Matrix3::zeros(); 3];
-        Self { second, fourth: Fourth(Matrix6::zeros()), sixth, gain }
-    }
 }
 
 impl Means {

@@ -6,7 +6,7 @@ use nalgebra::{Matrix3, Matrix6, SymmetricEigen, Vector3, Vector6};
 pub const PAIRS: [(usize, usize); 6] = [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)];
 
 /// a_ijkl with a_ijkl = a_jikl = a_ijlk: row (i, j), column (k, l) by [`PAIRS`].
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Fourth(pub Matrix6<f64>);
 
 impl Fourth {

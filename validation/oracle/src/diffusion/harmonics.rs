@@ -132,13 +132,14 @@ pub fn quadratic((l_to, m_to): (i64, i64), (l, m): (i64, i64)) -> f64 {
 
 /// Factors of Funk & Hecke for |n·p|: 2π ∫₋₁¹ |x| P_l dx for even l up to `degree`.
 pub fn modulus(degree: usize) -> Vec<f64> {
-    let mut half = 0.5;
-    let each = |l: usize| {
-        let now = 4.0 * PI * half;
-        half *= -(l as f64 - 1.0) / (l as f64 + 4.0);
-        now
-    };
-    (0..=degree).step_by(2).map(each).collect()
+    let halves = by_ratio(degree, 0.5, |l| -(l - 1.0) / (l + 4.0));
+    halves.into_iter().map(|half| 4.0 * PI * half).collect()
+}
+
+/// Values for even l up to `degree`, from that for l = 0 and the ratio of the next one to that for l.
+pub fn by_ratio(degree: usize, first: f64, ratio: impl Fn(f64) -> f64) -> Vec<f64> {
+    let next = |(l, value): &(usize, f64)| Some((l + 2, value * ratio(*l as f64)));
+    std::iter::successors(Some((0, first)), next).take_while(|(l, _)| *l <= degree).map(|(_, value)| value).collect()
 }
 
 /// Nodes and weights of Gauss–Legendre's rule on [−1, 1].

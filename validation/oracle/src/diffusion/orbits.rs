@@ -48,7 +48,7 @@ fn ratio(aspect_ratio: f64, up_to: f64, f: impl Fn(f64) -> f64) -> f64 {
 }
 
 /// ∫ f dC up to C/(1 + C) = `up_to`, of a function that falls as C⁻².
-fn over_orbits(aspect_ratio: f64, up_to: f64, tolerance: f64, f: impl Fn(f64) -> f64) -> f64 {
+pub(super) fn over_orbits(aspect_ratio: f64, up_to: f64, tolerance: f64, f: impl Fn(f64) -> f64) -> f64 {
     // Integrated over C_b; dC/dC_b = (1 − C_b)⁻² makes f finite at C_b = 1.
     let weighted = |c_b: f64| {
         let c = c_b / (1.0 - c_b).max(f64::EPSILON);

@@ -2,7 +2,7 @@
 
 use super::NoAnswer;
 use super::frame::Frame;
-use super::harmonics::{Basis, sphere_rule};
+use super::harmonics::{Basis, by_ratio, sphere_rule};
 use std::f64::consts::PI;
 use std::fmt;
 
@@ -55,7 +55,8 @@ impl Start<'_> {
                 let basis = Basis { degree: most, order: most, even: false };
                 let mut unknowns = basis.values(frame.inward(*p));
                 if matches!(self, Self::Plane(_)) {
-                    let factors = zeros(most);
+                    // P_l(0).
+                    let factors = by_ratio(most, 1.0, |l| -(l + 1.0) / (l + 2.0));
                     unknowns.iter_mut().zip(basis.unknowns()).for_each(|(x, (l, ..))| *x *= factors[l / 2]);
                 }
                 Ok((basis, unknowns))
@@ -75,17 +76,6 @@ impl Start<'_> {
             }
         }
     }
-}
-
-/// P_l(0) for even l up to `degree`.
-fn zeros(degree: usize) -> Vec<f64> {
-    let mut value = 1.0;
-    let each = |l: usize| {
-        let now = value;
-        value *= -(l as f64 + 1.0) / (l as f64 + 2.0);
-        now
-    };
-    (0..=degree).step_by(2).map(each).collect()
 }
 
 pub(super) fn projected(basis: &Basis, function: &dyn Fn([f64; 3]) -> f64) -> Vec<f64> {

@@ -263,15 +263,4 @@ impl Covariance {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_number_beside_the_tie_of_two_doubles_is_left_to_more_bits() {
-        let beside = |bits: isize| PRECISION.of(1.0) + (PRECISION.of(1.0) >> 53) + (PRECISION.of(1.0) >> bits);
-        assert_eq!(nearest([beside(90), PRECISION.of(0.5)]), None);
-        assert_eq!(nearest([beside(70), PRECISION.of(0.0)]), Some([1.0 + f64::EPSILON, 0.0]));
-        // The bound is that of the largest entry.
-        assert_eq!(nearest([beside(70), PRECISION.of(1e3)]), None);
-    }
-}
+mod tests;

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::diffusion::orbits::{
-    cdf, mean_over_orbits, second_moments_of_orbit, shear_stress_of_isotropic, shear_stress_of_orbit,
+    cdf, mean_over_orbits, over_orbits, second_moments_of_orbit, shear_stress_of_isotropic, shear_stress_of_orbit,
 };
 
 #[test]
@@ -53,13 +53,8 @@ fn weak_diffusion_is_the_limit_of_the_fokker_planck_equation() {
         let (first, second) = (off(&near, &expected), off(&limit, &expected));
         assert!(second < 1e-7 && first > 10.0 * second, "{r}: {first:e} {second:e}");
         // Wrong orbits: those of isotropic rods, which free rods keep, and those of another r.
-        let free = [0, 1, 2].map(|i| {
-            let of_c = |c_b: f64| {
-                let c = c_b / (1.0 - c_b);
-                crate::closed_form::orbit_constant_density(c, r) * second_moments_of_orbit(c, r)[i] * (1.0 + c).powi(2)
-            };
-            crate::quadrature::integrate(of_c, &[1e-9, 0.1, 0.5, 0.9, 1.0 - 1e-9], 1e-12).value
-        });
+        let density = |c| crate::closed_form::orbit_constant_density(c, r);
+        let free = [0, 1, 2].map(|i| over_orbits(r, 1.0, 1e-12, |c| density(c) * second_moments_of_orbit(c, r)[i]));
         assert!(off(&free, &limit) > 1e-4, "{r}: {:e}", off(&free, &limit));
         let wrong = [0, 1, 2].map(|i| mean_over_orbits(1.2 * r, |c| second_moments_of_orbit(c, r)[i]));
         assert!(off(&wrong, &limit) > 1e-3);
