@@ -18,8 +18,8 @@ const SCENES: [Row; 8] = [
      "interaction = { concentration_per_cm3 = 50, alpha = 0.5, update = 'rotation' }
         output = { observables = ['projections', 'mean_angle', 'orbit_constant', 'orientation_tensor_4'] }"),
     ("angles", 0x3e8a_a383_9ab0_c1ff, SHEAR,
-     "count = 100, length_mm = 0.72, physical_aspect_ratio = 20, shape_correlation = 'cox', orientation = { phi_deg = 10, \
-        theta_deg = 80 }",
+     "count = 100, length_mm = 0.72, physical_aspect_ratio = 20, shape_correlation = 'cox', orientation = { \
+        phi_deg = 10, theta_deg = 80 }",
      "interaction = { concentration_per_cm3 = 50, alpha = 0.5, m = 2.5, update = 'angles' }
         output = { observables = ['particle_stress'] }"),
     ("many", 0xff9d_cc2c_154a_4064, "shear_rate_per_s = 2",

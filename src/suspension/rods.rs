@@ -198,7 +198,8 @@ impl Rods {
     ///
     /// # Errors
     ///
-    /// Returns the first rod of the block whose direction has an error above [`MAX_ERROR_RAD`](crate::plan::free_motion::MAX_ERROR_RAD).
+    /// Returns the first rod of the block whose direction has an error above
+    /// [`MAX_ERROR_RAD`](crate::plan::free_motion::MAX_ERROR_RAD).
     pub fn orient(&self, first: usize, tick: u64, selected: &mut Selected) -> Result<(), Fault> {
         let Selected { block, turns } = selected;
         let (rods, turns) = (first..first + block.len, &*turns);

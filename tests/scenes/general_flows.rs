@@ -155,8 +155,8 @@ fn what_a_flow_does_not_have_is_refused_with_its_reason() {
     let far_apart = |coupling: f64| [[0.0, 1e200, 0.0], [0.0, 0.0, 0.0], [coupling, 0.0, 1.0]];
     // The flow on which an eigenvalue solver hung: three real rates.
     let real = [[-1.0, -1.0, 0.0], [-2.0, 2.0, -1.0], [0.0, -2.0, -1.0]];
-    // Couette flow along (1, 2, 3), gradient along (4, 1, −2), to 16 digits: neither det L nor tr L² is quite 0. How far
-    // it then is from periodic is worked out, not guessed.
+    // Couette flow along (1, 2, 3), gradient along (4, 1, −2), to 16 digits: neither det L nor tr L² is quite 0. How
+    // far it then is from periodic is worked out, not guessed.
     let (along, across) = ([1.0, 2.0, 3.0], [4.0, 1.0, -2.0]);
     let rotated = along.map(|flow: f64| across.map(|gradient: f64| flow / 14f64.sqrt() * (gradient / 21f64.sqrt())));
     for (rows, r, periods, why) in [

@@ -231,8 +231,8 @@ fn doubtful_results_trigger_a_warning() {
 fn long_rods_need_more_steps_than_there_may_be_and_say_what_to_set() {
     assert_eq!(
         refusal(&turning(1e6, "")),
-        "dir/s.toml:10: time.steps_per_period is missing: at aspect_ratio = 1000000 some 7.0e7 steps a period resolve the \
-         motion (GΔt ≤ 0.09), and at most 10000000 are allowed; set steps_per_period to take fewer, which do not \
+        "dir/s.toml:10: time.steps_per_period is missing: at aspect_ratio = 1000000 some 7.0e7 steps a period resolve \
+         the motion (GΔt ≤ 0.09), and at most 10000000 are allowed; set steps_per_period to take fewer, which do not \
          resolve it, or a smaller aspect_ratio"
     );
     assert!(refusal(&turning(1e100, "")).contains("some 7.0e101 steps a period"));

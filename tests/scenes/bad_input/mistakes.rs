@@ -95,15 +95,15 @@ const OTHER_MISTAKES: &[(&str, &str, &str, &str)] = &[
      "12: output.observables = [\"orbit_constant\"] is not allowed: orbit_constant needs plane Couette flow"),
     // Boxes and lengths.
     (INTERACTING, "concentration_per_cm3 = 50", "",
-     "10: interaction.concentration_per_cm3 is missing: concentration_per_cm3, box_mm or particles.volume_fraction must"),
+     "10: interaction.concentration_per_cm3 is missing: concentration_per_cm3, box_mm or particles.volume_fraction"),
     (INTERACTING, "concentration_per_cm3 = 50", "concentration_per_cm3 = 33.4\nbox_mm = [12, 5, 5]",
      "11: interaction.concentration_per_cm3 = 33.4 is not allowed: either it or box_mm, or both where they agree to \
       1e-3: 10 rods in [12.0, 5.0, 5.0] mm are 33.333"),
     (INTERACTING, "concentration_per_cm3 = 50", "box_mm = [12, 5]",
      "11: interaction.box_mm = [12, 5] is not allowed: expected [H1, H2, H3], three finite numbers > 0"),
-    (INTERACTING, "concentration_per_cm3 = 50", "box_mm = [12, 5, 5, 5]", "11: interaction.box_mm = [12, 5, 5, 5] is not"),
+    (INTERACTING, "concentration_per_cm3 = 50", "box_mm = [12, 5, 5, 5]", "11: interaction.box_mm = [12, 5, 5, 5] is"),
     (INTERACTING, "concentration_per_cm3 = 50", "box_mm = [12, 5, 0]", "11: interaction.box_mm = [12, 5, 0] is not"),
-    (INTERACTING, "concentration_per_cm3 = 50", "box_mm = [12, 5, nan]", "11: interaction.box_mm = [12, 5, nan] is not"),
+    (INTERACTING, "concentration_per_cm3 = 50", "box_mm = [12, 5, nan]", "11: interaction.box_mm = [12, 5, nan] is"),
     (INTERACTING, "concentration_per_cm3 = 50", "box_mm = \"cube\"", "11: interaction.box_mm = \"cube\" is not"),
     (INTERACTING, "concentration_per_cm3 = 50", "box_mm = [1e-300, 1e-300, 1e-300]",
      "11: interaction.box_mm = [1e-300, 1e-300, 1e-300] is not allowed: lengths for which the sides over the rods'"),
@@ -132,11 +132,11 @@ const OTHER_MISTAKES: &[(&str, &str, &str, &str)] = &[
     (STEPPED, "= 100", "= 100\n[output]\ntimes = [0.5, 0.25]",
      "16: output.times = [0.5, 0.25] is not allowed: expected a list of finite numbers ≥ 0 that grow"),
     (STEPPED, "= 100", "= 100\n[output]\ntimes = [0.125, 0.5]",
-     "16: output.times = [0.125, 0.5] is not allowed: interacting rods need different times on their steps, k/100; 0.125 \
-      is not one of them: set steps_per_period"),
+     "16: output.times = [0.125, 0.5] is not allowed: interacting rods need different times on their steps, k/100; \
+      0.125 is not one of them: set steps_per_period"),
     (STEPPED, "= 100", "= 100\n[output]\ntimes = [0.5, 0.50000001]",
-     "16: output.times = [0.5, 0.50000001] is not allowed: interacting rods need different times on their steps, k/100; \
-      0.50000001 is not one of them"),
+     "16: output.times = [0.5, 0.50000001] is not allowed: interacting rods need different times on their steps, \
+      k/100; 0.50000001 is not one of them"),
     (STEPPED, "= 100", "= 100\n[output]\ntimes = [0.5]\nrods_at = [0.25]",
      "17: output.rods_at = [0.25] is not allowed: different output times, of output.times; 0.25 is not one of them"),
     (STEPPED, "periods = 1\nsteps_per_period = 100", "steps_per_second = 2",

@@ -142,8 +142,8 @@ impl Grid {
         (angle(j), angle(k))
     }
 
-    /// For a density, the matrix of ∂ψ/∂t = −θ̇ ∂ψ/∂θ − φ̇ ∂ψ/∂φ − ψ∇·ṗ + D_r∇²ψ, ∇·ṗ = Λ(tr D − 3 p·Dp), else of ∂f/∂t = θ̇ ∂f/∂θ +
-    /// φ̇ ∂f/∂φ + D_r∇²f.
+    /// For a density, the matrix of ∂ψ/∂t = −θ̇ ∂ψ/∂θ − φ̇ ∂ψ/∂φ − ψ∇·ṗ + D_r∇²ψ, ∇·ṗ = Λ(tr D − 3 p·Dp), else of
+    /// ∂f/∂t = θ̇ ∂f/∂θ + φ̇ ∂f/∂φ + D_r∇²f.
     fn rates(&self, l: &Matrix3<f64>, shape: f64, diffusivity: f64, density: bool) -> DMatrix<f64> {
         let (sign, spread) = if density { (1.0, 1.0) } else { (-1.0, 0.0) };
         let around = 2 * self.rings;

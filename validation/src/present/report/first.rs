@@ -29,7 +29,7 @@ pub(super) fn sizes(report: &Report) -> Vec<String> {
     let free = error("propagator-closed-form")
         .map(|error| format!("Free rods: Jeffery's closed form to {error} rad, over r_e and the periods."));
     let colliding = error("naive-reference").map(|error| {
-        format!("Collisions: the same as those of an independent code with the same interpretation of the paper, to {error}.")
+        format!("Collisions: those of an independent code with the same interpretation of the paper, to {error}.")
     });
     let measured = report.summary.parts.iter().find(|part| part.judges == Judges::Measurement).map(|part| {
         let judged = part.cases - part.nodata;

@@ -50,16 +50,16 @@ const SHOWN: [Shown; 6] = [
     Shown {
         name: "step-limit-length",
         title: "The longest step GΔt with a bounded length",
-        caption: "|p| < 1.5 after ten periods, from 45 directions in the plane of shear. The ladder begins at 0.5, by a \
-            factor of 1.05: narrower gaps are not seen.",
+        caption: "|p| < 1.5 after ten periods, from 45 directions in the plane of shear. The ladder begins at 0.5, by \
+            a factor of 1.05: narrower gaps are not seen.",
         property: Property::Length,
         picture: None,
     },
     Shown {
         name: "step-limit-orbit",
         title: "The longest step GΔt that keeps the orbit",
-        caption: "C_b within 0.1 of its start after ten periods, from eight directions 1 rad off the vorticity axis. The \
-                  ladder's factor is 1.25: narrower gaps are not seen. There is no closed form.",
+        caption: "C_b within 0.1 of its start after ten periods, from eight directions 1 rad off the vorticity axis. \
+                  The ladder's factor is 1.25: narrower gaps are not seen. There is no closed form.",
         property: Property::Orbit,
         picture: None,
     },
