@@ -13,7 +13,7 @@ const DIGITS: usize = 25;
 
 pub(super) fn problems() -> Vec<ProblemDef> {
     type Row = (&'static str, &'static str, fn() -> Asked);
-    const PROBLEMS: [Row; 15] = [
+    const PROBLEMS: &[Row] = &[
         ("mid-flip-2", "A short rod, r_e = 2, seen during three flips", || mid_flip(2.0)),
         ("mid-flip-11.6", "The paper's rod, r_e = 11.6, seen during three flips", || mid_flip(11.6)),
         ("mid-flip-100", "A long rod, r_e = 100, seen during three flips", || mid_flip(100.0)),
@@ -34,7 +34,7 @@ pub(super) fn problems() -> Vec<ProblemDef> {
         ("couette-mirrored", "Plane Couette flow with gradient and flow exchanged", mirrored),
         ("spiral", "A general gradient: rods spiral into an axis", spiral),
     ];
-    PROBLEMS.map(|(name, title, asked)| ProblemDef::new(name, title, move |def| built(def, asked()))).into()
+    PROBLEMS.iter().map(|(name, title, asked)| ProblemDef::new(name, title, |def| built(def, asked()))).collect()
 }
 
 fn built(def: &ProblemDef, asked: Asked) -> Built {
