@@ -98,9 +98,12 @@ fn changed(name: &str, text: &str, values: Vec<(String, Option<String>)>) -> PyR
     toml::to_string(&scene).map_err(|error| refused(&error))
 }
 
-/// Each observable: its name, its label, and the names and symbols of its channels.
+/// The names and symbols of an observable's channels.
+type Channels = Vec<(String, String)>;
+
+/// Each observable: its name, its label, and its channels.
 #[pyfunction]
-fn observables() -> Vec<(&'static str, &'static str, Vec<(String, String)>)> {
+fn observables() -> Vec<(&'static str, &'static str, Channels)> {
     let channels = |of: Observable| of.channels().map(|channel| (channel.name(), channel.symbol())).collect();
     Observable::ALL.into_iter().map(|of| (of.name(), of.label(), channels(of))).collect()
 }
