@@ -53,7 +53,7 @@ fn any_number_of_threads_gives_the_same_bits() {
         }
         let collide = scene.interaction.is_some();
         assert!(
-            if scene.particles.count > 100 { (one.counters.collisions > 1000) == collide } else { true },
+            if scene.particles.count > 100 { (one.counters.collisions > 1024) == collide } else { true },
             "{scene:?}"
         );
     }

@@ -1,7 +1,7 @@
 //! Free rods with rotary diffusion: their limit without it, and default steps.
 
 use crate::{planned, run};
-use shearbed::scene::{Flow, Scene, Time};
+use shearbed::scene::{Flow, Orientation, Scene, Time};
 
 pub(crate) fn scene(diffusivity: f64) -> Scene {
     let mut scene = Scene { time: Time::strain(1.0), ..Scene::default() };
@@ -10,6 +10,15 @@ pub(crate) fn scene(diffusivity: f64) -> Scene {
     scene.ensemble.replicas = 3;
     scene.output.rods_at = vec![0.5];
     scene
+}
+
+/// From one start of all rods only the diffusion differs between replicas.
+#[test]
+fn replicas_diffuse_apart() {
+    let mut scene = scene(0.1);
+    scene.particles.orientation = Orientation::Given { phi_deg: 30.0, theta_deg: 60.0 };
+    let rods = run(&scene).snapshots;
+    assert!(rods.len() == 3 && rods[0].p != rods[1].p && rods[1].p != rods[2].p);
 }
 
 /// Steps of 0.1 in strain, and of 0.02 in D_r t; and none without diffusion.
