@@ -19,7 +19,8 @@ from numpy.typing import NDArray
 
 from ._extrapolation import Lost, motion
 from ._formulas import answers
-from ._reference import call, read
+from ._reference import call
+from ._running import columns
 
 Array = NDArray[np.float64]
 
@@ -94,10 +95,8 @@ def _exported() -> tempfile.TemporaryDirectory[str]:
 
 def _problem(folder: Path) -> Problem:
     told = json.loads((folder / "problem.json").read_text(encoding="utf-8"))
-    start = folder / "start.csv"
-    rods = np.array([row[1:] for row in read(start)[1]]) if start.exists() else np.empty((0, 3))
-    header, rows = read(folder / "certified.csv")
-    asked = read(folder / "inputs.csv") if (folder / "inputs.csv").exists() else None
+    start, inputs = folder / "start.csv", folder / "inputs.csv"
+    rods = np.stack([columns(start)[name] for name in ("p1", "p2", "p3")], axis=1) if start.exists() else np.empty((0, 3))
     return Problem(
         name=told["name"],
         title=told["title"],
@@ -106,13 +105,13 @@ def _problem(folder: Path) -> Problem:
         aspect_ratio=told["aspect_ratio"],
         times_s=np.array(told["times_s"]),
         start=rods,
-        certified={name: np.array([row[k] for row in rows]) for k, name in enumerate(header)},
+        certified=columns(folder / "certified.csv"),
         tolerance=told["tolerance"],
         because=told["because"],
         equations=tuple(told["equations"]),
         columns=tuple(told["columns"]),
         formula=told.get("formula"),
-        inputs=asked and {name: np.array([row[k] for row in asked[1]]) for k, name in enumerate(asked[0])},
+        inputs=columns(inputs) if inputs.exists() else None,
     )
 
 
@@ -361,9 +360,9 @@ def _write(file: Path, problem: Problem, answer: Array) -> None:
     _write_rows(file, ("time_s", "rod", "p1", "p2", "p3"), rows)
 
 
-def _write_rows(file: Path, columns: Sequence[str], rows: Iterable[Sequence[float]]) -> None:
+def _write_rows(file: Path, header: Sequence[str], rows: Iterable[Sequence[float]]) -> None:
     file.parent.mkdir(parents=True, exist_ok=True)
     with open(file, "w", encoding="utf-8", newline="") as text:
         writer = csv.writer(text, lineterminator="\n")
-        writer.writerow(columns)
+        writer.writerow(header)
         writer.writerows([repr(value) for value in row] for row in rows)

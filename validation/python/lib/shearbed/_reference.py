@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 import os
 import tempfile
 from collections.abc import Sequence
@@ -13,6 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _core
+from ._running import columns
 
 
 def reference(
@@ -65,11 +65,11 @@ def reference(
     words += [flag for flag, asked in (("--steady", steady), ("--fourth", fourth)) if asked]
     with tempfile.TemporaryDirectory(prefix="shearbed-") as folder:
         call([*words, "--out", str(Path(folder, "reference.csv"))], folder=folder)
-        header, rows = read(Path(folder, "reference.csv"))
-    if order is not None:
-        # The last row of a steady state belongs to no time that was asked for.
-        rows = [rows[k] for k in order] + rows[int(order.max(initial=-1)) + 1 :]
-    return {name: np.array([row[k] for row in rows]) for k, name in enumerate(header)}
+        found = columns(Path(folder, "reference.csv"))
+    if order is None:
+        return found
+    # The last row of a steady state belongs to no time that was asked for.
+    return {name: np.concatenate([values[order], values[int(order.max(initial=-1)) + 1 :]]) for name, values in found.items()}
 
 
 def call(words: Sequence[str], *, folder: str = "", allowed: Sequence[int] = (0,)) -> int:
@@ -81,10 +81,3 @@ def call(words: Sequence[str], *, folder: str = "", allowed: Sequence[int] = (0,
         said = said.replace(os.path.join(folder, ""), "") if folder else said
         raise (RuntimeError if code == 101 else ValueError)(said)
     return code
-
-
-def read(file: Path) -> tuple[list[str], list[list[Any]]]:
-    """A CSV file of numbers; a blank field is NaN."""
-    with open(file, encoding="utf-8", newline="") as text:
-        header, *rows = list(csv.reader(text))
-    return header, [[float(field) if field else float("nan") for field in row] for row in rows]
