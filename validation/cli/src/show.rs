@@ -36,19 +36,15 @@ pub(super) fn plan(args: &PlanArgs) -> Result<(), Failure> {
     let plan = named.plan()?;
     args.until.check(&plan, &named.source)?;
     let plan = if args.until.is_empty() { plan } else { plan.with_replicas(LEAST) };
-    // The plan's text ends with its own warnings; they are removed and printed last with all others.
-    let said = |warnings: Vec<String>| -> String {
-        let lines = warnings.iter().map(|warning| format!("warning: {warning}\n"));
-        lines.collect()
-    };
+    // The plan's text ends with its warnings, which are printed last here.
+    let warnings: String = plan.warnings().iter().map(|warning| format!("warning: {warning}\n")).collect();
     let text = plan.to_string();
-    let stages = text.strip_suffix(&said(plan.warnings())).unwrap_or(&text);
+    let stages = text.strip_suffix(&warnings).unwrap_or(&text);
     print(&format!(
-        "{stages}{}{}{}{}",
+        "{stages}{}{}{}{warnings}",
         Facts::of(&plan).text(),
         duration::of_scene(&plan),
-        args.until.planned(),
-        said(plan.warnings())
+        args.until.planned()
     ))?;
     // A plan that `run` would refuse here is still shown: it may fit on another machine.
     memory::check(&plan, None, &named.source)

@@ -126,9 +126,10 @@ pub fn holds(integrator: &Integrator, property: Property, aspect_ratio: f64, str
     }
 }
 
-/// φ of rod `k` over half of the plane of shear. Halfway between two rods is the steepest place of φ̇, φ = π/4.
-fn phi(k: u32) -> f64 {
-    PI * (f64::from(k) + 0.5) / f64::from(RODS)
+/// φ of the rod `k` of `count` over half of the vorticity axis. Halfway between two of [`RODS`] is the steepest place
+/// of φ̇, φ = π/4.
+fn phi(k: u32, count: u32) -> f64 {
+    PI * (f64::from(k) + 0.5) / f64::from(count)
 }
 
 /// True if b is ahead of a by less than half a turn, or behind it by round-off.
@@ -144,7 +145,7 @@ fn near_plane(
     p3: f64,
     rods: Range<u32>,
 ) -> Vec<(Vector3<f64>, Vector3<f64>)> {
-    let start = |k: u32| UnitVector3::new_normalize(Vector3::new(phi(k).cos(), phi(k).sin(), p3));
+    let start = |k: u32| UnitVector3::new_normalize(Vector3::new(phi(k, RODS).cos(), phi(k, RODS).sin(), p3));
     let starts: Vec<_> = rods.map(start).collect();
     let ends = integrator.advance_all(&one_step(aspect_ratio, strain), &starts, one(integrator));
     let ends = ends.unwrap_or(vec![Vector3::repeat(f64::NAN); starts.len()]);
@@ -164,8 +165,7 @@ fn one(integrator: &Integrator) -> Setting {
 
 /// Directions at `theta` from the vorticity axis, evenly around half of it.
 fn directions(count: u32, theta: f64) -> impl Iterator<Item = UnitVector3<f64>> {
-    let phi = move |k: u32| PI * (f64::from(k) + 0.5) / f64::from(count);
-    (0..count).map(move |k| shearbed::model::orientation::from_angles(phi(k), theta))
+    (0..count).map(move |k| shearbed::model::orientation::from_angles(phi(k, count), theta))
 }
 
 /// Ten periods by steps of GΔt = `strain`, rounded up to whole steps.
