@@ -27,10 +27,9 @@ pub(super) fn sizes(report: &Report) -> Vec<String> {
         row.worst().map(|line| number(line.error))
     };
     let free = error("propagator-closed-form")
-        .map(|error| format!("Free rods: Jeffery's closed form to {error} rad, over r_e and the periods."));
-    let colliding = error("naive-reference").map(|error| {
-        format!("Collisions: those of an independent code with the same interpretation of the paper, to {error}.")
-    });
+        .map(|error| format!("Free rods: off Jeffery's closed form by {error} rad, times max(r_e, 1/r_e)·(1 + t/T)."));
+    let colliding = error("naive-reference")
+        .map(|error| format!("Collisions: off an independent code with the same interpretation by {error}."));
     let measured = report.summary.parts.iter().find(|part| part.judges == Judges::Measurement).map(|part| {
         let judged = part.cases - part.nodata;
         format!("Experiments: {judged} of {} comparisons have measured points.", part.cases)
