@@ -152,8 +152,8 @@ fn what_cannot_be_stepped_is_refused() {
         // What comes in would be drawn without end.
         (
             in_box("[1e103, 1e103, 1e103]"),
-            "interaction.box_mm = [1e103, 1e103, 1e103] is not allowed: lengths for which the sides over the rods' length, \
-             their product",
+            "interaction.box_mm = [1e103, 1e103, 1e103] is not allowed: \
+             lengths for which the sides over the rods' length, their product",
         ),
         (in_box("[1e-4, 1e3, 1]"), "cross the control volume 30 times"),
         (of(stirred, "strain = 1\nsteps_per_strain = 10"), "10 is not allowed: at least 89, to resolve the velocity"),
