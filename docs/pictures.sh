@@ -51,3 +51,5 @@ shearbed bench --case folgar-tucker --out ci --quiet
 for picture in effective-ci folgar-tucker kicks-and-diffusion steady-orbits; do cp "ci/$picture.svg" "$out/$picture.svg"; done
 shearbed bench --case closures --out closures --quiet
 cp closures/closures-error.svg "$out/closures-error.svg"
+shearbed bench --case brownian --out brownian --quiet
+cp brownian/brownian-*.svg "$out"

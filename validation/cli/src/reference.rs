@@ -1,12 +1,14 @@
 //! `shearbed reference`.
 
+mod flows;
+
 use super::{Failure, number, print, progress};
 use shearbed_validation::files::output;
 use shearbed_validation::files::text::{Shown, complain};
 use shearbed_validation::oracle::diffusion::{self, NoAnswer, strain_rate_per_s};
 use shearbed_validation::oracle::reference::big::{Bits, decimal, digits, double, finite};
 use shearbed_validation::oracle::reference::constants::{self, Constant};
-use shearbed_validation::oracle::reference::diffusing::Diffusing;
+use shearbed_validation::oracle::reference::diffusing::{Diffusing, Spread, WIDEST_PERCENT};
 use shearbed_validation::oracle::reference::motion::{LARGEST_STRAIN, Motion, Unit};
 use shearbed_validation::oracle::reference::rod::{self, Direction};
 use shearbed_validation::oracle::reference::table::{self, NoValue, Start, Table};
@@ -20,9 +22,9 @@ pub(super) struct Args {
     /// r_e, from 1e-100 to 1e100, or `inf` for Λ = 1
     #[arg(long, value_name = "R|inf", value_parser = aspect_ratio, allow_negative_numbers = true)]
     aspect_ratio: f64,
-    /// Directions at t = 0: `isotropic`, `planar` (at random in the flow–gradient plane: a = diag(½, ½, 0)), or one
-    /// rod's φ,θ in degrees
-    #[arg(long, value_name = "isotropic|planar|PHI_DEG,THETA_DEG", default_value = "isotropic", value_parser = start,
+    /// Directions at t = 0: `isotropic`, `planar` (at random in the flow–gradient plane: a = diag(½, ½, 0)), one rod's
+    /// φ,θ in degrees, or, with diffusion, a11,a22,a33,a12,a13,a23 of a density of Bingham
+    #[arg(long, value_name = "isotropic|planar|PHI_DEG,THETA_DEG|a11,…,a23", default_value = "isotropic", value_parser = start,
         allow_hyphen_values = true)]
     start: From,
     /// COUNT evenly spaced times with both ends (COUNT = 1: the time FROM), or rising times with commas between
@@ -30,7 +32,7 @@ pub(super) struct Args {
         required_unless_present_any = ["constants", "explain", "steady"])]
     times: Option<Times>,
     /// What times count: periods of (mean) r_e, strain, or seconds; period unless given, and strain for r_e = inf
-    #[arg(long, value_name = "period|strain|s", value_parser = unit)]
+    #[arg(long, value_name = "period|strain|s", value_parser = unit_named)]
     unit: Option<Unit>,
     /// G of plane Couette flow, u_2 = G x_1
     #[arg(long, value_name = "G", default_value = "1", value_parser = rate, allow_negative_numbers = true)]
@@ -39,7 +41,12 @@ pub(super) struct Args {
     #[arg(long, value_name = "L11,L12,…,L33", value_parser = gradient, conflicts_with = "shear_rate_per_s",
         allow_hyphen_values = true)]
     gradient_per_s: Option<[[f64; 3]; 3]>,
-    /// Standard deviation of a Gaussian r_e in percent of the mean, for isotropic starts
+    /// Flows one after another, for rods with diffusion: rows of duration_s and shear_rate_per_s, or of duration_s and
+    /// l11, l12, …, l33, in 1/s; the last goes on, and times are in s
+    #[arg(long, value_name = "FILE.csv", requires = "diffusion",
+        conflicts_with_all = ["shear_rate_per_s", "gradient_per_s", "steady"])]
+    steps: Option<PathBuf>,
+    /// Standard deviation of a Gaussian r_e in percent of the mean, for isotropic starts and for rods with diffusion
     #[arg(long, value_name = "PERCENT", default_value = "0", value_parser = deviation, allow_negative_numbers = true)]
     aspect_ratio_sd_percent: f64,
     /// C_I: rods with rotary diffusion D_r = C_I γ̇, γ̇ = (2D:D)^½; `inf` for all directions alike
@@ -54,9 +61,15 @@ pub(super) struct Args {
     /// The fourth moments a_ijkl in place of the other means over rods
     #[arg(long)]
     fourth: bool,
+    /// The order parameter and the extinction angle of flow birefringence too, of rods with diffusion
+    #[arg(long, requires = "diffusion")]
+    optics: bool,
     /// What does not change with time: T, ⟨φ⟩, C_b, means over phases, plateaus
     #[arg(long, conflicts_with_all = ["times", "unit", "fourth", "diffusion", "aspect_ratio_sd_percent", "explain"])]
     constants: bool,
+    /// A file for the density ψ(φ, θ) of rods with diffusion at the times, every 5°
+    #[arg(long, value_name = "FILE.csv", requires = "diffusion", requires = "times")]
+    density: Option<PathBuf>,
     /// Say what each column is, its unit and its equation, and compute nothing
     #[arg(long)]
     explain: bool,
@@ -64,7 +77,7 @@ pub(super) struct Args {
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
     /// Overwrite an existing file that has other contents
-    #[arg(long, requires = "out")]
+    #[arg(long)]
     force: bool,
 }
 
@@ -80,6 +93,7 @@ enum From {
     Isotropic,
     Planar,
     Angles { phi_deg: f64, theta_deg: f64 },
+    Bingham([[f64; 3]; 3]),
 }
 
 /// The value of `--times`.
@@ -88,18 +102,19 @@ struct Times(Vec<f64>);
 
 /// Prints or writes reference values.
 pub(super) fn reference(args: &Args) -> Result<(), Failure> {
+    if args.force && args.out.is_none() && args.density.is_none() {
+        return Err(Failure::Input("--force: needs --out or --density".into()));
+    }
     let rate = args.shear_rate_per_s;
     let couette = [[0.0; 3], [rate, 0.0, 0.0], [0.0; 3]];
     let motion = Motion { gradient_per_s: args.gradient_per_s.unwrap_or(couette), aspect_ratio: args.aspect_ratio };
     let direction = match args.start {
-        From::Isotropic | From::Planar => None,
+        From::Isotropic | From::Planar | From::Bingham(_) => None,
         From::Angles { phi_deg, theta_deg } => Some(Direction::Angles { phi_deg, theta_deg }),
     };
     let text = if args.constants {
-        if matches!(args.start, From::Planar) {
-            return Err(Failure::Input(
-                "--constants: has none of --start planar; isotropic or angles are allowed".into(),
-            ));
+        if matches!(args.start, From::Planar | From::Bingham(_)) {
+            return Err(Failure::Input("--constants: isotropic or angles are allowed as --start".into()));
         }
         let constants = constants::constants(&motion, direction).ok_or_else(|| no_couette("--constants"))?;
         constants_csv(&constants)
@@ -110,9 +125,19 @@ pub(super) fn reference(args: &Args) -> Result<(), Failure> {
         } else {
             let text = csv(&values(args, &motion, &asked).map_err(|why| refused(args, why))?);
             if let Some(d_r) = args.d_r_per_s {
-                let rate = strain_rate_per_s(motion.gradient_per_s);
-                let number = if rate == 0.0 { 0.0 } else { rate / d_r };
-                complain(&format!("note: the Péclet number γ̇/D_r is {number}\n"));
+                complain(&peclet(&motion, &asked, d_r));
+            }
+            if let (Some(path), Asked::Diffusing(rods)) = (&args.density, &asked) {
+                let times = args.times.as_ref().map_or(&[][..], |times| &times.0);
+                let (density, error) = flows::density(rods, times, unit(args)).map_err(|why| refused(args, why))?;
+                if let Some(out) = &args.out {
+                    if out == path {
+                        return Err(Failure::Input("--out and --density: two files are needed".into()));
+                    }
+                    output::may_write(out, text.as_bytes(), args.force)?;
+                }
+                write(path, density, args.force)?;
+                complain(&format!("note: {}: ψ in 1/sr, to within {error:.0e}\n", path.shown()));
             }
             text
         }
@@ -131,29 +156,63 @@ enum Asked {
     Diffusing(Diffusing),
 }
 
+/// γ̇/D_r, of the fastest flow.
+fn peclet(motion: &Motion, asked: &Asked, d_r: f64) -> String {
+    let (rate, of) = match asked {
+        Asked::Diffusing(rods) if rods.flows.len() > 1 => {
+            let rates = rods.flows.iter().map(|(gradient, _)| strain_rate_per_s(*gradient));
+            (rates.fold(0.0, f64::max), " of the fastest flow")
+        }
+        _ => (strain_rate_per_s(motion.gradient_per_s), ""),
+    };
+    format!("note: the Péclet number γ̇/D_r{of} is {}\n", if rate == 0.0 { 0.0 } else { rate / d_r })
+}
+
 fn asked(args: &Args, motion: &Motion, direction: Option<Direction>) -> Result<Asked, Failure> {
     let sd = args.aspect_ratio_sd_percent;
-    let rate = strain_rate_per_s(motion.gradient_per_s);
-    let diffusivity = match (args.c_i, args.d_r_per_s) {
-        (Some(c_i), _) if rate > 0.0 => Some(c_i * rate),
-        (Some(_), _) => Some(0.0),
-        (None, d_r) => d_r,
+    let steps = args.steps.as_ref().map(|path| flows::read(path)).transpose()?;
+    let flows = steps.unwrap_or_else(|| vec![(motion.gradient_per_s, f64::INFINITY)]);
+    let strains = flows.iter().any(|(gradient, _)| strain_rate_per_s(*gradient) > 0.0);
+    let spread = match (args.c_i, args.d_r_per_s) {
+        (Some(c_i), _) => Some(Spread::CI(if strains { c_i } else { 0.0 })),
+        (None, d_r) => d_r.map(Spread::PerS),
     };
+    let spreads = !matches!(spread, None | Some(Spread::CI(0.0) | Spread::PerS(0.0)));
     // Without diffusion the rods are free; their means have full precision, but there is no steady distribution.
-    if let Some(diffusivity) = diffusivity.filter(|d_r| *d_r > 0.0 || args.steady) {
-        if sd != 0.0 {
+    if let Some(spread) = spread.filter(|_| spreads || args.steady) {
+        if sd > WIDEST_PERCENT || (sd > 0.0 && (args.aspect_ratio.is_infinite() || args.density.is_some())) {
             return Err(Failure::Input(format!(
-                "--aspect-ratio-sd-percent {sd}: rods with {} have one aspect ratio; 0 is allowed with it",
-                if args.c_i.is_some() { "--c-i" } else { "--d-r-per-s" }
+                "--aspect-ratio-sd-percent {sd}: with diffusion 0 to {WIDEST_PERCENT} is allowed, of a finite \
+                 --aspect-ratio and without --density"
             )));
         }
         let start = match (args.start, direction) {
             (From::Planar, _) => diffusion::Start::Plane([0.0, 0.0, 1.0]),
+            (From::Bingham(k), _) => diffusion::Start::Bingham(k),
             (_, Some(direction)) => diffusion::Start::Direction(rod::nearest(direction)),
             _ => diffusion::Start::Isotropic,
         };
-        let (fourth, steady) = (args.fourth, args.steady);
-        return Ok(Asked::Diffusing(Diffusing { motion: *motion, diffusivity, start, fourth, steady }));
+        return Ok(Asked::Diffusing(Diffusing {
+            aspect_ratio: args.aspect_ratio,
+            aspect_ratio_sd_percent: sd,
+            flows,
+            spread,
+            start,
+            fourth: args.fourth,
+            optics: args.optics,
+            steady: args.steady,
+        }));
+    }
+    let needs = [
+        ("--steps", args.steps.is_some()),
+        ("--density", args.density.is_some()),
+        ("--optics", args.optics),
+        ("--start a11,…,a23", matches!(args.start, From::Bingham(_))),
+    ];
+    if let Some((flag, _)) = needs.iter().find(|(_, given)| *given) {
+        return Err(Failure::Input(format!(
+            "{flag}: needs rods that diffuse; a --c-i or --d-r-per-s above 0 is allowed"
+        )));
     }
     match direction {
         _ if sd != 0.0 && !matches!(args.start, From::Isotropic) => {
@@ -166,8 +225,16 @@ fn asked(args: &Args, motion: &Motion, direction: Option<Direction>) -> Result<A
     }
 }
 
+fn unit(args: &Args) -> Unit {
+    args.unit.unwrap_or(match args.aspect_ratio.is_finite() {
+        _ if args.steps.is_some() => Unit::Second,
+        true => Unit::Period,
+        false => Unit::Strain,
+    })
+}
+
 fn values(args: &Args, motion: &Motion, asked: &Asked) -> Result<Table, NoValue> {
-    let unit = args.unit.unwrap_or(if args.aspect_ratio.is_finite() { Unit::Period } else { Unit::Strain });
+    let unit = unit(args);
     let times = args.times.as_ref().map_or(&[][..], |times| &times.0);
     match asked {
         Asked::Free(start) => {
@@ -254,7 +321,16 @@ fn refused(args: &Args, why: NoValue) -> Failure {
              a --d-r-per-s above 0"
         ),
         NoValue::Steady(why) => format!("--steady with {flag}: {why}; {allowed} allowed {weak}"),
-        NoValue::Diffusion(why) if !matches!(args.start, From::Isotropic) => format!(
+        NoValue::Diffusion(NoAnswer::RoughStart) if matches!(args.start, From::Bingham(_)) => {
+            "--start: this density is too narrow to be resolved; a least eigenvalue from about 0.02 on is allowed"
+                .into()
+        }
+        NoValue::Diffusion(NoAnswer::RoughStart) => {
+            "--density: at 0 s all rods of --start planar, or of angles, have one direction; later times are \
+             allowed"
+                .into()
+        }
+        NoValue::Diffusion(why) if !matches!(args.start, From::Isotropic | From::Bingham(_)) => format!(
             "--times with {flag}: {why}: rods of --start planar, or of angles, spread from a width of 0; {allowed} \
              allowed, or a later first time after 0 (D_r t from about 1e-4 on, and D_r/γ̇ from about 1e-4 on)"
         ),
@@ -262,6 +338,7 @@ fn refused(args: &Args, why: NoValue) -> Failure {
             "--times with {flag}: {why}; a larger C_I or shorter --times are allowed (from C_I = D_r/γ̇ = 1e-4 on, a \
              strain of 100; at 1e-5, of 10), and --steady"
         ),
+        NoValue::Unit if args.steps.is_some() => "--unit: the times of --steps are in s, which alone is allowed".into(),
         NoValue::Unit => format!(
             "--unit{}: this flow has no such unit of time; s is allowed, strain where it stretches, and period in \
              plane Couette flow (--shear-rate-per-s G) of rods with a finite r_e",
@@ -309,7 +386,7 @@ fn deviation(text: &str) -> Result<f64, String> {
     number(text, |sd| (0.0..100.0).contains(&sd), "a number from 0 to below 100")
 }
 
-fn unit(text: &str) -> Result<Unit, String> {
+fn unit_named(text: &str) -> Result<Unit, String> {
     match text {
         "period" => Ok(Unit::Period),
         "strain" => Ok(Unit::Strain),
@@ -319,17 +396,29 @@ fn unit(text: &str) -> Result<Unit, String> {
 }
 
 fn start(text: &str) -> Result<From, String> {
-    let words =
-        "`isotropic`, `planar`, or φ,θ in degrees with θ from 0 to 180 (each 0 or of a size from 5e-324 to 1.8e308)";
-    match text.split_once(',') {
-        None if text == "isotropic" => Ok(From::Isotropic),
-        None if text == "planar" => Ok(From::Planar),
-        None => Err(format!("{words} is allowed")),
-        Some((phi, theta)) => Ok(From::Angles {
+    let words = "`isotropic`, `planar`, φ,θ in degrees with θ from 0 to 180 (each 0 or of a size from 5e-324 to 1.8e308), \
+                 or a11,a22,a33,a12,a13,a23";
+    match text.split(',').collect::<Vec<_>>()[..] {
+        ["isotropic"] => Ok(From::Isotropic),
+        ["planar"] => Ok(From::Planar),
+        [phi, theta] => Ok(From::Angles {
             phi_deg: number(phi, |_| true, words)?,
             theta_deg: number(theta, |theta| (0.0..=180.0).contains(&theta), words)?,
         }),
+        [_, _, _, _, _, _] => tensor(text).map(From::Bingham),
+        _ => Err(format!("{words} is allowed")),
     }
+}
+
+/// K of the density of Bingham with this a_ij.
+fn tensor(text: &str) -> Result<[[f64; 3]; 3], String> {
+    let words = "a11,a22,a33,a12,a13,a23 with a11 + a22 + a33 = 1 and eigenvalues above 0";
+    let a: Vec<f64> = text.split(',').map(|part| number(part, |x| x.abs() <= 1.0, words)).collect::<Result<_, _>>()?;
+    if (a[0] + a[1] + a[2] - 1.0).abs() > 1e-12 {
+        return Err(format!("{words} are allowed; the sum is {}", a[0] + a[1] + a[2]));
+    }
+    diffusion::bingham([a[0], a[1], a[2], a[3], a[4], a[5]])
+        .map_err(|least| format!("{words}, the least from about 0.02 on, are allowed; the least is {least}"))
 }
 
 fn gradient(text: &str) -> Result<[[f64; 3]; 3], String> {

@@ -35,17 +35,28 @@ pub fn means(
     rings: usize,
     time_s: f64,
 ) -> Option<Means> {
+    if time_s < f64::INFINITY {
+        return Some(through(&[(gradient_per_s, diffusivity_per_s, time_s)], shape, rings));
+    }
     let grid = Grid::new(rings, mirrors(&gradient_per_s));
     let rates = grid.rates(&Matrix3::from_fn(|i, j| gradient_per_s[i][j]), shape, diffusivity_per_s, true);
     let one = DVector::from_element(grid.points.len(), 1.0);
-    let density = if time_s == f64::INFINITY {
-        // A ψ = 0 with w·ψ = 1 is (A + D_r 1 wᵀ) ψ = D_r 1.
-        let mass = DVector::from_iterator(one.len(), (0..one.len()).map(|class| grid.mass(class)));
-        (rates + &one * mass.transpose() * diffusivity_per_s).lu().solve(&(one * diffusivity_per_s))?
-    } else {
-        (rates * time_s).exp() * (one / (4.0 * PI))
-    };
+    // A ψ = 0 with w·ψ = 1 is (A + D_r 1 wᵀ) ψ = D_r 1.
+    let mass = DVector::from_iterator(one.len(), (0..one.len()).map(|class| grid.mass(class)));
+    let density = (rates + &one * mass.transpose() * diffusivity_per_s).lu().solve(&(one * diffusivity_per_s))?;
     Some(grid.means(&density))
+}
+
+/// Means of rods that are isotropic at t = 0 at the end of flows one after another, each with its gradient in 1/s, its
+/// D_r in 1/s and its duration in s.
+pub fn through(flows: &[([[f64; 3]; 3], f64, f64)], shape: f64, rings: usize) -> Means {
+    let grid = Grid::new(rings, [0, 1, 2].map(|axis| flows.iter().all(|(l, ..)| mirrors(l)[axis])));
+    let isotropic = DVector::from_element(grid.points.len(), 1.0 / (4.0 * PI));
+    let density = flows.iter().fold(isotropic, |density, (l, diffusivity, duration_s)| {
+        let rates = grid.rates(&Matrix3::from_fn(|i, j| l[i][j]), shape, *diffusivity, true);
+        (rates * *duration_s).exp() * density
+    });
+    grid.means(&density)
 }
 
 /// a_ij and a_ijkl of rods that are at random in the plane of axes 1 and 2 at t = 0.

@@ -6,6 +6,7 @@
 
 mod averaged;
 mod begun_again;
+mod brownian;
 pub mod catalogue;
 mod changing_flows;
 mod cheapest_split;
@@ -71,6 +72,7 @@ pub fn all() -> Vec<Case> {
     [
         motion::cases(),
         times::cases(),
+        brownian::cases(),
         jeffery_equations::cases(),
         contact_rule::cases(),
         misprints::cases(),

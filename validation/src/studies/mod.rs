@@ -7,6 +7,7 @@
 //! it a place in [`ALL`]; `tests/program/example_study.rs` is a whole one. To add an integrator, add it to
 //! [`integrators`].
 
+mod brownian;
 pub(crate) mod coefficients;
 mod cost;
 pub mod figures;
@@ -46,7 +47,7 @@ use std::f64::consts::TAU;
 use std::time::Instant;
 
 /// Every study, in the order of the report.
-pub const ALL: [Study; 11] = [
+pub const ALL: [Study; 12] = [
     figures::STUDY,
     interpretations::STUDY,
     kicks::study::STUDY,
@@ -56,6 +57,7 @@ pub const ALL: [Study; 11] = [
     suspensions::interacting::STUDY,
     coefficients::study::STUDY,
     tensors::STUDY,
+    brownian::STUDY,
     cost::STUDY,
     speed::STUDY,
 ];

@@ -1,8 +1,11 @@
 //! The study of closures: their error over C_I and flow, and their work compared with the exact solver's.
 
 use super::*;
+use crate::methods::tensors::fourth::PAIRS;
 use crate::methods::tensors::{APART, Closure, Equation, Model, at, isotropic, steady};
 use crate::oracle::diffusion::{self, Means, Motion, Start};
+use shearbed::Observable;
+use shearbed::scene::Flow;
 
 pub const STUDY: Study = Study {
     name: "closures",
@@ -38,11 +41,12 @@ fn run(request: &Request) -> Result<Option<Findings>, String> {
     let price = ReportFigure::new(
         ["closures-work-precision", "Work and precision: closures and the exact solution"],
         "a_ij at strains of 1 to 20 from isotropic rods, shear, C_I = 0.01. Tolerances of 10⁻² to 10⁻⁸ of Dormand & \
-         Prince's method; the exact solution with its stated error. Smaller tolerances do not lower the error of a \
-         closure.",
+         Prince's method; the exact solution with its stated error; 10² rods to 10⁵ that turn at random, on all cores. \
+         Smaller tolerances do not lower the error of a closure.",
         ["log time (ms)", "log largest error of a_ij"],
     )
     .curves(Closure::ALL.map(beside))
+    .curves([Curve::of(RANDOM, work.iter().filter(|row| row.method == RANDOM), |row| (1e3 * row.seconds, row.error))])
     .points([Points::of("exact", &work[..1], |row| (1e3 * row.seconds, row.error))])
     .judged("Folgar & Tucker 1984", STUDY.cases);
     let table = ReportTable::new(
@@ -65,7 +69,7 @@ fn run(request: &Request) -> Result<Option<Findings>, String> {
         work.iter().copied(),
         vec![
             words("method", |row: &Work| row.method),
-            number("tolerance", powers(0), |row: &Work| row.tolerance),
+            number("tolerance; N^(−1/2)", powers(0), |row: &Work| row.tolerance),
             number("time (ms)", decimals(2), |row: &Work| 1e3 * row.seconds),
             number("largest error of a_ij", powers(1), |row: &Work| row.error),
         ],
@@ -91,7 +95,7 @@ fn run(request: &Request) -> Result<Option<Findings>, String> {
 }
 
 fn answer(work: &[Work], fitted: &[Fitted]) -> String {
-    let closures = || work[1..].iter();
+    let closures = || work[1..].iter().filter(|row| row.method != RANDOM);
     let least = closures().map(|row| row.error).fold(f64::INFINITY, f64::min);
     let quickest = closures().map(|row| row.seconds).fold(f64::INFINITY, f64::min);
     let of = |method: &str| fitted.iter().find(|row| row.method == method).map_or(f64::NAN, |row| row.c_i);
@@ -133,17 +137,35 @@ pub struct Work {
     pub error: f64,
 }
 
+const RANDOM: &str = "random rods";
+
+/// a_ij of `rods` rods that turn at random, at these strains of shear with D_r = 0.01/s.
+fn random(rods: usize, strains: &[f64]) -> Option<Vec<Matrix3<f64>>> {
+    let flow = Flow::Shear { shear_rate_per_s: 1.0 };
+    let mut scene = Scene { flow, time: Time::strain(*strains.last()?), ..Scene::default() };
+    // Λ = 1 to 2·10⁻¹².
+    (scene.particles.aspect_ratio, scene.particles.rotary_diffusion_per_s) = (1e6, 0.01);
+    scene.particles.count = rods;
+    scene.output.times = strains.to_vec();
+    scene.output.observables = vec![Observable::OrientationTensor];
+    let results = ensemble::run(&Plan::new(&scene).ok()?).ok()?;
+    let tensor = |at: usize| {
+        let mut a = Matrix3::zeros();
+        for place in PAIRS {
+            a[place] = results.column(&format!("a{}{}", place.0 + 1, place.1 + 1)).map_or(f64::NAN, |c| c.mean[at]);
+        }
+        a
+    };
+    Some((0..strains.len()).map(tensor).collect())
+}
+
 fn equation(gradient: [[f64; 3]; 3], closure: Closure, c_i: f64) -> Equation {
     let gradient_per_s = Matrix3::from_fn(|i, j| gradient[i][j]);
     Equation { gradient_per_s, shape_factor: 1.0, closure, model: Model::FolgarTucker { c_i } }
 }
 
 fn apart(a: &Matrix3<f64>, exact: &Means) -> f64 {
-    crate::methods::tensors::fourth::PAIRS
-        .iter()
-        .zip(exact.second)
-        .map(|(place, x)| (a[*place] - x).abs())
-        .fold(0.0, f64::max)
+    PAIRS.iter().zip(exact.second).map(|(place, x)| (a[*place] - x).abs()).fold(0.0, f64::max)
 }
 
 /// The errors of closures at each flow and C_I; closures that do not settle are left out.
@@ -191,6 +213,11 @@ pub fn work() -> Result<Vec<Work>, String> {
             let error = tensors.iter().zip(&exact).map(|(a, exact)| apart(a, exact)).fold(0.0, f64::max);
             rows.push(Work { method: closure.name(), tolerance, seconds, error });
         }
+    }
+    for rods in [100, 1000, 10_000, 100_000] {
+        let (seconds, tensors) = timed(|| random(rods, &TIMES)).ok_or("random rods did not run")?;
+        let error = tensors.iter().zip(&exact).map(|(a, exact)| apart(a, exact)).fold(0.0, f64::max);
+        rows.push(Work { method: RANDOM, tolerance: (rods as f64).sqrt().recip(), seconds, error });
     }
     Ok(rows)
 }

@@ -3,8 +3,9 @@
 use super::NoAnswer;
 use super::frame::Frame;
 use super::harmonics::Basis;
-use super::means::{Functionals, MEANS};
+use super::means::Functionals;
 use super::operator::Operator;
+use super::start::projected;
 
 /// The accuracy of a solution.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -19,6 +20,17 @@ pub struct Accuracy {
 
 /// Largest number of multiplications of a solution: about a minute.
 const MOST_WORK: f64 = 1e11;
+
+/// The largest degree of a density that is turned to other axes: seconds.
+const MOST_TURNED: usize = 128;
+
+/// What is read off a density.
+pub enum Read<'a> {
+    /// The means, in the order of [`Means`](super::Means).
+    Means,
+    /// ψ in these directions of the laboratory's axes.
+    Density(&'a [[f64; 3]]),
+}
 
 /// A density that is integrated in time.
 pub struct Density<'a> {
@@ -107,9 +119,35 @@ impl<'a> Density<'a> {
         self.norm = self.frame.motion.norm(degree);
     }
 
-    /// The means at the current time.
-    pub fn means(&self) -> [f64; MEANS] {
-        Functionals::new(self.frame, &self.operator.basis).of(&self.unknowns)
+    /// What is asked for at the current time.
+    pub fn read(&self, read: &Read) -> Vec<f64> {
+        match read {
+            Read::Means => Functionals::new(self.frame, &self.operator.basis).of(&self.unknowns).into(),
+            Read::Density(directions) => directions.iter().map(|p| self.value(*p)).collect(),
+        }
+    }
+
+    /// ψ in a direction of the laboratory's axes.
+    fn value(&self, p: [f64; 3]) -> f64 {
+        let values = self.operator.basis.values(self.frame.inward(p));
+        values.iter().zip(&self.unknowns).map(|(value, unknown)| value * unknown).sum()
+    }
+
+    /// The harmonics of this density in other axes, of the same degree.
+    ///
+    /// # Errors
+    ///
+    /// If that takes too much work.
+    pub fn seen_from(&self, frame: &Frame) -> Result<(Basis, Vec<f64>), NoAnswer> {
+        let basis = self.operator.basis;
+        if self.frame.axes == frame.axes && basis.even == frame.even {
+            return Ok((basis, self.unknowns.clone()));
+        }
+        if basis.degree > MOST_TURNED {
+            return Err(NoAnswer::TooMuchWork);
+        }
+        let turned = Basis { order: basis.degree, even: false, ..basis };
+        Ok((turned, projected(&turned, &|p| self.value(frame.outward(p)))))
     }
 }
 

@@ -21,13 +21,34 @@ pub struct Means {
 }
 
 impl Means {
-    pub(super) fn new(means: &[f64; MEANS], error: f64) -> Self {
+    /// Means in the order of the fields.
+    pub fn new(means: &[f64], error: f64) -> Self {
         Self {
             projections: std::array::from_fn(|i| means[i]),
             second: std::array::from_fn(|i| means[3 + i]),
             fourth: std::array::from_fn(|i| means[9 + i]),
             error,
         }
+    }
+
+    /// Adds means and their error, times a weight ≥ 0.
+    pub fn add(&mut self, weight: f64, other: &Self) {
+        self.all_mut().zip(other.all()).for_each(|(sum, x)| *sum += weight * x);
+        self.error += weight * other.error;
+    }
+
+    /// The largest difference.
+    pub fn apart(&self, other: &Self) -> f64 {
+        self.all().zip(other.all()).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+    }
+
+    fn all(&self) -> impl Iterator<Item = f64> {
+        let Self { projections, second, fourth, .. } = *self;
+        projections.into_iter().chain(second).chain(fourth)
+    }
+
+    fn all_mut(&mut self) -> impl Iterator<Item = &mut f64> {
+        self.projections.iter_mut().chain(&mut self.second).chain(&mut self.fourth)
     }
 
     /// A mean rounded to as many decimals as the error allows, eleven at most.

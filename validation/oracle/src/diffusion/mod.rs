@@ -1,4 +1,5 @@
-//! Rods with rotary diffusion: the exact distribution of directions of infinitely many rods in any steady flow.
+//! Rods with rotary diffusion: the exact distribution of directions of infinitely many rods in any steady flow, or in
+//! such flows one after another.
 //!
 //! ∂ψ/∂t = −∇·(ṗψ) + D_r∇²ψ on the sphere with Jeffery's ṗ = ω × p + Λ(D·p − p p·Dp) and D_r = C_I γ̇, γ̇ = (2D:D)^½
 //! (Folgar & Tucker 1984; no closure). Galerkin's method on even spherical harmonics: the operator couples |l' − l| ≤ 2
@@ -18,13 +19,12 @@ mod start;
 #[cfg(test)]
 mod tests;
 
-pub use means::Means;
+pub use means::{MEANS, Means};
 pub use operator::{Motion, strain_rate_per_s};
-pub use start::Start;
+pub use start::{Start, bingham};
 
 use frame::Frame;
-use march::{Accuracy, Density};
-use means::MEANS;
+use march::{Accuracy, Density, Read};
 use std::fmt;
 
 /// The reason why there is no answer.
@@ -56,7 +56,25 @@ const WANTED: f64 = 4e-12;
 /// From this degree on a cut start is refused: the next would take gigabytes.
 const MOST_CUT: usize = 800;
 
-/// Means over the rods at `times_s` ≥ 0, in ascending order.
+/// A flow, and how long it lasts in s.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FlowStep {
+    /// The motion of the rods.
+    pub motion: Motion,
+    /// Its duration; that of the last flow is not used.
+    pub duration_s: f64,
+}
+
+/// Means over the rods at `times_s` ≥ 0, in ascending order, in one steady flow.
+///
+/// # Errors
+///
+/// As [`through`].
+pub fn at(motion: &Motion, start: Start, times_s: &[f64]) -> Result<Vec<Means>, NoAnswer> {
+    through(&[FlowStep { motion: *motion, duration_s: f64::INFINITY }], start, times_s)
+}
+
+/// Means over the rods at `times_s` ≥ 0, in ascending order, in flows one after another, the last without an end.
 ///
 /// Their stated error is the largest difference between two solutions; the second has a ten times smaller tail of
 /// harmonics and shorter steps. It is an upper estimate of the error of the second, which is returned. If it is above
@@ -66,39 +84,62 @@ const MOST_CUT: usize = 800;
 /// # Errors
 ///
 /// If two solutions take too much work, or the start is neither smooth nor one that is cut.
-pub fn at(motion: &Motion, start: Start, times_s: &[f64]) -> Result<Vec<Means>, NoAnswer> {
-    let frame = Frame::of(motion);
-    if start.sharp().is_some() {
-        return cut(&frame, start, times_s);
+pub fn through(flows: &[FlowStep], start: Start, times_s: &[f64]) -> Result<Vec<Means>, NoAnswer> {
+    let found = found(flows, start, times_s, &Read::Means)?;
+    Ok(found.0.iter().map(|means| Means::new(means, found.1)).collect())
+}
+
+/// ψ in 1/sr at `times_s` in these directions of the laboratory's axes, and its stated error, as of [`through`].
+///
+/// # Errors
+///
+/// As [`through`], and for a sharp start at t = 0.
+pub fn densities(
+    flows: &[FlowStep],
+    start: Start,
+    times_s: &[f64],
+    directions: &[[f64; 3]],
+) -> Result<(Vec<Vec<f64>>, f64), NoAnswer> {
+    if start.sharp().is_some() && times_s.first() == Some(&0.0) {
+        return Err(NoAnswer::RoughStart);
     }
-    let of = |tail, step| solution(&frame, start, times_s, Accuracy { tail, step, most: usize::MAX });
+    found(flows, start, times_s, &Read::Density(directions))
+}
+
+/// What is read off at each time, and its stated error.
+fn found(flows: &[FlowStep], start: Start, times_s: &[f64], read: &Read) -> Result<(Vec<Vec<f64>>, f64), NoAnswer> {
+    let flows: Vec<_> = flows.iter().map(|flow| (Frame::of(&flow.motion), flow.duration_s)).collect();
+    if start.sharp().is_some() {
+        return cut(&flows, start, times_s, read);
+    }
+    let of = |tail, step| solution(&flows, start, times_s, read, Accuracy { tail, step, most: usize::MAX });
     let (first, second) = rayon::join(|| of(1e-9, 8.0), || of(1e-10, 6.0));
     let (first, second) = (first?, second?);
     let error = differ(&first, &second);
     if error <= WANTED {
-        return Ok(all(&second, error));
+        return Ok((second, error));
     }
     match of(1e-12, 4.0) {
-        Ok(third) => Ok(all(&third, differ(&second, &third))),
-        Err(NoAnswer::TooMuchWork) => Ok(all(&second, error)),
+        Ok(third) => Ok((third.clone(), differ(&second, &third))),
+        Err(NoAnswer::TooMuchWork) => Ok((second, error)),
         Err(other) => Err(other),
     }
 }
 
-/// Means over the rods of a start whose harmonics are cut at a degree L.
+/// What is read off of rods whose start is cut at a degree L.
 ///
 /// What is cut reaches a mean late and small: the flow carries it from degree L down no faster than dl/dt ≈ −γ̇l/2, and
 /// diffusion damps it by e^{−l(l+1)D_r dt}, in all by about e^{−D_r L²/γ̇}. L is raised by half until two solutions,
 /// which also differ in their steps, differ by 4·10⁻¹² or less; that is their stated error.
-fn cut(frame: &Frame, start: Start, times_s: &[f64]) -> Result<Vec<Means>, NoAnswer> {
-    let motion = &frame.motion;
+fn cut(flows: &[(Frame, f64)], start: Start, times_s: &[f64], read: &Read) -> Result<(Vec<Vec<f64>>, f64), NoAnswer> {
+    let motion = &flows[0].0.motion;
     let damped = motion.diffusivity * (MOST_CUT * MOST_CUT) as f64;
-    let first = times_s.iter().copied().find(|time| *time > 0.0).unwrap_or(f64::INFINITY);
+    let first = times_s.iter().copied().find(|time| *time > 0.0).unwrap_or(f64::INFINITY).min(flows[0].1);
     // What the largest degree leaves is seen beforehand, where finding it out takes minutes.
     if damped * first < 25.0 || damped < 80.0 * motion.strain.norm() {
         return Err(NoAnswer::TooMuchWork);
     }
-    let of = |most, step| solution(frame, start, times_s, Accuracy { tail: 1e-10, step, most });
+    let of = |most, step| solution(flows, start, times_s, read, Accuracy { tail: 1e-10, step, most });
     let (mut most, mut step) = (32, 8.0);
     let mut before = of(most, step)?;
     while most < MOST_CUT {
@@ -106,41 +147,60 @@ fn cut(frame: &Frame, start: Start, times_s: &[f64]) -> Result<Vec<Means>, NoAns
         let after = of(most, step)?;
         let error = differ(&before, &after);
         if error <= WANTED {
-            return Ok(all(&after, error));
+            return Ok((after, error));
         }
         before = after;
     }
     Err(NoAnswer::TooMuchWork)
 }
 
-fn solution(frame: &Frame, start: Start, times_s: &[f64], accuracy: Accuracy) -> Result<Vec<[f64; MEANS]>, NoAnswer> {
-    let (basis, unknowns) = start.unknowns(frame, accuracy.most)?;
-    let mut density = Density::new(frame, accuracy, basis, unknowns);
-    let mut now = 0.0;
-    let mut all = Vec::new();
-    let mut left = times_s;
-    if let (Some(projections), [0.0, rest @ ..]) = (start.sharp(), left) {
-        let mut means = density.means();
-        means[..3].copy_from_slice(&projections);
-        all.push(means);
-        left = rest;
-    }
-    // The highest degrees of a sharp start die first: steps grow as they are left out.
-    let mut next =
-        start.sharp().map_or(f64::INFINITY, |_| frame.motion.diffusivity.recip() * (accuracy.most as f64).powi(-2));
-    for time in left {
-        // d|ψ − ψ_steady|²/dt ≤ −2(6D_r − 3/2 of the largest rate of ΛD)|ψ − ψ_steady|²: the difference is below e⁻⁴⁵.
-        if frame.motion.least_decay() * time > 45.0 {
-            all.push(settled::refined(frame)?.0);
-            continue;
+fn solution(
+    flows: &[(Frame, f64)],
+    start: Start,
+    times_s: &[f64],
+    read: &Read,
+    accuracy: Accuracy,
+) -> Result<Vec<Vec<f64>>, NoAnswer> {
+    let (mut all, mut begun, mut before) = (Vec::new(), 0.0, None::<Density>);
+    for (at, (frame, duration_s)) in flows.iter().enumerate() {
+        let end = if at + 1 == flows.len() { f64::INFINITY } else { begun + duration_s };
+        let sharp = start.sharp().filter(|_| before.is_none());
+        let (basis, unknowns) = match &before {
+            None => start.unknowns(frame, accuracy.most)?,
+            Some(density) => density.seen_from(frame)?,
+        };
+        let mut density = Density::new(frame, accuracy, basis, unknowns);
+        let mut now = 0.0;
+        // The highest degrees of a sharp start die first: steps grow as they are left out.
+        let mut next =
+            sharp.map_or(f64::INFINITY, |_| frame.motion.diffusivity.recip() / (accuracy.most as f64).powi(2));
+        let mut go_to = |density: &mut Density, time: f64| {
+            while next < time {
+                density.advance(next - now)?;
+                (now, next) = (next, 2.0 * next);
+            }
+            density.advance(time - now)?;
+            (now, next) = (time, next.max(2.0 * time));
+            Ok::<(), NoAnswer>(())
+        };
+        for time in times_s.iter().filter(|time| (begun..end).contains(*time)).map(|time| time - begun) {
+            // d|ψ − ψ_steady|²/dt ≤ −2(6D_r − 3/2 of the largest rate of ΛD)|ψ − ψ_steady|²: below e⁻⁴⁵ they are one.
+            if matches!(read, Read::Means) && frame.motion.least_decay() * time > 45.0 {
+                all.push(settled::refined(frame)?.0.to_vec());
+                continue;
+            }
+            go_to(&mut density, time)?;
+            let mut values = density.read(read);
+            if let (Some(projections), 0.0) = (sharp, time) {
+                values[..3].copy_from_slice(&projections);
+            }
+            all.push(values);
         }
-        while next < *time {
-            density.advance(next - now)?;
-            (now, next) = (next, 2.0 * next);
+        if end.is_finite() {
+            go_to(&mut density, *duration_s)?;
+            before = Some(density);
         }
-        density.advance(time - now)?;
-        (now, next) = (*time, next.max(2.0 * time));
-        all.push(density.means());
+        begun = end;
     }
     Ok(all)
 }
@@ -158,15 +218,11 @@ pub fn steady(motion: &Motion) -> Result<Means, NoAnswer> {
     Ok(Means::new(&means, error))
 }
 
-fn all(means: &[[f64; MEANS]], error: f64) -> Vec<Means> {
-    means.iter().map(|means| Means::new(means, error)).collect()
-}
-
 /// The largest difference of two solutions.
-fn differ(a: &[[f64; MEANS]], b: &[[f64; MEANS]]) -> f64 {
+fn differ(a: &[Vec<f64>], b: &[Vec<f64>]) -> f64 {
     a.iter().zip(b).map(|(a, b)| apart(a, b)).fold(0.0, f64::max)
 }
 
-fn apart(a: &[f64; MEANS], b: &[f64; MEANS]) -> f64 {
+fn apart(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
 }

@@ -3,22 +3,41 @@
 use super::big::Bits;
 use super::motion::{Motion, Unit};
 use super::table::{Column, NoValue, Table, of_means, of_time, times};
-use crate::diffusion::{self, Means, Start};
+use crate::diffusion::{self, FlowStep, MEANS, Means, NoAnswer, Start, strain_rate_per_s};
+use nalgebra::{DMatrix, Matrix3};
+
+/// How fast directions spread.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Spread {
+    /// C_I: D_r = C_I γ̇ in each flow.
+    CI(f64),
+    /// D_r in 1/s; ∞ for isotropic rods.
+    PerS(f64),
+}
 
 /// Rods with rotary diffusion, and the values requested for them.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct Diffusing {
-    /// The flow and r_e, which may be ∞.
-    pub motion: Motion,
-    /// D_r in 1/s; above 0, and ∞ for isotropic rods.
-    pub diffusivity: f64,
+    /// The mean r_e, which may be ∞.
+    pub aspect_ratio: f64,
+    /// Standard deviation of a Gaussian r_e in percent of the mean, up to [`WIDEST_PERCENT`].
+    pub aspect_ratio_sd_percent: f64,
+    /// Velocity gradients in 1/s one after another, each with its duration in s; the last has no end.
+    pub flows: Vec<([[f64; 3]; 3], f64)>,
+    /// The rotary diffusion.
+    pub spread: Spread,
     /// The rods at t = 0.
     pub start: Start<'static>,
     /// True for a_4 in place of ⟨|p_i|⟩ and a_ij.
     pub fourth: bool,
-    /// True for the steady distribution too, after the times.
+    /// True for the order parameter and the extinction angle too.
+    pub optics: bool,
+    /// True for the steady distribution in the last flow too, after the times.
     pub steady: bool,
 }
+
+/// The largest deviation of r_e, so that the outermost node of a quadrature is above 0.
+pub const WIDEST_PERCENT: f64 = 12.0;
 
 impl Diffusing {
     /// The columns of the table.
@@ -28,48 +47,203 @@ impl Diffusing {
             "mean of p_i p_j over the density",
             "mean of p_i p_j p_k p_l over the density",
         ];
-        [of_time(), of_means(self.fourth, sources)].concat()
+        let mut columns = [of_time(), of_means(self.fourth, sources)].concat();
+        if self.optics {
+            let column = |name: &str, unit, equation| Column { name: name.into(), unit, equation };
+            columns.push(column("order_parameter", "1", "S = (3λ − 1)/2, λ the largest eigenvalue of a_ij"));
+            columns.push(column(
+                "extinction_angle_deg",
+                "deg",
+                "χ = ½ atan2(2a_12, a_22 − a_11): from the flow's axis 2 to the axis of a_ij in the plane of 1 and 2",
+            ));
+        }
+        columns
     }
 
-    /// A table of values at `at` ≥ 0, ascending doubles in `unit`, followed by the steady values at the time ∞ if
-    /// requested.
+    /// A table of values at `at` ≥ 0, ascending doubles in `unit` (seconds if there are several flows), followed by the
+    /// steady values at the time ∞ if requested.
     ///
     /// Each value is rounded to as many decimals as its stated error allows, eleven at most.
     pub fn table(&self, at: &[f64], unit: Unit) -> Result<Table, NoValue> {
         if at.iter().any(|time| *time < 0.0) {
             return Err(NoValue::Past);
         }
-        let rods = self.rods();
-        let mut rows = Vec::new();
-        let heads = at.iter().map(|time| times(&self.motion, &Bits(64).of(*time), unit));
-        let heads = heads.collect::<Result<Vec<_>, _>>()?;
+        let heads = at.iter().map(|time| self.head(*time, unit)).collect::<Result<Vec<_>, _>>()?;
         let seconds: Vec<f64> = heads.iter().filter_map(|head| head[0]).collect();
-        let all = diffusion::at(&rods, self.start, &seconds).map_err(NoValue::Diffusion)?;
-        for (mut head, means) in heads.into_iter().zip(&all) {
+        let all = self.over_aspect_ratios(|flows| diffusion::through(flows, self.start, &seconds));
+        let mut rows = Vec::new();
+        for (mut head, means) in heads.into_iter().zip(&all.map_err(NoValue::Diffusion)?) {
             head.extend(self.values(means));
             rows.push(head);
         }
         if self.steady {
-            let means = diffusion::steady(&rods).map_err(NoValue::Steady)?;
-            let period = self.motion.couette().map(|_| f64::INFINITY);
-            let strains = diffusion::strain_rate_per_s(self.motion.gradient_per_s) > 0.0;
+            let of = |flows: &[FlowStep]| Ok(vec![diffusion::steady(&flows[flows.len() - 1].motion)?]);
+            let means = self.over_aspect_ratios(of).map_err(NoValue::Steady)?;
+            let motion = self.last();
+            let period = motion.couette().map(|_| f64::INFINITY);
+            let strains = strain_rate_per_s(motion.gradient_per_s) > 0.0;
             let mut row = vec![Some(f64::INFINITY), period, Some(if strains { f64::INFINITY } else { 0.0 })];
-            row.extend(self.values(&means));
+            row.extend(self.values(&means[0]));
             rows.push(row);
         }
         Ok(Table { columns: self.columns(), rows })
     }
 
-    fn rods(&self) -> diffusion::Motion {
-        diffusion::Motion::diffusing(self.motion.gradient_per_s, self.motion.aspect_ratio, self.diffusivity)
+    /// ψ in 1/sr in directions of the laboratory's axes at `times_s` ≥ 0, ascending, and its stated error.
+    ///
+    /// # Errors
+    ///
+    /// As [`diffusion::densities`]; r_e has no deviation.
+    pub fn densities(&self, times_s: &[f64], directions: &[[f64; 3]]) -> Result<(Vec<Vec<f64>>, f64), NoAnswer> {
+        diffusion::densities(&self.steps(self.aspect_ratio), self.start, times_s, directions)
+    }
+
+    /// The time in s, in periods and as a strain.
+    pub fn head(&self, time: f64, unit: Unit) -> Result<Vec<Option<f64>>, NoValue> {
+        if self.flows.len() == 1 {
+            return times(&self.last(), &Bits(64).of(time), unit);
+        }
+        if unit != Unit::Second {
+            return Err(NoValue::Unit);
+        }
+        let (mut begun, mut strain) = (0.0, 0.0);
+        for (at, (gradient, duration_s)) in self.flows.iter().enumerate() {
+            let end = if at + 1 == self.flows.len() { f64::INFINITY } else { begun + duration_s };
+            strain += strain_rate_per_s(*gradient) * (time.min(end) - begun).max(0.0);
+            begun = end;
+        }
+        Ok(vec![Some(time), None, Some(strain)])
+    }
+
+    /// The last flow.
+    fn last(&self) -> Motion {
+        let gradient_per_s = self.flows.last().map_or([[0.0; 3]; 3], |(gradient, _)| *gradient);
+        Motion { gradient_per_s, aspect_ratio: self.aspect_ratio }
+    }
+
+    fn steps(&self, aspect_ratio: f64) -> Vec<FlowStep> {
+        let step = |(gradient, duration_s): &([[f64; 3]; 3], f64)| {
+            let motion = match self.spread {
+                Spread::CI(c_i) => diffusion::Motion::new(*gradient, aspect_ratio, c_i),
+                Spread::PerS(d_r) => diffusion::Motion::diffusing(*gradient, aspect_ratio, d_r),
+            };
+            FlowStep { motion, duration_s: *duration_s }
+        };
+        self.flows.iter().map(step).collect()
+    }
+
+    /// Means over Gaussian r_e by Gauss and Hermite's rule; means are smooth in r_e. Their error is that of the
+    /// worst node, and the difference to a rule with fewer nodes.
+    fn over_aspect_ratios(
+        &self,
+        of: impl Fn(&[FlowStep]) -> Result<Vec<Means>, NoAnswer>,
+    ) -> Result<Vec<Means>, NoAnswer> {
+        let sd = 0.01 * self.aspect_ratio_sd_percent * self.aspect_ratio;
+        if self.aspect_ratio_sd_percent == 0.0 {
+            return of(&self.steps(self.aspect_ratio));
+        }
+        let rule = |count: usize| {
+            let mut sum: Vec<Means> = Vec::new();
+            for (x, weight) in gauss_hermite(count) {
+                let means = of(&self.steps(self.aspect_ratio + sd * x))?;
+                sum.resize(means.len(), Means::new(&[0.0; MEANS], 0.0));
+                sum.iter_mut().zip(&means).for_each(|(sum, means)| sum.add(weight, means));
+            }
+            Ok::<_, NoAnswer>(sum)
+        };
+        let (fewer, mut all) = (rule(10)?, rule(15)?);
+        for (means, fewer) in all.iter_mut().zip(&fewer) {
+            means.error += means.apart(fewer);
+        }
+        Ok(all)
     }
 
     fn values(&self, means: &Means) -> Vec<Option<f64>> {
         let certain = |x: &f64| Some(means.certain(*x));
-        if self.fourth {
+        let mut values: Vec<_> = if self.fourth {
             means.fourth.iter().map(certain).collect()
         } else {
             means.projections.iter().chain(&means.second).map(certain).collect()
+        };
+        if self.optics {
+            values.extend(optics(means));
         }
+        values
+    }
+}
+
+/// The order parameter and the extinction angle in degrees; `None` for the angle where the plane of axes 1 and 2 has no
+/// axis.
+fn optics(means: &Means) -> [Option<f64>; 2] {
+    let [a11, a22, a33, a12, a13, a23] = means.second;
+    let a = Matrix3::new(a11, a12, a13, a12, a22, a23, a13, a23, a33);
+    let order = 1.5 * a.symmetric_eigenvalues().max() - 0.5;
+    let anisotropy = (a22 - a11).hypot(2.0 * a12);
+    let angle_deg = (0.5 * (2.0 * a12).atan2(a22 - a11)).to_degrees();
+    // An eigenvalue is off by three times the error of a component at most, an angle by that over the anisotropy.
+    let with = |factor: f64, value: f64| Means { error: factor * means.error.max(1e-12), ..*means }.certain(value);
+    let is_known = anisotropy > 1e3 * means.error.max(1e-12);
+    [Some(with(4.5, order)), is_known.then(|| with(90.0 / anisotropy, angle_deg))]
+}
+
+/// Nodes and weights of the mean over a Gaussian of mean 0 and deviation 1: eigenvalues of the matrix of the
+/// recursion of Hermite's polynomials (Golub & Welsch 1969).
+fn gauss_hermite(count: usize) -> Vec<(f64, f64)> {
+    let matrix = DMatrix::from_fn(count, count, |i, j| if i.abs_diff(j) == 1 { (i.max(j) as f64).sqrt() } else { 0.0 });
+    let eigen = matrix.symmetric_eigen();
+    let node = |(x, vector): (&f64, nalgebra::DVectorView<f64>)| (*x, vector[0] * vector[0]);
+    eigen.eigenvalues.iter().zip(eigen.eigenvectors.column_iter()).map(node).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Moments of a Gaussian: 1, 0, 1, 0, 3, and 945 of degree 10; the rule of 15 nodes is exact up to degree 29.
+    #[test]
+    fn moments_of_a_gaussian_are_exact() {
+        for (count, power, due) in
+            [(15, 0, 1.0), (15, 1, 0.0), (15, 2, 1.0), (15, 4, 3.0), (15, 10, 945.0), (10, 4, 3.0)]
+        {
+            let sum: f64 = gauss_hermite(count).into_iter().map(|(x, weight)| weight * x.powi(power)).sum();
+            assert!((sum - due).abs() < 1e-10 * due.max(1.0), "{power}: {sum}");
+        }
+        assert!(gauss_hermite(15).iter().all(|(x, _)| x.abs() * WIDEST_PERCENT < 100.0));
+    }
+
+    /// tan 2χ = 2a₁₂/(a₂₂ − a₁₁); 45° where a weak flow begins; S of a Bingham density along axis 2.
+    #[test]
+    fn the_extinction_angle_and_the_order_parameter_are_those_of_the_tensor() {
+        let of = |second: [f64; 6]| optics(&Means { second, error: 1e-13, ..Means::new(&[0.0; MEANS], 0.0) });
+        let third = 1.0 / 3.0;
+        assert_eq!(of([third, third, third, 1e-3, 0.0, 0.0])[1], Some(45.0));
+        assert_eq!(of([0.1, 0.8, 0.1, 0.0, 0.0, 0.0]), [Some(0.7), Some(0.0)]);
+        assert_eq!(of([0.2, 0.2, 0.6, 0.0, 0.0, 0.0]), [Some(0.4), None]);
+        let [order, angle] = of([0.2, 0.5, 0.3, -0.1, 0.0, 0.0]).map(Option::unwrap);
+        assert!((2.0 * angle.to_radians()).tan() + 2.0 / 3.0 < 1e-9 && angle < 0.0);
+        assert!((order - (1.5 * (0.35 + 0.0325f64.sqrt()) - 0.5)).abs() < 1e-9);
+    }
+
+    /// The mean over r_e by the trapezoid rule; and a small deviation changes it by ½σ² of the second derivative.
+    #[test]
+    fn means_over_aspect_ratios_are_those_of_another_rule() {
+        let couette = [[0.0; 3], [1.0, 0.0, 0.0], [0.0; 3]];
+        let rods = |aspect_ratio: f64, sd: f64| Diffusing {
+            aspect_ratio,
+            aspect_ratio_sd_percent: sd,
+            flows: vec![(couette, f64::INFINITY)],
+            spread: Spread::PerS(0.1),
+            start: Start::Isotropic,
+            fourth: false,
+            optics: false,
+            steady: false,
+        };
+        let a22 = |rods: &Diffusing| rods.table(&[3.0], Unit::Second).unwrap().rows[0][7].unwrap();
+        let found = a22(&rods(3.0, 10.0));
+        let nodes = (-160..=160).map(|k| f64::from(k) * 0.05);
+        let weighted = nodes.map(|x| ((-0.5 * x * x).exp(), x)).map(|(w, x)| (w, w * a22(&rods(3.0 + 0.3 * x, 0.0))));
+        let (weight, sum) = weighted.fold((0.0, 0.0), |(a, b), (w, value)| (a + w, b + value));
+        assert!((found - sum / weight).abs() < 2e-11, "{found} {}", sum / weight);
+        assert!((found - a22(&rods(3.0, 0.0))).abs() > 1e-4);
     }
 }

@@ -19,26 +19,30 @@ def reference(
     aspect_ratio: float,
     *,
     times: ArrayLike | tuple[float, float, int] | None = None,
-    start: str | tuple[float, float] = "isotropic",
+    start: str | Sequence[float] = "isotropic",
     unit: str | None = None,
     shear_rate_per_s: float | None = None,
     gradient_per_s: ArrayLike | None = None,
     aspect_ratio_sd_percent: float = 0.0,
     c_i: float | None = None,
     d_r_per_s: float | None = None,
+    steps: Sequence[tuple[float, ArrayLike]] | None = None,
     steady: bool = False,
     fourth: bool = False,
+    optics: bool = False,
 ) -> dict[str, NDArray[np.float64]]:
     """Correctly rounded values of a free rod, or of means over isotropic ones: the columns of ``shearbed reference``.
 
     ``times`` are a list or an array, or, as a tuple, ``(first, last, count)`` for evenly spaced ones, in ``unit``:
     ``"period"``, ``"strain"`` or ``"s"``; without it periods, and strain for ``aspect_ratio=inf``. ``start`` is
-    ``"isotropic"``, ``"planar"`` or one rod's angles (phi, theta) in degrees. A value without a meaning, as t/T in a
+    ``"isotropic"``, ``"planar"``, one rod's angles (phi, theta) in degrees, or with diffusion (a11, a22, a33, a12, a13,
+    a23) of a density of Bingham. A value without a meaning, as t/T in a
     flow without a period, is NaN.
 
     ``c_i`` are rods with rotary diffusion D_r = c_i times the rate of strain (Folgar & Tucker), ``d_r_per_s`` those with
     that D_r, from the exact distribution; ``steady=True`` adds its steady state as a last row at the time inf.
-    ``fourth=True`` gives a_ijkl.
+    ``fourth=True`` gives a_ijkl, ``optics=True`` adds the order parameter and the extinction angle. ``steps`` are flows
+    one after another, each (duration in s, shear rate or 3 × 3 gradient in 1/s); times are then in s.
     """
     words = ["reference", "--aspect-ratio", repr(float(aspect_ratio))]
     order: NDArray[np.intp] | None = None
@@ -62,8 +66,12 @@ def reference(
         words += ["--c-i", repr(float(c_i))]
     if d_r_per_s is not None:
         words += ["--d-r-per-s", repr(float(d_r_per_s))]
-    words += [flag for flag, asked in (("--steady", steady), ("--fourth", fourth)) if asked]
+    words += [flag for flag, asked in (("--steady", steady), ("--fourth", fourth), ("--optics", optics)) if asked]
     with tempfile.TemporaryDirectory(prefix="shearbed-") as folder:
+        if steps is not None:
+            path = Path(folder, "steps.csv")
+            path.write_text(_flows(steps))
+            words += ["--steps", str(path)]
         call([*words, "--out", str(Path(folder, "reference.csv"))], folder=folder)
         found = columns(Path(folder, "reference.csv"))
     if order is None:
@@ -81,3 +89,14 @@ def call(words: Sequence[str], *, folder: str = "", allowed: Sequence[int] = (0,
         said = said.replace(os.path.join(folder, ""), "") if folder else said
         raise (RuntimeError if code == 101 else ValueError)(said)
     return code
+
+
+def _flows(steps: Sequence[tuple[float, ArrayLike]]) -> str:
+    """The CSV of flows that ``shearbed reference --steps`` reads."""
+    lines = ["duration_s," + ",".join(f"l{i}{j}" for i in (1, 2, 3) for j in (1, 2, 3))]
+    for duration_s, flow in steps:
+        gradient = np.asarray(flow, dtype=float)
+        if gradient.ndim == 0:
+            gradient = np.array([[0, 0, 0], [gradient, 0, 0], [0, 0, 0]], dtype=float)
+        lines.append(",".join(repr(float(value)) for value in (duration_s, *gradient.reshape(9))))
+    return "\n".join(lines) + "\n"

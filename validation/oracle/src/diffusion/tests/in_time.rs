@@ -1,6 +1,7 @@
 //! Tests of densities in time: diffusion alone, free rods, the equation of the moments, single rods.
 
 use super::*;
+use crate::diffusion::bingham;
 use crate::reference::big::{Bits, double};
 use crate::reference::isotropic::Covariance;
 use crate::reference::motion::{Motion as Free, Unit};
@@ -128,4 +129,28 @@ fn late_times_are_the_steady_ones() {
     let settled = steady(&motion).unwrap();
     assert!(off(&last[0].fourth, &settled.fourth) < 1e-7 && off(&last[0].fourth, &settled.fourth) > 1e-10);
     assert!(off(&last[1].fourth, &settled.fourth) < 1e-13);
+}
+
+/// The density of Bingham has the tensor that it is made for, and in extension with K = ΛD/2D_r it stays.
+#[test]
+fn a_start_of_bingham_has_its_tensor() {
+    for a in [[0.2, 0.5, 0.3, 0.0, 0.0, 0.0], [0.4, 0.35, 0.25, 0.1, -0.05, 0.02], [0.06, 0.84, 0.1, 0.02, 0.0, 0.01]] {
+        let start = Start::Bingham(bingham(a).unwrap());
+        let motion = Motion::new(ASKEW, 3.0, 0.1);
+        let found = at(&motion, start, &[0.0, 0.5]).unwrap();
+        assert!(off(&found[0].second, &a) < 1e-13, "{a:?}: {:?}", found[0].second);
+        assert!(off(&found[1].second, &a) > 1e-2);
+    }
+    let l = [[-0.3, 0.0, 0.0], [0.0, 0.4, 0.0], [0.0, 0.0, -0.1]];
+    let motion = Motion::diffusing(l, 3.0, 0.1);
+    let k = motion.strain / (2.0 * motion.diffusivity);
+    let of = |by: f64| Start::Bingham(std::array::from_fn(|i| std::array::from_fn(|j| by * k[(i, j)])));
+    let [begun, after] = [0, 1].map(|at_time| at(&motion, of(1.0), &[0.0, 3.0]).unwrap()[at_time]);
+    assert!(begun.apart(&after) < 1e-12, "{:e}", begun.apart(&after));
+    let [begun, after] = [0, 1].map(|at_time| at(&motion, of(1.1), &[0.0, 3.0]).unwrap()[at_time]);
+    assert!(begun.apart(&after) > 1e-3);
+    // No density has a negative eigenvalue, and one too narrow is not found.
+    for least in [-0.1, 0.0, 1e-5] {
+        assert!(bingham([least, 0.5, 0.5 - least, 0.0, 0.0, 0.0]).is_err(), "{least}");
+    }
 }

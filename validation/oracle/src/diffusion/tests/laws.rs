@@ -4,7 +4,7 @@
 
 use super::*;
 use crate::diffusion::frame::Frame;
-use crate::diffusion::march::Accuracy;
+use crate::diffusion::march::{Accuracy, Read};
 use crate::diffusion::solution;
 use nalgebra::{Rotation3, SymmetricEigen, Unit, Vector3};
 use proptest::prelude::*;
@@ -217,8 +217,8 @@ fn every_law_is_broken_by_a_mistake() {
         ),
         ("the harmonics' axes", askew, "turned axes turn the answer", |rods| {
             let frame = Frame { axes: Matrix3::identity(), ..Frame::of(&motion(rods)) };
-            let found =
-                solution(&frame, Start::Isotropic, &[rods.time], Accuracy { tail: 1e-12, step: 4.0, most: usize::MAX });
+            let accuracy = Accuracy { tail: 1e-12, step: 4.0, most: usize::MAX };
+            let found = solution(&[(frame, 0.0)], Start::Isotropic, &[rods.time], &Read::Means, accuracy);
             found.ok().map(|means| Means::new(&means[0], 1e-12))
         }),
         ("D_r = C_I", askew, "8 G at t/8 is G at t", |rods| {

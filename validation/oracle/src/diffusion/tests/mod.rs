@@ -1,5 +1,6 @@
 //! Each check is a function of the model that it judges, and fails for the right model with a mistake in it.
 
+mod flows;
 mod grid;
 mod in_time;
 mod laws;

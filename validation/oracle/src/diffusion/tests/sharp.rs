@@ -10,7 +10,7 @@ const TIMES: [f64; 4] = [0.0, 0.01, 0.1, 1.0];
 
 /// a_ij and a_ijkl of a start at rest: the parts of degree 0, 2 and 4 decay as e^{−l(l+1)D_r t}. Degrees
 /// 0 and 2 of a_ijkl are the sum of (δ_ij a_kl + a_ij δ_kl)/7 − δ_ij δ_kl/35 over the three pairings.
-fn at_rest(second: &Matrix3<f64>, fourth: impl Fn([usize; 4]) -> f64, d_t: f64) -> ([f64; 6], [f64; 15]) {
+pub(super) fn at_rest(second: &Matrix3<f64>, fourth: impl Fn([usize; 4]) -> f64, d_t: f64) -> ([f64; 6], [f64; 15]) {
     let (two, four) = ((-6.0 * d_t).exp(), (-20.0 * d_t).exp());
     let one = |i: usize, j: usize| f64::from(u8::from(i == j));
     let now = |i: usize, j: usize| one(i, j) / 3.0 + (second[(i, j)] - one(i, j) / 3.0) * two;
