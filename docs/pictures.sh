@@ -9,6 +9,8 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cd "$work"
 
+if command -v python3 >/dev/null; then python3 "$ROOT/docs/diagrams.py" "$out"; fi
+
 shearbed run fig4-n50 --replicas 400 --out fig4 --quiet
 cp fig4/projections.svg "$out/fig4-n50.svg"
 
@@ -38,6 +40,9 @@ moving() { shearbed run fig4-n50 --set time.periods=2 --out "$1" "${@:2}" --quie
 moving one --replicas 1 --set output.rods_every=1
 moving many --replicas 400
 python3 "$ROOT/docs/moving.py" one/rods.csv many/projections.csv >"$out/rods.svg"
+
+shearbed bench --case re11.6 --out rk --quiet
+cp rk/orders.svg "$out/orders.svg"
 
 scene fitting
 shearbed run cell.toml --set interaction.alpha=0.8 --replicas 10 --seed 2024 --out truth --quiet
