@@ -137,7 +137,7 @@ pub(super) fn reference(args: &Args) -> Result<(), Failure> {
                     output::may_write(out, text.as_bytes(), args.force)?;
                 }
                 write(path, density, args.force)?;
-                complain(&format!("note: {}: ψ in 1/sr, to within {error:.0e}\n", path.shown()));
+                complain(&format!("note: {}: ψ in 1/sr, to within {:.0e}\n", path.shown(), error.max(5e-12)));
             }
             text
         }

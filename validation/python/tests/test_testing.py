@@ -165,3 +165,14 @@ def test_a_plot_names_what_it_shows() -> None:
     assert results.plot("x1").get_ylabel() == results.labels["projections"]
     with pytest.raises(AttributeError, match="x9: this run has the channels x1"):
         results.plot("x9")
+
+
+def test_reference_follows_flows_one_after_another() -> None:
+    steps = [(3.0, 1.0), (1.0, 0.0), (9.0, [[0, 0, 0], [-1, 0, 0], [0, 0, 0]])]
+    values = shearbed.reference(10, d_r_per_s=0.1, steps=steps, times=[3, 4], optics=True)
+    shares = values["a22"] - 1 / 3
+    assert shares[1] / shares[0] == pytest.approx(np.exp(-0.6), abs=1e-10)
+    tangent = 2 * values["a12"] / (values["a22"] - values["a11"])
+    assert np.tan(2 * np.radians(values["extinction_angle_deg"])) == pytest.approx(tangent, abs=1e-8)
+    start = shearbed.reference(10, d_r_per_s=0.1, start=(0.4, 0.5, 0.1, 0.05, 0, 0), times=[0])
+    assert start["a12"][0] == 0.05 and start["a33"][0] == 0.1
