@@ -2,14 +2,8 @@
 
 use super::Failure;
 use shearbed_validation::cases;
+use shearbed_validation::input::scenes::near;
 use shearbed_validation::judge::case::Case;
-
-/// The largest number of names that an error suggests.
-const MOST_SUGGESTED: usize = 10;
-
-/// The least similarity, by Jaro and Winkler, of a suggested name: unrelated names of cases have a similarity of about
-/// 0.5.
-const NEAR: f64 = 0.7;
 
 /// The cases with these names and tags in the order of the registry; all cases if both lists are empty.
 pub(super) fn chosen(names: &[String], tags: &[String]) -> Result<Vec<Case>, Failure> {
@@ -39,10 +33,7 @@ const LIST: &str = "shearbed validate --list";
 
 /// The error for a word after a flag that is none of the `known` ones, all of which `list` prints.
 pub(super) fn unknown(flag: &str, word: &str, what: &str, known: &[String], list: &str) -> Failure {
-    let mut near: Vec<_> = known.iter().map(|name| (strsim::jaro_winkler(word, name), name)).collect();
-    near.retain(|(likeness, _)| *likeness >= NEAR);
-    near.sort_by(|a, b| b.0.total_cmp(&a.0));
-    let near: Vec<_> = near.iter().take(MOST_SUGGESTED).map(|(_, name)| name.as_str()).collect();
+    let near = near(word, known.iter().map(String::as_str));
     let suggested = match near.split_first() {
         None => ".".to_owned(),
         Some((nearest, [])) => format!("; did you mean {nearest}?"),

@@ -17,6 +17,7 @@ mod facts;
 mod finished;
 mod fit;
 mod grade;
+mod grouped;
 mod handed_out;
 mod interrupt;
 mod manual;
@@ -59,10 +60,10 @@ use threads::{Threads, on_threads};
 
 /// Rigid slender rods in a sheared viscous liquid, after Lee & Springer (1982).
 #[derive(Parser)]
-#[command(name = "shearbed", version, arg_required_else_help = true)]
+#[command(name = "shearbed", version, arg_required_else_help = true, help_template = grouped::help())]
 #[command(
     after_help = "Exit codes: 0 all well, 1 a case failed or a target was not reached, 2 bad input or usage, or a run \
-        that stopped."
+        that stopped. The manual: docs/src/README.md of the sources."
 )]
 struct Cli {
     #[command(subcommand)]

@@ -159,7 +159,7 @@ fn read(path: &Path) -> Result<String, Failure> {
 }
 
 fn built_in_names(name: &str) -> String {
-    let close = scenes::close_to(name);
+    let close = scenes::near(name, scenes::ALL.iter().map(|scene| scene.name));
     let close = if close.is_empty() { String::new() } else { format!(" (close names: {})", close.join(", ")) };
     format!("; nor is it a built-in scene{close}: `shearbed scenes` lists them")
 }

@@ -52,15 +52,13 @@ pub fn scene(name: &str) -> Option<Scene> {
     find(name)?.scene().ok()
 }
 
-/// Up to three names of built-in scenes of which `name` may be a misspelling, the closest first.
-pub fn close_to(name: &str) -> Vec<&'static str> {
-    let mut close: Vec<_> = ALL
-        .iter()
-        .map(|scene| (strsim::jaro_winkler(name, scene.name), scene.name))
-        .filter(|(closeness, _)| *closeness > 0.85)
-        .collect();
-    close.sort_by(|a, b| b.0.total_cmp(&a.0));
-    close.into_iter().take(3).map(|(_, name)| name).collect()
+/// Up to three of these names of which `word` may be a misspelling, the closest first.
+pub fn near<'a>(word: &str, names: impl Iterator<Item = &'a str>) -> Vec<&'a str> {
+    let likeness = |name: &&str| strsim::jaro_winkler(word, name);
+    let mut close: Vec<_> = names.filter(|name| likeness(name) > 0.85).collect();
+    close.sort_by(|a, b| likeness(b).total_cmp(&likeness(a)));
+    close.truncate(3);
+    close
 }
 
 #[cfg(test)]
@@ -113,6 +111,7 @@ mod tests {
 
     #[test]
     fn a_misspelt_name_finds_the_close_ones() {
+        let close_to = |word| near(word, ALL.iter().map(|scene| scene.name));
         assert_eq!(close_to("fig4n50")[0], "fig4-n50");
         assert_eq!(close_to("extention"), ["extension"]);
         assert!(close_to("rods").is_empty());
