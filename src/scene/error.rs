@@ -10,6 +10,9 @@
 /// let scene = Scene { particles: Particles { count: 0, ..Particles::default() }, ..Scene::default() };
 /// let Err(Error::Scene(invalid)) = Plan::new(&scene) else { panic!("no rods") };
 /// assert_eq!((invalid[0].key, invalid[0].value.as_deref()), ("particles.count", Some("0")));
+///
+/// let stopped = Error::NonFinite { rod: 7, step: 41, seed: 3, replica: 2, cause: "an arm of 0".into() };
+/// assert_eq!(stopped.to_string(), "rod 7 would become non-finite in step 41 of replica 2, seed 3: an arm of 0");
 /// ```
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]

@@ -92,6 +92,8 @@ mod tests {
         };
         let status = "VmPeak:\t    90 kB\nVmSize:\t    10 kB\nVmData:\t    4 kB\n";
         let kb = 1024;
+        assert_eq!(number_of("MemTotal: 24 kB\nMemAvailable:   17 kB\n", "MemAvailable:"), Some(17 * kb));
+        assert_eq!(number_of("MemTotal: 24 kB", "MemAvailable:"), None);
         assert_eq!(of_limits(&limits("unlimited", "unlimited"), status), None);
         assert_eq!(of_limits(&limits("102400", "unlimited"), status), Some(90 * kb));
         assert_eq!(of_limits(&limits("102400", "20480"), status), Some(16 * kb));
