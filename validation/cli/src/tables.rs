@@ -1,13 +1,14 @@
 //! Results as tables: CSV for files, and a short one for the terminal.
 
 use shearbed::observable::Channel;
+use shearbed::plan::Elapsed;
 use shearbed::run::ensemble::{Column, Series};
 use shearbed::{Plan, Results};
+use shearbed_validation::files::csv::written;
 
 /// The CSV file of an observable: the time, also in s and as strain, then each channel with its standard error. Every
 /// number is the shortest text that reads back as the same bits.
 pub(super) fn csv(results: &Results, series: &Series) -> Result<String, String> {
-    let mut writer = csv::Writer::from_writer(Vec::new());
     // The scene's own time first.
     let names: &[_] = match results.time_name {
         "strain" => &["strain", "time_s"],
@@ -18,20 +19,19 @@ pub(super) fn csv(results: &Results, series: &Series) -> Result<String, String> 
     for channel in &series.columns {
         header.extend([channel.name.clone(), format!("{}_se", channel.name)]);
     }
-    writer.write_record(header).map_err(|error| error.to_string())?;
-    for (k, (time, elapsed)) in results.times.iter().zip(&results.elapsed).enumerate() {
+    let row = |(k, (time, elapsed)): (usize, (&f64, &Elapsed))| -> Vec<f64> {
         let of_name = |name: &&str| match *name {
             name if name == results.time_name => *time,
             "time_s" => elapsed.seconds,
             _ => elapsed.strain,
         };
-        let times = names.iter().map(of_name);
         let values = series.columns.iter().flat_map(|channel| [channel.mean[k], channel.se[k]]);
-        let row: Vec<f64> = times.chain(values).collect();
-        writer.serialize(row).map_err(|error| error.to_string())?;
-    }
-    let bytes = writer.into_inner().map_err(|error| error.to_string())?;
-    String::from_utf8(bytes).map_err(|error| error.to_string())
+        names.iter().map(of_name).chain(values).collect()
+    };
+    written(|table| {
+        table.write_record(header)?;
+        results.times.iter().zip(&results.elapsed).enumerate().try_for_each(|output| table.serialize(row(output)))
+    })
 }
 
 /// The largest number of bytes of the table and of the pictures of each observable.

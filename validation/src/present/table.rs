@@ -3,6 +3,7 @@
 #[cfg(test)]
 mod tests;
 
+use crate::files::csv::written;
 use crate::files::text::cell;
 use crate::judge::statistics::{Estimate, Sample};
 use crate::present::markup;
@@ -211,24 +212,12 @@ pub fn columns_csv<R>(
 /// records. Every number is the shortest text that reads back as the same bits; missing values are empty, and a text
 /// that a spreadsheet would treat as a formula has an apostrophe before it.
 pub fn rows_csv<R: Serialize + Default>(records: impl IntoIterator<Item = R>) -> Result<String, String> {
-    let mut plain = csv::Writer::from_writer(Vec::new());
     // The heads are written with the first record, which is dropped again.
-    for record in std::iter::once(R::default()).chain(records) {
-        plain.serialize(record).map_err(|error| error.to_string())?;
-    }
-    let plain = plain.into_inner().map_err(|error| error.to_string())?;
-    let mut safe = csv::Writer::from_writer(Vec::new());
-    let mut rows = csv::ReaderBuilder::new().has_headers(false).from_reader(&plain[..]).into_records();
-    for row in rows.next().into_iter().chain(rows.skip(1)) {
-        let row = row.map_err(|error| error.to_string())?;
-        safe.write_record(row.iter().map(cell)).map_err(|error| error.to_string())?;
-    }
-    text_of(safe)
-}
-
-fn text_of(writer: csv::Writer<Vec<u8>>) -> Result<String, String> {
-    let bytes = writer.into_inner().map_err(|error| error.to_string())?;
-    String::from_utf8(bytes).map_err(|error| error.to_string())
+    let mut all = std::iter::once(R::default()).chain(records);
+    let plain = written(|table| all.try_for_each(|record| table.serialize(record)))?;
+    let mut rows = csv::ReaderBuilder::new().has_headers(false).from_reader(plain.as_bytes()).into_records();
+    let mut kept = rows.next().into_iter().chain(rows.skip(1));
+    written(|table| kept.try_for_each(|row| table.write_record(row?.iter().map(cell))))
 }
 
 /// A table of texts.
@@ -301,13 +290,10 @@ impl ReportTable {
             Datum::Text(text) => Datum::Text(cell(text)),
             other => other.clone(),
         };
-        let mut writer = csv::Writer::from_writer(Vec::new());
-        writer.write_record(self.heads.iter().map(|head| cell(head).to_string())).map_err(|error| error.to_string())?;
-        for row in &self.data {
-            let row: Vec<_> = row.iter().map(safe).collect();
-            writer.serialize(row).map_err(|error| error.to_string())?;
-        }
-        text_of(writer)
+        written(|table| {
+            table.write_record(self.heads.iter().map(|head| cell(head)))?;
+            self.data.iter().try_for_each(|row| table.serialize(row.iter().map(safe).collect::<Vec<_>>()))
+        })
     }
 
     /// The table as plain text: title, columns of even width, and caption.

@@ -33,9 +33,18 @@ pub const FINITE: &str = "a finite number with a decimal point";
 ///
 /// Rows with different numbers of cells.
 pub fn text(rows: &[Vec<String>]) -> Result<String, String> {
-    let mut writer = csv::Writer::from_writer(Vec::new());
-    rows.iter().try_for_each(|row| writer.write_record(row)).map_err(|error| error.to_string())?;
-    let bytes = writer.into_inner().map_err(|error| error.to_string())?;
+    written(|table| rows.iter().try_for_each(|row| table.write_record(row)))
+}
+
+/// The text of a table that `write` fills.
+///
+/// # Errors
+///
+/// Rows with different numbers of cells.
+pub fn written(write: impl FnOnce(&mut csv::Writer<Vec<u8>>) -> csv::Result<()>) -> Result<String, String> {
+    let mut table = csv::Writer::from_writer(Vec::new());
+    write(&mut table).map_err(|error| error.to_string())?;
+    let bytes = table.into_inner().map_err(|error| error.to_string())?;
     String::from_utf8(bytes).map_err(|error| error.to_string())
 }
 

@@ -1,6 +1,7 @@
 //! The curves and points of a figure as a table.
 
 use super::ReportFigure;
+use crate::files::csv::written;
 use crate::files::text::cell;
 use crate::present::plot::{Figure, Grid};
 use crate::present::table::{columns_csv, words};
@@ -12,20 +13,19 @@ pub(super) fn csv(figure: &ReportFigure) -> Result<String, String> {
     if let Some(grid) = &picture.grid {
         return cells(picture, grid);
     }
-    let mut writer = csv::Writer::from_writer(Vec::new());
-    let header = ["series", &cell(&picture.x_name), &cell(&picture.y_name), "± x", "± y"];
-    writer.write_record(header).map_err(|error| error.to_string())?;
     let curves = picture.curves.iter().map(|c| (&c.label, &c.x, &c.y, None, c.half_band.as_ref()));
     let points = (picture.points.iter()).map(|p| (&p.label, &p.x, &p.y, p.x_error.as_ref(), p.y_error.as_ref()));
-    for (label, x, y, x_half, y_half) in curves.chain(points) {
-        let label = cell(label);
-        for (k, (x, y)) in x.iter().zip(y).enumerate() {
-            let half = |widths: Option<&Vec<f64>>| widths.and_then(|w| w.get(k)).copied();
-            writer.serialize((&label, x, y, half(x_half), half(y_half))).map_err(|error| error.to_string())?;
+    written(|table| {
+        table.write_record(["series", &cell(&picture.x_name), &cell(&picture.y_name), "± x", "± y"])?;
+        for (label, x, y, x_half, y_half) in curves.chain(points) {
+            let label = cell(label);
+            for (k, (x, y)) in x.iter().zip(y).enumerate() {
+                let half = |widths: Option<&Vec<f64>>| widths.and_then(|w| w.get(k)).copied();
+                table.serialize((&label, x, y, half(x_half), half(y_half)))?;
+            }
         }
-    }
-    let bytes = writer.into_inner().map_err(|error| error.to_string())?;
-    String::from_utf8(bytes).map_err(|error| error.to_string())
+        Ok(())
+    })
 }
 
 /// Maps as CSV: a row for each cell, with the class as a number and in words.
