@@ -107,7 +107,8 @@ pub struct SceneProblem {
 }
 
 /// A value of a scene that is not allowed, with its key and what is allowed.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{key}{}: {allowed}", value.as_ref().map_or(" is missing".into(), |value| format!(" = {value} is not allowed")))]
 #[non_exhaustive]
 pub struct Invalid {
     /// The dotted path of the key, such as `particles.count`.
@@ -116,16 +117,6 @@ pub struct Invalid {
     pub value: Option<String>,
     /// The allowed values, in words.
     pub allowed: String,
-}
-
-impl std::fmt::Display for Invalid {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let Self { key, value, allowed } = self;
-        match value {
-            Some(value) => write!(f, "{key} = {value} is not allowed: {allowed}"),
-            None => write!(f, "{key} is missing: {allowed}"),
-        }
-    }
 }
 
 impl Invalid {

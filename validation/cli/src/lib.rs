@@ -49,7 +49,7 @@ use clap::{Parser, Subcommand};
 use serde_json::{Value, json};
 use shearbed_validation::files::output::{self, RECORD, Record, ResultFolder};
 use shearbed_validation::files::text::{Shown, complain};
-use shearbed_validation::files::{FileError, cluster, text};
+use shearbed_validation::files::{cluster, text};
 use shearbed_validation::oracle::reference::big::finite;
 use shearbed_validation::present::plot::Figure;
 use std::ffi::OsString;
@@ -373,20 +373,9 @@ fn whole(least: u64, most: u64) -> impl Fn(&str) -> Result<u64, String> + Clone 
     }
 }
 
-impl From<output::Refused> for Failure {
-    fn from(refused: output::Refused) -> Self {
-        Self::Input(refused.0)
-    }
-}
-
-impl From<FileError> for Failure {
-    fn from(error: FileError) -> Self {
-        Self::Input(error.to_string())
-    }
-}
-
-impl From<output::OutputError> for Failure {
-    fn from(error: output::OutputError) -> Self {
+/// Errors of what the user gave: a scene, a file, a folder.
+impl<E: std::error::Error> From<E> for Failure {
+    fn from(error: E) -> Self {
         Self::Input(error.to_string())
     }
 }

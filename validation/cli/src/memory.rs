@@ -62,7 +62,7 @@ pub(super) fn check_jobs(jobs: &[Job], threads: Option<u64>) -> Result<(), Failu
     for job in jobs {
         let mut scene = job.scene.clone();
         scene.ensemble.replicas = job.replicas;
-        let plan = Plan::new(&scene).map_err(|error| Failure::Input(error.to_string()))?;
+        let plan = Plan::new(&scene)?;
         let at_once = threads.min(job.replicas);
         // Directions are copied for evaluation.
         let copies = at_once * 24 * scene.particles.count as u64;

@@ -69,9 +69,6 @@ pub(super) fn scenes(args: &ScenesArgs) -> Result<(), Failure> {
 }
 
 fn table() -> Result<String, Failure> {
-    let row = |built_in: &scenes::BuiltIn| {
-        let scene = built_in.scene().map_err(|error| Failure::Input(error.to_string()))?;
-        Ok(vec![built_in.name.to_owned(), scene.title])
-    };
+    let row = |built_in: &scenes::BuiltIn| Ok(vec![built_in.name.to_owned(), built_in.scene()?.title]);
     Ok(left_aligned(&scenes::ALL.iter().map(row).collect::<Result<Vec<_>, Failure>>()?))
 }

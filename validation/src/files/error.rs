@@ -1,11 +1,11 @@
 //! An error at a place in a file.
 
 use super::text::Shown;
-use std::fmt;
 use std::path::{Path, PathBuf};
 
 /// The reason why a file is refused: the place, what is wrong, and what is allowed.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{}{}: {message}", path.shown(), numbers([*line, *column]))]
 pub struct FileError {
     /// The file or folder.
     pub path: PathBuf,
@@ -15,6 +15,11 @@ pub struct FileError {
     pub column: u64,
     /// What is wrong, and what is allowed.
     pub message: String,
+}
+
+/// Line and column behind a file's name, such as `:3:1`, as far as they are known.
+fn numbers(place: [u64; 2]) -> String {
+    place.iter().take_while(|number| **number > 0).map(|number| format!(":{number}")).collect()
 }
 
 impl FileError {
@@ -38,15 +43,3 @@ impl FileError {
         Self::whole(path, format!("cannot be read: {error}"))
     }
 }
-
-impl fmt::Display for FileError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}", self.path.shown())?;
-        for place in [self.line, self.column].iter().take_while(|place| **place > 0) {
-            write!(f, ":{place}")?;
-        }
-        write!(f, ": {}", self.message)
-    }
-}
-
-impl std::error::Error for FileError {}

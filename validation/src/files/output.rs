@@ -32,7 +32,8 @@ use std::path::{Path, PathBuf};
 pub type Output = (String, String);
 
 /// The reason why a file or folder could not be written.
-#[derive(Debug)]
+#[derive(Debug, thiserror::Error)]
+#[error("{}: cannot be written: {reason}", path.shown())]
 pub struct OutputError {
     /// The file or folder.
     pub path: PathBuf,
@@ -40,28 +41,15 @@ pub struct OutputError {
     pub reason: io::Error,
 }
 
-impl std::fmt::Display for OutputError {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "{}: cannot be written: {}", self.path.shown(), self.reason)
-    }
-}
-
-impl std::error::Error for OutputError {}
-
 /// The reason why a file or folder was left unchanged: its name, its contents or why it cannot be written, and what to
 /// do.
-#[derive(Debug)]
+#[derive(Debug, thiserror::Error)]
+#[error("{0}")]
 pub struct Refused(pub String);
 
 impl From<OutputError> for Refused {
     fn from(error: OutputError) -> Self {
         Self(error.to_string())
-    }
-}
-
-impl std::fmt::Display for Refused {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(&self.0)
     }
 }
 
