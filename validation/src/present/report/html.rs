@@ -14,10 +14,7 @@ use minijinja::{Environment, UndefinedBehavior};
 use serde_json::{Value as Json, json};
 
 pub(super) fn write(report: &Report) -> Result<String, String> {
-    let mut environment = Environment::new();
-    environment.set_undefined_behavior(UndefinedBehavior::Strict);
     let anchors = Anchors::of(report);
-    environment.add_filter("prose", move |text: &str| Value::from_safe_string(anchors.html(text)));
     let attention =
         (report.cases.iter()).filter(|row| matches!(row.verdict, Verdict::Fail | Verdict::Underpowered)).map(case_link);
     let page = json!({
@@ -40,12 +37,23 @@ pub(super) fn write(report: &Report) -> Result<String, String> {
         "time": seconds(report.summary.seconds),
         "origin": report.origin,
     });
+    rendered("report.html", include_str!("report.html.j2"), &page, move |text: &str| anchors.html(text))
+}
+
+/// A page by its template, in which `prose` typesets texts.
+pub(crate) fn rendered(
+    name: &str,
+    template: &str,
+    page: &Json,
+    prose: impl Fn(&str) -> String + Send + Sync + 'static,
+) -> Result<String, String> {
+    let mut environment = Environment::new();
+    environment.set_undefined_behavior(UndefinedBehavior::Strict);
+    environment.add_filter("prose", move |text: &str| Value::from_safe_string(prose(text)));
     // The name's extension turns escaping on.
-    environment
-        .template_from_named_str("report.html", include_str!("report.html.j2"))
-        .and_then(|template| template.render(Serde(&page)))
-        .map(|page| readable(&page).into_owned())
-        .map_err(|error| format!("cannot write the report: {error}"))
+    let template = environment.template_from_named_str(name, template);
+    let page = template.and_then(|template| template.render(Serde(page)));
+    page.map(|page| readable(&page).into_owned()).map_err(|error| format!("cannot write the report: {error}"))
 }
 
 fn groups(report: &Report) -> Vec<Json> {

@@ -15,6 +15,7 @@ mod sections;
 mod tests;
 
 pub(crate) use formats::digits;
+pub(crate) use html::rendered;
 pub use json::{FORMAT, check};
 pub(crate) use prose::typeset;
 

@@ -1,8 +1,8 @@
 //! The error of an answer against the certified one, and its drifts.
 
 use super::answer::Answer;
+use super::nearness::apart;
 use crate::judge::statistics::worst;
-use crate::methods::integrators::apart_rad;
 use crate::serve::problems::{LoadedProblem, Metric};
 use nalgebra::Vector3;
 use shearbed::model::{jeffery, orientation};
@@ -35,7 +35,10 @@ pub fn compare(loaded: &LoadedProblem, answer: &Answer) -> Compared {
     let names = &loaded.problem.columns[keys..];
     let certified = |row: usize| &loaded.certified.rows[row][keys..];
     let distance = |row: usize| match loaded.problem.metric {
-        Metric::Angle => direction_error(&answer.rows[row], certified(row)),
+        Metric::Angle => {
+            let [found, due] = [&answer.rows[row][..], certified(row)].map(Vector3::from_row_slice);
+            apart(&found, &due, false)
+        }
         Metric::Absolute => worst(answer.rows[row].iter().zip(certified(row)).map(|(a, b)| (a - b).abs())),
         Metric::Relative => relative(names, &answer.rows[row], certified(row)),
         Metric::StandardErrors => standard_errors(names, &answer.rows[row], certified(row)),
@@ -64,12 +67,6 @@ pub fn compare(loaded: &LoadedProblem, answer: &Answer) -> Compared {
         phase_lost_per_period: rate.and_then(|rate| phase_lost(loaded, answer, rate)),
         too_little_data: largest_se.is_nan() || largest_se > enough,
     }
-}
-
-fn direction_error(p: &[f64], certified: &[f64]) -> f64 {
-    let (p, certified) = (Vector3::from_row_slice(p), Vector3::from_row_slice(certified));
-    let length = (p.norm() - 1.0).abs();
-    apart_rad(&p, &certified).max(length)
 }
 
 /// The larger relative error of the rods a and b: the length of the difference over that of the certified columns.

@@ -2,10 +2,7 @@
 
 use super::report::{BUILT_IN, COLUMNS, Column, NOTHING, missing, tables, words};
 use super::{Graded, Report, Verdict};
-use crate::files::text::readable;
-use crate::present::report::{digits, typeset};
-use minijinja::value::Serde;
-use minijinja::{Environment, UndefinedBehavior, Value};
+use crate::present::report::{digits, rendered, typeset};
 use serde_json::{Value as Json, json};
 
 fn shown(number: Option<f64>) -> String {
@@ -26,9 +23,6 @@ fn reasons(graded: &[&Graded]) -> Vec<Json> {
 
 /// The report as an HTML page, with `pictures` as SVG.
 pub fn html(report: &Report, good: bool, pictures: &[&str]) -> Result<String, String> {
-    let mut environment = Environment::new();
-    environment.set_undefined_behavior(UndefinedBehavior::Strict);
-    environment.add_filter("prose", |text: &str| Value::from_safe_string(typeset(text)));
     let mut answered: Vec<&Graded> = report.problems.iter().filter(|g| g.verdict != Verdict::Missing).collect();
     // Failures come first.
     answered.sort_by_key(|graded| graded.verdict == Verdict::Pass);
@@ -52,12 +46,7 @@ pub fn html(report: &Report, good: bool, pictures: &[&str]) -> Result<String, St
         "missing": missing(report),
         "remarks": report.remarks,
     });
-    // The extension of the name turns escaping on.
-    environment
-        .template_from_named_str("grade.html", include_str!("grade.html.j2"))
-        .and_then(|template| template.render(Serde(&page)))
-        .map(|page| readable(&page).into_owned())
-        .map_err(|error| format!("cannot write the report: {error}"))
+    rendered("grade.html", include_str!("grade.html.j2"), &page, typeset)
 }
 
 fn row(graded: &Graded, columns: &[Column]) -> Json {
