@@ -5,6 +5,7 @@ use super::keys::{Keys, document};
 use super::provenance::{Axis, INPUTS, Key, Layout, OBSERVABLES, Projection, Provenance, Time};
 use crate::files::FileError;
 use crate::input::scenes;
+use toml::value::Datetime;
 
 const CALIBRATION: &str = "the values of the axis's reference points, two different numbers at least";
 const UNCERTAINTY: &str = "one standard deviation of what was read off, a number > 0 in the unit of quantity";
@@ -48,20 +49,7 @@ pub(super) fn parse(file: &str, text: &str, source: &Source) -> Result<Provenanc
 
 /// True if the text is a calendar day, as YYYY-MM-DD.
 fn is_day(text: &str) -> bool {
-    let shape = text.chars().map(|c| if c.is_ascii_digit() { '0' } else { c });
-    if !shape.eq("0000-00-00".chars()) {
-        return false;
-    }
-    let number = |from: usize, to: usize| text[from..to].parse::<u32>().unwrap_or_default();
-    let (year, month, day) = (number(0, 4), number(5, 7), number(8, 10));
-    let leap = year % 4 == 0 && (year % 100 != 0 || year % 400 == 0);
-    let days = match month {
-        1 | 3 | 5 | 7 | 8 | 10 | 12 => 31,
-        4 | 6 | 9 | 11 => 30,
-        2 => 28 + u32::from(leap),
-        _ => 0,
-    };
-    (1..=days).contains(&day)
+    text.parse::<Datetime>().is_ok_and(|day| day.date.is_some() && day.time.is_none())
 }
 
 pub(super) fn uncertainty(least: f64, most: f64) -> String {
