@@ -57,14 +57,11 @@ impl FreeMotion {
             for r in particles.extreme_aspect_ratios() {
                 let propagator = general(r);
                 let errors = at_each(scene, &self::spans(scene), |span| {
-                    let (error, of_start) = match start {
-                        Some(start) => {
-                            let (_, error, of_start) = directed(&propagator, &mean, &start, span)?;
-                            (error, of_start)
-                        }
-                        None => (propagator.map_beside(&mean, span)?.1, 0.0),
+                    let error = match start {
+                        Some(start) => directed(&propagator, &mean, &start, span)?.1,
+                        None => ErrorBound::of_motion(propagator.map_beside(&mean, span)?.1),
                     };
-                    Some(((), error, of_start))
+                    Some(((), error))
                 })?;
                 error_rad = error_rad.max(errors.1);
             }
@@ -81,7 +78,7 @@ impl FreeMotion {
             None => {
                 let (maps, error) = at_each(scene, &spans, |span| {
                     let (map, error) = mean.map(span)?;
-                    Some((map, error, 0.0))
+                    Some((map, ErrorBound::of_motion(error)))
                 })?;
                 (Way::Maps(maps), error)
             }
@@ -102,74 +99,86 @@ fn stepped(scene: &Scene, r: f64) -> Option<Propagator> {
     Some(Propagator::of_steps(&flows?, r))
 }
 
-/// The direction of a rod that started along `start`, its error in rad, and the part that comes from rounding the
-/// start; periods in `span` are those of `mean`.
+/// The bound on the error of a direction.
+#[derive(Clone, Copy, Default)]
+pub(crate) struct ErrorBound {
+    pub rad: f64,
+    /// The part that comes from rounding the start, in rad.
+    of_start: f64,
+}
+
+impl ErrorBound {
+    /// The bound for a start without an error.
+    pub fn of_motion(rad: f64) -> Self {
+        Self { rad, of_start: 0.0 }
+    }
+
+    /// Why the error is too large: the rounding of the start, or that of the rates.
+    fn cause(self) -> &'static str {
+        if self.of_start > 0.5 * self.rad {
+            "this flow amplifies the rounding of the start beyond 1e-6 rad"
+        } else {
+            "the flow's rates cancel, or differ, by more than the 32 digits of the computation"
+        }
+    }
+}
+
+/// The direction of a rod that started along `start`; periods in `span` are those of `mean`.
 pub(crate) fn directed(
     propagator: &Propagator,
     mean: &Propagator,
     start: &UnitVector3<f64>,
     span: Span,
-) -> Option<([f64; 3], f64, f64)> {
+) -> Option<([f64; 3], ErrorBound)> {
     let moved = propagator.moved_beside(mean, start, span)?;
-    let rounding = ROUNDING_OF_START * moved.condition;
-    Some((moved.p.into_inner().into(), moved.error + rounding, rounding))
+    let of_start = ROUNDING_OF_START * moved.condition;
+    Some((moved.p.into_inner().into(), ErrorBound { rad: moved.error + of_start, of_start }))
 }
 
-/// `motion` at each span, with the largest error. `motion` returns a value, its error, and the part from rounding the
-/// start.
+/// `motion` at each span, with the largest error in rad.
 fn at_each<T: Send>(
     scene: &Scene,
     spans: &[Span],
-    motion: impl Fn(Span) -> Option<(T, f64, f64)> + Sync,
+    motion: impl Fn(Span) -> Option<(T, ErrorBound)> + Sync,
 ) -> Result<(Vec<T>, f64), Invalid> {
     // Not collected into an option directly: that would hold everything twice.
     let all: Vec<_> = spans.par_iter().map(|&span| motion(span)).collect();
     let all: Option<Vec<_>> = all.into_iter().collect();
     // A scene in periods has been checked to have a period.
     let all = all.unwrap_or_default();
-    let worst = all.iter().map(|(_, error, of_start)| (*error, *of_start));
-    let (error, of_start) =
-        worst.fold((0.0, 0.0), |worst, next| if next.0 > worst.0 || next.0.is_nan() { next } else { worst });
+    let larger = |a: ErrorBound, b: ErrorBound| if b.rad > a.rad || b.rad.is_nan() { b } else { a };
+    let worst = all.iter().map(|(_, error)| *error).fold(ErrorBound::default(), larger);
     // An error of NaN counts as large.
-    if error.is_nan() || error > MAX_ERROR_RAD {
-        return Err(unknown(scene, error, of_start));
+    if worst.rad.is_nan() || worst.rad > MAX_ERROR_RAD {
+        return Err(unknown(scene, worst));
     }
     let mut values: Vec<_> = all.into_iter().map(|(value, ..)| value).collect();
     // The vector reuses the larger allocation of the errors, and would keep it.
     values.shrink_to_fit();
-    Ok((values, error))
+    Ok((values, worst.rad))
 }
 
-fn unknown(scene: &Scene, error: f64, of_start: f64) -> Invalid {
-    let cause = cause(error, of_start);
+fn unknown(scene: &Scene, error: ErrorBound) -> Invalid {
     Invalid::new(
         scene.time.unit.duration_key(),
         scene.time.duration,
         format!(
             "a time after which directions are known to {MAX_ERROR_RAD:e} rad: of rods of r_e = {} in this flow they \
-             are known to {error:.1e} rad only, as {cause}; give a shorter time, another start or other rods",
-            scene.particles.aspect_ratio
+             are known to {:.1e} rad only, as {}; give a shorter time, another start or other rods",
+            scene.particles.aspect_ratio,
+            error.rad,
+            error.cause()
         ),
     )
 }
 
-/// Why the error is too large: the rounding of the start, or that of the rates.
-fn cause(error: f64, of_start: f64) -> &'static str {
-    if of_start > 0.5 * error {
-        "this flow amplifies the rounding of the start beyond 1e-6 rad"
-    } else {
-        "the flow's rates cancel, or differ, by more than the 32 digits of the computation"
-    }
-}
-
-/// The message for a rod of aspect ratio `r` whose direction has the error bound `error` in rad, `of_start` of it from
-/// rounding the start.
-pub(crate) fn refused_direction(r: f64, error: f64, of_start: f64) -> String {
-    let bound = if error.is_finite() { format!("{error:.2e} rad") } else { "infinite".into() };
+/// The message for a rod of aspect ratio `r` whose direction has too large an error.
+pub(crate) fn refused_direction(r: f64, error: ErrorBound) -> String {
+    let bound = if error.rad.is_finite() { format!("{:.2e} rad", error.rad) } else { "infinite".into() };
     format!(
         "the bound on the error of its direction is {bound}, more than the {MAX_ERROR_RAD:e} rad allowed, at r_e = \
          {r}: {}; give a shorter time, another start or other rods",
-        cause(error, of_start)
+        error.cause()
     )
 }
 

@@ -6,7 +6,7 @@ use crate::model::phase::{Phase, nearest_whole};
 use crate::motion::Propagator;
 use crate::observable::Block;
 use crate::observable::fault::Fault;
-use crate::plan::free_motion::{FreeMotion, MAX_ERROR_RAD, Way, directed, propagator, refused_direction};
+use crate::plan::free_motion::{ErrorBound, FreeMotion, MAX_ERROR_RAD, Way, directed, propagator, refused_direction};
 use crate::plan::{Clock, Plan, Stage};
 use crate::scene::step_maps;
 use nalgebra::{Matrix3, UnitVector3, Vector3};
@@ -111,18 +111,16 @@ pub(super) fn turn_free(
             directed(propagator, mean, &UnitVector3::new_unchecked(p.into()), span)
         } else {
             let found = propagator.direction_beside(mean, p, span);
-            found.map(|(end, error)| (end, error, 0.0))
+            found.map(|(end, error)| (end, ErrorBound::of_motion(error)))
         };
-        let (end, error, of_start) = found.unwrap_or(([f64::NAN; 3], f64::INFINITY, 0.0));
-        if error <= MAX_ERROR_RAD {
+        let (end, error) = found.unwrap_or(([f64::NAN; 3], ErrorBound::of_motion(f64::INFINITY)));
+        if error.rad <= MAX_ERROR_RAD {
             return end;
         }
-        unknown.set(unknown.get().or(Some((k, r, error, of_start))));
+        unknown.set(unknown.get().or(Some((k, r, error))));
         [f64::NAN; 3]
     });
-    unknown.get().map_or(Ok(()), |(rod, r, error, of_start)| {
-        Err(Fault { rod: Some(rod), cause: refused_direction(r, error, of_start) })
-    })
+    unknown.get().map_or(Ok(()), |(rod, r, error)| Err(Fault { rod: Some(rod), cause: refused_direction(r, error) }))
 }
 
 /// True if all rods have the same phase at an output: rods of one aspect ratio that take no steps, in plane Couette
