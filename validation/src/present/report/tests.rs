@@ -86,9 +86,16 @@ fn a_command_repeats_the_run() {
 
 #[test]
 fn the_worst_line_is_the_first_of_the_worst_verdict() {
-    let rules = vec![Rule::within(0.9, 1.0, "synthetic"), mean(0.02), mean(0.02)];
-    let row = CaseRow::new(outcome("synthetic", Verdict::Underpowered, rules, &[]), &EFFORT);
-    assert_eq!(row.worst, Some(1));
+    let (passes, fails) = (Rule::within(0.9, 1.0, "synthetic"), Rule::within(1.1, 1.0, "synthetic"));
+    let none = Rule::NoData { supply: "synthetic".into() };
+    for (rules, worst) in [
+        (vec![passes.clone(), mean(0.02), mean(0.02)], 1),
+        (vec![passes, mean(0.02), none.clone()], 2),
+        (vec![none, mean(0.02), fails.clone(), fails], 2),
+    ] {
+        let row = CaseRow::new(outcome("synthetic", Verdict::Underpowered, rules, &[]), &EFFORT);
+        assert_eq!(row.worst, Some(worst));
+    }
 }
 
 /// Numbers are numbers, NaN is null; the worst line of passing evidence is the one nearest to its bound, of failing
