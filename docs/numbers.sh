@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Makes docs/numbers.tsv afresh, and the numbers of the book and the READMEs that are marked as `0.326<!--=fig4.x1-->`. Each row has the
+# Makes docs/numbers.tsv, and the numbers of the book and the READMEs that are marked as `0.326<!--=fig4.x1-->`. Each row has the
 # command that prints its number, run in an empty folder with the program on the PATH and the repository in $ROOT. So are the scripts of
 # docs/numbers/tables, which print the rows of the table that stands before the line `<!--table:NAME-->`.
 # Usage: bash docs/numbers.sh [release]      with `release` also what takes minutes to hours

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Takes the numbers of docs/src/verification/error-rates.md afresh, as for a release: false alarms, intervals of fits, mutated inputs, mutants.
+# Takes the numbers of docs/src/verification/error-rates.md, as for a release: false alarms, intervals of fits, mutated inputs, mutants.
 # What each prints is kept in out/strength. What turned red stands in the tables of the first three; a reader at fault, a
 # mutant that nothing caught end it. Half a day on two cores.
 # Usage: bash validation/strength.sh [SEEDS [SEEDS OF --full [FITS [INPUTS]]]]     (200 20 800 1000000)

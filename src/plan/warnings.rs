@@ -99,7 +99,7 @@ impl Plan {
         ];
         let (name, _, sd) = (drawn.into_iter()).find(|(_, lacks, sd)| own.p.is_some() && *lacks && *sd > 0.0)?;
         Some(format!(
-            "particles.{name}_sd_percent = {sd} draws each rod's {} anew, unrelated to its direction in {file}: to \
+            "particles.{name}_sd_percent = {sd} draws each rod's {} again, unrelated to its direction in {file}: to \
              continue a suspension of unequal rods, give the file that column too, as rods.csv has it",
             name.replace('_', " ")
         ))

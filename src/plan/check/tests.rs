@@ -17,8 +17,8 @@ fn the_widest_spread_is_told_and_a_little_less_is_taken() {
             scene.particles.aspect_ratio_sd_percent = widest * share;
             assert_eq!(crate::Plan::new(&scene).is_ok(), taken, "{mean}: {share}");
         }
-        let told = format!("a number below {widest:.4} with a mean of {mean}: with more,");
-        assert!(refusal(&scene).contains(&told), "{}", refusal(&scene));
+        let expected = format!("a number below {widest:.4} with a mean of {mean}: with more,");
+        assert!(refusal(&scene).contains(&expected), "{}", refusal(&scene));
     }
     let mut scene = Scene::default();
     scene.particles.aspect_ratio = 4.0;
@@ -167,7 +167,7 @@ fn a_volume_fraction_is_the_volume_of_spheroids_over_that_of_the_box() {
         same.interaction.as_mut().unwrap().concentration_per_cm3 = n;
         assert_eq!(same.sides_mm(), scene.sides_mm());
     }
-    for (change, told) in [
+    for (change, expected) in [
         (
             (|scene| scene.interaction = Some(Interaction::default())) as fn(&mut Scene),
             "particles.volume_fraction = 0.002 is not allowed: either it or interaction.concentration_per_cm3, \
@@ -181,7 +181,7 @@ fn a_volume_fraction_is_the_volume_of_spheroids_over_that_of_the_box() {
             "particles.volume_fraction = 0.002 is not allowed: expected a number for which",
         ),
     ] {
-        let told_of = refusal(&scene(change));
-        assert!(told_of.contains(told), "{told_of}");
+        let found = refusal(&scene(change));
+        assert!(found.contains(expected), "{found}");
     }
 }

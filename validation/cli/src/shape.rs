@@ -66,10 +66,8 @@ fn of_period(period_s: f64, period_u: Option<f64>, g: f64) -> Result<(), Failure
     let Some(r) = aspect_ratio_of_period(strain) else {
         return Err(Failure::Input(format!(
             "--period-s {period_s}: GT = {strain:.4} is less than 4π = {OF_SPHERE:.4}, that of a sphere, and all rods \
-                and \
-             discs turn more slowly; a time of at least {} s at {g} 1/s is allowed. T is that of a whole turn: means \
-                and \
-             pictures of a rod repeat with T/2",
+             and discs turn more slowly; a time of at least {} s at {g} 1/s is allowed. T is that of a whole turn: \
+             means and pictures of a rod repeat with T/2",
             rounded(OF_SPHERE / g, 6)
         )));
     };

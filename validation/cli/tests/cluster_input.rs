@@ -1,4 +1,4 @@
-//! Ranks of an MPI job that were given different things: told before anything runs, with the rank and the key. Built
+//! Ranks of an MPI job that were given different things: refused before anything runs, with the rank and the key. Built
 //! with the feature `mpi` only; needs Open MPI's `mpirun`.
 
 #![cfg(feature = "mpi")]
@@ -62,8 +62,8 @@ fn another_input_is_told_before_anything_runs() {
     ] {
         let (code, message) = job(dir.path(), &[root, root, other]);
         assert_eq!(code, Some(2), "{root} / {other}: {message}");
-        let told = format!("error: rank 0 of 3: rank 2 has another input: {key}");
-        assert!(message.contains(&told), "{told}: {message}");
+        let expected = format!("error: rank 0 of 3: rank 2 has another input: {key}");
+        assert!(message.contains(&expected), "{expected}: {message}");
         assert_eq!(message.matches("error: rank").count(), 1, "{message}");
         assert!(!dir.path().join("x").exists(), "{root} / {other}");
     }

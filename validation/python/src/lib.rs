@@ -156,14 +156,14 @@ fn watched(
             let _ = ended.send(());
             results
         });
-        let mut told = 0;
+        let mut shown = 0;
         let mut look = || -> PyResult<()> {
             Python::attach(|py| {
                 py.check_signals()?;
                 let now = done.load(Ordering::Relaxed);
                 match progress {
-                    Some(progress) if now != told => {
-                        told = now;
+                    Some(progress) if now != shown => {
+                        shown = now;
                         progress.call1(py, (now, all)).map(drop)
                     }
                     _ => Ok(()),

@@ -121,10 +121,10 @@ pub fn within(data: &[Datum], emulator: &Emulator, place: &[f64]) -> Option<[Rod
         let rods = Rods::within(data, &of_replica, sets, f64::from(part) / f64::from(PARTS));
         let inverse = (&others + sum(&rods.covariances(data, &of_replica))).cholesky()?;
         let weighted = inverse.solve(&slopes);
-        let told = slopes.tr_mul(&weighted).cholesky()?;
+        let information = slopes.tr_mul(&weighted).cholesky()?;
         let gradient = weighted.tr_mul(&error);
-        let chi_square = error.dot(&inverse.solve(&error)) - gradient.dot(&told.solve(&gradient));
-        let misfit = chi_square + inverse.ln_determinant() + told.ln_determinant();
+        let chi_square = error.dot(&inverse.solve(&error)) - gradient.dot(&information.solve(&gradient));
+        let misfit = chi_square + inverse.ln_determinant() + information.ln_determinant();
         misfit.is_finite().then_some((misfit, rods))
     };
     let parts: Vec<(f64, Rods)> = (0..=PARTS).filter_map(of_part).collect();
@@ -159,11 +159,11 @@ pub fn best(data: &[Datum], emulator: &Emulator, rods: &Rods) -> Option<Best> {
     let slopes = emulator.slopes(&place);
     let inverse = covariance.cholesky()?;
     let weighted = inverse.solve(&slopes);
-    let told = slopes.tr_mul(&weighted);
-    let projector = inverse.inverse() - &weighted * told.clone().cholesky()?.solve(&weighted.transpose());
+    let information = slopes.tr_mul(&weighted);
+    let projector = inverse.inverse() - &weighted * information.clone().cholesky()?.solve(&weighted.transpose());
     // The noise is subtracted, unless the rest is not positive definite.
-    let own = (&told - surface.noise(&place)).cholesky();
-    let solver = own.or_else(|| told.cholesky())?;
+    let own = (&information - surface.noise(&place)).cholesky();
+    let solver = own.or_else(|| information.cholesky())?;
     let influence = solver.solve(&weighted.transpose());
     let mut spread: Vec<_> = (causes.iter()).map(|cause| &influence * cause * influence.transpose()).collect();
     let of_replica = emulator.covariance_of_replica(&place);

@@ -77,7 +77,7 @@ impl Checkpoint {
     /// The error that this file cannot be used, with the reason and what to do next.
     pub fn refused(&self, why: &str) -> Refused {
         Refused(format!(
-            "--checkpoint {}: {why}; give another name, or remove it to start anew; nothing was changed",
+            "--checkpoint {}: {why}; give another name, or remove it to start over; nothing was changed",
             self.path().shown()
         ))
     }

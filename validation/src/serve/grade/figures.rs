@@ -32,10 +32,10 @@ pub fn steps(problems: &[LoadedProblem], graded: &[Graded]) -> Option<Figure> {
     let errors = drawn(graded);
     let counts: Vec<_> = errors.iter().map(|(steps, _)| *steps).collect();
     let mut curves = vec![curve(PROGRAM.to_owned(), &errors)];
-    for subject in crate::methods::integrators::own() {
-        if matches!(subject.theory, Theory::Order(_)) {
-            let errors = own_errors(&subject, loaded, rate, &counts);
-            curves.push(curve(subject.name.clone(), &errors));
+    for integrator in crate::methods::integrators::own() {
+        if matches!(integrator.theory, Theory::Order(_)) {
+            let errors = own_errors(&integrator, loaded, rate, &counts);
+            curves.push(curve(integrator.name.clone(), &errors));
         }
     }
     Some(Figure {
@@ -70,14 +70,15 @@ fn couette_per_s(loaded: &LoadedProblem) -> Option<f64> {
 }
 
 /// The worst rod's error at the last time, for each number of steps.
-fn own_errors(subject: &Integrator, loaded: &LoadedProblem, rate: f64, counts: &[u64]) -> Vec<(u64, f64)> {
+fn own_errors(integrator: &Integrator, loaded: &LoadedProblem, rate: f64, counts: &[u64]) -> Vec<(u64, f64)> {
     let r = loaded.problem.aspect_ratio;
     let end_s = loaded.problem.times_s.last().copied().unwrap_or_default();
     let problem = RodProblem::new(r, rate * end_s / (TAU * (r + 1.0 / r)));
     let error = |steps: u64| {
         let of_rod = |p: &[f64; 3]| {
             let start = UnitVector3::new_normalize(Vector3::from(*p));
-            let errors = crate::methods::integrators::grade(subject, &problem, &start, Setting::Steps(steps)).ok()?;
+            let errors =
+                crate::methods::integrators::grade(integrator, &problem, &start, Setting::Steps(steps)).ok()?;
             Some(errors.orientation_rad)
         };
         let errors: Option<Vec<_>> = loaded.start.iter().map(of_rod).collect();

@@ -115,8 +115,8 @@ pub(super) fn judge(graded: &mut Graded, loaded: &LoadedProblem, answer: &Answer
     let within = compared.error <= loaded.problem.tolerance && !compared.too_little_data;
     // Standard errors scatter.
     let exact = loaded.problem.metric != Metric::StandardErrors;
-    let wild = exact.then(|| order::wild(&graded.errors, loaded.own_tolerance)).flatten();
-    let off = graded.order_off(claim.order).or(wild);
+    let outlier = exact.then(|| order::outlier(&graded.errors, loaded.own_tolerance)).flatten();
+    let off = graded.order_off(claim.order).or(outlier);
     graded.verdict = if within && off.is_none() { Verdict::Pass } else { Verdict::Fail };
     graded.set_compared(&compared);
     graded.set_diagnosis(diagnose(loaded, answer, compared.error));

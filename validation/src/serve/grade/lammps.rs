@@ -66,11 +66,11 @@ pub(super) fn read(
                 let step = value(&mut lines)?;
                 // `ITEM: TIME`, if present, comes first.
                 let by_steps = options.timestep_s.map(|length| step * length);
-                if let (Some(told), Some(by_steps)) = (time_s, by_steps)
-                    && (told - by_steps).abs() > SAME * told.abs()
+                if let (Some(stated), Some(by_steps)) = (time_s, by_steps)
+                    && (stated - by_steps).abs() > SAME * stated.abs()
                 {
                     let message = format!(
-                        "ITEM: TIME is {told}, by --timestep-s it is {by_steps}: leave --timestep-s out, or correct it"
+                        "ITEM: TIME is {stated}, by --timestep-s it is {by_steps}: leave --timestep-s out, or correct it"
                     );
                     return Err(lines.error(1, message));
                 }

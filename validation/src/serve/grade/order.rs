@@ -155,7 +155,7 @@ pub(super) const HIGHEST: f64 = 8.0;
 /// A message about an answer that is off by far where one with fewer steps follows the motion closely; none if there is
 /// no such answer. What its error should be is foretold by a power law through two others, of which only one may be
 /// small by chance: then either this one is not larger than that before it, or it is as large as foretold.
-pub fn wild(errors: &[(u64, f64)], tolerance: f64) -> Option<String> {
+pub fn outlier(errors: &[(u64, f64)], tolerance: f64) -> Option<String> {
     let steps = |k: usize| errors[k].0 as f64;
     let size = |k: usize| if errors[k].1.is_finite() { errors[k].1 } else { f64::INFINITY };
     let law = |[a, b]: [usize; 2], at: usize| {
@@ -172,11 +172,11 @@ pub fn wild(errors: &[(u64, f64)], tolerance: f64) -> Option<String> {
         (None, true) => size(k + 1) * (steps(k + 1) / steps(k)).powf(HIGHEST),
         (None, false) => f64::INFINITY,
     };
-    let is_wild = |k: &usize| {
+    let is_outlier = |k: &usize| {
         let (own, before) = (size(*k), size(k - 1));
         before < CLOSE && own > 2.0 * before && own > FAR * foretold(*k).max(tolerance)
     };
-    let k = (1..errors.len()).find(is_wild)?;
+    let k = (1..errors.len()).find(is_outlier)?;
     let said = |k: usize| format!("{:.1e} with {}", errors[k].1, errors[k].0);
     let after = if k + 1 < errors.len() { format!(" and {}", said(k + 1)) } else { String::new() };
     Some(format!("off by {} steps, by {}{after}: no method has such errors", said(k), said(k - 1)))

@@ -54,10 +54,10 @@ fn by_name(problems: &[LoadedProblem], graded: &[Graded], wrong: &[&Graded]) -> 
         let best: Vec<_> = names.into_iter().filter(|name| explained(name).len() == most).collect();
         let of = explained(best[0]);
         // Where a curve has come to rest, many share its end: some problem must tell the mistake by itself.
-        let told = left.iter().any(|graded| of.contains(&graded.name.as_str()) && graded.diagnosis.is_some());
+        let alone = left.iter().any(|graded| of.contains(&graded.name.as_str()) && graded.diagnosis.is_some());
         // If others explain as many problems, but not the same ones, no mistake is certain.
         let alike = best.iter().all(|name| explained(name) == of);
-        if alike && told && best.len() <= MOST_NAMES {
+        if alike && alone && best.len() <= MOST_NAMES {
             let names: Vec<_> = best.iter().map(|name| name.as_str()).collect();
             let either = if names.len() > 1 { " (their curves are equal here)" } else { "" };
             let rest = match wrong.len() - of.len() {

@@ -51,7 +51,7 @@ pub(super) fn origin(loaded: &LoadedProblem, json: &str) -> Result<Origin, FileE
 
 fn differs(name: &str, due: &str) -> String {
     format!(
-        "{name} is a problem of this program, which has {due} there; `shearbed problems export` writes it afresh, and \
+        "{name} is a problem of this program, which has {due} there; `shearbed problems export` writes it again, and \
          a problem of your own needs a name of its own"
     )
 }

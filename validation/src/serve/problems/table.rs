@@ -104,9 +104,9 @@ fn tables_are_computed_anew() {
         (formula::TABLE, 4e-12, [",0.2", ",0.3"]),
     ];
     for ((name, certify), (table, most, [from, to])) in TABLES.into_iter().zip(tables) {
-        let anew = certify().unwrap();
-        let off = tables_apart(&anew, table);
+        let computed = certify().unwrap();
+        let off = tables_apart(&computed, table);
         assert!(off < most, "{name}: {off:e}");
-        assert!(tables_apart(&anew, &table.replacen(from, to, 1)) > 0.09, "{name}");
+        assert!(tables_apart(&computed, &table.replacen(from, to, 1)) > 0.09, "{name}");
     }
 }

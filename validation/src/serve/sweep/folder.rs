@@ -223,7 +223,7 @@ impl Folder {
     fn damaged(&self, k: usize, why: &str) -> Refused {
         let dir = self.point(k);
         Refused(format!(
-            "{why}; remove {} to have this point run again, or start afresh with --force; nothing was changed",
+            "{why}; remove {} to have this point run again, or start over with --force; nothing was changed",
             dir.shown()
         ))
     }

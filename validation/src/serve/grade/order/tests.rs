@@ -129,12 +129,12 @@ fn an_error_that_stays_is_not_blamed_on_the_order() {
 
 #[test]
 fn one_wild_answer_is_found_and_a_small_error_by_chance_is_none() {
-    let wild = |errors: &[f64]| {
+    let outlier = |errors: &[f64]| {
         let errors: Vec<_> = (0..).map(|k| 100u64 << k).zip(errors.iter().copied()).collect();
-        wild(&errors, 1e-8)
+        outlier(&errors, 1e-8)
     };
     let said = "off by 7.0e-1 with 400 steps, by 6.0e-4 with 200 and 2.5e-6 with 800: no method has such errors";
-    assert_eq!(wild(&[1e-2, 6e-4, 0.7, 2.5e-6]).as_deref(), Some(said));
+    assert_eq!(outlier(&[1e-2, 6e-4, 0.7, 2.5e-6]).as_deref(), Some(said));
     for wrong in [
         &[5e-3, 0.3, 2e-5, 1e-6][..],
         &[1e-4, f64::NAN, 1e-6],
@@ -145,10 +145,10 @@ fn one_wild_answer_is_found_and_a_small_error_by_chance_is_none() {
         &[1e-4, 6e-6, 0.05],
         &[9e-3, f64::NAN, 4e-5, f64::NAN, 1.5e-7],
     ] {
-        assert!(wild(wrong).is_some(), "{wrong:?}");
+        assert!(outlier(wrong).is_some(), "{wrong:?}");
     }
     assert_eq!(
-        wild(&[1e-3, 6e-5, 4e-6, 0.09]).as_deref(),
+        outlier(&[1e-3, 6e-5, 4e-6, 0.09]).as_deref(),
         Some("off by 9.0e-2 with 800 steps, by 4.0e-6 with 400: no method has such errors")
     );
     for right in [
@@ -166,7 +166,7 @@ fn one_wild_answer_is_found_and_a_small_error_by_chance_is_none() {
         &[1e-2, 1e-9, 4e-5, 2.5e-6],
         &[],
     ] {
-        assert_eq!(wild(right), None, "{right:?}");
+        assert_eq!(outlier(right), None, "{right:?}");
     }
 }
 
