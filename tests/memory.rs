@@ -77,8 +77,8 @@ fn a_run_holds_what_it_says_and_its_steps_allocate_nothing() {
         let twice = Plan::new(&twice).unwrap();
         agree(2.0 * held, memory::bytes(&twice, 2), "two at a time");
     }
-    // Lists grow by doubling, and the room that is stated for them is the most that they may have: where nearly every rod
-    // is on every list they seldom have all of it.
+    // Lists grow by doubling, and the room that is stated for them is the most that they may have: where nearly every
+    // rod is on every list they seldom have all of it.
     for (count, concentration_per_cm3, room) in [(160_000, 2e3, 1.05), (194_000, 1e6, 1.25)] {
         let plan = many_rods(count, Some(concentration_per_cm3));
         let held = peak(|| run_replica(&plan, 0).unwrap());

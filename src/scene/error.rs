@@ -108,7 +108,7 @@ pub struct SceneProblem {
 
 /// A value of a scene that is not allowed, with its key and what is allowed.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{key}{}: {allowed}", value.as_ref().map_or(" is missing".into(), |value| format!(" = {value} is not allowed")))]
+#[error("{key}{}: {allowed}", value.as_ref().map_or(" is missing".into(), |x| format!(" = {x} is not allowed")))]
 #[non_exhaustive]
 pub struct Invalid {
     /// The dotted path of the key, such as `particles.count`.

@@ -24,8 +24,8 @@ pub(super) struct Args {
     aspect_ratio: f64,
     /// Directions at t = 0: `isotropic`, `planar` (at random in the flow–gradient plane: a = diag(½, ½, 0)), one rod's
     /// φ,θ in degrees, or, with diffusion, a11,a22,a33,a12,a13,a23 of a density of Bingham
-    #[arg(long, value_name = "isotropic|planar|PHI_DEG,THETA_DEG|a11,…,a23", default_value = "isotropic", value_parser = start,
-        allow_hyphen_values = true)]
+    #[arg(long, value_name = "isotropic|planar|PHI_DEG,THETA_DEG|a11,…,a23", default_value = "isotropic",
+        value_parser = start, allow_hyphen_values = true)]
     start: From,
     /// COUNT evenly spaced times with both ends (COUNT = 1: the time FROM), or rising times with commas between
     #[arg(long, value_name = "FROM:TO:COUNT|T1,T2,…", value_parser = times, allow_hyphen_values = true,
@@ -396,8 +396,8 @@ fn unit_named(text: &str) -> Result<Unit, String> {
 }
 
 fn start(text: &str) -> Result<From, String> {
-    let words = "`isotropic`, `planar`, φ,θ in degrees with θ from 0 to 180 (each 0 or of a size from 5e-324 to 1.8e308), \
-                 or a11,a22,a33,a12,a13,a23";
+    let words = "`isotropic`, `planar`, φ,θ in degrees with θ from 0 to 180 (each 0 or of a size from 5e-324 to \
+                 1.8e308), or a11,a22,a33,a12,a13,a23";
     match text.split(',').collect::<Vec<_>>()[..] {
         ["isotropic"] => Ok(From::Isotropic),
         ["planar"] => Ok(From::Planar),

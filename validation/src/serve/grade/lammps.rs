@@ -70,7 +70,8 @@ pub(super) fn read(
                     && (stated - by_steps).abs() > SAME * stated.abs()
                 {
                     let message = format!(
-                        "ITEM: TIME is {stated}, by --timestep-s it is {by_steps}: leave --timestep-s out, or correct it"
+                        "ITEM: TIME is {stated}, by --timestep-s it is {by_steps}: leave --timestep-s out, or \
+                         correct it"
                     );
                     return Err(lines.error(1, message));
                 }
