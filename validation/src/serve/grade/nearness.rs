@@ -83,3 +83,10 @@ pub(super) fn said(what: &str, mut near: Vec<Near>, tolerance: f64, rest: &str) 
     suspects.dedup();
     Diagnosis { said, suspects, rates: Vec::new() }
 }
+
+#[test]
+fn only_the_nearest_are_named() {
+    let near = [("a", 1e-9), ("b", 5e-9), ("c", 2e-8)].map(|(name, distance)| Near::new(distance, name));
+    let named = |tolerance| said(CURVE, near.to_vec(), tolerance, "").suspects;
+    assert_eq!((named(0.0), named(3e-8)), (vec!["a".into(), "b".into()], vec!["a".into(), "b".into(), "c".into()]));
+}
