@@ -143,14 +143,9 @@ fn climbed(
     let refuted = graded.order_found == Some(Order::Lower);
     let late = matches!(end, End::OutOfTime(_));
     let converging = late.then(|| converges(problem, &rungs)).flatten().filter(|_| !refuted);
-    graded.verdict = match &end {
-        _ if converging.is_some() => Verdict::Pass,
-        // Whether a mistake is named must not depend on how fast the machine is.
-        End::OutOfTime(_) if stays_on_a_mistake(problem, &rungs) => Verdict::Fail,
-        End::OutOfTime(_) => Verdict::NotReached,
-        End::Reached => Verdict::Pass,
-        End::Refused(_) => Verdict::Refused,
-        _ => Verdict::Fail,
+    graded.verdict = match converging {
+        Some(_) => Verdict::Pass,
+        None => verdict(&end, late && stays_on_a_mistake(problem, &rungs)),
     };
     if let Some(finest) = rungs.last() {
         graded.steps = finest.setting.steps().ok();
@@ -172,6 +167,18 @@ fn climbed(
         }
     };
     graded
+}
+
+/// The verdict of an end, at answers that lie on the curve of a known mistake or not.
+fn verdict(end: &End, mistaken: bool) -> Verdict {
+    match end {
+        // Whether a mistake is named must not depend on how fast the machine is.
+        End::OutOfTime(_) if mistaken => Verdict::Fail,
+        End::OutOfTime(_) => Verdict::NotReached,
+        End::Reached => Verdict::Pass,
+        End::Refused(_) => Verdict::Refused,
+        _ => Verdict::Fail,
+    }
 }
 
 /// True if the last two settings give the curve of the same mistake: other settings will not give another.

@@ -292,3 +292,10 @@ fn two_answers_on_the_curve_of_one_mistake_are_wrong_before_time_is_up() {
     let right = |late: f64| (mistakes::right_map(&setting, late * time_s).unwrap() * start).normalize();
     assert!(!stays_on_a_mistake(&problem, &[rung(64, right(0.97)), rung(128, right(0.985))]));
 }
+
+#[test]
+fn a_ladder_out_of_time_is_not_reached_and_fails_on_the_curve_of_a_mistake() {
+    let late = || End::OutOfTime(String::new());
+    assert_eq!([false, true].map(|mistaken| verdict(&late(), mistaken)), [Verdict::NotReached, Verdict::Fail]);
+    assert_eq!([End::Reached, End::Lower].map(|end| verdict(&end, false)), [Verdict::Pass, Verdict::Fail]);
+}
