@@ -4,7 +4,7 @@
 mod tests;
 
 use crate::files::csv::written;
-use crate::files::text::cell;
+use crate::files::text::{cell, left_aligned};
 use crate::judge::statistics::{Estimate, Sample};
 use crate::present::markup;
 use serde::{Deserialize, Serialize};
@@ -316,12 +316,8 @@ impl ReportTable {
         // Two blanks stand between columns.
         let across = |last: usize| widths[..=last].iter().sum::<usize>() + 2 * last;
         let shown = (0..widths.len()).take_while(|last| across(*last) <= room).count().max(1);
-        let mut text = format!("{}\n\n", self.title);
-        for cells in lines() {
-            let padded = cells[..shown].iter().zip(&widths).map(|(cell, width)| format!("{cell:<width$}  "));
-            text.push_str(padded.collect::<String>().trim_end());
-            text.push('\n');
-        }
+        let rows: Vec<_> = lines().map(|cells| cells[..shown].to_vec()).collect();
+        let mut text = format!("{}\n\n{}", self.title, left_aligned(&rows));
         if shown < self.columns.len() {
             text += &format!("\nLeft out for want of room: {}.\n", self.columns[shown..].join(", "));
         }

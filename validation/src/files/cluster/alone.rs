@@ -56,9 +56,6 @@ pub fn size() -> usize {
 pub use super::in_order as share;
 
 /// The result of `make`, which runs on the root, on every rank.
-pub fn from_root<T, E>(make: impl FnOnce() -> Result<T, E>) -> Result<T, E>
-where
-    T: Serialize + DeserializeOwned,
-{
+pub fn from_root<T: Serialize + DeserializeOwned, E>(make: impl FnOnce() -> Result<T, E>) -> Result<T, E> {
     make()
 }

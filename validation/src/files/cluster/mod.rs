@@ -49,14 +49,11 @@ fn all_as_first(inputs: &[Value]) -> Result<(), String> {
 }
 
 /// Runs all jobs in this process. Calls `arrived` with each result in order, and returns the results in order.
-pub fn in_order<T, E>(
+pub fn in_order<T: Serialize + DeserializeOwned, E>(
     jobs: usize,
     job: impl Fn(usize) -> Result<T, E>,
     mut arrived: impl FnMut(usize, &T) -> Result<(), E>,
-) -> Result<Option<Vec<T>>, E>
-where
-    T: Serialize + DeserializeOwned,
-{
+) -> Result<Option<Vec<T>>, E> {
     let done = |k| {
         let result = job(k)?;
         arrived(k, &result)?;

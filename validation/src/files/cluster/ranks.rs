@@ -86,14 +86,11 @@ pub fn size() -> usize {
 
 /// Runs every job once: rank k runs the jobs k, k + size and so on. Calls `arrived` on the root with each result, in
 /// any order. Returns all results in order on the root, `None` on the other ranks.
-pub fn share<T, E>(
+pub fn share<T: Serialize + DeserializeOwned, E>(
     jobs: usize,
     job: impl Fn(usize) -> Result<T, E>,
     mut arrived: impl FnMut(usize, &T) -> Result<(), E>,
-) -> Result<Option<Vec<T>>, E>
-where
-    T: Serialize + DeserializeOwned,
-{
+) -> Result<Option<Vec<T>>, E> {
     let Some(world) = world() else {
         return in_order(jobs, job, arrived);
     };
@@ -132,10 +129,7 @@ where
 }
 
 /// The result of `make`, which runs on the root, on every rank.
-pub fn from_root<T, E>(make: impl FnOnce() -> Result<T, E>) -> Result<T, E>
-where
-    T: Serialize + DeserializeOwned,
-{
+pub fn from_root<T: Serialize + DeserializeOwned, E>(make: impl FnOnce() -> Result<T, E>) -> Result<T, E> {
     let Some(world) = world() else {
         return make();
     };
