@@ -3,7 +3,7 @@
 use super::style::{FINE, text_width};
 
 #[derive(Clone, Debug)]
-pub(crate) struct Box {
+pub(crate) struct TextBox {
     pub(super) text: String,
     pub(super) left: f64,
     pub(super) right: f64,
@@ -20,7 +20,7 @@ fn number(tag: &str, name: &str) -> f64 {
     attribute(tag, name).and_then(|text| text.parse().ok()).unwrap_or(0.0)
 }
 
-pub(super) fn boxes(svg: &str) -> Vec<Box> {
+pub(super) fn boxes(svg: &str) -> Vec<TextBox> {
     let of = |part: &str| {
         let (tag, rest) = part.split_once('>')?;
         let text = rest.split("</text>").next()?.trim();
@@ -48,7 +48,7 @@ pub(super) fn boxes(svg: &str) -> Vec<Box> {
         } else {
             (x + along.0, x + along.1, y + across.0, y + across.1)
         };
-        Some(Box { text, left, right, top, bottom })
+        Some(TextBox { text, left, right, top, bottom })
     };
     svg.split("<text").skip(1).filter_map(of).collect()
 }

@@ -1,4 +1,4 @@
-use super::super::boxes::{Box, boxes};
+use super::super::boxes::{TextBox, boxes};
 use super::super::style::{self, CURVE_WIDTH};
 use super::super::tests::{many, maps, synthetic};
 use super::super::{Curve, svg};
@@ -17,7 +17,7 @@ fn read(bytes: &[u8]) -> (usize, usize, Vec<[u8; 3]>) {
 }
 
 /// The share of a text's box that is covered by dark ink.
-fn inked(text: &Box, width: usize, pixels: &[[u8; 3]]) -> f64 {
+fn inked(text: &TextBox, width: usize, pixels: &[[u8; 3]]) -> f64 {
     let (columns, rows) = (text.left as usize..text.right as usize, text.top as usize..text.bottom as usize);
     let dark = rows.clone().flat_map(|row| columns.clone().map(move |column| row * width + column));
     let dark = dark.filter(|at| pixels.get(*at).is_some_and(|rgb| rgb.iter().all(|part| *part < 90)));
