@@ -315,14 +315,16 @@ impl Scene {
         }
     }
 
-    /// Outputs per unit of time, given or by default: 50 a period or 10 a unit of strain (a second: rounded up); if
-    /// rods take steps, the largest divisor of the steps up to that.
+    /// Outputs per unit of time, given or by default: 50 a period up to r_e = 11.8, more above; or 10 a unit of strain
+    /// (a second: rounded up). If rods take steps, it divides them: the largest divisor up to that, and above 50 the
+    /// least even one with a strain of at most 1.5 between outputs.
     pub fn outputs_per_unit(&self) -> u64 {
         self.time.outputs_per_unit.unwrap_or_else(|| {
             let most = self.default_outputs();
             let steps = self.steps().then(|| self.steps_per_unit().max(1));
             let divides = |k: &u64| steps.is_none_or(|steps| steps.is_multiple_of(*k));
-            (1..=most).rev().find(divides).unwrap_or(1)
+            let even = (self.least_outputs()..=steps.unwrap_or(0)).find(|k| k.is_multiple_of(2) && divides(k));
+            even.or_else(|| (1..=most).rev().find(divides)).unwrap_or(1)
         })
     }
 

@@ -9,6 +9,13 @@ use nalgebra::Matrix3;
 /// Steps per period come in multiples of this, so that the default outputs fall on steps.
 const MULTIPLE: u64 = 50;
 
+/// The longest strain between default outputs: a flip takes a strain of about 2 at any r_e, and the largest shear stress
+/// of a start-up is missed by 4 % at most.
+const OUTPUT_STRAIN: f64 = 1.5;
+
+/// The most default outputs per period.
+const MOST_OUTPUTS: u64 = 1000;
+
 /// The longest strain per step GΔt that resolves the motion of interacting rods, with an error of X̄₁ of at most 0.003
 /// (measured, `docs/src/theory/time-step.md`): 0.37 for short rods, 4.4/r_e for longer ones, 0.09 for the longest.
 pub fn resolved_strain(aspect_ratio: f64) -> f64 {
@@ -41,10 +48,14 @@ impl Scene {
         if self.diffuses() { DIFFUSING[0] } else { resolved_strain(self.particles.mean_aspect_ratio()) }
     }
 
-    /// Outputs per unit of time that do not exceed the default: 50 a period, 10 a unit of strain.
+    /// Outputs per unit of time that do not exceed the default: the fewest fifties a period with a strain of at most
+    /// [`OUTPUT_STRAIN`] between them, 10 a unit of strain.
     pub(crate) fn default_outputs(&self) -> u64 {
         match self.time.unit {
-            TimeUnit::Period => 50,
+            TimeUnit::Period => match self.least_outputs() {
+                u64::MAX => MULTIPLE,
+                least => least.next_multiple_of(MULTIPLE),
+            },
             TimeUnit::Strain => 10,
             // Rounded up to whole outputs a second.
             TimeUnit::Second => self.flow.gradient().map_or(1, |flow| {
@@ -52,6 +63,14 @@ impl Scene {
                 (10.0 * rate_per_s).ceil().max(1.0) as u64
             }),
         }
+    }
+
+    /// The fewest outputs a period that follow the motion of long rods, whose flips 50 a period would miss; `u64::MAX`
+    /// for others.
+    pub(crate) fn least_outputs(&self) -> u64 {
+        let least = (self.flow_per_unit() / OUTPUT_STRAIN).ceil() as u64;
+        let is_long = self.time.unit == TimeUnit::Period && least > MULTIPLE;
+        if is_long { least.min(MOST_OUTPUTS) } else { u64::MAX }
     }
 
     /// The number of outputs, including that at t = 0 unless the scene gives their times.

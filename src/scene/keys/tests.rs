@@ -1,6 +1,7 @@
 //! Tests that the rows of the tables of keys hold.
 
 use super::*;
+use crate::model::jeffery::strain_per_period;
 use crate::scene;
 
 /// The shortest scene with every required key, and the key `path` with `value` in its table.
@@ -39,6 +40,23 @@ fn a_default_is_what_a_scene_without_the_key_has() {
     }
     let by_strain = scene::parse("t", &text("", "").replace("periods", "strain")).unwrap();
     assert_eq!(by_strain.outputs_per_unit(), 10);
+}
+
+/// A flip takes a strain of about 2 at any r_e: outputs farther apart miss it.
+#[test]
+fn default_outputs_follow_the_strain() {
+    let colliding = |r: f64| scene::parse("t", &text("particles.aspect_ratio", &r.to_string())).unwrap();
+    let of = |r: f64| scene::Scene { interaction: None, ..colliding(r) }.outputs_per_unit();
+    let default = [1.0, 5.0, 11.6, 11.8, 11.9, 14.2, 20.0, 50.0, 1e6].map(of);
+    assert_eq!(default, [50, 50, 50, 50, 100, 100, 100, 250, 1000]);
+    for r in [2.0, 11.84, 12.0, 30.0, 100.0, 238.0] {
+        assert!(strain_per_period(r) / of(r) as f64 <= 1.5, "{r}");
+        // T/2 is the time of an output, and outputs are at steps.
+        let (scene, outputs) = (colliding(r), colliding(r).outputs_per_unit());
+        assert!(scene.steps_per_unit().is_multiple_of(outputs) && outputs.is_multiple_of(2), "{r}: {outputs}");
+        assert!(strain_per_period(r) / outputs as f64 <= 1.5, "{r}: {outputs}");
+    }
+    assert_eq!([11.6, 14.2, 15.0, 20.0].map(|r| colliding(r).outputs_per_unit()), [50, 60, 70, 100]);
 }
 
 #[test]

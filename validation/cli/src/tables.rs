@@ -117,10 +117,10 @@ pub(super) fn summary(results: &Results) -> String {
     text
 }
 
-/// A time with three decimals at most, or in powers of ten where these would change it.
+/// A time with three decimals at most, or in powers of ten where these would change it by half a per cent.
 fn brief(time: f64) -> String {
     let rounded = (time * 1e3).round() / 1e3;
-    if (rounded - time).abs() <= 1e-3 * time.abs() { rounded.to_string() } else { format!("{time:.3e}") }
+    if (rounded - time).abs() <= 5e-3 * time.abs() { rounded.to_string() } else { format!("{time:.3e}") }
 }
 
 /// The largest number of bars in a sparkline.
