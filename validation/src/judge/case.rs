@@ -10,7 +10,7 @@ pub use outcome::{Control, Judged, Outcome};
 
 use crate::judge::accept::{Rule, Text, Verdict};
 use crate::judge::statistics::Sample;
-use outcome::overall;
+use outcome::{lacks_data, overall};
 use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::time::Instant;
@@ -217,7 +217,7 @@ impl Case {
     pub fn run(&self, effort: &Effort) -> Outcome {
         let start = Instant::now();
         let evidence: Vec<_> = (self.check)(effort).into_iter().map(Judged::new).collect();
-        let no_data = evidence.iter().any(|judged| judged.verdict == Verdict::NoData);
+        let no_data = lacks_data(&evidence);
         let controls: Vec<_> = self
             .controls
             .iter()
@@ -308,6 +308,21 @@ mod tests {
         assert_eq!(of("eqs 4, 7–9, A.13; Fig. 6, eq. 14"), "4 7 8 9 A.13");
         assert_eq!(of("A.2–A.5; Jeffery's equation in p"), "A.2 A.3 A.4 A.5");
         assert_eq!(of("Folgar & Tucker 1984; eq. 13"), "");
+    }
+
+    /// Of three conditions one has data: it is judged, and only without any the case says so.
+    #[test]
+    fn what_data_there_are_is_judged() {
+        let check = |value: &f64, _: &Effort| {
+            let none = || Evidence::new("none", Rule::NoData { supply: "a file".into() });
+            let judged = (*value > 0.0).then(|| Evidence::exact("three", value - 3.0));
+            [none()].into_iter().chain(judged).chain([none()]).collect::<Vec<_>>()
+        };
+        let verdict = |value| Case::core("a").under_test(value).mistake("four", 4.0).check(check).run(&Effort::gate());
+        for (value, expected) in [(3.0, Verdict::Pass), (4.0, Verdict::Fail), (0.0, Verdict::NoData)] {
+            let outcome = verdict(value);
+            assert_eq!((outcome.verdict, outcome.controls.len()), (expected, usize::from(value > 0.0)));
+        }
     }
 
     #[test]

@@ -97,8 +97,11 @@ fn a_synthetic_experiment_of_half_is_accepted() {
     let data = okagawa(&["fig4-n50", "fig4-n100"], 0.5);
     let (code, case, summary) = validate("okagawa-mason-1973", data.path());
     assert_eq!((code, &summary["pass"]), (Some(0), &1.into()), "{case:#}");
-    let evidence = case["evidence"].as_array().unwrap();
-    assert_eq!(evidence.len(), 2, "a scene without points is left out");
+    let of = |key: &str| case["evidence"].as_array().unwrap().iter().map(|e| e[key].to_string()).collect::<Vec<_>>();
+    assert_eq!(of("verdict"), [r#""nodata""#, r#""pass""#, r#""pass""#], "{case:#}");
+    let what = of("what");
+    assert!(what[1..].iter().all(|what| what.contains("points of “synthetic: no experiment")), "{what:?}");
+    assert!(!case["claim"].to_string().contains("measured"), "{case:#}");
 }
 
 #[test]

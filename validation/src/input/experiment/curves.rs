@@ -14,6 +14,9 @@ use std::path::Path;
 /// whole oscillation: a point with a more uncertain time contains no information, but makes the model run for long.
 const MOST_UNCERTAIN: f64 = 0.25;
 
+/// Letters of a paper in a legend.
+const LEGEND: usize = 32;
+
 const TIME_UNCERTAINTY: &str =
     "one standard deviation of at most a quarter of a period: ± that spans a whole oscillation";
 
@@ -69,7 +72,7 @@ pub(super) fn read(path: &Path, source: &Source) -> Result<Vec<MeasuredCurve>, F
             let message = format!("curve.dataset = {wanted} is not allowed: {} has {names}", csv_path.shown());
             FileError::line(path, key.line as u64, message)
         })?;
-        convert(&csv_path, key, dataset, &provenance, source)
+        convert(&csv_path, key, dataset, &provenance)
     };
     provenance.curves.iter().map(curve).collect()
 }
@@ -83,13 +86,7 @@ fn column(provenance: &Provenance, key: &Key) -> String {
     }
 }
 
-fn convert(
-    file: &Path,
-    key: &Key,
-    dataset: &Dataset,
-    provenance: &Provenance,
-    source: &Source,
-) -> Result<MeasuredCurve, FileError> {
+fn convert(file: &Path, key: &Key, dataset: &Dataset, provenance: &Provenance) -> Result<MeasuredCurve, FileError> {
     if dataset.rows.is_empty() {
         let message = format!("`{}` has no points", dataset.name);
         return Err(FileError::line(file, 1, message));
@@ -123,7 +120,7 @@ fn convert(
         Projection::Millimetres => length_mm,
     };
     let point = |row: &DataRow| Measured {
-        label: format!("{}, {}", source.label, provenance.figure),
+        label: provenance.stated.short(LEGEND),
         observable: OBSERVABLES[key.channel],
         x: row.x / period,
         y: row.y / length,

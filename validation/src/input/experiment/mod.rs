@@ -20,7 +20,7 @@ mod tests;
 pub use bias::{Bias, bias};
 pub use compare::{Runs, alpha, compare};
 pub use comparison::{AlphaFit, Comparison, Point};
-pub use provenance::{Axis, Key, Layout, OBSERVABLES, Projection, Provenance, Time};
+pub use provenance::{Axis, Key, Layout, OBSERVABLES, Projection, Provenance, Stated, Time};
 
 use crate::files::{FileError, bounded, entries};
 use std::collections::BTreeMap;
@@ -31,7 +31,7 @@ use std::path::{Path, PathBuf};
 pub struct Source {
     /// The name of its folder.
     pub folder: &'static str,
-    /// Its name in legends.
+    /// The paper of which points belong there.
     pub label: &'static str,
     /// The built-in scenes of its conditions.
     pub scenes: &'static [&'static str],
@@ -62,7 +62,7 @@ pub const SOURCES: [Source; 2] = [OKAGAWA_MASON, ANCZUROWSKI];
 /// A measured point in the model's units.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Measured {
-    /// The source and its figure, for a legend.
+    /// Paper and figure by the points' own file, for a legend.
     pub label: String,
     /// Name of the observable: x1, x2 or x3.
     pub observable: &'static str,
@@ -156,6 +156,17 @@ pub fn digest(data: &Path) -> Result<BTreeMap<String, u32>, FileError> {
         }
     }
     Ok(sums)
+}
+
+/// What all files under `data` say of their points, in the order of the sources; empty without data.
+pub fn stated(data: Option<&Path>) -> Result<Vec<Stated>, FileError> {
+    let mut all: Vec<Stated> = Vec::new();
+    for source in &SOURCES {
+        let curves = data.map_or(Ok(Vec::new()), |data| read(data, source))?;
+        all.extend(curves.into_iter().map(|curve| curve.provenance.stated));
+    }
+    all.dedup();
+    Ok(all)
 }
 
 /// All measured points under the conditions of a scene, for pictures; empty without data.

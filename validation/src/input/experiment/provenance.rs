@@ -111,11 +111,37 @@ pub(super) const INPUTS: [Input; 5] = [
     ("aspect_ratio_sd_percent", |scene| Some(&mut scene.particles.aspect_ratio_sd_percent)),
 ];
 
+/// The words of a provenance file on its points: claims of whoever wrote it.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Stated {
+    /// The name of the file in its source's folder.
+    pub file: String,
+    /// The paper that shows the points.
+    pub paper: String,
+    /// The figure or table of the paper.
+    pub figure: String,
+    /// Who read them off.
+    pub digitised_by: String,
+    /// With which tool.
+    pub tool: String,
+    /// When, as YYYY-MM-DD.
+    pub date: String,
+}
+
+impl Stated {
+    /// Paper and figure; the paper is cut after `most` letters.
+    pub fn short(&self, most: usize) -> String {
+        let cut = self.paper.chars().count() > most;
+        let paper: String = self.paper.chars().take(most).collect();
+        format!("“{}{}”, {}", paper.trim_end(), if cut { "…" } else { "" }, self.figure)
+    }
+}
+
 /// The content of a provenance file that the comparison uses.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Provenance {
-    /// The figure or table of the paper.
-    pub figure: String,
+    /// What the points are, by their own file: its paper and figure, who read them off, with what and when.
+    pub stated: Stated,
     /// Layout of the CSV file.
     pub csv: Layout,
     /// Number of rods averaged in each point, if known.

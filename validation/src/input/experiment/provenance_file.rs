@@ -2,10 +2,11 @@
 
 use super::Source;
 use super::keys::{Keys, document};
-use super::provenance::{Axis, INPUTS, Key, Layout, OBSERVABLES, Projection, Provenance, Time};
+use super::provenance::{Axis, INPUTS, Key, Layout, OBSERVABLES, Projection, Provenance, Stated, Time};
 use crate::files::FileError;
 use crate::input::scenes;
 use toml::value::Datetime;
+use std::path::Path;
 
 const CALIBRATION: &str = "the values of the axis's reference points, two different numbers at least";
 const UNCERTAINTY: &str = "one standard deviation of what was read off, a number > 0 in the unit of quantity";
@@ -28,16 +29,20 @@ pub(super) fn parse(file: &str, text: &str, source: &Source) -> Result<Provenanc
     let rods = all.has("rods").then(|| all.number("rods", "a whole number ≥ 1", whole)).transpose()?;
     let curves = curves(&all, csv, source)?;
     own_aspect_ratio(&all, &curves)?;
-    all.text("paper", "the paper that shows the points, as a text")?;
-    let figure = all.text("figure", "the figure or table, as a text")?;
-    all.text("digitised_by", "who read the points off, as a text")?;
-    all.text("tool", "with which tool and version, as a text")?;
-    let allowed = "the day of reading off, as \"YYYY-MM-DD\"";
-    if !is_day(&all.text("date", allowed)?) {
-        return Err(all.refused("date", allowed));
+    let day = "the day of reading off, as \"YYYY-MM-DD\"";
+    let stated = Stated {
+        file: Path::new(file).file_name().unwrap_or_default().display().to_string(),
+        paper: all.text("paper", "the paper that shows the points, as a text")?,
+        figure: all.text("figure", "the figure or table, as a text")?,
+        digitised_by: all.text("digitised_by", "who read the points off, as a text")?,
+        tool: all.text("tool", "with which tool and version, as a text")?,
+        date: all.text("date", day)?,
+    };
+    if !is_day(&stated.date) {
+        return Err(all.refused("date", day));
     }
     Ok(Provenance {
-        figure,
+        stated,
         csv,
         rods,
         x: axis(&all.table("x", "the table [x] of the time axis")?, time)?,

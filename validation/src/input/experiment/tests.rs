@@ -67,7 +67,7 @@ fn columns_are_sorted_and_a_point_may_have_its_own_uncertainty() {
     assert_eq!(xy(&found[0]), [(0.25, 0.1), (0.5, 0.4), (1.5, 0.3)]);
     let u: Vec<_> = found[0].points.iter().map(|point| (point.u_x, point.u_y)).collect();
     assert_eq!(u, [(0.01, 0.002), (0.01, 0.005), (0.01, 0.005)]);
-    assert_eq!(found[0].points[0].label, "Okagawa & Mason (1973), Fig. S");
+    assert_eq!(found[0].points[0].label, "“synthetic”, Fig. S");
 }
 
 #[test]

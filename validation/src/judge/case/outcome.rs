@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 /// The verdict of a case: it passes if all its evidence passes and every control was caught.
 pub(super) fn overall(evidence: &[Judged], controls: &[Control], uncaught: Verdict) -> Verdict {
     let has = |verdict| evidence.iter().any(|judged| judged.verdict == verdict);
-    if has(Verdict::NoData) {
+    if lacks_data(evidence) {
         Verdict::NoData
     } else if evidence.is_empty() || has(Verdict::Fail) || controls.is_empty() {
         Verdict::Fail
@@ -18,6 +18,11 @@ pub(super) fn overall(evidence: &[Judged], controls: &[Control], uncaught: Verdi
     } else {
         Verdict::Pass
     }
+}
+
+/// True if there is evidence, and none of it has data: what data there are is judged.
+pub(super) fn lacks_data(evidence: &[Judged]) -> bool {
+    !evidence.is_empty() && evidence.iter().all(|judged| judged.verdict == Verdict::NoData)
 }
 
 /// Evidence with its verdict.
@@ -52,9 +57,9 @@ pub struct Control {
 impl Control {
     /// Judges a control: a check with NaN has broken, and has caught nothing.
     pub(super) fn new(mistake: &'static str, evidence: &[Evidence]) -> Self {
-        let broke = evidence.iter().any(|e| e.rule.error().is_nan());
-        let failed: Vec<_> =
-            (evidence.iter().map(|e| &e.rule)).filter(|rule| !broke && judge(rule) == Verdict::Fail).collect();
+        let rules = || evidence.iter().map(|e| &e.rule).filter(|rule| !matches!(rule, Rule::NoData { .. }));
+        let broke = rules().any(|rule| rule.error().is_nan());
+        let failed: Vec<_> = rules().filter(|rule| !broke && judge(rule) == Verdict::Fail).collect();
         let drawn = failed.iter().all(|rule| rule.is_statistical());
         Self {
             mistake: mistake.into(),

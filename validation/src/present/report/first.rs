@@ -32,7 +32,10 @@ pub(super) fn sizes(report: &Report) -> Vec<String> {
         .map(|error| format!("Collisions: off an independent code with the same interpretation by {error}."));
     let measured = report.summary.parts.iter().find(|part| part.judges == Judges::Measurement).map(|part| {
         let judged = part.cases - part.nodata;
-        format!("Experiments: {judged} of {} comparisons have measured points.", part.cases)
+        let mut of: Vec<_> = report.origin.points.iter().map(|stated| stated.short(80)).collect();
+        of.dedup();
+        let of = if of.is_empty() { String::new() } else { format!(": {}", of.join("; ")) };
+        format!("Experiments: {judged} of {} comparisons have points{of}.", part.cases)
     });
     [free, colliding, measured].into_iter().flatten().collect()
 }

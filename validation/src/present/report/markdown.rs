@@ -23,6 +23,11 @@ pub(super) fn write(report: &Report) -> String {
     if !report.sections.equations.is_empty() {
         text += &section("##", &equation_table(&report.sections.equations));
     }
+    for given in &origin.points {
+        let (file, words) = (code(&given.file), markdown(&given.short(usize::MAX)));
+        let (who, tool) = (markdown(&given.digitised_by), markdown(&given.tool));
+        text += &format!("Points of {file}: {words}; read off by {who} with {tool}, {}.\n\n", given.date);
+    }
     text += &format!(
         "Made {} by {} (shearbed {}, commit {}, {}, {} build) on {}, {} threads, {}. Seeds: {}.\n",
         origin.date,

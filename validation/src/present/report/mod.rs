@@ -20,6 +20,7 @@ pub use json::{FORMAT, check};
 pub(crate) use prose::typeset;
 
 use crate::files::output::Output;
+use crate::input::experiment::stated;
 use crate::judge::accept::{FALSE_ALARM_BUDGET, Verdict};
 use crate::judge::case::{Effort, Judges, Outcome};
 use crate::present::study::{ReportFigure, ScenePlan};
@@ -117,7 +118,8 @@ pub fn build(outcomes: Vec<Outcome>, sections: Sections, effort: &Effort, comman
             seconds: outcomes.iter().map(|o| o.seconds).sum(),
         },
         cases: (outcomes.into_iter()).map(|outcome| CaseRow::new(outcome, effort)).collect(),
-        origin: Origin::here(command, &sections.plans),
+        // They were read before: here nothing is missing.
+        origin: Origin::here(command, &sections.plans, stated(effort.data.as_deref()).unwrap_or_default()),
         sections,
     }
 }

@@ -4,6 +4,7 @@ use super::ScenePlan;
 use super::formats::utc;
 use crate::files::bounded;
 use crate::files::build::BUILD;
+use crate::input::experiment::Stated;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -33,11 +34,13 @@ pub struct Origin {
     pub date: String,
     /// Source of the random numbers, in words.
     pub seeds: String,
+    /// What the files of measured points say of them.
+    pub points: Vec<Stated>,
 }
 
 impl Origin {
-    /// The origin of this run, with figures drawn from the scenes of `plans`.
-    pub fn here(command: String, plans: &[ScenePlan]) -> Self {
+    /// The origin of this run, with figures drawn from the scenes of `plans` and these measured points.
+    pub fn here(command: String, plans: &[ScenePlan], points: Vec<Stated>) -> Self {
         let since_1970 = SystemTime::now().duration_since(UNIX_EPOCH);
         Self {
             command,
@@ -50,6 +53,7 @@ impl Origin {
             system: format!("{} {}", std::env::consts::OS, std::env::consts::ARCH),
             date: since_1970.map_or_else(|_| unknown(), |time| utc(time.as_secs())),
             seeds: seeds(plans),
+            points,
         }
     }
 }
@@ -101,7 +105,7 @@ mod tests {
 
     #[test]
     fn nothing_is_empty() {
-        let origin = Origin::here("shearbed validate".into(), &[]);
+        let origin = Origin::here("shearbed validate".into(), &[], Vec::new());
         assert!(origin.threads > 0);
         assert!(!origin.commit.is_empty() && !origin.processor.is_empty());
         assert!(origin.rustc.starts_with("rustc ") && origin.date.ends_with('Z'));

@@ -67,9 +67,10 @@ impl Line {
 fn severity(verdict: Verdict) -> u8 {
     match verdict {
         Verdict::Fail => 3,
-        Verdict::NoData => 2,
-        Verdict::Underpowered => 1,
-        Verdict::Pass => 0,
+        Verdict::Underpowered => 2,
+        Verdict::Pass => 1,
+        // A line without data says nothing beside one with data.
+        Verdict::NoData => 0,
     }
 }
 

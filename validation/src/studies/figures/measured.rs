@@ -7,7 +7,7 @@ use crate::input::experiment::{self, Measured};
 pub(super) fn measured(scene: &str, effort: &Effort, figure: &mut Figure) -> Result<String, String> {
     let all = experiment::points_for(effort.data.as_deref(), scene).map_err(|error| error.to_string())?;
     if all.is_empty() {
-        return Ok("Measured points: none supplied.".into());
+        return Ok("No measured points.".into());
     }
     for observable in ["x1", "x2", "x3"] {
         let here: Vec<_> = all.iter().filter(|point| point.observable == observable).collect();
@@ -18,7 +18,9 @@ pub(super) fn measured(scene: &str, effort: &Effort, figure: &mut Figure) -> Res
             figure.points.push(series(label, observable, &points.collect::<Vec<_>>()));
         }
     }
-    Ok("Measured points have bars of 95 %.".into())
+    let mut sources: Vec<&str> = all.iter().map(|point| point.label.as_str()).collect();
+    sources.dedup();
+    Ok(format!("Points with bars of 95 %: {}.", sources.join("; ")))
 }
 
 fn series(label: &str, observable: &str, points: &[&Measured]) -> Points {

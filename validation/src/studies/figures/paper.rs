@@ -41,20 +41,21 @@ fn fig4(runs: &Runs, effort: &Effort) -> Result<ReportFigure, String> {
     let words = ["fig4", "Fig. 4: X̄₁ at three concentrations, α = 0.5"];
     let mut figure = against_time(words, "Fig. 4, eqs 4, 15", "", (PROJECTION, 0.5), Vec::new());
     let drawn = &mut figure.figure;
-    let mut supplied = String::new();
+    let mut supplied = Vec::new();
     for n in [20, 50, 100] {
         let scene = format!("fig4-n{n}");
         let label = format!("n = {n} cm⁻³");
         drawn.curves.push(runs.get(&scene)?.curve("x1", label.as_str()));
         let known = drawn.points.len();
-        supplied = measured(&scene, effort, drawn)?;
+        supplied.push(format!("{label}: {}", measured(&scene, effort, drawn)?));
         for points in &mut drawn.points[known..] {
             points.label = format!("{}, {label}", points.label);
         }
     }
     figure.caption = format!(
         "The oscillation of X̄₁ about a plateau dies out, faster where n is larger. The maxima stay at multiples of \
-         T/2. {supplied}"
+         T/2. {}",
+        supplied.join(" ")
     );
     Ok(figure)
 }

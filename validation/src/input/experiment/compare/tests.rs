@@ -1,5 +1,5 @@
 use super::*;
-use crate::input::experiment::{Axis, Layout, Projection, Provenance, Time};
+use crate::input::experiment::{Axis, Layout, Projection, Provenance, Stated, Time};
 use approx::assert_relative_eq;
 
 /// Three synthetic points for the scene of Fig. 4 at n = 100, with the values `y` at early times, in seconds.
@@ -17,7 +17,7 @@ fn synthetic(y: [f64; 3]) -> MeasuredCurve {
         channel: 1,
         points: [0.1, 0.2, 0.5].into_iter().zip(y).map(point).collect(),
         provenance: Provenance {
-            figure: "synthetic".to_owned(),
+            stated: Stated::default(),
             csv: Layout::Columns,
             rods: None,
             x: axis_s,

@@ -88,6 +88,14 @@ pub fn synthetic() -> Report {
         system: "none".into(),
         date: "2000-01-01T00:00:00Z".into(),
         seeds: "none".into(),
+        points: vec![crate::input::experiment::Stated {
+            file: "a.toml".into(),
+            paper: "synthetic <points>, not a measurement".into(),
+            figure: "Fig. S".into(),
+            digitised_by: "nobody".into(),
+            tool: "none".into(),
+            date: "2000-01-01".into(),
+        }],
     };
     report
 }
