@@ -27,7 +27,7 @@ pub use keys::{
 use keys::{Absent::Default as Otherwise, Absent::Other, Absent::Required, table, whole};
 pub(crate) use keys::{find, refused};
 pub(crate) use particles::equivalent;
-pub use particles::{Isotropic, Orientation, OwnRods, Particles, RodsFile};
+pub use particles::{COUNTED, Isotropic, Orientation, OwnRods, Particles, RodsFile};
 pub use read::{of_document, parse};
 pub use rods::Misfit;
 pub use steps::resolved_strain;

@@ -10,6 +10,9 @@ use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 use std::sync::Arc;
 
+/// The count of a scene whose file of rods has not been loaded, and which gives none.
+pub const COUNTED: usize = 0;
+
 table! {
     /// `[particles]`. By default a hundred rods of 0.72 mm with r_e = 11.6, in random directions.
     ///
@@ -19,7 +22,7 @@ table! {
     /// assert!(shearbed::Plan::new(&Scene { particles, ..Scene::default() }).is_ok());
     /// ```
     pub struct Particles in "particles" {
-        count: usize = 100, "", whole(1, MAX_COUNT as u64), Required,
+        count: usize = 100, "", whole(1, MAX_COUNT as u64), Other("the rows of particles.rods, else it must be given"),
             "N, rods in the control volume";
         length_mm: f64 = 0.72, "mm", Holds::Positive, Required,
             "a, the full length of a rod, or its mean";
@@ -63,7 +66,15 @@ impl Particles {
         if !start.iter().any(|key| reader.has(key) || reader.means(key)) {
             reader.refuse(start[0], &allowed(start[0]));
         }
+        let count = "particles.count";
+        let counted = !reader.has(count);
+        if counted && !reader.has(start[1]) && !reader.means(count) {
+            reader.refuse(count, &allowed(count));
+        }
         let mut particles = Self::read_keys(reader)?;
+        if counted {
+            particles.count = COUNTED;
+        }
         if given != Some(r_e) {
             let r_e = equivalent(particles.physical_aspect_ratio, particles.shape_correlation);
             particles.aspect_ratio = r_e.unwrap_or(f64::NAN);

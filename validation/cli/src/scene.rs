@@ -123,6 +123,7 @@ pub(super) fn load(given: &OsStr, settings: Vec<KeyValue>) -> Result<Named, Fail
     }
     let mut scene = of_document(&document).map_err(at)?;
     starts.fill(&mut scene).map_err(|error| refused(&source, &error))?;
+    warn(&source, starts.warnings());
     Ok(Named { scene, text, document, settings, source, starts, stem })
 }
 

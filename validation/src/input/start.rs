@@ -3,7 +3,7 @@
 mod table;
 
 use crate::files::text::Shown;
-use shearbed::scene::{OwnRods, RodsFile, Scene};
+use shearbed::scene::{COUNTED, OwnRods, RodsFile, Scene};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -22,6 +22,7 @@ struct Start {
     own: Arc<OwnRods>,
     /// The line of each rod in the file.
     lines: Arc<Vec<u64>>,
+    warning: Option<String>,
 }
 
 impl Starts {
@@ -33,6 +34,11 @@ impl Starts {
     /// The checksums (CRC-32) of the files read.
     pub fn checksums(&self) -> BTreeMap<&str, &str> {
         (self.read.iter()).map(|(file, start)| (file.as_str(), start.crc32.as_str())).collect()
+    }
+
+    /// Warnings on what the files have.
+    pub fn warnings(&self) -> impl Iterator<Item = &String> {
+        self.read.values().filter_map(|start| start.warning.as_ref())
     }
 
     /// The paths of the files read.
@@ -56,11 +62,12 @@ impl Starts {
             None => {
                 let bytes = crate::files::bounded::bytes(&path, 1 << 31)
                     .map_err(|error| refused(format!(": cannot be read: {error}")))?;
-                let (own, lines) = read(&path, &bytes).map_err(|error| format!("particles.rods: {error}"))?;
+                let (own, lines, warning) = read(&path, &bytes).map_err(|error| format!("particles.rods: {error}"))?;
                 let start = Start {
                     crc32: format!("{:08x}", crc32fast::hash(&bytes)),
                     own: Arc::new(own),
                     lines: Arc::new(lines),
+                    warning,
                 };
                 self.read.insert(file.clone(), start.clone());
                 start
@@ -69,6 +76,9 @@ impl Starts {
         if let Some(expected) = crc32.as_deref().filter(|expected| *expected != start.crc32) {
             let found = &start.crc32;
             return Err(refused(format!(": has crc32 = {found}; {expected:?} is allowed, or no crc32")));
+        }
+        if scene.particles.count == COUNTED {
+            scene.particles.count = start.lines.len();
         }
         fits(scene, &start).map_err(refused)?;
         if let Some(rods) = &mut scene.particles.rods {
@@ -120,6 +130,15 @@ mod tests {
         std::fs::remove_file(&file).unwrap();
         starts.fill(&mut b).unwrap();
         assert!(Arc::ptr_eq(&of(&a), &of(&b)));
+    }
+
+    #[test]
+    fn rods_need_not_be_counted() {
+        let dir = tempfile::tempdir().unwrap();
+        std::fs::write(dir.path().join("start.csv"), "p1,p2,p3\n1,0,0\n0,1,0\n0,0,1\n").unwrap();
+        let mut scene = of_a_file(COUNTED, false);
+        Starts::beside(dir.path()).fill(&mut scene).unwrap();
+        assert_eq!(scene.particles.count, 3);
     }
 
     /// Two rods at 50 per cm³: the side is H = 3.42 mm.

@@ -2,7 +2,8 @@
 
 use crate::files::FileError;
 use crate::files::csv::{Row, Table};
-use crate::files::text::start;
+use crate::files::text::{Shown, start};
+use shearbed::model::orientation::from_degrees;
 use shearbed::scene::OwnRods;
 use std::path::Path;
 
@@ -11,6 +12,7 @@ const P: [&str; 3] = ["p1", "p2", "p3"];
 const PLACE: [&str; 3] = ["x1_mm", "x2_mm", "x3_mm"];
 const ASPECT_RATIO: [&str; 1] = ["aspect_ratio"];
 const LENGTH: [&str; 1] = ["length_mm"];
+const ANGLES: [&str; 2] = ["phi_deg", "theta_deg"];
 
 /// The column of the rods' numbers, ascending without repetition.
 const ROD: &str = "rod";
@@ -21,8 +23,11 @@ const ONE_VALUE: [&str; 3] = ["replica", "time_s", "strain"];
 /// Another column that the file may have, as `rods.csv` does; it is ignored.
 const OTHERS: [&str; 1] = ["collided"];
 
-/// The largest deviation of |p| from 1, as for directions of five or more decimals; p is then normalised.
-const OFF_UNIT: f64 = 1e-5;
+/// The largest deviation of |p| from 1, as for directions of three decimals; p is then normalised.
+const OFF_UNIT: f64 = 1e-3;
+
+/// The same without a warning, as for directions of five or more decimals.
+const ROUNDED: f64 = 1e-5;
 
 /// The columns of a group in the file, `None` if it has none.
 type Group<const K: usize> = Option<[usize; K]>;
@@ -49,10 +54,10 @@ fn values<const K: usize>(
     Ok(Some(values))
 }
 
-/// The rods, row by row, and the line of each.
-pub(super) fn read(path: &Path, bytes: &[u8]) -> Result<(OwnRods, Vec<u64>), FileError> {
+/// The rods, row by row, the line of each, and a warning where directions had to be normalised.
+pub(super) fn read(path: &Path, bytes: &[u8]) -> Result<(OwnRods, Vec<u64>, Option<String>), FileError> {
     let mut table = Table::new(path, bytes)?;
-    let described = P.iter().chain(&PLACE).chain(&ASPECT_RATIO).chain(&LENGTH);
+    let described = P.iter().chain(&PLACE).chain(&ASPECT_RATIO).chain(&LENGTH).chain(&ANGLES);
     let known: Vec<&str> = described.chain([&ROD]).chain(&ONE_VALUE).chain(&OTHERS).copied().collect();
     if let Some(name) = table.names().iter().find(|name| !known.contains(&name.as_str())) {
         // The start alone, so that a file of other content is not shown in full.
@@ -63,13 +68,19 @@ pub(super) fn read(path: &Path, bytes: &[u8]) -> Result<(OwnRods, Vec<u64>), Fil
     }
     let (p, places) = (group(P, &table)?, group(PLACE, &table)?);
     let (shape, length) = (group(ASPECT_RATIO, &table)?, group(LENGTH, &table)?);
-    if p.is_none() && places.is_none() && shape.is_none() && length.is_none() {
-        let needed = "p1, p2 and p3, aspect_ratio, length_mm, or x1_mm, x2_mm and x3_mm";
+    let angles = group(ANGLES, &table)?;
+    if p.is_some() && angles.is_some() {
+        return Err(
+            table.error("p1, p2, p3 and phi_deg, theta_deg: each gives the directions; one of the two is allowed")
+        );
+    }
+    if p.is_none() && angles.is_none() && places.is_none() && shape.is_none() && length.is_none() {
+        let needed = "p1, p2 and p3, phi_deg and theta_deg, aspect_ratio, length_mm, or x1_mm, x2_mm and x3_mm";
         return Err(table.error(format!("no column of what a rod is: {needed}")));
     }
     let mut order = Order::new(&table);
     let mut rods = OwnRods::default();
-    let mut lines = Vec::new();
+    let (mut lines, mut most_off) = (Vec::new(), 0f64);
     while let Some(row) = table.next_row()? {
         let number = |place: usize| row.finite(place);
         let positive = |place: usize| row.positive(place, "a finite number > 0");
@@ -77,12 +88,16 @@ pub(super) fn read(path: &Path, bytes: &[u8]) -> Result<(OwnRods, Vec<u64>), Fil
         if let Some(direction) = values(p, number)? {
             // Only exactly rounded operations, for the same bits on every machine.
             let length = direction.map(|x| x * x).iter().sum::<f64>().sqrt();
+            most_off = most_off.max((length - 1.0).abs());
             if (length - 1.0).abs() > OFF_UNIT {
                 let [p1, p2, p3] = direction;
                 let allowed = format!("1 within {OFF_UNIT:e} is allowed");
                 return Err(row.error(format!("p = ({p1}, {p2}, {p3}) has length {length}: {allowed}")));
             }
             push(&mut rods.p, direction.map(|x| x / length));
+        }
+        if let Some([phi_deg, theta_deg]) = values(angles, number)? {
+            push(&mut rods.p, from_degrees(phi_deg, theta_deg).into_inner().into());
         }
         // Free rods have no position, and empty cells in rods.csv.
         if !places.is_some_and(|places| places.iter().all(|place| row.is_blank(*place))) {
@@ -103,7 +118,13 @@ pub(super) fn read(path: &Path, bytes: &[u8]) -> Result<(OwnRods, Vec<u64>), Fil
         }
         lines.push(row.line);
     }
-    Ok((rods, lines))
+    let normalised = || {
+        format!(
+            "{}: directions have lengths that differ from 1 by up to {most_off:.1e}, and are normalised",
+            path.shown()
+        )
+    };
+    Ok((rods, lines, (most_off > ROUNDED).then(normalised)))
 }
 
 fn push(axes: &mut Option<[Vec<f64>; 3]>, values: [f64; 3]) {
@@ -166,7 +187,24 @@ mod tests {
     use super::*;
 
     fn read(text: &str) -> Result<(OwnRods, Vec<u64>), FileError> {
-        super::read(Path::new("f"), text.as_bytes())
+        super::read(Path::new("f"), text.as_bytes()).map(|(own, lines, _)| (own, lines))
+    }
+
+    /// Three decimals are taken, with a warning, and angles are the same directions.
+    #[test]
+    fn directions_are_rounded_or_angles() {
+        let of = |text: &str| super::read(Path::new("f"), text.as_bytes()).unwrap();
+        let (rounded, _, warning) = of("p1,p2,p3\n0.577,0.577,0.577\n0,0,1\n");
+        assert_eq!(
+            warning.unwrap(),
+            "f: directions have lengths that differ from 1 by up to 6.1e-4, and are normalised"
+        );
+        let (exact, _, none) = of("phi_deg,theta_deg\n45,54.735610317245346\n0,0\n");
+        assert_eq!(none, None);
+        for (rounded, exact) in rounded.p.unwrap().iter().flatten().zip(exact.p.unwrap().iter().flatten()) {
+            assert!((rounded - exact).abs() < 1e-15, "{rounded} {exact}");
+        }
+        assert_eq!(of("p1,p2,p3\n0.70711,0.70711,0\n").2, None);
     }
 
     /// The error without the file's name.
@@ -213,6 +251,9 @@ mod tests {
             ("p1,p2,p3\n1,0,nan\n", "2: column p3: `nan` is not allowed"),
             ("p1,p2,p3\n1,0,1e999\n", "2: column p3: `1e999` is not allowed"),
             ("p1,p2,p3\n1,0,0\n0.6,0.8,0.1\n", "3: p = (0.6, 0.8, 0.1) has length 1.00498"),
+            ("p1,p2,p3\n0.57,0.57,0.57\n", "2: p = (0.57, 0.57, 0.57) has length 0.987"),
+            ("phi_deg,p1,p2,p3\n1,0,0,1\n", "1: column theta_deg is missing; phi_deg, theta_deg go together"),
+            ("phi_deg,theta_deg,p1,p2,p3\n0,0,0,0,1\n", "1: p1, p2, p3 and phi_deg, theta_deg: each gives"),
             ("p1,p2,p3\n0,0,0\n", "2: p = (0, 0, 0) has length 0"),
             ("p1,p2,p3\n1,0\n", "2: 2 cells; the header has 3"),
             (
