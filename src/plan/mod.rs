@@ -169,6 +169,13 @@ impl Plan {
         self.entries.iter().any(|entry| entry.stage == stage && entry.kept)
     }
 
+    /// True if replicas differ: something of a rod or of its motion is drawn.
+    pub fn draws(&self) -> bool {
+        let random =
+            [Stage::AspectRatios, Stage::Lengths, Stage::Orientations, Stage::CollisionDraws, Stage::Diffusion];
+        random.into_iter().any(|stage| self.runs(stage))
+    }
+
     /// The observables to compute, in the order of the scene.
     pub fn observables(&self) -> Vec<Observable> {
         let kept = self.entries.iter().filter(|entry| entry.kept);

@@ -19,14 +19,15 @@ use shearbed_validation::files::text::Shown;
 use shearbed_validation::files::text::command;
 use shearbed_validation::input::experiment::MOST_BYTES;
 use shearbed_validation::methods::least_squares::Datum;
+use shearbed_validation::methods::least_squares::direct::Direct;
 use shearbed_validation::present::plot;
 use shearbed_validation::serve::fit::contents::{self, Contents};
 use shearbed_validation::serve::fit::design::{Candidate, design};
-use shearbed_validation::serve::fit::elsewhere::look_elsewhere;
+use shearbed_validation::serve::fit::elsewhere::best_fit;
 use shearbed_validation::serve::fit::error::{FitError, SceneError};
 use shearbed_validation::serve::fit::report::{self, Report};
 use shearbed_validation::serve::fit::scenes::{AS_WRITTEN, Scenes};
-use shearbed_validation::serve::fit::search::{Fit, FitProblem, Measured, Watch, search};
+use shearbed_validation::serve::fit::search::{Fit, FitProblem, Measured, Watch};
 use shearbed_validation::serve::fit::{Hypothesis, Range, pictures};
 use shearbed_validation::serve::sweep::KeyValue;
 use shifts::{shifts, taken_as_known};
@@ -38,7 +39,7 @@ const MOST_REPLICAS: u64 = 1000;
 
 /// Arguments of `fit`.
 #[derive(clap::Args)]
-#[command(override_usage = "shearbed fit <SCENE> --data <FILE.csv> --over <KEY=FROM:TO> [OPTIONS]")]
+#[command(override_usage = "shearbed fit <SCENE> --data <FILE.csv> [--over <KEY=FROM:TO>] [OPTIONS]")]
 #[command(after_help = "\
 FILE.csv has the columns t_over_T (or t_s, strain), x1, x1_u, and as you like x2, x2_u, … (docs/src/user/fitting.md).
 Examples:
@@ -58,8 +59,8 @@ pub(super) struct Args {
     #[arg(long, value_name = "NAMES", value_delimiter = ',', allow_hyphen_values = true)]
     columns: Option<Vec<String>>,
     /// A key of the scene to fit, and the range to look in; up to three times. SET:KEY=FROM:TO: a value of its own for
-    /// the scene of the first, second, … --data
-    #[arg(long, value_name = "[SET:]KEY=FROM:TO", required = true, value_parser = advice::range)]
+    /// the scene of the first, second, … --data. Without it: how well the scene as it is describes the points
+    #[arg(long, value_name = "[SET:]KEY=FROM:TO", value_parser = advice::range)]
     over: Vec<Range>,
     /// The folder for fit.json, tables and pictures [default: out/fit-<scene>]
     #[arg(long, value_name = "DIR")]
@@ -97,9 +98,9 @@ pub(super) struct Args {
 /// The record of a fit.
 const FIT: &str = "fit.json";
 
-/// The results of a fit.
+/// The results of a fit; of a scene as it is without a fit.
 struct Done {
-    fit: Fit,
+    fit: Option<Fit>,
     report: Report,
     warnings: Vec<String>,
     figures: Vec<(String, plot::Figure)>,
@@ -137,32 +138,28 @@ fn write(args: &Args, input: &Input, folder: &ResultFolder, asked: &Value, done:
     let times: Vec<&str> = input.scenes.sets.iter().map(|set| set.time.name()).collect();
     let files = files(args, done, &times).map_err(Failure::Failed)?;
     let names: Vec<&str> = std::iter::once(FIT).chain(files.iter().map(|(name, _)| name.as_str())).collect();
-    let record = record(asked, done, &names)?;
+    let record = record(asked, input, done, &names)?;
     let names = names.join(", ");
     folder.write(files.into_iter().chain([(FIT.into(), record)]).collect())?;
-    scene::warn(&input.stem, &done.warnings);
+    scene::warn(&input.stem, input.warnings.iter().chain(&done.warnings));
     if args.writing.quiet {
         return Ok(());
     }
     let design = done.report.design.as_ref();
-    let design = design.map_or(String::new(), |steps| terminal::design(&done.fit, steps, &times) + "\n");
-    print(&format!(
-        "{}\n{}\n{}\n{design}in {}: {names}\n",
-        terminal::sentence(&done.fit, &done.report),
-        terminal::tests(&done.report),
-        terminal::table(&done.fit, &done.report),
-        folder.dir().shown(),
-    ))
+    let design =
+        done.fit.as_ref().zip(design).map_or(String::new(), |(fit, steps)| terminal::design(fit, steps, &times) + "\n");
+    let table = done.fit.as_ref().map_or(String::new(), |fit| terminal::table(fit, &done.report) + "\n");
+    let (sentence, tests) = (terminal::sentence(done.fit.as_ref(), &done.report), terminal::tests(&done.report));
+    print(&format!("{sentence}\n{tests}\n{table}{design}in {}: {names}\n", folder.dir().shown()))
 }
 
 /// Tables and pictures.
 fn files(args: &Args, done: &Done, times: &[&str]) -> Result<Vec<Output>, String> {
-    let mut files: Vec<Output> = vec![
-        ("residuals.csv".into(), report::residuals_csv(&done.report, times)?),
-        ("profiles.csv".into(), report::profiles_csv(&done.fit)?),
-    ];
+    let mut files: Vec<Output> = vec![("residuals.csv".into(), report::residuals_csv(&done.report, times)?)];
+    let Some(fit) = &done.fit else { return Ok(files) };
+    files.push(("profiles.csv".into(), report::profiles_csv(fit)?));
     if args.design {
-        files.push(("design.csv".into(), report::design_csv(&done.fit, &done.candidates, times)?));
+        files.push(("design.csv".into(), report::design_csv(fit, &done.candidates, times)?));
     }
     let figures = serde_json::to_string(&done.figures).map_err(|error| error.to_string())?;
     files.push((super::plot::FIGURES.into(), figures));
@@ -185,10 +182,12 @@ fn work(args: &Args, input: &Input, watch: &Watch<'_>) -> Result<Done, Failure> 
     let problem = FitProblem {
         measured: Measured { data, ranges: &args.over, rods: &rods },
         model: &model,
-        most_replicas: args.replicas,
+        most_replicas: if scenes.draw(data).map_err(refused)? { args.replicas } else { 1 },
     };
-    let fit = search(&problem, watch).map_err(stopped)?;
-    let unsearched = look_elsewhere(&problem, &fit, watch).map_err(stopped)?;
+    if args.over.is_empty() {
+        return as_written(input, &problem, watch);
+    }
+    let (fit, unsearched) = best_fit(&problem, watch).map_err(stopped)?;
     let shifts = shifts(input, &fit, &model, watch).map_err(Failure::Input)?;
     let mut report = report::report(&fit, data, shifts);
     report.warnings.extend(unsearched);
@@ -205,16 +204,36 @@ fn work(args: &Args, input: &Input, watch: &Watch<'_>) -> Result<Done, Failure> 
         report.design = Some(found.steps);
         candidates = found.candidates;
     }
-    let best = scenes.plans(&fit.values(&fit.best.place), data, AS_WRITTEN).map_err(refused)?;
-    let mut of_plans: Vec<String> = best.iter().flat_map(Plan::warnings).collect();
-    of_plans.dedup();
-    warnings.extend(of_plans);
+    warnings.extend(of_plans(input, &fit.values(&fit.best.place))?);
     let places = pictures::places(data);
     let drawn = |values: &[f64]| model_of(scenes, &places, values);
     let curves = pictures::best_curves(&fit, &places, &drawn, watch).map_err(Failure::Input)?;
     let times: Vec<&str> = scenes.sets.iter().map(|set| set.time.name()).collect();
     let figures = pictures::figures(&fit, &report, data, (&places, &curves), &input.names, &times);
-    Ok(Done { fit, report, warnings, figures, candidates })
+    Ok(Done { fit: Some(fit), report, warnings, figures, candidates })
+}
+
+/// The points beside the scene as it is.
+fn as_written(input: &Input, problem: &FitProblem<'_>, watch: &Watch<'_>) -> Result<Done, Failure> {
+    let FitProblem { measured: Measured { data, rods, .. }, model, most_replicas } = *problem;
+    (watch.stage)("the scene as it is");
+    let replica = model(&[]).map_err(Failure::Input)?;
+    let rows = watch.replicas(most_replicas, |k| replica.run(k)).map_err(Failure::Input)?;
+    let found = Direct::of(data, &rows, rods).ok_or("the covariance of the points is not positive");
+    let report = found.map_err(String::from).and_then(|found| report::as_written(data, &found, rods, rows.len()));
+    let report = report.map_err(Failure::Input)?;
+    let mut warnings: Vec<String> = report.warnings.iter().map(of_warning).collect();
+    warnings.extend(of_plans(input, &[])?);
+    Ok(Done { fit: None, report, warnings, figures: Vec::new(), candidates: Vec::new() })
+}
+
+/// The warnings of the scenes' plans with these values, each once.
+fn of_plans(input: &Input, values: &[f64]) -> Result<Vec<String>, Failure> {
+    let plans = input.scenes.plans(values, &input.data, AS_WRITTEN);
+    let plans = plans.map_err(|error| Failure::Input(of_scene(&error)))?;
+    let mut all: Vec<String> = plans.iter().flat_map(Plan::warnings).collect();
+    all.dedup();
+    Ok(all)
 }
 
 /// The inputs of a fit, on which all its results depend.
@@ -255,10 +274,10 @@ fn positive(text: &str) -> Result<f64, String> {
 }
 
 /// The text of `fit.json`.
-fn record(asked: &Value, done: &Done, files: &[&str]) -> Result<String, Failure> {
+fn record(asked: &Value, input: &Input, done: &Done, files: &[&str]) -> Result<String, Failure> {
     let failed = |error: serde_json::Error| Failure::Failed(error.to_string());
     let mut record = serde_json::to_value(&done.report).map_err(failed)?;
-    record["warnings"] = json!(done.warnings);
+    record["warnings"] = json!(input.warnings.iter().chain(&done.warnings).collect::<Vec<_>>());
     record["build"] = json!(BUILD);
     record["command"] = json!(command(super::words::words()));
     for (key, value) in asked.as_object().into_iter().flatten() {

@@ -30,6 +30,8 @@ pub(super) struct Input {
     pub(super) names: Vec<String>,
     pub(super) files: Vec<PathBuf>,
     pub(super) stem: String,
+    /// Columns of the files that are not read.
+    pub(super) warnings: Vec<String>,
 }
 
 /// Reads scenes and points. Every fault in them is found here, before anything runs.
@@ -39,6 +41,10 @@ pub(super) fn input(args: &Args) -> Result<Input, Failure> {
             "--over: given {} times; up to {MOST_PARAMETERS} parameters at once are allowed",
             args.over.len()
         )));
+    }
+    let only_of_fits = [("--test", !args.test.is_empty()), ("--design", args.design)];
+    if let Some((flag, _)) = only_of_fits.iter().find(|(_, given)| *given && args.over.is_empty()) {
+        return Err(Failure::Input(format!("{flag}: nothing is fitted; --over KEY=FROM:TO names a key and its range")));
     }
     for set in 0..args.data.len() {
         check_owners(args, set)?;
@@ -70,7 +76,7 @@ pub(super) fn input(args: &Args) -> Result<Input, Failure> {
         }
     }
     let (mut sets, mut data, mut names, mut files) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-    let mut stem = String::new();
+    let (mut stem, mut warnings) = (String::new(), Vec::new());
     let reading = Reading { columns: args.columns.clone(), u: args.u };
     for (k, given) in args.data.iter().enumerate() {
         let (scene, path) = scene_and_file(&args.scene, given);
@@ -88,6 +94,9 @@ pub(super) fn input(args: &Args) -> Result<Input, Failure> {
                 "--u {u}: {} has uncertainties of its own, in the column {column}; either these or --u are allowed",
                 path.shown()
             )));
+        }
+        if !points.unread.is_empty() {
+            warnings.push(format!("{}: not read: {}", path.shown(), line(&points.unread.join(", "))));
         }
         within_scene(&named, args, points.time, &points.points, path)?;
         if k == 0 {
@@ -151,7 +160,7 @@ pub(super) fn input(args: &Args) -> Result<Input, Failure> {
             memory::check(&plan, args.threads.given, &stem)?;
         }
     }
-    Ok(Input { scenes, data, names, files, stem })
+    Ok(Input { scenes, data, names, files, stem, warnings })
 }
 
 /// Checks that each key of a set's scene is set by one flag.

@@ -7,7 +7,7 @@ use shearbed_validation::serve::fit::search::Fit;
 use shearbed_validation::serve::fit::{LEAST_P, Range, Tested};
 
 /// One line with the estimate of each parameter and the goodness of fit.
-pub(super) fn sentence(fit: &Fit, report: &Report) -> String {
+pub(super) fn sentence(fit: Option<&Fit>, report: &Report) -> String {
     let parameter = |range: &Range| {
         let found = &report.parameters[&range.label()];
         // Two digits of the uncertainty, which counts as at most the range if the points determine little.
@@ -20,7 +20,7 @@ pub(super) fn sentence(fit: &Fit, report: &Report) -> String {
             found.high_95
         )
     };
-    let all: Vec<_> = fit.ranges.iter().map(parameter).collect();
+    let all: Vec<_> = fit.map_or(vec!["the scene as it is".into()], |fit| fit.ranges.iter().map(parameter).collect());
     format!(
         "{}; χ² = {:.1} for {} degrees of freedom, p = {}",
         all.join("; "),
@@ -29,6 +29,9 @@ pub(super) fn sentence(fit: &Fit, report: &Report) -> String {
         probability(report.p_value)
     )
 }
+
+/// A share of the standard uncertainty that seeds may move an estimate by without a word.
+const LITTLE: f64 = 0.2;
 
 /// The uncertainty budget and the shifts, as text for the terminal.
 pub(super) fn table(fit: &Fit, report: &Report) -> String {
@@ -43,7 +46,15 @@ pub(super) fn table(fit: &Fit, report: &Report) -> String {
         let both: String = both.map(|text| format!("  {text:>18}")).collect();
         text += &format!("{:<34}{both}\n", format!("shift by {}", shift.change));
     }
-    format!("{text}runs: {}, replicas at each value: {}\n", report.runs, report.replicas)
+    text += &format!("{:<34}{}\n", "of that, another seed moves it by", numbers(&report.another_seed));
+    text += &format!("runs: {}, replicas at each value: {}\n", report.runs, report.replicas);
+    let of_uncertainty = |(range, seed): (&Range, &f64)| seed / report.parameters[&range.label()].standard_uncertainty;
+    let most = fit.ranges.iter().zip(&report.another_seed).map(of_uncertainty).fold(0.0, f64::max);
+    if most > LITTLE {
+        let seeds = (most / LITTLE).powi(2).ceil();
+        text += &format!("the seed matters: a mean over {seeds} seeds moves by a fifth of the uncertainty\n");
+    }
+    text
 }
 
 /// One line for each tested hypothesis, as text for the terminal.

@@ -167,7 +167,7 @@ pub fn best(data: &[Datum], emulator: &Emulator, rods: &Rods) -> Option<Best> {
     let influence = solver.solve(&weighted.transpose());
     let mut spread: Vec<_> = (causes.iter()).map(|cause| &influence * cause * influence.transpose()).collect();
     let of_replica = emulator.covariance_of_replica(&place);
-    let scatter = scatter_of_covariance(data, emulator, &of_replica, &rods.over_measured, &projector);
+    let scatter = scatter_of_covariance(data, emulator.replicas(), &of_replica, &rods.over_measured, &projector);
     let linear = sum(&spread);
     let hidden = added(&linear, &(&influence * &scatter * influence.transpose()));
     spread.push(hidden.unwrap_or_else(|| linear * UNKNOWN));

@@ -121,7 +121,7 @@ pub fn coefficients(
 }
 
 impl Emulator {
-    /// The emulator of these replicas; at least two are needed.
+    /// The emulator of these replicas. One alone has no noise: enough for a model that draws nothing.
     pub fn new(basis: &Basis, replicas: &[Coefficients]) -> Self {
         let share = 1.0 / replicas.len() as f64;
         let mean = |which: usize| {
@@ -173,7 +173,7 @@ impl Emulator {
         let squares = (self.deviations.iter())
             .fold(zero, |sum, one| sum + one.tr_mul(&terms).map(|deviation| deviation * deviation));
         let own = |lack: f64, squares: f64| {
-            lack.signum() * (lack * lack - CERTAIN.powi(2) * squares / (n * (n - 1.0))).max(0.0).sqrt()
+            lack.signum() * (lack * lack - CERTAIN.powi(2) * squares / (n * (n - 1.0).max(1.0))).max(0.0).sqrt()
         };
         self.mean().tr_mul(&terms).zip_map(&squares, own)
     }
@@ -195,7 +195,7 @@ impl Emulator {
         };
         let all: Vec<DMatrix<f64>> = self.deviations.par_chunks(TOGETHER).map(some).collect();
         let sum = all.iter().fold(zero.clone(), |sum, one| sum + one);
-        sum / (n * (n - 1.0))
+        sum / (n * (n - 1.0).max(1.0))
     }
 
     /// The covariance of the mean curve, points × points.
@@ -229,7 +229,7 @@ pub(super) fn of_time(at: &DVector<f64>, before: DVector<f64>, after: DVector<f6
 /// The covariance of deviations from the mean, a row for each replica.
 fn covariance(rows: &[RowDVector<f64>]) -> DMatrix<f64> {
     let spread = DMatrix::from_rows(rows);
-    spread.tr_mul(&spread) / (rows.len() as f64 - 1.0)
+    spread.tr_mul(&spread) / (rows.len() as f64 - 1.0).max(1.0)
 }
 
 #[cfg(test)]

@@ -9,18 +9,17 @@
 //! Phys. Rev. D 88 (2013) 063537, for the estimates).
 
 use super::Datum;
-use super::emulator::Emulator;
 use nalgebra::DMatrix;
 
-/// E[δV P δV], points × points. `rods_over_measured` is as for `causes`.
+/// E[δV P δV] of `replicas`, points × points. `rods_over_measured` is as for `causes`.
 pub fn scatter_of_covariance(
     data: &[Datum],
-    emulator: &Emulator,
+    replicas: usize,
     of_replica: &DMatrix<f64>,
     rods_over_measured: &[f64],
     projector: &DMatrix<f64>,
 ) -> DMatrix<f64> {
-    let n = emulator.replicas() as f64;
+    let n = replicas as f64;
     // K∘C is a sum of parts of C: all of C with the weight 1/n, and the points of each set with that set's weight.
     let sets = (0..rods_over_measured.len()).map(|set| (rods_over_measured[set], Some(set)));
     let parts: Vec<(f64, Option<usize>)> = [(1.0 / n, None)].into_iter().chain(sets).collect();
@@ -31,7 +30,7 @@ pub fn scatter_of_covariance(
             let between =
                 projector.map_with_location(|i, j, p| if within(*rows, i) && within(*columns, j) { p } else { 0.0 });
             let trace = (&between * of_replica).trace();
-            let scatter = (of_replica * between.transpose() * of_replica + of_replica * trace) / (n - 1.0);
+            let scatter = (of_replica * between.transpose() * of_replica + of_replica * trace) / (n - 1.0).max(1.0);
             sum += scatter.map_with_location(|i, j, s| {
                 if within(*rows, i) && within(*columns, j) { weight * other * s } else { 0.0 }
             });

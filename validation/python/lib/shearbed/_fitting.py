@@ -19,7 +19,7 @@ from ._scene import Scene, scene_of
 
 Array = NDArray[np.float64]
 SceneLike = Scene | Mapping[str, Any] | str | os.PathLike[str]
-Points = Mapping[str, ArrayLike] | str | os.PathLike[str]
+Points = Mapping[str, ArrayLike] | NDArray[Any] | str | os.PathLike[str]
 
 
 @dataclass(frozen=True)
@@ -58,7 +58,7 @@ class Fit:
         self.correlation: Array = np.array(self.record["correlation"], dtype=float)
         self.residuals: dict[str, NDArray[Any]] = columns_of(folder / "residuals.csv")
         """Each point beside the best model: set, time_unit, time, column, measured, simulated, residual, u."""
-        profiles = columns_of(folder / "profiles.csv")
+        profiles = columns_of(folder / "profiles.csv") if self.order else {}
         self.profiles: dict[str, tuple[Array, Array]] = {
             key: (profiles["value"][rows], profiles["rise_of_chi2"][rows])
             for key in self.order
@@ -99,7 +99,7 @@ class Fit:
 def fit(
     scene: SceneLike,
     data: Points,
-    over: Mapping[str, tuple[float, float]],
+    over: Mapping[str, tuple[float, float]] | None = None,
     *,
     also: Sequence[tuple[SceneLike, Points]] = (),
     replicas: int | None = None,
@@ -116,8 +116,10 @@ def fit(
     """Fits keys of a scene to measured points, as ``shearbed fit`` does, with the same result.
 
     ``data`` is a CSV file or its columns: a time (``t_over_T``, ``t_s`` or ``strain``), and channels each with one standard
-    deviation, as ``x1`` and ``x1_u``, or ``u`` for all points; ``u_contains`` is ``"reading"`` or ``"rods"``; NaN was not measured. ``columns=["t_s", "x1", "-"]`` names the columns
-    of files that have other names, or none. ``over={"interaction.alpha": (0.05, 5)}`` are up to three keys
+    deviation, as ``x1`` and ``x1_u``, or ``u`` for all points; ``u_contains`` is ``"reading"`` or ``"rods"``; NaN was not measured. Columns may be a dict,
+    a DataFrame, or an array with named fields. ``columns=["t_s", "x1", "-"]`` names the columns of files that have other
+    names, or none, and of an array with a row for each time. Without ``over`` nothing is fitted: how well the scene as it
+    is describes the points. ``over={"interaction.alpha": (0.05, 5)}`` are up to three keys
     with the range to look in. ``also`` are other scenes with points of their own, fitted with the same parameters.
     A key may have a value of its own for each scene: ``over={"1:interaction.alpha": ..., "2:interaction.alpha": ...}``.
     ``set={"particles.count": 50}`` gives a key of every scene another value. ``replicas`` is the most at each value,
@@ -136,7 +138,7 @@ def fit(
             scene_of(of)._written(folder, name)
             file = _file(points, folder / f"points-{k + 1}.csv")
             words += ["--data", file if k == 0 else f"{name}={file}"]
-        for key, (low, high) in over.items():
+        for key, (low, high) in (over or {}).items():
             words += ["--over", f"{key}={float(low)!r}:{float(high)!r}"]
         words += options(replicas=replicas, seed=seed, rods=rods, threads=threads, set=set)
         words += [] if u_contains is None else ["--u-contains", u_contains]
@@ -151,7 +153,13 @@ def fit(
 
 def _file(points: Points, place: Path) -> str:
     """The name of a CSV file of points, which is written if they are columns."""
-    if not isinstance(points, Mapping) and not hasattr(points, "items"):
+    if isinstance(points, np.ndarray) and points.dtype.names is None:
+        # Rows as in a file without a header, which ``columns`` names.
+        np.savetxt(place, points, delimiter=",")
+        return place.name
+    if isinstance(points, np.ndarray):
+        points = {name: points[name] for name in points.dtype.names}
+    if not hasattr(points, "items"):
         return os.path.abspath(points)
     columns = {str(name): np.asarray(values, dtype=float) for name, values in points.items()}
     lengths = {name: values.shape for name, values in columns.items()}

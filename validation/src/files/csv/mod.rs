@@ -1,8 +1,8 @@
 //! The one reader of tables of numbers in CSV.
 //!
-//! Cells are separated by commas, may be in quotes and have blanks around them; numbers have a decimal point and may
-//! have Fortran's exponents (`1.0D-3`). Blank lines, CR LF and a byte order mark are skipped. Files with semicolons or
-//! tabs, which may have decimal commas, and comments before the header are refused. An error names line and column.
+//! Cells are separated by commas, or by semicolons or tabs, and numbers may then have decimal commas; they may be in
+//! quotes and have blanks around them, and numbers may have Fortran's exponents (`1.0D-3`). Blank lines, lines that
+//! begin with `#`, CR LF and a byte order mark are skipped. An error names line and column.
 
 mod lines;
 
@@ -50,6 +50,22 @@ pub fn written(write: impl FnOnce(&mut csv::Writer<Vec<u8>>) -> csv::Result<()>)
 
 /// The cells of a line between commas: trimmed, and without their quotes.
 pub fn split(text: &str) -> Vec<String> {
+    split_at(text, ',')
+}
+
+/// The cells of a line, with a point in numbers where commas do not separate cells.
+fn cells(line: &str, separator: char) -> Vec<String> {
+    let mut cells = split_at(line, separator);
+    for cell in cells.iter_mut().filter(|cell| separator != ',' && cell.contains(',')) {
+        let pointed = cell.replace(',', ".");
+        if number(&pointed).is_some() {
+            *cell = pointed;
+        }
+    }
+    cells
+}
+
+fn split_at(text: &str, separator: char) -> Vec<String> {
     let mut cells = Vec::new();
     let mut rest = Some(text);
     while let Some(text) = rest {
@@ -61,7 +77,7 @@ pub fn split(text: &str) -> Vec<String> {
             Some((text[..end].replace("\"\"", "\""), &text[end + 1..]))
         });
         let (cell, after) = quoted.unwrap_or((String::new(), text));
-        let (more, next) = after.split_once(',').map_or((after, None), |(more, next)| (more, Some(next)));
+        let (more, next) = after.split_once(separator).map_or((after, None), |(more, next)| (more, Some(next)));
         cells.push(cell + more.trim());
         rest = next;
     }
@@ -69,21 +85,33 @@ pub fn split(text: &str) -> Vec<String> {
 }
 
 /// The rows of a table without a header.
-pub struct Rows<R>(Lines<R>);
+pub struct Rows<R> {
+    lines: Lines<R>,
+    separator: char,
+    /// The last comment before the first row, and its line.
+    comment: Option<(u64, String)>,
+}
 
 impl<R: BufRead> Rows<R> {
     /// The rows of `reader`; `path` is for messages.
     pub fn new(path: &Path, reader: R) -> Self {
-        Self(Lines::new(path, reader, LineEnds::Windows))
+        Self { lines: Lines::new(path, reader, LineEnds::Windows), separator: ',', comment: None }
     }
 
     /// The next line's number and cells.
     fn read(&mut self, is_first: bool) -> Result<Option<(u64, Vec<String>)>, FileError> {
-        let Some(line) = self.0.next_line()? else { return Ok(None) };
-        if is_first {
-            commas(&line).map_err(|message| self.0.error(0, message))?;
+        while let Some(line) = self.lines.next_line()? {
+            let number = self.lines.number();
+            if let Some(comment) = line.trim_start().strip_prefix('#') {
+                self.comment = is_first.then(|| (number, comment.to_owned()));
+                continue;
+            }
+            if is_first {
+                self.separator = separator(&line);
+            }
+            return Ok(Some((number, cells(&line, self.separator))));
         }
-        Ok(Some((self.0.number(), split(&line))))
+        Ok(None)
     }
 
     /// The number and the cells of every line that is not blank.
@@ -95,29 +123,29 @@ impl<R: BufRead> Rows<R> {
         let mut rows = Vec::new();
         while let Some(row) = self.read(rows.is_empty())? {
             if row.0 > most {
-                return Err(self.0.error(0, format!("more than {most} lines; at most {most} are allowed")));
+                return Err(self.lines.error(0, format!("more than {most} lines; at most {most} are allowed")));
             }
             rows.push(row);
         }
-        if rows.is_empty() { Err(FileError::line(self.0.path(), 1, EMPTY)) } else { Ok(rows) }
+        if rows.is_empty() { Err(FileError::line(self.lines.path(), 1, EMPTY)) } else { Ok(rows) }
     }
 }
 
 const EMPTY: &str = "the file is empty";
 
-/// Fails if the cells of a file's first line are separated by semicolons or tabs, and says what to do: such files have
-/// decimal commas.
-fn commas(first: &str) -> Result<(), String> {
-    for (separator, name, shell) in [(';', "semicolons", ";"), ('\t', "tabs", "\\t")] {
-        let is_number = |cell: &str| cell.trim().replace(',', ".").parse::<f64>().is_ok();
-        if first.contains(separator) && (!first.contains(',') || first.split(separator).all(is_number)) {
-            return Err(format!(
-                "cells are separated by {name}; commas between cells and points in numbers are allowed: \
-                 sed 's/,/./g; s/{shell}/,/g' makes them of it"
-            ));
-        }
-    }
-    Ok(())
+/// What separates the cells of a file with this first line: commas in it beside semicolons or tabs are those of names or
+/// of numbers.
+fn separator(first: &str) -> char {
+    let is_number = |cell: &str| number(&cell.trim().replace(',', ".")).is_some();
+    let other = |separator: &char| {
+        first.contains(*separator) && (!first.contains(',') || first.split(*separator).all(is_number))
+    };
+    [';', '\t'].into_iter().find(other).unwrap_or(',')
+}
+
+/// True if the cells are numbers or empty.
+fn is_row(cells: &[String]) -> bool {
+    cells.iter().all(|cell| cell.is_empty() || number(cell).is_some())
 }
 
 /// A table with a header, read row by row.
@@ -133,11 +161,11 @@ pub struct Table<R> {
 pub const LEFT_OUT: &str = "-";
 
 impl<R: BufRead> Table<R> {
-    /// Reads the header; `path` is for messages.
+    /// Reads the header, or that in the comment before a first line of numbers; `path` is for messages.
     ///
     /// # Errors
     ///
-    /// An empty file, other separators than commas, a comment, a column that is there twice.
+    /// An empty file, a column that is there twice.
     pub fn new(path: &Path, reader: R) -> Result<Self, FileError> {
         Self::named(path, reader, None)
     }
@@ -152,11 +180,15 @@ impl<R: BufRead> Table<R> {
         let mut rows = Rows::new(path, reader);
         let (line, cells) = rows.read(true)?.ok_or_else(|| FileError::line(path, 1, EMPTY))?;
         let table = match given {
-            None => Self { rows, line, names: cells, first: None },
+            None => match rows.comment.take().map(|(line, text)| (line, self::cells(&text, rows.separator))) {
+                Some((of_names, names)) if is_row(&cells) && names.len() == cells.len() => {
+                    Self { rows, line: of_names, names, first: Some((line, cells)) }
+                }
+                _ => Self { rows, line, names: cells, first: None },
+            },
             Some(given) => {
                 let (found, due) = (cells.len(), given.len());
-                let is_row = cells.iter().all(|cell| cell.is_empty() || number(cell).is_some());
-                let first = is_row.then_some((line, cells));
+                let first = is_row(&cells).then_some((line, cells));
                 let table = Self { rows, line, names: given.to_vec(), first };
                 if found != due {
                     return Err(table.error(format!("{found} cells where {due} columns are named")));
@@ -164,9 +196,6 @@ impl<R: BufRead> Table<R> {
                 table
             }
         };
-        if table.names[0].starts_with('#') {
-            return Err(table.error("comments are not read here: the first line has the names of the columns"));
-        }
         let left_out = |k: usize| given.is_some() && table.names[k] == LEFT_OUT;
         let twice = (1..table.names.len()).find(|k| !left_out(*k) && table.names[..*k].contains(&table.names[*k]));
         match twice {
@@ -190,12 +219,12 @@ impl<R: BufRead> Table<R> {
 
     /// An error in the header.
     pub fn error(&self, message: impl Into<String>) -> FileError {
-        FileError::line(self.rows.0.path(), self.line, message)
+        FileError::line(self.rows.lines.path(), self.line, message)
     }
 
     /// What the table is read from.
     pub fn reader(&self) -> &R {
-        self.rows.0.reader()
+        self.rows.lines.reader()
     }
 
     /// The next row; `None` at the end.
@@ -208,7 +237,7 @@ impl<R: BufRead> Table<R> {
         let Some((line, cells)) = first.map_or_else(|| self.rows.read(false), |row| Ok(Some(row)))? else {
             return Ok(None);
         };
-        let row = Row { path: self.rows.0.path(), names: &self.names, line, cells };
+        let row = Row { path: self.rows.lines.path(), names: &self.names, line, cells };
         match (row.cells.len(), row.names.len()) {
             (found, due) if found != due => Err(row.error(format!("{found} cells; the header has {due}"))),
             _ => Ok(Some(row)),
@@ -227,6 +256,11 @@ pub struct Row<'a> {
 }
 
 impl Row<'_> {
+    /// True if the cell is empty, or has a word for no value.
+    pub fn is_missing(&self, place: usize) -> bool {
+        ["", "nan", "na", "n/a"].iter().any(|word| self.cells[place].eq_ignore_ascii_case(word))
+    }
+
     /// True if the cell is empty.
     pub fn is_blank(&self, place: usize) -> bool {
         self.cells[place].is_empty()
@@ -287,14 +321,31 @@ mod tests {
         );
     }
 
+    /// Spreadsheets write semicolons and decimal commas, and numpy.savetxt the header as a comment.
+    #[test]
+    fn other_separators_and_comments_are_read() {
+        let expected = [(3, vec![1.5, -2e-3])];
+        for text in [
+            "# by me, x\na,b\n1.5,-2e-3\n",
+            "a;b\n# between\n1,5;-2,0e-3\n# end",
+            "# mine\n\"a\"\t b\n1,5\t-2E-3\n",
+            "\n# a;b\n1,5;-2e-3\n",
+        ] {
+            assert_eq!(finite(text).unwrap(), expected, "{text}");
+        }
+        let names = |text: &str| Table::new(Path::new("a"), text.as_bytes()).unwrap().names().to_vec();
+        assert_eq!(names("# t, x\n1,2\n"), ["t", "x"]);
+        assert_eq!(names("# one, two, three\nt,x\n"), ["t", "x"]);
+    }
+
     #[test]
     fn what_is_no_table_is_refused_with_its_place() {
         let long = format!("a\n{}\n", "1".repeat(1 << 17));
         for (text, expected) in [
             ("", "a.csv:1: the file is empty"),
-            ("\n# a\n1\n", "a.csv:2: comments are not read"),
-            ("a;b\n1;2\n", "a.csv:1: cells are separated by semicolons"),
-            ("a\tb\n1,5\t2\n", "a.csv:1: cells are separated by tabs"),
+            ("\n# a\n", "a.csv:1: the file is empty"),
+            ("# a,b\n1\n1,2\n", "a.csv:3: 2 cells; the header has 1"),
+            ("a;b\n1,5;2.5,1\n", "a.csv:2: column b: `2.5,1` is not allowed"),
             ("a,b,a\n", "a.csv:1: column `a` is there twice; once is allowed"),
             ("a,b\n\n1\n", "a.csv:3: 1 cells; the header has 2"),
             ("a,b\n1,nan\n", "a.csv:2: column b: `nan` is not allowed: expected a finite number with a decimal point"),

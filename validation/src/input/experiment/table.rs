@@ -26,8 +26,8 @@ pub(crate) struct DataRow {
 /// The largest number of lines of a file: more than the points of any figure; a comparison then takes half a minute.
 const MOST_LINES: u64 = 20_000;
 
-/// Reads the project's columns: `x`, each of `ys`, and their uncertainties `NAME_u` if given. A blank `y` was not
-/// measured; for a blank uncertainty that of the provenance file applies.
+/// Reads the project's columns: `x`, each of `ys`, and their uncertainties `NAME_u` if given. A `y` that is
+/// blank or NaN was not measured; for such an uncertainty that of the provenance file applies.
 ///
 /// `given` are names in place of those in the file.
 pub(crate) fn columns(
@@ -58,10 +58,13 @@ pub(crate) fn columns(
         if row.line > MOST_LINES {
             return Err(row.error(format!("more than {MOST_LINES} lines; at most {MOST_LINES} are allowed")));
         }
+        if y_places.iter().all(|(place, _)| row.is_missing(*place)) {
+            continue;
+        }
         let (x, u_x) = (row.finite(x_place)?, uncertainty(&row, u_x_place)?);
         for (dataset, (y_place, u_y_place)) in datasets.iter_mut().zip(&y_places) {
-            let u_y = uncertainty(&row, *u_y_place)?;
-            if !row.is_blank(*y_place) {
+            if !row.is_missing(*y_place) {
+                let u_y = uncertainty(&row, *u_y_place)?;
                 dataset.rows.push(DataRow { line: row.line, x, y: row.finite(*y_place)?, u_x, u_y });
             }
         }
@@ -70,7 +73,7 @@ pub(crate) fn columns(
 }
 
 fn uncertainty(row: &Row<'_>, place: Option<usize>) -> Result<Option<f64>, FileError> {
-    let given = place.filter(|place| !row.is_blank(*place));
+    let given = place.filter(|place| !row.is_missing(*place));
     given.map(|place| row.positive(place, "one standard deviation, a number > 0")).transpose()
 }
 

@@ -3,7 +3,7 @@
 use super::search::{Fit, Watch};
 use crate::methods::least_squares::Datum;
 use crate::methods::least_squares::emulator::Model;
-use crate::methods::least_squares::likelihood::CAUSES;
+use crate::methods::least_squares::likelihood::{CAUSES, REPLICAS};
 use nalgebra::{DMatrix, DVector};
 use serde::{Serialize, Serializer};
 
@@ -73,17 +73,23 @@ pub fn residuals(fit: &Fit, data: &[Datum]) -> Vec<Residual> {
     let simulated = fit.emulator.at(&fit.best.place);
     let one = |(k, datum): (usize, &Datum)| {
         let variance: f64 = fit.best.causes.iter().map(|cause| cause[(k, k)]).sum();
-        Residual {
-            set: datum.set,
-            column: datum.column.clone(),
-            time: datum.time,
-            measured: datum.value,
-            simulated: simulated[k],
-            residual: datum.value - simulated[k],
-            u: variance.sqrt(),
-        }
+        residual(datum, simulated[k], variance.sqrt())
     };
     data.iter().enumerate().map(one).collect()
+}
+
+/// The residual of a point beside a model's value, with its standard uncertainty.
+pub(super) fn residual(datum: &Datum, simulated: f64, u: f64) -> Residual {
+    let Datum { set, time, value: measured, .. } = *datum;
+    Residual { set, column: datum.column.clone(), time, measured, simulated, residual: measured - simulated, u }
+}
+
+/// The standard deviation of each estimate over seeds of the model: its replicas' noise, and half of what their number
+/// adds to the covariance; the other half corrects one that is too small.
+pub fn another_seed(fit: &Fit) -> Vec<f64> {
+    let spread = &fit.best.spread;
+    let variance = (&spread[REPLICAS] + &spread[CAUSES.len()] * 0.5).diagonal();
+    (0..variance.len()).map(|axis| variance[axis].max(0.0).sqrt() * fit.scale(axis)).collect()
 }
 
 /// Writes the index of a data set as the messages count, from 1.

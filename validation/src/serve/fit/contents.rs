@@ -51,6 +51,10 @@ pub fn warning(
         (None, None) => {
             let [likely, most] = within(data, &fit.emulator, &fit.best.place)?;
             let of_replica = fit.emulator.covariance_of_replica(&fit.best.place);
+            if of_replica.trace() == 0.0 {
+                // Nothing is drawn: rods do not scatter.
+                return None;
+            }
             let share = |rods: &Rods| 100.0 * rods.covariances(data, &of_replica)[1].trace() / u;
             let contained = other(&most).map(|best| {
                 format!(

@@ -62,6 +62,8 @@ pub struct Points {
     pub points: Vec<Datum>,
     /// The first column of uncertainties of measured values.
     pub u_column: Option<String>,
+    /// Columns that are not read.
+    pub unread: Vec<String>,
 }
 
 /// How a file of points is read.
@@ -76,6 +78,34 @@ pub struct Reading {
 /// Every column that can be measured: the channels of all observables.
 fn measurable() -> Vec<String> {
     Observable::ALL.iter().flat_map(|observable| observable.channels()).map(Channel::name).collect()
+}
+
+/// A channel's name and the factor that gives its unit, for a column in per cent too.
+fn channel<'a>(name: &'a str, known: &[String]) -> Option<(&'a str, f64)> {
+    let in_percent = name.strip_suffix(PERCENT).map(|name| (name, 0.01));
+    let of = in_percent.unwrap_or((name, 1.0));
+    known.iter().any(|known| known == of.0).then_some(of)
+}
+
+const PERCENT: &str = "_percent";
+
+/// Why a column beside a known one's name is refused, and what to do; `None` if it may be anything.
+fn misnamed(name: &str, known: &[String]) -> Option<String> {
+    let lower = name.to_lowercase();
+    if lower != name && known.contains(&lower) {
+        return Some(format!("columns have small letters: rename it `{lower}`"));
+    }
+    let (value, suffix) = name.rsplit_once('_').filter(|(value, _)| channel(value, known).is_some())?;
+    match suffix {
+        "plus" | "minus" | "upper" | "lower" | "low" | "high" => Some(format!(
+            "errors that differ above and below are not fitted: give one standard deviation, {value}_u, the mean of the \
+             two"
+        )),
+        "se" | "err" | "error" | "sd" | "std" | "sigma" | "uncertainty" => Some(format!(
+            "a measured value's standard uncertainty is named `{value}_u`; rename the column if that is what it has"
+        )),
+        _ => None,
+    }
 }
 
 /// Reads the file `path` as data set number `set`. Every point needs an uncertainty, `NAME_u` or that of `reading`;
@@ -109,24 +139,22 @@ pub fn read(path: &Path, set: usize, reading: &Reading) -> Result<Points, FileEr
     let known = measurable();
     let mut columns: Vec<String> = Vec::new();
     let left_out = |name: &&&str| given.is_some() && **name == LEFT_OUT;
-    let mut u_column = None;
+    let (mut u_column, mut unread) = (None, Vec::new());
     for name in header.iter().filter(|name| !left_out(name)) {
         let of_uncertainty = name.strip_suffix("_u");
         let value = of_uncertainty.unwrap_or(name);
         if value == time.name() {
             continue;
         }
-        if let Some(value) = name.strip_suffix("_se").filter(|value| known.iter().any(|known| known == value)) {
-            return Err(refused(format!(
-                "column `{name}`: a measured value's standard uncertainty is named `{value}_u`; rename the column if \
-                 that is what it has"
-            )));
+        if let Some(why) = misnamed(name, &known) {
+            return Err(refused(format!("column `{name}`: {why}")));
         }
-        if !known.iter().any(|known| known == value) {
-            return Err(refused(format!(
-                "column `{name}` is not allowed: expected a time ({times}), x1, x2, x3 or another column of `shearbed \
-                 run` (phi, c_b, a11, …), and after a name `_u` for its uncertainty"
-            )));
+        if channel(value, &known).is_none() {
+            if given.is_some() {
+                return Err(refused(format!("column `{name}` is not allowed: {EXPECTED}")));
+            }
+            unread.push((*name).to_owned());
+            continue;
         }
         if of_uncertainty.is_some() {
             u_column = u_column.or_else(|| Some((*name).to_owned()));
@@ -135,14 +163,20 @@ pub fn read(path: &Path, set: usize, reading: &Reading) -> Result<Points, FileEr
         }
     }
     if columns.is_empty() {
-        return Err(refused("no column of measured values; x1, x2, x3 … are allowed".into()));
+        return Err(refused(format!("no column of measured values among {}: {EXPECTED}", header.join(", "))));
     }
     let bare = |name: &&String| reading.u.is_none() && !header.contains(&format!("{name}_u").as_str());
     if let Some(bare) = columns.iter().find(bare) {
-        return Err(refused(format!("column {bare}_u is missing: one standard deviation of each {bare} is needed")));
+        return Err(refused(format!(
+            "column {bare}_u is missing: one standard deviation of each {bare} is needed, or --u 0.005 for all points"
+        )));
     }
     let mut points = Vec::new();
-    for dataset in table::columns(path, &text, given, time.name(), &columns)? {
+    // Names as they are, but for those left out.
+    let read = |name: &&str| if unread.iter().any(|unread| unread == name) { LEFT_OUT } else { name }.to_owned();
+    let names: Vec<String> = header.iter().map(read).collect();
+    for dataset in table::columns(path, &text, Some(&names), time.name(), &columns)? {
+        let (name, factor) = channel(&dataset.name, &known).unwrap_or((&dataset.name, 1.0));
         for row in dataset.rows {
             let refused = |message: String| FileError::line(path, row.line, message);
             let u = row.u_y.or(reading.u).ok_or_else(|| {
@@ -151,9 +185,14 @@ pub fn read(path: &Path, set: usize, reading: &Reading) -> Result<Points, FileEr
             if row.x < 0.0 {
                 return Err(refused(not_allowed(time.name(), &row.x.to_string(), "a time ≥ 0")));
             }
-            let [least, most] = allowed(&dataset.name);
+            let [least, most] = allowed(name).map(|end| end / factor);
             if !(least..=most).contains(&row.y) {
-                let expected = format!("a value from {least} to {most}");
+                let hint = if most <= 2.0 && (most..=100.0).contains(&row.y) {
+                    format!("; in per cent it is {name}{PERCENT}")
+                } else {
+                    String::new()
+                };
+                let expected = format!("a value from {least} to {most}{hint}");
                 return Err(refused(not_allowed(&dataset.name, &format!("{:?}", row.y), &expected)));
             }
             // A smaller u is lost in the rounding of the model, a larger one carries no information.
@@ -167,17 +206,21 @@ pub fn read(path: &Path, set: usize, reading: &Reading) -> Result<Points, FileEr
             points.push(Datum {
                 set,
                 line: row.line as usize,
-                column: dataset.name.clone(),
+                column: name.to_owned(),
                 time: row.x,
-                value: row.y,
+                value: row.y * factor,
                 u_time: row.u_x.unwrap_or(0.0),
-                u,
+                u: u * factor,
             });
         }
     }
     check(path, &points)?;
-    Ok(Points { time, points, u_column })
+    Ok(Points { time, points, u_column, unread })
 }
+
+/// The columns that a file may have.
+const EXPECTED: &str = "expected a time (t_over_T, t_s, strain), x1, x2, x3 or another column of `shearbed run` (phi, c_b, \
+    a11, …), and after a name `_u` for its uncertainty; in per cent x1_percent and x1_percent_u";
 
 /// The smallest standard deviation of a point.
 const LEAST_U: f64 = 1e-12;
@@ -277,7 +320,7 @@ mod tests {
             ("a,b\n1,2\n", "t_s,x4", None, "column `x4` is not allowed"),
             ("a,b,c\n1,2,3\n", "t_s,x1,x1", Some(0.1), "column `x1` is there twice"),
             ("t_s,x1\n1,0.5\n", "", Some(1.5), "points.csv:2: column x1, its uncertainty: `1.5` is not allowed"),
-            ("t_s,-\n1,0.5\n", "", Some(0.1), "column `-` is not allowed"),
+            ("t_s,-\n1,0.5\n", "", Some(0.1), "no column of measured values among t_s, -"),
         ] {
             let error = read_as(text, &reading(names, u)).unwrap_err();
             assert!(error.contains(told), "{error}");
@@ -296,14 +339,23 @@ mod tests {
         }
     }
 
-    /// The repair that the message recommends makes the file readable.
+    /// What spreadsheets, instruments and numpy write says the same as the plain file.
     #[test]
-    fn semicolons_are_mended_as_the_message_says() {
-        let text = "t_s;x1;x1_u\n1,5;0,5;0,1\n";
-        assert!(read_of(text).is_err());
-        let mended = text.replace(',', ".").replace(';', ",");
-        let found = read_of(&mended).unwrap().points;
-        assert_eq!((found[0].time, found[0].value, found[0].u), (1.5, 0.5, 0.1));
+    fn files_of_other_programs_are_the_plain_file() {
+        let plain = read_of("t_s,x1,x1_u\n1.5,0.5,0.125\n2,0.25,0.125\n").unwrap().points;
+        for text in [
+            "t_s;x1;x1_u\n1,5;0,5;0,125\n2;0,25;0,125\n;;\n",
+            "# t_s,x1,x1_u\n1.5,0.5,0.125\n2,0.25,0.125\n",
+            "t_s,x1,x1_u\n1.5,0.5,0.125\n# a pause\n1.7,NaN,NaN\n1.8,,\n2,0.25,0.125\n",
+            "\"t_s\",\"x1_percent\",\"x1_percent_u\"\n1.5,50,12.5\n2,25,12.5\n",
+            "t_s,temperature_C,x1,x1_u,note\n1.5,20,0.5,0.125,a\n2,21,0.25,0.125,b\n",
+        ] {
+            let found = read_of(text).unwrap();
+            let of =
+                |points: &[Datum]| points.iter().map(|p| (p.time, p.column.clone(), p.value, p.u)).collect::<Vec<_>>();
+            assert_eq!(of(&found.points), of(&plain), "{text}");
+            assert_eq!(found.unread.len(), 2 * usize::from(text.contains("note")), "{text}");
+        }
     }
 
     #[test]
@@ -315,17 +367,21 @@ mod tests {
             ("t_min,x1,x1_u\n", 1, "no column of times among t_min, x1, x1_u"),
             ("time_s,x1,x1_u\n", 1, "rename the column `time_s`"),
             ("t_s,x1,x1_se\n", 1, "is named `x1_u`"),
-            ("# mine\nt_s,x1,x1_u\n", 1, "comments are not read"),
-            ("t_s,x4,x4_u\n", 1, "column `x4`"),
+            (
+                "t_s,x1,x1_plus,x1_minus\n",
+                1,
+                "column `x1_plus`: errors that differ above and below are not fitted: give",
+            ),
+            ("t_s,X1,x1_u\n", 1, "rename it `x1`"),
+            ("t_s,x4,x4_u\n", 1, "no column of measured values among t_s, x4, x4_u: expected a time"),
             ("time,x1,x1_u\n1,0.5,0.1\n", 1, "`t_s` for seconds"),
-            ("t_s;x1;x1_u\n1,5;0,5;0,1\n", 1, "sed 's/,/./g; s/;/,/g'"),
-            ("t_s\tx1\tx1_u\n1\t0.5\t0.1\n", 1, "separated by tabs"),
             ("t_s\n1\n", 1, "no column of measured values"),
-            ("t_s,x1\n1,0.5\n", 1, "x1_u is missing"),
+            ("t_s,x1\n1,0.5\n", 1, "x1_u is missing: one standard deviation of each x1 is needed, or --u 0.005"),
+            ("t_s,x1,x1_u\n1,12.9,0.1\n", 2, "a value from 0 to 1; in per cent it is x1_percent"),
             ("t_s,x1,x1_u\n", 1, "no points"),
             ("t_s,x1,x1_u\n1,0.5,\n", 2, "x1_u is blank"),
             ("t_s,x1,x1_u\n1,0.5,0\n", 2, "> 0"),
-            ("t_s,x1,x1_u\n1,nan,0.1\n", 2, "`nan`"),
+            ("t_s,x1,x1_u\n1,inf,0.1\n", 2, "`inf`"),
             ("t_s,x1,x1_u\n-1,0.5,0.1\n", 2, "a time ≥ 0"),
             ("t_s,x1,x1_u\n1,0.5,0.1\n\n1,0.5,0.2\n", 4, "in line 2 already"),
             ("t_s,x1,x1_u,x1\n1,0.5,0.1,2\n", 1, "twice"),

@@ -3,9 +3,9 @@
 
 use super::error::{FitError, ParameterError, Undescribed, Warning};
 use super::range::Range;
-use super::search::{FIRST_REPLICAS, Fit, FitProblem, Watch};
+use super::search::{FIRST_REPLICAS, Fit, FitProblem, Watch, search, search_from};
 use crate::methods::least_squares::direct::Direct;
-use crate::methods::least_squares::emulator::{Known, Prediction};
+use crate::methods::least_squares::emulator::{Known, Prediction, Sides};
 use crate::methods::least_squares::profile::rise_of;
 use nalgebra::DVector;
 
@@ -39,6 +39,59 @@ struct Tried {
     /// Standard errors of `mean`.
     se: DVector<f64>,
     chi_square: f64,
+}
+
+/// The number of times that a fit begins again at a lower minimum.
+const AGAIN: usize = 3;
+
+/// Half of the box in which it begins, as a share of the range.
+const NEARBY: f64 = 1.0 / PARTS as f64;
+
+/// Fits the parameters, and again from a minimum of decisively lower χ² as long as [`look_elsewhere`] finds one; with
+/// warnings on what could not be searched.
+///
+/// # Errors
+///
+/// As of [`search`] and [`look_elsewhere`].
+pub fn best_fit(problem: &FitProblem<'_>, watch: &Watch<'_>) -> Result<(Fit, Vec<Warning>), FitError> {
+    let mut fit = match search(problem, watch) {
+        Err(FitError::NotEnclosed { .. }) if problem.measured.ranges.len() == 1 => {
+            search_from(problem, around_lowest(problem, watch)?, watch)?
+        }
+        found => found?,
+    };
+    for _ in 0..AGAIN {
+        let found = look_elsewhere(problem, &fit, watch);
+        let Err(FitError::Parameter(label, ParameterError::TwoMinima([other, own]))) = &found else {
+            return found.map(|warnings| (fit, warnings));
+        };
+        let axis = fit.ranges.iter().position(|range| range.label() == *label);
+        let (Some(axis), true) = (axis, other.1 < own.1 - NOISE.max(0.5 * own.1)) else {
+            return found.map(|warnings| (fit, warnings));
+        };
+        let range = &fit.ranges[axis];
+        let mut sides = fit.sides.clone();
+        sides[axis] = around(range, range.scaled(other.0));
+        fit = search_from(problem, sides, watch)?;
+    }
+    look_elsewhere(problem, &fit, watch).map(|warnings| (fit, warnings))
+}
+
+/// A side of a box around a place on the scale of the range.
+fn around(range: &Range, at: f64) -> (f64, f64) {
+    let [from, to] = [range.from, range.to].map(|value| range.scaled(value));
+    let half = NEARBY * (to - from);
+    ((at - half).max(from), (at + half).min(to))
+}
+
+/// A box around the lowest χ² of a few replicas along the only range.
+fn around_lowest(problem: &FitProblem<'_>, watch: &Watch<'_>) -> Result<Sides, FitError> {
+    let range = &problem.measured.ranges[0];
+    let values = [range.from];
+    let (_, known) = at_best(problem, &values, FIRST_REPLICAS.min(problem.most_replicas), watch)?;
+    let (tried, _) = Line { problem, watch, values: &values, known: &known, axis: 0, range }.scan()?;
+    let lowest = tried.iter().min_by(|a, b| a.chi_square.total_cmp(&b.chi_square));
+    Ok(vec![around(range, lowest.map_or(f64::NAN, |lowest| lowest.at))])
 }
 
 /// Searches along each range, with the other parameters at their best values, and returns warnings on what could not be
@@ -150,7 +203,7 @@ impl Line<'_> {
     fn tried(&self, at: f64, rows: &[Vec<Prediction>]) -> Result<Tried, String> {
         let measured = &self.problem.measured;
         let found = Direct::of(measured.data, rows, measured.rods);
-        let Direct { mean, se, chi_square } = found.ok_or("the covariance of the points is not positive")?;
+        let Direct { mean, se, chi_square, .. } = found.ok_or("the covariance of the points is not positive")?;
         Ok(Tried { at, chi_square, mean, se })
     }
 

@@ -5,6 +5,8 @@
 //! axes, the measured rods, the model's replicas and the polynomials' lack of fit. `docs/src/theory/fits.md` has the
 //! formulas.
 
+#[cfg(test)]
+mod again_tests;
 pub mod budget;
 pub mod contents;
 pub mod data;

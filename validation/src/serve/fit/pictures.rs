@@ -38,7 +38,7 @@ fn mean(model: &Model<'_>, values: &[f64], replicas: u64, watch: &Watch<'_>) -> 
     let of = |place: usize| {
         let mean = rows.iter().map(|row| row[place][0]).sum::<f64>() / n;
         let square: f64 = rows.iter().map(|row| (row[place][0] - mean).powi(2)).sum();
-        (mean, square / (n * (n - 1.0)))
+        (mean, square / (n * (n - 1.0).max(1.0)))
     };
     Ok((0..rows[0].len()).map(of).collect())
 }

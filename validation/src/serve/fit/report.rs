@@ -10,7 +10,8 @@ use super::search::{Fit, MOST_SHARE};
 use crate::files::csv;
 use crate::input::experiment::{Bias, bias};
 use crate::methods::least_squares::Datum;
-use crate::methods::least_squares::likelihood::{CAUSES, EMULATOR, REPLICAS, correlation_of};
+use crate::methods::least_squares::direct::Direct;
+use crate::methods::least_squares::likelihood::{CAUSES, EMULATOR, REPLICAS, Rods, correlation_of};
 use crate::methods::least_squares::profile::rise_of;
 use nalgebra::DMatrix;
 use serde::Serialize;
@@ -39,7 +40,7 @@ pub struct Parameter {
 }
 
 /// All results of a fit.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Report {
     /// Parameters by the key of the scene, `SET:KEY` for a parameter of one set alone.
     pub parameters: BTreeMap<String, Parameter>,
@@ -63,6 +64,8 @@ pub struct Report {
     /// The tested hypotheses, with their results.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub tests: Vec<Tested>,
+    /// The standard deviation of each estimate over seeds, which is part of its uncertainty.
+    pub another_seed: Vec<f64>,
     /// The change by a finer step and by more rods; not part of the intervals, which hold for the scene as written.
     pub shifts: Vec<Shift>,
     /// FDS's bias δ and scatter σ_M of the best model; none if a value is not positive.
@@ -110,9 +113,6 @@ pub fn report(fit: &Fit, data: &[Datum], shifts: Vec<Shift>) -> Report {
         })
         .collect();
     let residuals = budget::residuals(fit, data);
-    let pairs: Vec<_> = residuals.iter().map(|r| (r.simulated, r.measured)).collect();
-    let relative = |r: &Residual| (r.u / r.measured).powi(2);
-    let sigma_e = (residuals.iter().map(relative).sum::<f64>() / residuals.len() as f64).sqrt();
     let rows = |matrix: &DMatrix<f64>| matrix.row_iter().map(|row| row.iter().copied().collect()).collect();
     Report {
         warnings: warnings(fit, &parameters, &correlation, p_value),
@@ -124,15 +124,60 @@ pub fn report(fit: &Fit, data: &[Datum], shifts: Vec<Shift>) -> Report {
         covariance: rows(&covariance),
         correlation: rows(&correlation),
         budget: budget::parts(fit),
+        another_seed: budget::another_seed(fit),
         shifts,
         tests: Vec::new(),
         design: None,
-        bias: bias(&pairs, sigma_e),
+        bias: bias_of(&residuals),
         residuals,
         replicas: fit.emulator.replicas(),
         runs: fit.runs,
         boxes: fit.rounds,
     }
+}
+
+/// The report of points beside a scene as it is: no parameter is fitted.
+pub fn as_written(data: &[Datum], found: &Direct, rods: &Rods, replicas: usize) -> Result<Report, String> {
+    let goodness = found.goodness(data, rods).ok_or("the covariance of the points is not positive")?;
+    let u = found.u();
+    let residual = |(k, datum): (usize, &Datum)| budget::residual(datum, found.mean[k], u[k]);
+    let residuals: Vec<_> = data.iter().enumerate().map(residual).collect();
+    let p_value = goodness.p_value();
+    let warning = of_p(p_value).map(|warning| match warning {
+        Warning::NotDescribed(p) => Warning::Other(format!(
+            "p = {p}: the scene as it is does not describe these points, or their uncertainties are too small"
+        )),
+        other => other,
+    });
+    Ok(Report {
+        chi2: goodness.chi_square_of_points(),
+        degrees_of_freedom: data.len(),
+        p_value,
+        bias: bias_of(&residuals),
+        residuals,
+        replicas,
+        runs: replicas as u64,
+        warnings: warning.into_iter().collect(),
+        ..Report::default()
+    })
+}
+
+fn bias_of(residuals: &[Residual]) -> Option<Bias> {
+    let pairs: Vec<_> = residuals.iter().map(|r| (r.simulated, r.measured)).collect();
+    let relative = |r: &Residual| (r.u / r.measured).powi(2);
+    bias(&pairs, (residuals.iter().map(relative).sum::<f64>() / residuals.len() as f64).sqrt())
+}
+
+/// A warning of points too far from the model, or too near.
+fn of_p(p_value: f64) -> Option<Warning> {
+    if p_value > 1.0 - NOT_DESCRIBED {
+        return Some(Warning::Other(format!(
+            "p = {}: the points lie nearer to the curve than their uncertainties allow; are these too large, or in \
+                per cent?",
+            probability(p_value)
+        )));
+    }
+    (p_value < NOT_DESCRIBED).then(|| Warning::NotDescribed(probability(p_value)))
 }
 
 fn warnings(
@@ -179,16 +224,10 @@ fn warnings(
             }
         }
     }
-    if p_value < NOT_DESCRIBED {
-        all.push(Warning::NotDescribed(probability(p_value)));
+    if let Some(range) = fit.ranges.iter().find(|range| fit.ranges.len() > 1 && range.key == ALPHA) {
+        all.push(Warning::Other(format!("{}: {BESIDE_ANOTHER}", range.label())));
     }
-    if p_value > 1.0 - NOT_DESCRIBED {
-        all.push(Warning::Other(format!(
-            "p = {}: the points lie nearer to the curve than their uncertainties allow; are these too large, or in \
-                per cent?",
-            probability(p_value)
-        )));
-    }
+    all.extend(of_p(p_value));
     // The noise of the replicas enters the curves and their slopes.
     let replicas = fit.best.share(REPLICAS).max(fit.noise_share());
     let polynomials = fit.best.share(EMULATOR);
@@ -197,6 +236,11 @@ fn warnings(
     all.extend(large.map(|(warning, _)| warning));
     all
 }
+
+const ALPHA: &str = "interaction.alpha";
+
+/// What repeated fits of synthetic points found (`docs/src/theory/fits.md`).
+const BESIDE_ANOTHER: &str = "beside a second key its 68 % interval held the truth in 60 ± 3 % of trials";
 
 /// The deepest other minimum of a profile that is within its 95 % interval, with a ridge between it and the best place:
 /// of a tenth of the rise at the ends of the 68 % interval, so that an estimate that hangs on so little is not given

@@ -250,6 +250,12 @@ impl Scenes {
         Plan::new(&scene).map_err(|error| refused(&error.to_string()))
     }
 
+    /// True if replicas of any scene differ with some values of the parameters.
+    pub fn draw(&self, data: &[Datum]) -> Result<bool, SceneError> {
+        let of = |corner: Vec<f64>| Ok(self.plans(&corner, data, AS_WRITTEN)?.iter().any(Plan::draws));
+        self.corners().into_iter().map(of).try_fold(false, |any, one: Result<bool, SceneError>| Ok(any || one?))
+    }
+
     /// The model of the points `data` at these parameter values.
     pub fn model(&self, data: &[Datum], variant: Variant, values: &[f64]) -> Result<Replica, SceneError> {
         let part = |(set, plan): (usize, Plan)| {

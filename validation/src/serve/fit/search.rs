@@ -81,7 +81,7 @@ impl Watch<'_> {
     /// # Errors
     ///
     /// The error of a replica that fails.
-    pub(super) fn replicas<T: Send>(
+    pub fn replicas<T: Send>(
         &self,
         count: u64,
         one: impl Fn(u64) -> Result<T, String> + Sync,
@@ -144,12 +144,17 @@ enum Next {
 ///
 /// Why a run was impossible or did not finish, or why its result is no answer.
 pub fn search(problem: &FitProblem<'_>, watch: &Watch<'_>) -> Result<Fit, FitError> {
+    search_from(problem, whole(problem.measured.ranges), watch)
+}
+
+/// Fits the parameters, beginning with the box `sides`, which may move and grow over the whole ranges.
+pub(super) fn search_from(problem: &FitProblem<'_>, sides: Sides, watch: &Watch<'_>) -> Result<Fit, FitError> {
     let ranges = problem.measured.ranges;
     let whole = whole(ranges);
     let mut search = Search {
         problem,
         basis: Basis::new(ranges.len()),
-        sides: whole.clone(),
+        sides,
         whole,
         coefficients: Vec::new(),
         replicas: FIRST_REPLICAS.min(problem.most_replicas),

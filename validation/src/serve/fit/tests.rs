@@ -34,7 +34,7 @@ pub(super) fn normal(rng: &mut Pcg64Dxsm) -> f64 {
 }
 
 /// A model whose replicas deviate in the offset and in the rate, by the same amount at every parameter value.
-fn model(seed: u64, scatter: f64) -> impl Fn(&[f64]) -> Result<Replica, String> + Sync {
+pub(super) fn model(seed: u64, scatter: f64) -> impl Fn(&[f64]) -> Result<Replica, String> + Sync {
     move |values| {
         let (rate, frequency) = (values[0], values.get(1).copied().unwrap_or(1.0));
         // The same for all replicas.
@@ -60,7 +60,7 @@ pub(super) fn points(rate: f64, frequency: f64, u: f64, seed: u64) -> Vec<Datum>
     times().map(point).collect()
 }
 
-fn ranges(over: &[&str]) -> Vec<Range> {
+pub(super) fn ranges(over: &[&str]) -> Vec<Range> {
     over.iter().map(|text| Range::parse(text).unwrap()).collect()
 }
 
