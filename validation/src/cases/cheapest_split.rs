@@ -41,6 +41,7 @@ fn study(scene: &Scene) -> Known {
     Known {
         constants: Constants {
             steps_bias: (difference.abs() + 2.0 * se) / (coarse_step - fine_step),
+            steps_bias_seen: difference.abs() > 2.0 * se,
             fewest_steps: steps[0],
             // The number of rods is the scene's own.
             rods_bias: 0.0,

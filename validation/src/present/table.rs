@@ -9,6 +9,7 @@ use crate::judge::statistics::{Estimate, Sample};
 use crate::present::markup;
 use serde::{Deserialize, Serialize};
 use std::borrow::Borrow;
+use std::io::IsTerminal;
 
 /// The value of a cell as data.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -301,9 +302,10 @@ impl ReportTable {
         self.text_within(usize::MAX)
     }
 
-    /// The same in lines of at most 80 letters: columns without room are named instead.
+    /// The same; on a terminal in lines of at most 80 letters, where columns without room are named instead.
     pub fn for_terminal(&self) -> String {
-        wrapped(&self.text_within(WIDTH))
+        let room = if std::io::stdout().is_terminal() { WIDTH } else { usize::MAX };
+        wrapped(&self.text_within(room))
     }
 
     fn text_within(&self, room: usize) -> String {

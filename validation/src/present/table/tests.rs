@@ -33,7 +33,7 @@ fn a_terminal_gets_lines_of_80_letters_and_the_names_of_what_is_left_out() {
     let heads = ["a", "b", "c", "d"].map(|name| format!("{name} {}", "x".repeat(24)));
     let heads = heads.each_ref().map(String::as_str);
     let table = of_words("t", "Title", &"some words ".repeat(20), &heads, vec![vec!["1".into(); 4]]);
-    let text = table.for_terminal();
+    let text = wrapped(&table.text_within(WIDTH));
     assert!(text.lines().all(|line| line.chars().count() <= 80), "{text}");
     let left_out = format!("Left out for want of room: {}, {}.", heads[2], heads[3]);
     assert!(text.replace("\n  ", " ").contains(&left_out), "{text}");

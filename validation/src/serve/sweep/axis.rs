@@ -2,7 +2,7 @@
 
 use crate::oracle::reference::big::finite;
 use serde::{Deserialize, Serialize};
-use shearbed::scene::document;
+use shearbed::scene::{document, keys};
 use toml::Value;
 
 /// The largest number of points of a sweep.
@@ -64,7 +64,17 @@ impl KeyValue {
 /// without end.
 const DEEPEST: usize = 3;
 
-/// The texts before and after the first `=`; the first must be a key.
+/// The key that is meant by a name: that key, or the only one that ends so.
+fn meant(name: &str) -> &str {
+    let ends = |path: &&str| path.rsplit_once('.').is_some_and(|(_, last)| last == name);
+    let mut known = keys().map(|key| key.path).filter(ends);
+    match (known.next(), known.next()) {
+        (Some(only), None) => only,
+        _ => name,
+    }
+}
+
+/// The texts before and after the first `=`; the first must be a key, or its last part where only one key ends so.
 pub(crate) fn key_and_text<'a>(text: &'a str, shape: &str) -> Result<(&'a str, &'a str), String> {
     let (key, text) = text.split_once('=').ok_or(shape)?;
     let (key, text) = (key.trim(), text.trim());
@@ -74,7 +84,7 @@ pub(crate) fn key_and_text<'a>(text: &'a str, shape: &str) -> Result<(&'a str, &
         (true, parts) if parts > DEEPEST => {
             Err(format!("{key:?} is no key of a scene: it has {parts} parts, and at most {DEEPEST} are allowed"))
         }
-        (true, _) => Ok((key, text)),
+        (true, _) => Ok((meant(key), text)),
         _ => Err(format!("{key:?} is no key of a scene; {shape}")),
     }
 }
@@ -189,6 +199,18 @@ mod tests {
 
     fn shown_values(text: &str) -> Vec<String> {
         Axis::parse(text).unwrap().values.iter().map(shown).collect()
+    }
+
+    #[test]
+    fn a_key_may_be_named_by_its_last_part() {
+        let key = |text: &str| KeyValue::parse(text).unwrap().key;
+        assert_eq!(key("alpha=0.3"), "interaction.alpha");
+        assert_eq!(key("title=a"), "title");
+        assert_eq!(key("phi_deg=0"), "phi_deg");
+        assert_eq!(Axis::parse("count=1,2").unwrap().key, "particles.count");
+        // Two keys that end alike, as flow.steps and time.steps would: neither is meant.
+        let ends = |path: &str| path.rsplit('.').next() == Some("x1");
+        assert!(!keys().any(|key| ends(key.path)) && key("x1=1") == "x1");
     }
 
     #[test]

@@ -191,8 +191,15 @@ fn splits_csv(study: &Interacting) -> Result<String, String> {
 
 /// The rule with the measured constants, in words.
 fn rule(constants: &Constants) -> String {
+    let seen = match constants.steps_bias_seen {
+        true => String::new(),
+        false => format!(
+            "Bias of the steps: none seen; those below are what its noise leaves room for, and {} may do. ",
+            constants.fewest_steps
+        ),
+    };
     format!(
-        "Mean-square error = (b/S + c N^(−1/3))² + v/(N M) for S steps per period, N rods and M replicas, with b = \
+        "{seen}Mean-square error = (b/S + c N^(−1/3))² + v/(N M) for S steps per period, N rods and M replicas, with b = \
          {:.2} for S ≥ {}, c = {:.3} (each the largest that its standard error allows: estimate + 2 se) and v = {:.3}; \
          cost = N M S. With the scene's own rods S = √3 b/ε and N M = 3v/(2ε²), or the fewest steps and N M = v/(ε² − \
          (b/S)²) where that is more; without faces as many rods in as few replicas as there may be.",
@@ -200,14 +207,15 @@ fn rule(constants: &Constants) -> String {
     )
 }
 
-fn split_columns<'a, R>(of: impl Fn(&R) -> Split + Copy + 'a) -> Vec<Column<'a, R>> {
+fn split_columns<'a, R>(constants: &Constants, of: impl Fn(&R) -> Split + Copy + 'a) -> Vec<Column<'a, R>> {
+    let at_most = if constants.steps_bias_seen { "steps per period" } else { "steps per period ≤" };
     vec![
         number("error", powers(0), move |r| of(r).target),
         words("from", move |r| match of(r).scope {
             Scope::OwnRods(rods) => format!("Δt → 0, {rods} rods"),
             Scope::Unbounded => "Δt → 0, N → ∞".into(),
         }),
-        field("steps per period", move |r| of(r).steps_per_period),
+        field(at_most, move |r| of(r).steps_per_period),
         field("rods", move |r| of(r).rods),
         field("replicas", move |r| of(r).replicas),
         number("bias ≤", powers(1), move |r| of(r).bias),
@@ -222,7 +230,7 @@ pub fn splits_table(constants: &Constants, splits: &[Split]) -> ReportTable {
         ["splits", "The cheapest steps, rods and replicas for an error of X̄₁ at t/T = 1"],
         rule(constants),
         splits,
-        split_columns(|split: &Split| *split),
+        split_columns(constants, |split: &Split| *split),
     )
 }
 
@@ -243,7 +251,7 @@ fn answers(study: &Interacting) -> ReportTable {
             )
         })
         .collect();
-    let mut columns = split_columns(|answer: &Answer| answer.split);
+    let mut columns = split_columns(&study.constants, |answer: &Answer| answer.split);
     columns.push(number("time, one core", time, |answer: &Answer| answer.seconds));
     columns.push(words("realised error", realised));
     ReportTable::new(

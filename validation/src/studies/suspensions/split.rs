@@ -20,6 +20,8 @@ pub struct Constants {
     /// b: the bias of the steps is at most b/S. The largest value that the measurement allows: |slope| + 2 standard
     /// errors.
     pub steps_bias: f64,
+    /// True if the slope differs from 0 by two standard errors: else b is what its noise leaves room for.
+    pub steps_bias_seen: bool,
     /// The smallest number of steps per period for which that holds.
     pub fewest_steps: u64,
     /// c: the bias of the rods is at most c N^(−1/3), estimated in the same way.
@@ -79,6 +81,7 @@ impl Constants {
         let rods = law.rods_lines[0]?;
         Some(Self {
             steps_bias: steps.slope.abs() + 2.0 * steps.slope_se,
+            steps_bias_seen: steps.slope.abs() > 2.0 * steps.slope_se,
             fewest_steps: law.steps.get(law.line_from)?.steps_per_period,
             rods_bias: rods.slope.abs() + 2.0 * rods.slope_se,
             variance_per_rod: law.variance_per_rod,
@@ -201,7 +204,7 @@ mod tests {
     use super::*;
 
     const SYNTHETIC: Constants =
-        Constants { steps_bias: 0.6, fewest_steps: 100, rods_bias: 0.04, variance_per_rod: 0.1 };
+        Constants { steps_bias: 0.6, steps_bias_seen: true, fewest_steps: 100, rods_bias: 0.04, variance_per_rod: 0.1 };
 
     /// The cheapest cost of all splits on a fine grid.
     fn by_trial(scope: Scope, target: f64) -> f64 {
