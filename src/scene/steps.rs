@@ -9,8 +9,8 @@ use nalgebra::Matrix3;
 /// Steps per period come in multiples of this, so that the default outputs fall on steps.
 const MULTIPLE: u64 = 50;
 
-/// The longest strain between default outputs: a flip takes a strain of about 2 at any r_e, and the largest shear stress
-/// of a start-up is missed by 4 % at most.
+/// The longest strain between default outputs: a flip takes a strain of about 2 at any r_e, and the largest shear
+/// stress of a start-up is missed by 4 % at most.
 const OUTPUT_STRAIN: f64 = 1.5;
 
 /// The most default outputs per period.

@@ -133,8 +133,8 @@ impl<R: BufRead> Rows<R> {
 
 const EMPTY: &str = "the file is empty";
 
-/// What separates the cells of a file with this first line: commas in it beside semicolons or tabs are those of names or
-/// of numbers.
+/// What separates the cells of a file with this first line: commas in it beside semicolons or tabs are those of
+/// numbers.
 fn separator(first: &str) -> char {
     let is_number = |cell: &str| number(&cell.trim().replace(',', ".")).is_some();
     let other = |separator: &char| {

@@ -98,8 +98,8 @@ fn misnamed(name: &str, known: &[String]) -> Option<String> {
     let (value, suffix) = name.rsplit_once('_').filter(|(value, _)| channel(value, known).is_some())?;
     match suffix {
         "plus" | "minus" | "upper" | "lower" | "low" | "high" => Some(format!(
-            "errors that differ above and below are not fitted: give one standard deviation, {value}_u, the mean of the \
-             two"
+            "errors that differ above and below are not fitted: give one standard deviation, {value}_u, the mean of \
+             both"
         )),
         "se" | "err" | "error" | "sd" | "std" | "sigma" | "uncertainty" => Some(format!(
             "a measured value's standard uncertainty is named `{value}_u`; rename the column if that is what it has"
@@ -219,8 +219,8 @@ pub fn read(path: &Path, set: usize, reading: &Reading) -> Result<Points, FileEr
 }
 
 /// The columns that a file may have.
-const EXPECTED: &str = "expected a time (t_over_T, t_s, strain), x1, x2, x3 or another column of `shearbed run` (phi, c_b, \
-    a11, …), and after a name `_u` for its uncertainty; in per cent x1_percent and x1_percent_u";
+const EXPECTED: &str = "expected a time (t_over_T, t_s, strain), x1, x2, x3 or another column of `shearbed run` (phi, \
+    c_b, a11, …), and after a name `_u` for its uncertainty; in per cent x1_percent and x1_percent_u";
 
 /// The smallest standard deviation of a point.
 const LEAST_U: f64 = 1e-12;

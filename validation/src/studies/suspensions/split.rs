@@ -237,6 +237,16 @@ mod tests {
         }
     }
 
+    /// A bias within its noise is not given as if it were measured.
+    #[test]
+    fn a_bias_that_was_not_seen_is_said_to_be_none() {
+        let of = |steps_bias_seen| {
+            let table = interacting::splits_table(&Constants { steps_bias_seen, ..SYNTHETIC }, &[]);
+            (table.caption.contains("Bias of the steps: none seen"), table.columns[2].ends_with('≤'))
+        };
+        assert_eq!([of(true), of(false)], [(false, false), (true, true)]);
+    }
+
     #[test]
     fn a_third_of_the_mean_square_is_bias_unless_the_steps_are_few() {
         let split = SYNTHETIC.cheapest(Scope::OwnRods(100), 1e-3);
