@@ -1,9 +1,11 @@
 //! Writes the certified answers of problems to standard output: a table is the same on every machine. `unequal-rods`
-//! takes minutes.
+//! and `interpretations`, the means of suspensions with other interpretations of the paper, take minutes.
 //!
 //!     cargo run --release -p shearbed-validation --example certify -- folgar-tucker >
 //!     validation/src/serve/problems/data/folgar-tucker.csv
 
+use rayon::prelude::*;
+use shearbed_validation::oracle::naive::{Lines, Mistake, Naive, NaiveProblem, Who, mean_projections};
 use shearbed_validation::oracle::reference::big::digits;
 use shearbed_validation::oracle::reference::unequal::means_to_22_digits;
 use shearbed_validation::serve::problems::{self, TABLES};
@@ -14,8 +16,11 @@ fn main() {
     let table = match TABLES.iter().find(|(of, _)| *of == name) {
         Some((_, certify)) => certify(),
         None if name == "unequal-rods" => Ok(unequal_rods()),
+        None if name == "interpretations" => Ok(interpretations()),
         None => contact(&name).map(|(_, table)| table).ok_or_else(|| {
-            "brownian, closed, contact-angles, contact-rule, folgar-tucker, formulas or unequal-rods is allowed".into()
+            "brownian, closed, contact-angles, contact-rule, folgar-tucker, formulas, interpretations or unequal-rods \
+             is allowed"
+                .into()
         }),
     };
     match table {
@@ -41,6 +46,57 @@ fn unequal_rods() -> String {
         let [means, finer] = [means, finer].map(|means| means.map(|x| digits(&x, 22)));
         assert_eq!(means, finer, "the rule has converged");
         table += &format!("{time_s:?},{}\n", means.join(","));
+    }
+    table
+}
+
+/// Replicas of each interpretation.
+const REPLICAS: u64 = 600;
+
+/// Means and standard errors of suspensions with other interpretations of the paper and with mistakes, by the naive
+/// reference, at the times of the problem of the name in the second column.
+fn interpretations() -> String {
+    type Change = fn(&mut NaiveProblem);
+    let changes: [(&str, Change); 8] = [
+        ("contact lines cut at the rods' ends", |p| p.reading.lines = Lines::CutAtEnds),
+        ("one draw for two rods that are each other's nearest", |p| p.reading.who = Who::PairDraws),
+        ("collisions in the order of the rods and not closest first", |p| p.reading.who = Who::IndexOrder),
+        ("|r| for the signed arm r", |p| p.mistake = Some(Mistake::ArmUnsigned)),
+        ("the arms of both rods exchanged", |p| p.mistake = Some(Mistake::ArmsSwapped)),
+        ("the sum of both velocities for their mean", |p| p.mistake = Some(Mistake::SumInsteadOfMean)),
+        ("V_c without ω × r", |p| p.mistake = Some(Mistake::SpinIgnored)),
+        ("P_c for 1 − P_c", |p| p.mistake = Some(Mistake::ProbabilityComplement)),
+    ];
+    let mut table = "interpretation,problem,time_s,x1,x1_se,x2,x2_se,x3,x3_se\n".to_owned();
+    for (name, change) in changes {
+        for problem in ["lee-springer", "lee-springer-unequal"] {
+            let asked = &problems::named(problem).expect("it is there").problem;
+            let run = |replica| {
+                let mut problem = NaiveProblem::paper(1983, replica);
+                problem.aspect_ratio_sd_percent = asked.aspect_ratio_sd_percent;
+                change(&mut problem);
+                let step_s = problem.time_step_s();
+                let (mut naive, mut now) = (Naive::new(problem), 0);
+                let at = |time_s: &f64| {
+                    let then = (time_s / step_s).round() as usize;
+                    (now..then).for_each(|_| naive.step());
+                    now = then;
+                    mean_projections(&naive.orientations)
+                };
+                asked.times_s.iter().map(at).collect::<Vec<[f64; 3]>>()
+            };
+            let all: Vec<_> = (0..REPLICAS).into_par_iter().map(run).collect();
+            for (k, time_s) in asked.times_s.iter().enumerate() {
+                table += &format!("{name},{problem},{time_s:?}");
+                for i in 0..3 {
+                    let n = REPLICAS as f64;
+                    let mean = all.iter().map(|of| of[k][i]).sum::<f64>() / n;
+                    let square = all.iter().map(|of| (of[k][i] - mean).powi(2)).sum::<f64>();
+                    table += &format!(",{mean:.6},{:.1e}", (square / n / (n - 1.0)).sqrt());
+                }
+                table += "\n";
+            }
+        }
     }
     table
 }

@@ -149,7 +149,7 @@ fn files(args: &Args, reference: &Path, mine: &Path) -> Result<Done, Failure> {
     output::probe(&args.out, 0)?;
     let problems = grade::grade(&wanted, mine, &options(args));
     let mut report = report(args, [reference.shown(), mine.shown()], problems, not_read(mine, &names));
-    report.diagnosis = grade::overall(&wanted, &report.problems);
+    report.diagnosis = grade::overall(&wanted, &mut report.problems);
     report.remarks.extend(grade::remark(&report.problems, args.order));
     let inputs = inputs::of_files(args, reference, mine, &wanted)?;
     Ok((report, wanted, inputs))
@@ -269,7 +269,7 @@ fn program(args: &Args, command: &str, reference: Option<&Path>) -> Result<Done,
         _ => loaded.clone(),
     };
     let asked: Vec<_> = wanted.iter().map(last).collect();
-    report.diagnosis = grade::overall(&asked, &report.problems);
+    report.diagnosis = grade::overall(&asked, &mut report.problems);
     Ok((report, wanted, inputs))
 }
 

@@ -1,6 +1,8 @@
-//! A code for orientation tensors in plain arrays, each part of which can be made wrong. It shares nothing with the
-//! project's own.
+//! A code for orientation tensors in plain arrays, each part of which can be made wrong. Its models
+//! share nothing with the project's own.
 
+use shearbed::nalgebra::Matrix3;
+use shearbed_validation::methods::tensors::Closure as Closure4;
 use std::array::from_fn;
 
 pub type M = [[f64; 3]; 3];
@@ -20,6 +22,10 @@ pub struct Code {
     /// The 2 and the 3 of 2 C_I γ̇ (δ − 3a), and the 1 before δ.
     pub spread: [f64; 3],
     pub closure: Closure,
+    /// κ in RSC's bracket and at the diffusion, from κ.
+    pub slow: fn(f64) -> [f64; 2],
+    /// C/C_I from a, D, γ̇ and a parameter; `None` for C = C_I δ.
+    pub anisotropic: Option<fn(&M, &M, f64, f64) -> M>,
     /// What is written for 11, 22, 33, 12, 13, 23.
     pub written: fn([f64; 6]) -> [f64; 6],
 }
@@ -63,6 +69,30 @@ pub fn hybrid(a: &M, at: [usize; 4]) -> f64 {
     hybrid_by(a, at, 1.0 - 27.0 * determinant(a))
 }
 
+/// C/C_I of iARD: δ − 4 C_M D²/γ̇², with another factor for the 4.
+pub fn iard(d: &M, speed: f64, c_m: f64, four: f64) -> M {
+    from_fn(|i| from_fn(|j| delta(i, j) - four * c_m * sum(|k| d[i][k] * d[k][j]) / (speed * speed)))
+}
+
+/// C/C_I of pARD: the `shares` along the axes of a, from the largest eigenvalue.
+pub fn along(a: &M, shares: [f64; 3]) -> M {
+    let (_, axes) = axes_of(a);
+    from_fn(|i| from_fn(|j| sum(|k| shares[k] * axes[k][i] * axes[k][j])))
+}
+
+/// Eigenvalues from the largest, and their axes.
+fn axes_of(a: &M) -> ([f64; 3], M) {
+    let eigen = Matrix3::from_fn(|i, j| a[i][j]).symmetric_eigen();
+    let mut order = [0, 1, 2];
+    order.sort_by(|i, j| eigen.eigenvalues[*j].total_cmp(&eigen.eigenvalues[*i]));
+    (order.map(|k| eigen.eigenvalues[k]), order.map(|k| eigen.eigenvectors.column(k).into_owned().into()))
+}
+
+/// IBOF, the project's own: the models that are tried with it are not.
+pub fn ibof(a: &M, [i, j, k, l]: [usize; 4]) -> f64 {
+    Closure4::Ibof.fourth(&Matrix3::from_fn(|i, j| a[i][j])).at(i, j, k, l)
+}
+
 impl Code {
     pub fn right(closure: Closure) -> Self {
         Self {
@@ -73,25 +103,50 @@ impl Code {
             stretch: [|shape| shape, |shape| 2.0 * shape],
             spread: [2.0, 3.0, 1.0],
             closure,
+            slow: |kappa| [kappa; 2],
+            anisotropic: None,
             written: |six| six,
         }
     }
 
-    /// da_ij/dt.
-    pub fn rate(&self, a: &M, l: &M, r: f64, c_i: f64) -> M {
+    /// da_ij/dt with the parameters C_I and κ, C_M or Ω.
+    pub fn rate(&self, a: &M, l: &M, r: f64, [c_i, other]: [f64; 2]) -> M {
         let l = (self.gradient)(l);
         let w: M = from_fn(|i| from_fn(|j| self.half[0] * (l[i][j] - l[j][i])));
         let d: M = from_fn(|i| from_fn(|j| self.half[1] * (l[i][j] + l[j][i])));
         let shape = (self.shape)(r);
         let [strain, fourth] = self.stretch.map(|of| of(shape));
         let [two, three, one] = self.spread;
-        let diffusion = two * c_i * (self.speed)(&l, &d);
+        let speed = (self.speed)(&l, &d);
+        let by_closure =
+            |x: &M| -> M { from_fn(|i| from_fn(|j| sum(|k| sum(|m| (self.closure)(a, [i, j, k, m]) * x[k][m])))) };
+        let [mut contracted, mut slow] = [by_closure(&d), [[0.0; 3]; 3]];
+        let mut kappas = [1.0; 2];
+        if self.anisotropic.is_none() && !other.is_nan() {
+            kappas = (self.slow)(other);
+            let (values, axes) = axes_of(a);
+            let along = |x: &M, e: &[f64; 3]| sum(|i| sum(|j| e[i] * x[i][j] * e[j]));
+            for (value, e) in values.iter().zip(&axes) {
+                let part = (1.0 - kappas[0]) * (value * along(&d, e) - along(&contracted, e));
+                slow = from_fn(|i| from_fn(|j| slow[i][j] + part * e[i] * e[j]));
+            }
+        }
+        contracted = from_fn(|i| from_fn(|j| contracted[i][j] + slow[i][j]));
+        let diffusion: M = match self.anisotropic {
+            None => from_fn(|i| from_fn(|j| two * kappas[1] * (one * delta(i, j) - three * a[i][j]))),
+            Some(of) => {
+                let c = of(a, &d, speed, other);
+                let (trace, fourth) = (sum(|k| c[k][k]), by_closure(&c));
+                let both = |i: usize, j: usize| sum(|k| c[i][k] * a[k][j] + a[i][k] * c[k][j]);
+                let each = |i: usize, j: usize| c[i][j] - trace * a[i][j] - 2.5 * both(i, j) + 5.0 * fourth[i][j];
+                from_fn(|i| from_fn(|j| two * each(i, j)))
+            }
+        };
         from_fn(|i| {
             from_fn(|j| {
                 let turned = sum(|k| w[i][k] * a[k][j] - a[i][k] * w[k][j]);
                 let stretched = sum(|k| d[i][k] * a[k][j] + a[i][k] * d[k][j]);
-                let contracted = sum(|k| sum(|m| (self.closure)(a, [i, j, k, m]) * d[k][m]));
-                turned + strain * stretched - fourth * contracted + diffusion * (one * delta(i, j) - three * a[i][j])
+                turned + strain * stretched - fourth * contracted[i][j] + c_i * speed * diffusion[i][j]
             })
         })
     }
@@ -105,7 +160,7 @@ impl Code {
             let steps = ((time - now) * norm / strain).ceil();
             let h = (time - now) / steps;
             for _ in 0..steps as usize {
-                let rate = |a: &M| self.rate(a, l, r, c_i);
+                let rate = |a: &M| self.rate(a, l, r, [c_i, f64::NAN]);
                 let k1 = rate(&a);
                 let k2 = rate(&add(&a, &k1, h / 2.0));
                 let k3 = rate(&add(&a, &k2, h / 2.0));

@@ -1,5 +1,5 @@
-//! The grader on codes for orientation tensors that are right, or wrong in one part: no right one may fail, every wrong
-//! one must be caught, and named.
+//! The grader on codes for orientation tensors and for rods that are right, or wrong in one part: no right one may
+//! fail, every wrong one must be caught, and named.
 //!
 //!     cargo run --example graded_tensors [-- TEXT]
 //!
@@ -7,8 +7,9 @@
 //! does the same.
 
 mod code;
+mod rods;
 
-use code::{Code, M, delta, double, hybrid, hybrid_by, linear, linear_by, quadratic};
+use code::{Code, M, along, delta, double, hybrid, hybrid_by, iard, ibof, linear, linear_by, quadratic};
 use rayon::prelude::*;
 use shearbed_validation::methods::tensors::Model;
 use shearbed_validation::serve::grade::{self, Claim, DumpOptions, FileOptions, Graded, Options, Verdict};
@@ -84,10 +85,48 @@ const WRONG: &[Wrong] = &[
     }),
 ];
 
-const RIGHT: [(&str, code::Closure); 3] = [("linear", linear), ("quadratic", quadratic), ("hybrid", hybrid)];
+/// Mistakes of one model each.
+#[rustfmt::skip]
+const WRONG_MODELS: &[(&str, Wrong)] = &[
+    ("rsc-ibof", ("1 − κ", "1 − κ for κ", |c| c.slow = |kappa| [1.0 - kappa; 2])),
+    ("rsc-ibof", ("1/κ", "1/κ for κ", |c| c.slow = |kappa| [1.0 / kappa; 2])),
+    ("rsc-ibof", ("no κ", "κ left out", |c| c.slow = |_| [1.0; 2])),
+    ("rsc-ibof", ("no κ at the diffusion", "κ missing at the diffusion", |c| c.slow = |kappa| [kappa, 1.0])),
+    ("iard-ibof", ("no 4", "C_M D²/γ̇² without its 4", |c| {
+        c.anisotropic = Some(|_, d, speed, c_m| iard(d, speed, c_m, 1.0));
+    })),
+    ("iard-ibof", ("the norm of D²", "(D²:D²)^½ for the norm", |c| {
+        c.anisotropic = Some(|_, d, speed, c_m| iard(d, speed, c_m, 4.0 * std::f64::consts::FRAC_1_SQRT_2));
+    })),
+    ("pard-ibof", ("ascending eigenvalues", "the eigenvalues of a in ascending order", |c| {
+        c.anisotropic = Some(|a, _, _, omega| along(a, [1.0 - omega, omega, 1.0]));
+    })),
+];
+
+const RIGHT: [(&str, code::Closure); 6] = [
+    ("linear", linear),
+    ("quadratic", quadratic),
+    ("hybrid", hybrid),
+    ("rsc-ibof", ibof),
+    ("iard-ibof", ibof),
+    ("pard-ibof", ibof),
+];
+
+/// The right code of a closure, or of a model with a closure.
+fn right(name: &str, closure: code::Closure) -> Code {
+    let anisotropic: Option<fn(&M, &M, f64, f64) -> M> = match name {
+        "iard-ibof" => Some(|_, d, speed, c_m| iard(d, speed, c_m, 4.0)),
+        "pard-ibof" => Some(|a, _, _, omega| along(a, [1.0, omega, 1.0 - omega])),
+        _ => None,
+    };
+    Code { anisotropic, ..Code::right(closure) }
+}
 
 /// The problems of a code with this closure: its rate, its curves, and what it should miss by no more than its closure.
 fn problems_of(closure: &str) -> Vec<LoadedProblem> {
+    if closure.contains('-') {
+        return vec![problems::named(&format!("dadt-{closure}")).expect("a problem").loaded(closure.into())];
+    }
     let c_i = if closure == "linear" { "0.1" } else { "0.01" };
     let names = [format!("dadt-ft-{closure}"), format!("closed-ft-{closure}-{c_i}")];
     let further =
@@ -109,19 +148,23 @@ fn values(code: &Code, loaded: &LoadedProblem, strain: f64) -> Rows {
     let six = |a: &M| (code.written)([a[0][0], a[1][1], a[2][2], a[0][1], a[0][2], a[1][2]]);
     let matrix = |x: &[f64]| -> M { [[x[0], x[3], x[4]], [x[3], x[1], x[5]], [x[4], x[5], x[2]]] };
     let problem = &loaded.problem;
-    let c_i_of = |model: Model| if let Model::FolgarTucker { c_i } = model { c_i } else { f64::NAN };
+    let parameters = |model: Model| match model.parameters()[..] {
+        [c_i, other] => [c_i, other],
+        ref all => [all[0], f64::NAN],
+    };
     match (&problem.formula, &loaded.inputs) {
         (Some(Formula::Dadt { model, .. }), Some(inputs)) => {
             let of = |row: &Vec<f64>| {
                 let l: M = from_fn(|i| from_fn(|j| row[7 + 3 * i + j]));
-                (row[0], six(&code.rate(&matrix(&row[1..]), &l, row[16], c_i_of(*model))))
+                (row[0], six(&code.rate(&matrix(&row[1..]), &l, row[16], parameters(*model))))
             };
             inputs.rows.iter().map(of).collect()
         }
         _ => {
             let random: M = from_fn(|i| from_fn(|j| delta(i, j) / 3.0));
-            let (start, c_i) =
-                problem.closed.map_or((random, problem.c_i), |closed| (closed.start, Some(c_i_of(closed.model))));
+            let (start, c_i) = problem
+                .closed
+                .map_or((random, problem.c_i), |closed| (closed.start, Some(parameters(closed.model)[0])));
             let (l, r, times) = (&problem.gradient_per_s, problem.aspect_ratio, &problem.times_s);
             let path = code.path(&start, l, r, c_i.unwrap_or(f64::NAN), times, strain);
             times.iter().zip(&path).map(|(time, a)| (*time, six(a))).collect()
@@ -137,18 +180,22 @@ fn text(loaded: &LoadedProblem, rows: &Rows) -> String {
     format!("{}\n{}", loaded.problem.columns.join(","), rows.iter().map(row).collect::<String>())
 }
 
-fn graded(problems: &[LoadedProblem], answers: &[Rows]) -> (Vec<Graded>, Vec<String>) {
+fn graded(problems: &[LoadedProblem], answers: impl Iterator<Item = String>) -> (Vec<Graded>, Vec<String>) {
     let dir = tempfile::tempdir().expect("a folder");
-    for (loaded, rows) in problems.iter().zip(answers) {
+    for (loaded, answer) in problems.iter().zip(answers) {
         let folder = dir.path().join(&loaded.problem.name);
         fs::create_dir(&folder).expect("a folder");
-        fs::write(folder.join("answer.csv"), text(loaded, rows)).expect("a file");
+        fs::write(folder.join("answer.csv"), answer).expect("a file");
     }
     let dump = DumpOptions { timestep_s: None, rod_axis: None };
     let options = Options { file: FileOptions::default(), dump, claim: Claim::default() };
-    let graded = grade::grade(problems, dir.path(), &options);
-    let overall = grade::overall(problems, &graded);
+    let mut graded = grade::grade(problems, dir.path(), &options);
+    let overall = grade::overall(problems, &mut graded);
     (graded, overall)
+}
+
+fn of_rows(problems: &[LoadedProblem], answers: &[Rows]) -> (Vec<Graded>, Vec<String>) {
+    graded(problems, problems.iter().zip(answers).map(|(loaded, rows)| text(loaded, rows)))
 }
 
 /// Answers with steps of this strain: short ones for a code that is to pass.
@@ -174,7 +221,7 @@ struct Setting {
 
 fn settings() -> Vec<Setting> {
     let of = |(closure, fourth): &(&'static str, code::Closure)| {
-        let (right, problems) = (Code::right(*fourth), problems_of(closure));
+        let (right, problems) = (right(closure, *fourth), problems_of(closure));
         Setting { closure, answers: answers(&right, &problems, 0.04), right, problems }
     };
     RIGHT.par_iter().map(of).collect()
@@ -184,7 +231,7 @@ fn judged((name, expected, spoil): &Wrong, setting: &Setting) -> Row {
     let mut code = setting.right.clone();
     spoil(&mut code);
     let answers = answers(&code, &setting.problems, 0.04);
-    let (graded, _) = graded(&setting.problems, &answers);
+    let (graded, _) = of_rows(&setting.problems, &answers);
     // A mistake that makes no difference, as of Λ where Λ = 1, is none; a value that is not finite has no name.
     let differs =
         |(found, (own, spoilt)): &(&Graded, (&Rows, &Rows))| found.error.is_some() && apart(own, spoilt) > 1e-9;
@@ -206,8 +253,11 @@ fn judged((name, expected, spoil): &Wrong, setting: &Setting) -> Row {
 }
 
 fn all(only: &str, settings: &[Setting]) -> Vec<Row> {
-    let each = WRONG.iter().filter(|(name, ..)| name.contains(only));
-    let each: Vec<_> = each.flat_map(|wrong| settings.iter().map(move |setting| (wrong, setting))).collect();
+    let of_one = WRONG_MODELS.iter().filter_map(|(model, wrong)| {
+        settings.iter().find(|setting| setting.closure == *model).map(|setting| (wrong, setting))
+    });
+    let each = WRONG.iter().flat_map(|wrong| settings.iter().map(move |setting| (wrong, setting))).chain(of_one);
+    let each: Vec<_> = each.filter(|((name, ..), _)| name.contains(only)).collect();
     each.into_par_iter().map(|(wrong, setting)| judged(wrong, setting)).collect()
 }
 
@@ -216,6 +266,7 @@ fn sum(rows: &[Row], of: fn(&Row) -> usize) -> usize {
 }
 
 fn main() {
+    rods::print(&std::env::args().nth(1).unwrap_or_default());
     let rows = all(&std::env::args().nth(1).unwrap_or_default(), &settings());
     for row in &rows {
         println!("{}: {} of {} named", row.name, row.named, row.wrong);
@@ -230,7 +281,7 @@ fn right_codes_pass_and_wrong_ones_are_caught_and_named() {
     for Setting { closure, problems, right, .. } in &settings {
         let own = |loaded: &&LoadedProblem| loaded.problem.c_i.is_none();
         let problems: Vec<_> = problems.iter().filter(own).cloned().collect();
-        let (graded, overall) = graded(&problems, &answers(right, &problems, 0.005));
+        let (graded, overall) = of_rows(&problems, &answers(right, &problems, 0.005));
         for graded in &graded {
             assert!(graded.verdict == Verdict::Pass && graded.diagnosis.is_none(), "{closure} {graded:?}");
         }

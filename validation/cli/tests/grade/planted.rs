@@ -1,4 +1,4 @@
-//! Copies of the NumPy code with one planted mistake each, which must be named.
+//! Copies of the NumPy code with one planted mistake each, which must be named; `examples/graded_tensors` has more.
 
 use crate::grading::{files, some};
 use crate::programs::{peers, python, run, skipped};

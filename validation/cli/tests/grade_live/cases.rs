@@ -39,6 +39,6 @@ pub const CASES: &[Case] = &[
     ("answers_twice", "FAIL", &["line 2 of standard output"]),
     ("floods_stdout_with_lines", "FAIL", &["line 2 of standard output"]),
     ("floods_stdout_without_lines", "FAIL", &["is longer than 1048576 bytes"]),
-    ("only_has_errors", "REFUSED", &["steps the program says: not today"]),
+    ("only_has_errors", "REFUSED", &["the program says: not today"]),
     ("transposes", "FAIL", &["the curve of a transposed gradient", "no longer change the answer"]),
 ];

@@ -5,8 +5,8 @@ use super::keys::{Keys, document};
 use super::provenance::{Axis, INPUTS, Key, Layout, OBSERVABLES, Projection, Provenance, Stated, Time};
 use crate::files::FileError;
 use crate::input::scenes;
-use toml::value::Datetime;
 use std::path::Path;
+use toml::value::Datetime;
 
 const CALIBRATION: &str = "the values of the axis's reference points, two different numbers at least";
 const UNCERTAINTY: &str = "one standard deviation of what was read off, a number > 0 in the unit of quantity";

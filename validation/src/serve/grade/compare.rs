@@ -54,7 +54,7 @@ pub fn compare(loaded: &LoadedProblem, answer: &Answer) -> Compared {
     });
     let (row, error) = largest.unwrap_or((0, f64::NAN));
     let largest_se = largest_standard_error(names, answer);
-    let enough = loaded.problem.ensemble.as_ref().map_or(f64::INFINITY, |ensemble| ensemble.largest_standard_error);
+    let enough = loaded.largest_standard_error();
     let directions = loaded.problem.metric == Metric::Angle;
     let rate = loaded.problem.shear_rate_per_s().filter(|_| directions);
     Compared {
@@ -126,10 +126,8 @@ fn remark(loaded: &LoadedProblem, answer: &Answer, row: usize, error: f64, large
     if let Some(none) = without_error(loaded, answer) {
         return Some(none);
     }
-    if let Some(ensemble) = &loaded.problem.ensemble
-        && (largest_se.is_nan() || largest_se > ensemble.largest_standard_error)
-    {
-        let enough = ensemble.largest_standard_error;
+    let enough = loaded.largest_standard_error();
+    if largest_se.is_nan() || largest_se > enough {
         return Some(format!(
             "too little data to judge: the largest standard error is {largest_se:.2e}, {enough:.2e} is allowed"
         ));

@@ -5,15 +5,29 @@ use super::nearness::Near;
 use crate::serve::problems::LoadedProblem;
 use crate::serve::problems::contact::{Variant, answers};
 
-const MISTAKES: [(&str, Variant); 4] = [
+const RIGHT: Variant = Variant { kick: 1.0, printed: false, arms: Some };
+
+const MISTAKES: [(&str, Variant); 9] = [
     ("a kick with the wrong sign", kicked(-1.0)),
     ("no kick", kicked(0.0)),
     ("a kick to the other rod's velocity, not to the mean", kicked(2.0)),
-    ("A.13 as in the text", Variant { kick: 1.0, printed: true }),
+    ("A.13 as in the text", Variant { printed: true, ..RIGHT }),
+    ("arms clipped at the rods' ends, ±a/2", armed(|arms| Some(arms.map(|arm| arm.clamp(-0.5, 0.5))))),
+    ("arms clipped at ±a", armed(|arms| Some(arms.map(|arm| arm.clamp(-1.0, 1.0))))),
+    (
+        "contact lines cut at the rods' ends: no contact beyond",
+        armed(|arms| arms.iter().all(|arm| arm.abs() <= 0.5).then_some(arms)),
+    ),
+    ("|r| for the signed arm r", armed(|arms| Some(arms.map(f64::abs)))),
+    ("the arms of both rods exchanged", armed(|[a, b]| Some([b, a]))),
 ];
 
 const fn kicked(kick: f64) -> Variant {
-    Variant { kick, printed: false }
+    Variant { kick, ..RIGHT }
+}
+
+const fn armed(arms: fn([f64; 2]) -> Option<[f64; 2]>) -> Variant {
+    Variant { arms, ..RIGHT }
 }
 
 /// The mistakes whose answers are nearer than `nearer_than`, each with its distance.
@@ -70,8 +84,8 @@ mod tests {
                     assert_eq!(named(variant), [mistake], "{name}");
                 }
             }
-            assert_eq!(named(kicked(1.0)), [""; 0], "{name}");
-            assert!(compare(&loaded, &answer(kicked(1.0))).error <= loaded.problem.tolerance, "{name}");
+            assert_eq!(named(RIGHT), [""; 0], "{name}");
+            assert!(compare(&loaded, &answer(RIGHT)).error <= loaded.problem.tolerance, "{name}");
         }
     }
 }

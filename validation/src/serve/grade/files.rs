@@ -2,16 +2,15 @@
 
 use super::answer::Answer;
 use super::compare::compare;
-use super::diagnosis::diagnose;
 use super::digits;
 use super::lammps;
 use super::layout::FileOptions;
 use super::order;
-use super::read::read;
+use super::read::{self, read};
 use super::{Graded, Verdict};
 use crate::files::text::Shown;
 use crate::files::{FileError, entries};
-use crate::serve::problems::{LoadedProblem, Metric};
+use crate::serve::problems::{Kind, LoadedProblem, Metric};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
@@ -86,6 +85,10 @@ fn find(dir: &Path) -> Result<(Option<PathBuf>, BTreeMap<u64, PathBuf>), FileErr
 /// A file that cannot be read: file, line and column.
 pub fn grade_one(loaded: &LoadedProblem, dir: &Path, options: &Options) -> Result<Graded, FileError> {
     let (single, ladder) = find(dir)?;
+    let mut paths = single.iter().chain(ladder.values());
+    let scattered = loaded.problem.kind == Kind::Tensor && paths.any(|path| read::has_errors(path, &options.file));
+    let scattered = scattered.then(|| loaded.with_standard_errors());
+    let loaded = scattered.as_ref().unwrap_or(loaded);
     let read = |path: &PathBuf| read(path, loaded, &options.file, &options.dump);
     let mut errors = Vec::new();
     let mut finest = None;
@@ -118,8 +121,7 @@ pub(super) fn judge(graded: &mut Graded, loaded: &LoadedProblem, answer: &Answer
     let outlier = exact.then(|| order::outlier(&graded.errors, loaded.own_tolerance)).flatten();
     let off = graded.order_off(claim.order).or(outlier);
     graded.verdict = if within && off.is_none() { Verdict::Pass } else { Verdict::Fail };
-    graded.set_compared(&compared);
-    graded.set_diagnosis(diagnose(loaded, answer, compared.error));
+    graded.set_answer(loaded, answer, &compared);
     graded.note = if within {
         off
     } else {

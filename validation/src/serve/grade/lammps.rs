@@ -3,9 +3,10 @@
 
 use super::answer::{Answer, Collector};
 use super::axes::Axes;
-use super::layout::number;
+use super::layout::{FileOptions, number};
 use crate::files::FileError;
 use crate::files::csv::Lines;
+use crate::methods::integrators::apart_rad;
 use crate::serve::problems::{Kind, LoadedProblem};
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
@@ -23,26 +24,34 @@ pub struct DumpOptions {
 struct Columns {
     count: usize,
     id: usize,
-    quaternion: [usize; 4],
+    /// Of w, i, j, k, in each order that the header allows.
+    quaternion: Vec<[usize; 4]>,
     shape: Option<[usize; 3]>,
 }
 
-/// Finds the columns by name, the quaternion (w, i, j, k) as that of the atoms or as c_ID[1] to c_ID[4] of a compute.
-fn columns(header: &str) -> Result<Columns, String> {
+/// Finds the columns by name, the quaternion as that of the atoms or as four columns of a compute, whose order only its
+/// input script tells: w, i, j, k or i, j, k, w.
+fn columns(header: &str, options: &FileOptions) -> Result<Columns, String> {
     let names: Vec<_> = header.split_whitespace().collect();
+    let given: Option<Vec<_>> = options.columns.as_ref().map(|given| given.iter().map(String::as_str).collect());
+    let names = given.filter(|given| given.len() == names.len()).unwrap_or(names);
     let at = |name: &str| names.iter().position(|found| *found == name);
-    let all = |wanted: [&str; 4]| wanted.map(at).into_iter().collect::<Option<Vec<_>>>()?.try_into().ok();
-    let compute = names.iter().find_map(|name| name.strip_suffix("[1]"));
-    let of_compute = || {
-        let names = [1, 2, 3, 4].map(|k| format!("{}[{k}]", compute.unwrap_or_default()));
-        all(names.each_ref().map(String::as_str))
+    fn all<const N: usize>(found: [Option<usize>; N]) -> Option<[usize; N]> {
+        found.into_iter().collect::<Option<Vec<_>>>()?.try_into().ok()
+    }
+    let of = |stem: &str, k: usize| at(&format!("{stem}[{k}]"));
+    let stems = || names.iter().filter_map(|name| name.strip_suffix("[1]"));
+    let four = || stems().find_map(|stem| all([1, 2, 3, 4].map(|k| of(stem, k))));
+    let named =
+        ["", "c_"].iter().find_map(|head| all(["w", "i", "j", "k"].map(|axis| at(&format!("{head}quat{axis}")))));
+    let quaternion = match (named, four()) {
+        (Some(named), _) => vec![named],
+        (None, Some([a, b, c, d])) => vec![[a, b, c, d], [d, a, b, c]],
+        _ => return Err("no quaternion: columns quatw quati quatj quatk or c_ID[1] to c_ID[4] are asked for".into()),
     };
-    let quaternion = all(["quatw", "quati", "quatj", "quatk"])
-        .or_else(|| all(["c_quatw", "c_quati", "c_quatj", "c_quatk"]))
-        .or_else(of_compute)
-        .ok_or("no quaternion: columns quatw quati quatj quatk or c_ID[1] to c_ID[4] are asked for")?;
-    let shape = || Some([at("shapex")?, at("shapey")?, at("shapez")?]);
-    Ok(Columns { count: names.len(), id: at("id").ok_or("no column id")?, quaternion, shape: shape() })
+    let three = || stems().find_map(|stem| all([1, 2, 3].map(|k| of(stem, k))).filter(|_| of(stem, 4).is_none()));
+    let shape = all(["x", "y", "z"].map(|axis| at(&format!("shape{axis}")))).or_else(three);
+    Ok(Columns { count: names.len(), id: at("id").ok_or("no column id")?, quaternion, shape })
 }
 
 /// Reads a dump whose first line is `first`. Rod k is the atom with the (k+1)-th smallest id.
@@ -50,7 +59,7 @@ pub(super) fn read(
     mut lines: Lines,
     first: String,
     problem: &LoadedProblem,
-    axes: Axes,
+    form: &FileOptions,
     options: &DumpOptions,
 ) -> Result<Answer, FileError> {
     if problem.problem.kind != Kind::Rods {
@@ -60,6 +69,7 @@ pub(super) fn read(
     let mut item = Some(first);
     let mut time_s: Option<f64> = None;
     let mut atoms = 0;
+    let mut order = None;
     while let Some(line) = item {
         match line.strip_prefix("ITEM:").map(str::trim) {
             Some("TIMESTEP") => {
@@ -91,8 +101,25 @@ pub(super) fn read(
                 const NO_TIME: &str =
                     "no time: --timestep-s must say how long a step is, or the dump must have ITEM: TIME";
                 let time = time_s.take().ok_or_else(|| lines.error(0, NO_TIME))?;
-                let columns = columns(&header["ATOMS".len()..]).map_err(|message| lines.error(0, message))?;
-                snapshot(&mut lines, &mut collector, &columns, atoms, time, axes, options)?;
+                let columns = columns(&header["ATOMS".len()..], form).map_err(|message| lines.error(0, message))?;
+                let line = lines.number();
+                let found = snapshot(&mut lines, &columns, atoms, options)?;
+                let order = match order {
+                    Some(order) => order,
+                    None => *order.insert(
+                        ordered(&found, time, problem, form.axes)
+                            .map_err(|why| FileError::at(lines.path(), line, 0, why))?,
+                    ),
+                };
+                for (rod, (id, line, all)) in found.iter().enumerate() {
+                    if rod > 0 && found[rod - 1].0 == *id {
+                        let message = format!("atom {id} is there twice");
+                        return Err(FileError::at(lines.path(), *line, columns.id as u64 + 1, message));
+                    }
+                    let ours = form.axes.to_ours(all[order].into());
+                    let added = collector.add(*line, &[time, rod as f64], ours.to_vec());
+                    added.map_err(|(_, message)| FileError::at(lines.path(), *line, 0, message))?;
+                }
             }
             _ => return Err(lines.error(0, "no ITEM of a dump")),
         }
@@ -110,15 +137,34 @@ fn value(lines: &mut Lines) -> Result<f64, FileError> {
     number(next(lines)?.trim()).map_err(|message| lines.error(1, message))
 }
 
-fn snapshot(
-    lines: &mut Lines,
-    collector: &mut Collector<'_>,
-    columns: &Columns,
-    atoms: usize,
-    time_s: f64,
-    axes: Axes,
-    options: &DumpOptions,
-) -> Result<(), FileError> {
+/// The id of an atom, its line, and its direction by each order of the quaternion.
+type Atom = (f64, u64, Vec<Vector3<f64>>);
+
+/// Which order of the quaternion gives the problem's directions at t = 0, if the header allows two.
+fn ordered(atoms: &[Atom], time_s: f64, problem: &LoadedProblem, axes: Axes) -> Result<usize, String> {
+    /// Six digits and an axis of the body that is given by hand.
+    const NEAR: f64 = 1e-3;
+    if atoms.iter().all(|(.., all)| all.len() == 1) {
+        return Ok(0);
+    }
+    let starts = |order: &usize| {
+        let near = |(atom, start): (&Atom, &[f64; 3])| {
+            apart_rad(&Vector3::from(axes.to_ours(atom.2[*order].into())), &Vector3::from(*start)) < NEAR
+        };
+        time_s == 0.0 && atoms.iter().zip(&problem.start).all(near)
+    };
+    let fitting: Vec<_> = [0, 1].into_iter().filter(starts).collect();
+    match fitting[..] {
+        [order] => Ok(order),
+        _ => Err(
+            "the order of the quaternion is not known: the header has c_ID[1] to c_ID[4], and no snapshot at t = 0 \
+                  comes first that shows the start; --columns names the columns, as in id,quatw,quati,quatj,quatk"
+                .to_owned(),
+        ),
+    }
+}
+
+fn snapshot(lines: &mut Lines, columns: &Columns, atoms: usize, options: &DumpOptions) -> Result<Vec<Atom>, FileError> {
     // LAMMPS writes atoms in any order: the id identifies the rod.
     let mut found = Vec::new();
     for _ in 0..atoms {
@@ -129,8 +175,6 @@ fn snapshot(
             return Err(lines.error(fields.len(), message));
         }
         let at = |column: usize| number(fields[column]).map_err(|message| lines.error(column + 1, message));
-        let [w, i, j, k] = columns.quaternion;
-        let q = [at(w)?, at(i)?, at(j)?, at(k)?];
         let shape = columns.shape.map(|[x, y, z]| Ok([at(x)?, at(y)?, at(z)?])).transpose()?;
         let by_shape = shape.and_then(odd_one);
         if let (Some(given), Some(by_shape)) = (options.rod_axis, by_shape)
@@ -146,18 +190,12 @@ fn snapshot(
         let axis = options.rod_axis.or(by_shape).ok_or_else(|| {
             lines.error(0, "which axis of the body is the rod's? --rod-axis x, y or z, or columns shapex shapey shapez")
         })?;
-        found.push((at(columns.id)?, lines.number(), direction(q, axis)));
+        let of = |[w, i, j, k]: &[usize; 4]| Ok(direction([at(*w)?, at(*i)?, at(*j)?, at(*k)?], axis));
+        let all = columns.quaternion.iter().map(of).collect::<Result<_, FileError>>()?;
+        found.push((at(columns.id)?, lines.number(), all));
     }
     found.sort_by(|a, b| a.0.total_cmp(&b.0));
-    for (rod, (id, line, p)) in found.iter().enumerate() {
-        if rod > 0 && found[rod - 1].0 == *id {
-            return Err(FileError::at(lines.path(), *line, columns.id as u64 + 1, format!("atom {id} is there twice")));
-        }
-        let ours = axes.to_ours((*p).into());
-        let added = collector.add(*line, &[time_s, rod as f64], ours.to_vec());
-        added.map_err(|(_, message)| FileError::at(lines.path(), *line, 0, message))?;
-    }
-    Ok(())
+    Ok(found)
 }
 
 /// The largest relative difference of two times that count as the same: that of a time with six digits.

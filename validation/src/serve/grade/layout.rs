@@ -159,11 +159,14 @@ fn fields(names: &[&str], problem: &Problem, axes: Axes) -> Result<Vec<Field>, (
         } else if let Some(at) = value(&mirrored) {
             Field::Again(at)
         } else {
-            let message = format!(
-                "column {name:?} is not asked for; the columns are {} (--columns can leave one out with a -)",
-                problem.columns.join(",")
-            );
-            return Err((k + 1, message));
+            let along = ["distance", "arc_length", "Points:0", "Points_0", "x", "xyz"].contains(name);
+            let remedy = if along {
+                "these are samples along a line: take the series at one point, as OpenFOAM's probes write"
+            } else {
+                "--columns can leave one out with a -"
+            };
+            let columns = problem.columns.join(",");
+            return Err((k + 1, format!("column {name:?} is not asked for; the columns are {columns} ({remedy})")));
         };
         if !matches!(field, Field::Nothing) && fields.contains(&field) {
             return Err((k + 1, format!("column {name:?} is there twice")));

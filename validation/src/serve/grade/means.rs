@@ -75,6 +75,20 @@ pub(super) fn unequal(loaded: &LoadedProblem, answer: &Answer, nearer_than: f64)
     near
 }
 
+/// Means with other interpretations of the paper and with mistakes, written by `examples/certify.rs`.
+const INTERPRETATIONS: &str = include_str!("../problems/data/interpretations.csv");
+
+/// Wrong means of a suspension with collisions.
+type Known = (&'static str, Option<Vec<Vec<f64>>>);
+
+/// The other interpretations that a table has for a problem.
+fn interpretations(problem: &Problem) -> Vec<Known> {
+    let rows: Vec<Vec<_>> = INTERPRETATIONS.lines().skip(1).map(|line| line.split(',').collect()).collect();
+    let own: Vec<_> = rows.into_iter().filter(|row| row[1] == problem.name).collect();
+    let values = |row: &Vec<&str>| row[3..].iter().map(|field| field.parse().ok()).collect::<Option<Vec<f64>>>();
+    own.chunk_by(|a, b| a[0] == b[0]).map(|rows| (rows[0][0], rows.iter().map(values).collect())).collect()
+}
+
 /// A diagnosis of a suspension: the wrong means with which the answer agrees as well as a right answer may with the
 /// right ones.
 pub(super) fn ensemble(loaded: &LoadedProblem, answer: &Answer) -> Option<String> {
@@ -104,7 +118,7 @@ pub(super) fn ensemble(loaded: &LoadedProblem, answer: &Answer) -> Option<String
         };
         Some(loaded.certified.rows.iter().map(row).collect::<Vec<_>>())
     };
-    let mut known = vec![
+    let mut known: Vec<Known> = vec![
         ("free rods, without collisions", exact(&free)),
         ("p_i without its modulus, whose mean is 0", exact(&|_, _| Some(Vector3::zeros()))),
         ("x1 and x2 exchanged", exchanged([1, 0, 2])),
@@ -113,6 +127,7 @@ pub(super) fn ensemble(loaded: &LoadedProblem, answer: &Answer) -> Option<String
         ("x2, x3, x1 in place of x1, x2, x3", exchanged([1, 2, 0])),
         ("x3, x1, x2 in place of x1, x2, x3", exchanged([2, 0, 1])),
     ];
+    known.extend(interpretations(problem));
     if problem.aspect_ratio_sd_percent > 0.0 {
         known.push(("free rods of one r_e, without collisions", exact(&free_of_one_shape)));
     }

@@ -2,8 +2,10 @@
 //!
 //! The exact motion is p = q/|q|, q = exp(At) p(0), A = W + ΛD. A mistake changes only flow, r_e, start, map or answer.
 
+mod angles;
 mod physical;
 
+use super::Axes;
 use crate::serve::problems::Problem;
 use nalgebra::{Matrix3, Vector3};
 use shearbed::model::flow::VelocityGradient;
@@ -162,11 +164,22 @@ pub fn all() -> Vec<Mistake> {
         rate("W without its ½", |w, d, shape| 2.0 * w + shape * d),
         rate("W halved twice", |w, d, shape| 0.5 * w + shape * d),
         rate("D halved twice", |w, d, shape| w + 0.5 * shape * d),
+        rate("W left out", |_, d, shape| shape * d),
+        rate("Λ = 0, D left out", |w, _, _| w),
+        rate("1/Λ for Λ", |w, d, shape| w + d / shape),
+        rate("the eccentricity (1 − 1/r_e²)^½ for Λ", |w, d, shape| w + (2.0 * shape / (1.0 + shape)).sqrt() * d),
+        moved("twice the r_e", |s| Setting { aspect_ratio: 2.0 * s.aspect_ratio, ..s }),
+        moved("half the r_e", |s| Setting { aspect_ratio: 0.5 * s.aspect_ratio, ..s }),
+        moved("r_e² for r_e", |s| Setting { aspect_ratio: s.aspect_ratio.powi(2), ..s }),
         moved("half the shear rate", |s| scaled(s, 0.5)),
         moved("twice the shear rate", |s| scaled(s, 2.0)),
         linear("T without 1/r_e", |setting, time| {
             let r = setting.aspect_ratio;
             Some(turned(r, 1.0 / r, couette_per_s(setting)? * time / r))
+        }),
+        linear("T with r_e − 1/r_e", |setting, time| {
+            let r = setting.aspect_ratio;
+            Some(turned(r, 1.0 / r, couette_per_s(setting)? * time / (r - 1.0 / r)))
         }),
         linear("no 1/r_e at p_2 in the closed form", |setting, time| {
             Some(turned(setting.aspect_ratio, 1.0, right_phase(setting, time)?))
@@ -193,6 +206,8 @@ pub fn all() -> Vec<Mistake> {
     }
     all.push(Mistake { has_length: true, ..linear("p that is not normalised", right_map) });
     all.extend(permuted());
+    all.extend(in_other_axes());
+    all.extend(angles::all());
     all.extend(physical::all());
     all
 }
@@ -243,6 +258,23 @@ fn permuted() -> Vec<Mistake> {
             [components(name.to_owned(), none, change), components(format!("{name}{IN_THE_START}"), change, none)]
         })
         .collect()
+}
+
+/// How the names of mistakes of axes begin.
+pub const AXES: &str = "L and p in different axes";
+
+/// L in other axes than p.
+fn in_other_axes() -> impl Iterator<Item = Mistake> {
+    let orders = ["flow,gradient", "vorticity,flow", "gradient,vorticity", "flow,vorticity", "vorticity,gradient"];
+    orders.into_iter().map(|two| {
+        let third = ["gradient", "flow", "vorticity"].into_iter().find(|name| !two.contains(name)).unwrap_or_default();
+        let axes = format!("{two},{third}").parse::<Axes>().unwrap_or_default();
+        moved(&format!("{AXES}, one of them in {axes}"), move |s| {
+            let l = std::array::from_fn(|i| std::array::from_fn(|j| s.gradient_per_s[(i, j)]));
+            let l = axes.gradient_to_theirs(l);
+            Setting { gradient_per_s: Matrix3::from_fn(|i, j| l[i][j]), ..s }
+        })
+    })
 }
 
 /// a_ij of directions M p(0)/|M p(0)| where p(0) is isotropic, with det M = 1. In the principal axes of M Mᵀ, whose

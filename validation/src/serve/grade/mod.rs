@@ -7,6 +7,7 @@ mod compare;
 mod contact;
 mod diagnosis;
 mod digits;
+mod estimate;
 pub mod figures;
 mod files;
 mod html;
@@ -18,7 +19,6 @@ mod nearness;
 mod mistakes;
 mod order;
 mod overall;
-mod rates;
 mod read;
 mod report;
 mod tensors;
@@ -90,13 +90,16 @@ pub struct Graded {
     pub order_found: Option<Order>,
     /// The known mistake whose curve the answer is.
     pub diagnosis: Option<String>,
-    /// The mistakes whose curve the answer is, and the rates at which its time may run.
+    /// The mistakes whose curve the answer is, and the answer.
     #[serde(skip)]
     pub suspects: Vec<String>,
     #[serde(skip)]
-    rates: Vec<f64>,
+    answer: Option<answer::Answer>,
     /// The place of the error, or the reason why there is none.
     pub note: Option<String>,
+    /// The time that grading took, s.
+    #[serde(skip)]
+    pub seconds: f64,
     /// The steps of the answer that is judged.
     pub steps: Option<u64>,
     /// The tolerance asked of a program that chooses its steps.
@@ -129,8 +132,9 @@ impl Graded {
             order_found: None,
             diagnosis: None,
             suspects: Vec::new(),
-            rates: Vec::new(),
+            answer: None,
             note: None,
+            seconds: 0.0,
             steps: None,
             asked_tolerance: None,
             errors: Vec::new(),
@@ -159,8 +163,16 @@ impl Graded {
         self.phase_lost_per_period = compared.phase_lost_per_period.filter(finite);
     }
 
-    fn set_diagnosis(&mut self, found: diagnosis::Diagnosis) {
-        (self.diagnosis, self.suspects, self.rates) = (found.said, found.suspects, found.rates);
+    /// Sets an answer, its error and drifts, and the diagnosis.
+    fn set_answer(&mut self, loaded: &LoadedProblem, answer: &answer::Answer, compared: &compare::Compared) {
+        self.set_compared(compared);
+        let found = diagnosis::diagnose(loaded, answer, compared.error, self.steps);
+        (self.diagnosis, self.suspects, self.answer) = (found.said, found.suspects, Some(answer.clone()));
+    }
+
+    /// True if the diagnosis names this mistake.
+    fn is_called(&self, name: &str) -> bool {
+        self.diagnosis.as_ref().is_some_and(|said| said.contains(name))
     }
 
     /// A message about the order if it is refuted.
@@ -169,8 +181,11 @@ impl Graded {
         claimed.filter(|_| lower).map(|claimed| order::other(self, claimed))
     }
 
-    /// How many steps would bring an answer that converges within the tolerance.
+    /// How many steps would bring an answer that converges within the tolerance, unless it has a mistake.
     fn steps_needed(&self) -> Option<String> {
+        if self.diagnosis.is_some() {
+            return None;
+        }
         let (order, steps, error) = (self.observed_order?, self.steps?, self.error?);
         let needed = steps as f64 * (error / self.tolerance).powf(1.0 / order);
         (order >= 0.5).then(|| {

@@ -21,8 +21,6 @@ pub struct Diagnosis {
     pub said: Option<String>,
     /// The mistakes whose curve the answer is.
     pub suspects: Vec<String>,
-    /// The factors on time at which a correct rod has the answer's direction, as far as one problem determines them.
-    pub rates: Vec<f64>,
 }
 
 impl Diagnosis {
@@ -81,7 +79,7 @@ pub(super) fn said(what: &str, mut near: Vec<Near>, tolerance: f64, rest: &str) 
     let mut suspects: Vec<_> = near.into_iter().map(|near| near.suspect).collect();
     suspects.sort();
     suspects.dedup();
-    Diagnosis { said, suspects, rates: Vec::new() }
+    Diagnosis { said, suspects }
 }
 
 #[test]

@@ -1,25 +1,47 @@
-//! Findings from all problems together: one mistake that explains several of them, or time that runs at another rate.
+//! Findings from all problems together: one mistake that explains several of them, or one quantity that is off by an
+//! unknown factor.
 
 use super::diagnosis::shows;
+use super::estimate::{self, Wrong};
 use super::mistakes::{self, Mistake};
-use super::rates;
+use super::nearness::CURVE;
 use super::{Graded, Verdict};
-use crate::serve::problems::LoadedProblem;
+use crate::serve::problems::{Kind, LoadedProblem};
 
 /// The largest number of names in a finding.
 const MOST_NAMES: usize = 3;
 
-/// The largest relative difference of two problems' rates that count as equal: a method with long steps adds its own
-/// error.
-const SAME_RATE: f64 = 1e-3;
-
 /// Sentences on what explains more than one problem. A problem that passes rules out an explanation that contradicts
-/// it.
-pub fn overall(problems: &[LoadedProblem], graded: &[Graded]) -> Vec<String> {
+/// it. A mistake that explains several stands in the diagnosis of each.
+pub fn overall(problems: &[LoadedProblem], graded: &mut [Graded]) -> Vec<String> {
+    let found = findings(problems, graded);
+    for Finding { names, of, instead, .. } in &found {
+        let other =
+            |graded: &&mut Graded| of.contains(&graded.name) && names.iter().all(|name| !graded.is_called(name));
+        for graded in graded.iter_mut().filter(other) {
+            graded.diagnosis = graded.diagnosis.as_ref().map(|_| instead.clone());
+        }
+    }
+    found.into_iter().map(|finding| finding.said).collect()
+}
+
+struct Finding {
+    names: Vec<String>,
+    /// The problems that it explains.
+    of: Vec<String>,
+    /// The diagnosis of a problem that has another one.
+    instead: String,
+    said: String,
+}
+
+fn findings(problems: &[LoadedProblem], graded: &[Graded]) -> Vec<Finding> {
     let wrong: Vec<_> =
         graded.iter().filter(|graded| matches!(graded.verdict, Verdict::Fail | Verdict::NotReached)).collect();
     let named = by_name(problems, graded, &wrong);
-    if named.is_empty() { by_rate(&passing(problems, graded), &wrong).into_iter().collect() } else { named }
+    // One number that explains every wrong answer is more than a mistake that explains some.
+    let law = by_law(&passing(problems, graded), problems, &wrong, !named.is_empty());
+    let law = law.filter(|law| named.iter().all(|finding| finding.of.len() < law.of.len()));
+    law.map_or(named, |law| vec![law])
 }
 
 fn passing<'a>(problems: &'a [LoadedProblem], graded: &[Graded]) -> Vec<&'a LoadedProblem> {
@@ -32,7 +54,7 @@ fn passing<'a>(problems: &'a [LoadedProblem], graded: &[Graded]) -> Vec<&'a Load
 
 /// Takes the mistake that explains the most problems, with all that explain the same ones, then continues with the
 /// rest.
-fn by_name(problems: &[LoadedProblem], graded: &[Graded], wrong: &[&Graded]) -> Vec<String> {
+fn by_name(problems: &[LoadedProblem], graded: &[Graded], wrong: &[&Graded]) -> Vec<Finding> {
     let passing = passing(problems, graded);
     let contradicted = |mistake: &Mistake| passing.iter().any(|loaded| shows(loaded, mistake));
     let known: Vec<_> = mistakes::all().into_iter().map(|mistake| (contradicted(&mistake), mistake.name)).collect();
@@ -58,54 +80,63 @@ fn by_name(problems: &[LoadedProblem], graded: &[Graded], wrong: &[&Graded]) -> 
         // If others explain as many problems, but not the same ones, no mistake is certain.
         let alike = best.iter().all(|name| explained(name) == of);
         if alike && alone && best.len() <= MOST_NAMES {
-            let names: Vec<_> = best.iter().map(|name| name.as_str()).collect();
+            let names: Vec<_> = best.iter().map(|name| (*name).clone()).collect();
             let either = if names.len() > 1 { " (their curves are equal here)" } else { "" };
             let rest = match wrong.len() - of.len() {
                 0 => format!("all {}", of.len()),
                 _ => format!("{} of {}", of.len(), wrong.len()),
             };
-            let (names, of) = (names.join(", or "), of.join(", "));
-            said.push(format!("one mistake explains {rest} that do not pass: {names}{either}; its curve fits {of}"));
+            let (all, fits) = (names.join(", or "), of.join(", "));
+            said.push(Finding {
+                of: of.iter().map(|name| (*name).to_owned()).collect(),
+                instead: format!("{CURVE} of {}", names.join(" or of ")),
+                said: format!("one mistake explains {rest} that do not pass: {all}{either}; its curve fits {fits}"),
+                names,
+            });
         }
         let done: Vec<String> = explained(best[0]).iter().map(|name| (*name).to_owned()).collect();
         left.retain(|graded| !done.contains(&graded.name));
     }
 }
 
-/// The rate on which more problems agree than on any other.
-fn by_rate(passing: &[&LoadedProblem], wrong: &[&Graded]) -> Option<String> {
-    let same = |a: f64, b: f64| (a / b - 1.0).abs() < SAME_RATE;
-    let agree = |rate: f64| -> Vec<&str> {
-        let of = wrong.iter().filter(|graded| graded.rates.iter().any(|other| same(*other, rate)));
-        of.map(|graded| graded.name.as_str()).collect()
-    };
-    let all: Vec<f64> = wrong.iter().flat_map(|graded| graded.rates.iter().copied()).collect();
-    let most = all.iter().map(|rate| agree(*rate).len()).max().filter(|most| *most > 1)?;
-    let best: Vec<f64> = all.into_iter().filter(|rate| agree(*rate).len() == most).collect();
-    let rate = best.iter().sum::<f64>() / best.len() as f64;
-    let contradicted = passing.iter().any(|loaded| rates::shows(loaded, rate));
-    (!contradicted && best.iter().all(|other| same(*other, rate))).then(|| {
-        let of = agree(rate);
-        let (count, names) = (of.len(), of.join(", "));
-        format!("your time runs at {rate:.3} of the true one, on {count} of {} that do not pass: {names}", wrong.len())
-    })
+/// The law that explains every wrong answer about rods, or unless `all`, at least every one in plane Couette flow.
+fn by_law(passing: &[&LoadedProblem], problems: &[LoadedProblem], wrong: &[&Graded], all: bool) -> Option<Finding> {
+    let mut own: Vec<_> = (wrong.iter().copied())
+        .filter_map(|graded| {
+            let of = |loaded: &&LoadedProblem| loaded.problem.name == graded.name && loaded.problem.kind == Kind::Rods;
+            Some(Wrong::new(problems.iter().find(of)?.clone(), graded.answer.as_ref()?, graded.error?))
+        })
+        .collect();
+    let mut laws = estimate::laws(&own, passing);
+    if laws.is_empty() && !all {
+        own.retain(|wrong| wrong.loaded.is_couette());
+        laws = estimate::laws(&own, passing);
+    }
+    let of: Vec<_> = own.iter().map(|wrong| wrong.loaded.problem.name.clone()).collect();
+    let words = laws.join(", or ");
+    let said = format!("{words}, on {} of {} that do not pass: {}", of.len(), wrong.len(), of.join(", "));
+    (!laws.is_empty()).then_some(Finding { names: laws, of, instead: words, said })
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::answer::Answer;
+    use super::super::compare::compare;
+    use super::super::mistakes::Setting;
     use super::*;
     use crate::serve::problems::loaded;
+    use nalgebra::Vector3;
+    use std::f64::consts::PI;
 
     fn problems() -> Vec<LoadedProblem> {
         ["mid-flip-2", "mid-flip-11.6", "spiral", "sphere"].map(loaded).into()
     }
 
-    fn graded(problems: &[LoadedProblem], of: &[(Verdict, &[&str], &[f64])]) -> Vec<Graded> {
-        let one = |(loaded, (verdict, suspects, rates)): (&LoadedProblem, &(Verdict, &[&str], &[f64]))| Graded {
+    fn graded(problems: &[LoadedProblem], of: &[(Verdict, &[&str])]) -> Vec<Graded> {
+        let one = |(loaded, (verdict, suspects)): (&LoadedProblem, &(Verdict, &[&str]))| Graded {
             verdict: *verdict,
             suspects: suspects.iter().map(|name| (*name).to_owned()).collect(),
             diagnosis: suspects.first().map(|name| format!("this is the curve of {name}")),
-            rates: rates.to_vec(),
             ..Graded::without_answer(loaded)
         };
         problems.iter().zip(of).map(one).collect()
@@ -115,43 +146,77 @@ mod tests {
     fn one_mistake_is_named_over_all_that_it_explains_and_equal_ones_together() {
         use Verdict::{Fail, Pass};
         let problems = problems();
-        let said = |of: &[(Verdict, &[&str], &[f64])]| overall(&problems, &graded(&problems, of));
+        let said = |of: &[(Verdict, &[&str])]| overall(&problems, &mut graded(&problems, of));
         let (half, twice) = ("half the shear rate", "twice the shear rate");
-        let found = said(&[(Fail, &[half], &[]), (Fail, &[half], &[]), (Fail, &[half, twice], &[]), (Fail, &[], &[])]);
+        let found = said(&[(Fail, &[half]), (Fail, &[half]), (Fail, &[half, twice]), (Fail, &[])]);
         assert_eq!(
             found,
             ["one mistake explains 3 of 4 that do not pass: half the shear rate; its curve fits mid-flip-2, \
                 mid-flip-11.6, spiral"]
         );
         // Curves that have come to rest name it in no problem.
-        let mut resting = graded(&problems, &[(Fail, &[half], &[]), (Fail, &[half], &[])]);
+        let mut resting = graded(&problems, &[(Fail, &[half]), (Fail, &[half])]);
         resting.iter_mut().for_each(|graded| graded.diagnosis = None);
-        assert_eq!(overall(&problems, &resting), [""; 0]);
-        let both =
-            said(&[(Fail, &[half, twice], &[]), (Fail, &[twice, half], &[]), (Pass, &[], &[]), (Pass, &[], &[])]);
+        assert_eq!(overall(&problems, &mut resting), [""; 0]);
+        let both = said(&[(Fail, &[half, twice]), (Fail, &[twice, half]), (Pass, &[]), (Pass, &[])]);
         // Both mistakes would show on a problem that passes.
         assert_eq!(both, [""; 0]);
-        let both = said(&[(Fail, &[half, twice], &[]), (Fail, &[twice, half], &[])]);
+        let both = said(&[(Fail, &[half, twice]), (Fail, &[twice, half])]);
         assert!(
             both[0].contains("half the shear rate, or twice the shear rate (their curves are equal here)"),
             "{both:?}"
         );
         // One that can be made in plane Couette flow alone is not ruled out by another flow.
         let period = "T without 1/r_e";
-        let found = said(&[(Fail, &[period], &[]), (Fail, &[period], &[]), (Pass, &[], &[])]);
+        let found = said(&[(Fail, &[period]), (Fail, &[period]), (Pass, &[])]);
         assert!(found[0].contains(period), "{found:?}");
         // One problem is not enough, nor are two with different mistakes.
-        assert_eq!(said(&[(Fail, &[half], &[]), (Fail, &[twice], &[])]), [""; 0]);
+        assert_eq!(said(&[(Fail, &[half]), (Fail, &[twice])]), [""; 0]);
+    }
+
+    /// Problems with their answers and verdicts, of a program that turns a rod as `other` does in each.
+    fn turning(other: impl Fn(Setting) -> (Setting, f64)) -> Vec<String> {
+        let problems = problems();
+        let of = |loaded: &LoadedProblem| {
+            let (setting, rate) = other(Setting::from(&loaded.problem));
+            let row = |time: &f64| {
+                let map = mistakes::right_map(&setting, rate * time).unwrap();
+                loaded.start.iter().map(move |p| (map * Vector3::from(*p)).normalize().as_slice().to_vec())
+            };
+            let answer =
+                Answer { rows: loaded.problem.times_s.iter().flat_map(row).collect(), ..Answer::certified(loaded) };
+            let error = compare(loaded, &answer).error;
+            let verdict = if error <= loaded.problem.tolerance { Verdict::Pass } else { Verdict::Fail };
+            Graded { verdict, error: Some(error), answer: Some(answer), ..Graded::without_answer(loaded) }
+        };
+        overall(&problems, &mut problems.iter().map(of).collect::<Vec<_>>())
     }
 
     #[test]
-    fn a_rate_is_said_where_several_problems_have_it_and_no_other() {
-        use Verdict::Fail;
-        let problems = problems();
-        let said = |of: &[(Verdict, &[&str], &[f64])]| overall(&problems, &graded(&problems, of));
-        let found = said(&[(Fail, &[], &[0.8333, 1.9]), (Fail, &[], &[0.8334]), (Fail, &[], &[2.7, 0.8333])]);
-        assert!(found[0].starts_with("your time runs at 0.833 of the true one, on 3 of 3"), "{found:?}");
-        assert_eq!(said(&[(Fail, &[], &[0.8333]), (Fail, &[], &[0.9])]), [""; 0]);
-        assert_eq!(said(&[(Fail, &[], &[0.8, 0.9]), (Fail, &[], &[0.8, 0.9])]), [""; 0], "which of the two?");
+    fn a_factor_is_said_that_explains_every_problem() {
+        let ratio = |s: Setting, aspect_ratio: f64| (Setting { aspect_ratio, ..s }, 1.0);
+        let shape = |s: Setting, of: fn(f64) -> f64| ratio(s, of(s.aspect_ratio.ln().tanh()).atanh().exp());
+        for (found, due) in [
+            (turning(|s| (s, 0.8333)), "your time runs at 0.833 of the true one, on 4 of 4 that do not pass: mid"),
+            (
+                turning(|s| (s, PI / 3.141_592)),
+                "your time runs at 1.000000208 of the true one (π taken as 3.141592?), ",
+            ),
+            (turning(|s| ratio(s, 1.3 * s.aspect_ratio)), "your r_e is 1.300 times what is asked, on 4 of 4"),
+            (
+                turning(|s| ratio(s, s.aspect_ratio.powf(0.8))),
+                "your r_e is the power 0.800 of what is asked, on 3 of 3",
+            ),
+            (turning(|s| shape(s, |x| 0.9 * x)), "your Λ is 0.900 times (r_e² − 1)/(r_e² + 1), on 3 of 3 that"),
+            (
+                turning(|s| ratio(s, 7.0)),
+                "your r_e is 7.000 in every problem, on 4 of 4 that do not pass: mid-flip-2, ",
+            ),
+        ] {
+            assert!(found.len() == 1 && found[0].starts_with(due), "{due}: {found:?}");
+        }
+        // A right program, and one with a rate of its own in one of the problems.
+        assert_eq!(turning(|s| (s, 1.0)), [""; 0]);
+        assert_eq!(turning(|s| (s, if s.aspect_ratio == 2.0 { 0.9 } else { 0.8 })), [""; 0]);
     }
 }

@@ -11,6 +11,13 @@ use std::path::Path;
 /// The largest difference between the two halves of a symmetric tensor: beyond six digits they are two answers.
 const SYMMETRIC: f64 = 1e-6;
 
+/// True if the columns of a file are means with standard errors, `_se`.
+pub fn has_errors(path: &Path, options: &FileOptions) -> bool {
+    let header = || Lines::open(path, options.ends).ok()?.next_line().ok()?;
+    let named = options.columns.as_ref().map(|columns| columns.join(","));
+    named.or_else(header).is_some_and(|columns| columns.contains("_se"))
+}
+
 /// Reads an answer.
 pub fn read(
     path: &Path,
@@ -22,7 +29,7 @@ pub fn read(
     let first = lines.next_line()?;
     let first = first.ok_or_else(|| FileError::at(path, 1, 1, "the file is empty"))?;
     if first.starts_with("ITEM:") {
-        return lammps::read(lines, first, problem, options.axes, dump);
+        return lammps::read(lines, first, problem, options, dump);
     }
     // OpenFOAM's probes have comments, then rows as `t (xx xy xz yy yz zz)`.
     let probes = first.strip_prefix('#').is_some_and(|rest| rest.trim_start().starts_with("Probe"));
@@ -32,6 +39,14 @@ pub fn read(
         first = lines.next_line()?;
     }
     let first = plain(first.ok_or_else(|| lines.error(1, "there is no row below the comments"))?);
+    let places = (first.split_whitespace().count() - 1) / 6;
+    if probes && places > 1 && options.columns.is_none() {
+        let rest = ",-".repeat(6 * (places - 1));
+        let message = format!(
+            "{places} probes; one place is asked for: --columns time_s,a11,a12,a13,a22,a23,a33{rest} reads the first"
+        );
+        return Err(lines.error(0, message));
+    }
     let foreign = if probes { Some(Foreign::Openfoam) } else { options.foreign };
     let layout = Layout::find(&first, &problem.problem, &FileOptions { foreign, ..options.clone() })
         .map_err(|(at, message)| lines.error(at, message))?;

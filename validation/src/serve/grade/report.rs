@@ -238,12 +238,13 @@ pub fn junit(report: &Report) -> String {
     let skipped = report.problems.len() - failed - report.count(Verdict::Pass);
     let mut xml = format!(
         "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n<testsuite name=\"shearbed grade\" tests=\"{}\" \
-         failures=\"{failed}\" errors=\"0\" skipped=\"{skipped}\">\n",
-        report.problems.len()
+         failures=\"{failed}\" errors=\"0\" skipped=\"{skipped}\" time=\"{:.3}\">\n",
+        report.problems.len(),
+        report.problems.iter().map(|graded| graded.seconds).sum::<f64>()
     );
     for graded in &report.problems {
         let name = escaped(&graded.name);
-        xml += &format!("<testcase classname=\"shearbed\" name=\"{name}\">");
+        xml += &format!("<testcase classname=\"shearbed\" name=\"{name}\" time=\"{:.3}\">", graded.seconds);
         if graded.verdict != Verdict::Pass {
             let message = format!(
                 "{}: error {}, tolerance {}; {}",

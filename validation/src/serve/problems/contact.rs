@@ -11,8 +11,10 @@ use std::f64::consts::TAU;
 use std::sync::LazyLock;
 
 pub(crate) const SNAPSHOTS: usize = 1000;
+/// The longest arm in rod lengths: a code that clips arms, at an end or at a rod's length, must fail.
+const LONGEST_ARM: f64 = 2.0;
 /// Length and aspect ratio of the paper's rods.
-const LENGTH_MM: f64 = 0.72;
+pub(crate) const LENGTH_MM: f64 = 0.72;
 const ASPECT_RATIO: f64 = 11.6;
 
 pub use certified::certify;
@@ -110,7 +112,8 @@ fn summary(step_s: Option<f64>) -> String {
 /// to 20.
 ///
 /// Only pairs are kept for which the contact rule loses no digits: the lines cross at 17° or more, the arms are between
-/// a tenth of a rod and a rod, and both rods are 12° or more off the vorticity axis, where φ is undefined.
+/// a tenth of a rod and two rods (an end is at half a rod), and both rods are 12° or more off the vorticity axis, where
+/// φ is undefined.
 fn pairs() -> Vec<Pair> {
     candidates().filter(is_kept).take(SNAPSHOTS).collect()
 }
@@ -138,7 +141,7 @@ fn is_kept(pair: &Pair) -> bool {
     let geometry = doubles::geometry(pair);
     let arms = geometry.arms.map(|arm| arm.abs() / LENGTH_MM);
     let tilted = [pair[5], pair[12]].iter().all(|p3| p3.abs() < 0.978);
-    geometry.sine >= 0.3 && arms.iter().all(|arm| (0.1..=1.0).contains(arm)) && tilted
+    geometry.sine >= 0.3 && arms.iter().all(|arm| (0.1..=LONGEST_ARM).contains(arm)) && tilted
 }
 
 mod certified;

@@ -32,6 +32,21 @@ pub(super) fn problems() -> Vec<ProblemDef> {
 /// The probability that a correct answer fails by chance, over both problems.
 const FALSE_ALARM_RATE: f64 = 5e-3;
 
+/// The largest difference in standard errors of a right answer with so many `comparisons`.
+pub(super) fn tolerance(comparisons: usize) -> f64 {
+    (100.0 * student(FALSE_ALARM_RATE / comparisons as f64, LEAST)).ceil() / 100.0
+}
+
+/// The reason for [`tolerance`].
+pub(super) fn because(comparisons: usize, of: &str) -> String {
+    format!(
+        "Student's t with {} degrees of freedom ({LEAST} replicas, the fewest allowed) at the level at which a right \
+         answer fails one of the {comparisons} comparisons of {of} with a probability of {FALSE_ALARM_RATE:e}; rounded \
+         up to hundredths.",
+        LEAST - 1
+    )
+}
+
 fn built(def: &ProblemDef, sd_percent: f64, table: &str) -> Built {
     let rows: Vec<Vec<&str>> = table.lines().skip(1).map(|line| line.split(',').collect()).collect();
     let time_s = |row: &Vec<&str>| row[0].parse().map(|turns: f64| turns * period_s(ASPECT_RATIO));
@@ -40,8 +55,8 @@ fn built(def: &ProblemDef, sd_percent: f64, table: &str) -> Built {
         let values = row[1..].iter().map(|text| (*text).to_owned());
         std::iter::once(format!("{time:?}")).chain(values).collect()
     });
-    // Two problems, three means per time, two sides.
-    let level = FALSE_ALARM_RATE / (2.0 * 3.0 * rows.len() as f64);
+    // Two problems, three means per time.
+    let comparisons = 2 * 3 * rows.len();
     let certified = certified.collect();
     let problem = Problem {
         summary: "The model of Lee & Springer (1982) with the paper's rods in plane Couette flow: free rods turn by \
@@ -50,14 +65,8 @@ fn built(def: &ProblemDef, sd_percent: f64, table: &str) -> Built {
             .into(),
         aspect_ratio: ASPECT_RATIO,
         aspect_ratio_sd_percent: sd_percent,
-        tolerance: (100.0 * student(level, LEAST)).ceil() / 100.0,
-        because: format!(
-            "Student's t with {} degrees of freedom ({LEAST} replicas, the fewest allowed) at the level at which a \
-             right answer fails one of the {} comparisons of both such problems with a probability of \
-             {FALSE_ALARM_RATE:e}; rounded up to hundredths.",
-            LEAST - 1,
-            2 * 3 * rows.len()
-        ),
+        tolerance: tolerance(comparisons),
+        because: because(comparisons, "both such problems"),
         equations: vec![format!(
             "the model of Lee & Springer (1982), eqs 4 to 14 and A.1 to A.13; in the step of a collision a rod turns \
              about p × ṗ′ by |ṗ′|Δt. {REPLICAS} replicas of this project's simulator with update = \"rotation\", seed \

@@ -150,7 +150,10 @@ impl Bench {
         of_words(
             "grade-work-precision",
             &format!("Time for an error, one rod of r_e = {}", self.aspect_ratio),
-            &format!("{pipe} Times not longer than the pipe's are not known better than a tenth of it."),
+            &format!(
+                "{pipe} Times not longer than the pipe's are not known better than a tenth of it. best: the least \
+                 error over all settings. failed: settings without a finite answer, of all that were asked."
+            ),
             &["program", "1e-3 rad", "1e-6 rad", "1e-9 rad", "best (rad)", "failed"],
             std::iter::once(program).chain(ours).collect(),
         )

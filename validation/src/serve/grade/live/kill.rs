@@ -48,6 +48,11 @@ pub(super) fn end(child: &mut Child) -> (Option<ExitStatus>, Vec<String>) {
     (status, left)
 }
 
+/// The processor time that a program and its descendants have used, if the system says it.
+pub(super) fn processor_time(id: u32) -> Option<Duration> {
+    family::processor_time(id)
+}
+
 /// Kills every program that still runs with its descendants, before this program ends.
 pub fn end_all() {
     let mut running = running();
@@ -87,6 +92,8 @@ mod family {
         parent: u32,
         /// It has ended, and its parent has not asked how.
         zombie: bool,
+        /// Processor time, in ticks of the clock.
+        ticks: u64,
     }
 
     /// Size limit in bytes of a line about a process.
@@ -114,7 +121,27 @@ mod family {
         let stat = bounded::bytes(Path::new(&format!("/proc/{id}/stat")), MOST).ok()?;
         let stat = String::from_utf8_lossy(&stat);
         let (state, rest) = stat.rsplit_once(") ")?.1.split_once(' ')?;
-        Some(Process { parent: rest.split(' ').next()?.parse().ok()?, zombie: matches!(state, "Z" | "X") })
+        let mut fields = rest.split(' ');
+        let parent = fields.next()?.parse().ok()?;
+        // utime, stime and those of children that have ended, fields 14 to 17 of proc(5).
+        let ticks = fields.skip(9).take(4).map(|field| field.parse::<u64>().unwrap_or_default()).sum();
+        Some(Process { parent, zombie: matches!(state, "Z" | "X"), ticks })
+    }
+
+    pub(super) fn processor_time(id: u32) -> Option<Duration> {
+        let all = all();
+        let family = with_descendants(BTreeSet::from([id]), &all);
+        let ticks: u64 = family.iter().filter_map(|id| Some(all.get(id)?.ticks)).sum();
+        Some(Duration::from_secs_f64(ticks as f64 / rustix::param::clock_ticks_per_second() as f64))
+    }
+
+    fn with_descendants(mut found: BTreeSet<u32>, all: &BTreeMap<u32, Process>) -> BTreeSet<u32> {
+        let mut new = found.clone();
+        while !new.is_empty() {
+            new = new.iter().flat_map(|parent| children(*parent, all)).filter(|child| !found.contains(child)).collect();
+            found.extend(&new);
+        }
+        found
     }
 
     fn children(parent: u32, all: &BTreeMap<u32, Process>) -> BTreeSet<u32> {
@@ -154,12 +181,7 @@ mod family {
             let adopted = children(std::process::id(), &all).into_iter();
             found.extend(adopted.filter(|child| !earlier.is_some_and(|earlier| earlier.contains(child))));
         }
-        let mut new = found.clone();
-        while !new.is_empty() {
-            new =
-                new.iter().flat_map(|parent| children(*parent, &all)).filter(|child| !found.contains(child)).collect();
-            found.extend(&new);
-        }
+        let mut found = with_descendants(found, &all);
         let zombie = |id: &u32| all.get(id).is_none_or(|process| process.zombie);
         for ended in found.iter().filter(|found| **found != id && zombie(found)) {
             // Of an adopted one nobody else asks how it ended; those of others are no children of this program.
@@ -185,6 +207,10 @@ mod family {
     use std::collections::BTreeSet;
 
     pub(super) fn adopt() {}
+
+    pub(super) fn processor_time(_: u32) -> Option<std::time::Duration> {
+        None
+    }
 
     pub(super) fn killed(_: u32, _: &BTreeSet<u32>) -> Vec<String> {
         Vec::new()

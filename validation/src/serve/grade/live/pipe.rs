@@ -25,12 +25,9 @@ const GRACE: Duration = Duration::from_secs(5);
 /// The reason why there is no next line.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum Trouble {
-    /// Nothing came in time.
-    #[error(
-        "no answer within {} s; it was stopped (is standard output flushed after each line?)",
-        .0.as_secs_f64()
-    )]
-    Hung(Duration),
+    /// Nothing came in time, and the processor time that the program used meanwhile, if the system says it.
+    #[error("{}", hung(*.0, *.1))]
+    Hung(Duration, Option<Duration>),
     /// The program ended: its exit code or signal, and the end of what it wrote to standard error.
     #[error("the program ended: {0}")]
     Ended(String),
@@ -40,6 +37,23 @@ pub enum Trouble {
     /// The line with this number is longer than [`LONGEST_LINE`].
     #[error("line {0} of standard output is longer than {LONGEST_LINE} bytes; the program was stopped")]
     TooLong(u64),
+}
+
+/// The share of the time below which a program waits and does not compute.
+const IDLE: f64 = 0.1;
+
+/// The longest wait, in limits, for a program that computes on a machine that others keep busy.
+const WAITS: u32 = 4;
+
+fn hung(limit: Duration, used: Option<Duration>) -> String {
+    let limit_s = limit.as_secs_f64();
+    let why = match used.map(|used| used.as_secs_f64()) {
+        Some(used) if used > IDLE * limit_s => {
+            format!(", with {used:.1} s of processor time: it still computes (--timeout allows more)")
+        }
+        _ => " (is standard output flushed after each line?)".to_owned(),
+    };
+    format!("no answer within {limit_s} s; it was stopped{why}")
 }
 
 /// A line of the program; none if it is too long.
@@ -97,12 +111,27 @@ impl Pipe {
         }
     }
 
-    /// The next line within `limit`, with its number counted from 1.
+    /// The next line within `limit`, with its number counted from 1. The limit is on the processor time where the
+    /// system says it and the program computes.
     pub fn line(&mut self, limit: Duration) -> Result<(u64, String), Trouble> {
-        match self.lines.recv_timeout(limit) {
-            Ok(heard) => self.counted(heard),
-            Err(RecvTimeoutError::Timeout) => Err(Trouble::Hung(limit)),
-            Err(RecvTimeoutError::Disconnected) => Err(self.ended()),
+        // To ask for the processor time takes longer than most answers.
+        let first = limit.mul_f64(IDLE);
+        let (mut wait, mut before, begun) = (first, None, Instant::now());
+        loop {
+            match self.lines.recv_timeout(wait) {
+                Ok(heard) => return self.counted(heard),
+                Err(RecvTimeoutError::Disconnected) => return Err(self.ended()),
+                Err(RecvTimeoutError::Timeout) => {}
+            }
+            let used = kill::processor_time(self.child.id());
+            let spent = used.zip(before).map(|(used, before): (Duration, _)| used.saturating_sub(before));
+            let computes = |spent: &Duration| *spent < limit && *spent > begun.elapsed().mul_f64(IDLE);
+            wait = match spent {
+                None if begun.elapsed() < limit => limit - first,
+                Some(spent) if computes(&spent) && begun.elapsed() < WAITS * limit => limit - spent,
+                _ => return Err(Trouble::Hung(limit, spent)),
+            };
+            before = before.or(used);
         }
     }
 

@@ -65,8 +65,8 @@ struct State {
     given_up: Option<String>,
     /// The current task, for messages.
     during: String,
-    /// Every breach, with the request.
-    log: Vec<String>,
+    /// Every breach: the task, and what was wrong.
+    log: Vec<[String; 2]>,
     /// The time at which the current study must end.
     deadline: Option<Instant>,
 }
@@ -121,9 +121,9 @@ impl Program {
         self.state().during = what.to_owned();
     }
 
-    /// Every breach of the protocol so far with its request; equal ones in a row share a line.
+    /// Every breach of the protocol so far with its tasks; equal ones share a line.
     pub fn breaches(&self) -> Vec<String> {
-        in_a_row(&self.state().log)
+        together(&self.state().log)
     }
 
     /// The reason why the program is not asked again; none if it is still asked.
@@ -267,9 +267,9 @@ impl State {
         let left = self.pipe.take().map(Pipe::left).unwrap_or_default();
         left.iter().for_each(|left| what += &format!("; {left}"));
         self.breaches += 1;
-        self.late = matches!(trouble, Some(Trouble::Hung(_)));
-        self.hangs += u32::from(matches!(trouble, Some(Trouble::Hung(_) | Trouble::Closed)));
-        self.log.push(format!("{}: {what}", self.during));
+        self.late = matches!(trouble, Some(Trouble::Hung(..)));
+        self.hangs += u32::from(matches!(trouble, Some(Trouble::Hung(..) | Trouble::Closed)));
+        self.log.push([self.during.clone(), what.clone()]);
         if self.hangs >= MOST_HANGS {
             self.given_up = Some(format!("{} answers did not come in time", self.hangs));
         } else if !left.is_empty() {
@@ -287,13 +287,20 @@ fn next_id(last: u64) -> u64 {
     last + 1 + RandomState::new().hash_one(last) % LARGEST_GAP
 }
 
-/// The lines, with equal lines in a row merged into one.
-fn in_a_row(lines: &[String]) -> Vec<String> {
-    let one = |same: &[String]| match same.len() {
-        1 => same[0].clone(),
-        times => format!("{} ({times} times)", same[0]),
+/// A line for each fault, in the order of the first of each, with the tasks in which it occurred and how often.
+fn together(log: &[[String; 2]]) -> Vec<String> {
+    let first = |k: usize| log[..k].iter().all(|[_, before]| *before != log[k][1]);
+    let line = |k: usize| {
+        let of = log.iter().filter(|[_, what]| *what == log[k][1]);
+        let mut tasks: Vec<_> = of.map(|[during, _]| during.as_str()).collect();
+        let times = tasks.len();
+        tasks.dedup();
+        let rest = if tasks.len() > 3 { format!(" and {} more", tasks.len() - 1) } else { String::new() };
+        let tasks = if rest.is_empty() { tasks.join(", ") } else { tasks[0].to_owned() };
+        let times = if times > 1 { format!(" ({times} times)") } else { String::new() };
+        format!("{tasks}{rest}: {}{times}", log[k][1])
     };
-    lines.chunk_by(PartialEq::eq).map(one).collect()
+    (0..log.len()).filter(|k| first(*k)).map(line).collect()
 }
 
 #[test]
@@ -305,6 +312,11 @@ fn ids_ascend_and_their_gaps_are_not_all_alike() {
 }
 
 #[test]
-fn lines_that_come_again_are_counted_and_none_is_lost() {
-    assert_eq!(in_a_row(&["a", "a", "b", "a"].map(String::from)), ["a (2 times)", "b", "a"]);
+fn a_fault_that_comes_again_has_one_line() {
+    let log = ["a", "a", "b", "c", "d"].map(|during| [during.to_owned(), "broken".to_owned()]);
+    assert_eq!(together(&log[..2]), ["a: broken (2 times)"]);
+    assert_eq!(together(&log[1..3]), ["a, b: broken (2 times)"]);
+    assert_eq!(together(&log), ["a and 3 more: broken (5 times)"]);
+    let other = ["a".to_owned(), "late".to_owned()];
+    assert_eq!(together(&[log[0].clone(), other, log[0].clone()]), ["a: broken (2 times)", "a: late"]);
 }

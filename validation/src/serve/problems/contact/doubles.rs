@@ -4,12 +4,15 @@
 //! The rule changes only the component along the contact line ℓ ∝ p_a × p_b: ṗ′ = ṗ + ℓ (v̄ − v)/r for each rod, v =
 //! ℓ·V_c the velocity of its contact point x + r p along ℓ, v̄ the mean of both.
 
+use super::LENGTH_MM;
 use nalgebra::{Matrix3, Vector3};
 
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug)]
 pub(crate) struct Variant {
     /// The factor on the change of ṗ.
     pub(crate) kick: f64,
+    /// The arms in rod lengths that stand for the right ones; `None` for no contact.
+    pub(crate) arms: fn([f64; 2]) -> Option<[f64; 2]>,
     /// True for A.13 as in the text at hand.
     pub(crate) printed: bool,
 }
@@ -22,7 +25,7 @@ pub(crate) fn answers(
     step_s: Option<f64>,
     variant: Variant,
 ) -> [Vec<f64>; 2] {
-    rates(gradient_per_s, pair, variant.kick).map(|(p, rate)| match step_s {
+    rates(gradient_per_s, pair, variant).map(|(p, rate)| match step_s {
         None => rate.as_slice().to_vec(),
         Some(step_s) => angles(&p, &rate, step_s, variant.printed),
     })
@@ -48,7 +51,7 @@ pub(super) fn geometry(pair: &[f64]) -> Geometry {
 }
 
 /// p and ṗ′ in 1/s of both rods; `pair` has centre, axis and r_e of each.
-fn rates(gradient: &Matrix3<f64>, pair: &[f64], kick: f64) -> [(Vector3<f64>, Vector3<f64>); 2] {
+fn rates(gradient: &Matrix3<f64>, pair: &[f64], variant: Variant) -> [(Vector3<f64>, Vector3<f64>); 2] {
     let (w, d) = (0.5 * (gradient - gradient.transpose()), 0.5 * (gradient + gradient.transpose()));
     let rod = |of: &[f64]| {
         let (x, p, r_e) = (Vector3::from_row_slice(&of[..3]), Vector3::from_row_slice(&of[3..6]).normalize(), of[6]);
@@ -58,12 +61,18 @@ fn rates(gradient: &Matrix3<f64>, pair: &[f64], kick: f64) -> [(Vector3<f64>, Ve
     };
     let (a, b) = (rod(&pair[..7]), rod(&pair[7..14]));
     let line = a.1.cross(&b.1).normalize();
-    let [arm_a, arm_b] = geometry(pair).arms;
+    let Some([arm_a, arm_b]) = (variant.arms)(geometry(pair).arms.map(|arm| arm / LENGTH_MM)) else {
+        return [(a.1, a.2), (b.1, b.2)];
+    };
+    let [arm_a, arm_b] = [arm_a, arm_b].map(|arm| arm * LENGTH_MM);
     let along =
         |(x, _, free): &(Vector3<f64>, Vector3<f64>, Vector3<f64>), arm: f64| line.dot(&(gradient * x + free * arm));
     let (v_a, v_b) = (along(&a, arm_a), along(&b, arm_b));
     let mean = 0.5 * (v_a + v_b);
-    [(a.1, a.2 + line * (kick * (mean - v_a) / arm_a)), (b.1, b.2 + line * (kick * (mean - v_b) / arm_b))]
+    [
+        (a.1, a.2 + line * (variant.kick * (mean - v_a) / arm_a)),
+        (b.1, b.2 + line * (variant.kick * (mean - v_b) / arm_b)),
+    ]
 }
 
 /// φ̇′, θ̇′ in 1/s by A.13, corrected or as in the text, and φ and θ in rad after a step by A.14.

@@ -38,6 +38,9 @@ fn the_naive_reference_passes_and_a_wrong_one_fails() {
     assert_eq!(pairs.len(), SNAPSHOTS);
     let error = worst(&pairs, 1.0);
     assert!(error < tolerance, "{error:e} {tolerance:e}");
+    // Clipping at a rod's length is seen.
+    let reach = pairs.iter().flat_map(|pair| doubles::geometry(pair).arms).map(|arm| arm.abs() / LENGTH_MM);
+    assert!(reach.filter(|arm| *arm > 1.0).count() > 50);
     // Wrong variant: Jeffery's ṗ with the wrong sign.
     assert!(worst(&pairs, -1.0) > 0.1);
 }
@@ -64,7 +67,7 @@ fn no_pair_is_near_where_it_would_be_kept_or_not() {
         let exact = arms(&numbers, &a, &b).map(|arm| double(&arm).abs() / LENGTH_MM);
         let sine = doubles::geometry(&pair).sine;
         let near = |value: f64, limit: f64| (value / limit - 1.0).abs() < 1e-9;
-        assert!(exact.iter().all(|arm| !near(*arm, 0.1) && !near(*arm, 1.0)), "{exact:?}");
+        assert!(exact.iter().all(|arm| !near(*arm, 0.1) && !near(*arm, LONGEST_ARM)), "{exact:?}");
         assert!(!near(sine, 0.3) && [pair[5], pair[12]].iter().all(|p3| !near(p3.abs(), 0.978)));
         for (arm, exact) in doubles::geometry(&pair).arms.iter().zip(exact) {
             assert!((arm.abs() / LENGTH_MM - exact).abs() <= 1e-13 * exact.max(1.0) / (sine * sine), "{arm} {exact}");

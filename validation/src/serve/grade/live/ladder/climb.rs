@@ -16,6 +16,9 @@ const DOUBLINGS: u32 = 24;
 /// Number of rungs that allow no prediction: after them a step is at most a hundredth of a unit of strain.
 const RESOLVING: usize = 7;
 
+/// Number of settings in a row that a program may refuse before any answer, by which a step is short, and after one.
+const REFUSALS: [usize; 2] = [RESOLVING + 1, 2];
+
 /// An error in rad below which a method follows the motion, so that an answer that no longer changes is a result.
 const FOLLOWED: f64 = 0.01;
 
@@ -51,18 +54,23 @@ pub(super) fn climb(
     // A program that chooses its steps shows no order.
     let claimed = claimed.filter(|_| mode == Mode::Steps);
     let mut rungs: Vec<Rung> = Vec::new();
-    let mut says = None;
+    let (mut says, mut refused) = (None, 0);
     let begun = Instant::now();
     for setting in settings(problem, mode) {
         let took = match ask(setting) {
             Ok(rung) => {
                 let took = rung.took;
                 rungs.push(rung);
+                refused = 0;
                 took
             }
             // Shorter steps may help.
             Err(Asked::Says(words)) => {
-                says = Some(format!("with {setting} the program says: {words}"));
+                says.get_or_insert(format!("the program says: {words}"));
+                refused += 1;
+                if refused >= REFUSALS[usize::from(!rungs.is_empty())] {
+                    break;
+                }
                 Duration::ZERO
             }
             Err(Asked::Breach(words)) => return (rungs, End::Broke(format!("asked for {setting}: {words}"))),

@@ -1,0 +1,218 @@
+//! Codes for single rods, right or wrong in one part, in plain arrays: they share nothing with the project's own.
+
+use super::graded;
+use rayon::prelude::*;
+use shearbed_validation::serve::grade::Verdict;
+use shearbed_validation::serve::problems::{self, LoadedProblem};
+use std::array::from_fn;
+
+type V = [f64; 3];
+type M = [V; 3];
+
+/// The parts of a code; [`RIGHT`] has the right ones.
+#[derive(Clone)]
+struct Code {
+    gradient: fn(&M) -> M,
+    /// Λ from r_e.
+    shape: fn(f64) -> f64,
+    /// Before W and before ΛD.
+    parts: [f64; 2],
+    /// The factor on θ̇, from p_3.
+    tilt: Option<fn(f64) -> f64>,
+    /// The time for a time, from r_e.
+    time: fn(f64) -> f64,
+    start: fn(V) -> V,
+    end: fn(V) -> V,
+    /// Which of `n` rods is written as rod k.
+    order: fn(usize, usize) -> usize,
+}
+
+const RIGHT: Code = Code {
+    gradient: |l| *l,
+    shape: |r| (r * r - 1.0) / (r * r + 1.0),
+    parts: [1.0, 1.0],
+    tilt: None,
+    time: |_| 1.0,
+    start: |p| p,
+    end: |p| p,
+    order: |k, _| k,
+};
+
+fn of_ratio(r: f64) -> f64 {
+    (RIGHT.shape)(r)
+}
+
+fn front([x, y, z]: V) -> V {
+    if x < 0.0 { [-x, -y, z] } else { [x, y, z] }
+}
+
+fn axes(l: &M, [a, b, c]: [usize; 3]) -> M {
+    [a, b, c].map(|i| [l[i][a], l[i][b], l[i][c]])
+}
+
+/// A wrong code: its name, what must be said of it, and the mistake.
+type Wrong = (&'static str, &'static str, fn(&mut Code));
+
+#[rustfmt::skip]
+const WRONG: &[Wrong] = &[
+    ("L transposed", "a transposed gradient", |c| c.gradient = |l| from_fn(|i| from_fn(|j| l[j][i]))),
+    ("L reversed", "the flow reversed", |c| c.gradient = |l| l.map(|row| row.map(|x| -x))),
+    ("L halved", "half the shear rate", |c| c.gradient = |l| l.map(|row| row.map(|x| 0.5 * x))),
+    ("flow along 1", "one of them in flow,gradient,vorticity", |c| c.gradient = |l| axes(l, [1, 0, 2])),
+    ("vorticity along 1", "one of them in vorticity,flow,gradient", |c| c.gradient = |l| axes(l, [2, 1, 0])),
+    ("vorticity along 2", "one of them in gradient,vorticity,flow", |c| c.gradient = |l| axes(l, [0, 2, 1])),
+    ("cyclic", "one of them in flow,vorticity,gradient", |c| c.gradient = |l| axes(l, [1, 2, 0])),
+    ("cyclic the other way", "one of them in vorticity,gradient,flow", |c| c.gradient = |l| axes(l, [2, 0, 1])),
+    ("no W", "W left out", |c| c.parts[0] = 0.0),
+    ("W without ½", "W without its ½", |c| c.parts[0] = 2.0),
+    ("W halved", "W halved twice", |c| c.parts[0] = 0.5),
+    ("D without ½", "D without its ½", |c| c.parts[1] = 2.0),
+    ("D halved", "D halved twice", |c| c.parts[1] = 0.5),
+    ("Λ = 0", "Λ = 0", |c| c.shape = |_| 0.0),
+    ("Λ = 1", "no 1/r_e", |c| c.shape = |_| 1.0),
+    ("Λ's sign", "Λ with the wrong sign", |c| c.shape = |r| -of_ratio(r)),
+    ("|Λ|", "Λ without its sign", |c| c.shape = |r| of_ratio(r).abs()),
+    ("Cox", "r_e taken as r_p of Cox 1971", |c| {
+        c.shape = |r| of_ratio(if r > 1.0 { 1.24 * r / r.ln().sqrt() } else { r });
+    }),
+    ("(r − 1)/(r + 1)", "(r_e − 1)/(r_e + 1) for Λ", |c| c.shape = |r| (r - 1.0) / (r + 1.0)),
+    ("1/Λ", "1/Λ for Λ", |c| c.shape = |r| if r == 1.0 { 0.0 } else { 1.0 / of_ratio(r) }),
+    ("eccentricity", "the eccentricity", |c| c.shape = |r| (1.0 - 1.0 / (r * r)).sqrt()),
+    ("twice r_e", "twice the r_e", |c| c.shape = |r| of_ratio(2.0 * r)),
+    ("half lengths", "half the r_e", |c| c.shape = |r| of_ratio(0.5 * r)),
+    ("r_e²", "r_e² for r_e", |c| c.shape = |r| of_ratio(r * r)),
+    ("1.13 r_e", "your r_e is 1.130 times what is asked", |c| c.shape = |r| of_ratio(1.13 * r)),
+    ("r_e of one rod", "your r_e is 10.000 in every problem", |c| c.shape = |_| of_ratio(10.0)),
+    ("r_e^0.7", "your r_e is the power 0.700 of what is asked", |c| c.shape = |r| of_ratio(r.powf(0.7))),
+    ("0.95 Λ", "your Λ is 0.9500 times", |c| c.shape = |r| 0.95 * of_ratio(r)),
+    ("a slow clock", "your time runs at 0.9700 of the true one", |c| c.time = |_| 0.97),
+    ("π of six digits", "(π taken as 3.14159?)", |c| c.time = |_| std::f64::consts::PI / 3.14159),
+    ("2 θ̇", "twice the θ̇", |c| c.tilt = Some(|_| 2.0)),
+    ("θ̇/2", "half the θ̇", |c| c.tilt = Some(|_| 0.5)),
+    ("−θ̇", "θ̇ with the wrong sign", |c| c.tilt = Some(|_| -1.0)),
+    ("sin θ", "sin θ for sin 2θ in θ̇", |c| c.tilt = Some(|z| 0.5 / z)),
+    ("atan", "atan for atan2", |c| c.end = front),
+    ("atan at the start", "atan for atan2", |c| c.start = front),
+    ("rods reversed", "the rods in another order", |c| c.order = |k, n| n - 1 - k),
+    ("rods shifted", "the rods in another order", |c| c.order = |k, n| (k + 1) % n),
+    ("p_1 and p_2", "p_1 and p_2 exchanged", |c| c.end = |[x, y, z]| [y, x, z]),
+    ("cyclic p", "components in the order p_2, p_3, p_1", |c| c.end = |[x, y, z]| [y, z, x]),
+    ("left-handed", "axis 3 reversed", |c| c.end = |[x, y, z]| [x, y, -z]),
+    ("length", "only the directions' length is wrong", |c| c.end = |p| p.map(|x| 1.01 * x)),
+];
+
+fn dot(a: &V, b: &V) -> f64 {
+    (0..3).map(|i| a[i] * b[i]).sum()
+}
+
+impl Code {
+    fn rate(&self, l: &M, r: f64, p: &V) -> V {
+        let shape = (self.shape)(r);
+        let [turning, stretching] = self.parts;
+        let of =
+            |i: usize, j: usize| 0.5 * turning * (l[i][j] - l[j][i]) + 0.5 * stretching * shape * (l[i][j] + l[j][i]);
+        let pull: V = from_fn(|i| (0..3).map(|j| of(i, j) * p[j]).sum());
+        let along = dot(p, &pull);
+        let free: V = from_fn(|i| pull[i] - along * p[i]);
+        let plane = p[0].hypot(p[1]);
+        match self.tilt {
+            Some(tilt) if plane > 0.0 => {
+                let across = [p[0] * p[2] / plane, p[1] * p[2] / plane, -plane];
+                let more = (tilt(p[2]) - 1.0) * dot(&across, &free);
+                from_fn(|i| free[i] + more * across[i])
+            }
+            _ => free,
+        }
+    }
+
+    /// The rows of an answer, by RK4 in steps of `strain`.
+    fn answer(&self, loaded: &LoadedProblem, strain: f64) -> Vec<V> {
+        let problem = &loaded.problem;
+        let (l, r) = ((self.gradient)(&problem.gradient_per_s), problem.aspect_ratio);
+        let size = l.iter().map(|row| dot(row, row)).sum::<f64>().sqrt();
+        let add = |p: &V, k: &V, h: f64| -> V { from_fn(|i| p[i] + h * k[i]) };
+        let (mut rods, mut now) = (loaded.start.iter().map(|p| (self.start)(*p)).collect::<Vec<V>>(), 0.0);
+        let mut rows = Vec::new();
+        for time in problem.times_s.iter().map(|time| time * (self.time)(r)) {
+            let steps = ((time - now) * size / strain).ceil();
+            let h = (time - now) / steps;
+            for p in &mut rods {
+                for _ in 0..steps as usize {
+                    let k1 = self.rate(&l, r, p);
+                    let k2 = self.rate(&l, r, &add(p, &k1, h / 2.0));
+                    let k3 = self.rate(&l, r, &add(p, &k2, h / 2.0));
+                    let k4 = self.rate(&l, r, &add(p, &k3, h));
+                    *p = from_fn(|i| p[i] + h / 6.0 * (k1[i] + 2.0 * k2[i] + 2.0 * k3[i] + k4[i]));
+                    let length = dot(p, p).sqrt();
+                    *p = p.map(|x| x / length);
+                }
+            }
+            now = time;
+            rows.extend((0..rods.len()).map(|k| (self.end)(rods[(self.order)(k, rods.len())])));
+        }
+        rows
+    }
+
+    fn written(&self, loaded: &LoadedProblem, strain: f64) -> String {
+        let rows = self.answer(loaded, strain).into_iter().zip(&loaded.certified.rows);
+        let row = |([x, y, z], key): (V, &Vec<f64>)| format!("{},{},{x:e},{y:e},{z:e}\n", key[0], key[1]);
+        format!("time_s,rod,p1,p2,p3\n{}", rows.map(row).collect::<String>())
+    }
+}
+
+/// Problems with steps of a strain in moments.
+fn problems() -> Vec<LoadedProblem> {
+    let long = ["mid-flip-100", "mid-flip-10000", "ten-thousand-periods"];
+    let names = problems::free_rods().into_iter().filter(|name| !long.contains(name));
+    names.map(|name| problems::named(name).expect("a problem").loaded(name.into())).collect()
+}
+
+/// What was said of a wrong code: whether it was caught, whether named right, and whether anything is named wrong.
+struct Said {
+    name: &'static str,
+    caught: bool,
+    named: bool,
+    wrong: bool,
+    all: Vec<String>,
+}
+
+fn judged(problems: &[LoadedProblem], (name, expected, spoil): &Wrong) -> Said {
+    let mut code = RIGHT;
+    spoil(&mut code);
+    let (graded, mut all) = graded(problems, problems.iter().map(|loaded| code.written(loaded, 0.01)));
+    let own = |said: &String| said.contains(expected) || said.contains("nothing has moved");
+    let caught = graded.iter().any(|graded| graded.verdict == Verdict::Fail);
+    let named = all.iter().any(own) || graded.iter().filter_map(|graded| graded.diagnosis.as_ref()).any(own);
+    let others = graded.iter().filter_map(|graded| Some(format!("{}: {}", graded.name, graded.diagnosis.as_ref()?)));
+    all.extend(others);
+    Said { name, caught, named, wrong: !all.iter().all(own), all }
+}
+
+fn all(only: &str) -> Vec<Said> {
+    let problems = problems();
+    WRONG.par_iter().filter(|(name, ..)| name.contains(only)).map(|wrong| judged(&problems, wrong)).collect()
+}
+
+/// Prints what is said of the codes with `only` in their names.
+pub fn print(only: &str) {
+    let all = all(only);
+    for Said { name, caught, named, wrong, all } in &all {
+        println!("{name}: caught {caught}, named {named}, named wrong {wrong}");
+        all.iter().for_each(|said| println!("    {said}"));
+    }
+    let count = |is: fn(&Said) -> bool| all.iter().filter(|said| is(said)).count();
+    let [caught, named, wrong] = [count(|said| said.caught), count(|said| said.named), count(|said| said.wrong)];
+    println!("{} wrong codes: {caught} caught, {named} named, {wrong} named wrong", all.len());
+}
+
+#[test]
+fn right_rods_pass_and_wrong_ones_are_caught_and_named() {
+    let problems = problems();
+    let (graded, overall) = graded(&problems, problems.iter().map(|loaded| RIGHT.written(loaded, 0.002)));
+    assert!(graded.iter().all(|graded| graded.verdict == Verdict::Pass), "{graded:#?}");
+    assert_eq!(overall, [""; 0]);
+    let all = all("");
+    let missed: Vec<_> = all.iter().filter(|said| !(said.caught && said.named) || said.wrong).collect();
+    let names: Vec<_> = missed.iter().map(|said| (said.name, said.caught, said.named, &said.all)).collect();
+    assert!(names.is_empty(), "{names:#?}");
+}
