@@ -57,10 +57,9 @@ const REPLICAS: u64 = 600;
 /// reference, at the times of the problem of the name in the second column.
 fn interpretations() -> String {
     type Change = fn(&mut NaiveProblem);
-    let changes: [(&str, Change); 8] = [
+    let changes: [(&str, Change); 7] = [
         ("contact lines cut at the rods' ends", |p| p.reading.lines = Lines::CutAtEnds),
         ("one draw for two rods that are each other's nearest", |p| p.reading.who = Who::PairDraws),
-        ("collisions in the order of the rods and not closest first", |p| p.reading.who = Who::IndexOrder),
         ("|r| for the signed arm r", |p| p.mistake = Some(Mistake::ArmUnsigned)),
         ("the arms of both rods exchanged", |p| p.mistake = Some(Mistake::ArmsSwapped)),
         ("the sum of both velocities for their mean", |p| p.mistake = Some(Mistake::SumInsteadOfMean)),

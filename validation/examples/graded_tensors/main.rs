@@ -203,7 +203,8 @@ fn answers(code: &Code, problems: &[LoadedProblem], strain: f64) -> Vec<Rows> {
     problems.iter().map(|loaded| values(code, loaded, strain)).collect()
 }
 
-/// One wrong code on one closure: how many of its problems are wrong, named right and named wrong, and what was said.
+/// One wrong code, of tensors on one closure: how many of its problems are wrong, named right and named wrong, and what
+/// was said.
 struct Row {
     name: String,
     wrong: usize,
@@ -266,8 +267,8 @@ fn sum(rows: &[Row], of: fn(&Row) -> usize) -> usize {
 }
 
 fn main() {
-    rods::print(&std::env::args().nth(1).unwrap_or_default());
-    let rows = all(&std::env::args().nth(1).unwrap_or_default(), &settings());
+    let only = std::env::args().nth(1).unwrap_or_default();
+    let rows: Vec<_> = rods::all(&only).into_iter().chain(all(&only, &settings())).collect();
     for row in &rows {
         println!("{}: {} of {} named", row.name, row.named, row.wrong);
         row.said.iter().for_each(|said| println!("    {said}"));

@@ -1,6 +1,6 @@
 //! Codes for single rods, right or wrong in one part, in plain arrays: they share nothing with the project's own.
 
-use super::graded;
+use super::{Row, graded};
 use rayon::prelude::*;
 use shearbed_validation::serve::grade::Verdict;
 use shearbed_validation::serve::problems::{self, LoadedProblem};
@@ -167,42 +167,23 @@ fn problems() -> Vec<LoadedProblem> {
     names.map(|name| problems::named(name).expect("a problem").loaded(name.into())).collect()
 }
 
-/// What was said of a wrong code: whether it was caught, whether named right, and whether anything is named wrong.
-struct Said {
-    name: &'static str,
-    caught: bool,
-    named: bool,
-    wrong: bool,
-    all: Vec<String>,
-}
-
-fn judged(problems: &[LoadedProblem], (name, expected, spoil): &Wrong) -> Said {
+/// What is said of a wrong code: as one answer, named right if nothing else is said anywhere.
+fn judged(problems: &[LoadedProblem], (name, expected, spoil): &Wrong) -> Row {
     let mut code = RIGHT;
     spoil(&mut code);
-    let (graded, mut all) = graded(problems, problems.iter().map(|loaded| code.written(loaded, 0.01)));
-    let own = |said: &String| said.contains(expected) || said.contains("nothing has moved");
+    let (graded, mut said) = graded(problems, problems.iter().map(|loaded| code.written(loaded, 0.01)));
     let caught = graded.iter().any(|graded| graded.verdict == Verdict::Fail);
-    let named = all.iter().any(own) || graded.iter().filter_map(|graded| graded.diagnosis.as_ref()).any(own);
-    let others = graded.iter().filter_map(|graded| Some(format!("{}: {}", graded.name, graded.diagnosis.as_ref()?)));
-    all.extend(others);
-    Said { name, caught, named, wrong: !all.iter().all(own), all }
+    said.extend(graded.iter().filter_map(|graded| Some(format!("{}: {}", graded.name, graded.diagnosis.as_ref()?))));
+    let own = |said: &&String| said.contains(expected) || said.contains("nothing has moved");
+    let named = usize::from(said.iter().any(|said| said.contains(expected)) && said.iter().all(|said| own(&said)));
+    said.retain(|said| !own(&said));
+    said.extend((!caught).then(|| format!("{name} passes")));
+    Row { name: (*name).to_owned(), wrong: 1, named, said }
 }
 
-fn all(only: &str) -> Vec<Said> {
+pub fn all(only: &str) -> Vec<Row> {
     let problems = problems();
     WRONG.par_iter().filter(|(name, ..)| name.contains(only)).map(|wrong| judged(&problems, wrong)).collect()
-}
-
-/// Prints what is said of the codes with `only` in their names.
-pub fn print(only: &str) {
-    let all = all(only);
-    for Said { name, caught, named, wrong, all } in &all {
-        println!("{name}: caught {caught}, named {named}, named wrong {wrong}");
-        all.iter().for_each(|said| println!("    {said}"));
-    }
-    let count = |is: fn(&Said) -> bool| all.iter().filter(|said| is(said)).count();
-    let [caught, named, wrong] = [count(|said| said.caught), count(|said| said.named), count(|said| said.wrong)];
-    println!("{} wrong codes: {caught} caught, {named} named, {wrong} named wrong", all.len());
 }
 
 #[test]
@@ -211,8 +192,7 @@ fn right_rods_pass_and_wrong_ones_are_caught_and_named() {
     let (graded, overall) = graded(&problems, problems.iter().map(|loaded| RIGHT.written(loaded, 0.002)));
     assert!(graded.iter().all(|graded| graded.verdict == Verdict::Pass), "{graded:#?}");
     assert_eq!(overall, [""; 0]);
-    let all = all("");
-    let missed: Vec<_> = all.iter().filter(|said| !(said.caught && said.named) || said.wrong).collect();
-    let names: Vec<_> = missed.iter().map(|said| (said.name, said.caught, said.named, &said.all)).collect();
-    assert!(names.is_empty(), "{names:#?}");
+    for Row { name, named, said, .. } in all("") {
+        assert!(named == 1 && said.is_empty(), "{name}: {said:#?}");
+    }
 }

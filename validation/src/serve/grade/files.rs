@@ -125,7 +125,7 @@ pub(super) fn judge(graded: &mut Graded, loaded: &LoadedProblem, answer: &Answer
     graded.note = if within {
         off
     } else {
-        let digits = digits::remark(answer, compared.error);
+        let digits = digits::remark(answer, compared.error).filter(|_| !compared.too_little_data);
         let place = compared.remark.unwrap_or_else(|| place(loaded, answer, compared.row));
         let needed = graded.steps_needed().filter(|_| off.is_none());
         Some(off.into_iter().chain(needed).chain([place]).chain(digits).collect::<Vec<_>>().join("; "))

@@ -147,12 +147,29 @@ pub(super) fn ensemble(loaded: &LoadedProblem, answer: &Answer) -> Option<String
 
 #[cfg(test)]
 mod tests {
+    use super::super::compare::compare;
     use super::*;
     use crate::oracle::isotropic::{mean_projections, mean_projections_polydisperse};
     use crate::serve::problems;
 
     fn problem() -> Problem {
         problems::named("unequal-rods").unwrap().problem.clone()
+    }
+
+    /// The order of collisions is not among them: its means are the right ones within the errors.
+    #[test]
+    fn each_other_interpretation_fails_and_is_named_alone() {
+        for name in ["lee-springer", "lee-springer-unequal"] {
+            let loaded = problems::loaded(name);
+            let all = interpretations(&loaded.problem);
+            assert_eq!(all.len(), 7, "{name}");
+            for (words, rows) in all {
+                let answer = Answer { rows: rows.unwrap(), ..Answer::certified(&loaded) };
+                assert!(compare(&loaded, &answer).error > loaded.problem.tolerance, "{name}, {words}");
+                let said = ensemble(&loaded, &answer).unwrap();
+                assert!(said.starts_with(&format!("these are the means of {words}, to ")), "{name}: {said}");
+            }
+        }
     }
 
     /// Isotropic rods have ⟨|p_i|⟩ = ½, for mistakes with and without a length.

@@ -39,6 +39,9 @@ pub enum Trouble {
     TooLong(u64),
 }
 
+/// The time for the first line of a program, which starts before, in limits.
+const FIRST: u32 = 3;
+
 /// The share of the time below which a program waits and does not compute.
 const IDLE: f64 = 0.1;
 
@@ -114,6 +117,7 @@ impl Pipe {
     /// The next line within `limit`, with its number counted from 1. The limit is on the processor time where the
     /// system says it and the program computes.
     pub fn line(&mut self, limit: Duration) -> Result<(u64, String), Trouble> {
+        let limit = if self.heard == 0 { FIRST * limit } else { limit };
         // To ask for the processor time takes longer than most answers.
         let first = limit.mul_f64(IDLE);
         let (mut wait, mut before, begun) = (first, None, Instant::now());
