@@ -57,11 +57,10 @@ const REPLICAS: u64 = 600;
 /// reference, at the times of the problem of the name in the second column.
 fn interpretations() -> String {
     type Change = fn(&mut NaiveProblem);
-    let changes: [(&str, Change); 7] = [
+    let changes: [(&str, Change); 6] = [
         ("contact lines cut at the rods' ends", |p| p.reading.lines = Lines::CutAtEnds),
         ("one draw for two rods that are each other's nearest", |p| p.reading.who = Who::PairDraws),
         ("|r| for the signed arm r", |p| p.mistake = Some(Mistake::ArmUnsigned)),
-        ("the arms of both rods exchanged", |p| p.mistake = Some(Mistake::ArmsSwapped)),
         ("the sum of both velocities for their mean", |p| p.mistake = Some(Mistake::SumInsteadOfMean)),
         ("V_c without ω × r", |p| p.mistake = Some(Mistake::SpinIgnored)),
         ("P_c for 1 − P_c", |p| p.mistake = Some(Mistake::ProbabilityComplement)),

@@ -7,6 +7,7 @@ use std::array::from_fn;
 
 pub type M = [[f64; 3]; 3];
 pub type Closure = fn(&M, [usize; 4]) -> f64;
+pub type Diffusivity = fn(&M, &M, f64, f64) -> M;
 
 /// The parts of a code; [`Code::right`] has the right ones.
 #[derive(Clone)]
@@ -25,7 +26,7 @@ pub struct Code {
     /// κ in RSC's bracket and at the diffusion, from κ.
     pub slow: fn(f64) -> [f64; 2],
     /// C/C_I from a, D, γ̇ and a parameter; `None` for C = C_I δ.
-    pub anisotropic: Option<fn(&M, &M, f64, f64) -> M>,
+    pub anisotropic: Option<Diffusivity>,
     /// What is written for 11, 22, 33, 12, 13, 23.
     pub written: fn([f64; 6]) -> [f64; 6],
 }

@@ -114,7 +114,7 @@ const RIGHT: [(&str, code::Closure); 6] = [
 
 /// The right code of a closure, or of a model with a closure.
 fn right(name: &str, closure: code::Closure) -> Code {
-    let anisotropic: Option<fn(&M, &M, f64, f64) -> M> = match name {
+    let anisotropic: Option<code::Diffusivity> = match name {
         "iard-ibof" => Some(|_, d, speed, c_m| iard(d, speed, c_m, 4.0)),
         "pard-ibof" => Some(|a, _, _, omega| along(a, [1.0, omega, 1.0 - omega])),
         _ => None,

@@ -5,6 +5,7 @@ use rayon::prelude::*;
 use shearbed_validation::serve::grade::Verdict;
 use shearbed_validation::serve::problems::{self, LoadedProblem};
 use std::array::from_fn;
+use std::f64::consts::PI;
 
 type V = [f64; 3];
 type M = [V; 3];
@@ -84,9 +85,9 @@ const WRONG: &[Wrong] = &[
     ("1.13 r_e", "your r_e is 1.130 times what is asked", |c| c.shape = |r| of_ratio(1.13 * r)),
     ("r_e of one rod", "your r_e is 10.000 in every problem", |c| c.shape = |_| of_ratio(10.0)),
     ("r_e^0.7", "your r_e is the power 0.700 of what is asked", |c| c.shape = |r| of_ratio(r.powf(0.7))),
-    ("0.95 Λ", "your Λ is 0.9500 times", |c| c.shape = |r| 0.95 * of_ratio(r)),
-    ("a slow clock", "your time runs at 0.9700 of the true one", |c| c.time = |_| 0.97),
-    ("π of six digits", "(π taken as 3.14159?)", |c| c.time = |_| std::f64::consts::PI / 3.14159),
+    ("0.95 Λ", "your Λ is 0.950 times", |c| c.shape = |r| 0.95 * of_ratio(r)),
+    ("a slow clock", "your time runs at 0.970 of the true one", |c| c.time = |_| 0.97),
+    ("π of six digits", "(π taken as 3.14159?)", |c| c.time = |_| PI / ((1e5 * PI).trunc() / 1e5)),
     ("2 θ̇", "twice the θ̇", |c| c.tilt = Some(|_| 2.0)),
     ("θ̇/2", "half the θ̇", |c| c.tilt = Some(|_| 0.5)),
     ("−θ̇", "θ̇ with the wrong sign", |c| c.tilt = Some(|_| -1.0)),

@@ -38,15 +38,9 @@ struct Other {
     rate: f64,
 }
 
-/// A quantity that a program has wrong in every problem, in words with {} for its value.
-struct Law {
-    words: &'static str,
-    /// The rod that has the value, for the setting that is asked.
-    other: fn(Setting, f64) -> Other,
-    /// The value of a rod of this setting, for the setting that is asked; NaN if it has none.
-    value: fn(Setting, Other) -> f64,
-    of_time: bool,
-}
+/// A quantity that a program has wrong in every problem: in words with {} for its value, the rod that has the value for
+/// the setting that is asked, and the value of such a rod, NaN if it has none.
+type Law = (&'static str, fn(Setting, f64) -> Other, fn(Setting, Other) -> f64);
 
 fn shape(setting: Setting) -> f64 {
     setting.aspect_ratio.ln().tanh()
@@ -56,37 +50,19 @@ fn with_ratio(setting: Setting, aspect_ratio: f64) -> Other {
     Other { setting: Setting { aspect_ratio, ..setting }, rate: 1.0 }
 }
 
+const OF_TIME: &str = "your time runs at {} of the true one";
+
+#[rustfmt::skip]
 const LAWS: [Law; 5] = [
-    Law {
-        words: "your time runs at {} of the true one",
-        other: |setting, rate| Other { setting, rate },
-        value: |_, other| other.rate,
-        of_time: true,
-    },
-    Law {
-        words: "your r_e is {} times what is asked",
-        other: |asked, factor| with_ratio(asked, factor * asked.aspect_ratio),
-        value: |asked, other| other.setting.aspect_ratio / asked.aspect_ratio,
-        of_time: false,
-    },
-    Law {
-        words: "your r_e is the power {} of what is asked",
-        other: |asked, power| with_ratio(asked, asked.aspect_ratio.powf(power)),
-        value: |asked, other| other.setting.aspect_ratio.ln() / asked.aspect_ratio.ln(),
-        of_time: false,
-    },
-    Law {
-        words: "your Λ is {} times (r_e² − 1)/(r_e² + 1)",
-        other: |asked, factor| with_ratio(asked, (factor * shape(asked)).atanh().exp()),
-        value: |asked, other| shape(other.setting) / shape(asked),
-        of_time: false,
-    },
-    Law {
-        words: "your r_e is {} in every problem",
-        other: |asked, ratio| with_ratio(asked, ratio),
-        value: |_, other| other.setting.aspect_ratio,
-        of_time: false,
-    },
+    (OF_TIME, |setting, rate| Other { setting, rate }, |_, other| other.rate),
+    ("your r_e is {} times what is asked", |asked, factor| with_ratio(asked, factor * asked.aspect_ratio),
+        |asked, other| other.setting.aspect_ratio / asked.aspect_ratio),
+    ("your r_e is the power {} of what is asked", |asked, power| with_ratio(asked, asked.aspect_ratio.powf(power)),
+        |asked, other| other.setting.aspect_ratio.ln() / asked.aspect_ratio.ln()),
+    ("your Λ is {} times (r_e² − 1)/(r_e² + 1)",
+        |asked, factor| with_ratio(asked, (factor * shape(asked)).atanh().exp()),
+        |asked, other| shape(other.setting) / shape(asked)),
+    ("your r_e is {} in every problem", with_ratio, |_, other| other.setting.aspect_ratio),
 ];
 
 /// The laws that explain every one of at least two wrong answers and that no problem that passes contradicts.
@@ -95,41 +71,37 @@ pub(super) fn laws(wrong: &[Wrong<'_>], passing: &[&LoadedProblem]) -> Vec<Strin
         return Vec::new();
     }
     let found = |law: &Law| {
-        let values = wrong.iter().flat_map(|wrong| wrong.values(law));
+        let (words, other, _) = *law;
+        let mut values = wrong.iter().flat_map(|wrong| wrong.values(law));
         let explains = |value: &f64| {
-            wrong.iter().all(|wrong| wrong.fits((law.other)(wrong.setting(), *value)))
+            wrong.iter().all(|wrong| wrong.fits(other(wrong.setting(), *value)))
                 && !passing.iter().any(|loaded| shows(loaded, law, *value))
         };
-        values.into_iter().find(explains).map(|value| law.words.replace("{}", &digits(value)) + of_pi(law, value))
+        values.find(explains).map(|value| words.replace("{}", &digits(value)) + &of_pi(law, value))
     };
     LAWS.iter().filter_map(found).collect()
 }
 
-/// A value with three digits, or as many as show that it is not 1.
+/// A value with three decimals, or with as many as show three digits of its difference from 1.
 fn digits(value: f64) -> String {
     let off = -(value - 1.0).abs().log10() - 0.1;
-    format!("{value:.*}", (off.max(1.0).ceil() as usize + 2).min(15))
+    let decimals = if off < 2.0 { 3 } else { off.ceil() as usize + 2 };
+    format!("{value:.*}", decimals.min(15))
 }
 
 /// A hint that a rate of time is that of a π with few digits.
-fn of_pi(law: &Law, rate: f64) -> &'static str {
-    const SHORT: [(f64, &str); 6] = [
-        (3.14, " (π taken as 3.14?)"),
-        (22.0 / 7.0, " (π taken as 22/7?)"),
-        (3.142, " (π taken as 3.142?)"),
-        (3.1416, " (π taken as 3.1416?)"),
-        (3.14159, " (π taken as 3.14159?)"),
-        (3.141_592, " (π taken as 3.141592?)"),
-    ];
+fn of_pi((words, ..): &Law, rate: f64) -> String {
     let is = |short: &f64| [short / PI, PI / short].iter().any(|due| (rate - due).abs() < 1e-3 * (due - 1.0).abs());
-    SHORT.iter().find(|(short, _)| law.of_time && is(short)).map_or("", |(_, hint)| hint)
+    let cut = |digits: i32| [f64::trunc, f64::round].map(|of| of(PI * 10f64.powi(digits)) / 10f64.powi(digits));
+    let short = (2..=7).flat_map(cut).find(is).filter(|_| *words == OF_TIME);
+    short.map_or(String::new(), |short| format!(" (π taken as {short}?)"))
 }
 
 /// True if a law is detectable on a problem: its curve is not within the tolerance of the certified answer.
 fn shows(loaded: &LoadedProblem, law: &Law, value: f64) -> bool {
     let (certified, nearer_than) = (Answer::certified(loaded), 2.0 * loaded.problem.tolerance);
     let right = Wrong { loaded: loaded.clone(), answer: &certified, nearer_than };
-    loaded.problem.kind == Kind::Rods && !right.fits((law.other)(right.setting(), value))
+    loaded.problem.kind == Kind::Rods && !right.fits(law.1(right.setting(), value))
 }
 
 impl<'a> Wrong<'a> {
@@ -143,12 +115,12 @@ impl<'a> Wrong<'a> {
 
     fn values(&self, law: &Law) -> Vec<f64> {
         let asked = self.setting();
-        let others: Vec<_> = if law.of_time {
+        let others: Vec<_> = if law.0 == OF_TIME {
             self.rates().into_iter().map(|rate| Other { setting: asked, rate }).collect()
         } else {
             self.ratios().into_iter().map(|ratio| with_ratio(asked, ratio)).collect()
         };
-        let values = others.into_iter().map(|other| (law.value)(asked, other));
+        let values = others.into_iter().map(|other| law.2(asked, other));
         values.filter(|value| value.is_finite() && *value != 1.0).collect()
     }
 
@@ -189,7 +161,8 @@ impl<'a> Wrong<'a> {
                 motion.map_or(f64::INFINITY, |motion| self.off(&self.answer.rows, &motion, time_s))
             }),
         };
-        let ratios = candidates.into_iter().map(f64::exp);
+        // Λ = 0 has a name.
+        let ratios = candidates.into_iter().filter(|logarithm| logarithm.abs() > 1e-6).map(f64::exp);
         ratios.filter(|ratio| self.fits(with_ratio(asked, *ratio))).collect()
     }
 

@@ -199,7 +199,7 @@ mod tests {
         for (found, due) in [
             (turning(|s| (s, 0.8333)), "your time runs at 0.833 of the true one, on 4 of 4 that do not pass: mid"),
             (
-                turning(|s| (s, PI / 3.141_592)),
+                turning(|s| (s, PI / ((1e6 * PI).trunc() / 1e6))),
                 "your time runs at 1.000000208 of the true one (π taken as 3.141592?), ",
             ),
             (turning(|s| ratio(s, 1.3 * s.aspect_ratio)), "your r_e is 1.300 times what is asked, on 4 of 4"),
