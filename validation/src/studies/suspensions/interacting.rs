@@ -191,12 +191,13 @@ fn splits_csv(study: &Interacting) -> Result<String, String> {
 
 /// The rule with the measured constants, in words.
 fn rule(constants: &Constants) -> String {
-    let seen = match constants.steps_bias_seen {
-        true => String::new(),
-        false => format!(
+    let seen = if constants.steps_bias_seen {
+        String::new()
+    } else {
+        format!(
             "Bias of the steps: none seen; those below are what its noise leaves room for, and {} may do. ",
             constants.fewest_steps
-        ),
+        )
     };
     format!(
         "{seen}Mean-square error = (b/S + c N^(−1/3))² + v/(N M) for S steps per period, N rods and M replicas, with \
