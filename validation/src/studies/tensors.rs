@@ -41,8 +41,8 @@ fn run(request: &Request) -> Result<Option<Findings>, String> {
     let price = ReportFigure::new(
         ["closures-work-precision", "Work and precision: closures and the exact solution"],
         "a_ij at strains of 1 to 20 from isotropic rods, shear, C_I = 0.01. Tolerances of 10⁻² to 10⁻⁸ of Dormand & \
-         Prince's method; the exact solution with its stated error; 10², 10³, … rods that turn at random, on all cores. \
-         Smaller tolerances do not lower the error of a closure.",
+         Prince's method; the exact solution with its stated error; 10², 10³, … rods that turn at random, on all \
+         cores. Smaller tolerances do not lower the error of a closure.",
         ["log time (ms)", "log largest error of a_ij"],
     )
     .curves(Closure::ALL.map(beside))

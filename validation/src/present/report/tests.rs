@@ -90,7 +90,7 @@ fn the_worst_line_is_the_first_of_the_worst_verdict() {
     let none = Rule::NoData { supply: "synthetic".into() };
     for (rules, worst) in [
         (vec![passes.clone(), mean(0.02), mean(0.02)], 1),
-        (vec![passes, mean(0.02), none.clone()], 2),
+        (vec![passes, mean(0.02), none.clone()], 1),
         (vec![none, mean(0.02), fails.clone(), fails], 2),
     ] {
         let row = CaseRow::new(outcome("synthetic", Verdict::Underpowered, rules, &[]), &EFFORT);
