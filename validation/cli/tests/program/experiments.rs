@@ -109,8 +109,9 @@ fn a_synthetic_experiment_of_one_is_rejected() {
     let data = okagawa(&["fig4-n50"], 1.0);
     let (code, case, summary) = validate("okagawa-mason-1973", data.path());
     assert_eq!((code, &summary["fail"]), (Some(1), &1.into()), "{case:#}");
-    let evidence = case["evidence"].as_array().unwrap();
-    assert!(evidence.iter().all(|judged| judged["verdict"] == "fail"));
+    let verdicts: Vec<_> = case["evidence"].as_array().unwrap().iter().map(|judged| &judged["verdict"]).collect();
+    // Points of n = 50 alone.
+    assert_eq!(verdicts, ["nodata", "fail", "nodata"]);
 }
 
 #[test]

@@ -168,7 +168,7 @@ pub fn read(path: &Path, set: usize, reading: &Reading) -> Result<Points, FileEr
     let bare = |name: &&String| reading.u.is_none() && !header.contains(&format!("{name}_u").as_str());
     if let Some(bare) = columns.iter().find(bare) {
         return Err(refused(format!(
-            "column {bare}_u is missing: one standard deviation of each {bare} is needed, or --u 0.005 for all points"
+            "column {bare}_u is missing: one standard deviation of each {bare} is needed, or u = 0.005 for all points"
         )));
     }
     let mut points = Vec::new();

@@ -43,7 +43,7 @@ pub fn read(
     if probes && places > 1 && options.columns.is_none() {
         let rest = ",-".repeat(6 * (places - 1));
         let message = format!(
-            "{places} probes; one place is asked for: --columns time_s,a11,a12,a13,a22,a23,a33{rest} reads the first"
+            "{places} probes; one place is asked for: columns time_s,a11,a12,a13,a22,a23,a33{rest} read the first"
         );
         return Err(lines.error(0, message));
     }

@@ -52,7 +52,7 @@ fn hung(limit: Duration, used: Option<Duration>) -> String {
     let limit_s = limit.as_secs_f64();
     let why = match used.map(|used| used.as_secs_f64()) {
         Some(used) if used > IDLE * limit_s => {
-            format!(", with {used:.1} s of processor time: it still computes (--timeout allows more)")
+            format!(", with {used:.1} s of processor time: it still computes (a longer timeout allows more)")
         }
         _ => " (is standard output flushed after each line?)".to_owned(),
     };
