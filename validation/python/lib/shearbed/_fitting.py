@@ -153,13 +153,14 @@ def fit(
 
 def _file(points: Points, place: Path) -> str:
     """The name of a CSV file of points, which is written if they are columns."""
-    if isinstance(points, np.ndarray) and points.dtype.names is None:
-        # Rows as in a file without a header, which ``columns`` names.
-        np.savetxt(place, points, delimiter=",")
-        return place.name
     if isinstance(points, np.ndarray):
-        points = {name: points[name] for name in points.dtype.names}
-    if not hasattr(points, "items"):
+        names = points.dtype.names
+        if names is None:
+            # Rows as in a file without a header, which ``columns`` names.
+            np.savetxt(place, points, delimiter=",")
+            return place.name
+        points = {name: points[name] for name in names}
+    if isinstance(points, (str, os.PathLike)):
         return os.path.abspath(points)
     columns = {str(name): np.asarray(values, dtype=float) for name, values in points.items()}
     lengths = {name: values.shape for name, values in columns.items()}
