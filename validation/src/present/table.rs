@@ -3,6 +3,7 @@
 #[cfg(test)]
 mod tests;
 
+use crate::files::cluster;
 use crate::files::csv::written;
 use crate::files::text::{cell, left_aligned};
 use crate::judge::statistics::{Estimate, Sample};
@@ -304,7 +305,9 @@ impl ReportTable {
 
     /// The same; on a terminal in lines of at most 80 letters, where columns without room are named instead.
     pub fn for_terminal(&self) -> String {
-        let room = if std::io::stdout().is_terminal() { WIDTH } else { usize::MAX };
+        // What starts ranks gives them a terminal of its own.
+        let is_narrow = cluster::size() == 1 && std::io::stdout().is_terminal();
+        let room = if is_narrow { WIDTH } else { usize::MAX };
         wrapped(&self.text_within(room))
     }
 
