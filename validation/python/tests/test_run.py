@@ -295,8 +295,9 @@ def test_a_sweep_has_the_rows_of_the_program() -> None:
     assert list(table["interaction.update"]) == ["rotation", "angles"] * 2
     last = shearbed.run(SMALL | dict(alpha=1.0, update="angles"), replicas=2)
     assert table["x1"][3] == last.x1[-1]
+    assert list(shearbed.sweep(SMALL, {"alpha": [1.0]}, replicas=2)["interaction.alpha"]) == [1.0]
     with pytest.raises(ValueError, match="interaction.alpha"):
-        shearbed.sweep(SMALL, {"alpha": [1.0]})
+        shearbed.sweep(SMALL, {"interaction.alhpa": [1.0]})
 
 
 def test_the_program_is_there(tmp_path: Path) -> None:
