@@ -76,7 +76,7 @@ def test_what_is_not_allowed_is_said_in_the_programs_words(points: dict[str, np.
     for changed, words in [
         (dict(over={"interaction.alhpa": (0.05, 5)}), "interaction.alpha"),
         (dict(over={"interaction.alpha": (5, 0.05)}), "interaction.alpha"),
-        (dict(data={**points, "x9": points["x1"], "x9_u": points["x1_u"]}), "x9"),
+        (dict(data={"t_over_T": points["t_over_T"], "x9": points["x1"], "x9_u": points["x1_u"]}), "x9"),
         (dict(data={**points, "x1_u": 0 * points["x1"]}), "x1_u"),
         (dict(data={**points, "x1": points["x1"][1:]}), "one length"),
         (dict(data=tmp_path / "nothing.csv"), "nothing.csv"),
