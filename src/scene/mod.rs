@@ -324,7 +324,7 @@ impl Scene {
             let steps = self.steps().then(|| self.steps_per_unit().max(1));
             let divides = |k: &u64| steps.is_none_or(|steps| steps.is_multiple_of(*k));
             let least = self.least_outputs();
-            let last = steps.unwrap_or(0).min(least.saturating_mul(4));
+            let last = steps.unwrap_or(0).min(least.saturating_mul(10));
             let even = (least..=last).find(|k| k.is_multiple_of(2) && divides(k));
             even.or_else(|| (1..=most).rev().find(divides)).unwrap_or(1)
         })

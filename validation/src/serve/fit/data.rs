@@ -376,7 +376,11 @@ mod tests {
             ("t_s,x4,x4_u\n", 1, "no column of measured values among t_s, x4, x4_u: expected a time"),
             ("time,x1,x1_u\n1,0.5,0.1\n", 1, "`t_s` for seconds"),
             ("t_s\n1\n", 1, "no column of measured values"),
-            ("t_s,x1\n1,0.5\n", 1, "x1_u is missing: one standard deviation of each x1 is needed, or --u 0.005"),
+            (
+                "t_s,x1\n1,0.5\n",
+                1,
+                "x1_u is missing: one standard deviation of each x1 is needed, or u = 0.005 for all points",
+            ),
             ("t_s,x1,x1_u\n1,12.9,0.1\n", 2, "a value from 0 to 1; in per cent it is x1_percent"),
             ("t_s,x1,x1_u\n", 1, "no points"),
             ("t_s,x1,x1_u\n1,0.5,\n", 2, "x1_u is blank"),
