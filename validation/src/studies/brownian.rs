@@ -2,8 +2,8 @@
 
 use super::*;
 use crate::oracle::diffusion::{FlowStep, Means, Motion, Start, at, steady, through};
-use shearbed::Observable;
 use shearbed::scene::Flow;
+use shearbed::{Observable, Results};
 
 pub const STUDY: Study = Study {
     name: "brownian",
@@ -92,10 +92,7 @@ fn exponent(angles: &[[f64; 2]]) -> f64 {
 /// Péclet numbers and the extinction angle of steady shear in degrees.
 fn angles() -> Result<Vec<[f64; 2]>, crate::oracle::diffusion::NoAnswer> {
     let peclet = (-2..=16).map(|k| 10f64.powf(0.25 * f64::from(k))).collect::<Vec<_>>();
-    let of = |peclet: &f64| {
-        let [a11, a22, _, a12, ..] = steady(&motion(shear(*peclet)))?.second;
-        Ok([*peclet, 0.5 * (2.0 * a12).atan2(a22 - a11).to_degrees()])
-    };
+    let of = |peclet: &f64| Ok([*peclet, steady(&motion(shear(*peclet)))?.extinction_angle_deg()]);
     peclet.par_iter().map(of).collect()
 }
 
@@ -129,26 +126,33 @@ fn start_up(effort: &Effort) -> Result<(Vec<Curve>, Vec<Points>), String> {
         let all = at(&motion(shear(peclet)), Start::Isotropic, &seconds).map_err(|why| why.to_string())?;
         let name = format!("Pe = {peclet}");
         curves.push(Curve::of(name.clone(), strains.iter().zip(&all), |(strain, means)| (*strain, means.second[3])));
-        let mut scene = Scene {
-            flow: Flow::Shear { shear_rate_per_s: peclet * D_R },
-            time: Time::strain(12.0),
-            ..Scene::default()
-        };
-        scene.particles.aspect_ratio = 1e6;
-        scene.particles.rotary_diffusion_per_s = D_R;
-        scene.particles.count = effort.pick(500, 2000);
-        scene.ensemble.replicas = 10;
-        scene.output.times = vec![0.5, 1.0, 2.0, 4.0, 8.0, 12.0];
-        scene.output.observables = vec![Observable::OrientationTensor];
-        let plan = Plan::new(&scene).map_err(|why| why.to_string())?;
-        let results = ensemble::run(&plan).map_err(|why| why.to_string())?;
+        let strains = [0.5, 1.0, 2.0, 4.0, 8.0, 12.0];
+        let results = at_random(peclet * D_R, D_R, effort.pick(500, 2000), 10, &strains)?;
         let a12 = results.column("a12").ok_or("no a12")?;
-        let rows = scene.output.times.iter().zip(a12.mean.iter().zip(&a12.se));
+        let rows = strains.iter().zip(a12.mean.iter().zip(&a12.se));
         points.push(Points::with_bars(format!("{name}, random rods"), rows, |(strain, (mean, se))| {
             (*strain, *mean, 2.26 * se)
         }));
     }
     Ok((curves, points))
+}
+
+/// a_ij at these strains of shear, of isotropic rods that turn at random with D_r; Λ = 1 to 2·10⁻¹².
+pub(super) fn at_random(
+    shear_rate_per_s: f64,
+    d_r_per_s: f64,
+    count: usize,
+    replicas: u64,
+    strains: &[f64],
+) -> Result<Results, String> {
+    let flow = Flow::Shear { shear_rate_per_s };
+    let mut scene = Scene { flow, time: Time::strain(strains[strains.len() - 1]), ..Scene::default() };
+    (scene.particles.aspect_ratio, scene.particles.rotary_diffusion_per_s) = (1e6, d_r_per_s);
+    (scene.particles.count, scene.ensemble.replicas) = (count, replicas);
+    scene.output.times = strains.to_vec();
+    scene.output.observables = vec![Observable::OrientationTensor];
+    let plan = Plan::new(&scene).map_err(|why| why.to_string())?;
+    ensemble::run(&plan).map_err(|why| why.to_string())
 }
 
 #[cfg(test)]

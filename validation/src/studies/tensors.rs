@@ -4,8 +4,6 @@ use super::*;
 use crate::methods::tensors::fourth::PAIRS;
 use crate::methods::tensors::{APART, Closure, Equation, Model, at, isotropic, steady};
 use crate::oracle::diffusion::{self, Means, Motion, Start};
-use shearbed::Observable;
-use shearbed::scene::Flow;
 
 pub const STUDY: Study = Study {
     name: "closures",
@@ -141,14 +139,7 @@ const RANDOM: &str = "random rods";
 
 /// a_ij of `rods` rods that turn at random, at these strains of shear with D_r = 0.01/s.
 fn random(rods: usize, strains: &[f64]) -> Option<Vec<Matrix3<f64>>> {
-    let flow = Flow::Shear { shear_rate_per_s: 1.0 };
-    let mut scene = Scene { flow, time: Time::strain(*strains.last()?), ..Scene::default() };
-    // Λ = 1 to 2·10⁻¹².
-    (scene.particles.aspect_ratio, scene.particles.rotary_diffusion_per_s) = (1e6, 0.01);
-    scene.particles.count = rods;
-    scene.output.times = strains.to_vec();
-    scene.output.observables = vec![Observable::OrientationTensor];
-    let results = ensemble::run(&Plan::new(&scene).ok()?).ok()?;
+    let results = brownian::at_random(1.0, 0.01, rods, 1, strains).ok()?;
     let tensor = |at: usize| {
         let mut a = Matrix3::zeros();
         for place in PAIRS {

@@ -31,6 +31,12 @@ impl Means {
         }
     }
 
+    /// The extinction angle of flow birefringence in degrees: from axis 2 to the axis of a_ij in the plane of 1 and 2.
+    pub fn extinction_angle_deg(&self) -> f64 {
+        let [a11, a22, _, a12, ..] = self.second;
+        (0.5 * (2.0 * a12).atan2(a22 - a11)).to_degrees()
+    }
+
     /// Adds means and their error, times a weight ≥ 0.
     pub fn add(&mut self, weight: f64, other: &Self) {
         self.all_mut().zip(other.all()).for_each(|(sum, x)| *sum += weight * x);

@@ -179,11 +179,10 @@ fn optics(means: &Means) -> [Option<f64>; 2] {
     let a = Matrix3::new(a11, a12, a13, a12, a22, a23, a13, a23, a33);
     let order = 1.5 * a.symmetric_eigenvalues().max() - 0.5;
     let anisotropy = (a22 - a11).hypot(2.0 * a12);
-    let angle_deg = (0.5 * (2.0 * a12).atan2(a22 - a11)).to_degrees();
     // An eigenvalue is off by three times the error of a component at most, an angle by that over the anisotropy.
     let with = |factor: f64, value: f64| Means { error: factor * means.error.max(1e-12), ..*means }.certain(value);
     let is_known = anisotropy > 1e3 * means.error.max(1e-12);
-    [Some(with(4.5, order)), is_known.then(|| with(90.0 / anisotropy, angle_deg))]
+    [Some(with(4.5, order)), is_known.then(|| with(90.0 / anisotropy, means.extinction_angle_deg()))]
 }
 
 /// Nodes and weights of the mean over a Gaussian of mean 0 and deviation 1: eigenvalues of the matrix of the
