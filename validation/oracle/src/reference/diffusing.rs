@@ -219,7 +219,7 @@ mod tests {
         assert_eq!(of([0.1, 0.8, 0.1, 0.0, 0.0, 0.0]), [Some(0.7), Some(0.0)]);
         assert_eq!(of([0.2, 0.2, 0.6, 0.0, 0.0, 0.0]), [Some(0.4), None]);
         let [order, angle] = of([0.2, 0.5, 0.3, -0.1, 0.0, 0.0]).map(Option::unwrap);
-        assert!((2.0 * angle.to_radians()).tan() + 2.0 / 3.0 < 1e-9 && angle < 0.0);
+        assert!(((2.0 * angle.to_radians()).tan() + 2.0 / 3.0).abs() < 1e-9 && angle < 0.0);
         assert!((order - (1.5 * (0.35 + 0.0325f64.sqrt()) - 0.5)).abs() < 1e-9);
     }
 
