@@ -1,5 +1,6 @@
-//! Keeps the compiler's version and the commit of the sources, as they are when the program is built.
+//! Keeps the compiler's version, and the commit and a digest of the sources, as they are when the program is built.
 
+use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::Path;
 use std::process::Command;
 
@@ -30,9 +31,30 @@ fn main() {
     println!("cargo::rerun-if-env-changed=RUSTC");
     let rustc = std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into());
     let rustc = printed(Command::new(rustc).arg("--version"));
+    let digest = digest(&root, rustc.as_deref());
+    println!("cargo::rustc-env=SHEARBED_SOURCES={digest}");
     println!("cargo::rustc-env=SHEARBED_RUSTC={}", known(rustc));
     println!("cargo::rustc-env=SHEARBED_COMMIT={}", known(commit(&root)));
     println!("cargo::rustc-env=SHEARBED_PROFILE={}", known(std::env::var("PROFILE").ok()));
+}
+
+/// A digest of everything that decides the program's numbers: the sources, the compiler and its settings.
+fn digest(root: &Path, rustc: Option<&str>) -> String {
+    let mut hasher = DefaultHasher::new();
+    SOURCES.iter().for_each(|source| add(&root.join(source), &mut hasher));
+    rustc.hash(&mut hasher);
+    for name in ["PROFILE", "OPT_LEVEL", "TARGET", "CARGO_ENCODED_RUSTFLAGS"] {
+        std::env::var(name).ok().hash(&mut hasher);
+    }
+    format!("{:016x}", hasher.finish())
+}
+
+/// Adds a file, or a folder's files in the order of their names.
+fn add(path: &Path, hasher: &mut DefaultHasher) {
+    let Ok(entries) = path.read_dir() else { return (path.file_name(), std::fs::read(path).ok()).hash(hasher) };
+    let mut paths: Vec<_> = entries.flatten().map(|entry| entry.path()).collect();
+    paths.sort();
+    paths.iter().for_each(|path| add(path, hasher));
 }
 
 /// The commit of the sources, with `-dirty` where one of them is not as it is there; nothing outside a checkout of this

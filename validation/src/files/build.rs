@@ -27,6 +27,9 @@ pub const BUILD: Build = Build {
     build: env!("SHEARBED_PROFILE"),
 };
 
+/// A digest of the sources of this build, of the compiler and of its settings.
+pub const SOURCES: &str = env!("SHEARBED_SOURCES");
+
 /// This build as an object to which the rest of a record can be added.
 pub fn record() -> Value {
     json!(BUILD)

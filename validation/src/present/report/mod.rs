@@ -16,7 +16,7 @@ mod tests;
 
 pub(crate) use formats::digits;
 pub(crate) use html::rendered;
-pub use json::{FORMAT, check};
+pub use json::{FORMAT, check, passed};
 pub(crate) use prose::typeset;
 
 use crate::files::output::Output;

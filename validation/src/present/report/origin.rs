@@ -3,7 +3,7 @@
 use super::ScenePlan;
 use super::formats::utc;
 use crate::files::bounded;
-use crate::files::build::BUILD;
+use crate::files::build::{BUILD, SOURCES};
 use crate::input::experiment::Stated;
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -20,6 +20,8 @@ pub struct Origin {
     pub version: String,
     /// Commit of the sources, with `-dirty` if they had been changed.
     pub commit: String,
+    /// A digest of the sources, of the compiler and of its settings.
+    pub sources: String,
     /// Version of the compiler.
     pub rustc: String,
     /// Profile of cargo: `release`, or `debug` as by `cargo run`, in which what computes is optimised.
@@ -46,6 +48,7 @@ impl Origin {
             command,
             version: BUILD.version.into(),
             commit: BUILD.commit.into(),
+            sources: SOURCES.into(),
             rustc: BUILD.rustc.into(),
             build: BUILD.build.into(),
             processor: processor().unwrap_or_else(unknown),

@@ -4,6 +4,7 @@ mod page;
 mod synthetic;
 
 use super::*;
+use crate::input::experiment::Stated;
 use crate::judge::accept::{Rule, judge};
 use crate::judge::case::{About, Control, Evidence, GATE_SEED, Judged, Judges};
 use crate::present::plot::{Curve, Figure};
@@ -122,4 +123,29 @@ fn a_one_sided_rule_uses_less_of_its_bound_the_farther_it_is() {
     assert_eq!(used(0.4), 0.25);
     assert_eq!(used(0.05), 2.0);
     assert_eq!(used(-0.1), f64::INFINITY);
+}
+
+/// Each difference from what the gate would run counts: other sources, seed, effort or points, or an edited byte.
+#[test]
+fn only_an_unedited_report_of_these_sources_spares_the_gate_its_passes() {
+    let of = |name, verdict, rule| outcome(name, verdict, vec![rule], &[]);
+    let made = |effort: &Effort, change: &dyn Fn(&mut Report)| {
+        let outcomes = vec![of("good", Verdict::Pass, p_value(0.5)), of("bad", Verdict::Fail, p_value(0.0))];
+        let mut report = build(outcomes, Sections::default(), effort, "shearbed validate".into());
+        change(&mut report);
+        report.json()
+    };
+    let right = made(&EFFORT, &|_| ());
+    assert_eq!(passed(&right), ["good".to_owned()].into());
+    for wrong in [
+        made(&Effort { seed: 2, ..EFFORT }, &|_| ()),
+        made(&Effort { full: true, ..EFFORT }, &|_| ()),
+        made(&EFFORT, &|report| report.origin.sources = "0123456789abcdef".into()),
+        made(&EFFORT, &|report| report.origin.points.push(Stated::default())),
+        right.replace("\"fail\"", "\"pass\""),
+        right.replace("\"bad\"", "\"worse\""),
+        String::new(),
+    ] {
+        assert!(passed(&wrong).is_empty(), "{wrong}");
+    }
 }

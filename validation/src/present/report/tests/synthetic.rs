@@ -81,6 +81,7 @@ pub fn synthetic() -> Report {
         command: "shearbed validate --out 'a<b'".into(),
         version: "0.0.0".into(),
         commit: "0123456789ab".into(),
+        sources: "fedcba9876543210".into(),
         rustc: "rustc 0.0.0".into(),
         build: "release".into(),
         processor: "a synthetic processor".into(),
@@ -88,7 +89,7 @@ pub fn synthetic() -> Report {
         system: "none".into(),
         date: "2000-01-01T00:00:00Z".into(),
         seeds: "none".into(),
-        points: vec![crate::input::experiment::Stated {
+        points: vec![Stated {
             file: "a.toml".into(),
             paper: "synthetic <points>, not a measurement".into(),
             figure: "Fig. S".into(),
