@@ -8,6 +8,7 @@
 
 use super::fourth::{Fourth, principal};
 use nalgebra::{Matrix3, Vector3};
+use std::sync::LazyLock;
 
 /// The smallest eigenvalue distinguished from 0.
 const LEAST: f64 = 1e-12;
@@ -46,15 +47,24 @@ pub(super) fn fourth(a: &Matrix3<f64>) -> Fourth {
 /// The largest step of an exponent.
 const MOST: f64 = 20.0;
 
+/// The distance of the nodes in ln s.
+const STEP: f64 = 0.5;
+
+/// The node s of a whole number; those within the exponents of tensors down to [`LEAST`] are computed once.
+fn node(k: i32) -> f64 {
+    const MOST: i32 = 256;
+    static NODES: LazyLock<Vec<f64>> = LazyLock::new(|| (-MOST..=MOST).map(|k| (STEP * f64::from(k)).exp()).collect());
+    NODES.get((k + MOST) as usize).copied().unwrap_or_else(|| (STEP * f64::from(k)).exp())
+}
+
 /// a_i, and a_2233, a_3311, a_1122, by the trapezoid rule in ln s with an error of e^(−2π²/h). Shifts `z` to sum to 0.
 fn moments(z: &mut Vector3<f64>) -> (Vector3<f64>, Vector3<f64>) {
-    const STEP: f64 = 0.5;
     z.add_scalar_mut(-z.mean());
     let b = z.map(|z| (-z).exp());
     let (from, to) = ((-z.max() - 40.0) / STEP, (-z.min() + 28.0) / STEP);
     let (mut second, mut mixed) = (Vector3::zeros(), Vector3::zeros());
     for k in from.floor() as i32..=to.ceil() as i32 {
-        let s = (STEP * f64::from(k)).exp();
+        let s = node(k);
         let over = b.map(|b| 1.0 / (b + s));
         let weight = STEP * s * over.product().sqrt();
         second += over * (0.5 * weight);
