@@ -30,7 +30,7 @@ use contact::contact;
 use mistake::either;
 use motion::{axis, jeffery_matrix, matrix, moved_by_angles, rotated, shape_factor, sin_theta, turned, vector};
 use nalgebra::Matrix3;
-use neighbour::distance_mm;
+pub(crate) use neighbour::distance_mm;
 use rand_distr::{Distribution, Normal};
 use rand_pcg::Pcg64Dxsm;
 use random::{ASPECT_RATIOS, COLLISIONS, LENGTHS, ORIENTATIONS, POSITIONS, REPLACEMENTS, uniform};

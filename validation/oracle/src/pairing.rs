@@ -5,6 +5,8 @@
 //! neighbour. So a rod is always free when its own draw is considered, unless the two are each other's nearest; only
 //! its neighbour may have collided.
 
+use crate::naive::{self, Images};
+
 /// A nearest pair.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pair {
@@ -56,17 +58,10 @@ pub fn nearest_pairs(
     done
 }
 
+/// The nearest other rod of rod i, and its distance.
 fn nearest(places: &[[f64; 3]], i: usize) -> Option<(usize, f64)> {
-    let x = places[i];
-    let mut best = None;
-    let mut least = f64::INFINITY;
-    for (j, y) in places.iter().enumerate() {
-        let square = (x[0] - y[0]).powi(2) + (x[1] - y[1]).powi(2) + (x[2] - y[2]).powi(2);
-        if square < least && j != i {
-            (best, least) = (Some(j), square);
-        }
-    }
-    best.map(|j| (j, least.sqrt()))
+    let j = naive::nearest(places, i, Images::None, [f64::INFINITY; 3])?;
+    Some((j, naive::distance_mm(places[i], places[j])))
 }
 
 #[cfg(test)]

@@ -22,7 +22,7 @@ pub struct Contact {
 }
 
 /// The state of a rod before a collision: centre (mm), axis, rate of the axis (1/s).
-pub(super) type Rod = [Vector3<f64>; 3];
+type Rod = [Vector3<f64>; 3];
 
 /// A.7 to A.13 for rods at `xa`, `xb` (mm) along `pa`, `pb`, turning at `pdot_a`, `pdot_b` (1/s) in u = L x (L in 1/s).
 ///

@@ -27,11 +27,11 @@ impl OtherFlow {
 const NUMBERS: u128 = 1 << 20;
 
 /// The position after `dt_s` of the liquid at `x_mm`.
-pub(super) fn carried(gradient: Matrix3<f64>, x_mm: [f64; 3], dt_s: f64) -> [f64; 3] {
+fn carried(gradient: Matrix3<f64>, x_mm: [f64; 3], dt_s: f64) -> [f64; 3] {
     ((gradient * dt_s).exp() * vector(x_mm)).into()
 }
 
-pub(super) fn inside(x_mm: [f64; 3], edges_mm: [f64; 3]) -> bool {
+fn inside(x_mm: [f64; 3], edges_mm: [f64; 3]) -> bool {
     (0..3).all(|k| 0.0 <= x_mm[k] && x_mm[k] < edges_mm[k])
 }
 
@@ -82,7 +82,7 @@ pub fn carry(
 /// The position at which rod number `rod` of all that have left comes back, uniform in the liquid that came in during
 /// the step: it enters through a face drawn by largest inflow and area, at a point accepted by the inflow there, at a
 /// drawn time. It is drawn again if the rod would have left, or was inside when the step began.
-pub(super) fn come_in(
+fn come_in(
     gradient: Matrix3<f64>,
     edges_mm: [f64; 3],
     dt_s: f64,

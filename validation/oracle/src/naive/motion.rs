@@ -46,7 +46,7 @@ pub(super) fn axis([phi, theta]: [f64; 2]) -> [f64; 3] {
 }
 
 /// phidot' and thetadot' (A.13), rad/s; `w` is V'_r / r.
-pub(super) fn angle_rates_per_s([phi, theta]: [f64; 2], w: [f64; 3], made: Option<Mistake>) -> [f64; 2] {
+fn angle_rates_per_s([phi, theta]: [f64; 2], w: [f64; 3], made: Option<Mistake>) -> [f64; 2] {
     let (sin, cos) = theta.sin_cos();
     // the printed equation exchanges sin and cos, and does not divide by sin
     let (sin, cos, divisor) = either(made, Mistake::PrintedA13, (cos, sin, 1.0), (sin, cos, sin));

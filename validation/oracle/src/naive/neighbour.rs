@@ -24,12 +24,11 @@ pub fn nearest(positions_mm: &[[f64; 3]], i: usize, images: Images, edges_mm: [f
 pub fn expected_candidates(places: &[Vec<f64>; 3], alpha: f64, m: f64) -> f64 {
     let [x, y, z] = places;
     let all: Vec<_> = (0..x.len()).map(|i| [x[i], y[i], z[i]]).collect();
-    let chance = |(i, &one): (usize, &[f64; 3])| {
-        let others = all.iter().enumerate().filter(|(j, _)| *j != i);
-        let nearest = others.map(|(_, &other)| square_mm2(one, other)).fold(f64::INFINITY, f64::min);
-        collision_probability(nearest.sqrt(), 1.0, alpha, m)
+    let chance = |i: usize| {
+        let distance = nearest(&all, i, Images::None, [f64::INFINITY; 3]).map(|j| distance_mm(all[i], all[j]));
+        collision_probability(distance.unwrap_or(f64::INFINITY), 1.0, alpha, m)
     };
-    all.iter().enumerate().map(chance).sum()
+    (0..all.len()).map(chance).sum()
 }
 
 fn square_mm2(x: [f64; 3], y: [f64; 3]) -> f64 {
@@ -38,6 +37,6 @@ fn square_mm2(x: [f64; 3], y: [f64; 3]) -> f64 {
 }
 
 /// The distance of two positions, mm.
-pub(super) fn distance_mm(x: [f64; 3], y: [f64; 3]) -> f64 {
+pub(crate) fn distance_mm(x: [f64; 3], y: [f64; 3]) -> f64 {
     square_mm2(x, y).sqrt()
 }

@@ -1,13 +1,11 @@
 //! Tests of the naive reference itself.
 
 mod contacts;
-mod flows;
 mod readings;
 
 use super::motion::angles_rad;
 use super::random::{GOLDEN, mix};
 use super::*;
-use nalgebra::Vector3;
 use rand::RngExt;
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -43,18 +41,7 @@ fn streams_match_reference_output() {
 }
 
 #[test]
-fn the_start_follows_the_protocol() {
-    // 50 rods at 50 per cm^3: H = 10 mm
-    let naive = Naive::new(fibres(50, 0.5, |_| ()));
-    let (mut x, mut p) = (stream(1, 0, 2), stream(1, 0, 1));
-    for i in 0..50 {
-        let expected = [0; 3].map(|_| 10.0 * uniform(&mut x));
-        assert!(far(&[naive.positions_mm[i]], &[expected]) < 1e-12);
-        let [phi, theta] = angles_rad(naive.orientations[i]);
-        assert!((phi.rem_euclid(TAU) - TAU * uniform(&mut p)).abs() < 1e-12);
-        assert!((theta.cos() - (1.0 - 2.0 * uniform(&mut p))).abs() < 1e-12);
-    }
-    assert_eq!((naive.redraws, naive.aspect_ratios), (0, vec![11.6; 50]));
+fn aspect_ratios_of_1_or_less_are_drawn_again() {
     let broad = |p: &mut NaiveProblem| (p.aspect_ratio, p.aspect_ratio_sd_percent) = (1.5, 50.0);
     let naive = Naive::new(fibres(50, 0.5, broad));
     let normal = Normal::new(1.5, 0.75).expect("0.75 is finite");
@@ -135,37 +122,6 @@ fn one_step_by_hand() {
 }
 
 #[test]
-fn each_rod_turns_with_its_own_aspect_ratio() {
-    let mut naive = Naive::new(fibres(50, 20.0, |p| p.aspect_ratio_sd_percent = 20.0));
-    let (x, p) = (naive.positions_mm.clone(), naive.orientations.clone());
-    let (gradient, dt) = (naive.problem.gradient_per_s(), naive.problem.time_step_s());
-    let rate = |naive: &Naive, k: usize| jeffery(p[k], naive.aspect_ratios[k], gradient);
-    naive.step();
-    let mut expected: Vec<[f64; 3]> = (0..50)
-        .map(|k| {
-            let lambda = shape_factor(naive.aspect_ratios[k]);
-            let turn = (jeffery_matrix(matrix(gradient), lambda) * dt).exp();
-            (turn * vector(p[k])).normalize().into()
-        })
-        .collect();
-    for &(i, j) in &naive.last_collisions {
-        let (wi, wj) = (rate(&naive, i), rate(&naive, j));
-        let c = collide(x[i], p[i], wi, x[j], p[j], wj, gradient).expect("they collided");
-        expected[i] = rotated(p[i], c.pdot_a_per_s, dt);
-        expected[j] = rotated(p[j], c.pdot_b_per_s, dt);
-    }
-    assert!(naive.last_collisions.len() > 5);
-    assert!(far(&naive.orientations, &expected) < 1e-12);
-}
-
-#[test]
-fn only_an_arm_below_the_least_is_no_contact() {
-    // arms of 2 and 3 mm, a = 0.5 mm
-    let least = |least| hand_pair(|p| (p.length_mm, p.min_contact_arm) = (0.5, least));
-    assert_eq!([0.0, 4.0, 4.000001, 6.5].map(|x| least(x).collisions), [1, 1, 0, 0]);
-}
-
-#[test]
 fn arms_are_in_units_of_their_own_rods() {
     // the arms are 2 mm (first rod) and 3 mm (second)
     let collisions = |lengths_mm: [f64; 2]| {
@@ -201,16 +157,6 @@ fn a_rod_draws_by_its_own_length() {
     let enough = f64::min(needed[0], needed[1]);
     let both = |factor: f64| reached(Length::MeanOfBoth, [1.5 * factor * enough, 0.5 * factor * enough]);
     assert_eq!([both(least).len(), both(most).len()], [0, 1]);
-}
-
-#[test]
-fn lengths_follow_the_protocol() {
-    let naive = Naive::new(fibres(50, 0.5, |p| p.length_sd_percent = 30.0));
-    let normal = Normal::new(0.72, 0.216).expect("0.216 is finite");
-    let drawn = normal.sample_iter(stream(1, 0, 5)).take(50);
-    assert_eq!((naive.redraws, naive.lengths_mm.len()), (0, 50));
-    // mean and deviation are rounded separately
-    assert!((naive.lengths_mm.iter().zip(drawn)).all(|(a, drawn): (&f64, f64)| (a - drawn).abs() < 1e-15));
 }
 
 /// Collisions in one step of rods on axis 1, all of which are candidates unless `change` alters that.
@@ -252,69 +198,9 @@ fn who_collides_by_order() {
     assert_eq!(taken(&x1_mm, [0, 0], |_| ()), [(1, 2)]);
     // a parallel pair is dropped without a collision: its rods are free for later candidates
     assert_eq!(taken(&x1_mm, [1, 2], |_| ()), [(0, 1), (3, 2)]);
-    let by_index = taken(&x1_mm, [0, 0], |p| p.mistake = Some(Mistake::IndexOrder));
-    assert_eq!(by_index, [(0, 1), (3, 2)]);
-}
-
-#[test]
-fn replacement_keeps_count_volume_and_orientation() {
-    // the cube, and a box of the same volume
-    for (edges_mm, given) in [([10.0; 3], None), ([20.0, 5.0, 10.0], Some([20.0, 5.0, 10.0]))] {
-        replaced(edges_mm, given);
-    }
-}
-
-fn replaced([h1, h2, h3]: [f64; 3], box_mm: Option<[f64; 3]>) {
-    let mut naive = Naive::new(fibres(50, 0.0, |p| p.box_mm = box_mm));
-    let mut draws = stream(1, 0, 2);
-    for place in &naive.positions_mm {
-        let expected = [h1, h2, h3].map(|edge| edge * uniform(&mut draws));
-        assert!(far(&[*place], &[expected]) < 1e-12);
-    }
-    let (start, mut draws) = (naive.orientations.clone(), stream(1, 0, 4));
-    let strain = TAU * (11.6 + 1.0 / 11.6) / 200.0;
-    let mut leavers = 0;
-    for _ in 0..200 {
-        let before = naive.positions_mm.clone();
-        naive.step();
-        for (old, new) in before.iter().zip(&naive.positions_mm) {
-            let mut expected = [old[0], old[1] + strain * old[0], old[2]];
-            if expected[1] >= h2 {
-                leavers += 1;
-                let x1 = h1 * uniform(&mut draws).sqrt();
-                expected = [x1, expected[1].rem_euclid(h2), h3 * uniform(&mut draws)];
-            }
-            assert!(far(&[expected], &[*new]) < 1e-12);
-            assert!(new.iter().zip([h1, h2, h3]).all(|(x, edge)| (0.0..edge).contains(x)));
-        }
-    }
-    assert!(leavers > 100);
-    assert_eq!((naive.replacements, naive.positions_mm.len()), (leavers, 50));
-    // without collisions, a rod that left and came back has its initial direction after one period
-    assert!(far(&naive.orientations, &start) < 1e-9);
-}
-
-#[test]
-fn every_mistake_changes_a_run() {
-    // rods of unequal length; a concentration given by a cube or a box; and another flow
-    let state = |mistake| {
-        let flow =
-            OtherFlow { gradient_per_s: [[0.3, -0.5, 0.1], [0.8, 0.1, -0.2], [0.4, 0.6, -0.4]], steps_per_strain: 10 };
-        [(None, None), (Some([20.0, 5.0, 10.0]), None), (None, Some(flow))].map(|(box_mm, other_flow)| {
-            let change = |p: &mut NaiveProblem| {
-                (p.update, p.mistake) = (Update::Angles, mistake);
-                (p.box_mm, p.other_flow) = (box_mm, other_flow);
-                (p.length_sd_percent, p.min_contact_arm) = (30.0, 1.0);
-            };
-            let naive = run(fibres(50, 2.0, change), 30);
-            (naive.orientations, naive.positions_mm)
-        })
-    };
-    let sound = state(None);
-    assert_eq!(state(None), sound);
-    for mistake in Mistake::ALL {
-        assert_ne!(state(Some(mistake)), sound, "{mistake:?}");
-    }
+    let by_mistake = taken(&x1_mm, [0, 0], |p| p.mistake = Some(Mistake::IndexOrder));
+    let by_reading = taken(&x1_mm, [0, 0], |p| p.reading.who = Who::IndexOrder);
+    assert_eq!([by_mistake, by_reading], [[(0, 1), (3, 2)]; 2]);
 }
 
 #[test]

@@ -27,13 +27,6 @@ fn a_mutual_pair_may_have_one_draw() {
 }
 
 #[test]
-fn candidates_may_be_taken_in_the_order_of_rods() {
-    let order = |who| taken(&[0.0, 10.0, 11.0, 30.0], [0, 0], move |p| p.reading.who = who);
-    assert_eq!(order(Who::EachDraws), [(1, 2)]);
-    assert_eq!(order(Who::IndexOrder), [(0, 1), (3, 2)]);
-}
-
-#[test]
 fn contact_lines_may_end_with_the_rods() {
     // arms of 2 and 3 mm
     let collisions = |lines, length_mm| hand_pair(|p| (p.reading.lines, p.length_mm) = (lines, length_mm)).collisions;
@@ -149,23 +142,4 @@ fn a_scaled_overshoot_keeps_the_filling_even() {
     // Kolmogorov: with a uniform filling, positions deviate this much with a probability of 10^-3
     assert!(unevenness(Replacement::ScaledOvershoot) < 0.014);
     assert!(unevenness(Replacement::Overshoot) > 0.03);
-}
-
-#[test]
-fn every_reading_changes_a_run() {
-    let state = |reading| {
-        let naive = run(fibres(50, 2.0, |p| p.reading = reading), 30);
-        (naive.orientations, naive.positions_mm)
-    };
-    let default = Reading::default();
-    for reading in [
-        Reading { who: Who::PairDraws, ..default },
-        Reading { who: Who::IndexOrder, ..default },
-        Reading { lines: Lines::CutAtEnds, ..default },
-        Reading { images: Images::FlowAndVorticity, ..default },
-        Reading { images: Images::All, ..default },
-        Reading { replacement: Replacement::ScaledOvershoot, ..default },
-    ] {
-        assert_ne!(state(reading), state(default), "{reading:?}");
-    }
 }
