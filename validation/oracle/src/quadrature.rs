@@ -117,7 +117,6 @@ pub fn spread(count: u32) -> impl Iterator<Item = (f64, f64)> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::f64::consts::PI;
 
     #[test]
     fn peaks_of_known_area_are_integrated() {
@@ -154,50 +153,5 @@ mod tests {
     #[should_panic(expected = "breaks must ascend")]
     fn descending_breaks_are_refused() {
         integrate(|x| x, &[1.0, 0.0], 1e-9);
-    }
-
-    #[test]
-    fn mean_angle_agrees_with_the_midpoint_rule() {
-        // The midpoint rule in x on a smooth odd-reflected integrand converges only as h²: 4e-7 at r_e ≤ 30.
-        let midpoint = |r: f64| {
-            let n = 20_000;
-            let x = |k: i32| 0.25 * (f64::from(k) + 0.5) / f64::from(n);
-            let sum: f64 = (0..n).map(|k| (r * (TAU * x(k)).tan()).atan()).sum();
-            sum / f64::from(n)
-        };
-        for (u, _) in spread(20) {
-            let r = 30f64.powf(2.0 * u - 1.0);
-            let value = mean_angle_by_quadrature(r);
-            assert!((value - midpoint(r)).abs() < 4e-7, "{r}");
-            // Wrong variant: the average of eq. 20 with 1/r_e in place of r_e.
-            assert!((r.ln()).abs() < 0.01 || (value - midpoint(1.0 / r)).abs() > 1e-3);
-        }
-        assert!((mean_angle_by_quadrature(1.0) - PI / 4.0).abs() < 1e-15);
-    }
-
-    #[test]
-    fn phase_means_agree_with_the_midpoint_rule() {
-        for (u, v) in spread(20) {
-            let (r, c) = (30f64.powf(2.0 * u - 1.0), 10f64.powf(4.0 * v - 2.0));
-            let n = 40_000;
-            let mut sum = [0.0; 3];
-            for k in 0..n {
-                let (s, co) = (TAU * (f64::from(k) + 0.5) / f64::from(n)).sin_cos();
-                let q = [c * co, r * c * s, 1.0];
-                let length = q.iter().map(|x| x * x).sum::<f64>().sqrt();
-                (0..3).for_each(|i| sum[i] += q[i].abs() / length / f64::from(n));
-            }
-            let value = phase_means_by_quadrature(c, r);
-            let wrong = phase_means_by_quadrature(c / r, r);
-            for i in 0..3 {
-                // Midpoint at the kinks: slope · h²/12 with slope ≤ 30, h = 2π/n gives 6e-8.
-                assert!((value[i] - sum[i]).abs() < 1e-7, "{r} {c} {i}");
-            }
-            // Wrong variant: C without the division by r_e of eq. 13.
-            let apart = (0..3).map(|i| (value[i] - wrong[i]).abs());
-            assert!((r.ln()).abs() < 0.01 || apart.fold(0.0, f64::max) > 1e-4);
-        }
-        assert_eq!(phase_means_by_quadrature(0.0, 7.0), [0.0, 0.0, 1.0]);
-        assert_eq!(phase_means_by_quadrature(f64::INFINITY, 7.0)[2], 0.0);
     }
 }

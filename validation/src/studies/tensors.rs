@@ -265,6 +265,8 @@ mod tests {
         }
         let at = |c_i| diffusion::steady(&Motion::new(FLOWS[0].1, 1e100, c_i)).unwrap().second[1];
         assert!((at(of("exact")) - MEASURED).abs() < 1e-6);
+        // Where the natural closure has 0.8261.
+        assert!((at(0.0053) - 0.772).abs() < 5e-4);
     }
 
     #[test]

@@ -146,8 +146,7 @@ impl Covariance {
 pub(super) mod tests {
     use super::*;
     use crate::isotropic::mean_projections;
-    use crate::quadrature::{integrate, spread};
-    use std::f64::consts::TAU;
+    use crate::quadrature::spread;
 
     pub const COUETTE: [[f64; 3]; 3] = [[0.0; 3], [1.0, 0.0, 0.0], [0.0; 3]];
 
@@ -174,55 +173,7 @@ pub(super) mod tests {
         }
     }
 
-    /// A mean over isotropic starts of moving rods: z = cos θ₀ by Clenshaw-Curtis, φ₀ by the trapezoid rule, which
-    /// converges geometrically.
-    fn by_rods(motion: &Motion, time_s: f64, f: impl Fn([f64; 3]) -> f64) -> f64 {
-        let map = motion.map(&Bits(100).of(time_s), Unit::Second, Bits(100)).unwrap();
-        let map = map.map(|row| row.map(|x| double(&x)));
-        let n = 400;
-        let over_phi = |z: f64| {
-            let sine = (1.0 - z * z).sqrt();
-            let at = |k: i32| {
-                let (s, c) = (TAU * f64::from(k) / f64::from(n)).sin_cos();
-                let p = [sine * c, sine * s, z];
-                let q = map.map(|row| row[0] * p[0] + row[1] * p[1] + row[2] * p[2]);
-                let long = (q[0] * q[0] + q[1] * q[1] + q[2] * q[2]).sqrt();
-                f(q.map(|x| x / long))
-            };
-            (0..n).map(at).sum::<f64>() / f64::from(n)
-        };
-        0.5 * integrate(over_phi, &[-1.0, 0.0, 1.0], 1e-13).value
-    }
-
     pub const SPIRAL: [[f64; 3]; 3] = [[-0.25, -1.0, 0.5], [0.75, -0.25, 0.125], [0.25, -0.5, 0.5]];
-
-    #[test]
-    fn moments_are_those_of_rods_all_round() {
-        for (gradient_per_s, aspect_ratio, time_s) in [
-            (COUETTE, 3.0, 2.0),
-            (COUETTE, 0.4, 9.0),
-            (COUETTE, 5.0, -1.0),
-            (SPIRAL, 3.0, 1.5),
-            ([[1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0; 3]], 1e4, 0.7),
-        ] {
-            let motion = Motion { gradient_per_s, aspect_ratio };
-            let covariance = at(gradient_per_s, aspect_ratio, time_s, Unit::Second);
-            let transposed = [0, 1, 2].map(|i| [0, 1, 2].map(|j| gradient_per_s[j][i]));
-            let wrong = at(transposed, aspect_ratio, time_s, Unit::Second).second();
-            let mut caught = false;
-            for ((found, wrong), (i, j)) in covariance.second().iter().zip(&wrong).zip(PAIRS) {
-                let expected = by_rods(&motion, time_s, |p| p[i] * p[j]);
-                // The tolerance is that of about a dozen panels, each to 1e-13.
-                assert!((double(found) - expected).abs() < 1e-12, "{aspect_ratio} {i} {j}");
-                caught |= (double(wrong) - expected).abs() > 1e-6;
-            }
-            assert!(caught || gradient_per_s[0][0] == 1.0, "the transposed gradient");
-            for (found, indices) in covariance.fourth().iter().zip(QUADRUPLES) {
-                let expected = by_rods(&motion, time_s, |p| indices.iter().map(|i| p[i - 1]).product());
-                assert!((double(found) - expected).abs() < 1e-12, "{aspect_ratio} {indices:?}");
-            }
-        }
-    }
 
     #[test]
     fn where_rods_only_turn_they_stay_isotropic_exactly() {

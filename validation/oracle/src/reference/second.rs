@@ -188,48 +188,18 @@ mod tests {
     use super::*;
     use crate::reference::big::double;
 
-    fn off(found: &[Big], expected: &[f64]) -> f64 {
-        found.iter().zip(expected).map(|(a, b)| (double(a) - b).abs()).fold(0.0, f64::max)
-    }
-
-    /// A sphere turns with half the vorticity, and a thread in the shear plane has tan φ = t + tan φ₀.
+    /// A third of a mean period, by a rule in doubles.
     #[test]
-    fn directions_are_those_of_spheres_and_threads() {
-        let couette = [[0.0; 3], [1.0, 0.0, 0.0], [0.0; 3]];
-        let [along, across, none] = [0.6, 0.8, 0.0].map(|x| BITS.of(x));
-        let of = |r: f64, start: [&Big; 3], time: f64| direction(&couette, r, &start.map(Clone::clone), &BITS.of(time));
-        let angle = 0.8f64.atan2(0.6) + 1.0;
-        assert!(off(&of(1.0, [&along, &across, &none], 2.0), &[angle.cos(), angle.sin(), 0.0]) < 1e-15);
-        let thread = |time: f64| (time + 0.8 / 0.6f64).atan();
-        let found = of(1e100, [&along, &across, &none], 2.0);
-        assert!(off(&found, &[thread(2.0).cos(), thread(2.0).sin(), 0.0]) < 1e-15);
-        assert!(off(&found, &[thread(2.1).cos(), thread(2.1).sin(), 0.0]) > 1e-3);
-    }
-
-    #[test]
-    fn means_of_directions_alike_are_the_known_ones() {
-        let one = matrix(|i, j| BITS.of(if i == j { 1.0 } else { 0.0 }));
-        for axis in 0..3 {
-            let (modulus, moments) = isotropic(&one, axis, 16, 24);
-            assert!(off(&[modulus], &[0.5]) < 1e-15);
-            assert!(off(&moments[..6], &[1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0, 0.0, 0.0, 0.0]) < 1e-15);
-            assert!(off(&[moments[6].clone(), moments[9].clone()], &[0.2, 1.0 / 15.0]) < 1e-15);
-        }
-        assert!(off(&unequal(0.5, 11.6, 3.6, 0.0, 12), &[0.5; 3]) < 1e-15);
-        // A third of a mean period, by a rule in doubles.
+    fn means_of_unequal_rods_are_the_known_ones() {
+        let apart = |found: [Big; 3], known: [f64; 3]| {
+            found.iter().zip(known).map(|(a, b)| (double(a) - b).abs()).fold(0.0, f64::max)
+        };
+        assert!(apart(unequal(0.5, 11.6, 3.6, 0.0, 12), [0.5; 3]) < 1e-15);
         let time_s = std::f64::consts::TAU * (3.0 + 1.0 / 3.0) / 0.5 / 3.0;
-        let known = |sd_percent| crate::isotropic::mean_projections_polydisperse(3.0, sd_percent, 1.0 / 3.0);
-        let found = unequal(0.5, 3.0, 10.0, time_s, 24);
-        assert!(off(&found, &known(10.0)) < 1e-10 && off(&found, &known(11.0)) > 1e-4);
-    }
-
-    /// The contact line of rods along 1 and 2 is along 3, where neither the flow nor a rod moves: nothing changes.
-    #[test]
-    fn where_nothing_moves_along_the_contact_line_nothing_changes() {
-        let pair = |tilt: f64| [0.1, 0.2, 0.3, 1.0, 0.0, 0.0, 3.0, 0.4, 0.3, 0.5, 0.0, 1.0, tilt, 5.0];
-        // ṗ of rods along 1 and 2: G r²/(r² + 1) along 2 and −G/(r² + 1) along 1.
-        let [a, b] = contact(2.0, &pair(0.0));
-        assert!(off(&a, &[0.0, 1.8, 0.0]).max(off(&b, &[-2.0 / 26.0, 0.0, 0.0])) < 1e-15);
-        assert!(off(&contact(2.0, &pair(0.1))[0], &[0.0, 1.8, 0.0]) > 1e-3);
+        let off = |sd_percent| {
+            let known = crate::isotropic::mean_projections_polydisperse(3.0, sd_percent, 1.0 / 3.0);
+            apart(unequal(0.5, 3.0, 10.0, time_s, 24), known)
+        };
+        assert!(off(10.0) < 1e-10 && off(11.0) > 1e-4);
     }
 }

@@ -55,22 +55,6 @@ mod tests {
     use crate::oracle::closed_form::angles_at;
 
     #[test]
-    fn it_moves_as_the_closed_form() {
-        for r in [0.1, 1.0, 2.0, 11.6, 1e3] {
-            let end = Place::mid_flip(r);
-            for turns in [0.0, 0.1, 0.7, 3.3] {
-                let p = end.before(turns).direction(r);
-                let theta = p.x.hypot(p.y).atan2(p.z);
-                let (phi, theta) = angles_at(p.y.atan2(p.x), theta, r, turns);
-                let moved = Vector3::new(theta.sin() * phi.cos(), theta.sin() * phi.sin(), theta.cos());
-                // A start along the flow is known in angles to ε, which is r_e² ε in the flip.
-                let enough = 1e-14 * (r + 1.0 / r).powi(2);
-                assert!(moved.cross(&end.direction(r)).norm() < enough, "{r} {turns}");
-            }
-        }
-    }
-
-    #[test]
     fn poles_and_the_plane_of_shear() {
         let at = |c, z, xy| Place::new(c, z, xy, 1e8).direction(1e8).into_inner();
         assert_eq!(at(0.0, -1.0, [1.0, 0.0]), -Vector3::z());

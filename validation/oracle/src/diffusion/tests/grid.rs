@@ -38,6 +38,10 @@ fn both_methods_agree() {
         (UNEQUAL, 4.0, 0.1, 32, 3.0),
         (UNEQUAL, 0.4, 0.1, 32, 3.0),
         (COUETTE, f64::INFINITY, 0.2, 24, 2.0),
+        (COUETTE, f64::INFINITY, 0.3, 28, f64::INFINITY),
+        (COUETTE, 3.0, 0.15, 28, f64::INFINITY),
+        (COUETTE, 0.3, 0.15, 28, f64::INFINITY),
+        ([[-0.2, 0.5, 0.0], [0.9, 0.2, 0.0], [0.0; 3]], 11.6, 0.3, 28, f64::INFINITY),
         (ASKEW, 3.0, 0.2, 20, 2.0),
         (ASKEW, 3.0, 0.2, 20, f64::INFINITY),
     ] {

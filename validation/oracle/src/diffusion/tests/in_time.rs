@@ -1,32 +1,22 @@
-//! Tests of densities in time: diffusion alone, free rods, the equation of the moments, single rods.
+//! Tests of densities in time: diffusion alone, free rods, the equation of the moments.
 
+use super::sharp::at_rest;
 use super::*;
 use crate::diffusion::bingham;
 use crate::reference::big::{Bits, double};
 use crate::reference::isotropic::Covariance;
 use crate::reference::motion::{Motion as Free, Unit};
 use nalgebra::Vector3;
-use rand::SeedableRng;
-use rand_distr::{Distribution, StandardNormal};
-use rand_pcg::Pcg64;
 
-/// At rest the part of degree l decays as e^{−l(l+1)D_r t}: a_ij − δ/3 as e^{−6D_r t}, and one part of a₄ as e^{−20D_r
-/// t}.
+/// At rest the part of degree l decays as e^{−l(l+1)D_r t}.
 #[test]
 fn diffusion_alone_has_the_known_decay() {
     let start = |p: [f64; 3]| 0.1 + 0.1 * (p[0] * p[1]).powi(2) + 0.05 * p[2] * (p[2] + p[0]);
     let still = Motion { strain: Matrix3::zeros(), spin: Vector3::zeros(), diffusivity: 0.3 };
     let error = |motion: &Motion| {
         let [first, last] = at(motion, Start::Density(&start), &[0.0, 0.8]).unwrap()[..] else { panic!() };
-        let (two, four) = ((-6.0 * 0.3 * 0.8f64).exp(), (-20.0 * 0.3 * 0.8f64).exp());
-        let expected = std::array::from_fn(|k| {
-            let third = if k < 3 { 1.0 / 3.0 } else { 0.0 };
-            third + (first.second[k] - third) * two
-        });
-        // Degrees 0 and 2 of a₁₂₁₂ follow from the second moments.
-        let low = |a: [f64; 6]| 1.0 / 15.0 + (a[0] + a[1] - 2.0 / 3.0) / 7.0;
-        let fourth = low(expected) + (first.fourth[3] - low(first.second)) * four;
-        off(&last.second, &expected).max((last.fourth[3] - fourth).abs())
+        let due = at_rest(&matrix(first.second), |q| entry(&first.fourth, q), 0.3 * 0.8);
+        off(&last.second, &due.0).max(off(&last.fourth, &due.1))
     };
     assert!(error(&still) < 1e-13, "{:e}", error(&still));
     // Not taken as steady while a difference of more than the rounding is left: 6D_r t = 21 and 42.
@@ -81,45 +71,6 @@ fn second_moments_change_by_their_own_equation() {
     for (name, wrong) in mistakes(motion) {
         assert!(off_rate(&at(&wrong, start, &times).unwrap(), 1.0 / 64.0, &motion) > 1e-4, "{name}");
     }
-}
-
-/// Single rods, with half the diffusion before and half after Jeffery's motion in each step; the tolerance is four
-/// standard errors.
-#[test]
-fn rods_one_by_one_agree() {
-    const RODS: usize = 20_000;
-    const STEPS: usize = 40;
-    let motion = Motion::new(ASKEW, 3.0, 0.1);
-    let time = 2.0;
-    let step = time / STEPS as f64;
-    let map = ((motion.strain + motion.spin.cross_matrix()) * step).exp();
-    let mut random = Pcg64::seed_from_u64(33);
-    let mut normal = |_: usize| -> f64 { StandardNormal.sample(&mut random) };
-    let mut rods: Vec<Vector3<f64>> = (0..RODS).map(|_| Vector3::from_fn(|i, _| normal(i)).normalize()).collect();
-    // A step across p has the variance 2D_r h in each direction; the error of its length is of the order of D_r²h.
-    let size = (motion.diffusivity * step).sqrt();
-    for _ in 0..STEPS {
-        for p in &mut rods {
-            for half in [true, false] {
-                let kick = Vector3::from_fn(|i, _| normal(i)) * size;
-                *p = (*p + kick - *p * p.dot(&kick)).normalize();
-                if half {
-                    *p = (map * *p).normalize();
-                }
-            }
-        }
-    }
-    let worst = |motion: &Motion| {
-        let found = matrix(at(motion, Start::Isotropic, &[time]).unwrap()[0].second);
-        let of = |i: usize, j: usize| {
-            let values = rods.iter().map(|p| p[i] * p[j]);
-            let mean = values.clone().sum::<f64>() / RODS as f64;
-            let variance = values.map(|x| (x - mean).powi(2)).sum::<f64>() / RODS as f64;
-            (mean - found[(i, j)]).abs() / (variance / RODS as f64).sqrt()
-        };
-        PAIRS.map(|(i, j)| of(i, j)).into_iter().fold(0.0, f64::max)
-    };
-    judge("rods", motion, worst, 4.0, 4.0);
 }
 
 #[test]

@@ -6,7 +6,6 @@ mod in_time;
 mod laws;
 mod of_operator;
 mod orbits;
-mod power_moments;
 mod sharp;
 mod steady;
 
