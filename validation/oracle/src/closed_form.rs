@@ -124,7 +124,7 @@ pub fn orbit_constant_cdf(c_b: f64, aspect_ratio: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::super::jeffery::angle_rates_per_s;
-    use super::super::quadrature::{integrate, mean_angle_by_quadrature, phase_means_by_quadrature, spread};
+    use super::super::quadrature::{integrate, spread};
     use super::*;
 
     /// True if r_e is far enough from 1 for a wrong use of r_e to show.
@@ -177,56 +177,7 @@ mod tests {
     }
 
     #[test]
-    fn angles_keep_the_orbit_constant() {
-        for (u, v) in spread(100) {
-            let r = 20f64.powf(2.0 * u - 1.0);
-            let (phi0, theta0) = (6.0 * v, 0.2 + 2.7 * u);
-            let now = angles_at(phi0, theta0, r, v);
-            let c = orbit_constant_from_angles(phi0, theta0, r);
-            let later = orbit_constant_from_angles(now.0, now.1, r);
-            assert!((later / c - 1.0).abs() < 1e-12, "{c} {later}");
-            let p = [theta0.sin() * phi0.cos(), theta0.sin() * phi0.sin(), theta0.cos()];
-            let from_p = ((r * p[0]).powi(2) + p[1] * p[1]).sqrt() / (r * p[2].abs());
-            assert!((from_p / c - 1.0).abs() < 1e-12);
-            // Wrong variant: not divided by r_e.
-            assert!(!is_rod_or_disc(r) || (from_p * r / c - 1.0).abs() > 1e-2);
-        }
-    }
-
-    #[test]
-    fn mean_angle_is_eq_19() {
-        for (u, _) in spread(200) {
-            let r = 1e8f64.powf(2.0 * u - 1.0);
-            let value = mean_angle(r);
-            // The tolerance is the quadrature's own round-off.
-            assert!((value - mean_angle_by_quadrature(r)).abs() < 2e-15, "{r}");
-            assert!((value + mean_angle(1.0 / r) - FRAC_PI_2).abs() < 1e-15);
-            // Wrong variant: φ at the middle of the quarter, T/8.
-            assert!(!is_rod_or_disc(r) || (value - r.atan()).abs() > 1e-9);
-        }
-        // The three branches meet, and the slope at r_e = 1 is (2/π)·½.
-        for r in [(1.0 + 0.42) / (1.0 - 0.42), (1.0 - 0.42) / (1.0 + 0.42)] {
-            let (below, above) = (mean_angle(r * (1.0 - 1e-14)), mean_angle(r * (1.0 + 1e-14)));
-            assert!((above - below).abs() < 3e-14);
-        }
-        let slope = (mean_angle(1.0 + 1e-5) - mean_angle(1.0 - 1e-5)) / 2e-5;
-        assert!((slope - 0.5 * FRAC_2_PI).abs() < 1e-10);
-    }
-
-    #[test]
-    fn phase_means_are_those_of_the_motion() {
-        for (u, v) in spread(100) {
-            let (r, c) = (1e4f64.powf(1.5 * u - 0.5), 1e3f64.powf(2.0 * v - 1.0));
-            let (closed, direct) = (phase_means(c, r), phase_means_by_quadrature(c, r));
-            for i in 0..3 {
-                // The tolerance is the round-off of eight panels and their halvings.
-                assert!((closed[i] - direct[i]).abs() < 1e-14, "{r} {c} {i}");
-            }
-            // Wrong variant: r_e upside down.
-            let wrong = phase_means(c, 1.0 / r);
-            let apart = (0..3).map(|i| (wrong[i] - direct[i]).abs());
-            assert!(!is_rod_or_disc(r) || apart.fold(0.0, f64::max) > 1e-5);
-        }
+    fn phase_means_have_their_limits() {
         for r in [0.2, 1.0, 1.0 + 1e-15, 11.6] {
             assert_eq!(phase_means(0.0, r), [0.0, 0.0, FRAC_2_PI * FRAC_PI_2]);
             let (plane, near) = (phase_means(f64::INFINITY, r), phase_means(1e17, r));

@@ -121,7 +121,6 @@ pub fn plateau_projections(aspect_ratio: f64) -> [f64; 3] {
 mod tests {
     use super::super::quadrature::spread;
     use super::*;
-    use ellip::elliprd;
 
     fn most_apart(a: [f64; 3], b: [f64; 3]) -> f64 {
         (0..3).map(|i| (a[i] - b[i]).abs()).fold(0.0, f64::max)
@@ -146,43 +145,6 @@ mod tests {
         for (r, sd_percent, within) in [(1.5, 5.0, 1e-13), (21.5, 5.0, 1e-13), (1.5, 30.0, 1e-11), (21.5, 30.0, 1e-11)]
         {
             assert!(most_apart(mean_projections_polydisperse(r, sd_percent, 0.0), [0.5; 3]) < within);
-        }
-    }
-
-    /// The same means by another method: z = cos θ₀ is integrated in closed form, φ₀ numerically.
-    /// With n = (cos φ₀, sin φ₀), f = F n in axes 1 and 2 and g = |f|²: ∫ z dz/|q| = 1/(1 + √g),
-    /// ∫ (1 − z²)^½ dz/|q| = R_D(0, g, 1)/3.
-    fn by_integral_over_phi(r: f64, turns: f64) -> [f64; 3] {
-        let (s, c) = (TAU * turns).sin_cos();
-        let f = |phi: f64| [c * phi.cos() - s / r * phi.sin(), r * s * phi.cos() + c * phi.sin()];
-        let g = |phi: f64| f(phi).iter().map(|x| x * x).sum::<f64>();
-        // Kinks at the zeros of f₁ and f₂; g has its narrow minimum and maximum on the axes of FᵀF.
-        let axis = 0.5 * (2.0 * s * c * (r - r.recip())).atan2(s * s * (r * r - (r * r).recip()));
-        let marks = [c.atan2(s / r), (-r * s).atan2(c), axis, axis + 0.5 * PI];
-        let mut breaks: Vec<f64> = marks.iter().map(|x| x.rem_euclid(PI)).collect();
-        breaks.extend([0.0, PI]);
-        breaks.sort_by(f64::total_cmp);
-        let j = |phi: f64| elliprd(0.0, g(phi), 1.0).unwrap() / 3.0;
-        [
-            integrate(|phi| f(phi)[0].abs() * j(phi), &breaks, 1e-15),
-            integrate(|phi| f(phi)[1].abs() * j(phi), &breaks, 1e-15),
-            integrate(|phi| 1.0 / (1.0 + g(phi).sqrt()), &breaks, 1e-15),
-        ]
-        .map(|integral| integral.value / PI)
-    }
-
-    #[test]
-    fn mean_projections_agree_with_the_integral_over_phi() {
-        for (u, v) in spread(60) {
-            let (r, turns) = (1e4f64.powf(1.5 * u - 0.5), v);
-            let (exact, other) = (mean_projections(r, turns), by_integral_over_phi(r, turns));
-            // f loses r_e² ε at the narrow minimum of g, which is 1/r_e² wide: r_e ε remains.
-            let tolerance = 3e-15 * r.max(1.0 / r).max(10.0);
-            let error = largest_ratio_error(exact, other);
-            assert!(error < tolerance, "{r} {turns} {error:e}");
-            // Wrong variant: r_e upside down, which exchanges axes 1 and 2.
-            let wrong = largest_ratio_error(mean_projections(1.0 / r, turns), other);
-            assert!(wrong > tolerance);
         }
     }
 

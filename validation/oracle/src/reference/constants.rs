@@ -201,12 +201,16 @@ mod tests {
     }
 
     #[test]
-    fn mean_angle_is_eq_19_on_both_sides_of_its_seams() {
-        for (u, _) in spread(60) {
-            let r = 1e6f64.powf(2.0 * u - 1.0);
+    fn mean_angles_are_eq_19_on_both_sides_of_their_seams() {
+        let seams = [1.0 - 1e-5, 1.0 + 1e-5, 1.42 / 0.58, 0.58 / 1.42];
+        let beside = seams.into_iter().flat_map(|r| [r * (1.0 - 1e-14), r * (1.0 + 1e-14)]);
+        for r in spread(200).map(|(u, _)| 1e8f64.powf(2.0 * u - 1.0)).chain(beside) {
             let found = mean_angle(&BITS.of(r));
             // The tolerance is the claimed accuracy of the quadrature.
             assert!(apart(&found, mean_angle_by_quadrature(r)) < 2e-15, "{r}");
+            assert!(apart(&found, closed_form::mean_angle(r)) < 4e-16, "{r}");
+            // Wrong variant: φ at the middle of the quarter, T/8.
+            assert!(r.ln().abs() < 0.1 || apart(&found, r.atan()) > 1e-9);
             let sum = found + mean_angle(&(BITS.of(1.0) / BITS.of(r)));
             assert!(((sum - BITS.pi() / BITS.of(2.0)) * BITS.of(1e50)).sqr() < BITS.of(1.0));
         }
@@ -218,12 +222,18 @@ mod tests {
 
     #[test]
     fn phase_means_are_those_of_the_motion() {
-        for (u, v) in spread(40) {
+        for (u, v) in spread(100) {
             let (r, c) = (1e4f64.powf(1.5 * u - 0.5), 1e3f64.powf(2.0 * v - 1.0));
             let cosine = BITS.of(1.0) / (BITS.of(1.0) + BITS.of(c).sqr()).sqrt();
             let found = phase_means(&(BITS.of(c) * &cosine), &cosine, &BITS.of(r));
             let expected = phase_means_by_quadrature(c, r);
+            // The tolerance is the round-off of eight panels and their halvings.
             assert!((0..3).all(|i| apart(&found[i], expected[i]) < 1e-14), "{r} {c}");
+            let in_doubles = closed_form::phase_means(c, r);
+            assert!((0..3).all(|i| apart(&found[i], in_doubles[i]) < 1e-15), "{r} {c}");
+            // Wrong variant: r_e upside down.
+            let wrong = closed_form::phase_means(c, 1.0 / r);
+            assert!(r.ln().abs() < 0.1 || (0..3).any(|i| apart(&found[i], wrong[i]) > 1e-5));
             // The motion itself, on a fine grid of phases, which converges geometrically for p².
             let n = 200_000;
             let (mut squares, beta) = ([0.0; 3], c.atan());
