@@ -237,35 +237,3 @@ fn derivatives(count: usize, at: usize, to: usize) -> (f64, f64) {
     let sign = if (at + to).is_multiple_of(2) { 0.5 } else { -0.5 };
     (sign / half.tan(), -sign / half.sin().powi(2))
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Steady density e^(kz²) in uniaxial extension, k = 3Λε̇/4D_r, along axis 3 and turned by cyclic axes.
-    #[test]
-    fn uniaxial_extension_has_the_density_of_bingham() {
-        let (rate, shape, diffusivity) = (0.5, -0.8, 0.1);
-        let k: f64 = 0.75 * shape * rate / diffusivity;
-        const NODES: i32 = 100_000;
-        let nodes = (0..NODES).map(|node| (f64::from(node) + 0.5) / f64::from(NODES));
-        let sums = nodes.fold([0.0; 3], |[one, two, three], z| {
-            let weight = (k * z * z).exp();
-            [one + weight, two + weight * z * z, three + weight * z]
-        });
-        let error = |diffusivity: f64| {
-            let along = |axis: usize| {
-                let mut l = [[0.0; 3]; 3];
-                (0..3).for_each(|i| l[i][i] = if i == axis { rate } else { -0.5 * rate });
-                means(l, shape, diffusivity, 32, f64::INFINITY).unwrap()
-            };
-            let own = along(2);
-            let second = [along(0).second[0], along(1).second[1], own.second[2]];
-            let off = second.map(|a| (a - sums[1] / sums[0]).abs()).into_iter().fold(0.0, f64::max);
-            off.max((own.third_projection - sums[2] / sums[0]).abs()).max((own.mass - 1.0).abs())
-        };
-        // The midpoint rule's error is 10⁻¹¹.
-        assert!(error(diffusivity) < 1e-10, "{:e}", error(diffusivity));
-        assert!(error(1.01 * diffusivity) > 1e-4);
-    }
-}

@@ -1,6 +1,5 @@
 //! Flows one after another.
 
-use super::sharp::at_rest;
 use super::*;
 use crate::angle_grid;
 use crate::diffusion::{FlowStep, densities, through};
@@ -43,22 +42,6 @@ fn both_methods_agree_through_flows() {
         let mut swapped = flows.clone();
         swapped.swap(0, 1);
         assert!(error(&swapped) > 1e-4);
-    }
-}
-
-/// Whatever the flow left fades at rest by the closed form.
-#[test]
-fn at_rest_what_a_flow_left_fades_by_the_closed_form() {
-    for (flow, time) in [(COUETTE, 3.0), (PLANAR, 2.0), (ASKEW, 2.0)] {
-        let flows = [(flow, 0.2, time), (REST, 0.2, 1.0)];
-        let found = through(&steps(&flows), Start::Isotropic, &[time, time + 0.4, time + 2.0]).unwrap();
-        let left = found[0];
-        for (means, after) in found[1..].iter().zip([0.4, 2.0]) {
-            let due = |d_t| at_rest(&matrix(left.second), |q| entry(&left.fourth, q), d_t);
-            let error = |d_t| off(&means.second, &due(d_t).0).max(off(&means.fourth, &due(d_t).1));
-            assert!(error(0.2 * after) < 2e-11, "{:e}", error(0.2 * after));
-            assert!(error(0.201 * after) > 1e-5);
-        }
     }
 }
 

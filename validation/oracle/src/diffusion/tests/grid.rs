@@ -19,6 +19,7 @@ fn apart(gradient: [[f64; 3]; 3], r: f64, c_i: f64, rings: usize, time: f64) -> 
     let d = Matrix3::from_fn(|i, j| 0.5 * (gradient[i][j] + gradient[j][i]));
     let rate = (2.0 * d.norm_squared()).sqrt();
     let grid = angle_grid::means(gradient, shape_of(r), c_i * rate, rings, time).unwrap();
+    assert!((grid.mass - 1.0).abs() < 1e-10);
     move |motion| {
         let found =
             if time.is_finite() { at(motion, Start::Isotropic, &[time]).unwrap()[0] } else { steady(motion).unwrap() };
@@ -35,6 +36,8 @@ fn both_methods_agree() {
         (PLANAR, f64::INFINITY, 0.1, 32, 8.0),
         (PLANAR, f64::INFINITY, 0.1, 32, f64::INFINITY),
         (ALONG_FIRST, 0.3, 0.1, 32, 8.0),
+        (ALONG_FIRST, 0.3, 0.1, 32, f64::INFINITY),
+        ([[-0.25, 0.0, 0.0], [0.0, -0.25, 0.0], [0.0, 0.0, 0.5]], 0.3, 0.1, 32, f64::INFINITY),
         (UNEQUAL, 4.0, 0.1, 32, 3.0),
         (UNEQUAL, 0.4, 0.1, 32, 3.0),
         (COUETTE, f64::INFINITY, 0.2, 24, 2.0),

@@ -1,4 +1,4 @@
-//! Tests of densities in time: diffusion alone, free rods, the equation of the moments.
+//! Tests of densities in time: diffusion alone, free rods, late times, Bingham's starts.
 
 use super::sharp::at_rest;
 use super::*;
@@ -47,29 +47,6 @@ fn without_diffusion_rods_are_free() {
         let motion = Motion::new(gradient, aspect_ratio, 0.0);
         assert!(error(&Motion { diffusivity: 1e-9, ..motion }) > 1e-11);
         judge((gradient, aspect_ratio), motion, error, 1e-12, 1e-3);
-    }
-}
-
-/// The change of the second moments is Simpson's sum of their rate, also from a plane; the rate needs a_ijkl.
-#[test]
-fn second_moments_change_by_their_own_equation() {
-    const STEPS: usize = 64;
-    let smooth = |p: [f64; 3]| (1.5 * p[0] * p[2] + p[1] * p[1]).exp();
-    let (start, plane) = (Start::Density(&smooth), Start::Plane([0.0, 0.0, 1.0]));
-    // h⁴/180 of a fourth derivative of about 10: 3·10⁻⁹ over a time of 1, 1e-7 over a time of 2.
-    for (start, from, span, motion, allowed, seen) in [
-        (start, 1.0, 1.0, Motion::new(COUETTE, f64::INFINITY, 0.05), 1e-8, 1e-4),
-        (start, 1.0, 1.0, Motion::new(ASKEW, 3.0, 0.1), 1e-8, 1e-4),
-        (plane, 0.0, 2.0, Motion::diffusing(COUETTE, 5.0, 0.02), 1e-7, 1e-3),
-    ] {
-        let times: [f64; STEPS + 1] = std::array::from_fn(|k| from + span * k as f64 / STEPS as f64);
-        let all = at(&motion, start, &times).unwrap();
-        judge(start, motion, |by| off_rate(&all, span / STEPS as f64, by), allowed, seen);
-    }
-    // A wrong motion, by the right one's equation.
-    let (motion, times) = (Motion::new(ASKEW, 3.0, 0.1), std::array::from_fn::<f64, 65, _>(|k| 1.0 + k as f64 / 64.0));
-    for (name, wrong) in mistakes(motion) {
-        assert!(off_rate(&at(&wrong, start, &times).unwrap(), 1.0 / 64.0, &motion) > 1e-4, "{name}");
     }
 }
 

@@ -35,14 +35,6 @@ fn judge(what: impl Debug, motion: Motion, error: impl Fn(&Motion) -> f64, allow
     }
 }
 
-/// By how much second moments at equal times change otherwise than by the rate of `by`, from Simpson's rule.
-fn off_rate(all: &[Means], step: f64, by: &Motion) -> f64 {
-    let last = all.len() - 1;
-    let weight = |k: usize| if k == 0 || k == last { 1.0 } else { 2.0 + 2.0 * (k % 2) as f64 };
-    let rates = all.iter().enumerate().map(|(k, means)| rate(by, means) * (step * weight(k) / 3.0));
-    (matrix(all[last].second) - matrix(all[0].second) - rates.sum::<Matrix3<f64>>()).amax()
-}
-
 fn matrix(second: [f64; 6]) -> Matrix3<f64> {
     Matrix3::from_fn(|i, j| {
         let pair = (i.min(j), i.max(j));
