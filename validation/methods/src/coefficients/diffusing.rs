@@ -87,34 +87,3 @@ impl Diffusing {
 fn drawn(rng: &mut Pcg64Dxsm) -> Vector3<f64> {
     Vector3::from_fn(|_, _| StandardNormal.sample(rng))
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn directions_are_forgotten_at_twice_the_diffusivity() {
-        // Without strain (Λ = 0) the liquid turns rods about axis 3 alone, and ⟨p₃⟩ falls as exp(−2 C_I γ).
-        let diffusion = Diffusion::isotropic(0.0, 0.1, 0.01);
-        let mut rods = Diffusing::isotropic(20_000, diffusion, 1);
-        rods.rods.fill(Vector3::z());
-        (0..500).for_each(|_| rods.step());
-        let mean = rods.rods.iter().map(|p| p.z).sum::<f64>() / 20_000.0;
-        // |p₃| ≤ 1: five standard errors of 20 000 rods are 0.035 at most; the step's own error is 3·2C_I·0.01 = 0.6 %.
-        assert!((mean - (-1.0_f64).exp()).abs() < 0.035 + 0.006, "{mean}");
-    }
-
-    #[test]
-    fn free_rods_keep_their_orbits() {
-        // A.5 for r_e = 3: the ratio of r_e²p₁² + p₂² to p₃² is constant.
-        let p = Vector3::new(0.2, 0.5, 0.7);
-        let c = |p: Vector3<f64>| (9.0 * p.x * p.x + p.y * p.y) / (p.z * p.z);
-        for strain in [0.1, 1.0, 7.0] {
-            let q = free(0.8, strain) * p;
-            assert!((c(q) / c(p) - 1.0).abs() < 1e-13, "{strain}");
-        }
-        // A quarter period, π/2 (r_e + 1/r_e), takes axis 1 to axis 2.
-        let quarter = free(0.8, std::f64::consts::FRAC_PI_2 * (3.0 + 1.0 / 3.0)) * Vector3::x();
-        assert!(quarter.x.abs() < 1e-14 && (quarter.y - 3.0).abs() < 1e-13);
-    }
-}

@@ -52,13 +52,6 @@ mod tests {
     use std::collections::BTreeSet;
 
     #[test]
-    fn a_full_run_draws_four_times_as_much() {
-        let design = Design { effect: 0.1, sd: 1.0 };
-        let full = Effort { full: true, ..Effort::gate() };
-        assert_eq!((Effort::gate().samples(design), full.samples(design)), (design.samples(), 4 * design.samples()));
-    }
-
-    #[test]
     fn every_stream_of_every_seed_has_a_seed_of_its_own() {
         let of = |seed: u64| (0..100).map(move |stream| Effort { seed, ..Effort::gate() }.seed(stream));
         let seeds: BTreeSet<_> = (0..100).flat_map(of).collect();
