@@ -139,7 +139,7 @@ mod tests {
             let knee = r.atan();
             let breaks = [-FRAC_PI_2, -knee, 0.0, knee, FRAC_PI_2];
             let half = integrate(|phi| 1.0 / (g * angle_rates_per_s(1.0, r, phi, 1.0).0), &breaks, 1e-12);
-            let ratio = 2.0 * half.value / period_s(g, r);
+            let ratio = 2.0 * half / period_s(g, r);
             assert!((ratio - 1.0).abs() < 1e-13, "{r} {ratio}");
             // Wrong variant: r_e alone for r_e + 1/r_e.
             assert!((ratio * period_s(g, r) * g / (TAU * r) - 1.0).abs() > 1e-5);

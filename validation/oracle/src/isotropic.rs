@@ -94,7 +94,7 @@ pub fn mean_over_aspect_ratios<const N: usize>(
             let r = (mean_aspect_ratio + z * sd).max(1e-12);
             gaussian.pdf(z) * f(r, turns_at(r))[axis]
         };
-        integrate(weighted, &breaks, 1e-11).value / mass
+        integrate(weighted, &breaks, 1e-11) / mass
     })
 }
 
@@ -113,7 +113,7 @@ pub fn plateau_projections(aspect_ratio: f64) -> [f64; 3] {
             let c = ln_c.exp();
             c * orbit_constant_density(c, aspect_ratio) * phase_means(c, aspect_ratio)[axis]
         };
-        integrate(weighted, &breaks, 1e-16).value
+        integrate(weighted, &breaks, 1e-16)
     })
 }
 
@@ -198,7 +198,7 @@ mod tests {
         for (u, _) in spread(30) {
             let r = 1e4f64.powf(1.75 * u - 0.75);
             let knee = r.max(1.0 / r).recip() / TAU;
-            let quarter = |i: usize| integrate(|t| mean_projections(r, t)[i], &[0.0, knee, 0.25], 1e-15).value;
+            let quarter = |i: usize| integrate(|t| mean_projections(r, t)[i], &[0.0, knee, 0.25], 1e-15);
             let (plateau, over_time) = (plateau_projections(r), [0, 1, 2].map(|i| 4.0 * quarter(i)));
             // The tolerance is the round-off of about ten panels on either side.
             let error = largest_ratio_error(plateau, over_time);

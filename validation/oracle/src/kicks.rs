@@ -88,9 +88,9 @@ pub fn tail_of_isotropic(aspect_ratio: f64) -> f64 {
             let along = 0.5 * in_plane * sin;
             over_turns(along, (0.25 * in_plane - along * along).max(0.0))
         };
-        integrate(at, &[0.0, 1.0], 1e-9).value
+        integrate(at, &[0.0, 1.0], 1e-9)
     };
-    let eighth = integrate(over_height, &[0.0, 0.25 * PI], 1e-9).value;
+    let eighth = integrate(over_height, &[0.0, 0.25 * PI], 1e-9);
     0.25 * eighth / (0.25 * PI)
 }
 

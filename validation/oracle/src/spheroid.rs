@@ -28,8 +28,8 @@ fn integrals(r: f64) -> [f64; 3] {
         breaks.extend([1.0, 10.0, 100.0].map(|k| (k / square).min(1.0)));
         breaks.sort_by(f64::total_cmp);
         // A first integral without refinement gives the size, to which the tolerance is relative.
-        let size = integrate(by_rest, &breaks, f64::INFINITY).value;
-        scale * integrate(by_rest, &breaks, 1e-14 * size).value
+        let size = integrate(by_rest, &breaks, f64::INFINITY);
+        scale * integrate(by_rest, &breaks, 1e-14 * size)
     };
     // u² + r²(1 − u²).
     let q = |u: f64, rest: f64| u * u + square * rest;

@@ -93,7 +93,7 @@ fn phase_means(motion: &Motion, _: &Effort) -> Evidence {
         let breaks = [0.0, (0.25 * edge).min(0.05), edge.min(0.1), (4.0 * edge).min(0.2), 0.25];
         worst([0, 1, 2].map(|axis| {
             let value = |turns: f64| motion(r, &start, turns)[axis].abs();
-            (4.0 * quadrature::integrate(value, &breaks, 1e-13).value - expected[axis]).abs()
+            (4.0 * quadrature::integrate(value, &breaks, 1e-13) - expected[axis]).abs()
         }))
     });
     let because = "four panels to the quadrature's tolerance of 10⁻¹³, times four for the quarter period";

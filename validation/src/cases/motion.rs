@@ -210,7 +210,7 @@ fn mean_angle(angle: &Angle, _: &Effort) -> Vec<Evidence> {
         breaks.extend((0..).map(|k| edge * 4f64.powi(k)).take_while(|at| *at < 0.2));
         breaks.push(0.25);
         let quarter = quadrature::integrate(|turns| angle(r, turns), &breaks, QUARTER);
-        (4.0 * quarter.value, 4.0 * QUARTER * (breaks.len() - 1) as f64)
+        (4.0 * quarter, 4.0 * QUARTER * (breaks.len() - 1) as f64)
     };
     let (mut worst, mut thread) = (0.0f64, 0.0f64);
     for r in [1.0f64, 1.01, 2.0, 5.0, 11.6, 14.2, 50.0, 1e3] {

@@ -60,7 +60,7 @@ pub(super) fn over_orbits(aspect_ratio: f64, up_to: f64, tolerance: f64, f: impl
     breaks.sort_by(f64::total_cmp);
     breaks.retain(|at| *at < up_to);
     breaks.push(up_to);
-    integrate(weighted, &breaks, tolerance).value
+    integrate(weighted, &breaks, tolerance)
 }
 
 /// a₁₁, a₂₂ and a₃₃ of rods in orbit C, uniform in phase.

@@ -190,7 +190,8 @@ mod tests {
     use super::*;
     use crate::closed_form;
     use crate::isotropic::plateau_projections;
-    use crate::quadrature::{mean_angle_by_quadrature, phase_means_by_quadrature, spread};
+    use crate::quadrature::{integrate, spread};
+    use std::f64::consts::TAU;
 
     fn apart(found: &Big, expected: f64) -> f64 {
         (double(found) - expected).abs()
@@ -206,8 +207,10 @@ mod tests {
         let beside = seams.into_iter().flat_map(|r| [r * (1.0 - 1e-14), r * (1.0 + 1e-14)]);
         for r in spread(200).map(|(u, _)| 1e8f64.powf(2.0 * u - 1.0)).chain(beside) {
             let found = mean_angle(&BITS.of(r));
-            // The tolerance is the claimed accuracy of the quadrature.
-            assert!(apart(&found, mean_angle_by_quadrature(r)) < 2e-15, "{r}");
+            // Eq. 19 as it stands, with a panel that ends where φ is 45° and another at a quarter period.
+            let phi = |turns: f64| (r * (TAU * turns).sin()).atan2((TAU * turns).cos());
+            let expected = 4.0 * integrate(phi, &[0.0, r.recip().atan() / TAU, 0.25], 1e-15);
+            assert!(apart(&found, expected) < 2e-15, "{r}");
             assert!(apart(&found, closed_form::mean_angle(r)) < 4e-16, "{r}");
             // Wrong variant: φ at the middle of the quarter, T/8.
             assert!(r.ln().abs() < 0.1 || apart(&found, r.atan()) > 1e-9);
@@ -226,7 +229,17 @@ mod tests {
             let (r, c) = (1e4f64.powf(1.5 * u - 0.5), 1e3f64.powf(2.0 * v - 1.0));
             let cosine = BITS.of(1.0) / (BITS.of(1.0) + BITS.of(c).sqr()).sqrt();
             let found = phase_means(&(BITS.of(c) * &cosine), &cosine, &BITS.of(r));
-            let expected = phase_means_by_quadrature(c, r);
+            // The motion itself over a whole period: panels end where a component is 0 or φ is 45° off an axis.
+            let (sin_beta, cos_beta) = c.atan().sin_cos();
+            let squares_at = |turns: f64| {
+                let (s, co) = (TAU * turns).sin_cos();
+                let q = [sin_beta * co, r * sin_beta * s, cos_beta].map(|x| x * x);
+                q.map(|x| x / (q[0] + q[1] + q[2]))
+            };
+            let knee = r.recip().atan() / TAU;
+            let mut breaks = [0.0, 0.25, 0.5, 0.75, 1.0, knee, 0.5 - knee, 0.5 + knee, 1.0 - knee];
+            breaks.sort_by(f64::total_cmp);
+            let expected = [0, 1, 2].map(|i| integrate(|turns| squares_at(turns)[i].sqrt(), &breaks, 1e-15));
             // The tolerance is the round-off of eight panels and their halvings.
             assert!((0..3).all(|i| apart(&found[i], expected[i]) < 1e-14), "{r} {c}");
             let in_doubles = closed_form::phase_means(c, r);
@@ -234,14 +247,12 @@ mod tests {
             // Wrong variant: r_e upside down.
             let wrong = closed_form::phase_means(c, 1.0 / r);
             assert!(r.ln().abs() < 0.1 || (0..3).any(|i| apart(&found[i], wrong[i]) > 1e-5));
-            // The motion itself, on a fine grid of phases, which converges geometrically for p².
+            // A fine grid of phases converges geometrically for p².
             let n = 200_000;
-            let (mut squares, beta) = ([0.0; 3], c.atan());
+            let mut squares = [0.0; 3];
             for k in 0..n {
-                let (s, co) = (std::f64::consts::TAU * f64::from(k) / f64::from(n)).sin_cos();
-                let q = [beta.sin() * co, r * beta.sin() * s, beta.cos()];
-                let long: f64 = q.iter().map(|x| x * x).sum();
-                (0..3).for_each(|i| squares[i] += q[i] * q[i] / long / f64::from(n));
+                let share = squares_at(f64::from(k) / f64::from(n));
+                (0..3).for_each(|i| squares[i] += share[i] / f64::from(n));
             }
             assert!((0..3).all(|i| apart(&found[3 + i], squares[i]) < 1e-12), "{r} {c}");
             let sum = &found[3] + &found[4] + &found[5] - BITS.of(1.0);

@@ -52,7 +52,6 @@ impl Place {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::oracle::closed_form::angles_at;
 
     #[test]
     fn poles_and_the_plane_of_shear() {
