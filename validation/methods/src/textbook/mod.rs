@@ -4,7 +4,7 @@
 pub mod extrapolated;
 pub mod tableaus;
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{Matrix3, Rotation3, Vector3};
 use ode_solvers::dop_shared::OutputType;
 use ode_solvers::{Dop853, System};
 use tableaus::Tableau;
@@ -121,7 +121,7 @@ impl Motion {
     }
     fn kept(&self, x: Vector) -> Vector {
         match self.form {
-            Form::Normalised | Form::Linear => unit(x),
+            Form::Normalised | Form::Linear => x.normalize(),
             _ => x,
         }
     }
@@ -134,10 +134,6 @@ impl Motion {
             _ => x,
         }
     }
-}
-
-fn unit(x: Vector) -> Vector {
-    x / x.dot(&x).sqrt()
 }
 
 impl System<f64, Vector> for &Motion {
@@ -242,12 +238,12 @@ fn stepper<'a>(method: &'a Method, motion: &'a Motion, start: Vector, h: f64) ->
         Method::LieGroup { tableau, rkmk } => Box::new(move |x| lie(motion, tableau, *rkmk, &x, h)),
         Method::Splitting { turning, stretching } => {
             let part = |sign: f64| (motion.a + motion.a.transpose() * sign) * 0.5;
-            let maps = |m: Matrix, lengths: &[f64]| lengths.iter().map(|c| exponential(&m, c * h)).collect::<Vec<_>>();
+            let maps = |m: Matrix, lengths: &[f64]| lengths.iter().map(|c| (m * (c * h)).exp()).collect::<Vec<_>>();
             let (turns, stretches) = (maps(part(-1.0), turning), maps(part(1.0), stretching));
             Box::new(move |x| {
                 let pairs = turns.iter().zip(&stretches);
                 let x = pairs.fold(x, |x, (turn, stretch)| stretch * (turn * x));
-                unit(turns.get(stretches.len()).map_or(x, |turn| turn * x))
+                turns.get(stretches.len()).map_or(x, |turn| turn * x).normalize()
             })
         }
         Method::Adaptive { .. } | Method::DormandPrince8 => Box::new(|x| x),
@@ -270,24 +266,12 @@ fn implicit(motion: &Motion, a: &[Vec<f64>], b: &[f64], x: &Vector, h: f64) -> V
     sum(x, h, b, &k)
 }
 
-/// The rotation of `p` by the rotation vector `about`, by Rodrigues's formula.
-fn turned(about: &Vector, p: &Vector) -> Vector {
-    let angle = about.dot(about).sqrt();
-    let (s, c) = if angle < 1e-4 {
-        (1.0 - angle * angle / 6.0, 0.5 - angle * angle / 24.0)
-    } else {
-        (angle.sin() / angle, (1.0 - angle.cos()) / (angle * angle))
-    };
-    let once = about.cross(p);
-    p + once * s + about.cross(&once) * c
-}
-
 fn lie(motion: &Motion, tableau: &Tableau, rkmk: bool, p: &Vector, h: f64) -> Vector {
     let omega = |p: &Vector| p.cross(&(motion.a * p));
     let mut k: Vec<Vector> = Vec::new();
     for row in &tableau.a {
         let v = sum(&Vector::zeros(), h, row, &k);
-        let w = omega(&turned(&v, p));
+        let w = omega(&(Rotation3::new(v) * p));
         // dexp⁻¹ to the second commutator.
         k.push(if rkmk {
             let once = v.cross(&w);
@@ -296,21 +280,7 @@ fn lie(motion: &Motion, tableau: &Tableau, rkmk: bool, p: &Vector, h: f64) -> Ve
             w
         });
     }
-    turned(&sum(&Vector::zeros(), h, &tableau.b, &k), p)
-}
-
-/// The exponential exp(mt), by scaling and squaring of its series.
-fn exponential(m: &Matrix, t: f64) -> Matrix {
-    let norm = m.transpose().iter().map(|x| (x * t).abs()).sum::<f64>();
-    let halvings = norm.max(1e-300).log2().ceil().max(0.0) as i32 + 3;
-    let small = m.map(|x| x * t / 2f64.powi(halvings));
-    let (mut term, mut all) = (Matrix::identity(), Matrix::identity());
-    for k in 1..18 {
-        term = term * small / f64::from(k);
-        all += term;
-    }
-    (0..halvings).for_each(|_| all *= all);
-    all
+    Rotation3::new(sum(&Vector::zeros(), h, &tableau.b, &k)) * p
 }
 
 /// Number of steps, accepted or rejected, after which an adaptive method gives up.

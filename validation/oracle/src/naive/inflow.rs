@@ -41,15 +41,10 @@ type Face = (usize, bool);
 const FACES: [Face; 6] = [(0, false), (0, true), (1, false), (1, true), (2, false), (2, true)];
 
 /// The point of a face at these shares of its edges, in mm.
-fn place((axis, far): Face, shares: [f64; 2], edges_mm: [f64; 3]) -> [f64; 3] {
-    let at = if far { edges_mm[axis] } else { 0.0 };
-    let [j, k] = shares;
-    let [a, b, c] = edges_mm;
-    match axis {
-        0 => [at, j * b, k * c],
-        1 => [j * a, at, k * c],
-        _ => [j * a, k * b, at],
-    }
+fn place((axis, far): Face, [j, k]: [f64; 2], edges_mm: [f64; 3]) -> [f64; 3] {
+    let far = f64::from(u8::from(far));
+    let shares = [[far, j, k], [j, far, k], [j, k, far]][axis];
+    [0, 1, 2].map(|i| shares[i] * edges_mm[i])
 }
 
 /// The velocity into the volume at a point of a face, mm/s.

@@ -23,7 +23,6 @@ impl Replicas {
     }
 }
 
-/// A scene's replicas.
 pub(super) struct Run {
     plan: Plan,
     replicas: Vec<Replica>,
@@ -35,7 +34,6 @@ impl Run {
         self.plan.times()
     }
 
-    /// The scene.
     pub(super) fn scene(&self) -> &Scene {
         self.plan.scene()
     }
@@ -87,12 +85,13 @@ impl Runs {
     /// Runs the scenes over all ranks; `finished` is called on the root for each replica, after its scene. `None`
     /// except on the root.
     pub(super) fn new(plans: Vec<(&'static str, Plan)>, finished: &dyn Fn()) -> Result<Option<Self>, String> {
-        let alike = |a: &(_, Plan), b: &(_, Plan)| same(a.1.scene(), b.1.scene());
-        let first = |k: usize| plans.iter().position(|other| alike(other, &plans[k]));
+        let untitled = |plan: &Plan| Scene { title: String::new(), ..plan.scene().clone() };
+        let first = |k: usize| plans.iter().position(|other| untitled(&other.1) == untitled(&plans[k].1));
         let own: Vec<_> = (0..plans.len()).filter(|k| first(*k) == Some(*k)).collect();
         let job = |job: usize| {
             let (name, plan) = &plans[own[job]];
-            replicas(plan).map_err(|error| format!("{name}: {error}"))
+            let replicas = 0..plan.scene().ensemble.replicas;
+            ensemble::replicas_of(plan, replicas, &|| ()).map_err(|error| format!("{name}: {error}"))
         };
         let arrived = |job: usize, _: &_| {
             let shared = (0..plans.len()).filter(|k| first(*k) == Some(own[job]));
@@ -112,23 +111,10 @@ impl Runs {
         Ok(Some(Self(named.collect())))
     }
 
-    /// The run of a scene.
     pub(super) fn get(&self, name: &str) -> Result<&Run, String> {
         let run = self.0.get(name);
         run.map(Arc::as_ref).ok_or_else(|| format!("{name}: no figure's scene has this name"))
     }
-}
-
-/// Every replica of a scene.
-fn replicas(plan: &Plan) -> Result<Vec<Replica>, String> {
-    let replicas = 0..plan.scene().ensemble.replicas;
-    ensemble::replicas_of(plan, replicas, &|| ()).map_err(|error| error.to_string())
-}
-
-/// True if two scenes differ only in their titles.
-fn same(a: &Scene, b: &Scene) -> bool {
-    let untitled = |scene: &Scene| Scene { title: String::new(), ..scene.clone() };
-    untitled(a) == untitled(b)
 }
 
 /// The plans of the figures' scenes, with the number of replicas in `replicas`.

@@ -103,13 +103,10 @@ impl Free {
         (rods, tried.into_iter().map(|(_, error)| error).collect())
     }
 
-    /// The curves of all `starts`; run times are of one core.
-    pub fn bench(&self, starts: &[Start], amount: Amount, budget: Budget) -> Bench {
-        Bench {
-            free: *self,
-            exact: self.exact(),
-            curves: (starts.iter()).map(|start| self.curve(start, amount, budget)).collect(),
-        }
+    /// The curves of all starts; run times are of one core.
+    pub fn bench(&self, amount: Amount, budget: Budget) -> Bench {
+        let curves = starts::ALL.iter().map(|start| self.curve(start, amount, budget)).collect();
+        Bench { free: *self, exact: self.exact(), curves }
     }
 
     fn curve(&self, start: &Start, amount: Amount, budget: Budget) -> StartCurve {

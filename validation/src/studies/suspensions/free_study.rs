@@ -2,7 +2,6 @@
 
 use super::free::{Amount, Bench, Point, SCENES, StartCurve, TARGETS};
 use super::*;
-use crate::methods::starts;
 use crate::studies::work_precision::Budget;
 use crate::studies::work_precision::rows::seconds;
 use crate::studies::work_precision::study::{NOT_REACHED, time};
@@ -22,7 +21,7 @@ fn run(request: &Request) -> Result<Option<Findings>, String> {
     let amount = request.effort.pick(Amount::QUICK, Amount::FULL);
     let budget = request.effort.pick(Budget::QUICK, Budget::FULL);
     let chosen = SCENES.into_iter().filter(|free| (request.wanted)(free.scene));
-    let benches: Vec<_> = chosen.map(|free| free.bench(&starts::ALL, amount, budget)).collect();
+    let benches: Vec<_> = chosen.map(|free| free.bench(amount, budget)).collect();
     let curves = benches.first().map_or(&[][..], |bench| &bench.curves);
     let steepest = curves.iter().min_by(|a, b| a.exponent.total_cmp(&b.exponent));
     let answer = steepest.map_or(String::new(), |curve| {

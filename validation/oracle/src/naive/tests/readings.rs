@@ -86,22 +86,6 @@ fn a_kick_is_added_to_the_exact_step() {
 }
 
 #[test]
-fn contacts_that_change_nothing_cost_nothing_beside_the_exact_step() {
-    let away = |update| {
-        let in_plane = |p: &mut NaiveProblem| {
-            p.orientation = Start::Fixed { phi_rad: 0.3, theta_rad: FRAC_PI_2 };
-            // rods of many aspect ratios do not stay parallel
-            (p.aspect_ratio_sd_percent, p.update) = (10.0, update);
-        };
-        let [one, free] = [0.5, 0.0].map(|alpha| run(fibres(50, alpha, in_plane), 200));
-        assert!(one.collisions > 50 && free.collisions == 0);
-        far(&one.orientations, &free.orientations)
-    };
-    assert!(away(Update::ExactStepAndKick) < 1e-9);
-    assert!(away(Update::Rotation) > 1e-3);
-}
-
-#[test]
 fn a_scaled_overshoot_is_that_of_the_new_place() {
     let mut naive = Naive::new(fibres(50, 0.0, |p| p.reading.replacement = Replacement::ScaledOvershoot));
     let (mut draws, dt) = (stream(1, 0, 4), naive.problem.time_step_s());
