@@ -5,6 +5,7 @@
 //!     validation/src/serve/problems/data/folgar-tucker.csv
 
 use rayon::prelude::*;
+use shearbed_validation::judge::statistics::Sample;
 use shearbed_validation::oracle::naive::{Lines, Mistake, Naive, NaiveProblem, Who, mean_projections};
 use shearbed_validation::oracle::reference::big::digits;
 use shearbed_validation::oracle::reference::unequal::means_to_22_digits;
@@ -50,7 +51,6 @@ fn unequal_rods() -> String {
     table
 }
 
-/// Replicas of each interpretation.
 const REPLICAS: u64 = 600;
 
 /// Means and standard errors of suspensions with other interpretations of the paper and with mistakes, by the naive
@@ -87,10 +87,8 @@ fn interpretations() -> String {
             for (k, time_s) in asked.times_s.iter().enumerate() {
                 table += &format!("{name},{problem},{time_s:?}");
                 for i in 0..3 {
-                    let n = REPLICAS as f64;
-                    let mean = all.iter().map(|of| of[k][i]).sum::<f64>() / n;
-                    let square = all.iter().map(|of| (of[k][i] - mean).powi(2)).sum::<f64>();
-                    table += &format!(",{mean:.6},{:.1e}", (square / n / (n - 1.0)).sqrt());
+                    let Sample { mean, se, .. } = Sample::of(all.iter().map(|of| of[k][i]));
+                    table += &format!(",{mean:.6},{se:.1e}");
                 }
                 table += "\n";
             }

@@ -143,7 +143,6 @@ fn apart(a: &Rows, b: &Rows) -> f64 {
     each.fold(0.0, f64::max)
 }
 
-/// The answer of a code to a problem.
 fn values(code: &Code, loaded: &LoadedProblem, strain: f64) -> Rows {
     let six = |a: &M| (code.written)([a[0][0], a[1][1], a[2][2], a[0][1], a[0][2], a[1][2]]);
     let matrix = |x: &[f64]| -> M { [[x[0], x[3], x[4]], [x[3], x[1], x[5]], [x[4], x[5], x[2]]] };

@@ -9,7 +9,7 @@
 mod tests;
 
 use crate::reference::big::{Big, Bits};
-use crate::reference::motion::{Matrix as Square, image, matrix, product};
+use crate::reference::motion::{Matrix as Square, Motion, image, matrix, product};
 use std::array::from_fn;
 
 /// The length of a rod's motion.
@@ -78,32 +78,19 @@ impl Rod {
         let square = big(self.aspect_ratio) * big(self.aspect_ratio);
         let below = &square + big(1.0);
         let third = (&l[0][0] + &l[1][1] + &l[2][2]) * (&square - big(1.0)) / big(3.0);
-        let time = time_s(&l, self.aspect_ratio, span, bits);
+        let motion = Motion { gradient_per_s: self.gradient_per_s, aspect_ratio: self.aspect_ratio };
+        let time = match span {
+            Span::Seconds(time_s) => big(time_s),
+            Span::Strain(strain) => big(strain) / motion.strain_rate_per_s(Bits(bits)),
+            Span::CouettePeriods(periods, each, shear_rate_per_s) => {
+                motion.strain_per_period(Bits(bits)) / big(shear_rate_per_s) * big(periods) / big(each)
+            }
+        };
         let exponent = matrix(|i, j| {
             let trace = if i == j { third.clone() } else { big(0.0) };
             (&square * &l[i][j] - &l[j][i] - trace) * &time / &below
         });
         scaled(image(&exponential(exponent, bits), &self.p.map(big)))
-    }
-}
-
-fn time_s(l: &Square, aspect_ratio: f64, span: Span, bits: usize) -> Big {
-    let big = |x| Bits(bits).of(x);
-    match span {
-        Span::Seconds(time_s) => big(time_s),
-        Span::Strain(strain) => {
-            let mut sum = big(0.0);
-            for (i, j) in (0..3).flat_map(|i| (0..3).map(move |j| (i, j))) {
-                let twice = &l[i][j] + &l[j][i];
-                sum += &twice * &twice;
-            }
-            big(strain) / (sum / big(2.0)).sqrt()
-        }
-        Span::CouettePeriods(periods, each, shear_rate_per_s) => {
-            let tau = big(1.0).atan() * big(8.0);
-            let (r, g) = (big(aspect_ratio), big(shear_rate_per_s));
-            tau * (&r + big(1.0) / &r) / g * big(periods) / big(each)
-        }
     }
 }
 

@@ -77,7 +77,7 @@ impl Basis {
 }
 
 /// All combinations of `axes` numbers from 0 to `along` − 1.
-fn grid(axes: usize, along: usize) -> Vec<Vec<usize>> {
+pub(super) fn grid(axes: usize, along: usize) -> Vec<Vec<usize>> {
     (0..along.pow(axes as u32))
         .map(|mut k| {
             let digit = |_| {

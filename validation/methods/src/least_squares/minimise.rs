@@ -1,5 +1,6 @@
 //! The minimum of χ² in a box of one to three parameters.
 
+use super::basis::grid;
 use super::likelihood::ChiSquare;
 use nalgebra::{DMatrix, DVector};
 
@@ -78,10 +79,9 @@ pub fn descend(surface: &ChiSquare, fixed: &[Option<f64>], start: Vec<f64>) -> (
 fn best_of_grid(surface: &ChiSquare, fixed: &[Option<f64>], free: &[usize]) -> Vec<f64> {
     let along = STARTS[free.len()];
     let mut best = (f64::INFINITY, fixed.iter().map(|fixed| fixed.unwrap_or(0.0)).collect::<Vec<_>>());
-    for k in 0..along.pow(free.len() as u32) {
+    for indices in grid(free.len(), along) {
         let mut place = best.1.clone();
-        for (digit, axis) in free.iter().enumerate() {
-            let index = k / along.pow(digit as u32) % along;
+        for (axis, index) in free.iter().zip(indices) {
             place[*axis] = -1.0 + 2.0 * index as f64 / (along - 1) as f64;
         }
         let value = surface.at(&place);

@@ -69,12 +69,8 @@ fn isotropic() -> [f64; MEANS] {
     means[3..6].fill(1.0 / 3.0);
     for (mean, indices) in means[9..].iter_mut().zip(QUADRUPLES) {
         let count = |axis| indices.iter().filter(|i| **i == axis).count();
-        *mean = match [1, 2, 3].map(count).into_iter().max() {
-            Some(4) => 0.2,
-            Some(2) if [1, 2, 3].map(count).contains(&1) => 0.0,
-            Some(2) => 1.0 / 15.0,
-            _ => 0.0,
-        };
+        // Those of a Gaussian, over the mean of |p|⁴.
+        *mean = [1, 2, 3].map(|axis| [1.0, 0.0, 1.0, 0.0, 3.0][count(axis)]).iter().product::<f64>() / 15.0;
     }
     means
 }

@@ -5,7 +5,6 @@ use super::frame::Frame;
 use super::harmonics::{Basis, by_ratio, sphere_rule};
 use nalgebra::{Matrix3, SymmetricEigen, Vector3};
 use std::f64::consts::PI;
-use std::fmt;
 
 /// The density of directions at t = 0.
 #[derive(Clone, Copy)]
@@ -20,18 +19,6 @@ pub enum Start<'a> {
     Direction([f64; 3]),
     /// All directions across this one, of length 1, alike.
     Plane([f64; 3]),
-}
-
-impl fmt::Debug for Start<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Isotropic => "Isotropic",
-            Self::Density(_) => "Density",
-            Self::Bingham(_) => "Bingham",
-            Self::Direction(_) => "Direction",
-            Self::Plane(_) => "Plane",
-        })
-    }
 }
 
 impl Start<'_> {

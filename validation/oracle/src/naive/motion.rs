@@ -39,7 +39,6 @@ pub(super) fn angles_rad(p: [f64; 3]) -> [f64; 2] {
     [p[1].atan2(p[0]), sin_theta(p).atan2(p[2])]
 }
 
-/// The axis at phi and theta.
 pub(super) fn axis([phi, theta]: [f64; 2]) -> [f64; 3] {
     let sin = theta.sin();
     [sin * phi.cos(), sin * phi.sin(), theta.cos()]

@@ -36,7 +36,6 @@ fn square_mm2(x: [f64; 3], y: [f64; 3]) -> f64 {
     a * a + b * b + c * c
 }
 
-/// The distance of two positions, mm.
 pub(crate) fn distance_mm(x: [f64; 3], y: [f64; 3]) -> f64 {
     square_mm2(x, y).sqrt()
 }

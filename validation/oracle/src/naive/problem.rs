@@ -32,7 +32,7 @@ pub enum Update {
 }
 
 /// One suspension in plane Couette flow, u_2 = G x_1, or in another flow.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct NaiveProblem {
     /// N, rods in the control volume.
     pub count: usize,

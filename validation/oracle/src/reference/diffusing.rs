@@ -16,7 +16,7 @@ pub enum Spread {
 }
 
 /// Rods with rotary diffusion, and the values requested for them.
-#[derive(Clone, Debug)]
+#[derive(Clone)]
 pub struct Diffusing {
     /// The mean r_e, which may be ∞.
     pub aspect_ratio: f64,
