@@ -30,13 +30,9 @@ pub fn sum_of_inverse_roots(values: &[f64]) -> f64 {
 #[cfg(test)]
 mod tests {
     #[test]
-    fn a_plain_sum_is_one() {
+    fn sums_are_what_they_say() {
         let values: Vec<f64> = (1..=1003).map(f64::from).collect();
         assert_eq!(super::plain_sum(&values), 1003.0 * 1004.0 / 2.0);
-    }
-
-    #[test]
-    fn inverse_roots_are_summed() {
         let values: Vec<f64> = (1..=8).flat_map(|_| [1.0, 4.0, 16.0]).collect();
         assert_eq!(super::sum_of_inverse_roots(&values), 8.0 * 1.75);
     }
