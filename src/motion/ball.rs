@@ -79,51 +79,18 @@ impl Ball {
         if !self.is_zero() && hi.abs() < IN_DANGER { shifted.widened(UNDERFLOW) } else { shifted }
     }
 
-    pub fn plus(self, other: Self) -> Self {
-        if self.is_zero() {
-            return other;
-        }
-        if other.is_zero() {
-            return self;
-        }
-        let (sum, rest) = two_sum(self.hi, other.hi);
-        let carried = self.error + other.error;
-        if self.is_double() && other.is_double() {
-            return Self { hi: sum, lo: rest, error: 0.0 };
-        }
-        let (low, low_rest) = two_sum(self.lo, other.lo);
-        let (hi, lo) = quick_two_sum(sum, rest + low);
-        let (hi, lo) = quick_two_sum(hi, low_rest + lo);
-        Self { hi, lo, error: carried * (1.0 + 4.0 * f64::EPSILON) + ROUNDING * hi.abs() }
-    }
-
-    pub fn times(self, other: Self) -> Self {
-        if self.is_zero() || other.is_zero() {
-            return Self::ZERO;
-        }
-        let (product, rest) = two_product(self.hi, other.hi);
-        let danger = if product.abs() < IN_DANGER { UNDERFLOW } else { 0.0 };
-        if self.is_double() && other.is_double() {
-            return Self { hi: product, lo: rest, error: danger };
-        }
-        let (hi, lo) = quick_two_sum(product, rest + (self.hi * other.lo + self.lo * other.hi));
-        // |lo| ≤ ε|hi|: this bound is a little larger than the product's own terms.
-        let carried = self.hi.abs() * other.error + other.hi.abs() * self.error + self.error * other.error;
-        Self { hi, lo, error: carried * (1.0 + 8.0 * f64::EPSILON) + ROUNDING * hi.abs() + danger }
-    }
-
     /// The quotient; its error is infinite or NaN if the divisor may be 0.
     pub fn over(self, other: Self) -> Self {
         if self.is_zero() && other.least() > 0.0 {
             return Self::ZERO;
         }
         let first = self.hi / other.hi;
-        let rest = self.middle().plus(Self::exact(-first).times(other.middle()));
+        let rest = self.middle() - Self::exact(first) * other.middle();
         if self.is_double() && other.is_double() && rest.is_zero() {
             return Self::exact(first);
         }
         let second = rest.hi / other.hi;
-        let third = rest.plus(Self::exact(-second).times(other.middle())).hi / other.hi;
+        let third = (rest - Self::exact(second) * other.middle()).hi / other.hi;
         let (hi, lo) = quick_two_sum(first, second);
         let (hi, lo) = quick_two_sum(hi, lo + third);
         let carried = (self.error + hi.abs() * other.error) / other.least();
@@ -177,7 +144,21 @@ impl Add for Ball {
     type Output = Self;
     #[inline]
     fn add(self, other: Self) -> Self {
-        self.plus(other)
+        if self.is_zero() {
+            return other;
+        }
+        if other.is_zero() {
+            return self;
+        }
+        let (sum, rest) = two_sum(self.hi, other.hi);
+        let carried = self.error + other.error;
+        if self.is_double() && other.is_double() {
+            return Self { hi: sum, lo: rest, error: 0.0 };
+        }
+        let (low, low_rest) = two_sum(self.lo, other.lo);
+        let (hi, lo) = quick_two_sum(sum, rest + low);
+        let (hi, lo) = quick_two_sum(hi, low_rest + lo);
+        Self { hi, lo, error: carried * (1.0 + 4.0 * f64::EPSILON) + ROUNDING * hi.abs() }
     }
 }
 
@@ -185,7 +166,7 @@ impl Sub for Ball {
     type Output = Self;
     #[inline]
     fn sub(self, other: Self) -> Self {
-        self.plus(-other)
+        self + -other
     }
 }
 
@@ -193,7 +174,18 @@ impl Mul for Ball {
     type Output = Self;
     #[inline]
     fn mul(self, other: Self) -> Self {
-        self.times(other)
+        if self.is_zero() || other.is_zero() {
+            return Self::ZERO;
+        }
+        let (product, rest) = two_product(self.hi, other.hi);
+        let danger = if product.abs() < IN_DANGER { UNDERFLOW } else { 0.0 };
+        if self.is_double() && other.is_double() {
+            return Self { hi: product, lo: rest, error: danger };
+        }
+        let (hi, lo) = quick_two_sum(product, rest + (self.hi * other.lo + self.lo * other.hi));
+        // |lo| ≤ ε|hi|: this bound is a little larger than the product's own terms.
+        let carried = self.hi.abs() * other.error + other.hi.abs() * self.error + self.error * other.error;
+        Self { hi, lo, error: carried * (1.0 + 8.0 * f64::EPSILON) + ROUNDING * hi.abs() + danger }
     }
 }
 
