@@ -159,13 +159,6 @@ mod tests {
         }
     }
 
-    #[test]
-    fn the_paper_s_volume() {
-        // 100 rods of 0.72 mm at 50 per cm³ fill 2 cm³.
-        let volume = ControlVolume::holding(100, 0.05 * 0.72f64.powi(3));
-        assert!((volume.sides()[0] * 0.72 - 2000.0f64.cbrt()).abs() < 1e-12);
-    }
-
     /// Many rods are moved and replaced, chunk by chunk, as fewer rods are one after the other.
     pub(super) fn in_parts(volume: ControlVolume, advance: impl Fn(&mut [Vec<f64>; 3], &mut Pcg64Dxsm) -> u64) {
         let count = 2 * CHUNK + 1000;

@@ -57,21 +57,3 @@ impl Counters {
         ]
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn counts_of_two_runs_are_added_one_by_one() {
-        let times = |factor: u64| {
-            let mut counters = Counters::default();
-            counters.all().into_iter().zip(1..).for_each(|(count, k)| *count = factor * k);
-            counters
-        };
-        let mut sum = times(1);
-        sum.add(&times(2));
-        assert_eq!(sum, times(3));
-        assert_eq!((sum.steps, sum.lengths_redrawn), (3, 33));
-    }
-}

@@ -24,21 +24,6 @@ fn rod() -> impl Strategy<Value = (VelocityGradient, UnitVector3<f64>, f64)> {
 proptest! {
     #![proptest_config(crate::fixed_seed(256))]
 
-    #[test]
-    fn every_kind_of_flow_agrees_with_the_plain_exponential((flow, p, r) in rod(), time in 0.0f64..20.0) {
-        let a = flow.vorticity() + jeffery::shape_factor(r) * flow.strain_rate();
-        let plain = UnitVector3::new_normalize((a * time).exp() * p.as_ref());
-        prop_assert!(apart(&Propagator::new(&flow, r).after(&p, time), &plain) < 1e-8);
-    }
-
-    #[test]
-    fn a_short_time_moves_at_jefferys_rate((flow, p, r) in rod()) {
-        let dt = 1e-6;
-        let moved = Propagator::new(&flow, r).after(&p, dt).into_inner();
-        let rate = jeffery::rate(flow.per_s(), &p, jeffery::shape_factor(r));
-        prop_assert!(((moved - p.into_inner()) / dt - rate).norm() < 1e-5);
-    }
-
     /// One flow in three parts equals that flow; a flow there and back returns the rod, whatever comes between.
     #[test]
     fn flows_one_after_another_are_their_product(
@@ -184,21 +169,6 @@ fn a_direction_and_a_map_have_no_size() {
     }
     let exact = [3.0, 4.0, 0.0].map(Ball::exact);
     assert_eq!(normalized(&exact).1, 4.0 * f64::EPSILON);
-}
-
-#[test]
-fn no_strain_overflows() {
-    let p = orientation::from_angles(0.3, 1.0);
-    let planar = flow([[1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, 0.0]]);
-    let axial = flow([[1.0, 0.0, 0.0], [0.0, -0.5, 0.0], [0.0, 0.0, -0.5]]);
-    for flow in [planar, axial] {
-        let end = Propagator::new(&flow, 11.6).after(&p, 1e6);
-        assert!((end.x - 1.0).abs() < 1e-15 && end.y.abs() < 1e-15, "{end:?}");
-    }
-    // All three coupled: rates of 2, −1 and −1, the first along (1, 1, 1).
-    let coupled = flow([[0.0, 1.0, 1.0], [1.0, 0.0, 1.0], [1.0, 1.0, 0.0]]);
-    let end = Propagator::new(&coupled, 11.6).after(&p, 1e6);
-    assert!(apart(&end, &UnitVector3::new_normalize(Vector3::repeat(1.0))) < 1e-15, "{end:?}");
 }
 
 /// The flow leads from this axis nowhere else, though it leads other axes there: L_21 = ρL_12, to the bit at r_e = 2.

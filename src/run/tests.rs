@@ -1,6 +1,5 @@
 use super::*;
 use crate::scene;
-use nalgebra::{UnitVector3, Vector3};
 
 fn plan(count: usize, replicas: u64) -> Plan {
     let text = format!(
@@ -88,28 +87,6 @@ fn stress_pa(change: impl Fn(&mut scene::Scene)) -> [f64; 3] {
     change(&mut scene);
     let results = ensemble::run(&Plan::new(&scene).unwrap()).unwrap();
     ["s12_pa", "n1_pa", "n2_pa"].map(|name| results.column(name).unwrap().mean[0])
-}
-
-/// Free rods of one aspect ratio share a phase, with the sign of the shear.
-#[test]
-fn free_rods_turn_by_the_exact_motion_with_either_sign_of_the_shear() {
-    for shear_rate_per_s in [1.0, -1.0] {
-        let mut scene = plan(300, 1).scene().clone();
-        let gradient_per_s = [[0.0; 3], [shear_rate_per_s, 0.0, 0.0], [0.0; 3]];
-        scene.flow = scene::Flow::Gradient { gradient_per_s };
-        (scene.time.duration, scene.time.outputs_per_unit) = (0.3, Some(10));
-        scene.output.rods_at = vec![0.0, 0.3];
-        let plan = Plan::new(&scene).unwrap();
-        assert!(!plan.runs(Stage::AspectRatios) && !plan.runs(Stage::Translation));
-        let rods = crate::motion::Propagator::new(plan.flow(), scene.particles.aspect_ratio);
-        let [start, end] = &ensemble::run(&plan).unwrap().snapshots[..] else { panic!() };
-        for rod in 0..300 {
-            let of = |snapshot: &Snapshot| Vector3::from(snapshot.p.each_ref().map(|axis| axis[rod]));
-            let expected = rods.after_turns(&UnitVector3::new_normalize(of(start)), 0.3).unwrap();
-            let off = (of(end) - expected.into_inner()).norm();
-            assert!(off < 1e-13, "{shear_rate_per_s}: rod {rod} is off by {off}");
-        }
-    }
 }
 
 /// A mean over rods that count by their cubed lengths is a quotient of sums: parallel rods of several lengths scatter

@@ -60,34 +60,3 @@ fn what_the_core_observes_too_is_the_same() {
         }
     }
 }
-
-/// An observable that is NaN for every rod.
-struct Broken;
-
-impl Observe for Broken {
-    fn name(&self) -> &'static str {
-        "broken"
-    }
-
-    fn label(&self) -> &'static str {
-        "nothing"
-    }
-
-    fn columns(&self) -> &[&'static str] {
-        &["inverse"]
-    }
-
-    fn add(&self, block: &Block, sums: &mut [Sum]) {
-        sums[0].add_each(block.len, |_| f64::INFINITY);
-    }
-}
-
-#[test]
-fn a_value_that_is_no_number_is_told_with_its_rod() {
-    let refused = observe(&Plan::new(&Scene::default()).unwrap(), &Broken).unwrap_err();
-    let text = refused.to_string();
-    assert!(
-        text.starts_with("rod 0, output 0 (t_over_T = 0) of replica 0") && text.contains("its inverse came out as inf"),
-        "{text}"
-    );
-}
