@@ -7,7 +7,6 @@ mod certified;
 mod checkpoint;
 mod columns;
 mod contributing;
-mod diffusing;
 mod ending;
 #[rustfmt::skip]
 mod example_case;

@@ -1,6 +1,6 @@
 //! A real report, with the figures of a few replicas, as its reader gets it.
 
-use crate::common::{folder, unequal};
+use crate::common::folder;
 use shearbed_validation::cases;
 use shearbed_validation::cases::catalogue;
 use shearbed_validation::files::output::ResultFolder;
@@ -41,23 +41,6 @@ fn a_picture_of_a_report_is_drawn_again() {
     dir.refuses("plot report --y fig13 --out g.svg", "has no such picture; there are fig4, fig4-differences, fig5");
     dir.runs("validate --case jeffery-period --quiet --out one");
     dir.refuses("plot one --out g.svg", "one: has no picture");
-}
-
-/// A PNG of the view box's size, that is read back.
-#[test]
-fn a_picture_in_pixels_has_the_size_of_its_drawing() {
-    let dir = unequal();
-    dir.runs("run small.toml --out a --quiet");
-    dir.runs("plot a --y x2 --out two.svg");
-    dir.runs("plot a --y x2 --out two.png");
-    let file = std::fs::File::open(dir.at("two.png")).unwrap();
-    let mut reader = png::Decoder::new(std::io::BufReader::new(file)).read_info().unwrap();
-    let (width, height) = reader.info().size();
-    assert!(dir.read("two.svg").contains(&format!("viewBox=\"0 0 {width} {height}\"")));
-    let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
-    reader.next_frame(&mut pixels).unwrap();
-    let colours: std::collections::BTreeSet<_> = pixels.chunks(3).collect();
-    assert!(colours.len() > 50, "{} colours", colours.len());
 }
 
 #[test]
