@@ -25,19 +25,3 @@ pub(super) fn help() -> String {
     let rest = all.get_subcommands().filter(|one| !GROUPS.iter().any(|(_, names)| names.contains(&one.get_name())));
     text + "\nMore:\n" + &rest.map(line).collect::<String>() + "\nOptions:\n{options}{after-help}\n"
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn every_command_is_in_one_group() {
-        let all = Command::augment_subcommands(clap::Command::new("shearbed"));
-        for command in all.get_subcommands() {
-            let name = command.get_name();
-            let lines = help().lines().filter(|line| line.split_whitespace().next() == Some(name)).count();
-            assert_eq!(lines, 1, "{name}");
-        }
-        assert!(GROUPS.iter().all(|(_, names)| names.iter().all(|name| all.find_subcommand(name).is_some())));
-    }
-}

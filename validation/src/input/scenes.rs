@@ -108,12 +108,4 @@ mod tests {
             assert!(built_in.text.contains("ours"), "{}", built_in.name);
         }
     }
-
-    #[test]
-    fn a_misspelt_name_finds_the_close_ones() {
-        let close_to = |word| near(word, ALL.iter().map(|scene| scene.name));
-        assert_eq!(close_to("fig4n50")[0], "fig4-n50");
-        assert_eq!(close_to("extention"), ["extension"]);
-        assert!(close_to("rods").is_empty());
-    }
 }

@@ -238,14 +238,3 @@ fn a_full_disk_is_told_in_the_systems_words() {
     let own = rmp_serde::encode::Error::UnknownLength;
     assert_eq!(cause(own).kind(), io::ErrorKind::Other);
 }
-
-/// A signal before any work was done reports the checkpoint if the file exists.
-#[test]
-fn a_signal_tells_of_the_file_that_is_there() {
-    let dir = tempfile::tempdir().unwrap();
-    let path = dir.path().join("kept");
-    assert_eq!(super::stays(&path), None);
-    std::fs::write(&path, "").unwrap();
-    let said = super::stays(&path).unwrap();
-    assert!(said.ends_with("kept stays as it is, and the same command goes on from there"), "{said}");
-}

@@ -19,50 +19,6 @@ fn folder(dir: &Path, force: bool) -> ResultFolder {
     ResultFolder::new(dir, "test", json!({}), force)
 }
 
-#[test]
-fn all_files_are_written_and_replaced() {
-    let dir = tempfile::tempdir().unwrap();
-    let inner = dir.path().join("a/b");
-    probe(&inner, 1000).unwrap();
-    assert_eq!(contents(dir.path()), BTreeMap::new());
-    for text in ["old", "new"] {
-        folder(&inner, false).write(outputs(&["x", "y/z"], text)).unwrap();
-        let found = contents(&inner);
-        assert_eq!(found.keys().collect::<Vec<_>>(), ["shearbed.json", "x", "y"]);
-        assert_eq!(found["x"].as_deref(), Some(text));
-        assert_eq!(fs::read_to_string(inner.join("y/z")).unwrap(), text);
-    }
-    assert_eq!(contents(dir.path()).len(), 1);
-}
-
-#[test]
-fn what_cannot_be_written_leaves_everything_as_it_was() {
-    let dir = tempfile::tempdir().unwrap();
-    fs::write(dir.path().join("x"), "old").unwrap();
-    fs::create_dir(dir.path().join("y")).unwrap();
-    let before = contents(dir.path());
-    let Refused(error) = folder(dir.path(), true).write(outputs(&["x", "y", "z"], "new")).unwrap_err();
-    assert_eq!(error, format!("{}: cannot be written: is a directory", dir.path().join("y").display()));
-    assert_eq!(contents(dir.path()), before);
-    let made = dir.path().join("made/below");
-    let Refused(error) = folder(&made, false).write(outputs(&["a/b", "c\0d"], "")).unwrap_err();
-    assert!(error.contains("made/below/c"), "{error}");
-    assert_eq!(contents(dir.path()), before);
-}
-
-#[test]
-fn a_folder_that_is_a_file_is_named() {
-    let dir = tempfile::tempdir().unwrap();
-    let file = dir.path().join("file");
-    fs::write(&file, "old").unwrap();
-    for dir in [file.clone(), file.join("below")] {
-        assert_eq!(probe(&dir, 0).unwrap_err().path, dir);
-        let Refused(error) = folder(&dir, true).write(outputs(&["x"], "")).unwrap_err();
-        assert!(error.starts_with(&format!("{}: cannot be written: ", dir.display())), "{error}");
-    }
-    assert_eq!(fs::read_to_string(&file).unwrap(), "old");
-}
-
 /// A process that is killed between two moves leaves a record of both sets. No reader takes any of its files, and the
 /// same command goes on.
 #[test]

@@ -183,19 +183,3 @@ fn inputs(all: &Keys<'_>) -> Result<Vec<(usize, f64)>, FileError> {
         })
         .collect()
 }
-
-#[cfg(test)]
-mod tests {
-    use super::is_day;
-
-    #[test]
-    fn a_date_is_a_day_of_the_calendar() {
-        for day in ["1973-01-31", "2024-02-29", "2000-02-29", "2026-12-31"] {
-            assert!(is_day(day), "{day}");
-        }
-        let none = "2026-13-45 2026-00-01 2026-04-31 2023-02-29 1900-02-29 2026-01-00 26-01-01 2026-1-1 2026-01-0１";
-        for none in none.split(' ') {
-            assert!(!is_day(none), "{none}");
-        }
-    }
-}
