@@ -4,11 +4,6 @@
 use serde::{Deserialize, Serialize};
 
 /// One of [`FORMULAS`], by its name in a scene.
-///
-/// ```
-/// use shearbed::model::shape::Correlation;
-/// assert_eq!(Correlation::Cox.formula().formula, "1.24 r/√(ln r)");
-/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 #[non_exhaustive]

@@ -3,15 +3,6 @@
 use serde::{Deserialize, Serialize};
 
 /// Counts of the work done by a run, the same on every machine.
-///
-/// ```
-/// use shearbed::scene::{Interaction, Scene};
-/// let scene = Scene { interaction: Some(Interaction::default()), ..Scene::default() };
-/// let results = shearbed::run::ensemble::run(&shearbed::Plan::new(&scene)?)?;
-/// let done = results.counters;
-/// assert!(done.collisions <= done.candidates && done.draws == 100 * done.steps);
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Counters {
     /// Time steps.

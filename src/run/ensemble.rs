@@ -34,14 +34,6 @@ pub struct Column {
 }
 
 /// One observable against time.
-///
-/// ```
-/// let plan = shearbed::Plan::new(&shearbed::Scene::default())?;
-/// let results = shearbed::run::ensemble::run(&plan)?;
-/// let names: Vec<_> = results.series[0].columns.iter().map(|column| &column.name[..]).collect();
-/// assert_eq!(names, ["x1", "x2", "x3"]);
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Series {
     /// The observable.
@@ -51,13 +43,6 @@ pub struct Series {
 }
 
 /// The results of a scene.
-///
-/// ```
-/// let plan = shearbed::Plan::new(&shearbed::Scene::default())?;
-/// let results = shearbed::run::ensemble::run(&plan)?;
-/// assert_eq!((results.time_name, results.times.len()), ("t_over_T", 51));
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Results {
     /// Name of the time column: `t_over_T`, `strain` or `time_s`.
@@ -174,16 +159,6 @@ pub(crate) fn batch(plan: &Plan, width: usize) -> u64 {
 }
 
 /// Running means and squared deviations over replicas, added one after the other (Welford 1962).
-///
-/// ```
-/// use shearbed::{Plan, Scene, run::run_replica};
-/// use shearbed::run::ensemble::Tally;
-/// let plan = Plan::new(&Scene::default())?;
-/// let mut tally = Tally::new(&plan);
-/// tally.add(run_replica(&plan, 0)?);
-/// assert_eq!(tally.results(&plan), shearbed::run::ensemble::run(&plan)?);
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Tally {
     replicas: u64,

@@ -26,13 +26,6 @@ use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
 /// The sums of one replica.
-///
-/// ```
-/// use shearbed::{Plan, Scene, observable::Channel};
-/// let replica = shearbed::run::run_replica(&Plan::new(&Scene::default())?, 0)?;
-/// assert!((0.0..=1.0).contains(&replica.mean(Channel::X[0], 0).expect("an output")));
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Replica {
     observables: Vec<Observable>,

@@ -35,12 +35,6 @@ impl Key {
 }
 
 /// What applies if a key is not given.
-///
-/// ```
-/// use shearbed::scene::{Absent, keys};
-/// let m = keys().find(|key| key.path == "interaction.m").unwrap();
-/// assert_eq!(m.absent, Absent::Default("3"));
-/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Absent {
@@ -53,12 +47,6 @@ pub enum Absent {
 }
 
 /// The allowed values of a key.
-///
-/// ```
-/// use shearbed::scene::{Holds, keys};
-/// let length = keys().find(|key| key.path == "particles.length_mm").unwrap();
-/// assert_eq!(length.holds, Holds::Positive);
-/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Holds {
@@ -231,11 +219,6 @@ macro_rules! table {
 pub(super) use table;
 
 /// A table of a scene and its keys.
-///
-/// ```
-/// let [flow, ..] = &shearbed::scene::TABLES;
-/// assert_eq!((flow.key.path, flow.keys[0].path), ("flow", "flow.shear_rate_per_s"));
-/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Table {
     /// The key of the table itself.

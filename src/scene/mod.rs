@@ -103,12 +103,6 @@ impl Liquid {
 table! {
     /// `[interaction]`: with `concentration_per_cm3` or `box_mm`. By default 50 rods per cm³, with the paper's α = 0.5
     /// and m = 3.
-    ///
-    /// ```
-    /// use shearbed::scene::Interaction;
-    /// let crowded = Interaction { concentration_per_cm3: Some(2000.0), ..Interaction::default() };
-    /// assert_eq!((crowded.alpha, crowded.m), (0.5, 3.0));
-    /// ```
     pub struct Interaction in "interaction" {
         concentration_per_cm3: Option<f64> = Some(50.0), "1/cm³", Holds::Positive,
             Other("box_mm or particles.volume_fraction"),
@@ -129,12 +123,6 @@ table! {
 }
 
 /// How a colliding rod turns in its step.
-///
-/// ```
-/// use shearbed::scene::{Interaction, Update};
-/// let to_the_letter = Interaction { update: Update::Angles, ..Interaction::default() };
-/// assert_ne!(to_the_letter, Interaction::default());
-/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 #[non_exhaustive]
@@ -151,12 +139,6 @@ pub enum Update {
 
 table! {
     /// `[ensemble]`.
-    ///
-    /// ```
-    /// use shearbed::scene::{Ensemble, Scene};
-    /// let scene = Scene { ensemble: Ensemble { replicas: 4, seed: 2 }, ..Scene::default() };
-    /// assert!(shearbed::Plan::new(&scene).is_ok());
-    /// ```
     pub struct Ensemble in "ensemble" {
         replicas: u64 = 1, "", whole(1, MAX_REPLICAS), Otherwise("1"),
             "independent runs of the scene";
@@ -167,12 +149,6 @@ table! {
 
 table! {
     /// `[output]`.
-    ///
-    /// ```
-    /// use shearbed::{Observable, scene::Output};
-    /// let output = Output { observables: vec![Observable::OrientationTensor], ..Output::default() };
-    /// assert!(output.rods_at.is_empty());
-    /// ```
     pub struct Output in "output" {
         observables: Vec<Observable> = vec![Observable::Projections], "", Holds::Observables,
             Otherwise("[\"projections\"]"),

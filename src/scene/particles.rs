@@ -15,12 +15,6 @@ pub const COUNTED: usize = 0;
 
 table! {
     /// `[particles]`. By default a hundred rods of 0.72 mm with r_e = 11.6, in random directions.
-    ///
-    /// ```
-    /// use shearbed::scene::{Particles, Scene};
-    /// let particles = Particles { count: 1000, aspect_ratio: 20.0, ..Particles::default() };
-    /// assert!(shearbed::Plan::new(&Scene { particles, ..Scene::default() }).is_ok());
-    /// ```
     pub struct Particles in "particles" {
         count: usize = 100, "", whole(1, MAX_COUNT as u64), Other("the rows of particles.rods, else it must be given"),
             "N, rods in the control volume";
@@ -186,13 +180,6 @@ pub(crate) fn equivalent(physical: Option<f64>, correlation: Option<Correlation>
 }
 
 /// The initial directions.
-///
-/// ```
-/// use shearbed::scene::{Orientation, Particles};
-/// let along_the_flow = Orientation::Given { phi_deg: 90.0, theta_deg: 90.0 };
-/// let particles = Particles { orientation: along_the_flow, ..Particles::default() };
-/// assert_ne!(particles, Particles::default());
-/// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(
     untagged,
@@ -251,10 +238,6 @@ impl RodsFile {
 }
 
 /// Values of each rod, as structure of arrays, with one element per rod; `None` for values that are drawn.
-///
-/// ```
-/// assert_eq!(shearbed::scene::OwnRods::default().p, None);
-/// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct OwnRods {
     /// Directions p₁, p₂ and p₃ with |p| = 1.
@@ -268,11 +251,6 @@ pub struct OwnRods {
 }
 
 /// The word `"isotropic"`.
-///
-/// ```
-/// use shearbed::scene::{Isotropic, Orientation, Particles};
-/// assert_eq!(Particles::default().orientation, Orientation::Random(Isotropic::Isotropic));
-/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Isotropic {

@@ -27,11 +27,6 @@ pub struct Time {
 }
 
 /// The unit of a scene's time.
-///
-/// ```
-/// use shearbed::scene::{Time, TimeUnit};
-/// assert_eq!(Time::default().unit, TimeUnit::Period);
-/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum TimeUnit {
     /// A period T of the mean aspect ratio.

@@ -28,17 +28,6 @@ use rand_pcg::Pcg64Dxsm;
 use rayon::prelude::*;
 
 /// A collision of the last step.
-///
-/// ```
-/// use shearbed::scene::{Interaction, Scene};
-/// let scene = Scene { interaction: Some(Interaction::default()), ..Scene::default() };
-/// let plan = shearbed::Plan::new(&scene)?;
-/// let mut suspension = shearbed::Suspension::new(&plan, 0).expect("rods that interact");
-/// for collision in suspension.step()? {
-///     assert!(collision.rods[0] != collision.rods[1] && collision.kicks_rad[0] >= 0.0);
-/// }
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Collision {
     /// The rod that drew R, and its nearest neighbour.
