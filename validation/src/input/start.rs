@@ -107,19 +107,13 @@ fn fits(scene: &Scene, start: &Start) -> Result<(), String> {
 mod tests {
     use super::*;
 
-    fn of_a_file(count: usize, interacting: bool) -> Scene {
-        let name = if interacting { "fig4-n50" } else { "extension" };
-        let text = crate::input::scenes::find(name).unwrap().text;
-        let mut scene = shearbed::scene::parse("s", text).unwrap();
-        scene.particles.count = count;
-        scene.particles.rods = Some(RodsFile { own: None, ..RodsFile::with("start.csv", OwnRods::default()) });
-        scene
-    }
-
     /// The file is removed after reading, so that a second reading would fail.
     #[test]
     fn a_file_is_read_and_held_once_for_all_scenes() {
-        let first = of_a_file(1, false);
+        let text = crate::input::scenes::find("extension").unwrap().text;
+        let mut first = shearbed::scene::parse("s", text).unwrap();
+        first.particles.count = 1;
+        first.particles.rods = Some(RodsFile { own: None, ..RodsFile::with("start.csv", OwnRods::default()) });
         let of = |scene: &Scene| scene.particles.rods.as_ref().unwrap().own.clone().unwrap();
         let dir = tempfile::tempdir().unwrap();
         let file = dir.path().join("start.csv");
@@ -130,40 +124,5 @@ mod tests {
         std::fs::remove_file(&file).unwrap();
         starts.fill(&mut b).unwrap();
         assert!(Arc::ptr_eq(&of(&a), &of(&b)));
-    }
-
-    #[test]
-    fn rods_need_not_be_counted() {
-        let dir = tempfile::tempdir().unwrap();
-        std::fs::write(dir.path().join("start.csv"), "p1,p2,p3\n1,0,0\n0,1,0\n0,0,1\n").unwrap();
-        let mut scene = of_a_file(COUNTED, false);
-        Starts::beside(dir.path()).fill(&mut scene).unwrap();
-        assert_eq!(scene.particles.count, 3);
-    }
-
-    /// Two rods at 50 per cm³: the side is H = 3.42 mm.
-    #[test]
-    fn rods_that_the_scene_cannot_have_are_told_with_their_line() {
-        let dir = tempfile::tempdir().unwrap();
-        let fill = |text: &str, interacting: bool| {
-            std::fs::write(dir.path().join("start.csv"), text).unwrap();
-            Starts::beside(dir.path()).fill(&mut of_a_file(2, interacting))
-        };
-        for (text, said) in [
-            ("length_mm\n1\n", "start.csv: has 1 rows; as many as particles.count = 2"),
-            ("length_mm\n1\n1\n1\n", "start.csv: has 3 rows"),
-            (
-                "aspect_ratio\n2\n1\n",
-                "start.csv:3: aspect_ratio = 1.0 is not allowed: expected a number > 1, up to 1e100, for interacting \
-                 rods",
-            ),
-            ("x1_mm,x2_mm,x3_mm\n1,2,3\n3,4,1\n", "start.csv:3: x2_mm = 4.0 is not allowed: expected 0 to 3.41"),
-            ("x1_mm,x2_mm,x3_mm\n1,2,-3\n3,1,1\n", "start.csv:2: x3_mm = -3.0 is not allowed"),
-        ] {
-            let refused = fill(text, true).unwrap_err();
-            assert!(refused.starts_with("particles.rods: ") && refused.contains(said), "{refused}");
-        }
-        // Free rods may be discs, and their positions are ignored.
-        assert_eq!(fill("aspect_ratio,x1_mm,x2_mm,x3_mm\n2,1,2,3\n0.5,3,4,1\n", false), Ok(()));
     }
 }

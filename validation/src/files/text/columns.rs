@@ -34,14 +34,6 @@ mod tests {
     use super::*;
 
     #[test]
-    fn columns_are_as_wide_as_their_widest_cell() {
-        let rows = [vec!["α".to_owned(), "x1".to_owned()], vec!["0.25".to_owned(), "7".to_owned()]];
-        assert_eq!(left_aligned(&rows), "α     x1\n0.25  7\n");
-        assert_eq!(right_aligned(&rows), "   α  x1\n0.25   7\n");
-        assert_eq!(left_aligned(&[]), "");
-    }
-
-    #[test]
     fn no_number_has_hundreds_of_digits() {
         let shown = [0.0, -2.5, 1e11, 1e12, -1e300].map(four_decimals);
         assert_eq!(shown, ["0.0000", "-2.5000", "100000000000.0000", "1.0000e12", "-1.0000e300"]);

@@ -1,5 +1,3 @@
-mod refused;
-
 use super::*;
 use crate::input::scenes;
 use approx::assert_relative_eq;
@@ -40,14 +38,6 @@ fn folder(provenance: &str, points: impl AsRef<[u8]>) -> TempDir {
 
 fn curves(provenance: &str, points: impl AsRef<[u8]>) -> Vec<MeasuredCurve> {
     read(folder(provenance, points).path(), &OKAGAWA_MASON).unwrap()
-}
-
-/// The error without the folders before the file's name.
-fn refusal(provenance: &str, points: impl AsRef<[u8]>) -> String {
-    let dir = folder(provenance, points);
-    let error = check(dir.path()).unwrap_err().to_string();
-    let start = dir.path().join(OKAGAWA_MASON.folder).display().to_string();
-    error.replace(&format!("{start}/"), "")
 }
 
 fn xy(curve: &MeasuredCurve) -> Vec<(f64, f64)> {
@@ -112,29 +102,6 @@ fn exports_of_webplotdigitizer_are_read() {
     assert_eq!((found[0].scene, xy(&found[0])), ("fig4-n50", vec![(0.5, 0.4)]));
     assert_eq!(found[1].scene, "fig4-n100");
     assert_eq!(xy(&found[1]), [(0.1, 0.2), (0.2, 0.3), (0.3, 0.4)]);
-}
-
-#[test]
-fn files_come_in_pairs_and_in_known_folders() {
-    let dir = folder(PROVENANCE, POINTS);
-    let source = dir.path().join(OKAGAWA_MASON.folder);
-    let says = |part: &str| {
-        let error = check(dir.path()).unwrap_err().to_string();
-        assert!(error.contains(part), "{error}");
-    };
-    fs::write(source.join("b.toml"), PROVENANCE).unwrap();
-    says("b.toml: it has no ");
-    fs::write(source.join("b.csv"), POINTS).unwrap();
-    says("b.toml: x1 of fig4-n50 is in another file already");
-    fs::remove_file(source.join("b.toml")).unwrap();
-    says("b.csv: it has no provenance file");
-    fs::rename(source.join("b.csv"), dir.path().join("b.csv")).unwrap();
-    says("b.csv: the folder belongs to no source; allowed are okagawa-mason-1973");
-    fs::create_dir(dir.path().join("okagawa")).unwrap();
-    fs::rename(dir.path().join("b.csv"), dir.path().join("okagawa/b.csv")).unwrap();
-    says("b.csv: the folder belongs to no source");
-    fs::remove_file(dir.path().join("okagawa/b.csv")).unwrap();
-    assert_eq!(check(dir.path()), Ok(()));
 }
 
 #[test]

@@ -67,3 +67,12 @@ points() {
 
 # A number of a parameter, such as its estimate, in the record of a fit.
 of_fit() { sed -n "/\"parameters\"/,/^  }/{/\"$2\": {/,/}/s/^ *\"$3\": \([^,]*\),*/\1/p}" "$1/fit.json"; }
+
+# Plans a scene with each table of rods that is a line of the input.
+told() { while IFS= read -r text; do printf -- "$text" > start.csv; shearbed plan "$@"; done; }
+
+# Checks measured points, with what the input says of them.
+measured() {
+    cat > data/okagawa-mason-1973/a.toml; printf -- "$1" > data/okagawa-mason-1973/a.csv
+    shearbed validate --case jeffery-period --data data --out x --quiet --force
+}
