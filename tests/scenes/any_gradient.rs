@@ -1,9 +1,9 @@
 //! Rods that interact in other flows than plane Couette flow by periods.
 
-use crate::{parsed, planned, refusal, run};
+use crate::{parsed, planned, run};
 use shearbed::run::ensemble;
 use shearbed::scene::Update;
-use shearbed::{Plan, Results, Scene};
+use shearbed::{Results, Scene};
 
 const SHEAR: &str = "[[0, 0, 0], [0.5, 0, 0], [0, 0, 0]]";
 pub(crate) const EXTENSION: &str = "[[0.5, 0, 0], [0, -0.5, 0], [0, 0, 0]]";
@@ -140,35 +140,4 @@ fn a_turned_flow_turns_the_result() {
     };
     assert!(farthest([["x2", "x3"], ["x1", "x2"], ["x3", "x1"]]) < 5.0);
     assert!(farthest([["x2", "x2"], ["x1", "x1"], ["x3", "x3"]]) > 20.0);
-}
-
-#[test]
-fn what_cannot_be_stepped_is_refused() {
-    let of = |gradient: &str, time: &str| text(gradient, "count = 100\naspect_ratio = 5", 0.5, time);
-    let in_box =
-        |sides: &str| of(GENERAL, "strain = 1").replace("concentration_per_cm3 = 1000", &format!("box_mm = {sides}"));
-    let stirred = "[[1, 1e3, 0], [-1e3, -1, 0], [0, 0, 0]]";
-    for (text, why) in [
-        // What comes in would be drawn without end.
-        (
-            in_box("[1e103, 1e103, 1e103]"),
-            "interaction.box_mm = [1e103, 1e103, 1e103] is not allowed: \
-             lengths for which the sides over the rods' length, their product",
-        ),
-        (in_box("[1e-4, 1e3, 1]"), "cross the control volume 30 times"),
-        (of(stirred, "strain = 1\nsteps_per_strain = 10"), "10 is not allowed: at least 89, to resolve the velocity"),
-        (of(ELLIPTIC, "periods = 1\nsteps_per_period = 1"), "1 is not allowed: at least 2, to resolve"),
-        (
-            of(EXTENSION, "strain = 1e4\nsteps_per_strain = 200000"),
-            "time.strain = 1e4 is not allowed: at most 1e9 steps",
-        ),
-        (
-            of(EXTENSION, "strain = 1\nsteps_per_strain = 12\noutputs_per_strain = 5"),
-            "time.outputs_per_strain = 5 is not allowed: interacting rods need a divisor of steps_per_strain = 12",
-        ),
-    ] {
-        assert!(refusal(&text).contains(why), "{why}: {}", refusal(&text));
-    }
-    run(&parsed(&of(EXTENSION, "strain = 1\nsteps_per_strain = 12")));
-    assert!(Plan::parse("s.toml", &in_box("[20, 5, 5]")).is_ok());
 }

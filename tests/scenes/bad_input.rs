@@ -14,6 +14,7 @@ const EXTENSION: &str = include_str!("bad_input/extension.toml");
 /// Interacting rods without a number of outputs, whose last key is in `[time]`.
 const STEPPED: &str = include_str!("bad_input/stepped.toml");
 const REVERSED: &str = include_str!("bad_input/reversed.toml");
+const STIRRED: &str = include_str!("bad_input/stirred.toml");
 
 /// The file's text with `table.key` set to `value`, and the line of the key. `None` where the text lacks it.
 fn set(text: &str, path: &str, value: &str) -> Option<(String, usize)> {

@@ -59,31 +59,6 @@ fn default_outputs_follow_the_strain() {
     assert_eq!([11.6, 14.2, 15.0, 20.0].map(|r| colliding(r).outputs_per_unit()), [50, 60, 70, 100]);
 }
 
-#[test]
-fn what_a_key_does_not_hold_is_refused_with_what_it_holds() {
-    for key in keys().filter(|key| key.path != "title") {
-        let (most, wrong) = match key.holds {
-            Holds::Whole { least, most } => (Some((least, most)), "-1"),
-            Holds::Between { .. } => (None, "1e101"),
-            _ => (None, "-1"),
-        };
-        let refused = |value: &str| {
-            let error = scene::parse("t", &text(key.path, value)).unwrap_err().to_string();
-            assert!(error.contains(&key.holds.to_string()), "{error}");
-        };
-        refused(wrong);
-        refused("1979-05-27");
-        if let Some((least, most)) = most {
-            if least > 0 {
-                refused("0");
-            }
-            if most < MAX_SEED {
-                refused(&(most + 1).to_string());
-            }
-        }
-    }
-}
-
 /// A number of hundreds of digits is a power of ten in a message.
 #[test]
 fn numbers_are_short() {

@@ -75,29 +75,6 @@ fn all_problems_are_told_at_once() {
 }
 
 #[test]
-fn an_unknown_key_is_told_what_it_may_have_meant() {
-    for (part, replacement, meant) in [
-        ("count", "cuont", Some("particles.count")),
-        ("[particles]", "[particle]", Some("particles")),
-        ("title =", "alpha = 1\ntitle =", Some("interaction.alpha")),
-        ("seed", "sead", Some("ensemble.seed")),
-        ("aspect_ratio =", "aspect_ration =", Some("particles.aspect_ratio")),
-        ("steps_per_period", "step_per_period", Some("time.steps_per_period")),
-        // As like one as the other: the first.
-        ("steps_per_period", "outputs_per_x", Some("time.outputs_per_period")),
-        ("m = 3", "m = 3\ntitle = \"x\"", Some("title, which comes before all tables")),
-        ("m = 3", "m = 3\nxyzzy = 3", None),
-    ] {
-        let refusal = refusal(&INTERACTING.replacen(part, replacement, 1));
-        assert_eq!(refusal.lines().count(), 1, "{refusal}");
-        match meant {
-            Some(key) => assert!(refusal.ends_with(&format!("; did you mean {key}?")), "{refusal}"),
-            None => assert!(!refusal.contains("did you mean"), "{refusal}"),
-        }
-    }
-}
-
-#[test]
 fn no_part_of_a_file_makes_the_reader_panic() {
     for text in [INTERACTING, EXTENSION] {
         for end in 0..=text.len() {

@@ -153,23 +153,3 @@ fn shown(series: &Series) -> &[Column] {
         (_, all) => all,
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use std::f64::consts::TAU;
-
-    #[test]
-    fn a_fast_oscillation_looks_like_no_slow_one() {
-        // Each bar represents some 17 of 1200 outputs, and the wave has a period of 16: sampling would make it look
-        // slow.
-        let wave: Vec<f64> = (0..1200).map(|k| (TAU * f64::from(k) / 16.0).sin()).collect();
-        let line: Vec<char> = sparkline(&wave).chars().collect();
-        assert_eq!(line.len(), WIDEST);
-        assert!(line.chunks(2).all(|pair| pair == ['█', '▁']), "{line:?}");
-        let slope: Vec<f64> = (0..8).map(f64::from).collect();
-        assert_eq!(sparkline(&slope), "▁▂▃▄▅▆▇█");
-        assert_eq!(sparkline(&[0.5, 0.5]), "▁▁");
-        assert_eq!(sparkline(&[]), "");
-    }
-}

@@ -13,7 +13,9 @@ mod example_case;
 #[rustfmt::skip]
 mod example_study;
 mod experiments;
-mod folders;
+mod folders {
+    mod stopped;
+}
 mod order;
 mod report;
 mod resources;
