@@ -15,11 +15,6 @@ pub(super) static INVERSE_FACTORIALS: LazyLock<[Ball; 34]> = LazyLock::new(|| {
 /// A bound on the truncation error of every series here: twice the next term.
 const LEFT_OUT: f64 = 1e-33;
 
-/// Σ zᵏ/n! with n from `coefficients`, highest first.
-fn horner(coefficients: impl Iterator<Item = usize>, z: Ball) -> Ball {
-    coefficients.fold(Ball::ZERO, |sum, n| sum * z + INVERSE_FACTORIALS[n])
-}
-
 /// eˣ for x ≤ 0.
 pub(super) fn exp(x: Ball) -> Ball {
     // Below e⁻⁶⁰⁰ the result is negligible beside anything it is added to: 0 with a bound.
@@ -69,8 +64,8 @@ pub(super) fn sin_cos(turns: Ball) -> (Ball, Ball) {
     let angle = Ball::TAU * rest;
     let z = -(angle * angle);
     // |angle| ≤ π/4: (π/4)³⁰/30! < 10⁻³⁵.
-    let sin = horner_of(z, 29) * angle;
-    let cos = horner_of(z, 28);
+    let sin = horner(z, 29) * angle;
+    let cos = horner(z, 28);
     let moved = (std::f64::consts::TAU * 1.001 * turns.error).min(2.0);
     let (sin, cos) = match quarters.rem_euclid(4.0) as u8 {
         0 => (sin, cos),
@@ -86,12 +81,12 @@ pub(super) fn sin_cos(turns: Ball) -> (Ball, Ball) {
 
 /// Σ zᵏ/n! over n = `last`, `last` − 2, … with k counted from the end: the cosine for an even `last`, the sine over its
 /// argument for an odd one.
-fn horner_of(z: Ball, last: usize) -> Ball {
-    horner((0..=last).rev().step_by(2), z)
+fn horner(z: Ball, last: usize) -> Ball {
+    (0..=last).rev().step_by(2).fold(Ball::ZERO, |sum, n| sum * z + INVERSE_FACTORIALS[n])
 }
 
 /// cosh √z and sinh √z / √z, computed without a root, for |z| ≤ 1.
 pub(super) fn cosh_sinh_over(z: Ball) -> (Ball, Ball) {
-    let (cosh, sinh) = (horner_of(z, 30), horner_of(z, 31));
+    let (cosh, sinh) = (horner(z, 30), horner(z, 31));
     (cosh.widened(LEFT_OUT), sinh.widened(LEFT_OUT))
 }

@@ -1,13 +1,12 @@
 //! Interacting rods in the control volume, step by step (the paper's method of solution).
 //!
 //! A [`Suspension`] is one replica: places, directions since the last collision, and its random streams. It may use
-//! `plan` and the wings before it. A rod's state is added in `rods` and, so that a checkpoint keeps it, in `state`.
+//! `plan` and the wings before it. A rod's state is added in `rods`, whose `state` is what a checkpoint keeps.
 
 pub(crate) mod diffusion;
 mod liquid;
 pub(crate) mod rods;
 pub mod snapshot;
-mod state;
 #[cfg(test)]
 mod tests;
 
@@ -158,6 +157,46 @@ impl Suspension {
             self.rods.set(rod, p, self.tick);
         }
         Some(())
+    }
+
+    /// Random numbers of the stream of replacements per replaced rod.
+    pub(crate) fn numbers_per_replacement(&self) -> u128 {
+        self.liquid.numbers()
+    }
+
+    /// The work done so far.
+    pub fn counters(&self) -> &Counters {
+        &self.counters
+    }
+
+    /// Steps taken so far.
+    pub fn tick(&self) -> u64 {
+        self.tick
+    }
+
+    /// The sides H₁, H₂ and H₃ of the control volume, in mean rod lengths.
+    pub fn sides_in_lengths(&self) -> [f64; 3] {
+        self.sides
+    }
+
+    /// The rods' positions in mean rod lengths: three arrays of coordinates.
+    pub fn positions_in_lengths(&self) -> &[Vec<f64>; 3] {
+        &self.positions
+    }
+
+    /// The current direction of every rod.
+    pub fn directions(&self) -> Vec<Vector3<f64>> {
+        (0..self.rods.count()).map(|rod| self.rods.direction(rod, self.tick)).collect()
+    }
+
+    /// The length of every rod over the mean.
+    pub fn lengths(&self) -> Vec<f64> {
+        (0..self.rods.count()).map(|rod| self.rods.length(rod)).collect()
+    }
+
+    /// The aspect ratio of every rod.
+    pub fn aspect_ratios(&self) -> Vec<f64> {
+        (0..self.rods.count()).map(|rod| self.rods.aspect_ratio(rod)).collect()
     }
 
     /// Takes one step and returns its collisions, closest pair first.
