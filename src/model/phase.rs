@@ -3,11 +3,6 @@
 use std::f64::consts::TAU;
 
 /// The sine and cosine of 2π·turns, exact at every quarter turn.
-///
-/// ```
-/// let quarter = shearbed::model::phase::Phase::of_turns(0.25);
-/// assert_eq!((quarter.cos, quarter.sin), (0.0, 1.0));
-/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Phase {
     /// cos(2π·turns).

@@ -80,14 +80,6 @@ impl<'de> Deserialize<'de> for Scene {
 
 table! {
     /// `[liquid]`.
-    ///
-    /// ```
-    /// use shearbed::scene::{Interaction, Liquid, Output, Scene};
-    /// let liquid = Liquid { viscosity_pa_s: Some(10.0), ..Liquid::default() };
-    /// let output = Output { observables: vec![shearbed::Observable::Stress], ..Output::default() };
-    /// let scene = Scene { liquid, output, interaction: Some(Interaction::default()), ..Scene::default() };
-    /// assert!(shearbed::Plan::new(&scene).is_ok());
-    /// ```
     pub struct Liquid in "liquid" {
         viscosity_pa_s: Option<f64> = None, "Pa s", Holds::Positive, Other("no stress in Pa"),
             "μ of the liquid, for the stress in Pa";

@@ -6,12 +6,6 @@ use crate::motion::Span;
 use serde::Serialize;
 
 /// `[time]`: a duration in one unit, with steps and outputs per unit. By default one period.
-///
-/// ```
-/// use shearbed::scene::{Time, TimeUnit};
-/// let two_periods = Time { outputs_per_unit: Some(100), ..Time::periods(2.0) };
-/// assert_eq!((two_periods.unit, two_periods.duration), (TimeUnit::Period, 2.0));
-/// ```
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(into = "TimeKeys")]
 pub struct Time {

@@ -12,15 +12,6 @@ use crate::suspension::rods::{Rods, Selected};
 use serde::{Deserialize, Serialize};
 
 /// Every rod of one replica at one output, as structure of arrays.
-///
-/// ```
-/// use shearbed::{Plan, Scene};
-/// let mut scene = Scene::default();
-/// scene.output.rods_at = vec![1.0];
-/// let results = shearbed::run::ensemble::run(&Plan::new(&scene)?)?;
-/// assert_eq!(results.snapshots[0].p[0].len(), 100);
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Snapshot {
     /// Index of the replica, from 0.

@@ -4,22 +4,6 @@ use super::{EXTENSION, INTERACTING};
 use crate::{parsed, refusal};
 use shearbed::Plan;
 
-#[test]
-fn an_empty_file_lacks_all_that_must_be_there() {
-    for text in ["", "\n\n", "# nothing\n"] {
-        let lines: Vec<_> = refusal(text).lines().map(|line| line[..32].to_owned()).collect();
-        assert_eq!(
-            lines,
-            [
-                "dir/s.toml:1: flow is missing: e",
-                "dir/s.toml:1: particles is missi",
-                "dir/s.toml:1: time is missing: e",
-                "dir/s.toml:1: title is missing: ",
-            ]
-        );
-    }
-}
-
 /// One mistake of each kind, in the order of lines; the last column is the line.
 #[rustfmt::skip]
 const MANY: &[(&str, &str, &str)] = &[

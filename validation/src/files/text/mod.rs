@@ -85,20 +85,12 @@ impl Shown for Path {
     }
 }
 
-/// Limit of a value from a user's file in a message, in characters.
-const SNIPPET: usize = 40;
-
 /// The first `most` characters of a text, with `…` if there are more.
 pub fn start(text: &str, most: usize) -> String {
     match text.char_indices().nth(most) {
         Some((end, _)) => format!("{}…", &text[..end]),
         None => text.to_owned(),
     }
-}
-
-/// The start of a value in quotes, for a message: enough to find it in its file, and little of what may be private.
-pub fn snippet(value: &str) -> String {
-    format!("\"{}\"", line(&start(value, SNIPPET)).replace('"', "\\\""))
 }
 
 #[cfg(test)]
@@ -111,13 +103,5 @@ mod tests {
         let text = json(&serde_json::to_string_pretty(&value).unwrap());
         assert!(!text.contains(commands) && text.contains("\\udb40\\udc41") && text.contains('α'), "{text}");
         assert_eq!(serde_json::from_str::<serde_json::Value>(&text).unwrap(), value);
-    }
-
-    #[test]
-    fn of_a_value_only_the_start_is_repeated() {
-        assert_eq!(snippet("zero"), "\"zero\"");
-        assert_eq!(snippet("a\nb\u{1b}\"c"), r#""a\nb\u{1b}\"c""#);
-        let secret = "x".repeat(40) + "the rest";
-        assert_eq!(snippet(&secret), format!("\"{}…\"", "x".repeat(40)));
     }
 }
