@@ -6,11 +6,6 @@ use nalgebra::Matrix3;
 ///
 /// Axes: 1 is the gradient axis, 2 the flow axis, 3 the vorticity axis of plane Couette flow.
 /// All nine components are finite.
-///
-/// ```
-/// let flow = shearbed::model::flow::VelocityGradient::plane_couette(0.5).expect("finite");
-/// assert_eq!((flow.per_s()[(1, 0)], flow.shear_rate_per_s()), (0.5, Some(0.5)));
-/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct VelocityGradient(Matrix3<f64>);
 

@@ -34,11 +34,6 @@ impl Correlation {
 }
 
 /// A published formula for r_e of a cylinder.
-///
-/// ```
-/// let cylinder = shearbed::model::shape::FORMULAS.map(|formula| formula.equivalent(20.0));
-/// assert!(cylinder.iter().flatten().all(|r_e| (14.0..14.4).contains(r_e)));
-/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Formula {
     /// Authors and year.

@@ -85,7 +85,7 @@ impl General {
 
     /// The period in s; `None` if the motion has none.
     pub fn period_s(&self) -> Option<f64> {
-        self.period().map(|(period, _)| shifted(period.hi, self.power))
+        self.period().map(|(period, _)| libm::scalbn(period.hi, self.power))
     }
 
     /// The time in which the strain increases by `strain`.
@@ -95,8 +95,8 @@ impl General {
 
     /// The time of `ticks`/`each` seconds.
     pub fn time_of_seconds(&self, ticks: f64, each: f64) -> Time {
-        let span = shifted(ticks, -self.power);
-        let rounded = if shifted(span, self.power) == ticks { 0.0 } else { span * f64::EPSILON };
+        let span = libm::scalbn(ticks, -self.power);
+        let rounded = if libm::scalbn(span, self.power) == ticks { 0.0 } else { span * f64::EPSILON };
         let span = Ball::exact(span).widened(rounded);
         let span = if each == 1.0 { span } else { span.over(Ball::exact(each)) };
         Time { span: span * self.slower, turns: None }
@@ -251,8 +251,8 @@ fn scaled(flow: &VelocityGradient) -> (Square, i32) {
     let power = -exponent(l.amax());
     let component = |i: usize, j: usize| {
         let component = l[(i, j)];
-        let scaled = shifted(component, power);
-        let lost = shifted(scaled, -power) != component;
+        let scaled = libm::scalbn(component, power);
+        let lost = libm::scalbn(scaled, -power) != component;
         Ball::exact(scaled).widened(if lost { 1e-320 } else { 0.0 })
     };
     (from_fn(|i| from_fn(|j| component(i, j))), power)
@@ -261,10 +261,6 @@ fn scaled(flow: &VelocityGradient) -> (Square, i32) {
 /// The exponent of the largest power of two ≤ |x|; 0 for 0.
 fn exponent(x: f64) -> i32 {
     if x == 0.0 { 0 } else { libm::log2(x.abs()).floor() as i32 }
-}
-
-fn shifted(x: f64, power: i32) -> f64 {
-    libm::scalbn(x, power)
 }
 
 /// (2 D:D)^½ = (Σ (L_ij + L_ji)²/2)^½.
@@ -299,8 +295,8 @@ pub(super) fn at_size_one(map: Square) -> Square {
 pub(super) fn rounded(map: &Square) -> (Matrix3<f64>, f64) {
     let middle = Matrix3::from_fn(|i, j| map[i][j].hi);
     let power = -exponent(middle.amax());
-    let error = Matrix3::from_fn(|i, j| shifted(map[i][j].error, power));
-    let middle = middle.map(|component| shifted(component, power));
+    let error = Matrix3::from_fn(|i, j| libm::scalbn(map[i][j].error, power));
+    let middle = middle.map(|component| libm::scalbn(component, power));
     let relative = error.norm() / middle.norm();
     (middle, infinite_if_nan(relative))
 }

@@ -3,13 +3,6 @@
 use super::{OwnRods, Scene, find};
 
 /// A value of a rod in a file that the scene does not allow.
-///
-/// ```
-/// use shearbed::scene::{OwnRods, Scene};
-/// let short = OwnRods { length_mm: Some(vec![0.0; 100]), ..OwnRods::default() };
-/// let misfit = Scene::default().misfit(&short).expect("no length");
-/// assert_eq!((misfit.rod, misfit.column), (0, "length_mm"));
-/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Misfit {
     /// Index of the rod, from 0.

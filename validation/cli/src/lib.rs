@@ -210,11 +210,9 @@ fn print_usage(error: &clap::Error) -> u8 {
     let (message, code) = (error.to_string(), error.exit_code());
     if error.use_stderr() {
         complain(&text::message(&on_one_line(error, message)))
-    } else {
-        if let Err((message, code)) = print(&message).map_err(Failure::message_and_code) {
-            cluster::failed(&message, code);
-            return code;
-        }
+    } else if let Err((message, code)) = print(&message).map_err(Failure::message_and_code) {
+        cluster::failed(&message, code);
+        return code;
     }
     code as u8
 }

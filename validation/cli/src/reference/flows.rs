@@ -1,6 +1,5 @@
 //! Flows one after another from a file, and the density on a grid of angles.
 
-use crate::Failure;
 use shearbed_validation::files::csv::Table;
 use shearbed_validation::files::{FileError, bounded};
 use shearbed_validation::oracle::reference::diffusing::Diffusing;
@@ -16,11 +15,7 @@ const MOST: usize = 10_000;
 type Flows = Vec<([[f64; 3]; 3], f64)>;
 
 /// Reads flows: `duration_s` and `shear_rate_per_s` of u_2 = G x_1, or all of `l11` to `l33`.
-pub(super) fn read(path: &Path) -> Result<Flows, Failure> {
-    flows(path).map_err(|error| Failure::Input(error.to_string()))
-}
-
-fn flows(path: &Path) -> Result<Flows, FileError> {
+pub(super) fn read(path: &Path) -> Result<Flows, FileError> {
     let file = bounded::open(path).map_err(|error| FileError::unreadable(path, &error))?;
     let mut table = Table::new(path, BufReader::new(file))?;
     let gradient: Vec<String> = (0..9).map(|k| format!("l{}{}", k / 3 + 1, k % 3 + 1)).collect();
