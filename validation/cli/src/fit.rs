@@ -15,8 +15,7 @@ use shearbed::Plan;
 use shearbed::scene::{MAX_REPLICAS, MAX_SEED};
 use shearbed_validation::files::build::BUILD;
 use shearbed_validation::files::output::{Output, ResultFolder};
-use shearbed_validation::files::text::Shown;
-use shearbed_validation::files::text::command;
+use shearbed_validation::files::text::{self, Shown, command};
 use shearbed_validation::input::experiment::MOST_BYTES;
 use shearbed_validation::methods::least_squares::Datum;
 use shearbed_validation::methods::least_squares::direct::Direct;
@@ -161,7 +160,7 @@ fn files(args: &Args, done: &Done, times: &[&str]) -> Result<Vec<Output>, String
     if args.design {
         files.push(("design.csv".into(), report::design_csv(fit, &done.candidates, times)?));
     }
-    let figures = serde_json::to_string(&done.figures).map_err(|error| error.to_string())?;
+    let figures = text::json(&done.figures).map_err(|error| error.to_string())?;
     files.push((super::plot::FIGURES.into(), figures));
     for (stem, figure) in &done.figures {
         files.push((format!("{stem}.svg"), plot::svg(figure)?));
@@ -284,5 +283,5 @@ fn record(asked: &Value, input: &Input, done: &Done, files: &[&str]) -> Result<S
         record[key] = value.clone();
     }
     record["files"] = json!(files);
-    serde_json::to_string_pretty(&record).map(|text| text + "\n").map_err(failed)
+    text::json(&record).map_err(failed)
 }

@@ -7,7 +7,7 @@ use shearbed::model::work::Counters;
 use shearbed::plan::Entry;
 use shearbed::{Plan, Results, Scene};
 use shearbed_validation::files::build::{BUILD, Build};
-use shearbed_validation::files::text::command;
+use shearbed_validation::files::text::{self, command};
 
 /// Wall times in seconds.
 #[derive(Clone, Copy, Debug, Default, Serialize)]
@@ -71,6 +71,5 @@ pub(super) fn json(
         seconds,
         files,
     };
-    let text = serde_json::to_string_pretty(&record).map_err(|error| error.to_string())?;
-    Ok(text + "\n")
+    text::json(&record).map_err(|error| error.to_string())
 }

@@ -47,6 +47,5 @@ struct Made<'a, T> {
 /// A structure as JSON, preceded by the build that wrote it.
 pub fn json(data: &impl Serialize) -> Result<String, String> {
     let made = Made { build: BUILD, data };
-    let text = serde_json::to_string_pretty(&made).map_err(|error| error.to_string())?;
-    Ok(super::text::json(&text) + "\n")
+    super::text::json(&made).map_err(|error| error.to_string())
 }

@@ -7,7 +7,7 @@ use super::Output;
 use super::beneath::beneath;
 use crate::files::bounded;
 use crate::files::difference::difference;
-use crate::files::text::shortened;
+use crate::files::text::{json, shortened};
 use cap_std::fs::Dir;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -109,9 +109,8 @@ impl Record {
 
     /// The record as a file.
     pub fn file(&self) -> Output {
-        let text = serde_json::to_string_pretty(self);
-        let text = text.unwrap_or_else(|error| format!("{{\"error\": \"{error}\"}}"));
-        (RECORD.to_owned(), text + "\n")
+        let text = json(self).unwrap_or_else(|error| format!("{{\"error\": \"{error}\"}}\n"));
+        (RECORD.to_owned(), text)
     }
 
     /// The record of a folder; `None` if there is no such file or folder.

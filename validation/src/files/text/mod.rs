@@ -11,6 +11,7 @@ pub(crate) use message::shortened;
 pub use message::{complain, message};
 pub use shell::command;
 
+use serde::Serialize;
 use std::borrow::Cow;
 use std::path::Path;
 
@@ -48,9 +49,14 @@ fn written_out(text: &str, escape: impl Fn(char) -> String) -> String {
     all
 }
 
-/// JSON in which the characters that [`readable`] writes out are escaped too; it has the same values.
-pub(crate) fn json(text: &str) -> String {
-    written_out(text, |c| c.encode_utf16(&mut [0; 2]).iter().map(|unit| format!("\\u{unit:04x}")).collect())
+/// A file of JSON in which the characters that [`readable`] writes out are escaped too.
+///
+/// # Errors
+///
+/// Of a map whose keys are no texts.
+pub fn json(data: &impl Serialize) -> serde_json::Result<String> {
+    let escape = |c: char| c.encode_utf16(&mut [0; 2]).iter().map(|unit| format!("\\u{unit:04x}")).collect();
+    Ok(written_out(&serde_json::to_string_pretty(data)?, escape) + "\n")
 }
 
 /// A readable text inside XML or HTML, between tags or in quotes.
@@ -100,7 +106,7 @@ mod tests {
     #[test]
     fn json_that_is_escaped_has_the_same_values() {
         let value = serde_json::json!({ "a\u{202e}": "\u{9b}2J \u{1b} α\n\u{e0041}\u{7f}" });
-        let text = json(&serde_json::to_string_pretty(&value).unwrap());
+        let text = json(&value).unwrap();
         assert!(!text.contains(commands) && text.contains("\\udb40\\udc41") && text.contains('α'), "{text}");
         assert_eq!(serde_json::from_str::<serde_json::Value>(&text).unwrap(), value);
     }

@@ -3,6 +3,7 @@
 use super::{CaseRow, Origin, Report, ReportEquation, ReportFigure, ReportStudy, ReportTable, ScenePlan, Summary};
 use crate::files::build::SOURCES;
 use crate::files::output::Sum;
+use crate::files::text;
 use crate::judge::case::GATE_SEED;
 use serde::Serialize;
 use serde_json::{Value, json};
@@ -37,8 +38,8 @@ pub(super) fn write(report: &Report) -> String {
         plans: &sections.plans,
         origin: &report.origin,
     };
-    let text = serde_json::to_string_pretty(&written).unwrap_or_else(|error| format!("{{\"error\": \"{error}\"\n}}"));
-    let before = text.strip_suffix("\n}").unwrap_or(&text);
+    let text = text::json(&written).unwrap_or_else(|error| format!("{{\"error\": \"{error}\"\n}}\n"));
+    let before = text.strip_suffix("\n}\n").unwrap_or(&text);
     format!("{before},\n  \"crc32\": \"{}\"\n}}", Sum::of(before.as_bytes()).crc32)
 }
 

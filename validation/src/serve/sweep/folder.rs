@@ -7,7 +7,7 @@ use super::{Pairs, Point};
 use crate::files::csv::{self, Table};
 use crate::files::difference::difference;
 use crate::files::output::{Claim, Origin, Output, OutputError, RECORD, Record, Refused, ResultFolder};
-use crate::files::text::{Shown, cell};
+use crate::files::text::{self, Shown, cell};
 use crate::files::{FileError, bounded, build};
 use serde_json::{Value, json};
 use shearbed::Scene;
@@ -70,7 +70,8 @@ impl Folder {
     /// all are left as they are, unless `folder` has force, which empties the folder of sweeps. Another process at work
     /// in the folder.
     pub fn open(folder: ResultFolder, inputs: &Value, points: Points) -> Result<Self, Refused> {
-        let first = vec![("sweep.json".to_owned(), format!("{inputs:#}\n"))];
+        let text = text::json(inputs).map_err(|error| Refused(error.to_string()))?;
+        let first = vec![("sweep.json".to_owned(), text)];
         let begun = Record::new(folder.origin(), &first);
         let claim = loop {
             if let Some(claim) = Claim::open(folder.dir(), Duration::ZERO)? {
