@@ -212,3 +212,16 @@ fn who_collides_by_order() {
 fn projections_are_means_of_moduli() {
     assert_eq!(mean_projections(&[[0.6, -0.8, 0.0], [-1.0, 0.0, 0.0]]), [0.8, 0.4, 0.0]);
 }
+
+/// A.13 gives the rates of the angles of an axis that moves by pdot: a small step by A.14 is p + pdot dt.
+#[test]
+fn a_step_of_the_angles_is_that_of_the_axis() {
+    for p in [axis([0.3, 0.9]), axis([2.0, 2.4])] {
+        let pdot = jeffery(p, 5.0, [[0.0; 3], [2.0, 0.0, 0.0], [0.0; 3]]);
+        let off = |made| {
+            let moved = vector(moved_by_angles(p, pdot, 1e-5, made));
+            (moved - vector(p) - vector(pdot) * 1e-5).norm()
+        };
+        assert!(off(None) < 1e-9 && off(Some(Mistake::PrintedA13)) > 1e-7);
+    }
+}
