@@ -41,12 +41,12 @@ pub(super) fn table(fit: &Fit, report: &Report) -> String {
     for part in &report.budget {
         text += &format!("{:<34}{}\n", part.source, numbers(&part.u));
     }
+    text += &format!("{:<34}{}\n", "of that, another seed moves it by", numbers(&report.another_seed));
     for shift in &report.shifts {
         let both = shift.shift.iter().zip(&shift.se).map(|(shift, se)| format!("{shift:.1e} ± {se:.0e}"));
         let both: String = both.map(|text| format!("  {text:>18}")).collect();
         text += &format!("{:<34}{both}\n", format!("shift by {}", shift.change));
     }
-    text += &format!("{:<34}{}\n", "of that, another seed moves it by", numbers(&report.another_seed));
     text += &format!("runs: {}, replicas at each value: {}\n", report.runs, report.replicas);
     let of_uncertainty = |(range, seed): (&Range, &f64)| seed / report.parameters[&range.label()].standard_uncertainty;
     let most = fit.ranges.iter().zip(&report.another_seed).map(of_uncertainty).fold(0.0, f64::max);
