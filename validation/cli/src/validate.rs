@@ -77,7 +77,9 @@ pub(super) fn validate(args: Args) -> Result<(), Failure> {
     let data = args.data.as_deref().map(experiment::digest).transpose()?;
     let input = json!({ "full": args.full, "seed": args.seed, "data": data });
     let mut agreed = input.clone();
-    agreed["cases"] = json!(names);
+    // A later version with other cases replaces a whole report of an earlier one.
+    let whole = args.cases.is_empty() && args.tags.is_empty();
+    agreed["cases"] = if whole { json!("all") } else { json!(names) };
     agree("validate", agreed.clone())?;
     let path = checkpoint::check(args.checkpoint.as_deref(), &args.out)?;
     let folder = result_folder(&args.out, ("validate", agreed, args.writing.force), 0, &PAGES)?;
@@ -85,7 +87,7 @@ pub(super) fn validate(args: Args) -> Result<(), Failure> {
     let effort = Effort { full: args.full, seed: args.seed, data: args.data };
     let (outcomes, sections) = on_threads(args.threads.given, || {
         let outcomes = outcomes(&chosen, &effort, finished.as_ref(), args.writing.quiet)?;
-        let sections = if args.cases.is_empty() && args.tags.is_empty() {
+        let sections = if whole {
             gather(&effort, finished.as_ref(), args.writing.quiet)?
         } else {
             Some(Sections::default())
