@@ -78,8 +78,8 @@ pub(super) fn validate(args: Args) -> Result<(), Failure> {
     let input = json!({ "full": args.full, "seed": args.seed, "data": data });
     let mut agreed = input.clone();
     // A later version with other cases replaces a whole report of an earlier one.
-    let whole = args.cases.is_empty() && args.tags.is_empty();
-    agreed["cases"] = if whole { json!("all") } else { json!(names) };
+    let runs_all = args.cases.is_empty() && args.tags.is_empty();
+    agreed["cases"] = if runs_all { json!("all") } else { json!(names) };
     agree("validate", agreed.clone())?;
     let path = checkpoint::check(args.checkpoint.as_deref(), &args.out)?;
     let folder = result_folder(&args.out, ("validate", agreed, args.writing.force), 0, &PAGES)?;
@@ -87,11 +87,8 @@ pub(super) fn validate(args: Args) -> Result<(), Failure> {
     let effort = Effort { full: args.full, seed: args.seed, data: args.data };
     let (outcomes, sections) = on_threads(args.threads.given, || {
         let outcomes = outcomes(&chosen, &effort, finished.as_ref(), args.writing.quiet)?;
-        let sections = if whole {
-            gather(&effort, finished.as_ref(), args.writing.quiet)?
-        } else {
-            Some(Sections::default())
-        };
+        let sections =
+            if runs_all { gather(&effort, finished.as_ref(), args.writing.quiet)? } else { Some(Sections::default()) };
         Ok::<_, Failure>((outcomes, sections))
     })??;
     let (Some(outcomes), Some(sections)) = (outcomes, sections) else {
