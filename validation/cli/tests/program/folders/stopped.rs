@@ -11,13 +11,15 @@ use std::process::Stdio;
 use std::time::Duration;
 
 /// Commands that make folders and files, and that replace them.
-const COMMANDS: [&str; 6] = [
+const COMMANDS: [&str; 8] = [
     "run small.toml --quiet --seed 3 --out new",
     "run small.toml --quiet --seed SEED --out old",
     "run small.toml --quiet --seed 3 --replicas 40 --checkpoint kept --every 0.01 --out checked",
     "sweep small.toml --over interaction.alpha=0.1,0.2,0.3 --quiet --out swept",
     "reference --aspect-ratio 2 --times 0:1:200 --force --out file/r.csv",
     "validate --case jeffery-period --case kick-bound --quiet --checkpoint cases --out report",
+    "problems export --quiet ref",
+    "man --quiet man1",
 ];
 
 /// Kills commands: at a random moment, when a hidden folder appears, when the record of a folder changes. Then nothing
@@ -26,9 +28,9 @@ const COMMANDS: [&str; 6] = [
 #[test]
 fn a_command_killed_at_any_moment_loses_nothing_and_works_again() {
     let dir = folder();
-    let kills = std::env::var("SHEARBED_KILLS").ok().map_or(36, |kills| kills.parse().unwrap());
+    let kills = std::env::var("SHEARBED_KILLS").ok().map_or(40, |kills| kills.parse().unwrap());
     let mut random = Pcg64Dxsm::seed_from_u64(49);
-    let own = ["old", "swept", "checked", "report"].map(|name| dir.path().join(name).join("notes.txt"));
+    let own = ["old", "swept", "checked", "report", "ref"].map(|name| dir.path().join(name).join("notes.txt"));
     let mut incomplete = 0;
     for kill in 0..kills {
         let line = COMMANDS[kill % COMMANDS.len()].replace("SEED", &kill.to_string());
