@@ -5,7 +5,7 @@ use std::path::Path;
 use std::process::Command;
 
 /// What the program is made of, from the workspace's root.
-const SOURCES: [&str; 14] = [
+const SOURCES: [&str; 17] = [
     "Cargo.toml",
     "Cargo.lock",
     "src",
@@ -18,6 +18,9 @@ const SOURCES: [&str; 14] = [
     "validation/oracle/Cargo.toml",
     "validation/oracle/src",
     "validation/fonts",
+    "validation/peers",
+    "validation/published",
+    "validation/schemas",
     "validation/src",
     "validation/scenes",
 ];

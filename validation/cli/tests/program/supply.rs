@@ -3,7 +3,7 @@
 
 use crate::common::bounded::Bounded;
 use std::collections::{BTreeMap, BTreeSet};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 
 fn text(path: &str) -> String {
@@ -116,4 +116,41 @@ fn the_oracles_ask_for_nothing_of_what_they_judge() {
         let asked_for = oracle[table].as_table().unwrap();
         assert!(asked_for.len() >= least && !asked_for.keys().any(|name| name.starts_with("shearbed")), "{table}");
     }
+}
+
+/// A file that is built in and no source would change results, and neither the commit's `-dirty` nor the digest by which
+/// the gate knows a report of the same sources.
+#[test]
+fn every_file_that_is_built_in_is_a_source() {
+    let build = text("build.rs");
+    let listed = build.split("const SOURCES").nth(1).unwrap().split("];").next().unwrap();
+    let sources: Vec<_> = listed.split('"').skip(1).step_by(2).collect();
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").canonicalize().unwrap();
+    let is_source = |path: &Path| sources.iter().any(|source| path.starts_with(root.join(source)));
+    let mut seen = 0;
+    for file in walk(&root, &sources) {
+        let text = std::fs::read_to_string(&file).unwrap();
+        for after in text.split("include_").skip(1) {
+            let name = ["str!(\"", "bytes!(\""].iter().find_map(|start| after.strip_prefix(start)?.split('"').next());
+            let Some(name) = name.filter(|name| !name.ends_with("README.md")) else { continue };
+            let path = file.parent().unwrap().join(name).canonicalize().unwrap();
+            assert!(is_source(&path), "{}: {name}", file.display());
+            seen += 1;
+        }
+    }
+    assert!(seen > 20 && !is_source(&root.join("README.md")));
+}
+
+/// The files of Rust in these places.
+fn walk(root: &Path, places: &[&str]) -> Vec<PathBuf> {
+    let mut left: Vec<_> = places.iter().map(|place| root.join(place)).collect();
+    let mut files = Vec::new();
+    while let Some(path) = left.pop() {
+        if let Ok(entries) = path.read_dir() {
+            left.extend(entries.map(|entry| entry.unwrap().path()));
+        } else if path.extension().is_some_and(|extension| extension == "rs") {
+            files.push(path);
+        }
+    }
+    files
 }
