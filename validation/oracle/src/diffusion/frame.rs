@@ -25,8 +25,11 @@ impl Frame {
         if spin == Vector3::zeros() {
             return Self::of_extension(motion);
         }
-        let across = spin.cross(&(motion.strain * spin)).norm();
-        let plane = across <= 8.0 * f64::EPSILON * spin.norm_squared() * motion.strain.norm();
+        // Products of three rates would be 0 or ∞ for very slow or fast flows; powers of two change no digit.
+        let scale = (-spin.amax().max(motion.strain.amax()).log2().floor()).exp2();
+        let (unit_spin, unit_strain) = (spin * scale, motion.strain * scale);
+        let across = unit_spin.cross(&(unit_strain * unit_spin)).norm();
+        let plane = across <= 8.0 * f64::EPSILON * unit_spin.norm_squared() * unit_strain.norm();
         let gathered = gathered(motion);
         let normal = spin.normalize();
         let within = gathered - normal * normal.dot(&gathered);

@@ -118,8 +118,14 @@ fn broken(rods: &Rods, axes: &Matrix3<f64>, solve: Solve) -> Option<Vec<(&'stati
         let by = apart(&turned(&found, &about), &plain(&found));
         laws.push(("a flow alike about an axis has an answer alike about it", beside(&found, by)));
     }
-    let other = solve(&Rods { time: rods.time / 8.0, ..with(rods.l * 8.0) })?;
-    laws.push(("8 G at t/8 is G at t", beside(&other, apart(&plain(&found), &plain(&other)))));
+    for (law, factor) in [
+        ("8 G at t/8 is G at t", 8.0),
+        ("2⁻³²⁰ G at 2³²⁰ t is G at t", (-320f64).exp2()),
+        ("2³²⁰ G at 2⁻³²⁰ t is G at t", 320f64.exp2()),
+    ] {
+        let other = solve(&Rods { time: rods.time / factor, ..with(rods.l * factor) })?;
+        laws.push((law, beside(&other, apart(&plain(&found), &plain(&other)))));
+    }
     // D and Λ both with the other sign.
     let mirrored = Rods { aspect_ratio: rods.aspect_ratio.recip(), ..with(-rods.l.transpose()) };
     if rods.aspect_ratio.is_finite() {
