@@ -118,8 +118,8 @@ fn the_oracles_ask_for_nothing_of_what_they_judge() {
     }
 }
 
-/// A file that is built in and no source would change results, and neither the commit's `-dirty` nor the digest by which
-/// the gate knows a report of the same sources.
+/// A file that is built in and no source would change results, and neither the commit's `-dirty` nor the digest by
+/// which the gate knows a report of the same sources.
 #[test]
 fn every_file_that_is_built_in_is_a_source() {
     let build = text("build.rs");

@@ -131,9 +131,12 @@ impl Folder {
             Refused(format!("{}: {what}; nothing was changed", path.shown()))
         };
         let ours: Vec<PathBuf> = (0..self.points.pairs.len()).map(|k| self.point(k)).collect();
+        let name = |file: &Path| file.file_name().and_then(|name| name.to_str()).unwrap_or_default().to_owned();
+        // What somebody copied, renamed or linked is theirs, whatever is in it.
+        let is_point = |path: &Path| !path.is_symlink() && name(path).bytes().all(|byte| byte.is_ascii_digit());
         let mut found = Vec::new();
         for path in list(&points)? {
-            let record = Record::read(&path).ok().flatten();
+            let record = Record::read(&path).ok().flatten().filter(|_| is_point(&path));
             let record = record.filter(|record| record.origin.inputs.get(POINT).is_some());
             let Some(record) = record else {
                 if ours.contains(&path) {
@@ -141,7 +144,6 @@ impl Folder {
                 }
                 continue;
             };
-            let name = |file: &Path| file.file_name().and_then(|name| name.to_str()).unwrap_or_default().to_owned();
             let is_own = |file: &&PathBuf| name(file) == RECORD || record.files.contains_key(&name(file));
             if let Some(file) = list(&path)?.iter().find(|file| !is_own(file)) {
                 return Err(foreign(file));
