@@ -118,6 +118,16 @@ fn the_oracles_ask_for_nothing_of_what_they_judge() {
     }
 }
 
+/// Cargo lets no built-in profile inherit from another: what an installed program optimises is written twice.
+#[test]
+fn a_release_optimises_what_the_default_build_does() {
+    let profiles = &manifest("../Cargo.toml")["profile"];
+    let [dev, release] = ["dev", "release"].map(|name| profiles[name]["package"].as_table().unwrap());
+    let levels = |all: &toml::Table| all.iter().map(|(k, v)| (k.clone(), v["opt-level"].clone())).collect::<Vec<_>>();
+    assert_eq!(levels(dev), levels(release));
+    assert!(dev.len() > 20);
+}
+
 /// A file that is built in and no source would change results, and neither the commit's `-dirty` nor the digest by
 /// which the gate knows a report of the same sources.
 #[test]

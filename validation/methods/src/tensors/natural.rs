@@ -52,9 +52,12 @@ const STEP: f64 = 0.5;
 
 /// The node s of a whole number; those within the exponents of tensors down to [`LEAST`] are computed once.
 fn node(k: i32) -> f64 {
-    const MOST: i32 = 256;
-    static NODES: LazyLock<Vec<f64>> = LazyLock::new(|| (-MOST..=MOST).map(|k| (STEP * f64::from(k)).exp()).collect());
-    NODES.get((k + MOST) as usize).copied().unwrap_or_else(|| (STEP * f64::from(k)).exp())
+    const LAST: i32 = 256;
+    fn at(k: i32) -> f64 {
+        (STEP * f64::from(k)).exp()
+    }
+    static NODES: LazyLock<Vec<f64>> = LazyLock::new(|| (-LAST..=LAST).map(at).collect());
+    NODES.get((k + LAST) as usize).copied().unwrap_or_else(|| at(k))
 }
 
 /// a_i, and a_2233, a_3311, a_1122, by the trapezoid rule in ln s with an error of e^(−2π²/h). Shifts `z` to sum to 0.

@@ -2,6 +2,7 @@
 
 use super::{Built, ProblemDef, all, built, page};
 use crate::files::output::{self, Output, Refused, ResultFolder};
+use crate::files::text;
 use serde_json::json;
 use std::path::Path;
 
@@ -30,9 +31,9 @@ pub fn export(dir: &Path, force: bool) -> Result<Vec<&'static str>, Refused> {
 /// The files of a problem.
 pub fn files(built: &Built) -> Vec<Output> {
     let problem = &built.problem;
-    let json = serde_json::to_string_pretty(problem).expect("a problem is plain data");
+    let json = text::json(problem).expect("a problem is plain data");
     let mut files = vec![
-        ("problem.json".into(), format!("{json}\n")),
+        ("problem.json".into(), json),
         ("certified.csv".into(), csv(&problem.columns, &built.certified)),
         ("README.md".into(), page::page(built)),
     ];

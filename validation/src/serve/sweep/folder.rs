@@ -131,24 +131,26 @@ impl Folder {
             Refused(format!("{}: {what}; nothing was changed", path.shown()))
         };
         let ours: Vec<PathBuf> = (0..self.points.pairs.len()).map(|k| self.point(k)).collect();
-        let name = |file: &Path| file.file_name().and_then(|name| name.to_str()).unwrap_or_default().to_owned();
+        let name = |file: &Path| file.file_name().and_then(|name| name.to_str()).map(str::to_owned);
         // What somebody copied, renamed or linked is theirs, whatever is in it.
-        let is_point = |path: &Path| !path.is_symlink() && name(path).bytes().all(|byte| byte.is_ascii_digit());
+        let is_point = |name: &String| name.bytes().all(|byte| byte.is_ascii_digit());
         let mut found = Vec::new();
         for path in list(&points)? {
-            let record = Record::read(&path).ok().flatten().filter(|_| is_point(&path));
+            let point = name(&path).filter(is_point).filter(|_| !path.is_symlink());
+            let record = Record::read(&path).ok().flatten();
             let record = record.filter(|record| record.origin.inputs.get(POINT).is_some());
-            let Some(record) = record else {
+            let Some((point, record)) = point.zip(record) else {
                 if ours.contains(&path) {
                     return Err(foreign(&path));
                 }
                 continue;
             };
-            let is_own = |file: &&PathBuf| name(file) == RECORD || record.files.contains_key(&name(file));
+            let is_own =
+                |file: &&PathBuf| name(file).is_some_and(|name| name == RECORD || record.files.contains_key(&name));
             if let Some(file) = list(&path)?.iter().find(|file| !is_own(file)) {
                 return Err(foreign(file));
             }
-            found.push(format!("points/{}", name(&path)));
+            found.push(format!("points/{point}"));
         }
         Ok(found)
     }
