@@ -20,7 +20,7 @@ use rand_pcg::Pcg64Dxsm;
 use rayon::prelude::*;
 use shearbed_validation::judge::lab::problem;
 use shearbed_validation::methods::least_squares::Datum;
-use shearbed_validation::methods::least_squares::likelihood::{RODS, Rods};
+use shearbed_validation::methods::least_squares::likelihood::{RODS, Reading, Rods};
 use shearbed_validation::oracle::naive::Naive;
 use shearbed_validation::serve::fit::Range;
 use shearbed_validation::serve::fit::data::TimeColumn;
@@ -71,11 +71,11 @@ fn main() -> Result<(), String> {
     let range = vec![Range::parse("interaction.alpha=0.05:5")?];
     let over_measured = vec![1.0];
     let rods_of_fit = match way {
-        "rods" => Rods { over_measured, in_u: false },
-        "within" => Rods { over_measured, in_u: true },
+        "rods" => Rods { over_measured, reading: Reading::Share(1.0) },
+        "within" => Rods { over_measured, reading: Reading::Rest((2.0 / rods as f64).sqrt()) },
         "within-independent" | "infinite" => Rods::none(1),
         _ => {
-            return Err(format!("{way}: rods, within, within-unsaid, within-independent and infinite are allowed"));
+            return Err(format!("{way}: rods, within, within-independent and infinite are allowed"));
         }
     };
     let one = |k: u64| -> Result<_, String> {
@@ -128,8 +128,9 @@ fn main() -> Result<(), String> {
     println!("# p < 0.05 in {}", share(fits.iter().filter(|fit| fit.2 < 0.05).count()));
     let mut p: Vec<f64> = fits.iter().map(|fit| fit.2).collect();
     p.sort_by(f64::total_cmp);
-    let distance =
-        (p.iter().enumerate()).map(|(k, p)| (p - k as f64 / n).max((k as f64 + 1.0) / n - p)).fold(0.0, f64::max);
+    let distance = (p.iter().enumerate())
+        .map(|(k, p)| (p - k as f64 / n).max((k as f64 + 1.0) / n - p))
+        .fold(0.0, shearbed_validation::oracle::larger);
     // Kolmogorov's law with Stephens' correction for small samples.
     let x = distance * (n.sqrt() + 0.12 + 0.11 / n.sqrt());
     let tail = (1..50).map(|k| 2.0 * (-1f64).powi(k - 1) * (-2.0 * f64::from(k * k) * x * x).exp()).sum::<f64>();

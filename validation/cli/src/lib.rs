@@ -281,7 +281,7 @@ fn command(command: Command) -> Result<(), Failure> {
 /// Options of every command that writes a folder of results.
 #[derive(clap::Args)]
 struct Writing {
-    /// Overwrite files in the folder that this command did not write, or wrote from other input
+    /// Overwrite files in the way that are not this command's own, were changed, or are from other input
     #[arg(long)]
     force: bool,
     /// Print nothing but errors and warnings
@@ -318,7 +318,7 @@ fn spares_inputs(
     spares(dir, new.chain([dir.join(RECORD)]).chain(earlier), inputs)
 }
 
-/// Refuses to replace or remove files at `targets` that the command reads; `out` is the argument of `--out`.
+/// Refuses to replace or remove files at `targets` that the command reads; `out` is what it was given to write.
 fn spares(
     out: &Path,
     targets: impl IntoIterator<Item = PathBuf>,
@@ -328,7 +328,7 @@ fn spares(
     let results: Vec<_> = targets.into_iter().filter_map(|target| there(&target)).collect();
     match inputs.into_iter().find(|input| there(input).is_some_and(|input| results.contains(&input))) {
         Some(input) => Err(Failure::Input(format!(
-            "--out {}: a result would replace {}, which this command reads: choose another --out",
+            "{}: a result would replace {}, which this command reads; give another",
             out.shown(),
             input.shown()
         ))),

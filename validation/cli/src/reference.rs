@@ -2,7 +2,7 @@
 
 mod flows;
 
-use super::{Failure, number, print, progress};
+use super::{Failure, number, print, progress, spares};
 use shearbed_validation::files::output;
 use shearbed_validation::files::text::{Shown, complain};
 use shearbed_validation::oracle::diffusion::{self, NoAnswer, strain_rate_per_s};
@@ -105,6 +105,9 @@ pub(super) fn reference(args: &Args) -> Result<(), Failure> {
     if args.force && args.out.is_none() && args.density.is_none() {
         return Err(Failure::Input("--force: needs --out or --density".into()));
     }
+    for file in args.out.iter().chain(&args.density) {
+        spares(file, [file.clone()], args.steps.clone())?;
+    }
     let rate = args.shear_rate_per_s;
     let couette = [[0.0; 3], [rate, 0.0, 0.0], [0.0; 3]];
     let motion = Motion { gradient_per_s: args.gradient_per_s.unwrap_or(couette), aspect_ratio: args.aspect_ratio };
@@ -161,7 +164,7 @@ fn peclet(motion: &Motion, asked: &Asked, d_r: f64) -> String {
     let (rate, of) = match asked {
         Asked::Diffusing(rods) if rods.flows.len() > 1 => {
             let rates = rods.flows.iter().map(|(gradient, _)| strain_rate_per_s(*gradient));
-            (rates.fold(0.0, f64::max), " of the fastest flow")
+            (rates.fold(0.0, shearbed_validation::oracle::larger), " of the fastest flow")
         }
         _ => (strain_rate_per_s(motion.gradient_per_s), ""),
     };

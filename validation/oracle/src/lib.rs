@@ -17,6 +17,11 @@ pub mod quadrature;
 pub mod reference;
 pub mod spheroid;
 
+/// The larger of two errors; NaN if one of them is NaN, which `f64::max` would lose.
+pub fn larger(a: f64, b: f64) -> f64 {
+    if a.is_nan() || b.is_nan() { f64::NAN } else { a.max(b) }
+}
+
 /// The README's example, as a test.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

@@ -119,7 +119,7 @@ pub fn model(effort: &Effort, replicas: u64) -> Result<Vec<Coefficients>, String
 
 /// The fit of a common α of both suspensions to points that are means of `replicas` replicas.
 pub fn one_alpha(points: &[f64], u: f64, replicas: u64, model: &[Coefficients]) -> Result<Fit, String> {
-    let rods = Rods { over_measured: vec![1.0 / replicas as f64; CONCENTRATIONS.len()], in_u: false };
+    let rods = Rods { over_measured: vec![1.0 / replicas as f64; CONCENTRATIONS.len()], ..Rods::none(0) };
     fit(&data(|k| points[k], u), &range()?, &rods, &Basis::new(1), model)
 }
 

@@ -152,3 +152,24 @@ fn name(kind: FileType) -> &'static str {
     }
     if kind.is_dir() { "a folder" } else { "a device" }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::fs;
+
+    #[test]
+    fn a_file_is_read_up_to_its_limit_and_no_further() {
+        let dir = tempfile::tempdir().unwrap();
+        let path = dir.path().join("file");
+        fs::write(&path, "12345").unwrap();
+        assert_eq!(bytes(&path, 5).unwrap(), b"12345");
+        assert_eq!(text(&path, u64::MAX).unwrap(), "12345");
+        assert_eq!(length_and_crc32(&path, 5).unwrap(), (5, crc32fast::hash(b"12345")));
+        for error in [bytes(&path, 4).unwrap_err(), length_and_crc32(&path, 4).unwrap_err()] {
+            assert_eq!(error.to_string(), "it is longer than the 4 bytes that are allowed");
+        }
+        fs::write(&path, b"a\nb\xff").unwrap();
+        assert_eq!(text(&path, 9).unwrap_err().to_string(), "it is not UTF-8 text (line 2)");
+    }
+}

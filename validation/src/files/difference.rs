@@ -23,3 +23,31 @@ fn at(path: &str, one: &Value, other: &Value) -> Option<(String, Value, Value)> 
         _ => Some((path.to_owned(), one.clone(), other.clone())),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::json;
+
+    fn words(one: &Value, other: &Value) -> String {
+        let (path, one, other) = difference(one, other).unwrap();
+        format!("{path}: {one}, {other}")
+    }
+
+    #[test]
+    fn the_first_difference_is_named() {
+        let a = json!({ "version": "1", "over": ["x=1", "y=1"], "scene": { "m": 3.0 } });
+        assert_eq!(difference(&a, &a.clone()), None);
+        let mut b = a.clone();
+        b["over"][1] = json!("y=2");
+        assert_eq!(words(&a, &b), r#"over.2: "y=1", "y=2""#);
+        b["over"][0] = json!("x=2");
+        assert_eq!(words(&a, &b), r#"over.1: "x=1", "x=2""#);
+        b["over"] = json!(["x=1"]);
+        assert_eq!(words(&a, &b), r#"over: ["x=1","y=1"], ["x=1"]"#);
+        let mut b = a.clone();
+        b["scene"] = json!({});
+        assert_eq!(words(&a, &b), "scene.m: 3.0, null");
+        assert_eq!(words(&b, &a), "scene.m: null, 3.0");
+    }
+}

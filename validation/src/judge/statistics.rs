@@ -1,5 +1,6 @@
 //! Statistics of independent values, for runs, figures, cases and studies.
 
+pub use crate::oracle::larger;
 use serde::{Deserialize, Serialize};
 use statrs::distribution::{ContinuousCDF, Normal, StudentsT};
 use statrs::statistics::Statistics;
@@ -64,11 +65,6 @@ impl Estimate {
         let square: f64 = without.iter().map(|s| (s - mean).powi(2)).sum();
         Self { value, se: ((n - 1.0) / n * square).sqrt() }
     }
-}
-
-/// The larger of two errors; NaN if one of them is NaN.
-pub fn larger(a: f64, b: f64) -> f64 {
-    if a.is_nan() || b.is_nan() { f64::NAN } else { a.max(b) }
 }
 
 /// The largest error, 0 if there are none; NaN if one of them is NaN.

@@ -87,8 +87,8 @@ pub(super) fn of_warning(warning: &Warning) -> String {
         ),
         Warning::ReadingAlone { with_rods, .. } => {
             return format!(
-                "{warning}. If it contains that scatter, --u-contains rods gives {with_rods}; --u-contains reading \
-                 says that it does not"
+                "{warning}. If it contains that scatter, --u-contains rods gives about {with_rods}; --u-contains \
+                 reading says that it does not"
             );
         }
         Warning::TooSmall(..) => ("--u-contains rods: ", ": check --rods, or give --u-contains reading"),

@@ -2,10 +2,10 @@
 
 use super::Datum;
 use super::emulator::Emulator;
-use super::likelihood::{CAUSES, Causes, ChiSquare, REPLICAS, Rods, causes};
+use super::likelihood::{CAUSES, Causes, ChiSquare, REPLICAS, Rods, causes, residuals};
 use super::minimise::minimise;
 use super::scarce::{added, scatter_of_covariance};
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DMatrix;
 use statrs::distribution::{ChiSquared, ContinuousCDF, FisherSnedecor};
 
 /// The best-fitting place in a box, by generalised least squares. V is taken at the best place; the two are found by
@@ -109,23 +109,16 @@ const PARTS: u32 = 20;
 const POSSIBLE: f64 = 3.84;
 
 /// The rods of the most likely scatter and of the largest possible one, if the points' uncertainties contain it, by the
-/// restricted likelihood at a place, in which the parameters are free (D. A. Harville, J. Am. Stat. Assoc. 72 (1977)
-/// 320).
+/// restricted likelihood at a place.
 pub fn within(data: &[Datum], emulator: &Emulator, place: &[f64]) -> Option<[Rods; 2]> {
     let of_replica = emulator.covariance_of_replica(place);
     let sets = data.iter().map(|datum| datum.set + 1).max().unwrap_or(0);
-    let slopes = emulator.slopes(place);
-    let error = DVector::from_iterator(data.len(), data.iter().map(|datum| datum.value)) - emulator.at(place);
-    let others = sum(&causes(data, emulator, place, &Rods::none(sets))[1..]);
+    let residuals = residuals(data, emulator, place);
     let of_part = |part: u32| {
         let rods = Rods::within(data, &of_replica, sets, f64::from(part) / f64::from(PARTS));
-        let inverse = (&others + sum(&rods.covariances(data, &of_replica))).cholesky()?;
-        let weighted = inverse.solve(&slopes);
-        let information = slopes.tr_mul(&weighted).cholesky()?;
-        let gradient = weighted.tr_mul(&error);
-        let chi_square = error.dot(&inverse.solve(&error)) - gradient.dot(&information.solve(&gradient));
-        let misfit = chi_square + inverse.ln_determinant() + information.ln_determinant();
-        misfit.is_finite().then_some((misfit, rods))
+        let scatter = rods.scatter(data, &of_replica);
+        let covariance = &residuals.others + rods.reading(data, &scatter, &residuals) + scatter;
+        Some((residuals.misfit(covariance)?, rods))
     };
     let parts: Vec<(f64, Rods)> = (0..=PARTS).filter_map(of_part).collect();
     let likely = parts.iter().min_by(|a, b| a.0.total_cmp(&b.0))?;

@@ -3,7 +3,7 @@
 use super::Datum;
 use super::best::Goodness;
 use super::emulator::{Prediction, of_time};
-use super::likelihood::Rods;
+use super::likelihood::{Residuals, Rods};
 use super::scarce::scatter_of_covariance;
 use nalgebra::{DMatrix, DVector};
 
@@ -32,9 +32,13 @@ impl Direct {
         let away = DMatrix::from_fn(rows.len(), points, |row, point| rows[row][point][0] - at[point]);
         let of_replica = away.tr_mul(&away) / (n - 1.0).max(1.0);
         let of_time = of_time(&at, before, after);
-        let [reading, rods] = rods.covariances(data, &of_replica);
-        let covariance = reading + rods + &of_replica / n + DMatrix::from_diagonal(&of_time);
         let error = DVector::from_fn(points, |i, _| data[i].value) - &at;
+        let others = &of_replica / n + DMatrix::from_diagonal(&of_time);
+        let residuals = Residuals { error, slopes: DMatrix::zeros(points, 0), others };
+        let scatter = rods.scatter(data, &of_replica);
+        let reading = rods.reading(data, &scatter, &residuals);
+        let Residuals { error, others, .. } = residuals;
+        let covariance = reading + scatter + others;
         let chi_square = error.dot(&covariance.clone().cholesky()?.solve(&error));
         let (se, replicas) = ((of_replica.diagonal() / n).map(f64::sqrt), rows.len());
         Some(Self { mean: at, se, chi_square, covariance: [covariance, of_replica], replicas })

@@ -12,6 +12,8 @@ pub const CAUSES: [&str; 5] =
 /// The covariance of the points by cause, at one place of the box.
 pub type Causes = [DMatrix<f64>; CAUSES.len()];
 
+/// Index in `CAUSES` of the reading in y.
+pub const READING: usize = 0;
 /// Index in `CAUSES` of the measured rods.
 pub const RODS: usize = 2;
 /// Index in `CAUSES` of the simulation's own noise.
@@ -25,14 +27,52 @@ pub struct Rods {
     /// For each data set: the number of rods of a replica over the number of rods averaged in a point, 0 if the points
     /// share no rods.
     pub over_measured: Vec<f64>,
-    /// True if the points' uncertainties contain the scatter of these rods.
-    pub in_u: bool,
+    /// The part of the points' squared uncertainties that is reading, independent for each point.
+    pub reading: Reading,
 }
+
+/// The part of the points' squared uncertainties u² that is reading.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Reading {
+    /// This share.
+    Share(f64),
+    /// The rest beside the rods' scatter. In u² that scatter is a sample's, known to this standard deviation relative
+    /// to u²; the residuals say the rest to more digits.
+    Rest(f64),
+}
+
+/// Measured less predicted values, their slopes by the parameters (points × parameters), and their covariance without
+/// reading and rods.
+pub struct Residuals {
+    /// The differences.
+    pub error: DVector<f64>,
+    /// Their slopes; no columns if no parameter is fitted.
+    pub slopes: DMatrix<f64>,
+    /// The covariance.
+    pub others: DMatrix<f64>,
+}
+
+impl Residuals {
+    /// −2 ln of the restricted likelihood of a covariance, in which the parameters are free (D. A. Harville, J. Am.
+    /// Stat. Assoc. 72 (1977) 320); `None` if it is not positive definite.
+    pub fn misfit(&self, covariance: DMatrix<f64>) -> Option<f64> {
+        let inverse = covariance.cholesky()?;
+        let weighted = inverse.solve(&self.slopes);
+        let information = self.slopes.tr_mul(&weighted).cholesky()?;
+        let gradient = weighted.tr_mul(&self.error);
+        let chi_square = self.error.dot(&inverse.solve(&self.error)) - gradient.dot(&information.solve(&gradient));
+        let misfit = chi_square + inverse.ln_determinant() + information.ln_determinant();
+        misfit.is_finite().then_some(misfit)
+    }
+}
+
+/// Shares of u² that are tried as reading: powers of ½ down to 10⁻⁶.
+const SHARES: i32 = 20;
 
 impl Rods {
     /// Points of `sets` sets that share no rods.
     pub fn none(sets: usize) -> Self {
-        Self { over_measured: vec![0.0; sets], in_u: false }
+        Self { over_measured: vec![0.0; sets], reading: Reading::Share(1.0) }
     }
 
     /// Rods whose scatter is the share `share` of the squared uncertainties.
@@ -42,29 +82,58 @@ impl Rods {
             let (u, rods) = (here().map(|k| data[k].u.powi(2)), here().map(|k| of_replica[(k, k)]));
             share * u.sum::<f64>() / rods.sum::<f64>().max(f64::MIN_POSITIVE)
         };
-        Self { over_measured: (0..sets).map(ratio).collect(), in_u: true }
+        Self { over_measured: (0..sets).map(ratio).collect(), reading: Reading::Share(1.0 - share) }
     }
 
-    /// The covariances of the points by reading and by rods. Different data sets have different rods.
-    pub fn covariances(&self, data: &[Datum], of_replica: &DMatrix<f64>) -> [DMatrix<f64>; 2] {
-        let rods = DMatrix::from_fn(data.len(), data.len(), |i, j| {
+    /// The covariance of the points by rods. Different data sets have different rods.
+    pub fn scatter(&self, data: &[Datum], of_replica: &DMatrix<f64>) -> DMatrix<f64> {
+        DMatrix::from_fn(data.len(), data.len(), |i, j| {
             if data[i].set == data[j].set { self.over_measured[data[i].set] * of_replica[(i, j)] } else { 0.0 }
-        });
-        let contained = if self.in_u { 1.0 } else { 0.0 };
-        let reading = |k: usize| (data[k].u.powi(2) - contained * rods[(k, k)]).max(0.0);
-        let reading = DVector::from_iterator(data.len(), (0..data.len()).map(reading));
-        [DMatrix::from_diagonal(&reading), rods]
+        })
+    }
+
+    /// The covariance of the points by reading.
+    pub fn reading(&self, data: &[Datum], scatter: &DMatrix<f64>, residuals: &Residuals) -> DMatrix<f64> {
+        let all = DMatrix::from_diagonal(&DVector::from_iterator(data.len(), data.iter().map(|datum| datum.u.powi(2))));
+        let (rest, sd) = match self.reading {
+            Reading::Share(share) => return all * share,
+            Reading::Rest(sd) => (1.0 - scatter.trace() / all.trace(), sd),
+        };
+        let misfit = |share: f64| {
+            let covariance = &residuals.others + scatter + &all * share;
+            residuals.misfit(covariance).map(|misfit| misfit + ((share - rest) / sd).powi(2))
+        };
+        let tried = (0..=SHARES).filter_map(|k| misfit(0.5f64.powi(k)).map(|misfit| (misfit, k)));
+        let least = tried.min_by(|a, b| a.0.total_cmp(&b.0)).map_or(0, |(_, k)| k);
+        // A parabola in ln of the share, by its neighbours.
+        let beside = [least - 1, least, least + 1].map(|k| misfit(0.5f64.powi(k.clamp(0, SHARES))));
+        let [Some(before), Some(at), Some(after)] = beside else { return all * 0.5f64.powi(least) };
+        let bend = before - 2.0 * at + after;
+        let moved = if bend > 0.0 { 0.5 * (before - after) / bend } else { 0.0 };
+        all * 0.5f64.powf(f64::from(least) + moved)
     }
 }
 
 /// The covariance of each cause.
 pub fn causes(data: &[Datum], emulator: &Emulator, place: &[f64], rods: &Rods) -> Causes {
-    let [reading, rods] = rods.covariances(data, &emulator.covariance_of_replica(place));
+    let scatter = rods.scatter(data, &emulator.covariance_of_replica(place));
+    let residuals = residuals(data, emulator, place);
+    let [of_time, of_mean, of_lack] = others(emulator, place);
+    [rods.reading(data, &scatter, &residuals), of_time, scatter, of_mean, of_lack]
+}
+
+/// The points less the emulator's at a place.
+pub fn residuals(data: &[Datum], emulator: &Emulator, place: &[f64]) -> Residuals {
+    let measured = DVector::from_iterator(data.len(), data.iter().map(|datum| datum.value));
+    let others = others(emulator, place).iter().sum();
+    Residuals { error: measured - emulator.at(place), slopes: emulator.slopes(place), others }
+}
+
+/// The covariances by errors in time, replicas and emulator.
+fn others(emulator: &Emulator, place: &[f64]) -> [DMatrix<f64>; 3] {
     let lack = emulator.lack_of_fit(place);
     [
-        reading,
         DMatrix::from_diagonal(&emulator.time_variance(place)),
-        rods,
         emulator.covariance_of_mean(place),
         // A polynomial's error may move points together or independently: half of either.
         (&lack * lack.transpose() + DMatrix::from_diagonal(&lack.map(|lack| lack * lack))) / 2.0,
@@ -157,4 +226,46 @@ pub fn correlation_of(covariance: &DMatrix<f64>) -> DMatrix<f64> {
     DMatrix::from_fn(covariance.nrows(), covariance.ncols(), |i, j| {
         covariance[(i, j)] / (covariance[(i, i)] * covariance[(j, j)]).sqrt()
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rand::{RngExt, SeedableRng};
+    use rand_distr::StandardNormal;
+    use rand_pcg::Pcg64Dxsm;
+
+    const POINTS: usize = 20;
+    /// The variance of a point by the rods that all points share.
+    const SCATTER: f64 = 1e-3;
+
+    /// The mean over synthetic curves of ln of the reading's variance, relative to the right one, where u² is that and
+    /// a sample's estimate of `SCATTER`.
+    fn found(reading: f64, how: Reading) -> f64 {
+        let mut rng = Pcg64Dxsm::seed_from_u64(11);
+        let mut normal = || rng.sample::<f64, _>(StandardNormal);
+        let together = |i: usize, j: usize| SCATTER * (-0.02 * (i as f64 - j as f64).powi(2)).exp();
+        let scatter = DMatrix::from_fn(POINTS, POINTS, together) + DMatrix::identity(POINTS, POINTS) * 1e-9;
+        let roots = scatter.clone().cholesky().expect("positive definite").unpack();
+        let mut one = || {
+            let u2 = reading + SCATTER * (1.0 + 0.14 * normal());
+            let data = vec![Datum { u: u2.sqrt(), ..Datum::place(0, "x1", 0.0) }; POINTS];
+            let mut normals = || DVector::from_fn(POINTS, |_, _| normal());
+            let error = &roots * normals() + normals() * reading.sqrt();
+            let others = DMatrix::zeros(POINTS, POINTS);
+            let residuals = Residuals { error, slopes: DMatrix::repeat(POINTS, 1, 1.0), others };
+            let rods = Rods { over_measured: vec![1.0], reading: how };
+            (rods.reading(&data, &scatter, &residuals)[(0, 0)] / reading).ln()
+        };
+        (0..200).map(|_| one()).sum::<f64>() / 200.0
+    }
+
+    #[test]
+    fn reading_beside_rods_is_found_in_the_residuals() {
+        for part in [0.003, 0.03, 0.3, 1.0] {
+            assert!(found(part * SCATTER, Reading::Rest(0.14)).abs() < 0.15);
+        }
+        // By u² alone, however well it is known, its errors remain: the control.
+        assert!(found(0.003 * SCATTER, Reading::Rest(1e-6)).abs() > 1.0);
+    }
 }

@@ -45,7 +45,7 @@ impl Means {
 
     /// The largest difference.
     pub fn apart(&self, other: &Self) -> f64 {
-        self.all().zip(other.all()).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+        self.all().zip(other.all()).map(|(a, b)| (a - b).abs()).fold(0.0, crate::larger)
     }
 
     fn all(&self) -> impl Iterator<Item = f64> {

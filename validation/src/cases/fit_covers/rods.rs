@@ -51,7 +51,7 @@ fn repeat((pool, offset): (&Pool, &DVector<f64>), treatment: Treatment, seed: u6
         point.value += READING * rng.sample::<f64, _>(StandardNormal);
         point.u = READING;
     }
-    let rods = Rods { over_measured: vec![1.0 / MEASURED as f64], in_u: false };
+    let rods = Rods { over_measured: vec![1.0 / MEASURED as f64], ..Rods::none(0) };
     let fit = fit(&data, &pool.range, &rods, &pool.basis, &drawn)?;
     let goodness = &fit.best.goodness;
     Ok(goodness.chi_square_of_points() / goodness.freedom as f64)

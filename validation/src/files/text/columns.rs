@@ -28,3 +28,14 @@ fn aligned(rows: &[Vec<String>], pad: impl Fn(&str, usize) -> String) -> String 
     };
     rows.iter().map(line).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_number_has_hundreds_of_digits() {
+        let shown = [0.0, -2.5, 1e11, 1e12, -1e300].map(four_decimals);
+        assert_eq!(shown, ["0.0000", "-2.5000", "100000000000.0000", "1.0000e12", "-1.0000e300"]);
+    }
+}

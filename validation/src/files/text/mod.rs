@@ -110,4 +110,13 @@ mod tests {
         assert!(!text.contains(commands) && text.contains("\\udb40\\udc41") && text.contains('α'), "{text}");
         assert_eq!(serde_json::from_str::<serde_json::Value>(&text).unwrap(), value);
     }
+
+    #[test]
+    fn what_commands_a_terminal_is_written_out() {
+        let hostile = "α\n\t\u{1b}]0;x\u{7}\u{9b}2J\rb\u{202e}c\u{7f}\u{200b}\u{ad}\u{feff}\u{2060}\u{e0041}";
+        let written = r"]0;x\u{7}\u{9b}2J\u{d}b\u{202e}c\u{7f}\u{200b}\u{ad}\u{feff}\u{2060}\u{e0041}";
+        assert_eq!(readable(hostile), format!("α\n\t\\u{{1b}}{written}"));
+        assert_eq!(line("a\nerror: b\tc"), r"a\nerror: b c");
+        assert_eq!(escaped("<a href=\"x\">&\u{1}"), r"&lt;a href=&quot;x&quot;&gt;&amp;\u{1}");
+    }
 }

@@ -6,7 +6,7 @@ use super::error::Warning;
 use super::search::Fit;
 use crate::methods::least_squares::Datum;
 use crate::methods::least_squares::best::{Best, best, within};
-use crate::methods::least_squares::likelihood::{RODS, Rods};
+use crate::methods::least_squares::likelihood::{RODS, Reading, Rods};
 use serde::Serialize;
 
 /// What the points' uncertainties contain.
@@ -26,7 +26,11 @@ pub fn rods(measured: Option<u64>, contents: Option<Contents>, counts: &[f64]) -
         None => Rods::none(counts.len()),
         Some(measured) => Rods {
             over_measured: counts.iter().map(|count| count / measured as f64).collect(),
-            in_u: contents == Some(Contents::Rods),
+            // The variance of a Gaussian sample.
+            reading: match contents {
+                Some(Contents::Rods) => Reading::Rest((2.0 / measured as f64).sqrt()),
+                _ => Reading::Share(1.0),
+            },
         },
     }
 }
@@ -55,19 +59,19 @@ pub fn warning(
                 // Nothing is drawn: rods do not scatter.
                 return None;
             }
-            let share = |rods: &Rods| 100.0 * rods.covariances(data, &of_replica)[1].trace() / u;
+            let share = |rods: &Rods| 100.0 * rods.scatter(data, &of_replica).trace() / u;
             let contained = other(&most).map(|best| {
                 format!(
-                    "; if u contains that scatter, which by the residuals is {:.0} % of u² or up to {:.0} %: {}",
+                    "; if u contains that scatter, which by the residuals is {:.0} % of u² or up to {:.0} %: about {}",
                     share(&likely),
                     share(&most),
                     answer(fit, &best)
                 )
             });
-            let as_scene = Rods { over_measured: vec![1.0; counts.len()], in_u: false };
+            let as_scene = Rods { over_measured: vec![1.0; counts.len()], ..Rods::none(0) };
             let beside = other(&as_scene).map(|best| {
                 format!(
-                    "; if u is the reading alone, and as many rods as the scene has were measured: {}",
+                    "; if u is the reading alone, and as many rods as the scene has were measured: about {}",
                     answer(fit, &best)
                 )
             });

@@ -19,7 +19,7 @@ use super::search::{Fit, Watch, values};
 use crate::methods::least_squares::Datum;
 use crate::methods::least_squares::basis::Basis;
 use crate::methods::least_squares::emulator::{Emulator, Replica, coefficients};
-use crate::methods::least_squares::likelihood::{Rods, correlation_of};
+use crate::methods::least_squares::likelihood::{READING, Rods, correlation_of};
 pub(super) use known::Known;
 use nalgebra::{DMatrix, DVector};
 use serde::Serialize;
@@ -132,6 +132,7 @@ pub fn design(
     let replicas = (fit.emulator.replicas() as u64).min(MOST_REPLICAS);
     let value = |node: &[f64]| values(&fit.ranges, &fit.sides, node);
     let places = places(scenes, &best, data)?;
+    let reading = fit.best.causes[READING].trace() / data.iter().map(|datum| datum.u.powi(2)).sum::<f64>();
     let (places_of_box, weights) = weighted(fit);
     let mut found = Design::default();
     let mut columns: Vec<DVector<f64>> = Vec::new();
@@ -156,12 +157,12 @@ pub fn design(
         let of_time = emulator.time_variance(&fit.best.place);
         let of_replica = emulator.covariance_of_replica(&fit.best.place);
         let rows: Vec<_> = places_of_box.iter().map(|place| emulator.at(place)).collect();
-        let [reading, scatter] = rods.covariances(&of, &of_replica);
+        let scatter = rods.scatter(&of, &of_replica);
         for (k, place) in of.into_iter().enumerate() {
             columns.push(DVector::from_iterator(rows.len(), rows.iter().map(|row| row[k])));
             found.candidates.push(Candidate {
                 concentration_per_cm3: concentrations[place.set],
-                u: (reading[(k, k)] + of_time[k] + scatter[(k, k)]).sqrt(),
+                u: (reading * place.u.powi(2) + of_time[k] + scatter[(k, k)]).sqrt(),
                 set: place.set,
                 column: place.column,
                 time: place.time,

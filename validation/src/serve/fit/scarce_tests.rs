@@ -56,7 +56,7 @@ fn fit(seed: u64) -> Fit {
             Ok(mean.iter().zip(own).map(|(mean, own)| [mean + own; 3]).collect())
         }))
     };
-    let rods = Rods { over_measured: vec![1.0], in_u: false };
+    let rods = Rods { over_measured: vec![1.0], ..Rods::none(0) };
     over_box(&data, &rods, &["a.a=-1:1"], &vec![(-1.0, 1.0)], &model, REPLICAS)
 }
 

@@ -333,7 +333,7 @@ impl Fit {
     /// The largest share of the replicas' noise in the rise of χ² at the ends of the 95 % intervals.
     pub fn noise_share(&self) -> f64 {
         let all = self.profiles.iter().map(|profile| profile.feigned(rise_of(0.95)));
-        all.fold(0.0, f64::max)
+        all.fold(0.0, crate::oracle::larger)
     }
 
     /// The values of the parameters at `place` of the box.

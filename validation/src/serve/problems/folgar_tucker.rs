@@ -214,7 +214,7 @@ mod tests {
                 let one = if i == j { 1.0 } else { 0.0 };
                 turned.sum::<f64>() - 2.0 * shape * stretched + 2.0 * c_i * rate * (one - 3.0 * two(i, j))
             };
-            pairs().map(of).map(f64::abs).fold(0.0, f64::max)
+            pairs().map(of).map(f64::abs).fold(0.0, crate::oracle::larger)
         };
         let steady = PROBLEMS.iter().filter(|problem| problem.times.is_empty());
         for problem in steady {

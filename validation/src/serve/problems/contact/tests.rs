@@ -26,9 +26,9 @@ fn worst(pairs: &[Pair], sign: f64) -> f64 {
                 let square = |i: usize| (double(&found[rod].rate[i]) - expected[rod][i]).powi(2);
                 (0..3).map(square).sum::<f64>().sqrt() / size
             })
-            .fold(0.0, f64::max)
+            .fold(0.0, crate::oracle::larger)
     };
-    pairs.iter().map(apart).fold(0.0, f64::max)
+    pairs.iter().map(apart).fold(0.0, crate::oracle::larger)
 }
 
 #[test]
@@ -50,7 +50,7 @@ fn the_tables_are_computed_anew() {
     for ((name, table), problem) in certify().iter().zip(&*PROBLEMS) {
         assert_eq!(*name, problem.name);
         assert!(table == problem.table, "{name}: the table is another one");
-        let worst = pairs().par_iter().map(|pair| condition(pair, problem)).reduce(|| 0.0, f64::max);
+        let worst = pairs().par_iter().map(|pair| condition(pair, problem)).reduce(|| 0.0, crate::oracle::larger);
         assert_eq!(worst.round(), problem.condition, "{name}");
     }
 }
