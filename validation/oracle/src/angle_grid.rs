@@ -59,6 +59,43 @@ pub fn through(flows: &[([[f64; 3]; 3], f64, f64)], shape: f64, rings: usize) ->
     grid.means(&density)
 }
 
+/// Means of rods that are isotropic at t = 0, at `time_s` in the flow L cos 2πt/T, by Taylor's series in steps of
+/// `step_s`. The arguments are as in [`means`].
+pub fn oscillating(
+    gradient_per_s: [[f64; 3]; 3],
+    shape: f64,
+    diffusivity_per_s: f64,
+    rings: usize,
+    [period_s, time_s, step_s]: [f64; 3],
+) -> Means {
+    const TERMS: usize = 30;
+    let grid = Grid::new(rings, mirrors(&gradient_per_s));
+    let still = grid.rates(&Matrix3::zeros(), shape, diffusivity_per_s, true);
+    let flowing = grid.rates(&Matrix3::from_fn(|i, j| gradient_per_s[i][j]), shape, 0.0, true);
+    let mut density = DVector::from_element(grid.points.len(), 1.0 / (4.0 * PI));
+    let steps = (time_s / step_s).ceil();
+    let (step_s, turn) = (time_s / steps, 2.0 * PI / period_s * (time_s / steps));
+    for step in 0..steps as u64 {
+        // cos(φ + h) = Σ cos(φ + kπ/2) h^k/k!.
+        let phase = step as f64 * turn;
+        let cosines = (0..TERMS).scan(1.0, |power, k| {
+            let now = *power * (phase + k as f64 * PI / 2.0).cos();
+            *power *= turn / (k + 1) as f64;
+            Some(now)
+        });
+        let cosines: Vec<f64> = cosines.collect();
+        let (mut term, mut moved) = (density.clone(), Vec::new());
+        for k in 0..TERMS {
+            moved.push(&flowing * &term);
+            let flow = moved.iter().rev().zip(&cosines).map(|(moved, cosine)| moved * *cosine);
+            term = (&still * &term + flow.fold(DVector::zeros(density.len()), |sum, one| sum + one))
+                * (step_s / (k + 1) as f64);
+            density += &term;
+        }
+    }
+    grid.means(&density)
+}
+
 /// a_ij and a_ijkl of rods that are at random in the plane of axes 1 and 2 at t = 0.
 ///
 /// No grid holds that density. The mean of f(p(t)) over rods that start along p is a smooth function of p, with

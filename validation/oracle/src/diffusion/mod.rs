@@ -13,6 +13,7 @@ mod march;
 mod means;
 mod operator;
 pub mod orbits;
+mod oscillation;
 mod settled;
 mod start;
 
@@ -21,6 +22,7 @@ mod tests;
 
 pub use means::{MEANS, Means};
 pub use operator::{Motion, strain_rate_per_s};
+pub use oscillation::oscillating;
 pub use start::{Start, bingham};
 
 use frame::Frame;
@@ -85,7 +87,7 @@ pub fn at(motion: &Motion, start: Start, times_s: &[f64]) -> Result<Vec<Means>, 
 ///
 /// If two solutions take too much work, or the start is neither smooth nor one that is cut.
 pub fn through(flows: &[FlowStep], start: Start, times_s: &[f64]) -> Result<Vec<Means>, NoAnswer> {
-    let found = found(flows, start, times_s, &Read::Means)?;
+    let found = found(&frames(flows), start, times_s, &Read::Means)?;
     Ok(found.0.iter().map(|means| Means::new(means, found.1)).collect())
 }
 
@@ -103,16 +105,19 @@ pub fn densities(
     if start.sharp().is_some() && times_s.first() == Some(&0.0) {
         return Err(NoAnswer::RoughStart);
     }
-    found(flows, start, times_s, &Read::Density(directions))
+    found(&frames(flows), start, times_s, &Read::Density(directions))
+}
+
+fn frames(flows: &[FlowStep]) -> Vec<(Frame, f64)> {
+    flows.iter().map(|flow| (Frame::of(&flow.motion), flow.duration_s)).collect()
 }
 
 /// What is read off at each time, and its stated error.
-fn found(flows: &[FlowStep], start: Start, times_s: &[f64], read: &Read) -> Result<(Vec<Vec<f64>>, f64), NoAnswer> {
-    let flows: Vec<_> = flows.iter().map(|flow| (Frame::of(&flow.motion), flow.duration_s)).collect();
+fn found(flows: &[(Frame, f64)], start: Start, times_s: &[f64], read: &Read) -> Result<(Vec<Vec<f64>>, f64), NoAnswer> {
     if start.sharp().is_some() {
-        return cut(&flows, start, times_s, read);
+        return cut(flows, start, times_s, read);
     }
-    let of = |tail, step| solution(&flows, start, times_s, read, Accuracy { tail, step, most: usize::MAX });
+    let of = |tail, step| solution(flows, start, times_s, read, Accuracy { tail, step, most: usize::MAX });
     let (first, second) = rayon::join(|| of(1e-9, 8.0), || of(1e-10, 6.0));
     let (first, second) = (first?, second?);
     let error = differ(&first, &second);
@@ -220,9 +225,9 @@ pub fn steady(motion: &Motion) -> Result<Means, NoAnswer> {
 
 /// The largest difference of two solutions.
 fn differ(a: &[Vec<f64>], b: &[Vec<f64>]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| apart(a, b)).fold(0.0, f64::max)
+    a.iter().zip(b).map(|(a, b)| apart(a, b)).fold(0.0, crate::larger)
 }
 
 fn apart(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+    a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, crate::larger)
 }

@@ -17,6 +17,8 @@ pub enum Start<'a> {
     Bingham([[f64; 3]; 3]),
     /// One direction and its opposite, of length 1.
     Direction([f64; 3]),
+    /// These directions and their opposites, each of length 1, with equal weights; at least one.
+    Directions(&'a [[f64; 3]]),
     /// All directions across this one, of length 1, alike.
     Plane([f64; 3]),
 }
@@ -27,6 +29,9 @@ impl Start<'_> {
         match self {
             Self::Isotropic | Self::Density(_) | Self::Bingham(_) => None,
             Self::Direction(p) => Some(p.map(f64::abs)),
+            Self::Directions(all) => {
+                Some([0, 1, 2].map(|i| all.iter().map(|p| p[i].abs()).sum::<f64>() / all.len() as f64))
+            }
             Self::Plane(n) => Some(n.map(|x| 2.0 / PI * (1.0 - x * x).max(0.0).sqrt())),
         }
     }
@@ -51,6 +56,14 @@ impl Start<'_> {
                     unknowns.iter_mut().zip(basis.unknowns()).for_each(|(x, (l, ..))| *x *= factors[l / 2]);
                 }
                 Ok((basis, unknowns))
+            }
+            Self::Directions(all) => {
+                let basis = Basis { degree: most, order: most, even: false };
+                let mut unknowns = vec![0.0; basis.len()];
+                for p in *all {
+                    unknowns.iter_mut().zip(basis.values(frame.inward(*p))).for_each(|(sum, x)| *sum += x);
+                }
+                Ok((basis, unknowns.iter().map(|sum| sum / all.len() as f64).collect()))
             }
             Self::Bingham(k) => {
                 let k = Matrix3::from_fn(|i, j| k[i][j]);

@@ -42,7 +42,7 @@ fn without_diffusion_rods_are_free() {
                     .max(off(&found.fourth, &exact.fourth().each_ref().map(double)))
                     .max(off(&found.projections, &exact.projections().each_ref().map(double)))
             });
-            each.fold(0.0, f64::max)
+            each.fold(0.0, crate::larger)
         };
         let motion = Motion::new(gradient, aspect_ratio, 0.0);
         assert!(error(&Motion { diffusivity: 1e-9, ..motion }) > 1e-11);

@@ -6,6 +6,8 @@ mod in_time;
 mod laws;
 mod of_operator;
 mod orbits;
+mod oscillation;
+mod published;
 mod sharp;
 mod steady;
 
@@ -63,5 +65,5 @@ fn rate(motion: &Motion, means: &Means) -> Matrix3<f64> {
 }
 
 fn off<const N: usize>(a: &[f64; N], b: &[f64; N]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+    a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, crate::larger)
 }

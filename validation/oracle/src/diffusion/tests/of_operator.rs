@@ -55,7 +55,7 @@ fn a_manufactured_solution_has_the_rate_that_is_worked_out_by_hand() {
         let mut found = vec![0.0; basis.len()];
         operator.apply(1.0, &unknowns, &mut found);
         // The highest degree lacks contributions from beyond.
-        found.iter().zip(&due).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+        found.iter().zip(&due).map(|(a, b)| (a - b).abs()).fold(0.0, crate::larger)
     };
     judge("operator", motion, |motion| off(&Operator::new(motion, basis)), 1e-12, 1e-3);
     // A missing coupling: one of many entries.

@@ -48,7 +48,7 @@ fn at_rest_moments_decay_by_the_closed_form() {
             };
             off(&found.second, &due.0).max(off(&found.fourth, &due.1))
         });
-        each.fold(0.0, f64::max)
+        each.fold(0.0, crate::larger)
     };
     let still = Motion::diffusing([[0.0; 3]; 3], 5.0, 0.3);
     for start in [Start::Plane(AXIS), Start::Direction(SLANTED)] {
@@ -90,4 +90,24 @@ fn in_a_flow_a_plane_is_the_mean_of_its_directions() {
         // Each is good to 4e-12, and harmonics of φ above 24 have no part in so early a mean.
         judge((gradient, r), motion, error, 2e-11, 1e-4);
     }
+}
+
+/// The means over several directions are the mean of those of each.
+#[test]
+fn directions_are_the_mean_of_each() {
+    let [first, second] = [SLANTED, [0.0, -0.6, 0.8]];
+    fn of(start: Start) -> Vec<Means> {
+        at(&Motion::diffusing(ASKEW, 5.0, 0.3), start, &TIMES).unwrap()
+    }
+    let each = [first, second, first].map(|p| of(Start::Direction(p)));
+    let error = |all: &[[f64; 3]]| {
+        let mean = |at: usize| {
+            let mut sum = Means::new(&[0.0; crate::diffusion::MEANS], 0.0);
+            each.iter().for_each(|of_one| sum.add(1.0 / 3.0, &of_one[at]));
+            sum
+        };
+        of(Start::Directions(all)).iter().enumerate().map(|(at, found)| found.apart(&mean(at))).fold(0.0, crate::larger)
+    };
+    assert!(error(&[first, second, first.map(|x| -x)]) < 1e-11);
+    assert!(error(&[first, second]) > 1e-2);
 }

@@ -37,7 +37,7 @@ fn extension_has_the_density_of_bingham() {
                 (found.fourth[0], 0.375 * (1.0 - 2.0 * z2 + z4)),
                 (found.projections[2], z),
             ];
-            pairs.map(|(a, b)| (a - b).abs()).into_iter().fold(0.0, f64::max)
+            pairs.map(|(a, b)| (a - b).abs()).into_iter().fold(0.0, crate::larger)
         };
         judge((rate, aspect_ratio, c_i), motion, error, 1e-12, 1e-6);
     }
