@@ -281,7 +281,7 @@ fn command(command: Command) -> Result<(), Failure> {
 /// Options of every command that writes a folder of results.
 #[derive(clap::Args)]
 struct Writing {
-    /// Overwrite files in the way that are not this command's own, were changed, or are from other input
+    /// Overwrite whatever files are in the way
     #[arg(long)]
     force: bool,
     /// Print nothing but errors and warnings

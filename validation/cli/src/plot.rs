@@ -176,7 +176,8 @@ pub(super) fn figure(dirs: &[PathBuf], channel: Option<&str>) -> Result<Drawn, F
     Ok(Drawn { figure, channel, runs })
 }
 
-fn write(out: &Path, figure: &Figure, force: bool) -> Result<(), Failure> {
+/// Writes a picture in the format of its ending.
+pub(super) fn write(out: &Path, figure: &Figure, force: bool) -> Result<(), Failure> {
     let drawn = match out.extension().and_then(|extension| extension.to_str()) {
         Some("png") => plot::png(figure),
         Some("pdf") => plot::pdf(figure),

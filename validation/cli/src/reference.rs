@@ -1,12 +1,14 @@
 //! `shearbed reference`.
 
+mod density;
 mod flows;
+mod values;
 
-use super::{Failure, number, print, progress, spares};
+use super::{Failure, print, progress, spares};
 use shearbed_validation::files::output;
 use shearbed_validation::files::text::{Shown, complain};
 use shearbed_validation::oracle::diffusion::{self, NoAnswer, strain_rate_per_s};
-use shearbed_validation::oracle::reference::big::{Bits, decimal, digits, double, finite};
+use shearbed_validation::oracle::reference::big::digits;
 use shearbed_validation::oracle::reference::constants::{self, Constant};
 use shearbed_validation::oracle::reference::diffusing::{Diffusing, Spread, WIDEST_PERCENT};
 use shearbed_validation::oracle::reference::motion::{LARGEST_STRAIN, Motion, Unit};
@@ -20,25 +22,26 @@ use std::path::{Path, PathBuf};
 #[command(after_help = "Example:\n  shearbed reference --aspect-ratio 11.6 --start 0,90 --times 0:1:101")]
 pub(super) struct Args {
     /// r_e, from 1e-100 to 1e100, or `inf` for Λ = 1
-    #[arg(long, value_name = "R|inf", value_parser = aspect_ratio, allow_negative_numbers = true)]
+    #[arg(long, value_name = "R|inf", value_parser = values::aspect_ratio, allow_negative_numbers = true)]
     aspect_ratio: f64,
     /// Directions at t = 0: `isotropic`, `planar` (at random in the flow–gradient plane: a = diag(½, ½, 0)), one rod's
-    /// φ,θ in degrees, or, with diffusion, a11,a22,a33,a12,a13,a23 of a density of Bingham
-    #[arg(long, value_name = "isotropic|planar|PHI_DEG,THETA_DEG|a11,…,a23", default_value = "isotropic",
-        value_parser = start, allow_hyphen_values = true)]
+    /// φ,θ in degrees, or, with diffusion, a11,a22,a33,a12,a13,a23 of a density of Bingham, or a file of
+    /// p1,p2,p3
+    #[arg(long, value_name = "isotropic|planar|PHI_DEG,THETA_DEG|a11,…,a23|FILE.csv", default_value = "isotropic",
+        value_parser = values::start, allow_hyphen_values = true)]
     start: From,
     /// COUNT evenly spaced times with both ends (COUNT = 1: the time FROM), or rising times with commas between
-    #[arg(long, value_name = "FROM:TO:COUNT|T1,T2,…", value_parser = times, allow_hyphen_values = true,
+    #[arg(long, value_name = "FROM:TO:COUNT|T1,T2,…", value_parser = values::times, allow_hyphen_values = true,
         required_unless_present_any = ["constants", "explain", "steady"])]
     times: Option<Times>,
     /// What times count: periods of (mean) r_e, strain, or seconds; period unless given, and strain for r_e = inf
-    #[arg(long, value_name = "period|strain|s", value_parser = unit_named)]
+    #[arg(long, value_name = "period|strain|s", value_parser = values::unit_named)]
     unit: Option<Unit>,
     /// G of plane Couette flow, u_2 = G x_1
-    #[arg(long, value_name = "G", default_value = "1", value_parser = rate, allow_negative_numbers = true)]
+    #[arg(long, value_name = "G", default_value = "1", value_parser = values::rate, allow_negative_numbers = true)]
     shear_rate_per_s: f64,
     /// Another steady flow: nine numbers ∂u_i/∂x_j, row by row, in 1/s
-    #[arg(long, value_name = "L11,L12,…,L33", value_parser = gradient, conflicts_with = "shear_rate_per_s",
+    #[arg(long, value_name = "L11,L12,…,L33", value_parser = values::gradient, conflicts_with = "shear_rate_per_s",
         allow_hyphen_values = true)]
     gradient_per_s: Option<[[f64; 3]; 3]>,
     /// Flows one after another, for rods with diffusion: rows of duration_s and shear_rate_per_s, or of duration_s and
@@ -46,14 +49,19 @@ pub(super) struct Args {
     #[arg(long, value_name = "FILE.csv", requires = "diffusion",
         conflicts_with_all = ["shear_rate_per_s", "gradient_per_s", "steady"])]
     steps: Option<PathBuf>,
+    /// The flow times cos 2πt/T, for rods with --d-r-per-s; times are in s
+    #[arg(long, value_name = "T", requires = "d_r_per_s", value_parser = values::period, allow_negative_numbers = true,
+        conflicts_with_all = ["steps", "steady", "density", "marginal"])]
+    oscillation_period_s: Option<f64>,
     /// Standard deviation of a Gaussian r_e in percent of the mean, for isotropic starts and for rods with diffusion
-    #[arg(long, value_name = "PERCENT", default_value = "0", value_parser = deviation, allow_negative_numbers = true)]
+    #[arg(long, value_name = "PERCENT", default_value = "0", value_parser = values::deviation,
+        allow_negative_numbers = true)]
     aspect_ratio_sd_percent: f64,
     /// C_I: rods with rotary diffusion D_r = C_I γ̇, γ̇ = (2D:D)^½; `inf` for all directions alike
-    #[arg(long, group = "diffusion", value_name = "C", value_parser = c_i, allow_negative_numbers = true)]
+    #[arg(long, group = "diffusion", value_name = "C", value_parser = values::c_i, allow_negative_numbers = true)]
     c_i: Option<f64>,
     /// D_r of Brownian rods, also at rest (nine zeros, --unit s)
-    #[arg(long, group = "diffusion", value_name = "D", value_parser = d_r, allow_negative_numbers = true)]
+    #[arg(long, group = "diffusion", value_name = "D", value_parser = values::d_r, allow_negative_numbers = true)]
     d_r_per_s: Option<f64>,
     /// The steady distribution of rods with diffusion, in a last row at the time inf
     #[arg(long, requires = "diffusion")]
@@ -67,9 +75,13 @@ pub(super) struct Args {
     /// What does not change with time: T, ⟨φ⟩, C_b, means over phases, plateaus
     #[arg(long, conflicts_with_all = ["times", "unit", "fourth", "diffusion", "aspect_ratio_sd_percent", "explain"])]
     constants: bool,
-    /// A file for the density ψ(φ, θ) of rods with diffusion at the times, every 5°
-    #[arg(long, value_name = "FILE.csv", requires = "diffusion", requires = "times")]
+    /// A file for the density ψ(φ, θ) of rods with diffusion at the times: values every 5°, or a map for each time
+    #[arg(long, value_name = "FILE.csv|.svg|.png|.pdf", requires = "diffusion", requires = "times",
+        value_parser = values::density_file)]
     density: Option<PathBuf>,
+    /// A file for the density of φ alone, per rad, every 5°
+    #[arg(long, value_name = "FILE.csv", requires = "diffusion", requires = "times")]
+    marginal: Option<PathBuf>,
     /// Say what each column is, its unit and its equation, and compute nothing
     #[arg(long)]
     explain: bool,
@@ -88,12 +100,20 @@ impl Args {
 }
 
 /// The value of `--start`.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 enum From {
     Isotropic,
     Planar,
     Angles { phi_deg: f64, theta_deg: f64 },
     Bingham([[f64; 3]; 3]),
+    Directions(PathBuf),
+}
+
+impl From {
+    /// The file that it names.
+    fn file(&self) -> Option<&PathBuf> {
+        if let Self::Directions(path) = self { Some(path) } else { None }
+    }
 }
 
 /// The value of `--times`.
@@ -102,21 +122,25 @@ struct Times(Vec<f64>);
 
 /// Prints or writes reference values.
 pub(super) fn reference(args: &Args) -> Result<(), Failure> {
-    if args.force && args.out.is_none() && args.density.is_none() {
-        return Err(Failure::Input("--force: needs --out or --density".into()));
+    let files: Vec<&PathBuf> = [&args.out, &args.density, &args.marginal].into_iter().flatten().collect();
+    if args.force && files.is_empty() {
+        return Err(Failure::Input("--force: needs --out, --density or --marginal".into()));
     }
-    for file in args.out.iter().chain(&args.density) {
-        spares(file, [file.clone()], args.steps.clone())?;
+    for (k, file) in files.iter().enumerate() {
+        if files[..k].contains(file) {
+            return Err(Failure::Input(format!("{}: is given twice; two files are needed", file.shown())));
+        }
+        spares(file, [file.to_path_buf()], args.steps.iter().chain(args.start.file()).cloned())?;
     }
     let rate = args.shear_rate_per_s;
     let couette = [[0.0; 3], [rate, 0.0, 0.0], [0.0; 3]];
     let motion = Motion { gradient_per_s: args.gradient_per_s.unwrap_or(couette), aspect_ratio: args.aspect_ratio };
     let direction = match args.start {
-        From::Isotropic | From::Planar | From::Bingham(_) => None,
+        From::Isotropic | From::Planar | From::Bingham(_) | From::Directions(_) => None,
         From::Angles { phi_deg, theta_deg } => Some(Direction::Angles { phi_deg, theta_deg }),
     };
     let text = if args.constants {
-        if matches!(args.start, From::Planar | From::Bingham(_)) {
+        if matches!(args.start, From::Planar | From::Bingham(_) | From::Directions(_)) {
             return Err(Failure::Input("--constants: isotropic or angles are allowed as --start".into()));
         }
         let constants = constants::constants(&motion, direction).ok_or_else(|| no_couette("--constants"))?;
@@ -130,17 +154,11 @@ pub(super) fn reference(args: &Args) -> Result<(), Failure> {
             if let Some(d_r) = args.d_r_per_s {
                 complain(&peclet(&motion, &asked, d_r));
             }
-            if let (Some(path), Asked::Diffusing(rods)) = (&args.density, &asked) {
-                let times = args.times.as_ref().map_or(&[][..], |times| &times.0);
-                let (density, error) = flows::density(rods, times, unit(args)).map_err(|why| refused(args, why))?;
-                if let Some(out) = &args.out {
-                    if out == path {
-                        return Err(Failure::Input("--out and --density: two files are needed".into()));
-                    }
+            if let (Asked::Diffusing(rods), Some(times)) = (&asked, &args.times) {
+                if let Some(out) = args.out.as_ref().filter(|_| files.len() > 1) {
                     output::may_write(out, text.as_bytes(), args.force)?;
                 }
-                write(path, density, args.force)?;
-                complain(&format!("note: {}: ψ in 1/sr, to within {:.0e}\n", path.shown(), error.max(5e-12)));
+                density::write(args, rods, &times.0)?;
             }
             text
         }
@@ -183,15 +201,19 @@ fn asked(args: &Args, motion: &Motion, direction: Option<Direction>) -> Result<A
     let spreads = !matches!(spread, None | Some(Spread::CI(0.0) | Spread::PerS(0.0)));
     // Without diffusion the rods are free; their means have full precision, but there is no steady distribution.
     if let Some(spread) = spread.filter(|_| spreads || args.steady) {
-        if sd > WIDEST_PERCENT || (sd > 0.0 && (args.aspect_ratio.is_infinite() || args.density.is_some())) {
+        if sd > WIDEST_PERCENT
+            || (sd > 0.0 && (args.aspect_ratio.is_infinite() || (args.density.is_some() || args.marginal.is_some())))
+        {
             return Err(Failure::Input(format!(
                 "--aspect-ratio-sd-percent {sd}: with diffusion 0 to {WIDEST_PERCENT} is allowed, of a finite \
-                 --aspect-ratio and without --density"
+                 --aspect-ratio, without --density and --marginal"
             )));
         }
-        let start = match (args.start, direction) {
+        let start = match (&args.start, direction) {
             (From::Planar, _) => diffusion::Start::Plane([0.0, 0.0, 1.0]),
-            (From::Bingham(k), _) => diffusion::Start::Bingham(k),
+            (From::Bingham(k), _) => diffusion::Start::Bingham(*k),
+            // Kept to the end of the program: the start of one command.
+            (From::Directions(path), _) => diffusion::Start::Directions(flows::directions(path)?.leak()),
             (_, Some(direction)) => diffusion::Start::Direction(rod::nearest(direction)),
             _ => diffusion::Start::Isotropic,
         };
@@ -199,6 +221,7 @@ fn asked(args: &Args, motion: &Motion, direction: Option<Direction>) -> Result<A
             aspect_ratio: args.aspect_ratio,
             aspect_ratio_sd_percent: sd,
             flows,
+            oscillation_s: args.oscillation_period_s,
             spread,
             start,
             fourth: args.fourth,
@@ -208,9 +231,12 @@ fn asked(args: &Args, motion: &Motion, direction: Option<Direction>) -> Result<A
     }
     let needs = [
         ("--steps", args.steps.is_some()),
+        ("--oscillation-period-s", args.oscillation_period_s.is_some()),
         ("--density", args.density.is_some()),
+        ("--marginal", args.marginal.is_some()),
         ("--optics", args.optics),
         ("--start a11,…,a23", matches!(args.start, From::Bingham(_))),
+        ("--start FILE.csv", matches!(args.start, From::Directions(_))),
     ];
     if let Some((flag, _)) = needs.iter().find(|(_, given)| *given) {
         return Err(Failure::Input(format!(
@@ -230,7 +256,7 @@ fn asked(args: &Args, motion: &Motion, direction: Option<Direction>) -> Result<A
 
 fn unit(args: &Args) -> Unit {
     args.unit.unwrap_or(match args.aspect_ratio.is_finite() {
-        _ if args.steps.is_some() => Unit::Second,
+        _ if args.steps.is_some() || args.oscillation_period_s.is_some() => Unit::Second,
         true => Unit::Period,
         false => Unit::Strain,
     })
@@ -329,19 +355,22 @@ fn refused(args: &Args, why: NoValue) -> Failure {
                 .into()
         }
         NoValue::Diffusion(NoAnswer::RoughStart) => {
-            "--density: at 0 s all rods of --start planar, or of angles, have one direction; later times are \
-             allowed"
+            "--density, --marginal: at 0 s rods of --start planar, of angles or of a file have single directions; \
+             later times are allowed"
                 .into()
         }
         NoValue::Diffusion(why) if !matches!(args.start, From::Isotropic | From::Bingham(_)) => format!(
-            "--times with {flag}: {why}: rods of --start planar, or of angles, spread from a width of 0; {allowed} \
-             allowed, or a later first time after 0 (D_r t from about 1e-4 on, and D_r/γ̇ from about 1e-4 on)"
+            "--times with {flag}: {why}: rods of --start planar, of angles or of a file spread from a width of 0; \
+             {allowed} allowed, or a later first time after 0 (D_r t from about 1e-4 on, and D_r/γ̇ from about 1e-4 on)"
         ),
         NoValue::Diffusion(why) => format!(
             "--times with {flag}: {why}; a larger C_I or shorter --times are allowed (from C_I = D_r/γ̇ = 1e-4 on, a \
              strain of 100; at 1e-5, of 10), and --steady"
         ),
         NoValue::Unit if args.steps.is_some() => "--unit: the times of --steps are in s, which alone is allowed".into(),
+        NoValue::Unit if args.oscillation_period_s.is_some() => {
+            "--unit: the times of a flow that oscillates are in s, which alone is allowed".into()
+        }
         NoValue::Unit => format!(
             "--unit{}: this flow has no such unit of time; s is allowed, strain where it stretches, and period in \
              plane Couette flow (--shear-rate-per-s G) of rods with a finite r_e",
@@ -360,112 +389,4 @@ fn refused(args: &Args, why: NoValue) -> Failure {
             args.aspect_ratio_sd_percent
         ),
     })
-}
-
-fn number_or_inf(text: &str, allowed: impl Fn(f64) -> bool, words: &str) -> Result<f64, String> {
-    if text == "inf" { Ok(f64::INFINITY) } else { number(text, allowed, words) }
-}
-
-fn aspect_ratio(text: &str) -> Result<f64, String> {
-    number_or_inf(text, |r| (1e-100..=1e100).contains(&r), "a number from 1e-100 to 1e100, or inf,")
-}
-
-fn c_i(text: &str) -> Result<f64, String> {
-    let words = "0 (free rods), a number from 1e-9 to 1e9, or inf (all directions alike)";
-    number_or_inf(text, |c| c == 0.0 || (1e-9..=1e9).contains(&c), words)
-}
-
-fn d_r(text: &str) -> Result<f64, String> {
-    let words = "0 (free rods), a number from 1e-100 to 1e100, or inf (all directions alike)";
-    number_or_inf(text, |d| d == 0.0 || (1e-100..=1e100).contains(&d), words)
-}
-
-fn rate(text: &str) -> Result<f64, String> {
-    let words = "a number with a size from 1e-100 to 1e100";
-    number(text, |g| (1e-100..=1e100).contains(&g.abs()), words)
-}
-
-fn deviation(text: &str) -> Result<f64, String> {
-    number(text, |sd| (0.0..100.0).contains(&sd), "a number from 0 to below 100")
-}
-
-fn unit_named(text: &str) -> Result<Unit, String> {
-    match text {
-        "period" => Ok(Unit::Period),
-        "strain" => Ok(Unit::Strain),
-        "s" => Ok(Unit::Second),
-        _ => Err("period, strain or s is allowed".into()),
-    }
-}
-
-fn start(text: &str) -> Result<From, String> {
-    let words = "`isotropic`, `planar`, φ,θ in degrees with θ from 0 to 180 (each 0 or of a size from 5e-324 to \
-                 1.8e308), or a11,a22,a33,a12,a13,a23";
-    match text.split(',').collect::<Vec<_>>()[..] {
-        ["isotropic"] => Ok(From::Isotropic),
-        ["planar"] => Ok(From::Planar),
-        [phi, theta] => Ok(From::Angles {
-            phi_deg: number(phi, |_| true, words)?,
-            theta_deg: number(theta, |theta| (0.0..=180.0).contains(&theta), words)?,
-        }),
-        [_, _, _, _, _, _] => tensor(text).map(From::Bingham),
-        _ => Err(format!("{words} is allowed")),
-    }
-}
-
-/// K of the density of Bingham with this a_ij.
-fn tensor(text: &str) -> Result<[[f64; 3]; 3], String> {
-    let words = "a11,a22,a33,a12,a13,a23 with a11 + a22 + a33 = 1 and eigenvalues above 0";
-    let a: Vec<f64> = text.split(',').map(|part| number(part, |x| x.abs() <= 1.0, words)).collect::<Result<_, _>>()?;
-    if (a[0] + a[1] + a[2] - 1.0).abs() > 1e-12 {
-        return Err(format!("{words} are allowed; the sum is {}", a[0] + a[1] + a[2]));
-    }
-    diffusion::bingham([a[0], a[1], a[2], a[3], a[4], a[5]])
-        .map_err(|least| format!("{words}, the least from about 0.02 on, are allowed; the least is {least}"))
-}
-
-fn gradient(text: &str) -> Result<[[f64; 3]; 3], String> {
-    let words = "nine finite numbers with sizes from 1e-100 to 1e100 or 0, separated by commas,";
-    let within = |x: f64| x == 0.0 || (1e-100..=1e100).contains(&x.abs());
-    let entries = text.split(',').map(|entry| number(entry, within, words));
-    let entries: Vec<f64> = entries.collect::<Result<_, _>>()?;
-    match <[f64; 9]>::try_from(entries) {
-        Ok(l) => Ok([[l[0], l[1], l[2]], [l[3], l[4], l[5]], [l[6], l[7], l[8]]]),
-        Err(_) => Err(format!("{words} are allowed")),
-    }
-}
-
-/// The largest number of times.
-const MOST: u64 = 100_000;
-
-fn times(text: &str) -> Result<Times, String> {
-    let refuse = || {
-        format!(
-            "FROM:TO:COUNT with finite FROM ≤ TO and a COUNT from 1 to {MOST}, or at most as many rising times \
-             T1,T2,…, are allowed; a time is 0 or of a size from 5e-324 to 1.8e308"
-        )
-    };
-    let parts: Vec<_> = text.split(':').collect();
-    let [from, to, count] = parts[..] else {
-        return listed(text).ok_or_else(refuse);
-    };
-    let count = count.parse::<u64>().ok().filter(|count| (1..=MOST).contains(count));
-    let (Some(from), Some(to), Some(count)) = (decimal(from), decimal(to), count) else {
-        return Err(refuse());
-    };
-    if from > to {
-        return Err(refuse());
-    }
-    // Exact until the end, so that each time is the double nearest to its decimal.
-    let gaps = Bits(400).of((count - 1).max(1) as f64);
-    let span = to - &from;
-    let time = |k: u64| &from + &span * Bits(400).of(k as f64) / &gaps;
-    Ok(Times((0..count).map(|k| double(&time(k))).collect()))
-}
-
-/// Parses a list of times, which must ascend.
-fn listed(text: &str) -> Option<Times> {
-    let times: Vec<f64> = text.split(',').map(finite).collect::<Option<_>>()?;
-    let rise = times.len() as u64 <= MOST && times.is_sorted_by(|a, b| a < b);
-    rise.then_some(Times(times))
 }

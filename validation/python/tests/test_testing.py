@@ -174,5 +174,9 @@ def test_reference_follows_flows_one_after_another() -> None:
     assert shares[1] / shares[0] == pytest.approx(np.exp(-0.6), abs=1e-10)
     tangent = 2 * values["a12"] / (values["a22"] - values["a11"])
     assert np.tan(2 * np.radians(values["extinction_angle_deg"])) == pytest.approx(tangent, abs=1e-8)
+    turned = shearbed.reference(10, d_r_per_s=0.1, oscillation_period_s=4.0, times=[1.0])
+    assert turned["a12"][0] == pytest.approx(0.0798814845, abs=1e-9)
+    several = shearbed.reference(10, d_r_per_s=0.1, start=[[1, 0, 0], [0, 2, 0]], times=[0])
+    assert several["a22"][0] == pytest.approx(0.5)
     start = shearbed.reference(10, d_r_per_s=0.1, start=(0.4, 0.5, 0.1, 0.05, 0, 0), times=[0])
     assert start["a12"][0] == 0.05 and start["a33"][0] == 0.1

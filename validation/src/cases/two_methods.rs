@@ -176,6 +176,12 @@ fn on_grid(built: &Built, rings: usize, time_s: f64) -> ([f64; 6], [f64; 15]) {
     if built.problem.planar_start {
         return angle_grid::planar_moments(l, shape, diffusivity, rings, time_s);
     }
+    if let Some(period_s) = built.problem.oscillation_period_s {
+        // Short enough for the polar rings, whose rate is about D_r N⁴/8.
+        let step_s = 20.0 / (diffusivity * (rings as f64).powi(4));
+        let means = angle_grid::oscillating(l, shape, diffusivity, rings, [period_s, time_s, step_s]);
+        return (means.second, means.fourth);
+    }
     let means = angle_grid::means(l, shape, diffusivity, rings, time_s).expect("diffusion makes it unique");
     (means.second, means.fourth)
 }
@@ -189,6 +195,7 @@ fn diffusing(full: bool, columns: usize) -> Vec<(Big, Big)> {
             ("brownian-relaxation", 8, 5),
             ("brownian-startup-pe-1", 24, 2),
             ("brownian-disc", 24, 1),
+            ("brownian-oscillation", 20, 1),
         ],
         (6, true) => &[
             ("folgar-tucker-shear-0.1", 40, 5),
@@ -202,6 +209,7 @@ fn diffusing(full: bool, columns: usize) -> Vec<(Big, Big)> {
             ("brownian-startup-pe-10", 40, 5),
             ("brownian-startup-pe-100", 56, 2),
             ("brownian-disc", 32, 5),
+            ("brownian-oscillation", 24, 3),
         ],
         (_, false) => &[("folgar-tucker-fourth-mixed", 32, 1)],
         (_, true) => &[("folgar-tucker-fourth-mixed", 40, 2)],
@@ -211,7 +219,7 @@ fn diffusing(full: bool, columns: usize) -> Vec<(Big, Big)> {
         let built = named(name);
         let times_s = &built.problem.times_s[..*times];
         // What is shipped, and what the program computes today.
-        let now = diffusion::at(&motion(built), built.problem.directions(), times_s).expect("as when it was shipped");
+        let now = built.problem.distribution(&motion(built), *times).expect("as when it was shipped");
         for (at, (time_s, now)) in times_s.iter().zip(now).enumerate() {
             let grid = on_grid(built, *rings, *time_s);
             let of = |second: &[f64], fourth: &[f64]| bigs(if columns == 6 { second } else { fourth });

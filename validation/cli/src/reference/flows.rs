@@ -1,10 +1,8 @@
-//! Flows one after another from a file, and the density on a grid of angles.
+//! Files of flows one after another, and of directions.
 
+use shearbed::nalgebra::Vector3;
 use shearbed_validation::files::csv::Table;
 use shearbed_validation::files::{FileError, bounded};
-use shearbed_validation::oracle::reference::diffusing::Diffusing;
-use shearbed_validation::oracle::reference::motion::Unit;
-use shearbed_validation::oracle::reference::table::NoValue;
 use std::io::BufReader;
 use std::path::Path;
 
@@ -54,24 +52,26 @@ pub(super) fn read(path: &Path) -> Result<Flows, FileError> {
     if flows.is_empty() { Err(table.error("no flow: a row each is needed")) } else { Ok(flows) }
 }
 
-/// ψ every 5° in φ and, from axis 3 to the plane of 1 and 2, in θ: the other half is the same. And its stated error.
-pub(super) fn density(rods: &Diffusing, times: &[f64], unit: Unit) -> Result<(String, f64), NoValue> {
-    let heads = times.iter().map(|time| rods.head(*time, unit)).collect::<Result<Vec<_>, _>>()?;
-    let seconds: Vec<f64> = heads.iter().filter_map(|head| head[0]).collect();
-    let angles: Vec<(u16, u16)> = (0..=18).flat_map(|j| (0..72).map(move |k| (5 * k, 5 * j))).collect();
-    let direction = |(phi, theta): &(u16, u16)| {
-        let ((sine, cosine), (along, down)) =
-            (f64::from(*phi).to_radians().sin_cos(), f64::from(*theta).to_radians().sin_cos());
-        [along * cosine, along * sine, down]
+/// The largest number of directions.
+const MOST_DIRECTIONS: usize = 10_000;
+
+/// Reads directions: `p1`, `p2` and `p3` of any length above 0.
+pub(super) fn directions(path: &Path) -> Result<Vec<[f64; 3]>, FileError> {
+    let file = bounded::open(path).map_err(|error| FileError::unreadable(path, &error))?;
+    let mut table = Table::new(path, BufReader::new(file))?;
+    let [Some(first), Some(second), Some(third)] = ["p1", "p2", "p3"].map(|name| table.place(name)) else {
+        let found = shearbed_validation::files::text::line(&table.names().join(","));
+        return Err(table.error(format!("the columns are {found}; p1, p2 and p3 are needed")));
     };
-    let directions: Vec<_> = angles.iter().map(direction).collect();
-    let (values, error) = rods.densities(&seconds, &directions).map_err(NoValue::Diffusion)?;
-    let decimals = (-(2.0 * error.max(1e-12)).log10()).clamp(0.0, 11.0) as usize;
-    let mut text = String::from("time_s,phi_deg,theta_deg,psi_per_sr\n");
-    for (time_s, values) in seconds.iter().zip(&values) {
-        for ((phi, theta), value) in angles.iter().zip(values) {
-            text += &format!("{time_s:?},{phi},{theta},{value:.decimals$}\n");
+    let mut directions = Vec::new();
+    while let Some(row) = table.next_row()? {
+        let p = Vector3::new(row.finite(first)?, row.finite(second)?, row.finite(third)?);
+        let unit = p.try_normalize(0.0).filter(|unit| unit.iter().all(|x| x.is_finite()));
+        directions.push(unit.ok_or_else(|| row.error("p has no direction; a length above 0 is needed"))?.into());
+        if directions.len() > MOST_DIRECTIONS {
+            let allowed = format!("more than {MOST_DIRECTIONS} directions; at most {MOST_DIRECTIONS} are allowed");
+            return Err(row.error(allowed));
         }
     }
-    Ok((text, error))
+    if directions.is_empty() { Err(table.error("no direction: a row each is needed")) } else { Ok(directions) }
 }

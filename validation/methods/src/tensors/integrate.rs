@@ -12,11 +12,15 @@ const MOST_STEPS: u32 = 20_000;
 /// The rate of a_ij in 1/s.
 pub type Rate<'a> = &'a dyn Fn(&Matrix3<f64>) -> Matrix3<f64>;
 
-struct Ode<'a>(Rate<'a>);
+/// A rate in 1/s that depends on the time in s.
+pub type RateInTime<'a> = &'a dyn Fn(f64, &Matrix3<f64>) -> Matrix3<f64>;
+
+/// A rate, and the time at which its own begins.
+struct Ode<'a>(RateInTime<'a>, f64);
 
 impl System<f64, Vector6<f64>> for Ode<'_> {
-    fn system(&self, _: f64, a: &Vector6<f64>, rate: &mut Vector6<f64>) {
-        let found = self.0(&matrix(a));
+    fn system(&self, time: f64, a: &Vector6<f64>, rate: &mut Vector6<f64>) {
+        let found = self.0(self.1 + time, &matrix(a));
         *rate = Vector6::from_fn(|n, _| found[PAIRS[n]]);
     }
 }
@@ -28,11 +32,11 @@ fn matrix(a: &Vector6<f64>) -> Matrix3<f64> {
 /// a_ij at `times_s` ≥ 0 in ascending order, from `start`, by Dormand & Prince's method of order 8 with `tolerance` as
 /// relative and absolute tolerance of a step. `None` if the method gives up or a is not finite.
 pub fn at(equation: &Equation, start: &Matrix3<f64>, times_s: &[f64], tolerance: f64) -> Option<Vec<Matrix3<f64>>> {
-    at_rate(&|a| equation.rate(a), start, times_s, tolerance)
+    at_rate(&|_, a| equation.rate(a), start, times_s, tolerance)
 }
 
 /// As [`at`], for any rate.
-pub fn at_rate(rate: Rate, start: &Matrix3<f64>, times_s: &[f64], tolerance: f64) -> Option<Vec<Matrix3<f64>>> {
+pub fn at_rate(rate: RateInTime, start: &Matrix3<f64>, times_s: &[f64], tolerance: f64) -> Option<Vec<Matrix3<f64>>> {
     let mut now = 0.0;
     let mut a = Vector6::from_fn(|n, _| start[PAIRS[n]]);
     let mut all = Vec::new();
@@ -41,7 +45,7 @@ pub fn at_rate(rate: Rate, start: &Matrix3<f64>, times_s: &[f64], tolerance: f64
             let span = time - now;
             // The library's defaults, except for the number of steps: at kinks of a closure the method may not get
             // through.
-            let (ode, out) = (Ode(rate), OutputType::Sparse);
+            let (ode, out) = (Ode(rate, now), OutputType::Sparse);
             let mut solver = Dop853::from_param(
                 ode, 0.0, span, span, a, tolerance, tolerance, 0.9, 0.0, 0.333, 6.0, span, 0.0, MOST_STEPS, 1000, out,
             );
@@ -73,7 +77,7 @@ pub fn steady_of(rate: Rate, norm: f64, start: &Matrix3<f64>) -> Option<Matrix3<
     let (mut a, mut strain, mut stretch) = (*start, 0.0, 10.0);
     while strain < MOST_STRAIN {
         for tolerance in [1e-9, ROUGH] {
-            if let Some(found) = at_rate(rate, &a, &[stretch / norm], tolerance) {
+            if let Some(found) = at_rate(&|_, a| rate(a), &a, &[stretch / norm], tolerance) {
                 a = found[0];
                 break;
             }

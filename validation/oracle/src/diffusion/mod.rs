@@ -20,6 +20,7 @@ mod start;
 #[cfg(test)]
 mod tests;
 
+pub(crate) use harmonics::gauss_legendre;
 pub use means::{MEANS, Means};
 pub use operator::{Motion, strain_rate_per_s};
 pub use oscillation::oscillating;

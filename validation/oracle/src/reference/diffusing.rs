@@ -24,6 +24,8 @@ pub struct Diffusing {
     pub aspect_ratio_sd_percent: f64,
     /// Velocity gradients in 1/s one after another, each with its duration in s; the last has no end.
     pub flows: Vec<([[f64; 3]; 3], f64)>,
+    /// The period in s of a flow that oscillates as cos 2πt/T; the only flow's gradient is then its amplitude.
+    pub oscillation_s: Option<f64>,
     /// The rotary diffusion.
     pub spread: Spread,
     /// The rods at t = 0.
@@ -70,7 +72,10 @@ impl Diffusing {
         }
         let heads = at.iter().map(|time| self.head(*time, unit)).collect::<Result<Vec<_>, _>>()?;
         let seconds: Vec<f64> = heads.iter().filter_map(|head| head[0]).collect();
-        let all = self.over_aspect_ratios(|flows| diffusion::through(flows, self.start, &seconds));
+        let all = self.over_aspect_ratios(|flows| match self.oscillation_s {
+            Some(period_s) => diffusion::oscillating(&flows[0].motion, period_s, self.start, &seconds),
+            None => diffusion::through(flows, self.start, &seconds),
+        });
         let mut rows = Vec::new();
         for (mut head, means) in heads.into_iter().zip(&all.map_err(NoValue::Diffusion)?) {
             head.extend(self.values(means));
@@ -98,9 +103,37 @@ impl Diffusing {
         diffusion::densities(&self.steps(self.aspect_ratio), self.start, times_s, directions)
     }
 
+    /// The marginal density of φ per rad at `times_s` for these φ, and its stated error: ψ over each half circle of θ
+    /// by Gauss and Legendre's rule, which is exact up to a degree of 399.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::densities`].
+    pub fn marginals(&self, times_s: &[f64], phi_rad: &[f64]) -> Result<(Vec<Vec<f64>>, f64), NoAnswer> {
+        let rule = diffusion::gauss_legendre(200);
+        let direction = |phi: f64, z: f64| {
+            let across = (1.0 - z * z).sqrt();
+            [across * phi.cos(), across * phi.sin(), z]
+        };
+        let along = |phi: &f64| rule.iter().map(|(z, _)| direction(*phi, *z)).collect::<Vec<_>>();
+        let directions: Vec<_> = phi_rad.iter().flat_map(along).collect();
+        let (values, error) = self.densities(times_s, &directions)?;
+        let sum = |part: &[f64]| part.iter().zip(&rule).map(|(value, (_, weight))| value * weight).sum();
+        let marginal = |values: &Vec<f64>| values.chunks(rule.len()).map(sum).collect();
+        Ok((values.iter().map(marginal).collect(), 2.0 * error))
+    }
+
     /// The time in s, in periods and as a strain.
     pub fn head(&self, time: f64, unit: Unit) -> Result<Vec<Option<f64>>, NoValue> {
-        if self.flows.len() == 1 {
+        if let Some(period_s) = self.oscillation_s.filter(|_| unit == Unit::Second) {
+            // ∫|cos| is 2 a half period.
+            let turn = std::f64::consts::TAU * time / period_s;
+            let halves = (turn / std::f64::consts::PI + 0.5).floor();
+            let sine = if halves % 2.0 == 0.0 { turn.sin() } else { -turn.sin() };
+            let strain = strain_rate_per_s(self.flows[0].0) * (2.0 * halves + sine) * period_s / std::f64::consts::TAU;
+            return Ok(vec![Some(time), None, Some(strain)]);
+        }
+        if self.flows.len() == 1 && self.oscillation_s.is_none() {
             return times(&self.last(), &Bits(64).of(time), unit);
         }
         if unit != Unit::Second {
@@ -231,6 +264,7 @@ mod tests {
             aspect_ratio,
             aspect_ratio_sd_percent: sd,
             flows: vec![(couette, f64::INFINITY)],
+            oscillation_s: None,
             spread: Spread::PerS(0.1),
             start: Start::Isotropic,
             fourth: false,
@@ -244,5 +278,37 @@ mod tests {
         let (weight, sum) = weighted.fold((0.0, 0.0), |(a, b), (w, value)| (a + w, b + value));
         assert!((found - sum / weight).abs() < 2e-11, "{found} {}", sum / weight);
         assert!((found - a22(&rods(3.0, 0.0))).abs() > 1e-4);
+    }
+
+    /// Isotropic rods that hardly diffuse: φ moves by itself, tan φ_0 = … of Jeffery's (4), so that its marginal is
+    /// |dφ_0/dφ|/2π. And all of it is 1, whatever the start.
+    #[test]
+    fn the_marginal_is_that_of_free_rods_where_they_hardly_diffuse() {
+        let (ratio, strain) = (3.0f64, 2.0f64);
+        let rods = |d_r: f64| Diffusing {
+            aspect_ratio: ratio,
+            aspect_ratio_sd_percent: 0.0,
+            flows: vec![([[0.0; 3], [1.0, 0.0, 0.0], [0.0; 3]], f64::INFINITY)],
+            oscillation_s: None,
+            spread: Spread::PerS(d_r),
+            start: Start::Isotropic,
+            fourth: false,
+            optics: false,
+            steady: false,
+        };
+        let phi: Vec<f64> = (0..36).map(|k| f64::from(k) * std::f64::consts::PI / 18.0).collect();
+        let found = |d_r: f64, time_s: f64| rods(d_r).marginals(&[time_s], &phi).unwrap().0.remove(0);
+        // On the ellipse (r sin φ, cos φ) the angle grows by G r/(r² + 1).
+        let due = |phi: f64| {
+            let turned = (phi.sin()).atan2(ratio * phi.cos()) - strain * ratio / (ratio * ratio + 1.0);
+            let (sine, cosine) = turned.sin_cos();
+            let slope = ratio / ((ratio * phi.cos()).powi(2) + phi.sin().powi(2));
+            slope * ratio / (cosine * cosine + (ratio * sine).powi(2)) / std::f64::consts::TAU
+        };
+        let off = |found: &[f64]| found.iter().zip(&phi).map(|(x, phi)| (x - due(*phi)).abs()).fold(0.0, crate::larger);
+        assert!(off(&found(1e-5, strain)) < 1e-3, "{}", off(&found(1e-5, strain)));
+        assert!(off(&found(1e-5, 1.1 * strain)) > 1e-2 && off(&found(1e-2, strain)) > 1e-2);
+        let all = found(0.1, strain).iter().sum::<f64>() * std::f64::consts::PI / 18.0;
+        assert!((all - 1.0).abs() < 1e-11, "{all}");
     }
 }

@@ -19,7 +19,7 @@ def reference(
     aspect_ratio: float,
     *,
     times: ArrayLike | tuple[float, float, int] | None = None,
-    start: str | Sequence[float] = "isotropic",
+    start: str | ArrayLike = "isotropic",
     unit: str | None = None,
     shear_rate_per_s: float | None = None,
     gradient_per_s: ArrayLike | None = None,
@@ -27,6 +27,7 @@ def reference(
     c_i: float | None = None,
     d_r_per_s: float | None = None,
     steps: Sequence[tuple[float, ArrayLike]] | None = None,
+    oscillation_period_s: float | None = None,
     steady: bool = False,
     fourth: bool = False,
     optics: bool = False,
@@ -36,13 +37,14 @@ def reference(
     ``times`` are a list or an array, or, as a tuple, ``(first, last, count)`` for evenly spaced ones, in ``unit``:
     ``"period"``, ``"strain"`` or ``"s"``; without it periods, and strain for ``aspect_ratio=inf``. ``start`` is
     ``"isotropic"``, ``"planar"``, one rod's angles (phi, theta) in degrees, or with diffusion (a11, a22, a33, a12, a13,
-    a23) of a density of Bingham. A value without a meaning, as t/T in a
+    a23) of a density of Bingham, or directions (N × 3). A value without a meaning, as t/T in a
     flow without a period, is NaN.
 
     ``c_i`` are rods with rotary diffusion D_r = c_i times the rate of strain (Folgar & Tucker), ``d_r_per_s`` those with
     that D_r, from the exact distribution; ``steady=True`` adds its steady state as a last row at the time inf.
     ``fourth=True`` gives a_ijkl, ``optics=True`` adds the order parameter and the extinction angle. ``steps`` are flows
-    one after another, each (duration in s, shear rate or 3 × 3 gradient in 1/s); times are then in s.
+    one after another, each (duration in s, shear rate or 3 × 3 gradient in 1/s), and ``oscillation_period_s`` is T of a
+    flow times cos 2πt/T; times are then in s.
     """
     words = ["reference", "--aspect-ratio", repr(float(aspect_ratio))]
     order: NDArray[np.intp] | None = None
@@ -54,7 +56,13 @@ def reference(
         words += ["--times", ",".join(repr(float(time)) for time in every)]
     if unit is not None:
         words += ["--unit", unit]
-    words += ["--start", start if isinstance(start, str) else ",".join(repr(float(angle)) for angle in start)]
+    directions = None if isinstance(start, str) else np.asarray(start, dtype=float)
+    if isinstance(start, str):
+        words += ["--start", start]
+    elif directions is not None and directions.ndim == 1:
+        words += ["--start", ",".join(repr(float(angle)) for angle in directions)]
+    if oscillation_period_s is not None:
+        words += ["--oscillation-period-s", repr(float(oscillation_period_s))]
     if shear_rate_per_s is not None:
         words += ["--shear-rate-per-s", repr(float(shear_rate_per_s))]
     if gradient_per_s is not None:
@@ -72,6 +80,11 @@ def reference(
             path = Path(folder, "steps.csv")
             path.write_text(_flows(steps))
             words += ["--steps", str(path)]
+        if directions is not None and directions.ndim != 1:
+            path = Path(folder, "start.csv")
+            rows = [",".join(repr(float(value)) for value in row) for row in directions.reshape(-1, 3)]
+            path.write_text("\n".join(["p1,p2,p3", *rows, ""]))
+            words += ["--start", str(path)]
         call([*words, "--out", str(Path(folder, "reference.csv"))], folder=folder)
         found = columns(Path(folder, "reference.csv"))
     if order is None:

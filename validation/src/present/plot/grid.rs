@@ -1,7 +1,7 @@
 //! Maps of classes, as small multiples: a cell for each row and column; classes differ by colour and glyph.
 
 use super::power_of_ten;
-use super::style::{CLASSES, FINE, MARGIN, ROW, SMALL_BOLD, TEXT, class_ink, glyph, text, text_width};
+use super::style::{CLASSES, FINE, MARGIN, ROW, SMALL_BOLD, TEXT, class_ink, glyph, shade, text, text_width};
 use super::{Backend, Drawn, Figure, Grid, Map};
 use plotters::coord::Shift;
 use plotters::prelude::*;
@@ -85,7 +85,7 @@ pub(super) fn draw<DB: Backend>(
     let mut y = top;
     for row in &layout.keys {
         for (class, x) in row {
-            square(canvas, *class, (*x, y), (KEY, KEY))?;
+            square(canvas, grid, *class, (*x, y), (KEY, KEY))?;
             let place = (x + KEY + GAP / 2, y + 2 * FINE);
             canvas.draw(&Text::new(grid.classes[*class].as_str(), place, text(TEXT)))?;
         }
@@ -119,12 +119,17 @@ fn limit_ink() -> ShapeStyle {
 
 fn square<DB: Backend>(
     canvas: &DrawingArea<DB, Shift>,
+    grid: &Grid,
     class: usize,
     (x, y): (i32, i32),
     (width, height): (i32, i32),
 ) -> Drawn {
     let corners = [(x, y), (x + width - FINE / 2, y + height - FINE / 2)];
-    canvas.draw(&Rectangle::new(corners, CLASSES[class % CLASSES.len()].filled()))?;
+    let colour = if grid.shades { shade(class, grid.classes.len()) } else { CLASSES[class % CLASSES.len()] };
+    canvas.draw(&Rectangle::new(corners, colour.filled()))?;
+    if grid.shades {
+        return Ok(());
+    }
     let centre = (x + width / 2, y + height / 2);
     for stroke in glyph(class) {
         let path: Vec<_> = stroke.iter().map(|(dx, dy)| (centre.0 + dx, centre.1 + dy)).collect();
@@ -153,7 +158,7 @@ fn panel<DB: Backend>(
         canvas.draw(&Text::new(name.as_str(), (x.max(left), y + 2 * FINE), text(SMALL)))?;
         for (column, class) in classes.iter().enumerate() {
             let corner = at(column as i32, row as i32);
-            square(canvas, *class, corner, (layout.cell_width, CELL_HEIGHT))?;
+            square(canvas, grid, *class, corner, (layout.cell_width, CELL_HEIGHT))?;
         }
     }
     let (_, foot) = at(0, grid.rows.len() as i32);

@@ -148,6 +148,9 @@ pub struct Grid {
     pub maps: Vec<Map>,
     /// Name of the line of theory.
     pub limit_name: String,
+    /// True if the classes are steps of one quantity: shades from light to dark, without glyphs.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub shades: bool,
 }
 
 /// A picture.

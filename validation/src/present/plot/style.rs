@@ -120,6 +120,13 @@ pub(super) const CLASSES: [RGBColor; 6] = [
     RGBColor(235, 235, 235),
 ];
 
+/// The shade of a step of a quantity, from light to dark.
+pub(super) fn shade(class: usize, count: usize) -> RGBColor {
+    let part = class as f64 / count.saturating_sub(1).max(1) as f64;
+    let [red, green, blue] = [(240.0, 10.0), (246.0, 45.0), (255.0, 110.0)].map(|(from, to)| from + part * (to - from));
+    RGBColor(red as u8, green as u8, blue as u8)
+}
+
 /// The colour of a class's glyph.
 pub(super) fn class_ink(class: usize) -> RGBColor {
     match class {

@@ -11,12 +11,13 @@ use crate::judge::statistics::worst;
 use crate::methods::tensors::fourth::PAIRS;
 use crate::methods::tensors::wrong::{CLOSURES, MISTAKES, Mistake, Stand};
 use crate::methods::tensors::{Closure, Model, Parts, at_rate, isotropic, steady_of};
-use crate::oracle::diffusion::{self, Means, Motion, strain_rate_per_s};
+use crate::oracle::diffusion::{Means, Motion, strain_rate_per_s};
 use crate::serve::problems::formula::tensor;
 use crate::serve::problems::{Closed, LoadedProblem, Problem};
 use layouts::LAYOUTS;
 use nalgebra::Matrix3;
 use rayon::prelude::*;
+use std::f64::consts::TAU;
 
 /// The tolerance of a step of the integration of a curve; of a rough one, which saves time, and how far that may be
 /// off.
@@ -33,7 +34,14 @@ struct Candidate {
 
 impl Candidate {
     fn rate(&self, a: &Matrix3<f64>) -> Matrix3<f64> {
-        self.parts.rate(a, &(self.closure.fourth)(a))
+        self.rate_in(1.0, a)
+    }
+
+    /// The rate in `factor` times the flow, with the same diffusion.
+    fn rate_in(&self, factor: f64, a: &Matrix3<f64>) -> Matrix3<f64> {
+        let Parts { spin, strain, .. } = self.parts;
+        let parts = Parts { spin: spin * factor, strain: strain * factor, ..self.parts };
+        parts.rate(a, &(self.closure.fourth)(a))
     }
 
     /// The norm of the flow in 1/s.
@@ -44,10 +52,10 @@ impl Candidate {
     /// The values of the problem's columns at the first `count` times, with `tolerance` as that of a step; `None` if
     /// there is no solution, or for other columns.
     fn curve(&self, problem: &Problem, start: &Matrix3<f64>, count: usize, tolerance: f64) -> Option<Vec<Vec<f64>>> {
-        let rate = |a: &Matrix3<f64>| self.rate(a);
         let all = if problem.is_steady() {
-            vec![steady_of(&rate, self.norm(), start)?]
+            vec![steady_of(&|a| self.rate(a), self.norm(), start)?]
         } else {
+            let rate = |time_s: f64, a: &Matrix3<f64>| self.rate_in(problem.flow_at(time_s), a);
             at_rate(&rate, start, &problem.times_s[..count], tolerance)?
         };
         all.iter().map(|a| values(problem, &self.closure, a)).collect()
@@ -109,19 +117,33 @@ fn asked(problem: &Problem) -> Option<(Closed, Option<usize>)> {
     }
 }
 
-/// The curves of the distribution with a wrong D_r.
-fn of_wrong_diffusion(problem: &Problem, answer: &Answer, most: f64) -> Vec<Near> {
+/// The curves of the distribution with a wrong D_r, or a flow that oscillates wrongly.
+fn of_wrong_distribution(problem: &Problem, answer: &Answer, most: f64) -> Vec<Near> {
     let Some(rods) = problem.diffusing().filter(|_| problem.d_r_per_s.is_some()) else { return Vec::new() };
     let rate = strain_rate_per_s(problem.gradient_per_s);
     let factors = [(2.0, "twice the D_r"), (0.5, "half the D_r"), (rate, "D_r γ̇ for D_r, as if it were a C_I")];
-    let of = |(factor, name): &(f64, &str)| {
-        let rods = Motion { diffusivity: factor * rods.diffusivity, ..rods };
-        let all = diffusion::at(&rods, problem.directions(), &problem.times_s).ok()?;
+    let factors = factors.into_iter().filter(|(factor, _)| *factor > 0.0 && *factor != 1.0);
+    let mut wrong: Vec<(Motion, Option<f64>, &str)> = factors
+        .map(|(factor, name)| {
+            (Motion { diffusivity: factor * rods.diffusivity, ..rods }, problem.oscillation_period_s, name)
+        })
+        .collect();
+    if let Some(period_s) = problem.oscillation_period_s {
+        wrong.extend([
+            (rods, None, "a flow that does not oscillate"),
+            (rods, Some(TAU * period_s), "cos t/T for cos 2πt/T"),
+            (rods, Some(2.0 * period_s), "twice the period"),
+            (rods, Some(0.5 * period_s), "half the period"),
+        ]);
+    }
+    let of = |(rods, oscillation_period_s, name): &(Motion, Option<f64>, &str)| {
+        let wrong = Problem { oscillation_period_s: *oscillation_period_s, ..problem.clone() };
+        let all = wrong.distribution(rods, problem.times_s.len()).ok()?;
         let distance = apart(&answer.rows, &all.iter().map(|means| means.second.to_vec()).collect::<Vec<_>>());
         let (name, suspect) = (format!("the distribution with {name}"), (*name).to_owned());
         (distance <= most).then_some(Near { distance, name, suspect, advice: "", changes: 1 })
     };
-    factors.par_iter().filter(|(factor, _)| *factor > 0.0 && *factor != 1.0).filter_map(of).collect()
+    wrong.par_iter().filter_map(of).collect()
 }
 
 fn candidates(parts: &Parts, own: Option<usize>, has_c_i: bool) -> Vec<Candidate> {
@@ -197,12 +219,9 @@ fn from_exact(problem: &Problem, rows: &[Vec<f64>], parts: &Parts, most: f64) ->
         let curve: Vec<_> = all.iter().map(picked).collect();
         Some(apart(rows, &curve)).filter(|off| *off <= most)
     };
-    if problem.is_steady() {
-        return near(vec![diffusion::steady(&motion).ok()?]);
-    }
-    let at = |times: &[f64]| diffusion::at(&motion, problem.directions(), times).ok();
-    near(at(&problem.times_s[..1])?)?;
-    near(at(&problem.times_s)?)
+    // Saves time: most are far already at the first time.
+    near(problem.distribution(&motion, 1).ok()?)?;
+    near(problem.distribution(&motion, problem.times_s.len()).ok()?)
 }
 
 /// Names the closure, the mistake or the layout whose curve the answer is, given its `error`; the diagnosis is empty
@@ -214,7 +233,7 @@ pub(super) fn diagnose(loaded: &LoadedProblem, answer: &Answer, error: f64) -> D
     if most < STEP {
         return Diagnosis::default();
     }
-    let mut near = of_wrong_diffusion(problem, answer, most);
+    let mut near = of_wrong_distribution(problem, answer, most);
     let Some((closed, own)) = asked(problem) else { return said(CURVE, near, problem.tolerance, "") };
     let start = closed.start();
     let parts = closed.equation(&problem.gradient_per_s, problem.aspect_ratio).parts();

@@ -7,7 +7,7 @@ use super::folgar_tucker::{self, Diffusion, DiffusionProblem};
 const REST: [[f64; 3]; 3] = [[0.0; 3]; 3];
 
 #[rustfmt::skip]
-const PROBLEMS: [DiffusionProblem; 5] = [
+const PROBLEMS: [DiffusionProblem; 6] = [
     problem("brownian-relaxation", "a_ij(t) of Brownian rods from a plane, at \
         rest", REST, 10.0, 0.25, true, &[0.05, 0.2, 0.5, 1.0, 2.0]),
     problem("brownian-startup-pe-1", "a_ij(t) of Brownian rods in shear, Pe = \
@@ -18,6 +18,8 @@ const PROBLEMS: [DiffusionProblem; 5] = [
         100", COUETTE, 10.0, 0.005, false, &[1.0, 2.0, 4.0, 6.25, 10.0, 20.0]),
     problem("brownian-disc", "a_ij(t) of Brownian discs from a plane in shear, Pe = \
         10", COUETTE, 0.1, 0.05, true, &[0.5, 1.0, 2.0, 4.0, 8.0]),
+    DiffusionProblem { oscillation: Some(4.0), ..problem("brownian-oscillation", "a_ij(t) of Brownian rods in shear \
+        that oscillates, Pe = 10", COUETTE, 10.0, 0.05, false, &[0.5, 1.0, 2.0, 3.5, 8.0]) },
 ];
 
 const fn problem(
@@ -30,7 +32,7 @@ const fn problem(
     times: &'static [f64],
 ) -> DiffusionProblem {
     let diffusion = Diffusion::PerS(d_r_per_s);
-    DiffusionProblem { name, title, gradient_per_s, aspect_ratio, diffusion, planar_start, times }
+    DiffusionProblem { name, title, gradient_per_s, aspect_ratio, diffusion, planar_start, oscillation: None, times }
 }
 
 /// The certified answers, written by `examples/certify.rs`.

@@ -146,6 +146,11 @@ fn diffusion(problem: &Problem) -> Result<(), Refused> {
         ensure(!both, || (key, format!("{found:e}: c_i or d_r_per_s is allowed, not both")))?;
         between(key, found, DIFFUSION)?;
     }
+    if let Some(period_s) = problem.oscillation_period_s {
+        let key = "oscillation_period_s";
+        ensure(problem.d_r_per_s.is_some(), || (key, "it belongs to rods with d_r_per_s".to_owned()))?;
+        between(key, period_s, [1e-100, 1e100])?;
+    }
     ensure(!problem.planar_start || problem.diffusing().is_some(), || {
         ("planar_start", "it belongs to rods with c_i or d_r_per_s".to_owned())
     })

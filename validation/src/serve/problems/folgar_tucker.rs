@@ -23,6 +23,8 @@ pub(super) struct DiffusionProblem {
     pub aspect_ratio: f64,
     pub diffusion: Diffusion,
     pub planar_start: bool,
+    /// The period of a flow that oscillates, in units of 1/G.
+    pub oscillation: Option<f64>,
     pub times: &'static [f64],
 }
 
@@ -69,7 +71,16 @@ const fn ft(
     times: &'static [f64],
 ) -> DiffusionProblem {
     let diffusion = Diffusion::Ci(c_i);
-    DiffusionProblem { name, title, gradient_per_s, aspect_ratio, diffusion, planar_start: false, times }
+    DiffusionProblem {
+        name,
+        title,
+        gradient_per_s,
+        aspect_ratio,
+        diffusion,
+        planar_start: false,
+        oscillation: None,
+        times,
+    }
 }
 
 impl DiffusionProblem {
@@ -80,14 +91,19 @@ impl DiffusionProblem {
         }
     }
 
+    fn oscillation_s(&self) -> Option<f64> {
+        self.oscillation.map(|period| period / SHEAR_RATE_PER_S)
+    }
+
     fn solved(&self) -> Result<Vec<Means>, NoAnswer> {
         let motion = match self.diffusion {
             Diffusion::Ci(c_i) => Motion::new(self.gradient_per_s, self.aspect_ratio, c_i),
             Diffusion::PerS(d_r) => Motion::diffusing(self.gradient_per_s, self.aspect_ratio, d_r),
         };
         let start = if self.planar_start { Start::Plane([0.0, 0.0, 1.0]) } else { Start::Isotropic };
-        match self.times {
-            [] => Ok(vec![diffusion::steady(&motion)?]),
+        match (self.times, self.oscillation_s()) {
+            ([], _) => Ok(vec![diffusion::steady(&motion)?]),
+            (_, Some(period_s)) => diffusion::oscillating(&motion, period_s, start, &self.times_s()),
             _ => diffusion::at(&motion, start, &self.times_s()),
         }
     }
@@ -148,14 +164,18 @@ pub(super) fn built(def: &ProblemDef, problem: &DiffusionProblem, table: &str, f
     } else {
         "in time, from all directions alike at t = 0"
     };
+    let flow = match problem.oscillation_s() {
+        Some(period) => format!(" The flow oscillates: it is `gradient_per_s` times cos 2πt/T, T = {period} s."),
+        None => String::new(),
+    };
     let (c_i, d_r_per_s, diffusivity) = match problem.diffusion {
         Diffusion::Ci(c_i) => (Some(c_i), None, format!("D_r = C_I γ̇, C_I = {c_i}, γ̇ = (2D:D)^½")),
         Diffusion::PerS(d_r) => (None, Some(d_r), format!("D_r = {d_r}/s")),
     };
     let problem = Problem {
         summary: format!(
-            "{moments} of infinitely many rods of {rods} with the rotary diffusivity {diffusivity}, {when}. The answer \
-             is that of the distribution, ∂ψ/∂t = D_r∇²ψ − ∇·(ṗψ) on the sphere with Jeffery's ṗ, and not of a \
+            "{moments} of infinitely many rods of {rods} with the rotary diffusivity {diffusivity}, {when}.{flow} The \
+             answer is that of the distribution, ∂ψ/∂t = D_r∇²ψ − ∇·(ṗψ) on the sphere with Jeffery's ṗ, and not of a \
              closure: a code with a closure of a_ijkl misses it by what the closure costs."
         ),
         gradient_per_s: problem.gradient_per_s,
@@ -163,6 +183,7 @@ pub(super) fn built(def: &ProblemDef, problem: &DiffusionProblem, table: &str, f
         c_i,
         d_r_per_s,
         planar_start: problem.planar_start,
+        oscillation_period_s: problem.oscillation_s(),
         times_s: problem.times_s(),
         tolerance: 1e-9,
         because: "Diffusion makes every error on the way fade, so a fourth-order method comes to about 10 ε^(4/5) = \

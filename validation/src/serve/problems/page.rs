@@ -57,7 +57,7 @@ fn asked(built: &Built) -> String {
             times()
         ),
         Kind::Tensor => format!(
-            "Means over infinitely many {}, {} at t = 0, of aspect ratio {}{}, at t = {} s.",
+            "Means over infinitely many {}, {} at t = 0, of aspect ratio {}{}, at t = {} s.{}",
             match (problem.c_i, problem.d_r_per_s) {
                 (Some(c_i), _) => format!("rods with rotary diffusion, C_I = {c_i}"),
                 (None, Some(d_r)) => format!("rods with rotary diffusion, D_r = {d_r}/s"),
@@ -66,7 +66,11 @@ fn asked(built: &Built) -> String {
             if problem.planar_start { "at random in the plane of axes 1 and 2" } else { "isotropic" },
             aspect_ratio(problem.aspect_ratio),
             spread(problem),
-            times()
+            times(),
+            match problem.oscillation_period_s {
+                Some(period) => format!(" The flow is `gradient_per_s` times cos 2πt/T, T = {period} s."),
+                None => String::new(),
+            }
         ),
         Kind::Formula => format!(
             "The values of the formula below for each of the {} rows of `inputs.csv`. Numbers are doubles and are \

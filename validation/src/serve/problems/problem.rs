@@ -3,7 +3,7 @@
 use super::asked::{AXES, COUETTE, matrix};
 use super::{Formula, ProblemDef, Table, check, ensemble, formula};
 use crate::methods::tensors::{Closure, Model};
-use crate::oracle::diffusion;
+use crate::oracle::diffusion::{self, NoAnswer};
 use nalgebra::Matrix3;
 use serde::{Deserialize, Serialize};
 use shearbed::model::flow::VelocityGradient;
@@ -120,6 +120,9 @@ pub struct Problem {
     /// True if rods with diffusion start at random in the plane of axes 1 and 2 in place of all directions.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub planar_start: bool,
+    /// The period T in s of a flow that oscillates, gradient_per_s times cos 2πt/T; none for a steady one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub oscillation_period_s: Option<f64>,
     /// The closed equation to solve; none if the answer is that of the distribution itself.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub closed: Option<Closed>,
@@ -171,6 +174,7 @@ impl Problem {
             c_i: None,
             d_r_per_s: None,
             planar_start: false,
+            oscillation_period_s: None,
             closed: None,
             formula: None,
             times_s: Vec::new(),
@@ -204,9 +208,30 @@ impl Problem {
         if self.planar_start { diffusion::Start::Plane([0.0, 0.0, 1.0]) } else { diffusion::Start::Isotropic }
     }
 
+    /// Means over rods that move so, at the first `count` times.
+    ///
+    /// # Errors
+    ///
+    /// Those of the oracle.
+    pub fn distribution(&self, motion: &diffusion::Motion, count: usize) -> Result<Vec<diffusion::Means>, NoAnswer> {
+        let times = &self.times_s[..count];
+        match self.oscillation_period_s {
+            Some(period_s) => diffusion::oscillating(motion, period_s, self.directions(), times),
+            None if self.is_steady() => Ok(vec![diffusion::steady(motion)?]),
+            None => diffusion::at(motion, self.directions(), times),
+        }
+    }
+
+    /// The factor of the gradient at a time.
+    pub fn flow_at(&self, time_s: f64) -> f64 {
+        self.oscillation_period_s.map_or(1.0, |period_s| (std::f64::consts::TAU * time_s / period_s).cos())
+    }
+
     /// True if the steady state is asked for: by a single time, so late that any later one has the same answer.
     pub fn is_steady(&self) -> bool {
-        self.kind == Kind::Tensor && matches!(self.times_s[..], [time] if time * self.gradient().norm() > LATE)
+        self.kind == Kind::Tensor
+            && self.oscillation_period_s.is_none()
+            && matches!(self.times_s[..], [time] if time * self.gradient().norm() > LATE)
     }
 
     /// G in 1/s in plane Couette flow u_2 = G x_1; `None` in other flows.

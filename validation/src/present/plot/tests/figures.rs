@@ -41,6 +41,7 @@ pub fn maps() -> Figure {
         x_name: "step GΔt".into(),
         y_name: "aspect ratio r_e".into(),
         grid: Some(Grid {
+            shades: false,
             classes: ["right", "stable but wrong", "length lost", "not finite", "refused", "not run"]
                 .map(String::from)
                 .into(),
