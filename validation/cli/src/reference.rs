@@ -69,7 +69,7 @@ pub(super) struct Args {
     /// The fourth moments a_ijkl in place of the other means over rods
     #[arg(long)]
     fourth: bool,
-    /// The order parameter and the extinction angle of flow birefringence too, of rods with diffusion
+    /// Order parameter, extinction angle and birefringence too, of rods with diffusion
     #[arg(long, requires = "diffusion")]
     optics: bool,
     /// What does not change with time: T, ⟨φ⟩, C_b, means over phases, plateaus

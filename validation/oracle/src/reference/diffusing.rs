@@ -58,6 +58,9 @@ impl Diffusing {
                 "deg",
                 "χ = ½ atan2(2a_12, a_22 − a_11): from the flow's axis 2 to the axis of a_ij in the plane of 1 and 2",
             ));
+            let source =
+                "((a_22 − a_11)² + 4a_12²)^½: what light along axis 3 sees (birefringence over its largest value)";
+            columns.push(column("birefringence", "1", source));
         }
         columns
     }
@@ -205,9 +208,9 @@ impl Diffusing {
     }
 }
 
-/// The order parameter and the extinction angle in degrees; `None` for the angle where the plane of axes 1 and 2 has no
-/// axis.
-fn optics(means: &Means) -> [Option<f64>; 2] {
+/// The order parameter, the extinction angle in degrees, and the anisotropy in the plane of axes 1 and 2; `None` for
+/// the angle where that plane has no axis.
+fn optics(means: &Means) -> [Option<f64>; 3] {
     let [a11, a22, a33, a12, a13, a23] = means.second;
     let a = Matrix3::new(a11, a12, a13, a12, a22, a23, a13, a23, a33);
     let order = 1.5 * a.symmetric_eigenvalues().max() - 0.5;
@@ -215,7 +218,8 @@ fn optics(means: &Means) -> [Option<f64>; 2] {
     // An eigenvalue is off by three times the error of a component at most, an angle by that over the anisotropy.
     let with = |factor: f64, value: f64| Means { error: factor * means.error.max(1e-12), ..*means }.certain(value);
     let is_known = anisotropy > 1e3 * means.error.max(1e-12);
-    [Some(with(4.5, order)), is_known.then(|| with(90.0 / anisotropy, means.extinction_angle_deg()))]
+    let angle = is_known.then(|| with(90.0 / anisotropy, means.extinction_angle_deg()));
+    [Some(with(4.5, order)), angle, Some(with(4.0, anisotropy))]
 }
 
 /// Nodes and weights of the mean over a Gaussian of mean 0 and deviation 1: eigenvalues of the matrix of the
@@ -249,10 +253,11 @@ mod tests {
         let of = |second: [f64; 6]| optics(&Means { second, error: 1e-13, ..Means::new(&[0.0; MEANS], 0.0) });
         let third = 1.0 / 3.0;
         assert_eq!(of([third, third, third, 1e-3, 0.0, 0.0])[1], Some(45.0));
-        assert_eq!(of([0.1, 0.8, 0.1, 0.0, 0.0, 0.0]), [Some(0.7), Some(0.0)]);
-        assert_eq!(of([0.2, 0.2, 0.6, 0.0, 0.0, 0.0]), [Some(0.4), None]);
-        let [order, angle] = of([0.2, 0.5, 0.3, -0.1, 0.0, 0.0]).map(Option::unwrap);
+        assert_eq!(of([0.1, 0.8, 0.1, 0.0, 0.0, 0.0]), [Some(0.7), Some(0.0), Some(0.7)]);
+        assert_eq!(of([0.2, 0.2, 0.6, 0.0, 0.0, 0.0]), [Some(0.4), None, Some(0.0)]);
+        let [order, angle, birefringence] = of([0.2, 0.5, 0.3, -0.1, 0.0, 0.0]).map(Option::unwrap);
         assert!(((2.0 * angle.to_radians()).tan() + 2.0 / 3.0).abs() < 1e-9 && angle < 0.0);
+        assert!((birefringence - 0.13f64.sqrt()).abs() < 1e-11);
         assert!((order - (1.5 * (0.35 + 0.0325f64.sqrt()) - 0.5)).abs() < 1e-9);
     }
 

@@ -44,3 +44,18 @@ fn weak_and_slow_oscillations_have_their_limits() {
     let [slow, steady] = [oscillating(&motion, 1e9, Start::Isotropic, &[2.0]), at(&motion, Start::Isotropic, &[2.0])];
     assert!(slow.unwrap()[0].apart(&steady.unwrap()[0]) < 1e-11);
 }
+
+/// In turned axes the tensor is turned, whatever the flow.
+#[test]
+fn a_turned_oscillation_is_turned() {
+    let turn = nalgebra::Rotation3::from_euler_angles(0.4, -0.7, 1.1);
+    let l = Matrix3::from_fn(|i, j| ASKEW[i][j]);
+    let there = turn * l * turn.inverse();
+    let of = |l: [[f64; 3]; 3]| {
+        let found = oscillating(&Motion::diffusing(l, 3.0, 0.3), 2.0, Start::Isotropic, &[0.6, 1.7]).unwrap();
+        matrix(found[1].second)
+    };
+    let (here, there) = (of(ASKEW), of(std::array::from_fn(|i| std::array::from_fn(|j| there[(i, j)]))));
+    assert!((turn * here * turn.inverse() - there).amax() < 1e-11);
+    assert!((here - there).amax() > 1e-2);
+}
