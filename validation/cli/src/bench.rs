@@ -14,7 +14,7 @@ use std::path::PathBuf;
 #[derive(clap::Args)]
 #[command(after_help = "Example:\n  shearbed bench --case re11.6")]
 pub(super) struct Args {
-    /// Run this bench only, as re11.6, fig7-n50 or speed; can be given more than once
+    /// Run this bench only, as re11.6, fig7-n50 or speed; repeatable
     #[arg(long = "case", value_name = "NAME")]
     cases: Vec<String>,
     /// Keep finished studies in this file, and skip those that it has

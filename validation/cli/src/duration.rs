@@ -2,48 +2,82 @@
 
 use shearbed::Plan;
 use shearbed::plan::Stage;
+use shearbed::run::ensemble;
 use shearbed_validation::studies::speed::{SECONDS_PER_DRAW, SECONDS_PER_OUTPUT, SECONDS_PER_ROD_AND_STEP};
 use shearbed_validation::studies::suspensions::job::Job;
 use shearbed_validation::studies::suspensions::law::{self, Replicas};
 
-/// The text for a number of rods times steps: `4.0e9 rods × steps, some 3 min of one core`.
-fn text(rod_steps: f64) -> String {
-    format!("{rod_steps:.1e} rods × steps, {} of one core", about(rod_steps * SECONDS_PER_ROD_AND_STEP))
+/// The longest pilot, in s.
+const PILOT_S: f64 = 3.0;
+
+/// Seconds of a replica on one core: those that the first one takes, or a guess by its rods and steps where they are
+/// many or it may not or cannot run. Collisions cost what they cost.
+pub(super) fn of_replica(plan: &Plan, may_run: bool) -> f64 {
+    let rods = plan.scene().particles.count as f64;
+    let guess = if plan.steps() > 0 {
+        rods * plan.steps() as f64 * SECONDS_PER_ROD_AND_STEP
+    } else {
+        rods * (SECONDS_PER_DRAW + plan.outputs() as f64 * SECONDS_PER_OUTPUT)
+    };
+    let start = cpu_s();
+    let has_run = may_run && guess < 0.1 * PILOT_S && ensemble::replicas_of(plan, 0..1, &|| ()).is_ok();
+    if has_run { cpu_s() - start } else { guess }
+}
+
+/// The CPU time of this process in s, which other processes on the machine hardly change.
+#[cfg(unix)]
+fn cpu_s() -> f64 {
+    let now = rustix::time::clock_gettime(rustix::time::ClockId::ProcessCPUTime);
+    now.tv_sec as f64 + 1e-9 * now.tv_nsec as f64
+}
+
+/// The time since the first call in s.
+#[cfg(not(unix))]
+fn cpu_s() -> f64 {
+    static FIRST: std::sync::LazyLock<std::time::Instant> = std::sync::LazyLock::new(std::time::Instant::now);
+    FIRST.elapsed().as_secs_f64()
+}
+
+/// True if `replicas` that take so long each are a pilot.
+pub(super) fn is_pilot(replicas: u64, each_s: f64) -> bool {
+    replicas as f64 * each_s <= PILOT_S
 }
 
 fn about(seconds: f64) -> String {
     match seconds {
-        s if s < 1.0 => "below 1 s".to_owned(),
+        // A measured time is no better known.
+        s if s < 5.0 => "below 5 s".to_owned(),
         s if s < 120.0 => format!("some {s:.0} s"),
         s if s < 7200.0 => format!("some {:.0} min", s / 60.0),
         s => format!("some {:.0} h", s / 3600.0),
     }
 }
 
-/// The cost of a study's jobs, as text.
+/// The cost of a study's jobs, as text: `4.0e9 rods × steps, some 3 min of one core`.
 pub(super) fn of_jobs(jobs: &[Job]) -> String {
-    text(jobs.iter().map(|job| job.rod_steps() as f64).sum())
+    let rod_steps: f64 = jobs.iter().map(|job| job.rod_steps() as f64).sum();
+    format!("{rod_steps:.1e} rods × steps, {} of one core", about(rod_steps * SECONDS_PER_ROD_AND_STEP))
 }
 
-/// The cost of a run and of a study of an interacting scene, as text; of a run of free rods where it takes a second or
-/// more.
-pub(super) fn of_scene(plan: &Plan) -> String {
+/// The cost of a run whose replicas take `each_s`, and of a study of an interacting scene, as text; of a run of free
+/// rods where it takes five seconds or more.
+pub(super) fn of_scene(plan: &Plan, each_s: f64, threads: Option<u64>) -> String {
     let scene = plan.scene();
+    let rods = scene.particles.count as f64 * scene.ensemble.replicas as f64;
+    let all_s = each_s * scene.ensemble.replicas as f64;
+    let took = match threads {
+        None | Some(1) => format!("{} of one core", about(all_s)),
+        Some(threads) => format!("{} on {threads} threads", about(all_s / threads as f64)),
+    };
     if !plan.runs(Stage::Contacts) {
-        let rods = scene.particles.count as f64 * scene.ensemble.replicas as f64;
-        let outputs = plan.outputs() as f64;
-        let seconds = rods * (SECONDS_PER_DRAW + outputs * SECONDS_PER_OUTPUT);
-        return if seconds < 1.0 {
-            String::new()
-        } else {
-            format!("run: {:.1e} rods × outputs, {} of one core\n", rods * outputs, about(seconds))
-        };
+        let rods_outputs = rods * plan.outputs() as f64;
+        return if all_s < 5.0 { String::new() } else { format!("run: {rods_outputs:.1e} rods × outputs, {took}\n") };
     }
-    let own = scene.particles.count as f64 * scene.ensemble.replicas as f64 * plan.steps() as f64;
+    let own = rods * plan.steps() as f64;
     let study = if law::judges(plan) {
         of_jobs(&law::jobs(scene, Replicas::CONVERGE))
     } else {
         "only plane Couette flow by periods, and no particles.rods".to_owned()
     };
-    format!("run: {}\nconverge: {study}\n", text(own))
+    format!("run: {own:.1e} rods × steps, {took}\nconverge: {study}\n")
 }

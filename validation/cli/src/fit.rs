@@ -78,10 +78,10 @@ pub(super) struct Args {
     #[arg(long, value_name = "WHAT", value_parser = advice::contents(), requires_if("rods", "rods"))]
     u_contains: Option<Contents>,
     /// Test a value of a fitted key, or whether it has the same value in two sets
-    /// (1:interaction.alpha=2:interaction.alpha); can be given more than once
+    /// (1:interaction.alpha=2:interaction.alpha); repeatable
     #[arg(long, value_name = "[SET:]KEY=VALUE", value_parser = Hypothesis::parse)]
     test: Vec<Hypothesis>,
-    /// A key of every scene and the value to give it; can be given more than once
+    /// A key of every scene and the value to give it; repeatable
     #[arg(long = "set", value_name = "KEY=VALUE", value_parser = KeyValue::parse)]
     settings: Vec<KeyValue>,
     #[command(flatten)]

@@ -67,25 +67,15 @@ fn seconds(text: &str) -> Result<Duration, String> {
 /// The plan of the run; with rules for standard errors it allows the largest number of replicas.
 fn planned(args: &Args, named: &Named) -> Result<Plan, Failure> {
     let plan = named.plan()?;
-    args.until.check(&plan, &named.source)?;
-    let refused = |why: &str| Err(Failure::Input(format!("{}: {why}", named.source)));
-    let plan = if args.until.is_empty() {
-        plan
-    } else if named.settings.iter().any(|setting| setting.key == "ensemble.replicas") {
-        return refused(
-            "--until-se and a number of replicas (--replicas, or --set ensemble.replicas): --until-se finds the \
-             number; one of the two is allowed",
-        );
-    } else {
-        plan.with_replicas(MAX_REPLICAS)
-    };
+    args.until.check(&plan, named)?;
     if args.vtk && plan.rods_outputs().is_empty() {
-        return refused(
-            "--vtk: output.rods_at is missing: the times at which rods are to be written; output.rods_every = 1 takes \
-             every output",
-        );
+        return Err(Failure::Input(format!(
+            "{}: --vtk: output.rods_at is missing: the times at which rods are to be written; output.rods_every = 1 \
+             takes every output",
+            named.source
+        )));
     }
-    Ok(plan)
+    Ok(if args.until.is_empty() { plan } else { plan.with_replicas(MAX_REPLICAS) })
 }
 
 /// The inputs on which the results depend. Rules for standard errors replace the number of replicas.

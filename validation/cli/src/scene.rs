@@ -21,7 +21,7 @@ use toml::Value;
 pub(super) struct Chosen {
     /// A scene file, or the name of a built-in scene (`shearbed scenes` lists them)
     scene: OsString,
-    /// A key of the scene and the value to give it, as interaction.alpha=0.3; can be given more than once
+    /// A key of the scene and its value, as interaction.alpha=0.3; repeatable
     #[arg(long = "set", value_name = "KEY=VALUE", value_parser = KeyValue::parse)]
     settings: Vec<KeyValue>,
 }

@@ -1,10 +1,9 @@
 //! `shearbed plan` and `shearbed scenes`.
 
-use super::duration;
 use super::facts::Facts;
 use super::scene::{Chosen, Ensemble};
 use super::until::{LEAST, Until};
-use super::{Failure, memory, print};
+use super::{Failure, Threads, duration, memory, print};
 use shearbed_validation::files::text::{left_aligned, line};
 use shearbed_validation::input::{scene_keys, scenes};
 
@@ -14,6 +13,10 @@ use shearbed_validation::input::{scene_keys, scenes};
 pub(super) struct PlanArgs {
     #[command(flatten)]
     chosen: Chosen,
+    #[command(flatten)]
+    ensemble: Ensemble,
+    #[command(flatten)]
+    threads: Threads,
     #[command(flatten)]
     until: Until,
 }
@@ -32,10 +35,20 @@ pub(super) struct ScenesArgs {
 
 /// Prints a scene's plan. Fails if `run` would fail because of memory.
 pub(super) fn plan(args: &PlanArgs) -> Result<(), Failure> {
-    let named = args.chosen.load(&Ensemble::default(), &[])?;
+    let named = args.chosen.load(&args.ensemble, &[])?;
     let plan = named.plan()?;
-    args.until.check(&plan, &named.source)?;
-    let plan = if args.until.is_empty() { plan } else { plan.with_replicas(LEAST) };
+    args.until.check(&plan, &named)?;
+    // A plan that `run` would refuse here is still shown: it may fit on another machine.
+    let fits = memory::check(&plan, args.threads.given, &named.source);
+    let each_s = duration::of_replica(&plan, fits.is_ok());
+    let (plan, replicas) = if args.until.is_empty() {
+        (plan, String::new())
+    } else {
+        let may_run = fits.is_ok() && duration::is_pilot(LEAST, each_s);
+        let piloted = may_run.then(|| args.until.piloted(&plan)).flatten();
+        let (replicas, text) = piloted.unwrap_or_else(|| (LEAST, args.until.planned()));
+        (plan.with_replicas(replicas), text)
+    };
     // The plan's text ends with its warnings, which are printed last here.
     let warnings: String = plan.warnings().iter().map(|warning| format!("warning: {warning}\n")).collect();
     let text = plan.to_string();
@@ -43,11 +56,10 @@ pub(super) fn plan(args: &PlanArgs) -> Result<(), Failure> {
     print(&format!(
         "{stages}{}{}{}{warnings}",
         Facts::of(&plan).text(),
-        duration::of_scene(&plan),
-        args.until.planned()
+        duration::of_scene(&plan, each_s, args.threads.given),
+        replicas
     ))?;
-    // A plan that `run` would refuse here is still shown: it may fit on another machine.
-    memory::check(&plan, None, &named.source)
+    fits
 }
 
 /// Lists the built-in scenes, or prints one.

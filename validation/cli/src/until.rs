@@ -5,9 +5,10 @@
 //! stopped. A checkpoint of other rules may have more replicas: then all of them are used.
 
 use super::Failure;
+use super::scene::Named;
 use serde::Serialize;
 use shearbed::observable::Channel;
-use shearbed::run::ensemble::Tally;
+use shearbed::run::ensemble::{self, Tally};
 use shearbed::scene::MAX_REPLICAS;
 use shearbed::{Error, Plan};
 use shearbed_validation::oracle::reference::big::finite;
@@ -19,8 +20,8 @@ pub(super) const LEAST: u64 = 32;
 /// Options of `run` and `plan`.
 #[derive(clap::Args)]
 pub(super) struct Until {
-    /// Add replicas until the standard error of this column is at most VALUE at every output, as x1=0.001; can be given
-    /// more than once. At least 32 replicas run
+    /// Add replicas until the standard error of this column is at most VALUE at every output, as x1=0.001; repeatable.
+    /// At least 32 run
     #[arg(long = "until-se", value_name = "CHANNEL=VALUE", value_parser = rule)]
     rules: Vec<(String, f64)>,
 }
@@ -84,10 +85,15 @@ impl Until {
     ///
     /// # Errors
     ///
-    /// A column that the scene does not have, a column that is named twice, or a scene that requests rods of every
+    /// A number of replicas that is given, a column that the scene does not have, a column that is named twice, or a scene that requests rods of every
     /// replica.
-    pub(super) fn check(&self, plan: &Plan, source: &str) -> Result<(), Failure> {
-        let refused = |what: String| Err(Failure::Input(format!("{source}: --until-se {what}")));
+    pub(super) fn check(&self, plan: &Plan, named: &Named) -> Result<(), Failure> {
+        let refused = |what: String| Err(Failure::Input(format!("{}: --until-se {what}", named.source)));
+        if !self.is_empty() && named.settings.iter().any(|setting| setting.key == "ensemble.replicas") {
+            let why = "and a number of replicas (--replicas, or --set ensemble.replicas): --until-se finds the number; \
+                       one of the two is allowed";
+            return refused(why.to_owned());
+        }
         for (k, (name, value)) in self.rules.iter().enumerate() {
             if channel(plan, name).is_none() {
                 return refused(format!("{name}={value}: this scene has no such column; {}", allowed(plan)));
@@ -111,18 +117,42 @@ impl Until {
         format!("until_se {}", rules.join(" "))
     }
 
-    /// A text on the rules before the run.
+    fn words(&self) -> String {
+        self.rules.iter().map(|(name, value)| format!("{name} ≤ {value}")).collect::<Vec<_>>().join(", ")
+    }
+
+    /// A text on the rules before the run, where a pilot takes long.
     pub(super) fn planned(&self) -> String {
-        let rules: Vec<_> = self.rules.iter().map(|(name, value)| format!("{name} ≤ {value}")).collect();
-        if rules.is_empty() {
-            String::new()
-        } else {
-            format!(
-                "replicas: {LEAST}, as planned here, and then an eighth more (at least 8) at a time until the standard \
-                 errors hold: {}; how many that takes is not known before\n",
-                rules.join(", ")
-            )
-        }
+        format!(
+            "replicas: {LEAST}, as planned here, and then an eighth more (at least 8) at a time until the standard \
+             errors hold: {}; how many that takes is not known before\n",
+            self.words()
+        )
+    }
+
+    /// The number of replicas that is expected from the first ones, and a text on it; `None` if one of them fails.
+    pub(super) fn piloted(&self, plan: &Plan) -> Option<(u64, String)> {
+        let plan = plan.with_replicas(LEAST);
+        let mut tally = Tally::new(&plan);
+        let run = |replicas| ensemble::replicas_of(&plan, replicas, &|| ());
+        ensemble::extend(&plan, &mut tally, 0..LEAST, run).ok()?;
+        let expected = self.ended(LEAST, self.reached(&plan, &tally), None).expected();
+        let mut replicas = std::iter::successors(Some(LEAST), |replicas| Some(next(*replicas)));
+        let replicas = replicas.find(|replicas| *replicas >= expected)?;
+        let words = self.words();
+        Some((
+            replicas,
+            format!("replicas: some {replicas} by a pilot of {LEAST}, until standard errors hold: {words}\n"),
+        ))
+    }
+
+    /// The outcome with so many replicas and these standard errors, if no more are added.
+    fn ended(&self, replicas: u64, reached: Vec<f64>, limit: Option<Duration>) -> Ended {
+        let columns: Vec<_> = (self.rules.iter().zip(reached))
+            .map(|((name, asked), reached)| Reached { channel: name.clone(), asked: *asked, reached })
+            .collect();
+        let holds = replicas >= LEAST && columns.iter().all(|column| column.reached <= column.asked);
+        Ended { replicas, holds, columns, time_limit_s: limit.map(|limit| limit.as_secs_f64()) }
     }
 
     /// The largest standard error so far for each rule.
@@ -153,13 +183,8 @@ impl Until {
         }
         loop {
             let (replicas, reached) = add(target, deadline, &measure)?;
-            let columns: Vec<_> = (self.rules.iter().zip(reached))
-                .map(|((name, asked), reached)| Reached { channel: name.clone(), asked: *asked, reached })
-                .collect();
-            let holds = replicas >= LEAST && columns.iter().all(|column| column.reached <= column.asked);
-            let time_limit_s = limit.map(|limit| limit.as_secs_f64());
-            let ended = Ended { replicas, holds, columns, time_limit_s };
-            if holds || replicas < target || target >= MAX_REPLICAS {
+            let ended = self.ended(replicas, reached, limit);
+            if ended.holds || replicas < target || target >= MAX_REPLICAS {
                 return Ok(ended);
             }
             progress(&ended);

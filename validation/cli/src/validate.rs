@@ -20,10 +20,10 @@ use std::path::PathBuf;
 #[derive(clap::Args)]
 #[command(after_help = "Example:\n  shearbed validate --case jeffery-period --out out/period")]
 pub(super) struct Args {
-    /// Run this case only; can be given more than once
+    /// Run this case only; repeatable
     #[arg(long = "case", value_name = "NAME")]
     cases: Vec<String>,
-    /// Run the cases with this tag: what they judge, or an equation as eq-15; can be given more than once
+    /// Run the cases with this tag: what they judge, or an equation as eq-15; repeatable
     #[arg(long = "tag", value_name = "TAG")]
     tags: Vec<String>,
     /// List the cases, with their tags and claims, and run none

@@ -56,7 +56,7 @@ pub(crate) struct Args {
     /// The folder for grade.html, grade.json, grade.md, junit.xml and pictures
     #[arg(long, value_name = "DIR", default_value = "out/grade")]
     pub(super) out: PathBuf,
-    /// Grade this problem only, or those of a pattern as 'pdot-*'; can be given more than once
+    /// Grade this problem only, or those of a pattern as 'pdot-*'; repeatable
     #[arg(long = "problem", value_name = "NAME")]
     pub(super) problems: Vec<String>,
     /// Grade problems of this kind only: rods, tensor, formula, contact or ensemble
@@ -85,7 +85,7 @@ pub(crate) struct Args {
     #[arg(long, conflicts_with = "command")]
     pub(super) windows_text: bool,
     /// The largest error that passes, where the problems' own is smaller: a production code's target. NAME=X for one
-    /// problem; can be given more than once
+    /// problem; repeatable
     #[arg(long = "tolerance", value_name = "X|NAME=X", allow_hyphen_values = true)]
     pub(super) tolerances: Vec<Tolerance>,
     /// The order of accuracy that the program claims; an observed order that is lower by whole orders fails, or higher
