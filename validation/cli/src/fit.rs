@@ -64,7 +64,7 @@ pub(super) struct Args {
     /// The folder for fit.json, tables and pictures [default: out/fit-<scene>]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// The most replicas at each value, 20 or more; fewer run where the model's error is small
+    /// The most replicas at each value, 20 or more, four times the points; fewer run where the model's error is small
     #[arg(long, value_name = "N", default_value_t = MOST_REPLICAS, value_parser = whole(20, MAX_REPLICAS),
         allow_negative_numbers = true)]
     replicas: u64,

@@ -176,8 +176,17 @@ pub(super) fn figure(dirs: &[PathBuf], channel: Option<&str>) -> Result<Drawn, F
     Ok(Drawn { figure, channel, runs })
 }
 
-/// Writes a picture in the format of its ending.
-pub(super) fn write(out: &Path, figure: &Figure, force: bool) -> Result<(), Failure> {
+fn write(out: &Path, figure: &Figure, force: bool) -> Result<(), Failure> {
+    let target = output::followed(out);
+    if picture(&target.to_string_lossy()).is_err() {
+        let why = format!("{}: is a link to {}, which is no picture", out.shown(), target.shown());
+        return Err(Failure::Input(why));
+    }
+    Ok(output::write_one(out, &drawn(out, figure)?, force)?)
+}
+
+/// The bytes of a picture in the format of its file's ending.
+pub(super) fn drawn(out: &Path, figure: &Figure) -> Result<Vec<u8>, Failure> {
     let drawn = match out.extension().and_then(|extension| extension.to_str()) {
         Some("png") => plot::png(figure),
         Some("pdf") => plot::pdf(figure),
@@ -190,5 +199,5 @@ pub(super) fn write(out: &Path, figure: &Figure, force: bool) -> Result<(), Fail
             format!("PNG and PDF pictures have no letters for {missing:?}; boxes stand for them, SVG has them");
         scene::warn(&out.shown(), &[lacking]);
     }
-    Ok(output::write_one(out, &bytes, force)?)
+    Ok(bytes)
 }

@@ -15,7 +15,7 @@ use shearbed_validation::oracle::reference::motion::{LARGEST_STRAIN, Motion, Uni
 use shearbed_validation::oracle::reference::rod::{self, Direction};
 use shearbed_validation::oracle::reference::table::{self, NoValue, Start, Table};
 use shearbed_validation::oracle::reference::unequal::LONGEST_TURNS;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// Arguments of `reference`.
 #[derive(clap::Args)]
@@ -77,10 +77,10 @@ pub(super) struct Args {
     constants: bool,
     /// A file for the density ψ(φ, θ) of rods with diffusion at the times: values every 5°, or a map for each time
     #[arg(long, value_name = "FILE.csv|.svg|.png|.pdf", requires = "diffusion", requires = "times",
-        value_parser = values::density_file)]
+        conflicts_with = "steady", value_parser = values::density_file)]
     density: Option<PathBuf>,
     /// A file for the density of φ alone, per rad, every 5°
-    #[arg(long, value_name = "FILE.csv", requires = "diffusion", requires = "times")]
+    #[arg(long, value_name = "FILE.csv", requires = "diffusion", requires = "times", conflicts_with = "steady")]
     marginal: Option<PathBuf>,
     /// Say what each column is, its unit and its equation, and compute nothing
     #[arg(long)]
@@ -122,16 +122,17 @@ struct Times(Vec<f64>);
 
 /// Prints or writes reference values.
 pub(super) fn reference(args: &Args) -> Result<(), Failure> {
-    let files: Vec<&PathBuf> = [&args.out, &args.density, &args.marginal].into_iter().flatten().collect();
-    if args.force && files.is_empty() {
+    let asked_for: Vec<&PathBuf> = [&args.out, &args.density, &args.marginal].into_iter().flatten().collect();
+    if args.force && asked_for.is_empty() {
         return Err(Failure::Input("--force: needs --out, --density or --marginal".into()));
     }
-    for (k, file) in files.iter().enumerate() {
-        if files[..k].contains(file) {
+    for (k, file) in asked_for.iter().enumerate() {
+        if asked_for[..k].iter().any(|other| output::place(other) == output::place(file)) {
             return Err(Failure::Input(format!("{}: is given twice; two files are needed", file.shown())));
         }
         spares(file, [file.to_path_buf()], args.steps.iter().chain(args.start.file()).cloned())?;
     }
+    let mut files = Vec::new();
     let rate = args.shear_rate_per_s;
     let couette = [[0.0; 3], [rate, 0.0, 0.0], [0.0; 3]];
     let motion = Motion { gradient_per_s: args.gradient_per_s.unwrap_or(couette), aspect_ratio: args.aspect_ratio };
@@ -155,18 +156,25 @@ pub(super) fn reference(args: &Args) -> Result<(), Failure> {
                 complain(&peclet(&motion, &asked, d_r));
             }
             if let (Asked::Diffusing(rods), Some(times)) = (&asked, &args.times) {
-                if let Some(out) = args.out.as_ref().filter(|_| files.len() > 1) {
-                    output::may_write(out, text.as_bytes(), args.force)?;
-                }
-                density::write(args, rods, &times.0)?;
+                files = density::files(args, rods, &times.0)?;
             }
             text
         }
     };
-    match &args.out {
-        Some(path) => write(path, text, args.force),
-        None => print(&text),
+    if let Some(path) = &args.out {
+        files.push((path, text.clone().into_bytes(), String::new()));
     }
+    if let Some((path, ..)) = files.iter().find(|(path, ..)| path.file_name().is_none()) {
+        return Err(Failure::Input(format!("--out {}: is no file name", path.shown())));
+    }
+    for (path, bytes, _) in &files {
+        output::may_write(path, bytes, args.force)?;
+    }
+    for (path, bytes, note) in &files {
+        output::write_one(path, bytes, args.force)?;
+        complain(note);
+    }
+    if args.out.is_none() { print(&text) } else { Ok(()) }
 }
 
 /// The rods of the requested values.
@@ -186,7 +194,7 @@ fn peclet(motion: &Motion, asked: &Asked, d_r: f64) -> String {
         }
         _ => (strain_rate_per_s(motion.gradient_per_s), ""),
     };
-    format!("note: the Péclet number γ̇/D_r{of} is {}\n", if rate == 0.0 { 0.0 } else { rate / d_r })
+    format!("note: the Péclet number γ̇/D_r{of} is {}\n", if rate == 0.0 { 0.0 } else { rate / d_r.abs() })
 }
 
 fn asked(args: &Args, motion: &Motion, direction: Option<Direction>) -> Result<Asked, Failure> {
@@ -313,13 +321,6 @@ fn explained(asked: &Asked) -> String {
     format!("{text}Numbers before words are equations of Lee & Springer (1982). {digits}\n")
 }
 
-fn write(path: &Path, text: String, force: bool) -> Result<(), Failure> {
-    if path.file_name().is_none() {
-        return Err(Failure::Input(format!("--out {}: is no file name", path.shown())));
-    }
-    Ok(output::write_one(path, text.as_bytes(), force)?)
-}
-
 fn no_couette(flag: &str) -> Failure {
     Failure::Input(format!(
         "{flag}: this flow has none; plane Couette flow (--shear-rate-per-s G or a gradient with L21 alone) and a \
@@ -351,7 +352,7 @@ fn refused(args: &Args, why: NoValue) -> Failure {
         ),
         NoValue::Steady(why) => format!("--steady with {flag}: {why}; {allowed} allowed {weak}"),
         NoValue::Diffusion(NoAnswer::RoughStart) if matches!(args.start, From::Bingham(_)) => {
-            "--start: this density is too narrow to be resolved; a least eigenvalue from about 0.02 on is allowed"
+            "--start: this density is too narrow to be resolved; a least eigenvalue from about 0.01 on is allowed"
                 .into()
         }
         NoValue::Diffusion(NoAnswer::RoughStart) => {
@@ -364,7 +365,7 @@ fn refused(args: &Args, why: NoValue) -> Failure {
              {allowed} allowed, or a later first time after 0 (D_r t from about 1e-4 on, and D_r/γ̇ from about 1e-4 on)"
         ),
         NoValue::Diffusion(why) => format!(
-            "--times with {flag}: {why}; a larger C_I or shorter --times are allowed (from C_I = D_r/γ̇ = 1e-4 on, a \
+            "--times with {flag}: {why}; a larger C_I, shorter --times or a longer period are allowed (from C_I = D_r/γ̇ = 1e-4 on, a \
              strain of 100; at 1e-5, of 10), and --steady"
         ),
         NoValue::Unit if args.steps.is_some() => "--unit: the times of --steps are in s, which alone is allowed".into(),

@@ -149,6 +149,14 @@ fn holds(path: &Path, contents: &[u8]) -> io::Result<Option<bool>> {
     }
 }
 
+/// The place of a file, by which two names of it are one.
+pub fn place(path: &Path) -> PathBuf {
+    let target = followed(path);
+    let folder = target.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let folder = folder.canonicalize().unwrap_or_else(|_| folder.to_owned());
+    target.file_name().map_or(folder.clone(), |name| folder.join(name))
+}
+
 /// The file that links lead to, whether it exists or not.
 pub fn followed(path: &Path) -> PathBuf {
     let mut path = path.to_owned();

@@ -91,6 +91,7 @@ pub(super) fn of_warning(warning: &Warning) -> String {
                  reading says that it does not"
             );
         }
+        Warning::TooLarge(..) => ("--u-contains rods: ", ": is --rods right?"),
         Warning::TooSmall(..) => ("--u-contains rods: ", ": check --rods, or give --u-contains reading"),
         Warning::NoDesign(..) => ("--design: ", ""),
         Warning::Other(_) => ("", ""),

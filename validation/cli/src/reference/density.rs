@@ -2,8 +2,7 @@
 
 use super::{Args, refused, unit};
 use crate::{Failure, plot};
-use shearbed_validation::files::output;
-use shearbed_validation::files::text::{Shown, complain};
+use shearbed_validation::files::text::Shown;
 use shearbed_validation::oracle::reference::diffusing::Diffusing;
 use shearbed_validation::oracle::reference::table::NoValue;
 use shearbed_validation::present::plot::{Figure, Grid, Map};
@@ -13,22 +12,26 @@ use std::path::Path;
 /// Between two angles in the files, in degrees; a cell of a map is twice as wide.
 const EVERY: u16 = 5;
 
-/// Writes what is asked for at these times.
-pub(super) fn write(args: &Args, rods: &Diffusing, times: &[f64]) -> Result<(), Failure> {
+/// A file with its contents and a note on it.
+pub(super) type File<'a> = (&'a Path, Vec<u8>, String);
+
+/// The files that are asked for at these times, and a note on each.
+pub(super) fn files<'a>(args: &'a Args, rods: &Diffusing, times: &[f64]) -> Result<Vec<File<'a>>, Failure> {
     let heads = times.iter().map(|time| rods.head(*time, unit(args))).collect::<Result<Vec<_>, _>>();
     let seconds: Vec<f64> = heads.map_err(|why| refused(args, why))?.iter().filter_map(|head| head[0]).collect();
     let failed = |why| refused(args, NoValue::Diffusion(why));
-    let say = |path: &Path, of: &str, error: f64| {
-        complain(&format!("note: {}: {of}, to within {:.0e}\n", path.shown(), error.max(5e-12)));
+    let note = |path: &Path, of: &str, error: f64| {
+        format!("note: {}: {of}, to within {:.0e}\n", path.shown(), error.max(5e-12))
     };
+    let mut files = Vec::new();
     if let Some(path) = &args.density {
         let (values, error) = rods.densities(&seconds, &directions()).map_err(failed)?;
-        if path.extension().is_some_and(|ending| ending == "csv") {
-            output::write_one(path, csv(&seconds, &values, error).as_bytes(), args.force)?;
+        let bytes = if path.extension().is_some_and(|ending| ending == "csv") {
+            csv(&seconds, &values, error).into_bytes()
         } else {
-            plot::write(path, &map(&seconds, &values), args.force)?;
-        }
-        say(path, "ψ in 1/sr", error);
+            plot::drawn(path, &map(&seconds, &values))?
+        };
+        files.push((path.as_path(), bytes, note(path, "ψ in 1/sr", error)));
     }
     if let Some(path) = &args.marginal {
         let angles: Vec<f64> = (0..360).step_by(EVERY.into()).map(|phi| f64::from(phi).to_radians()).collect();
@@ -39,10 +42,9 @@ pub(super) fn write(args: &Args, rods: &Diffusing, times: &[f64]) -> Result<(), 
                 text += &format!("{time_s:?},{},{value:.*}\n", usize::from(EVERY) * k, decimals(error));
             }
         }
-        output::write_one(path, text.as_bytes(), args.force)?;
-        say(path, "the density of φ in 1/rad", error);
+        files.push((path.as_path(), text.into_bytes(), note(path, "the density of φ in 1/rad", error)));
     }
-    Ok(())
+    Ok(files)
 }
 
 fn decimals(error: f64) -> usize {

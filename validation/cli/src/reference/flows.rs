@@ -66,7 +66,8 @@ pub(super) fn directions(path: &Path) -> Result<Vec<[f64; 3]>, FileError> {
     let mut directions = Vec::new();
     while let Some(row) = table.next_row()? {
         let p = Vector3::new(row.finite(first)?, row.finite(second)?, row.finite(third)?);
-        let unit = p.try_normalize(0.0).filter(|unit| unit.iter().all(|x| x.is_finite()));
+        // Squares of the components may overflow, or be 0.
+        let unit = (p.amax() > 0.0).then(|| (p / p.amax()).normalize());
         directions.push(unit.ok_or_else(|| row.error("p has no direction; a length above 0 is needed"))?.into());
         if directions.len() > MOST_DIRECTIONS {
             let allowed = format!("more than {MOST_DIRECTIONS} directions; at most {MOST_DIRECTIONS} are allowed");

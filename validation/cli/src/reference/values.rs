@@ -67,15 +67,19 @@ pub(super) fn start(text: &str) -> Result<From, String> {
     }
 }
 
-/// K of the density of Bingham with this a_ij.
+/// How far the trace of a measured tensor may be off 1, as of three values rounded to three digits.
+const ROUNDED: f64 = 1.5e-3;
+
+/// K of the density of Bingham with this a_ij, divided by its trace.
 fn tensor(text: &str) -> Result<[[f64; 3]; 3], String> {
-    let words = "a11,a22,a33,a12,a13,a23 with a11 + a22 + a33 = 1 and eigenvalues above 0";
+    let words = "a11,a22,a33,a12,a13,a23 with a11 + a22 + a33 = 1 to three digits and eigenvalues above 0";
     let a: Vec<f64> = text.split(',').map(|part| number(part, |x| x.abs() <= 1.0, words)).collect::<Result<_, _>>()?;
-    if (a[0] + a[1] + a[2] - 1.0).abs() > 1e-12 {
-        return Err(format!("{words} are allowed; the sum is {}", a[0] + a[1] + a[2]));
+    let trace = a[0] + a[1] + a[2];
+    if (trace - 1.0).abs() > ROUNDED {
+        return Err(format!("{words} are allowed; the sum is {trace}"));
     }
-    diffusion::bingham([a[0], a[1], a[2], a[3], a[4], a[5]])
-        .map_err(|least| format!("{words}, the least from about 0.02 on, are allowed; the least is {least}"))
+    diffusion::bingham([0, 1, 2, 3, 4, 5].map(|k| a[k] / trace))
+        .map_err(|least| format!("{words}, the least from about 0.01 on, are allowed; the least is {least}"))
 }
 
 pub(super) fn gradient(text: &str) -> Result<[[f64; 3]; 3], String> {

@@ -66,6 +66,9 @@ impl Residuals {
     }
 }
 
+/// The number of points that say what part of u² is reading.
+const ENOUGH: usize = 200;
+
 /// Shares of u² that are tried as reading: powers of ½ down to 10⁻⁶.
 const SHARES: i32 = 20;
 
@@ -99,17 +102,29 @@ impl Rods {
             Reading::Share(share) => return all * share,
             Reading::Rest(sd) => (1.0 - scatter.trace() / all.trace(), sd),
         };
+        // Some of many points say as much, for a time that grows with their third power.
+        let some: Vec<usize> = (0..data.len()).step_by(data.len().div_ceil(ENOUGH).max(1)).collect();
+        let of = |matrix: &DMatrix<f64>| matrix.select_rows(&some).select_columns(&some);
+        let (own, scatter) = (of(&all), of(scatter));
+        let residuals = Residuals {
+            error: residuals.error.select_rows(&some),
+            slopes: residuals.slopes.select_rows(&some),
+            others: of(&residuals.others),
+        };
         let misfit = |share: f64| {
-            let covariance = &residuals.others + scatter + &all * share;
+            let covariance = &residuals.others + &scatter + &own * share;
             residuals.misfit(covariance).map(|misfit| misfit + ((share - rest) / sd).powi(2))
         };
         let tried = (0..=SHARES).filter_map(|k| misfit(0.5f64.powi(k)).map(|misfit| (misfit, k)));
         let least = tried.min_by(|a, b| a.0.total_cmp(&b.0)).map_or(0, |(_, k)| k);
-        // A parabola in ln of the share, by its neighbours.
-        let beside = [least - 1, least, least + 1].map(|k| misfit(0.5f64.powi(k.clamp(0, SHARES))));
-        let [Some(before), Some(at), Some(after)] = beside else { return all * 0.5f64.powi(least) };
-        let bend = before - 2.0 * at + after;
-        let moved = if bend > 0.0 { 0.5 * (before - after) / bend } else { 0.0 };
+        // A parabola in ln of the share, by its neighbours, where it has two.
+        let beside = [least - 1, least, least + 1].map(|k| misfit(0.5f64.powi(k)));
+        let moved = match beside {
+            [Some(before), Some(at), Some(after)] if (1..SHARES).contains(&least) && before + after > 2.0 * at => {
+                0.5 * (before - after) / (before - 2.0 * at + after)
+            }
+            _ => 0.0,
+        };
         all * 0.5f64.powf(f64::from(least) + moved)
     }
 }

@@ -1,4 +1,4 @@
-//! A flow that oscillates, L(t) = L cos 2πt/T, by a Magnus integrator of order 4 without commutators (Blanes & Moan
+//! A flow that oscillates, L(t) = L cos(2πt/T + φ), by a Magnus integrator of order 4 without commutators (Blanes & Moan
 //! 2006): a step is two steady flows, and its error is even in the step.
 
 use super::frame::Frame;
@@ -12,7 +12,8 @@ const FEWEST: f64 = 32.0;
 /// The largest number of steps of all solutions.
 const MOST: f64 = 50_000.0;
 
-/// Means over the rods at `times_s` ≥ 0, in ascending order, in the flow of `motion` times cos 2πt/T.
+/// Means over the rods at `times_s` ≥ 0, in ascending order, in the flow of `motion` times cos(2πt/T + φ), with
+/// T in s and φ in rad.
 ///
 /// Solutions with ever twice as many steps are extrapolated (Richardson) until two differ by 4·10⁻¹² at most; that and
 /// the largest error of the flows' own solutions are the stated error.
@@ -20,11 +21,16 @@ const MOST: f64 = 50_000.0;
 /// # Errors
 ///
 /// As [`through`](super::through), and if no such number of steps is small enough.
-pub fn oscillating(motion: &Motion, period_s: f64, start: Start, times_s: &[f64]) -> Result<Vec<Means>, NoAnswer> {
+pub fn oscillating(
+    motion: &Motion,
+    oscillation: [f64; 2],
+    start: Start,
+    times_s: &[f64],
+) -> Result<Vec<Means>, NoAnswer> {
     // Of the last number of steps: its solution, and those without errors of the orders 4, 6, ….
     let mut before: Vec<Vec<Means>> = Vec::new();
     for doubling in 0.. {
-        let flows = flows(motion, period_s, times_s, FEWEST * 2f64.powi(doubling)).ok_or(NoAnswer::TooMuchWork)?;
+        let flows = flows(motion, oscillation, times_s, FEWEST * 2f64.powi(doubling)).ok_or(NoAnswer::TooMuchWork)?;
         let (means, error) = found(&flows, start, times_s, &Read::Means)?;
         let mut row: Vec<Vec<Means>> = vec![means.iter().map(|means| Means::new(means, error)).collect()];
         for (k, coarse) in before.iter().take(4).enumerate() {
@@ -52,7 +58,7 @@ fn extrapolated(fine: &Means, coarse: &Means, k: usize) -> Means {
 }
 
 /// Steps that end at each time, at least `each` a period; `None` if they are too many.
-fn flows(motion: &Motion, period_s: f64, times_s: &[f64], each: f64) -> Option<Vec<(Frame, f64)>> {
+fn flows(motion: &Motion, [period_s, phase]: [f64; 2], times_s: &[f64], each: f64) -> Option<Vec<(Frame, f64)>> {
     let frame = Frame::of(motion);
     let times = |factor: f64| {
         let motion = Motion { strain: frame.motion.strain * factor, spin: frame.motion.spin * factor, ..frame.motion };
@@ -70,7 +76,8 @@ fn flows(motion: &Motion, period_s: f64, times_s: &[f64], each: f64) -> Option<V
         }
         let step_s = (time - now) / count;
         for k in 0..count as u64 {
-            let [first, second] = nodes.map(|node| (TAU * ((now + (k as f64 + node) * step_s) / period_s)).cos());
+            let [first, second] =
+                nodes.map(|node| (phase + TAU * ((now + (k as f64 + node) * step_s) / period_s)).cos());
             let [more, less] = weights;
             for factor in [more * first + less * second, less * first + more * second] {
                 steps.push((times(factor), 0.5 * step_s));

@@ -76,7 +76,7 @@ impl Diffusing {
         let heads = at.iter().map(|time| self.head(*time, unit)).collect::<Result<Vec<_>, _>>()?;
         let seconds: Vec<f64> = heads.iter().filter_map(|head| head[0]).collect();
         let all = self.over_aspect_ratios(|flows| match self.oscillation_s {
-            Some(period_s) => diffusion::oscillating(&flows[0].motion, period_s, self.start, &seconds),
+            Some(period_s) => diffusion::oscillating(&flows[0].motion, [period_s, 0.0], self.start, &seconds),
             None => diffusion::through(flows, self.start, &seconds),
         });
         let mut rows = Vec::new();

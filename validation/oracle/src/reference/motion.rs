@@ -15,7 +15,7 @@ pub type Matrix = [[Big; 3]; 3];
 pub enum Unit {
     /// The period of rotation T (eq. 15) of the (mean) aspect ratio.
     Period,
-    /// Strain, (2D:D)^½ t; in plane Couette flow |G| t.
+    /// Strain, ∫(2D:D)^½ dt; in steady plane Couette flow |G| t.
     Strain,
     /// Seconds.
     Second,

@@ -74,7 +74,7 @@ pub(super) fn of_time() -> Vec<Column> {
     vec![
         column("time_s", "s", "time"),
         column("t_over_T", "1", "15: T = 2π(r_e + 1/r_e)/|G|, of the mean r_e"),
-        column("strain", "1", "(2D:D)^½ t; in plane Couette flow |G| t"),
+        column("strain", "1", "∫(2D:D)^½ dt; in steady plane Couette flow |G| t"),
     ]
 }
 

@@ -83,6 +83,7 @@ pub fn warning(
             Some(Warning::ReadingAlone { times, rods, answer: own, with_rods: answer(fit, &other) })
         }
         (Some(rods), Some(Contents::Rods)) if times < 0.7 => Some(Warning::TooSmall(times, rods)),
+        (Some(rods), Some(Contents::Rods)) if times > 1.5 => Some(Warning::TooLarge(times, rods)),
         _ => None,
     }
 }

@@ -112,7 +112,7 @@ pub enum FitError {
     )]
     Noise(f64, u64),
     /// Fewer replicas than the covariance of the points needs.
-    #[error("replicas: {replicas} are too few for the covariance of {points} points; give {} or more", 4 * points)]
+    #[error("replicas: {replicas} are too few for the covariance of {points} points; give {} or more", (4 * *points as u64).max(2 * replicas))]
     FewReplicas {
         /// Their largest number.
         replicas: u64,
@@ -218,6 +218,9 @@ pub enum Warning {
     /// u over the scatter of this number of rods, which it cannot contain.
     #[error("u is only {0:.2} times the scatter of {1} rods, and cannot contain it")]
     TooSmall(f64, u64),
+    /// u over the scatter of this number of rods, which is little of it.
+    #[error("u is {0:.1} times the scatter of {1} rods, so most of it counts as reading")]
+    TooLarge(f64, u64),
     /// A concentration, in multiples of the scene's, at which no points can be designed, and why.
     #[error("no points of {0} times the concentration: {1}")]
     NoDesign(f64, String),

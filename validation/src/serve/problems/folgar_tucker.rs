@@ -103,7 +103,7 @@ impl DiffusionProblem {
         let start = if self.planar_start { Start::Plane([0.0, 0.0, 1.0]) } else { Start::Isotropic };
         match (self.times, self.oscillation_s()) {
             ([], _) => Ok(vec![diffusion::steady(&motion)?]),
-            (_, Some(period_s)) => diffusion::oscillating(&motion, period_s, start, &self.times_s()),
+            (_, Some(period_s)) => diffusion::oscillating(&motion, [period_s, 0.0], start, &self.times_s()),
             _ => diffusion::at(&motion, start, &self.times_s()),
         }
     }
@@ -187,8 +187,8 @@ pub(super) fn built(def: &ProblemDef, problem: &DiffusionProblem, table: &str, f
         times_s: problem.times_s(),
         tolerance: 1e-9,
         because: "Diffusion makes every error on the way fade, so a fourth-order method comes to about 10 ε^(4/5) = \
-            3e-12 per unit of strain, 2e-10 for the longest time here; five times that is left for the number of \
-            harmonics or cells. Certified values are good to 4e-12. Closures miss by 1e-3 to 1e-1."
+            3e-12 per unit of strain, 2e-10 in the longest of these problems; five times that is left for the number \
+            of harmonics or cells. Certified values are good to 4e-12. Closures miss by 1e-3 to 1e-1."
             .into(),
         equations: vec![
             "Folgar & Tucker 1984, J. Reinf. Plast. Comp. 3, 98: the Fokker–Planck equation, by even spherical \

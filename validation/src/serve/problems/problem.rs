@@ -208,15 +208,20 @@ impl Problem {
         if self.planar_start { diffusion::Start::Plane([0.0, 0.0, 1.0]) } else { diffusion::Start::Isotropic }
     }
 
-    /// Means over rods that move so, at the first `count` times.
+    /// Means over rods that move so, at the first `count` times; `phase` in rad is added to a flow that oscillates.
     ///
     /// # Errors
     ///
     /// Those of the oracle.
-    pub fn distribution(&self, motion: &diffusion::Motion, count: usize) -> Result<Vec<diffusion::Means>, NoAnswer> {
+    pub fn distribution(
+        &self,
+        motion: &diffusion::Motion,
+        count: usize,
+        phase: f64,
+    ) -> Result<Vec<diffusion::Means>, NoAnswer> {
         let times = &self.times_s[..count];
         match self.oscillation_period_s {
-            Some(period_s) => diffusion::oscillating(motion, period_s, self.directions(), times),
+            Some(period_s) => diffusion::oscillating(motion, [period_s, phase], self.directions(), times),
             None if self.is_steady() => Ok(vec![diffusion::steady(motion)?]),
             None => diffusion::at(motion, self.directions(), times),
         }

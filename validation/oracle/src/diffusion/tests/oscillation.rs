@@ -14,7 +14,7 @@ fn both_methods_agree_in_a_flow_that_oscillates() {
     for (flow, rings) in [(COUETTE, 20), (MIXED, 20)] {
         let grid = angle_grid::oscillating(flow, 0.8, 0.3, rings, [3.0, 2.0, 5e-4]);
         let error = |motion: &Motion, period_s: f64| {
-            let found = oscillating(motion, period_s, Start::Isotropic, &[0.7, 2.0]).unwrap()[1];
+            let found = oscillating(motion, [period_s, 0.0], Start::Isotropic, &[0.7, 2.0]).unwrap()[1];
             assert!(found.error < 2e-11);
             off(&grid.second, &found.second).max(off(&grid.fourth, &found.fourth))
         };
@@ -28,20 +28,23 @@ fn both_methods_agree_in_a_flow_that_oscillates() {
 fn weak_and_slow_oscillations_have_their_limits() {
     let (d_r, rate) = (0.25, 1e-5);
     let motion = Motion::diffusing(COUETTE.map(|row| row.map(|x| rate * x)), 3.0, d_r);
-    let error = |omega: f64, phase: f64| {
+    let error = |omega: f64, [phase, due_phase]: [f64; 2]| {
         let times = [0.3, 1.0, 4.0];
-        let found = oscillating(&motion, TAU / 1.5, Start::Isotropic, &times).unwrap();
+        let found = oscillating(&motion, [TAU / 1.5, phase], Start::Isotropic, &times).unwrap();
         let due = |t: f64| {
-            let (sine, cosine) = (omega * t + phase).sin_cos();
-            let late = (-6.0 * d_r * t).exp() * (6.0 * d_r * phase.cos() + omega * phase.sin());
+            let (sine, cosine) = (omega * t + due_phase).sin_cos();
+            let late = (-6.0 * d_r * t).exp() * (6.0 * d_r * due_phase.cos() + omega * due_phase.sin());
             0.8 * rate / 5.0 * (6.0 * d_r * cosine + omega * sine - late) / (36.0 * d_r * d_r + omega * omega)
         };
         found.iter().zip(times).map(|(means, t)| (means.second[3] - due(t)).abs()).fold(0.0, crate::larger)
     };
-    assert!(error(1.5, 0.0) < 2e-12, "{:e}", error(1.5, 0.0));
-    assert!(error(1.6, 0.0) > 1e-9 && error(1.5, 0.1) > 1e-9);
+    for phase in [0.0, 1.0, -TAU / 4.0] {
+        assert!(error(1.5, [phase; 2]) < 2e-12, "{phase}: {:e}", error(1.5, [phase; 2]));
+    }
+    assert!(error(1.6, [0.0; 2]) > 1e-9 && error(1.5, [0.0, 0.1]) > 1e-9);
     let motion = Motion::diffusing(COUETTE, 3.0, d_r);
-    let [slow, steady] = [oscillating(&motion, 1e9, Start::Isotropic, &[2.0]), at(&motion, Start::Isotropic, &[2.0])];
+    let [slow, steady] =
+        [oscillating(&motion, [1e9, 0.0], Start::Isotropic, &[2.0]), at(&motion, Start::Isotropic, &[2.0])];
     assert!(slow.unwrap()[0].apart(&steady.unwrap()[0]) < 1e-11);
 }
 
@@ -52,7 +55,7 @@ fn a_turned_oscillation_is_turned() {
     let l = Matrix3::from_fn(|i, j| ASKEW[i][j]);
     let there = turn * l * turn.inverse();
     let of = |l: [[f64; 3]; 3]| {
-        let found = oscillating(&Motion::diffusing(l, 3.0, 0.3), 2.0, Start::Isotropic, &[0.6, 1.7]).unwrap();
+        let found = oscillating(&Motion::diffusing(l, 3.0, 0.3), [2.0, 0.0], Start::Isotropic, &[0.6, 1.7]).unwrap();
         matrix(found[1].second)
     };
     let (here, there) = (of(ASKEW), of(std::array::from_fn(|i| std::array::from_fn(|j| there[(i, j)]))));
