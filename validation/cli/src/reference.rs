@@ -365,8 +365,8 @@ fn refused(args: &Args, why: NoValue) -> Failure {
              {allowed} allowed, or a later first time after 0 (D_r t from about 1e-4 on, and D_r/γ̇ from about 1e-4 on)"
         ),
         NoValue::Diffusion(why) => format!(
-            "--times with {flag}: {why}; a larger C_I, shorter --times or a longer period are allowed (from C_I = D_r/γ̇ = 1e-4 on, a \
-             strain of 100; at 1e-5, of 10), and --steady"
+            "--times with {flag}: {why}; a larger C_I, shorter --times or a longer period are allowed (from C_I = \
+             D_r/γ̇ = 1e-4 on, a strain of 100; at 1e-5, of 10), and --steady"
         ),
         NoValue::Unit if args.steps.is_some() => "--unit: the times of --steps are in s, which alone is allowed".into(),
         NoValue::Unit if args.oscillation_period_s.is_some() => {

@@ -85,8 +85,8 @@ impl Until {
     ///
     /// # Errors
     ///
-    /// A number of replicas that is given, a column that the scene does not have, a column that is named twice, or a scene that requests rods of every
-    /// replica.
+    /// A number of replicas that is given, a column that the scene does not have, a column that is named twice, or a
+    /// scene that requests rods of every replica.
     pub(super) fn check(&self, plan: &Plan, named: &Named) -> Result<(), Failure> {
         let refused = |what: String| Err(Failure::Input(format!("{}: --until-se {what}", named.source)));
         if !self.is_empty() && named.settings.iter().any(|setting| setting.key == "ensemble.replicas") {

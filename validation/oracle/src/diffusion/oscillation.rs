@@ -1,5 +1,5 @@
-//! A flow that oscillates, L(t) = L cos(2πt/T + φ), by a Magnus integrator of order 4 without commutators (Blanes & Moan
-//! 2006): a step is two steady flows, and its error is even in the step.
+//! A flow that oscillates, L(t) = L cos(2πt/T + φ), by a Magnus integrator of order 4 without commutators (Blanes &
+//! Moan 2006): a step is two steady flows, and its error is even in the step.
 
 use super::frame::Frame;
 use super::march::Read;

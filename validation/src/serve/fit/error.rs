@@ -112,7 +112,10 @@ pub enum FitError {
     )]
     Noise(f64, u64),
     /// Fewer replicas than the covariance of the points needs.
-    #[error("replicas: {replicas} are too few for the covariance of {points} points; give {} or more", (4 * *points as u64).max(2 * replicas))]
+    #[error(
+        "replicas: {replicas} are too few for the covariance of {points} points; give {} or more",
+        (4 * *points as u64).max(2 * replicas)
+    )]
     FewReplicas {
         /// Their largest number.
         replicas: u64,

@@ -1,4 +1,5 @@
-//! Published series, and values of a public spectral code, `hifabian/rigid_spheroids` 3.1 (doi:10.5281/zenodo.17984051).
+//! Published series, and values of a public spectral code, `hifabian/rigid_spheroids` 3.1
+//! (doi:10.5281/zenodo.17984051).
 
 use super::*;
 
