@@ -2,7 +2,7 @@
 
 use super::Datum;
 use super::emulator::Emulator;
-use super::likelihood::{CAUSES, Causes, ChiSquare, REPLICAS, Rods, causes, residuals};
+use super::likelihood::{CAUSES, Causes, ChiSquare, REPLICAS, Rods, causes, others, residuals};
 use super::minimise::minimise;
 use super::scarce::{added, scatter_of_covariance};
 use nalgebra::DMatrix;
@@ -113,7 +113,7 @@ const POSSIBLE: f64 = 3.84;
 pub fn within(data: &[Datum], emulator: &Emulator, place: &[f64]) -> Option<[Rods; 2]> {
     let of_replica = emulator.covariance_of_replica(place);
     let sets = data.iter().map(|datum| datum.set + 1).max().unwrap_or(0);
-    let residuals = residuals(data, emulator, place);
+    let residuals = residuals(data, emulator, place, &others(emulator, place));
     let of_part = |part: u32| {
         let rods = Rods::within(data, &of_replica, sets, f64::from(part) / f64::from(PARTS));
         let scatter = rods.scatter(data, &of_replica);

@@ -132,20 +132,21 @@ impl Rods {
 /// The covariance of each cause.
 pub fn causes(data: &[Datum], emulator: &Emulator, place: &[f64], rods: &Rods) -> Causes {
     let scatter = rods.scatter(data, &emulator.covariance_of_replica(place));
-    let residuals = residuals(data, emulator, place);
-    let [of_time, of_mean, of_lack] = others(emulator, place);
-    [rods.reading(data, &scatter, &residuals), of_time, scatter, of_mean, of_lack]
+    let others = others(emulator, place);
+    let reading = rods.reading(data, &scatter, &residuals(data, emulator, place, &others));
+    let [of_time, of_mean, of_lack] = others;
+    [reading, of_time, scatter, of_mean, of_lack]
 }
 
-/// The points less the emulator's at a place.
-pub fn residuals(data: &[Datum], emulator: &Emulator, place: &[f64]) -> Residuals {
+/// The points less the emulator's at a place, with the covariances of [`others`].
+pub fn residuals(data: &[Datum], emulator: &Emulator, place: &[f64], others: &[DMatrix<f64>; 3]) -> Residuals {
     let measured = DVector::from_iterator(data.len(), data.iter().map(|datum| datum.value));
-    let others = others(emulator, place).iter().sum();
+    let others = others.iter().sum();
     Residuals { error: measured - emulator.at(place), slopes: emulator.slopes(place), others }
 }
 
 /// The covariances by errors in time, replicas and emulator.
-fn others(emulator: &Emulator, place: &[f64]) -> [DMatrix<f64>; 3] {
+pub fn others(emulator: &Emulator, place: &[f64]) -> [DMatrix<f64>; 3] {
     let lack = emulator.lack_of_fit(place);
     [
         DMatrix::from_diagonal(&emulator.time_variance(place)),
