@@ -109,11 +109,7 @@ pub fn cases() -> Vec<Case> {
             )
             .source("eqs 4, 16; Results, after Fig. 6")
             .under_test((|_| {}) as Change)
-            .mistake("collisions without effect", |scene| {
-                if let Some(interaction) = &mut scene.interaction {
-                    interaction.alpha = 0.0;
-                }
-            })
+            .mistake("collisions without effect", |scene| lab::interaction(scene).alpha = 0.0)
             .mistake("rods of one aspect ratio", |scene| {
                 scene.particles.aspect_ratio_sd_percent = 0.0;
             })
@@ -184,28 +180,24 @@ fn faster(order: &Order, effort: &Effort) -> [Evidence; 2] {
     })
 }
 
-fn collisions_damp(change: &Change, effort: &Effort) -> Vec<Evidence> {
-    let mut evidence = Vec::new();
+fn collisions_damp(change: &Change, effort: &Effort) -> [[Evidence; 2]; 2] {
     // Pilots of 300 replicas at t/T = 1 and 2: 0.112 ± 0.025 and 0.178 ± 0.030 for σ = 0 (mean and deviation), 0.054 ±
     // 0.022 and 0.051 ± 0.026 for σ = 3.6 %.
-    for (sd, design) in [(0.0, Design::new(0.09, 0.035)), (3.6, Design::new(0.036, 0.029))] {
+    [(0.0, Design::new(0.09, 0.035)), (3.6, Design::new(0.036, 0.029))].map(|(sd, design)| {
         let mut free = lab::free_scene(effort);
         free.particles.aspect_ratio_sd_percent = sd;
         let interacting = lab::changed(free.clone(), change);
         let replicas = effort.samples(design);
         let without = amplitudes(&free, replicas, &[2, 4]);
         let with = amplitudes(&interacting, replicas, &[2, 4]);
-        for (k, when) in [(0, "1"), (1, "2")] {
+        [(0, "1"), (1, "2")].map(|(k, when)| {
             let fall = Sample::of_differences(&without[k], &with[k]);
             let because = "\"much\" has no number in the paper: two curves as far apart as twice the width of a line";
-            evidence.push(
-                Evidence::on(format!("amplitude without less with collisions at t/T = {when}, σ = {sd} %"))
-                    .exceeds(fall, 2.0 * LINE, design.effect)
-                    .because(because),
-            );
-        }
-    }
-    evidence
+            Evidence::on(format!("amplitude without less with collisions at t/T = {when}, σ = {sd} %"))
+                .exceeds(fall, 2.0 * LINE, design.effect)
+                .because(because)
+        })
+    })
 }
 
 fn dies_out(change: &Change, effort: &Effort) -> Vec<Evidence> {
@@ -221,30 +213,26 @@ fn dies_out(change: &Change, effort: &Effort) -> Vec<Evidence> {
     let (both, added, alone) = (Design::new(0.13, 0.042), Design::new(0.013, 0.036), Design::new(0.06, 0.032));
     let spread = measured(&scene(3.6), both);
     let margin = spread[0].iter().zip(&spread[3]).map(|(first, last)| first / E - last);
-    let mut evidence = vec![
-        Evidence::on("1/e of the first amplitude less that at t/T = 4, n = 50 per cm³, σ = 3.6 %")
-            .exceeds(Sample::of(margin), 0.0, both.effect)
-            .because("\"a few\" is read as four, \"die out\" as below 1/e, where a decay has its time"),
-    ];
     // The spread of r_e alone brings the amplitude below 1/e: the effect of collisions is judged against that.
     let mut free = scene(3.6);
     free.interaction = None;
     let (without, with) = (measured(&free, added), measured(&scene(3.6), added));
-    evidence.push(
+    let uniform = measured(&scene(0.0), alone);
+    let falls = [(1, "0 and 1"), (2, "1 and 2"), (3, "2 and 4")].map(|(k, which)| {
+        let fall = Sample::of_differences(&uniform[k - 1], &uniform[k]);
+        Evidence::on(format!("fall of the amplitude between t/T = {which}, n = 50 per cm³, σ = 0"))
+            .exceeds(fall, 0.0, alone.effect)
+            .because("an order without a number")
+    });
+    let of_spread = [
+        Evidence::on("1/e of the first amplitude less that at t/T = 4, n = 50 per cm³, σ = 3.6 %")
+            .exceeds(Sample::of(margin), 0.0, both.effect)
+            .because("\"a few\" is read as four, \"die out\" as below 1/e, where a decay has its time"),
         Evidence::on("amplitude at t/T = 4 without collisions less that with them, n = 50 per cm³, σ = 3.6 %")
             .exceeds(Sample::of_differences(&without[3], &with[3]), 0.0, added.effect)
             .because("an order without a number"),
-    );
-    let uniform = measured(&scene(0.0), alone);
-    for (k, which) in [(1, "0 and 1"), (2, "1 and 2"), (3, "2 and 4")] {
-        let fall = Sample::of_differences(&uniform[k - 1], &uniform[k]);
-        evidence.push(
-            Evidence::on(format!("fall of the amplitude between t/T = {which}, n = 50 per cm³, σ = 0"))
-                .exceeds(fall, 0.0, alone.effect)
-                .because("an order without a number"),
-        );
-    }
-    evidence
+    ];
+    of_spread.into_iter().chain(falls).collect()
 }
 
 fn damped(scene: &mut Scene) {

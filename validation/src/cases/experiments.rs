@@ -82,9 +82,7 @@ fn controls() -> Vec<(&'static str, Change)> {
 }
 
 fn double_alpha(scene: &mut Scene) {
-    if let Some(interaction) = &mut scene.interaction {
-        interaction.alpha *= 2.0;
-    }
+    lab::interaction(scene).alpha *= 2.0;
 }
 
 const SUPPLY: &str = "put the digitised points (CSV) and their provenance (TOML) into the source's folder under DIR \
@@ -120,20 +118,17 @@ fn agreement(source: &Source, change: Change, effort: &Effort) -> Result<Vec<Evi
     if curves.is_empty() {
         return Ok(vec![no_data(format!("points of {}", source.label))]);
     }
-    let scenes = source.scenes.iter().zip(0..);
-    let mut evidence = Vec::new();
-    for (scene, stream) in scenes {
+    let of_scene = |(scene, stream): (&&str, u64)| {
         let here: Vec<_> = curves.iter().filter(|curve| curve.scene == *scene).cloned().collect();
         if here.is_empty() {
-            evidence.push(no_data(format!("{scene}: no points")));
-            continue;
+            return no_data(format!("{scene}: no points"));
         }
-        evidence.push(match experiment::compare(scene, &here, change, runs(effort, stream)) {
+        match experiment::compare(scene, &here, change, runs(effort, stream)) {
             Ok(comparison) => fit(&comparison, &here, late, source),
             Err(error) => Evidence::exact(format!("{scene}: {error}"), f64::NAN),
-        });
-    }
-    Ok(evidence)
+        }
+    };
+    Ok(source.scenes.iter().zip(0..).map(of_scene).collect())
 }
 
 fn fit(comparison: &Comparison, curves: &[MeasuredCurve], late: usize, source: &Source) -> Evidence {

@@ -7,7 +7,6 @@ use super::*;
 use problems::{FlowProblem, Kind, random};
 use shearbed::motion::{Moved, Span};
 use shearbed::plan::free_motion::MAX_ERROR_RAD;
-use std::sync::Arc;
 
 /// A function that moves a rod and states a bound of the error.
 type Motion = fn(&FlowProblem) -> Moved;
@@ -135,16 +134,6 @@ fn planar(a: &Matrix3<f64>, time: f64) -> Matrix3<f64> {
 /// or the other at one seed in nine.
 const HARD: u64 = 300;
 
-/// The problems with their answers, computed once for the check and its controls.
-fn shared(effort: &Effort) -> Arc<Vec<FlowProblem>> {
-    static PROBLEMS: Shared<u64, Vec<FlowProblem>> = Shared::new();
-    PROBLEMS.get(effort, 0, || {
-        let any = random(Kind::Any, effort.seed(9), effort.pick(400, 100_000));
-        let hard = random(Kind::Hard, effort.seed(10), effort.pick(HARD, 30_000));
-        [any, hard].concat()
-    })
-}
-
 /// The distance of two unit vectors up to sign: 2|sin| of half the angle, which has no cancellation.
 fn apart(a: &Vector3<f64>, b: &Vector3<f64>) -> f64 {
     (a - b).norm().min((a + b).norm())
@@ -176,7 +165,13 @@ fn general_flows(motion: &Motion, effort: &Effort) -> Vec<Evidence> {
     // Condition numbers up to 10², 10⁴, … and beyond.
     let mut decades = [Decades::default(); 9];
     let (mut wrong, mut share, mut needless) = (0.0, 0.0f64, 0.0);
-    for problem in shared(effort).iter() {
+    static PROBLEMS: Shared<(), Vec<FlowProblem>> = Shared::new();
+    let problems = PROBLEMS.get(effort, (), || {
+        let any = random(Kind::Any, effort.seed(9), effort.pick(400, 100_000));
+        let hard = random(Kind::Hard, effort.seed(10), effort.pick(HARD, 30_000));
+        [any, hard].concat()
+    });
+    for problem in problems.iter() {
         let moved = motion(problem);
         let at = ((moved.condition.log10() / 2.0).ceil() as usize).clamp(1, 9) - 1;
         let decades = &mut decades[at];
@@ -198,21 +193,17 @@ fn general_flows(motion: &Motion, effort: &Effort) -> Vec<Evidence> {
         }
         decades.bound = decades.bound.max(bound);
     }
-    let mut evidence = vec![
+    let all = [
         Evidence::exact("answers that are off by more than their bound", wrong),
         Evidence::on("largest error over its bound").within(share, 1.0).because("what a bound is"),
         Evidence::exact("refused, though 106 bits can answer", needless),
     ];
-    for (k, found) in decades.iter().enumerate().filter(|(_, found)| found.answered + found.refused > 0) {
-        let Decades { answered, refused, worst, bound } = found;
-        evidence.push(
-            Evidence::on(format!(
-                "worst of {answered} answers, condition number up to 10^{}; {refused} refused",
-                2 * (k + 1)
-            ))
-            .within(*worst, *bound)
-            .because("the largest bound among them"),
-        );
-    }
-    evidence
+    let by_decade = decades.into_iter().enumerate().filter(|(_, found)| found.answered + found.refused > 0);
+    let by_decade = by_decade.map(|(k, Decades { answered, refused, worst, bound })| {
+        let exponent = 2 * (k + 1);
+        Evidence::on(format!("worst of {answered} answers, condition number up to 10^{exponent}; {refused} refused"))
+            .within(worst, bound)
+            .because("the largest bound among them")
+    });
+    all.into_iter().chain(by_decade).collect()
 }

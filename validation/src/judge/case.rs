@@ -82,21 +82,21 @@ pub trait Findings {
     fn evidence(self) -> Vec<Evidence>;
 }
 
-impl Findings for Vec<Evidence> {
-    fn evidence(self) -> Vec<Evidence> {
-        self
-    }
-}
-
 impl Findings for Evidence {
     fn evidence(self) -> Vec<Evidence> {
         vec![self]
     }
 }
 
-impl<const N: usize> Findings for [Evidence; N] {
+impl<T: Findings> Findings for Vec<T> {
     fn evidence(self) -> Vec<Evidence> {
-        self.into()
+        self.into_iter().flat_map(T::evidence).collect()
+    }
+}
+
+impl<T: Findings, const N: usize> Findings for [T; N] {
+    fn evidence(self) -> Vec<Evidence> {
+        self.into_iter().flat_map(T::evidence).collect()
     }
 }
 
@@ -172,8 +172,6 @@ pub struct Case {
     pub about: About,
     check: Check,
     controls: Vec<(&'static str, Check)>,
-    /// The verdict of a case whose evidence passes while a control is not caught.
-    uncaught: Verdict,
 }
 
 impl Case {
@@ -224,9 +222,13 @@ impl Case {
             .filter(|_| !no_data)
             .map(|(mistake, check)| Control::new(mistake, &check(effort)))
             .collect();
+        let uncaught = match self.about.judges {
+            Judges::Measurement => Verdict::Underpowered,
+            _ => Verdict::Fail,
+        };
         Outcome {
             about: self.about.clone(),
-            verdict: overall(&evidence, &controls, self.uncaught),
+            verdict: overall(&evidence, &controls, uncaught),
             evidence,
             controls,
             seconds: start.elapsed().as_secs_f64(),
@@ -257,15 +259,10 @@ impl<S: Send + Sync + 'static> UnderTest<S> {
     /// Completes the case with the check of the implementation under test and of every mistake.
     pub fn check<F: Findings + 'static>(self, check: fn(&S, &Effort) -> F) -> Case {
         let bind = |implementation: S| -> Check { Box::new(move |effort| check(&implementation, effort).evidence()) };
-        let uncaught = match self.about.judges {
-            Judges::Measurement => Verdict::Underpowered,
-            _ => Verdict::Fail,
-        };
         Case {
             about: self.about,
             check: bind(self.implementation),
             controls: (self.mistakes.into_iter()).map(|(name, broken)| (name, bind(broken))).collect(),
-            uncaught,
         }
     }
 }

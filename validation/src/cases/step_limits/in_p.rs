@@ -40,19 +40,18 @@ pub(super) fn at_least(integrators: &Integrators, _: &Effort) -> Vec<Evidence> {
     evidence
 }
 
-pub(super) fn near_a_sphere(integrators: &Integrators, _: &Effort) -> Vec<Evidence> {
+pub(super) fn near_a_sphere(integrators: &Integrators, _: &Effort) -> Vec<[Evidence; 2]> {
     let r = 1.0 + 1e-5;
     let off = |limit: Limit, expected: f64| match limit {
         Limit::At(strain) => strain / expected - 1.0,
         // No limit was found although there should be one.
         _ => 1.0,
     };
-    let mut evidence = Vec::new();
-    for integrator in integrators() {
+    let judged = |integrator: Integrator| {
         let longest = |property, ladder| bisect(ladder, |h| holds(&integrator, property, r, h));
         let turning = off(longest(Property::Turning, ONE_STEP), theory::rk4_turning_of_a_sphere());
         let length = off(longest(Property::Length, LENGTHS), theory::rk4_length_of_a_sphere());
-        evidence.extend([
+        [
             Evidence::on("relative difference of the longest step that turns and 2√6").within(turning, 2e-5).because(
                 "rates of rods of r_e = 1 + 10⁻⁵ differ by Λ = 10⁻⁵, and of 512 rods one is within δ = π/1024 of the \
                  fastest: δ² = 10⁻⁵",
@@ -63,9 +62,9 @@ pub(super) fn near_a_sphere(integrators: &Integrators, _: &Effort) -> Vec<Eviden
                     "|R|² = 1 + 0.89(y² − 8): in the 22 steps of ten periods |p| grows to 1.5 at y² = 8.04, which is \
                      0.26 % more",
                 ),
-        ]);
-    }
-    evidence
+        ]
+    };
+    integrators().into_iter().map(judged).collect()
 }
 
 pub(super) fn frozen(integrators: &Integrators, _: &Effort) -> Evidence {
