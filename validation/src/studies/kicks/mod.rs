@@ -10,6 +10,7 @@ pub(crate) mod tail;
 
 use super::*;
 use crate::oracle::kicks::chance_of_pair;
+use nalgebra::SMatrix;
 use shearbed::suspension::Collision;
 use std::ops::Range;
 
@@ -43,18 +44,21 @@ pub fn step_strain(scene: &Scene) -> f64 {
     strain_per_period(scene.particles.aspect_ratio) / scene.steps_per_unit() as f64
 }
 
+/// Numbers of kicks above each of [`THRESHOLDS_RAD`]: in the row [`CLOSING`] where the gap was closing, ℓ·D·ℓ < 0, in
+/// the row [`OPENING`] where it was opening.
+pub type Sides = SMatrix<f64, 2, 4>;
+/// See [`Sides`].
+pub const CLOSING: usize = 0;
+/// See [`Sides`].
+pub const OPENING: usize = 1;
+
 /// The counts of one replica over a window, per rod and period.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Counts {
-    /// Kicks above each of [`THRESHOLDS_RAD`] where the gap was closing: ℓ·D·ℓ < 0.
-    pub closing: [f64; 4],
-    /// The same where it was opening.
-    pub opening: [f64; 4],
-    /// The prediction for the closing ones by the formula for fresh arms, from the directions and collisions of the
-    /// run.
-    pub fresh_closing: [f64; 4],
-    /// The same prediction for the opening ones.
-    pub fresh_opening: [f64; 4],
+    /// Kicks.
+    pub kicks: Sides,
+    /// The prediction for them by the formula for fresh arms, from the directions and collisions of the run.
+    pub fresh: Sides,
     /// Number of rods that collided, two for each collision.
     pub collided: f64,
 }
@@ -65,7 +69,7 @@ pub fn count(scene: &Scene, replica: u64, periods: Range<u64>, counted: Counted)
     let (steps, strain) = (scene.steps_per_unit(), step_strain(scene));
     let aspect_ratios = suspension.aspect_ratios();
     let mut counts = Counts::default();
-    let mut chances = [[0.0; 4]; 2];
+    let mut chances = Sides::zeros();
     for step in 0..periods.end * steps {
         let within = step >= periods.start * steps;
         let directions = if within { suspension.directions() } else { Vec::new() };
@@ -73,16 +77,12 @@ pub fn count(scene: &Scene, replica: u64, periods: Range<u64>, counted: Counted)
             chances = mean_chances(&directions, &aspect_ratios, strain, counted.opens);
         }
         let Ok(collisions) = suspension.step() else {
-            return Counts { closing: [f64::NAN; 4], ..counts };
+            return Counts { kicks: Sides::repeat(f64::NAN), ..counts };
         };
         for collision in collisions.iter().filter(|_| within) {
             let [a, b] = collision.rods.map(|rod| directions[rod]);
             counts.add((counted.opens)(&a, &b), (counted.angles)(collision));
-            for (fresh, chances) in [&mut counts.fresh_closing, &mut counts.fresh_opening].into_iter().zip(chances) {
-                for (fresh, chance) in fresh.iter_mut().zip(chances) {
-                    *fresh += 2.0 * chance;
-                }
-            }
+            counts.fresh += 2.0 * chances;
         }
     }
     counts.over((aspect_ratios.len() as u64 * (periods.end - periods.start)) as f64)
@@ -106,27 +106,27 @@ fn mean_chances(
     aspect_ratios: &[f64],
     strain: f64,
     opens: fn(&Vector3<f64>, &Vector3<f64>) -> bool,
-) -> [[f64; 4]; 2] {
+) -> Sides {
     let count = directions.len();
-    let mut sums = [[0.0; 4]; 2];
+    let mut sums = Sides::zeros();
     let mut pairs = 0.0;
     for shift in 1..count.min(3) {
         for i in 0..count {
             let j = (i + shift) % count;
             let [a, b] = [directions[i], directions[j]];
-            let side = &mut sums[usize::from(opens(&a, &b))];
+            let mut side = sums.row_mut(if opens(&a, &b) { OPENING } else { CLOSING });
             for (sum, threshold) in side.iter_mut().zip(THRESHOLDS_RAD) {
                 *sum += chance_of_pair(a.into(), b.into(), aspect_ratios[j], threshold / strain);
             }
             pairs += 1.0;
         }
     }
-    sums.map(|side| side.map(|sum| sum / pairs))
+    sums / pairs
 }
 
 impl Counts {
     fn add(&mut self, opening: bool, angles: [f64; 2]) {
-        let side = if opening { &mut self.opening } else { &mut self.closing };
+        let mut side = self.kicks.row_mut(if opening { OPENING } else { CLOSING });
         for (count, threshold) in side.iter_mut().zip(THRESHOLDS_RAD) {
             *count += angles.iter().filter(|angle| **angle > threshold).count() as f64;
         }
@@ -134,24 +134,7 @@ impl Counts {
     }
 
     fn over(self, rod_periods: f64) -> Self {
-        let each = |counts: [f64; 4]| counts.map(|count| count / rod_periods);
-        Self {
-            closing: each(self.closing),
-            opening: each(self.opening),
-            fresh_closing: each(self.fresh_closing),
-            fresh_opening: each(self.fresh_opening),
-            collided: self.collided / rod_periods,
-        }
-    }
-
-    /// Kicks above the `index`-th threshold, closing or opening.
-    pub fn all(&self, index: usize) -> f64 {
-        self.closing[index] + self.opening[index]
-    }
-
-    /// The number of them that the formula predicts.
-    pub fn fresh(&self, index: usize) -> f64 {
-        self.fresh_closing[index] + self.fresh_opening[index]
+        Self { kicks: self.kicks / rod_periods, fresh: self.fresh / rod_periods, collided: self.collided / rod_periods }
     }
 }
 
@@ -200,9 +183,8 @@ mod tests {
         counts.add(true, [0.05, 20.0]);
         counts.add(false, [0.001, 0.5]);
         let counts = counts.over(2.0);
-        assert_eq!(counts.opening, [1.0, 0.5, 0.5, 0.5]);
-        assert_eq!(counts.closing, [0.5, 0.5, 0.0, 0.0]);
-        assert_eq!((counts.all(0), counts.collided), (1.5, 2.0));
+        assert_eq!(counts.kicks, Sides::from_row_slice(&[0.5, 0.5, 0.0, 0.0, 1.0, 0.5, 0.5, 0.5]));
+        assert_eq!(counts.collided, 2.0);
         // ℓ along (1, 1, 0): stretched by u_2 = x_1; along (1, −1, 0): squeezed.
         let line = |b: Vector3<f64>| is_opening(&Vector3::z(), &b);
         assert!(line(Vector3::new(1.0, -1.0, 0.0)) && !line(Vector3::new(1.0, 1.0, 0.0)));

@@ -43,7 +43,7 @@ fn answer(limit: &Limit) -> String {
     let (Some(coarse), Some(fine)) = (limit.steps.first(), limit.steps.last()) else {
         return "Nothing was measured.".into();
     };
-    let rate = |row: &StepCounts| row.mean(|c| c.closing[1]);
+    let rate = |row: &StepCounts| row.mean(|c| c.kicks[(CLOSING, 1)]);
     let stay = rate(fine).mean > 2.0 * rate(fine).se;
     let words = |row: &StepCounts| format!("{:.3} ± {:.3}", rate(row).mean, rate(row).se);
     format!(
@@ -133,10 +133,10 @@ fn mean<'a>(name: &str, of: fn(&Counts) -> f64) -> Column<'a, StepCounts> {
 /// Columns by the side of the kick, for closing and opening gaps.
 fn sides<'a>() -> [Column<'a, StepCounts>; 5] {
     [
-        mean("> 0.1, closing", |c| c.closing[1]),
-        mean("formula", |c| c.fresh_closing[1]),
-        mean("> 0.1, opening", |c| c.opening[1]),
-        mean("formula", |c| c.fresh_opening[1]),
+        mean("> 0.1, closing", |c| c.kicks[(CLOSING, 1)]),
+        mean("formula", |c| c.fresh[(CLOSING, 1)]),
+        mean("> 0.1, opening", |c| c.kicks[(OPENING, 1)]),
+        mean("formula", |c| c.fresh[(OPENING, 1)]),
         mean("turns by a collision", |c| c.collided),
     ]
 }
@@ -144,11 +144,11 @@ fn sides<'a>() -> [Column<'a, StepCounts>; 5] {
 fn steps(study: &Limit) -> ReportTable {
     let mut columns = vec![
         field("steps per period", |row: &StepCounts| row.steps_per_period),
-        mean("> 0.01 rad", |c| c.all(0)),
-        mean("> 0.1 rad", |c| c.all(1)),
-        mean("> 1 rad", |c| c.all(2)),
-        mean("> 10 rad", |c| c.all(3)),
-        mean("> 0.1, formula", |c| c.fresh(1)),
+        mean("> 0.01 rad", |c| c.kicks.column(0).sum()),
+        mean("> 0.1 rad", |c| c.kicks.column(1).sum()),
+        mean("> 1 rad", |c| c.kicks.column(2).sum()),
+        mean("> 10 rad", |c| c.kicks.column(3).sum()),
+        mean("> 0.1, formula", |c| c.fresh.column(1).sum()),
     ];
     columns.extend(sides());
     ReportTable::new(
@@ -182,8 +182,8 @@ fn dense(study: &Limit) -> ReportTable {
 fn periods(study: &Limit) -> ReportTable {
     let mut columns = vec![
         words("t/T", |row: &StepCounts| format!("{} to {}", row.periods.start, row.periods.end)),
-        mean("> 0.1 rad", |c| c.all(1)),
-        mean("> 1 rad", |c| c.all(2)),
+        mean("> 0.1 rad", |c| c.kicks.column(1).sum()),
+        mean("> 1 rad", |c| c.kicks.column(2).sum()),
     ];
     columns.extend(sides());
     ReportTable::new(
@@ -268,11 +268,11 @@ fn figure(study: &Limit) -> ReportFigure {
         ["log steps per period", "kicks per rod and period"],
     )
     .points([
-        points("all", |c| c.all(1)),
-        points("closing", |c| c.closing[1]),
-        points("opening", |c| c.opening[1]),
-        points("formula, closing", |c| c.fresh_closing[1]),
-        points("formula, opening", |c| c.fresh_opening[1]),
+        points("all", |c| c.kicks.column(1).sum()),
+        points("closing", |c| c.kicks[(CLOSING, 1)]),
+        points("opening", |c| c.kicks[(OPENING, 1)]),
+        points("formula, closing", |c| c.fresh[(CLOSING, 1)]),
+        points("formula, opening", |c| c.fresh[(OPENING, 1)]),
     ])
     .spans(None, Some((0.0, 0.35)))
     .judged("A.7 to A.14", &["kick-formula", "kick-memory"])
