@@ -27,12 +27,6 @@ pub fn cases() -> Vec<Case> {
     ]
 }
 
-/// A cell of a map with the step that it belongs to.
-struct Tried {
-    cell: Cell,
-    strain_per_step: f64,
-}
-
 fn corners(integrators: &Integrators, effort: &Effort) -> Vec<Evidence> {
     let most_steps = effort.pick(2_000, 20_000);
     let mut exact = 0.0f64;
@@ -41,14 +35,13 @@ fn corners(integrators: &Integrators, effort: &Effort) -> Vec<Evidence> {
     let mut accurate = 0.0f64;
     let mut silent = 0.0;
     for integrator in integrators() {
-        for tried in tried(&integrator, most_steps) {
-            let cell = &tried.cell;
+        for (cell, strain_per_step) in tried(&integrator, most_steps) {
             let error = cell.error_rad.unwrap_or(f64::NAN);
             match integrator.theory {
                 Theory::Exact if integrator.name == closed_form().name => angles = larger(angles, error),
                 Theory::Exact => exact += f64::from(cell.found != Fate::RoundOff),
-                Theory::Order(order) if order > 1 && (1e-3..=0.5).contains(&tried.strain_per_step) => {
-                    accurate = larger(accurate, error / tried.strain_per_step.powi(2));
+                Theory::Order(order) if order > 1 && (1e-3..=0.5).contains(&strain_per_step) => {
+                    accurate = larger(accurate, error / strain_per_step.powi(2));
                 }
                 _ => {}
             }
@@ -79,20 +72,18 @@ fn corners(integrators: &Integrators, effort: &Effort) -> Vec<Evidence> {
     ]
 }
 
-/// The cells of all maps that an integrator can fill with at most `most_steps` steps.
-fn tried(integrator: &Integrator, most_steps: u64) -> Vec<Tried> {
+/// The cells of all maps that an integrator can fill with at most `most_steps` steps, and the strain of a step.
+fn tried(integrator: &Integrator, most_steps: u64) -> Vec<(Cell, f64)> {
     let theory = integrator.theory;
     let mut all = Vec::new();
     let mut push = |run: map::Run| {
         let strain = RodProblem::new(run.aspect_ratio, run.turns).strain();
-        all.push(Tried {
-            cell: run.of(integrator),
-            strain_per_step: match run.setting {
-                // Long runs do not count here: their phase error grows with the time.
-                Setting::Steps(steps) if run.turns < 2.0 => strain / steps as f64,
-                _ => f64::INFINITY,
-            },
-        });
+        let strain_per_step = match run.setting {
+            // Long runs do not count here: their phase error grows with the time.
+            Setting::Steps(steps) if run.turns < 2.0 => strain / steps as f64,
+            _ => f64::INFINITY,
+        };
+        all.push((run.of(integrator), strain_per_step));
     };
     for r in ASPECT_RATIOS {
         match theory {

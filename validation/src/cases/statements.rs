@@ -24,7 +24,7 @@ pub fn cases() -> Vec<Case> {
         Case::statement("hundred-rods-suffice")
             .claim("\"The results did not change significantly when 100 or more particles were used\".")
             .source("eq. 4; Results, second paragraph")
-            .under_test(100 as Count)
+            .under_test(100)
             .mistake("2 rods", 2)
             .check(enough_rods),
         Case::statement("steady-stays-put")
@@ -33,7 +33,7 @@ pub fn cases() -> Vec<Case> {
                  steady state values are reached\".",
             )
             .source("eq. 4; Results, before Fig. 5; Fig. 5")
-            .under_test(6.0 as Periods)
+            .under_test(6.0)
             .mistake("from the start", 0.0)
             .check(stays_put),
         Case::statement("in-plane-rods")
@@ -42,7 +42,7 @@ pub fn cases() -> Vec<Case> {
                  should have been no collisions\".",
             )
             .source("eq. 4; Results, the r_e = 3.96 experiment")
-            .under_test(90.0 as ThetaDeg)
+            .under_test(90.0)
             .mistake("10° out of the plane", 80.0)
             .check(in_plane),
     ]
@@ -102,11 +102,9 @@ fn peak_frequency(series: &[f64], per_unit: f64) -> f64 {
     grid.max_by(|a, b| power(*a).total_cmp(&power(*b))).unwrap_or(f64::NAN)
 }
 
-type Count = usize;
-
 /// X̄₁ with few rods less X̄₁ with 500, at the same concentration. For every run of 500 there are as many small runs as
 /// make up 500 rods, at most a hundred.
-fn enough_rods(count: &Count, effort: &Effort) -> [Evidence; 2] {
+fn enough_rods(count: &usize, effort: &Effort) -> [Evidence; 2] {
     const MANY: usize = 500;
     // Without collisions every rod returns after a whole period: the means scatter less if the start is subtracted.
     let changes = |count: usize, replicas: u64, stream: u64| {
@@ -133,11 +131,9 @@ fn enough_rods(count: &Count, effort: &Effort) -> [Evidence; 2] {
     })
 }
 
-/// The time at which the steady state is taken as reached, in T.
-type Periods = f64;
-
-/// X̄_i averaged over one period less its average over the period before, in a dense suspension.
-fn stays_put(from: &Periods, effort: &Effort) -> [Evidence; 3] {
+/// X̄_i averaged over one period less its average over the period before, in a dense suspension whose steady state is
+/// taken as reached after `from` periods.
+fn stays_put(from: &f64, effort: &Effort) -> [Evidence; 3] {
     let mut scene = lab::paper_scene(effort);
     lab::interaction(&mut scene).concentration_per_cm3 = Some(1000.0);
     scene.time = Time { outputs_per_unit: Some(10), ..Time::periods(from + 2.0) };
@@ -159,9 +155,7 @@ fn stays_put(from: &Periods, effort: &Effort) -> [Evidence; 3] {
     })
 }
 
-type ThetaDeg = f64;
-
-fn in_plane(theta_deg: &ThetaDeg, effort: &Effort) -> Vec<Evidence> {
+fn in_plane(theta_deg: &f64, effort: &Effort) -> Vec<Evidence> {
     let run = |update: Update, steps_per_period: u64, replica: u64| {
         let mut scene = lab::paper_scene(effort);
         lab::interaction(&mut scene).update = update;

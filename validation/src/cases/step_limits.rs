@@ -36,21 +36,11 @@ fn named(name: &str) -> Vec<Integrator> {
     all
 }
 
-fn euler() -> Vec<Integrator> {
-    named("explicit Euler in angles")
-}
-
-fn half_euler() -> Vec<Integrator> {
-    in_angles(1, |problem, y, h| explicit_euler(|y| 0.5 * problem.angle_rates(&y), y, h))
-}
-
-fn rk4_in_angles() -> Vec<Integrator> {
-    named("RK4 in angles")
-}
-
-fn implicit_midpoint() -> Vec<Integrator> {
-    named("implicit midpoint in p")
-}
+const EULER: Integrators = || named("explicit Euler in angles");
+const HALF_EULER: Integrators =
+    || in_angles(1, |problem, y, h| explicit_euler(|y| 0.5 * problem.angle_rates(&y), y, h));
+const RK4_IN_ANGLES: Integrators = || named("RK4 in angles");
+const IMPLICIT_MIDPOINT: Integrators = || named("implicit midpoint in p");
 
 pub fn cases() -> Vec<Case> {
     let claimed =
@@ -63,9 +53,9 @@ pub fn cases() -> Vec<Case> {
         Case::integrator("euler-step-limit")
             .claim("Explicit Euler's step on A.2 lets one rod overtake another where GΔt > 1/Λ, and never below.")
             .source("A.2; A.14 is such a step")
-            .under_test(order(euler))
-            .mistake("half of the rate", order(half_euler))
-            .mistake("RK4", order(rk4_in_angles))
+            .under_test(order(EULER))
+            .mistake("half of the rate", order(HALF_EULER))
+            .mistake("RK4", order(RK4_IN_ANGLES))
             .mistake("the exact propagator", order(|| vec![exact_propagator()]))
             .check(agrees),
         Case::integrator("step-limit-turning")
@@ -74,9 +64,9 @@ pub fn cases() -> Vec<Case> {
                  a turn a step up to GΔt = π(1 + 1/r_e²), and not beyond.",
             )
             .source("A.2; A.14 is such a step")
-            .under_test(turning(|| [euler(), named("Lie-group midpoint")].into_iter().flatten().collect()))
-            .mistake("half of the rate", turning(half_euler))
-            .mistake("RK4", turning(rk4_in_angles))
+            .under_test(turning(|| [EULER(), named("Lie-group midpoint")].into_iter().flatten().collect()))
+            .mistake("half of the rate", turning(HALF_EULER))
+            .mistake("RK4", turning(RK4_IN_ANGLES))
             .mistake("the exact propagator", turning(|| vec![exact_propagator()]))
             .check(agrees),
         Case::integrator("rods-come-to-rest")
@@ -85,16 +75,16 @@ pub fn cases() -> Vec<Case> {
                  there is no rest; just below it none stops.",
             )
             .source("A.2; A.14 is such a step")
-            .under_test(euler as Integrators)
-            .mistake("half of the rate", half_euler as Integrators)
-            .mistake("RK4", rk4_in_angles as Integrators)
+            .under_test(EULER)
+            .mistake("half of the rate", HALF_EULER)
+            .mistake("RK4", RK4_IN_ANGLES)
             .check(rest),
         Case::integrator("step-limit-side")
             .claim("Explicit Euler lets no rod cross the plane of shear up to GΔt = 2/Λ, and not beyond.")
             .source("A.3; A.14 is such a step")
-            .under_test(Claimed { found_late: OF_EULER, ..side(euler, theory::euler_side) })
-            .mistake("half of the rate", side(half_euler, theory::euler_side))
-            .mistake("RK4", side(rk4_in_angles, theory::euler_side))
+            .under_test(Claimed { found_late: OF_EULER, ..side(EULER, theory::euler_side) })
+            .mistake("half of the rate", side(HALF_EULER, theory::euler_side))
+            .mistake("RK4", side(RK4_IN_ANGLES, theory::euler_side))
             .check(agrees),
         Case::integrator("implicit-midpoint-order")
             .claim(
@@ -102,10 +92,10 @@ pub fn cases() -> Vec<Case> {
                  √2, and for longer rods up to GΔt = 2/(Λ(1 − u²)^{3/2}), 2u³ − 3u + 1/Λ = 0.",
             )
             .source("A.2; A.14 is such a step")
-            .under_test(folded(implicit_midpoint, theory::implicit_midpoint_order))
+            .under_test(folded(IMPLICIT_MIDPOINT, theory::implicit_midpoint_order))
             .mistake(
                 "no limit, as an A-stable method on a linear equation",
-                folded(implicit_midpoint, |_| f64::INFINITY),
+                folded(IMPLICIT_MIDPOINT, |_| f64::INFINITY),
             )
             .mistake(
                 "the explicit midpoint rule",
@@ -119,10 +109,10 @@ pub fn cases() -> Vec<Case> {
                  order is lost, whichever is less, and not beyond.",
             )
             .source("A.3; A.14 is such a step")
-            .under_test(side(implicit_midpoint, theory::implicit_midpoint_one_solution))
-            .mistake("4/Λ at every r_e", side(implicit_midpoint, theory::implicit_midpoint_side))
-            .mistake("where its order is lost, at every r_e", side(implicit_midpoint, theory::implicit_midpoint_order))
-            .mistake("explicit Euler", side(euler, theory::implicit_midpoint_one_solution))
+            .under_test(side(IMPLICIT_MIDPOINT, theory::implicit_midpoint_one_solution))
+            .mistake("4/Λ at every r_e", side(IMPLICIT_MIDPOINT, theory::implicit_midpoint_side))
+            .mistake("where its order is lost, at every r_e", side(IMPLICIT_MIDPOINT, theory::implicit_midpoint_order))
+            .mistake("explicit Euler", side(EULER, theory::implicit_midpoint_one_solution))
             .check(agrees),
         Case::integrator("step-limit-at-least")
             .claim(
@@ -142,7 +132,7 @@ pub fn cases() -> Vec<Case> {
                 in_angles(4, |problem, y, h| rk4(|y| problem.angle_rates(&y), y, 3.0 * h))
             })
             .mistake("RK4 in p in place of RKMK4", || {
-                vec![rk4_in_angles(), named("RK4 in p")].into_iter().flatten().collect()
+                vec![RK4_IN_ANGLES(), named("RK4 in p")].into_iter().flatten().collect()
             })
             .check(at_least),
         Case::integrator("rk4-near-a-sphere")
@@ -152,7 +142,7 @@ pub fn cases() -> Vec<Case> {
             )
             .source("A.1; A.14 is such a step")
             .under_test((|| named("RK4 in p")) as Integrators)
-            .mistake("RK4 in angles", rk4_in_angles as Integrators)
+            .mistake("RK4 in angles", RK4_IN_ANGLES)
             .mistake("explicit Euler in p", || in_p(1, false, |problem, p, h| p + h * problem.rate(&p)))
             .mistake("the linear equation with half its rate", || {
                 in_p(4, false, |problem, p, h| rk4(|y| problem.rate(&y), p, 0.5 * h))
@@ -166,7 +156,7 @@ pub fn cases() -> Vec<Case> {
             .source("A.1; A.14 is such a step")
             .under_test((|| named("RK4 in p")) as Integrators)
             .mistake("projected", || named("projected RK4 in p"))
-            .mistake("in angles", rk4_in_angles as Integrators)
+            .mistake("in angles", RK4_IN_ANGLES)
             .mistake("steps of half the length", || {
                 in_p(4, false, |problem, p, h| {
                     let f = |y| problem.rate(&y);
@@ -217,25 +207,23 @@ fn rest(integrators: &Integrators, _: &Effort) -> Vec<Evidence> {
     let mut moving = 0.0;
     let mut resting = 0.0;
     for integrator in integrators() {
-        for r in [2.0, 11.6, 100.0] {
+        for (r, k) in pairs([2.0, 11.6, 100.0], 0..32) {
             let limit = theory::euler_turning(r);
-            for k in 0..32 {
-                let start = shearbed::model::orientation::from_angles(PI * f64::from(k) / 32.0, FRAC_PI_2);
-                // The angle turned in the last of many steps, up to sign.
-                let last = |strain: f64| {
-                    let steps = |steps: u64| {
-                        let turns = steps as f64 * strain / RodProblem::new(r, 1.0).strain();
-                        integrator.advance(&RodProblem::new(r, turns), &start, Setting::Steps(steps))
-                    };
-                    match (steps(1000), steps(1001)) {
-                        (Ok(a), Ok(b)) => apart_rad(&a, &b),
-                        _ => f64::NAN,
-                    }
+            let start = orientation::from_angles(PI * f64::from(k) / 32.0, FRAC_PI_2);
+            // The angle turned in the last of many steps, up to sign.
+            let last = |strain: f64| {
+                let steps = |steps: u64| {
+                    let turns = steps as f64 * strain / RodProblem::new(r, 1.0).strain();
+                    integrator.advance(&RodProblem::new(r, turns), &start, Setting::Steps(steps))
                 };
-                let (above, below) = (last(1.02 * limit), last(0.98 * limit));
-                moving += f64::from(above.is_nan() || above > 1e-6);
-                resting += f64::from(below.is_nan() || below < 1e-6);
-            }
+                match (steps(1000), steps(1001)) {
+                    (Ok(a), Ok(b)) => apart_rad(&a, &b),
+                    _ => f64::NAN,
+                }
+            };
+            let (above, below) = (last(1.02 * limit), last(0.98 * limit));
+            moving += f64::from(above.is_nan() || above > 1e-6);
+            resting += f64::from(below.is_nan() || below < 1e-6);
         }
     }
     vec![

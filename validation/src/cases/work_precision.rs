@@ -11,10 +11,6 @@ use crate::studies::suspensions::job::Job;
 use crate::studies::suspensions::{blocks, law};
 use statrs::statistics::Statistics;
 
-type Starts = Vec<Start>;
-
-type Exponent = f64;
-
 pub fn cases() -> Vec<Case> {
     let spoiled = |of: usize, lay| vec![Start { lay, ..starts::ALL[of] }];
     let same = Beside { free: |_| {}, other: |_| {}, mean: |_| {} };
@@ -25,7 +21,7 @@ pub fn cases() -> Vec<Case> {
                  and N^(−5/4) for a Fibonacci lattice.",
             )
             .source("eqs 4, 12")
-            .under_test(starts::ALL.to_vec() as Starts)
+            .under_test(starts::ALL.to_vec())
             .mistake(
                 "the generator starts anew every 100 rods",
                 spoiled(0, |count, unequal, rng| {
@@ -56,7 +52,7 @@ pub fn cases() -> Vec<Case> {
                  volume near a face, and not as 1/N.",
             )
             .source("eq. 8; 'the number of particles'")
-            .under_test(law::FACES as Exponent)
+            .under_test(law::FACES)
             .mistake("1/N", -1.0)
             .check(faces),
         Case::core("paths-do-not-converge")
@@ -87,6 +83,8 @@ pub fn cases() -> Vec<Case> {
             .check(shared),
     ]
 }
+
+type Starts = Vec<Start>;
 
 fn rates(starts: &Starts, effort: &Effort) -> Vec<Evidence> {
     // Rods that are stretched little, so that a thousand of them resolve the distribution.
@@ -145,7 +143,7 @@ fn without_faces(density: f64) -> f64 {
     middles.map(at).sum::<f64>() / f64::from(count)
 }
 
-fn faces(exponent: &Exponent, effort: &Effort) -> Evidence {
+fn faces(exponent: &f64, effort: &Effort) -> Evidence {
     const RODS: [usize; 2] = [64, 512];
     let mut scene = lab::interacting_scene(effort);
     // Steps so short that no rod moves: the rods stay at random places.
@@ -221,12 +219,6 @@ fn paths(change: &Change, effort: &Effort) -> Evidence {
     )
 }
 
-/// X̄₁ at T/4 of the scene, and of the same scene at half the step.
-struct Runs {
-    own: Vec<f64>,
-    finer: Vec<f64>,
-}
-
 pub(super) fn first(values: Result<Vec<Vec<f64>>, String>, mark: usize) -> Vec<f64> {
     at(&values.unwrap_or_default(), mark)
 }
@@ -244,7 +236,8 @@ fn correlations(a: &[f64], b: &[f64]) -> Vec<f64> {
 }
 
 fn shared(beside: &Beside, effort: &Effort) -> Vec<Evidence> {
-    static RUNS: Shared<(), Runs> = Shared::new();
+    /// X̄₁ at T/4 of the scene, and of the same scene at half the step.
+    static RUNS: Shared<(), [Vec<f64>; 2]> = Shared::new();
     let mut scene = lab::interacting_scene(effort);
     scene.particles.count = 25;
     let changed = |change: Change| lab::changed(scene.clone(), change);
@@ -255,21 +248,22 @@ fn shared(beside: &Beside, effort: &Effort) -> Vec<Evidence> {
     let common = Design::new(0.33, 3.1);
     let mean = Design::new(0.0016, 0.0085);
     let [of_more, of_common, of_mean] = [more, common, mean].map(|design| effort.samples(design));
-    let runs = RUNS.get(effort, (), || Runs {
-        own: first(interacting(&scene, 100, 1.0, 1, of_more.max(of_common)), 0),
-        finer: first(interacting(&scene, 200, 1.0, 1, of_more), 0),
+    let runs = RUNS.get(effort, (), || {
+        let run = |steps, replicas| first(interacting(&scene, steps, 1.0, 1, replicas), 0);
+        [run(100, of_more.max(of_common)), run(200, of_more)]
     });
+    let [own, finer] = &*runs;
     let other = first(interacting(&changed(beside.other), 100, 0.8, 1, of_common), 0);
     let free = first(free(&changed(beside.free), 1, of_more.max(of_mean)), 0);
     // A change of r changes its square by 2r times as much.
     let squares = |values: &[f64]| {
-        let own = &runs.own[..values.len()];
+        let own = &own[..values.len()];
         let r = correlation(own, values);
         let square = move |value: f64| r * r + 2.0 * r * (value - r);
         correlations(own, values).into_iter().map(square).collect::<Vec<_>>()
     };
-    let (by_free, by_finer) = (squares(&free[..of_more as usize]), squares(&runs.finer));
-    let own = &runs.own[..other.len()];
+    let (by_free, by_finer) = (squares(&free[..of_more as usize]), squares(finer));
+    let own = &own[..other.len()];
     let rho = correlation(own, &other);
     // Fisher's transform, whose scatter does not depend on ρ.
     let correlations = correlations(own, &other);

@@ -154,43 +154,34 @@ pub fn uniform(values: Vec<f64>, distance: f64, because: impl Into<Text>) -> Rul
 
 /// Values that a check shares with its controls, by their keys, for the seed and the effort of one run: a control that
 /// is a wrong formula needs no run of its own.
-pub struct Shared<K, T>(Mutex<Stored<K, T>>);
+pub(crate) struct Shared<K, T>(Mutex<Stored<K, T>>);
 
-struct Stored<K, T> {
-    run: (u64, bool),
-    values: BTreeMap<K, Arc<T>>,
-}
-
-impl<K: Ord, T> Default for Shared<K, T> {
-    fn default() -> Self {
-        Self::new()
-    }
-}
+/// The seed and the effort of the run, and its values.
+type Stored<K, T> = ((u64, bool), BTreeMap<K, Arc<T>>);
 
 impl<K: Ord, T> Shared<K, T> {
     /// An empty store.
-    pub const fn new() -> Self {
-        Self(Mutex::new(Stored { run: (0, false), values: BTreeMap::new() }))
+    pub(crate) const fn new() -> Self {
+        Self(Mutex::new(((0, false), BTreeMap::new())))
     }
 
     /// The value for `key`, computed by `work_out` if it is missing. It must depend only on key and effort; another run
     /// clears it.
-    pub fn get(&self, effort: &Effort, key: K, work_out: impl FnOnce() -> T) -> Arc<T> {
+    pub(crate) fn get(&self, effort: &Effort, key: K, work_out: impl FnOnce() -> T) -> Arc<T> {
+        let run = (effort.seed, effort.full);
         let locked = || {
             let mut stored = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-            let run = (effort.seed, effort.full);
-            if stored.run != run {
-                stored.run = run;
-                stored.values.clear();
+            if stored.0 != run {
+                *stored = (run, BTreeMap::new());
             }
             stored
         };
-        if let Some(value) = locked().values.get(&key) {
+        if let Some(value) = locked().1.get(&key) {
             return Arc::clone(value);
         }
         // Not under the lock: while it waits, a thread may be given another thread's work, which may need the lock too.
         let value = Arc::new(work_out());
-        locked().values.insert(key, Arc::clone(&value));
+        locked().1.insert(key, Arc::clone(&value));
         value
     }
 }
