@@ -63,23 +63,19 @@ fn with(scene: &Scene, change: impl FnOnce(&mut Vec<FlowStep>)) -> Scene {
 }
 
 fn run(scene: &Scene) -> Moved {
-    let failed = Moved { rods: Vec::new(), error_rad: f64::NAN, seconds: f64::NAN };
-    let Some(plan) = Plan::new(scene).ok() else {
-        return failed;
+    let ended = || {
+        let plan = Plan::new(scene).ok()?;
+        let results = ensemble::run(&plan).ok()?;
+        let [start, end] = &results.snapshots[..] else { return None };
+        let direction = |snapshot: &Snapshot, rod: usize| [0, 1, 2].map(|axis| snapshot.p[axis][rod]);
+        let rods = 0..start.aspect_ratio.len();
+        Some(Moved {
+            rods: rods.map(|rod| (start.aspect_ratio[rod], direction(start, rod), direction(end, rod))).collect(),
+            error_rad: plan.error_rad()?,
+            seconds: results.elapsed.last()?.seconds,
+        })
     };
-    let (Some(error_rad), Ok(results)) = (plan.error_rad(), ensemble::run(&plan)) else {
-        return failed;
-    };
-    let [start, end] = &results.snapshots[..] else {
-        return failed;
-    };
-    let direction = |snapshot: &Snapshot, rod: usize| [0, 1, 2].map(|axis| snapshot.p[axis][rod]);
-    let rods = 0..start.aspect_ratio.len();
-    Moved {
-        rods: rods.map(|rod| (start.aspect_ratio[rod], direction(start, rod), direction(end, rod))).collect(),
-        error_rad,
-        seconds: results.elapsed.last().map_or(f64::NAN, |elapsed| elapsed.seconds),
-    }
+    ended().unwrap_or(Moved { rods: Vec::new(), error_rad: f64::NAN, seconds: f64::NAN })
 }
 
 const SHEAR: [[f64; 3]; 3] = [[0.0; 3], [0.5, 0.0, 0.0], [0.0; 3]];

@@ -74,18 +74,14 @@ fn extreme_suspensions(model: &Model, effort: &Effort) -> Vec<Evidence> {
     let mut trace = 0.0f64;
     for scene in scenes(effort) {
         let mut suspension = lab::stepped(&scene, 0);
-        stopped += f64::from(run(&mut suspension, 300).is_none());
-        for p in (model.directions)(&suspension) {
-            length = larger(length, off_length(&p));
-        }
+        stopped += f64::from((0..300).any(|_| suspension.step().is_err()));
+        length = larger(length, worst((model.directions)(&suspension).iter().map(off_length)));
         let ended = whole_run(&scene);
         trace = larger(trace, ended.trace);
         stopped += f64::from(!ended.finite);
     }
     let (placed, unlike) = placed::ends(model.pair, effort);
-    for p in placed {
-        length = larger(length, off_length(&p));
-    }
+    length = larger(length, worst(placed.iter().map(off_length)));
     vec![
         Evidence::on("largest ||p| − 1|").within(length, LENGTH).because(LENGTH_BECAUSE),
         Evidence::on("largest |tr⟨pp⟩ − 1| of whole runs").within(trace, TRACE).because(TRACE_BECAUSE),
@@ -114,10 +110,6 @@ fn meetings(model: &Model, effort: &Effort) -> f64 {
     let thin = met(|scene| lab::interaction(scene).concentration_per_cm3 = Some(1e-30));
     let reaching = met(|scene| lab::interaction(scene).alpha = 1e300);
     f64::from(thin != 0.0) + f64::from(reaching.is_nan() || reaching < 1.0)
-}
-
-fn run(suspension: &mut Suspension, steps: usize) -> Option<()> {
-    (0..steps).try_for_each(|_| suspension.step().ok().map(|_| ()))
 }
 
 fn scenes(effort: &Effort) -> Vec<Scene> {

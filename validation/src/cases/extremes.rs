@@ -82,24 +82,21 @@ pub(super) fn off_length(p: &Vector3<f64>) -> f64 {
 }
 
 fn extreme_motion(motion: &Motion, _: &Effort) -> Vec<Evidence> {
-    let (mut length, mut orbit, mut angle) = (0.0f64, 0.0f64, 0.0f64);
-    for r in ASPECT_RATIOS.into_iter().chain([1.0]) {
-        let worst = corners::worst(r, motion);
-        length = larger(length, worst.length);
-        orbit = larger(orbit, worst.orbit);
-        angle = larger(angle, worst.angle);
-    }
+    let all: Vec<_> = ASPECT_RATIOS.into_iter().chain([1.0]).map(|r| corners::worst(r, motion)).collect();
+    let most = |of: fn(&corners::Worst) -> f64| worst(all.iter().map(of));
     let (stepped_length, stepped_orbit) = thousand_steps(motion);
     vec![
-        Evidence::on("largest ||p| − 1|").within(larger(length, stepped_length), LENGTH).because(LENGTH_BECAUSE),
+        Evidence::on("largest ||p| − 1|")
+            .within(larger(most(|found| found.length), stepped_length), LENGTH)
+            .because(LENGTH_BECAUSE),
         Evidence::on("largest change of C_b")
-            .within(orbit, 8.0 * f64::EPSILON)
+            .within(most(|found| found.orbit), 8.0 * f64::EPSILON)
             .because("one evaluation's roundings; C_b ≤ 1 has slope ≤ 1 in ln C / 4"),
         Evidence::on("largest change of C_b in 1000 steps of 10⁻⁹ T to 10³ T")
             .within(stepped_orbit, 8000.0 * f64::EPSILON)
             .because("a thousand evaluations"),
         Evidence::on("largest angle to the closed form over 16 ε(1 + 2π max(r_e, 1/r_e)|rest|)")
-            .within(angle, 1.0)
+            .within(most(|found| found.angle), 1.0)
             .because(
                 "the phase without whole turns is rounded to ε, and φ moves by max(r_e, 1/r_e) times that; some \
                  sixteen roundings",
@@ -122,29 +119,24 @@ fn thousand_steps(motion: &Motion) -> (f64, f64) {
 fn extreme_flows(motion: &FlowMotion, _: &Effort) -> Vec<Evidence> {
     let (mut length, mut end, mut lost) = (0.0f64, 0.0f64, 0.0);
     // Flows in which every rod of r_e > 1 aligns with axis 1, and the strain rate of each.
-    for rows in [
+    let flows = [
         [[1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, 0.0]],
         [[1.0, 0.0, 0.0], [0.0, -0.5, 0.0], [0.0, 0.0, -0.5]],
         [[1.0, 0.0, 0.0], [0.0, -0.3, -2.0], [0.0, 2.0, -0.7]],
-    ] {
-        for rate in [1e-30, 1.0, 1e30] {
-            let flow = VelocityGradient::new(Matrix3::from_fn(|i, j| rows[i][j] * rate)).expect("finite");
-            for r in [1.5, 11.6, 1e8] {
-                for (phi, theta) in [(0.3, 1.0), (1.57, 0.01), (3.0, 3.1)] {
-                    let start = orientation::from_angles(phi, theta);
-                    for strain in [1e-9, 1.0, 1e2, 1e6, 1e12] {
-                        let p = motion(&flow, r, &start, strain / rate);
-                        if !p.sum().is_finite() {
-                            lost += 1.0;
-                            continue;
-                        }
-                        length = larger(length, off_length(&p));
-                        if strain >= 1e6 {
-                            end = larger(end, p.y.hypot(p.z) * start.x.abs());
-                        }
-                    }
-                }
-            }
+    ];
+    let rods = pairs([1.5, 11.6, 1e8], [(0.3, 1.0), (1.57, 0.01), (3.0, 3.1)]);
+    let runs = pairs(rods, [1e-9, 1.0, 1e2, 1e6, 1e12]);
+    for ((rows, rate), ((r, (phi, theta)), strain)) in pairs(pairs(flows, [1e-30, 1.0, 1e30]), runs) {
+        let flow = VelocityGradient::new(Matrix3::from_fn(|i, j| rows[i][j] * rate)).expect("finite");
+        let start = orientation::from_angles(phi, theta);
+        let p = motion(&flow, r, &start, strain / rate);
+        if !p.sum().is_finite() {
+            lost += 1.0;
+            continue;
+        }
+        length = larger(length, off_length(&p));
+        if strain >= 1e6 {
+            end = larger(end, p.y.hypot(p.z) * start.x.abs());
         }
     }
     vec![

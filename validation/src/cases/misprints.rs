@@ -69,7 +69,9 @@ fn gives_back_velocity(component: &Gradient, _: &Effort) -> [Evidence; 2] {
         let thread = Propagator::new(&flow, 1e9);
         let off = [[1.0, -2.0, 4.0], [3.0, 1.0, 0.5], [-1.0, 2.0, 0.0]].map(Vector3::from).map(|line| {
             let end = thread.after(&UnitVector3::new_normalize(line), TIME_S);
-            end.cross(&carried(u, line).normalize()).norm()
+            // The line from the origin, which is at rest, to a point that the field carries along.
+            let carried = (0..2000).fold(line, |x, _| rk4(u, x, TIME_S / 2000.0));
+            end.cross(&carried.normalize()).norm()
         });
         Evidence::on(format!("largest angle between thread and line, {name}"))
             .within(worst(off), 1e-11)
@@ -79,15 +81,6 @@ fn gives_back_velocity(component: &Gradient, _: &Effort) -> [Evidence; 2] {
 
 /// The duration for which lines and threads rotate, s.
 const TIME_S: f64 = 0.5;
-
-/// The line from the origin, which is at rest, to a point that the field carries along from `x`.
-fn carried(u: Field, mut x: Vector3<f64>) -> Vector3<f64> {
-    let steps = 2000;
-    for _ in 0..steps {
-        x = rk4(u, x, TIME_S / f64::from(steps));
-    }
-    x
-}
 
 /// A function that returns the projections of one rod on the planes x₁x₂, x₂x₃, x₁x₃.
 type Shadows = fn(f64, f64) -> [f64; 3];

@@ -216,10 +216,8 @@ fn ends(inflow: &Inflow, effort: &Effort, count: usize, gradient: Gradient, box_
     match inflow {
         Inflow::Core => {
             let mut suspension = lab::suspension(&scene, 0);
-            for _ in 0..STRAIN_STEPS {
-                if suspension.step().is_err() {
-                    return [const { Vec::new() }; 3];
-                }
+            if (0..STRAIN_STEPS).any(|_| suspension.step().is_err()) {
+                return [const { Vec::new() }; 3];
             }
             let (places, sides) = (suspension.positions_in_lengths(), suspension.sides_in_lengths());
             [0, 1, 2].map(|axis| places[axis].iter().map(|x| x / sides[axis]).collect())

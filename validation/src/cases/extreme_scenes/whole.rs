@@ -72,22 +72,20 @@ pub(super) fn extreme_scenes(program: &Program, effort: &Effort) -> Vec<Evidence
         scene
     };
     let mut scenes = Vec::new();
-    for r in ASPECT_RATIOS {
-        for g in [1e-30, 1e30] {
-            scenes.push(scene(&|scene| {
-                scene.particles.aspect_ratio = r;
-                scene.flow = Flow::Shear { shear_rate_per_s: g };
-                scene.time.outputs_per_unit = Some(4);
-            }));
-        }
-        for (phi_deg, theta_deg) in [(0.0, 0.0), (0.0, 180.0), (0.0, 90.0), (180.0, 90.0), (90.0, 90.0), (0.0, 1e-300)]
-        {
-            scenes.push(scene(&|scene| {
-                scene.particles.aspect_ratio = r;
-                scene.particles.orientation = Orientation::Given { phi_deg, theta_deg };
-                scene.time.outputs_per_unit = Some(4);
-            }));
-        }
+    for (r, shear_rate_per_s) in pairs(ASPECT_RATIOS, [1e-30, 1e30]) {
+        scenes.push(scene(&|scene| {
+            scene.particles.aspect_ratio = r;
+            scene.flow = Flow::Shear { shear_rate_per_s };
+            scene.time.outputs_per_unit = Some(4);
+        }));
+    }
+    let starts = [(0.0, 0.0), (0.0, 180.0), (0.0, 90.0), (180.0, 90.0), (90.0, 90.0), (0.0, 1e-300)];
+    for (r, (phi_deg, theta_deg)) in pairs(ASPECT_RATIOS, starts) {
+        scenes.push(scene(&|scene| {
+            scene.particles.aspect_ratio = r;
+            scene.particles.orientation = Orientation::Given { phi_deg, theta_deg };
+            scene.time.outputs_per_unit = Some(4);
+        }));
     }
     // Three standard deviations reach 1, or 0 for discs, at 5.5556, 33.333 and 33.333 %.
     for (r, sd) in [(1.2, 5.555), (1e8, 33.33), (0.5, 33.33)] {
@@ -103,19 +101,16 @@ pub(super) fn extreme_scenes(program: &Program, effort: &Effort) -> Vec<Evidence
     }));
     let free = scenes.len();
     let longest = effort.pick(1e4, 1e6);
-    for (e, strain) in [(1e-30, 1e3), (1.0, longest), (1e30, 1e3)] {
-        for [a, b, c] in [[e, -e, 0.0], [e, -0.5 * e, -0.5 * e]] {
-            for r in [1.5, 1e8] {
-                scenes.push(scene(&|scene| {
-                    scene.flow = Flow::Gradient { gradient_per_s: [[a, 0.0, 0.0], [0.0, b, 0.0], [0.0, 0.0, c]] };
-                    scene.particles.aspect_ratio = r;
-                    scene.particles.count = 1;
-                    scene.time = shearbed::scene::Time::strain(strain);
-                    scene.output.observables = FEW.to_vec();
-                    scene.time.outputs_per_unit = Some(1);
-                }));
-            }
-        }
+    let rates = [(1e-30, 1e3), (1.0, longest), (1e30, 1e3)];
+    for ((e, strain), (r, across)) in pairs(rates, pairs([1.5, 1e8], [[-1.0, 0.0], [-0.5, -0.5]])) {
+        let [b, c] = across.map(|share| share * e);
+        scenes.push(scene(&|scene| {
+            scene.flow = Flow::Gradient { gradient_per_s: [[e, 0.0, 0.0], [0.0, b, 0.0], [0.0, 0.0, c]] };
+            scene.particles.aspect_ratio = r;
+            scene.particles.count = 1;
+            scene.time = Time { outputs_per_unit: Some(1), ..Time::strain(strain) };
+            scene.output.observables = FEW.to_vec();
+        }));
     }
     let ended: Vec<_> = scenes.iter().map(program).collect();
     let trace = worst(ended.iter().map(|ended| ended.trace));

@@ -29,16 +29,11 @@ pub enum Kind {
 }
 
 pub fn random(kind: Kind, seed: u64, count: u64) -> Vec<FlowProblem> {
-    (0..count).into_par_iter().map(|index| one(kind, seed, index)).collect()
-}
-
-fn one(kind: Kind, seed: u64, index: u64) -> FlowProblem {
-    let rng = &mut Pcg64::seed_from_u64(seed.wrapping_add(index));
-    loop {
-        if let Some(problem) = drawn(kind, rng) {
-            return problem;
-        }
-    }
+    let one = |index| {
+        let mut rng = Pcg64::seed_from_u64(seed.wrapping_add(index));
+        std::iter::repeat_with(|| drawn(kind, &mut rng)).flatten().next()
+    };
+    (0..count).into_par_iter().filter_map(one).collect()
 }
 
 /// A random problem; `None` if the oracle has no answer, about once in 10⁵.
