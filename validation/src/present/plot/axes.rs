@@ -54,21 +54,17 @@ pub(super) fn draw<DB: Backend>(figure: &Figure, legend: &Legend, area: &Drawing
         .map(|p| placed(figure, &p.x, &p.y, p.x_error.as_deref(), p.y_error.as_deref()))
         .collect();
     let shown = || (curves.iter().chain(&points).flatten()).filter(|p| p.is_finite());
-    let span =
-        |ends: Option<(f64, f64)>, log| (ends.into_iter()).flat_map(move |(a, b)| [place(a, log), place(b, log)]);
-    let x = shown().flat_map(|p| [p.x, p.left, p.right]);
-    let x = x.chain(span(figure.x_span, figure.x_log));
     // A curve may end at the frame, but a marker must not be cut.
     let marked = figure.curves.iter().any(super::Curve::is_marked);
     let margin = if points.is_empty() && !marked { 0.0 } else { 0.04 };
-    let exact = |ends: Option<(f64, f64)>, log| {
-        let ends = ends.map(|(from, to)| (place(from, log), place(to, log)));
-        ends.filter(|(from, to)| from < to).map(|ends| Axis::exactly(ends, log))
+    let axis = |of: fn(&Placed) -> [f64; 3], log, span: Option<(f64, f64)>, range: Option<(f64, f64)>, margin| {
+        let ends = |(from, to)| (place(from, log), place(to, log));
+        let exact = range.map(ends).filter(|(from, to)| from < to).map(|ends| Axis::exactly(ends, log));
+        let span = span.map(ends).into_iter().flat_map(<[f64; 2]>::from);
+        exact.unwrap_or_else(|| Axis::over(shown().flat_map(of).chain(span), log, margin))
     };
-    let x = exact(figure.x_range, figure.x_log).unwrap_or_else(|| Axis::over(x, figure.x_log, margin));
-    let y = shown().flat_map(|p| [p.y, p.low, p.high]);
-    let y = y.chain(span(figure.y_span, figure.y_log));
-    let y = exact(figure.y_range, figure.y_log).unwrap_or_else(|| Axis::over(y, figure.y_log, 0.05));
+    let x = axis(|p| [p.x, p.left, p.right], figure.x_log, figure.x_span, figure.x_range, margin);
+    let y = axis(|p| [p.y, p.low, p.high], figure.y_log, figure.y_span, figure.y_range, 0.05);
     let window = Window { x: (x.low, x.high), y: (y.low, y.high) };
 
     let foot = (x.low, y.low);
@@ -199,25 +195,23 @@ fn line<DB: Backend>(chart: &mut Chart<DB>, points: &[Placed], index: usize, win
     Ok(())
 }
 
+/// The place at an end of an error bar.
+type At = fn(&Placed, f64) -> (f64, f64);
+
 fn scatter<DB: Backend>(chart: &mut Chart<DB>, points: &[Placed], index: usize, window: &Window) -> Drawn {
-    let ((left, right), (low, high)) = (window.x, window.y);
     let ink = || colour(index).stroke_width(BAR_WIDTH);
     for p in points.iter().filter(|p| window.has((p.x, p.y))) {
-        if p.right.is_finite() {
+        let bars = [
+            ([p.left, p.right], window.x, (|p, x| (x, p.y)) as At, (0, CAP)),
+            ([p.low, p.high], window.y, |p, y| (p.x, y), (CAP, 0)),
+        ];
+        for (ends, (low, high), at, cap) in bars.into_iter().filter(|(ends, ..)| ends[1].is_finite()) {
+            let line = vec![at(p, ends[0].max(low)), at(p, ends[1].min(high))];
+            chart.draw_series([PathElement::new(line, ink())])?;
             // Caps are drawn only at ends inside the frame.
-            let ends = [p.left.max(left), p.right.min(right)];
-            chart.draw_series([PathElement::new(ends.map(|x| (x, p.y)).to_vec(), ink())])?;
-            for x in [p.left, p.right].into_iter().filter(|x| (left..=right).contains(x)) {
-                let cap = PathElement::new(vec![(0, -CAP), (0, CAP)], ink());
-                chart.draw_series([EmptyElement::at((x, p.y)) + cap])?;
-            }
-        }
-        if p.high.is_finite() {
-            let ends = [p.low.max(low), p.high.min(high)];
-            chart.draw_series([PathElement::new(ends.map(|y| (p.x, y)).to_vec(), ink())])?;
-            for y in [p.low, p.high].into_iter().filter(|y| (low..=high).contains(y)) {
-                let cap = PathElement::new(vec![(-CAP, 0), (CAP, 0)], ink());
-                chart.draw_series([EmptyElement::at((p.x, y)) + cap])?;
+            for end in ends.into_iter().filter(|end| (low..=high).contains(end)) {
+                let cap = PathElement::new(vec![(-cap.0, -cap.1), cap], ink());
+                chart.draw_series([EmptyElement::at(at(p, end)) + cap])?;
             }
         }
         // A smaller one hides less of its bars.

@@ -1,7 +1,7 @@
 //! Maps of classes, as small multiples: a cell for each row and column; classes differ by colour and glyph.
 
 use super::power_of_ten;
-use super::style::{CLASSES, FINE, MARGIN, ROW, SMALL_BOLD, TEXT, class_ink, glyph, shade, text, text_width};
+use super::style::{CLASSES, FINE, MARGIN, ROW, SMALL_BOLD, TEXT, class_ink, glyph, in_rows, shade, text, text_width};
 use super::{Backend, Drawn, Figure, Grid, Map};
 use plotters::coord::Shift;
 use plotters::prelude::*;
@@ -58,20 +58,8 @@ impl Layout {
 /// The legend: the classes that occur, in rows no wider than the figure.
 fn keys(grid: &Grid, most: i32) -> Vec<Vec<(usize, i32)>> {
     let occurs = |class: &usize| grid.maps.iter().flat_map(|map| map.cells.iter().flatten()).any(|c| c == class);
-    let mut rows: Vec<Vec<(usize, i32)>> = vec![Vec::new()];
-    let mut x = MARGIN;
-    for class in (0..grid.classes.len()).filter(occurs) {
-        let width = KEY + GAP / 2 + text_width(&grid.classes[class], TEXT) + 2 * GAP;
-        if x + width > most - MARGIN && x > MARGIN {
-            rows.push(Vec::new());
-            x = MARGIN;
-        }
-        if let Some(row) = rows.last_mut() {
-            row.push((class, x));
-        }
-        x += width;
-    }
-    rows
+    let sized = |class: usize| (class, KEY + GAP / 2 + text_width(&grid.classes[class], TEXT) + 2 * GAP);
+    in_rows((0..grid.classes.len()).filter(occurs).map(sized), most)
 }
 
 /// Draws legend, panels and the axes' names, with the top at `top`.

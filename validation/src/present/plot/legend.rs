@@ -1,7 +1,9 @@
 //! The legend: rows above the axes, where it covers no data; with more than five entries, labels beside the axes, each
 //! as near to the end of its curve as the others allow.
 
-use super::style::{FINE, MARGIN, MARKER, ROW, SMALL_MARKER, TEXT, curve, cut, looks, marker, text, text_width, wrap};
+use super::style::{
+    FINE, MARGIN, MARKER, ROW, SMALL_MARKER, TEXT, curve, cut, in_rows, looks, marker, text, text_width, wrap,
+};
 use super::{Backend, Drawn, Figure};
 use plotters::coord::Shift;
 use plotters::prelude::*;
@@ -24,14 +26,9 @@ enum Mark {
     Band,
 }
 
-struct Entry {
-    mark: Mark,
-    label: String,
-    x: i32,
-}
-
 pub(super) struct Legend {
-    rows: Vec<Vec<Entry>>,
+    /// Samples and labels above the axes, with their left edges.
+    rows: Vec<Vec<((Mark, String), i32)>>,
     /// Entries beside the axes: index of the series, its sample, and the lines of its label.
     beside: Vec<(usize, Mark, Vec<String>)>,
 }
@@ -59,7 +56,14 @@ impl Legend {
         let band = figure.curves.iter().any(|curve| curve.half_band.is_some());
         let above = series.into_iter().map(|(_, mark, label)| (mark, label));
         let above = above.chain(band.then(|| (Mark::Band, "95 % band".to_string())));
-        Self { rows: rows(above, width), beside }
+        let sized = |(mark, label): (Mark, String)| {
+            let label = cut(&label, width - 2 * MARGIN - SAMPLE - GAP, TEXT);
+            let own = SAMPLE + GAP + text_width(&label, TEXT) + 2 * GAP;
+            ((mark, label), own)
+        };
+        let mut rows = in_rows(above.map(sized), width);
+        rows.retain(|row| !row.is_empty());
+        Self { rows, beside }
     }
 
     pub(super) fn height(&self) -> i32 {
@@ -86,7 +90,7 @@ impl Legend {
     pub(super) fn draw<DB: Backend>(&self, canvas: &DrawingArea<DB, Shift>, top: i32) -> Drawn {
         for (row, entries) in self.rows.iter().enumerate() {
             let y = top + row as i32 * ROW;
-            for Entry { mark, label, x } in entries {
+            for ((mark, label), x) in entries {
                 sample(canvas, *mark, (*x, y + 9 * FINE), SAMPLE)?;
                 let place = (x + SAMPLE + GAP, y + 3 * FINE);
                 canvas.draw(&Text::new(label.as_str(), place, text(TEXT)))?;
@@ -126,24 +130,6 @@ impl Legend {
         }
         Ok(())
     }
-}
-
-fn rows(entries: impl Iterator<Item = (Mark, String)>, width: i32) -> Vec<Vec<Entry>> {
-    let mut rows: Vec<Vec<Entry>> = Vec::new();
-    let mut x = MARGIN;
-    for (mark, label) in entries {
-        let label = cut(&label, width - 2 * MARGIN - SAMPLE - GAP, TEXT);
-        let own = SAMPLE + GAP + text_width(&label, TEXT) + 2 * GAP;
-        if rows.is_empty() || (x + own > width - MARGIN && x > MARGIN) {
-            rows.push(Vec::new());
-            x = MARGIN;
-        }
-        if let Some(row) = rows.last_mut() {
-            row.push(Entry { mark, label, x });
-        }
-        x += own;
-    }
-    rows
 }
 
 /// The places, moved such that they ascend, are at least `least` apart, and stay inside.

@@ -1,7 +1,7 @@
 //! Letters of DejaVu Sans: the width of a text, and its outline.
 
 use std::sync::LazyLock;
-use tiny_skia::PathBuilder;
+use tiny_skia::{PathBuilder, Transform};
 use ttf_parser::{Face, GlyphId, OutlineBuilder, Rect};
 
 type Font = LazyLock<Option<Face<'static>>>;
@@ -114,8 +114,13 @@ impl Line {
 
     fn draw(&mut self, glyph: Glyph, size: f32, x: f32, y: f32) {
         let scale = size * glyph.ems(1.0);
-        let path = &mut self.outline;
-        (glyph.face).outline_glyph(glyph.id, &mut Pen { path, scale, x, y });
+        let mut pen = Pen(PathBuilder::new());
+        glyph.face.outline_glyph(glyph.id, &mut pen);
+        let placed = Transform::from_row(scale, 0.0, 0.0, scale, x, y);
+        // A letter without an outline, such as a blank, has no path.
+        if let Some(path) = pen.0.finish().and_then(|path| path.transform(placed)) {
+            self.outline.push_path(&path);
+        }
     }
 
     /// Draws an upright box whose inside is white, because the inner outline runs the other way.
@@ -146,43 +151,28 @@ fn above(letter: Glyph, mark: Glyph) -> (f32, f32) {
     (letter.ems(middle(below)) - mark.ems(middle(over)), up.max(0.0))
 }
 
-/// Draws a glyph's outline, scaled and moved.
-struct Pen<'a> {
-    path: &'a mut PathBuilder,
-    scale: f32,
-    x: f32,
-    y: f32,
-}
+/// Draws a glyph's outline in the units of its font.
+struct Pen(PathBuilder);
 
-impl Pen<'_> {
-    fn at(&self, x: f32, y: f32) -> (f32, f32) {
-        (self.x + self.scale * x, self.y + self.scale * y)
-    }
-}
-
-impl OutlineBuilder for Pen<'_> {
+impl OutlineBuilder for Pen {
     fn move_to(&mut self, x: f32, y: f32) {
-        let (x, y) = self.at(x, y);
-        self.path.move_to(x, y);
+        self.0.move_to(x, y);
     }
 
     fn line_to(&mut self, x: f32, y: f32) {
-        let (x, y) = self.at(x, y);
-        self.path.line_to(x, y);
+        self.0.line_to(x, y);
     }
 
     fn quad_to(&mut self, x1: f32, y1: f32, x: f32, y: f32) {
-        let ((x1, y1), (x, y)) = (self.at(x1, y1), self.at(x, y));
-        self.path.quad_to(x1, y1, x, y);
+        self.0.quad_to(x1, y1, x, y);
     }
 
     fn curve_to(&mut self, x1: f32, y1: f32, x2: f32, y2: f32, x: f32, y: f32) {
-        let ((x1, y1), (x2, y2), (x, y)) = (self.at(x1, y1), self.at(x2, y2), self.at(x, y));
-        self.path.cubic_to(x1, y1, x2, y2, x, y);
+        self.0.cubic_to(x1, y1, x2, y2, x, y);
     }
 
     fn close(&mut self) {
-        self.path.close();
+        self.0.close();
     }
 }
 

@@ -10,7 +10,8 @@ use pdf_writer::types::LineJoinStyle;
 use pdf_writer::{Content, Filter, Finish, Name, Pdf, Rect, Ref, TextStr};
 use plotters_backend::BackendColor;
 use std::collections::BTreeSet;
-use tiny_skia::{Path, PathSegment, Point};
+use tiny_skia::PathSegment::{Close, CubicTo, LineTo, MoveTo, QuadTo};
+use tiny_skia::{Path, Point};
 
 /// The figure as a PDF page of its size: a pixel of the SVG is 1/96 inch, 0.75 points.
 pub fn pdf(figure: &Figure) -> Result<Drawing, String> {
@@ -45,27 +46,19 @@ impl Page {
         let mut last = Point::zero();
         for segment in path.segments() {
             match segment {
-                PathSegment::MoveTo(to) => {
-                    content.move_to(to.x, to.y);
-                    last = to;
-                }
-                PathSegment::LineTo(to) => {
-                    content.line_to(to.x, to.y);
-                    last = to;
-                }
-                PathSegment::QuadTo(by, to) => {
+                MoveTo(to) => content.move_to(to.x, to.y),
+                LineTo(to) => content.line_to(to.x, to.y),
+                QuadTo(by, to) => {
                     let (first, second) = (towards(last, by), towards(to, by));
-                    content.cubic_to(first.0, first.1, second.0, second.1, to.x, to.y);
-                    last = to;
+                    content.cubic_to(first.0, first.1, second.0, second.1, to.x, to.y)
                 }
-                PathSegment::CubicTo(first, second, to) => {
-                    content.cubic_to(first.x, first.y, second.x, second.y, to.x, to.y);
-                    last = to;
-                }
-                PathSegment::Close => {
-                    content.close_path();
-                }
-            }
+                CubicTo(first, second, to) => content.cubic_to(first.x, first.y, second.x, second.y, to.x, to.y),
+                Close => content.close_path(),
+            };
+            last = match segment {
+                MoveTo(to) | LineTo(to) | QuadTo(_, to) | CubicTo(_, _, to) => to,
+                Close => last,
+            };
         }
     }
 

@@ -226,6 +226,23 @@ pub(super) fn cut(text: &str, room: i32, size: f64) -> String {
     format!("{}…", &text[..end])
 }
 
+/// Items, each with its width, in rows no wider than a figure: at least one row, and the left edge of each item.
+pub(super) fn in_rows<T>(items: impl Iterator<Item = (T, i32)>, width: i32) -> Vec<Vec<(T, i32)>> {
+    let mut rows = vec![Vec::new()];
+    let mut x = MARGIN;
+    for (item, own) in items {
+        if x + own > width - MARGIN && x > MARGIN {
+            rows.push(Vec::new());
+            x = MARGIN;
+        }
+        if let Some(row) = rows.last_mut() {
+            row.push((item, x));
+        }
+        x += own;
+    }
+    rows
+}
+
 /// The lines of a text within the width `room`, four at most; a word that is too wide is cut.
 pub(super) fn wrap(text: &str, room: i32, size: f64) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
