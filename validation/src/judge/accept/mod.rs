@@ -196,14 +196,6 @@ impl Rule {
         }
     }
 
-    /// True if the sample does not exclude that the mean is above its bound.
-    fn is_hidden(&self) -> bool {
-        match self {
-            Self::Above { mean, se, samples, bound, .. } => mean + student(LEVEL, *samples) * se >= *bound,
-            _ => false,
-        }
-    }
-
     /// The reason for the bound.
     pub fn because(&self) -> &str {
         match self {
@@ -224,10 +216,15 @@ pub fn judge(rule: &Rule) -> Verdict {
         Rule::PValue { p, .. } => *p >= LEVEL,
         Rule::NoData { .. } => return Verdict::NoData,
     };
+    // True if the sample does not exclude that the mean is above its bound.
+    let is_hidden = match rule {
+        Rule::Above { mean, se, samples, bound, .. } => mean + student(LEVEL, *samples) * se >= *bound,
+        _ => false,
+    };
     match (holds, rule.has_enough()) {
         // Noise can hide a difference, but can bring a mean neither close to its reference nor many standard errors
         // below its bound.
-        (false, false) if rule.is_hidden() => Verdict::Underpowered,
+        (false, false) if is_hidden => Verdict::Underpowered,
         (false, _) => Verdict::Fail,
         (true, false) => Verdict::Underpowered,
         (true, true) => Verdict::Pass,

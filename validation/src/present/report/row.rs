@@ -58,19 +58,11 @@ impl Line {
     }
 
     /// Sorts worse verdicts first, then cases nearer to their bounds; NaN is worst.
-    fn badness(&self) -> (u8, f64) {
-        let used = if self.used.is_nan() { f64::INFINITY } else { self.used };
-        (severity(self.verdict), used)
-    }
-}
-
-fn severity(verdict: Verdict) -> u8 {
-    match verdict {
-        Verdict::Fail => 3,
-        Verdict::Underpowered => 2,
-        Verdict::Pass => 1,
+    fn badness(&self) -> (Option<usize>, f64) {
         // A line without data says nothing beside one with data.
-        Verdict::NoData => 0,
+        const FROM_BEST: [Verdict; 4] = [Verdict::NoData, Verdict::Pass, Verdict::Underpowered, Verdict::Fail];
+        let used = if self.used.is_nan() { f64::INFINITY } else { self.used };
+        (FROM_BEST.iter().position(|verdict| *verdict == self.verdict), used)
     }
 }
 

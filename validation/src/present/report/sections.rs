@@ -3,6 +3,7 @@
 use crate::present::study::{Exhibit, Findings, ReportFigure, ScenePlan, Study};
 use crate::present::table::ReportTable;
 use serde::{Serialize, Serializer};
+use serde_json::json;
 
 /// An equation of the paper, the code that implements it and the cases that test it.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
@@ -43,14 +44,11 @@ pub struct ReportStudy {
 }
 
 fn names<S: Serializer>(exhibits: &[Exhibit], serializer: S) -> Result<S::Ok, S::Error> {
-    #[derive(Serialize)]
-    struct Names<'a> {
-        figure: Option<&'a str>,
-        table: Option<&'a str>,
-    }
-    serializer.collect_seq(exhibits.iter().map(|exhibit| Names {
-        figure: exhibit.figure.as_ref().map(|figure| figure.name.as_str()),
-        table: exhibit.table.as_ref().map(|table| table.name.as_str()),
+    serializer.collect_seq(exhibits.iter().map(|exhibit| {
+        json!({
+            "figure": exhibit.figure.as_ref().map(|figure| &figure.name),
+            "table": exhibit.table.as_ref().map(|table| &table.name),
+        })
     }))
 }
 
