@@ -32,9 +32,9 @@ fn run(request: &Request) -> Result<Option<Findings>, String> {
     )
     .curves(Closure::ALL.map(curve))
     .judged("Folgar & Tucker 1984", STUDY.cases);
-    let beside = |closure: Closure| {
-        let of = work.iter().filter(move |row| row.method == closure.name());
-        Curve::of(closure.name(), of, |row| (1e3 * row.seconds, row.error))
+    let beside = |method: &'static str| {
+        let of = work.iter().filter(move |row| row.method == method);
+        Curve::of(method, of, |row| (1e3 * row.seconds, row.error))
     };
     let price = ReportFigure::new(
         ["closures-work-precision", "Work and precision: closures and the exact solution"],
@@ -43,8 +43,7 @@ fn run(request: &Request) -> Result<Option<Findings>, String> {
          cores. Smaller tolerances do not lower the error of a closure.",
         ["log time (ms)", "log largest error of a_ij"],
     )
-    .curves(Closure::ALL.map(beside))
-    .curves([Curve::of(RANDOM, work.iter().filter(|row| row.method == RANDOM), |row| (1e3 * row.seconds, row.error))])
+    .curves(Closure::ALL.map(|closure| closure.name()).into_iter().chain([RANDOM]).map(beside))
     .points([Points::of("exact", &work[..1], |row| (1e3 * row.seconds, row.error))])
     .judged("Folgar & Tucker 1984", STUDY.cases);
     let table = ReportTable::new(

@@ -44,28 +44,23 @@ pub(super) struct Check {
     pub behind: String,
 }
 
-#[derive(Clone, Copy, PartialEq, Serialize)]
+#[derive(Clone, Copy, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub(super) enum Target {
     AtMost(f64),
     AtLeast(f64),
-    None,
 }
 
 impl Check {
-    pub fn over_target(&self) -> Option<f64> {
-        match self.target {
-            Target::AtMost(target) | Target::AtLeast(target) => Some(self.measured / target),
-            Target::None => None,
-        }
+    pub fn over_target(&self) -> f64 {
+        let (Target::AtMost(target) | Target::AtLeast(target)) = self.target;
+        self.measured / target
     }
 
-    /// True if the target is met, or there is none.
     pub fn met(&self) -> bool {
         match self.target {
             Target::AtMost(most) => self.measured <= most,
             Target::AtLeast(least) => self.measured >= least,
-            Target::None => true,
         }
     }
 }
@@ -133,13 +128,7 @@ fn step(rods: usize, concentration_per_cm3: f64, amount: Amount) -> Result<Step,
     let mut failed = steps(&mut suspension, 2).err();
     let once = seconds(|| suspension.step().map(<[_]>::len)).max(1e-7);
     let count = (amount.seconds / once).clamp(1.0, 1e6) as u64;
-    let core = least(amount, || {
-        seconds(|| {
-            if let Err(error) = steps(&mut suspension, count) {
-                failed = Some(error);
-            }
-        })
-    });
+    let core = least(amount, || seconds(|| failed = steps(&mut suspension, count).err().or(failed.take())));
     if let Some(error) = failed {
         return Err(error.to_string());
     }

@@ -31,7 +31,7 @@ pub const LENGTH_KEPT: f64 = 1e-2;
 
 impl Fate {
     /// A one-character code, and a description in words.
-    fn names(self) -> [&'static str; 2] {
+    pub fn names(self) -> [&'static str; 2] {
         match self {
             Self::RoundOff => ["=", "round-off"],
             Self::Accurate => ["+", "accurate"],
@@ -45,10 +45,6 @@ impl Fate {
 
     pub fn sign(self) -> &'static str {
         self.names()[0]
-    }
-
-    pub fn words(self) -> &'static str {
-        self.names()[1]
     }
 
     /// True if the end is within [`ACCURATE_RAD`] of the closed form.

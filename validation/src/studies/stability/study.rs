@@ -45,8 +45,8 @@ fn run(_: &Request) -> Result<Option<Findings>, String> {
 /// A text on the last setting before the first whose end is not right, and on the outcome of the latter.
 fn leaves(cells: &[Cell], setting: impl Fn(usize) -> String) -> String {
     match cells.iter().position(|cell| !cell.found.is_right()) {
-        Some(0) => format!("never: {}", cells[0].found.words()),
-        Some(bad) => format!("to {}, then {}", setting(bad - 1), cells[bad].found.words()),
+        Some(0) => format!("never: {}", cells[0].found.names()[1]),
+        Some(bad) => format!("to {}, then {}", setting(bad - 1), cells[bad].found.names()[1]),
         None => "all".into(),
     }
 }

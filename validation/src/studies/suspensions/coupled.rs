@@ -37,27 +37,12 @@ pub struct Coupled {
 }
 
 impl Saving {
-    /// The largest factor by which levels in Δt reduce the cost of a mean, if coarse runs cost nothing: one over the
-    /// share of the variance that is left to the fine ones, 1 − ρ².
-    fn multilevel_at_best(&self) -> f64 {
-        1.0 / (1.0 - self.finer * self.finer)
-    }
-
-    /// The same for coarse runs at an eighth of the cost: coupled pairs of fine and coarse runs, and more coarse runs
-    /// in the best proportion (Peherstorfer, Willcox & Gunzburger 2016). Below 1 the cost exceeds the saving.
+    /// The factor by which levels in Δt reduce the cost of a mean, for coarse runs at an eighth of the cost: coupled
+    /// pairs of fine and coarse runs, and more coarse runs in the best proportion (Peherstorfer, Willcox & Gunzburger
+    /// 2016). Below 1 the cost exceeds the saving.
     pub fn multilevel(&self) -> f64 {
         let square = self.finer * self.finer;
         ((1.0 - square).sqrt() + (square / 8.0).sqrt()).powi(-2)
-    }
-
-    /// The number of independent runs for the difference between two α, over that of coupled runs.
-    fn common_numbers(&self) -> f64 {
-        1.0 / (1.0 - self.other_alpha)
-    }
-
-    /// The number of runs for the mean, over that of runs with the free rods as control variate.
-    fn control_variate(&self) -> f64 {
-        1.0 / (1.0 - self.free * self.free)
     }
 }
 
@@ -80,9 +65,7 @@ pub fn measure(scene: &Scene, replicas: u64) -> Result<Coupled, String> {
 pub fn interacting(scene: &Scene, steps: u64, alpha: f64, quarters: u64, replicas: u64) -> Result<Values, String> {
     let mut job = Job::new(scene, steps, scene.particles.count, replicas, quarters.div_ceil(4));
     job.marks = (1..=quarters).map(|quarter| quarter * steps / 4).collect();
-    if let Some(interaction) = &mut job.scene.interaction {
-        interaction.alpha *= alpha;
-    }
+    lab::interaction(&mut job.scene).alpha *= alpha;
     let looks = |trace: super::job::Trace| trace.looks.iter().map(|look| look.x1).collect();
     Ok(job.run(&|| ())?.into_iter().map(looks).collect())
 }
@@ -125,6 +108,8 @@ pub fn at(values: &Values, mark: usize) -> Vec<f64> {
 }
 
 pub fn table(coupled: &Coupled) -> ReportTable {
+    // One over the share of the variance that is left if what is correlated costs nothing.
+    let at_best = |correlation: f64| 1.0 / (1.0 - correlation * correlation);
     ReportTable::new(
         ["suspension-coupled", "Shared random numbers: the factor by which they save runs"],
         format!(
@@ -142,11 +127,11 @@ pub fn table(coupled: &Coupled) -> ReportTable {
             field("t/T", |r: &Saving| r.turns),
             number("ρ, half the step", decimals(2), |r: &Saving| r.finer),
             number("gain, levels", decimals(2), |r: &Saving| r.multilevel()),
-            number("at best", decimals(2), |r: &Saving| r.multilevel_at_best()),
+            number("at best", decimals(2), move |r: &Saving| at_best(r.finer)),
             number("ρ, free rods", decimals(2), |r: &Saving| r.free),
-            number("gain, control variate", decimals(2), |r: &Saving| r.control_variate()),
+            number("gain, control variate", decimals(2), move |r: &Saving| at_best(r.free)),
             number("ρ, other α", decimals(2), |r: &Saving| r.other_alpha),
-            number("gain for the difference", decimals(2), |r: &Saving| r.common_numbers()),
+            number("gain for the difference", decimals(2), |r: &Saving| 1.0 / (1.0 - r.other_alpha)),
         ],
     )
 }

@@ -132,8 +132,11 @@ fn measure(amount: Amount, budget: Budget) -> Result<Interacting, String> {
     for (scope, reference) in [(own, references.first()), (Scope::Unbounded, references.get(1))] {
         for (target, repeats) in TARGETS.into_iter().zip(amount.repeats) {
             let split = constants.cheapest(scope, target);
-            // A reference cannot judge errors as small as its own.
-            let judge = reference.filter(|reference| repeats > 0 && off_at_most(&constants, scope, reference) < target);
+            // A reference cannot judge errors as small as its own: the largest bias, and two standard errors.
+            let judge = reference.filter(|reference| {
+                let bias = constants.bias(scope, reference.steps_per_period as f64, reference.rods as f64);
+                repeats > 0 && bias.hypot(2.0 * reference.se) < target
+            });
             let realised = judge.map(|reference| {
                 let reference = Estimate { value: reference.x1, se: reference.se };
                 split.realise(&scene, repeats, reference)
@@ -155,12 +158,6 @@ fn measure(amount: Amount, budget: Budget) -> Result<Interacting, String> {
         answers,
         references,
     })
-}
-
-/// The error of a reference itself: the largest bias, and two standard errors.
-fn off_at_most(constants: &Constants, scope: Scope, reference: &JobMean) -> f64 {
-    let bias = constants.bias(scope, reference.steps_per_period as f64, reference.rods as f64);
-    bias.hypot(2.0 * reference.se)
 }
 
 fn splits_csv(study: &Interacting) -> Result<String, String> {

@@ -139,13 +139,6 @@ impl Bench {
             .filter_map(|curve| Some((curve, curve.cheapest(error_rad)?)))
             .min_by(|a, b| a.1.seconds.least.total_cmp(&b.1.seconds.least))
     }
-
-    /// The time of the first exact integrator over that of the cheapest adaptive one with an error of 10⁻⁶.
-    pub fn exact_over_adaptive(&self) -> Option<f64> {
-        let exact = self.curves.iter().find(|curve| curve.theory == Theory::Exact)?;
-        let (_, adaptive) = self.cheapest(1e-6, |theory| theory == Theory::Adaptive)?;
-        Some(exact.points.first()?.seconds.least / adaptive.seconds.least)
-    }
 }
 
 #[cfg(test)]
@@ -158,7 +151,8 @@ mod tests {
     fn point(error: Option<f64>, seconds: f64) -> Point {
         let errors =
             error.map(|orientation_rad| Errors { orientation_rad, orbit_constant: 0.0, phase_turns: 0.0, length: 0.0 });
-        Point { setting: Setting::Once, errors, failure: None, seconds: Seconds::same(seconds) }
+        let seconds = Seconds { least: seconds, most: seconds, measurements: 1 };
+        Point { setting: Setting::Once, errors, failure: None, seconds }
     }
 
     #[test]

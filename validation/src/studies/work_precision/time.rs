@@ -30,13 +30,6 @@ pub struct Seconds {
     pub measurements: usize,
 }
 
-impl Seconds {
-    /// The result of a single measurement.
-    pub fn same(seconds: f64) -> Self {
-        Self { least: seconds, most: seconds, measurements: 1 }
-    }
-}
-
 /// The shortest measurement in s: a hundred times the clock's own step and cost.
 const SHORTEST: f64 = 2e-5;
 
