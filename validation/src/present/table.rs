@@ -230,9 +230,17 @@ pub fn of_words(
     columns: &[impl AsRef<str>],
     rows: Vec<Vec<String>>,
 ) -> ReportTable {
-    let columns = columns.iter().enumerate();
-    let columns = columns.map(|(k, name)| words(name.as_ref(), move |row: &Vec<String>| row[k].clone()));
-    ReportTable::new([name, title], caption, rows, columns.collect())
+    let columns: Vec<String> = columns.iter().map(|column| column.as_ref().into()).collect();
+    let data = |row: &Vec<String>| row.iter().map(|text| Datum::Text(text.clone())).collect();
+    ReportTable {
+        name: name.into(),
+        title: title.into(),
+        caption: caption.into(),
+        data: rows.iter().map(data).collect(),
+        heads: columns.clone(),
+        columns,
+        rows,
+    }
 }
 
 impl ReportTable {
