@@ -161,9 +161,13 @@ pub(super) fn reference(args: &Args) -> Result<(), Failure> {
             text
         }
     };
-    if let Some(path) = &args.out {
-        files.push((path, text.clone().into_bytes(), String::new()));
-    }
+    let printed = match &args.out {
+        Some(path) => {
+            files.push((path, text.into_bytes(), String::new()));
+            None
+        }
+        None => Some(text),
+    };
     if let Some((path, ..)) = files.iter().find(|(path, ..)| path.file_name().is_none()) {
         return Err(Failure::Input(format!("--out {}: is no file name", path.shown())));
     }
@@ -174,7 +178,7 @@ pub(super) fn reference(args: &Args) -> Result<(), Failure> {
         output::write_one(path, bytes, args.force)?;
         complain(note);
     }
-    if args.out.is_none() { print(&text) } else { Ok(()) }
+    printed.map_or(Ok(()), |text| print(&text))
 }
 
 /// The rods of the requested values.
@@ -210,7 +214,7 @@ fn asked(args: &Args, motion: &Motion, direction: Option<Direction>) -> Result<A
     // Without diffusion the rods are free; their means have full precision, but there is no steady distribution.
     if let Some(spread) = spread.filter(|_| spreads || args.steady) {
         if sd > WIDEST_PERCENT
-            || (sd > 0.0 && (args.aspect_ratio.is_infinite() || (args.density.is_some() || args.marginal.is_some())))
+            || sd > 0.0 && (args.aspect_ratio.is_infinite() || args.density.is_some() || args.marginal.is_some())
         {
             return Err(Failure::Input(format!(
                 "--aspect-ratio-sd-percent {sd}: with diffusion 0 to {WIDEST_PERCENT} is allowed, of a finite \

@@ -219,7 +219,10 @@ fn diffusing(full: bool, columns: usize) -> Vec<(Big, Big)> {
         let built = named(name);
         let times_s = &built.problem.times_s[..*times];
         // What is shipped, and what the program computes today.
-        let now = built.problem.distribution(&motion(built), *times, 0.0).expect("as when it was shipped");
+        let now = built
+            .problem
+            .distribution(&motion(built), *times, built.problem.oscillation())
+            .expect("as when it was shipped");
         for (at, (time_s, now)) in times_s.iter().zip(now).enumerate() {
             let grid = on_grid(built, *rings, *time_s);
             let of = |second: &[f64], fourth: &[f64]| bigs(if columns == 6 { second } else { fourth });

@@ -156,13 +156,16 @@ pub fn uniform(values: Vec<f64>, distance: f64, because: impl Into<Text>) -> Rul
 /// is a wrong formula needs no run of its own.
 pub(crate) struct Shared<K, T>(Mutex<Stored<K, T>>);
 
-/// The seed and the effort of the run, and its values.
-type Stored<K, T> = ((u64, bool), BTreeMap<K, Arc<T>>);
+struct Stored<K, T> {
+    /// The seed, and whether the run is a full one.
+    run: (u64, bool),
+    values: BTreeMap<K, Arc<T>>,
+}
 
 impl<K: Ord, T> Shared<K, T> {
     /// An empty store.
     pub(crate) const fn new() -> Self {
-        Self(Mutex::new(((0, false), BTreeMap::new())))
+        Self(Mutex::new(Stored { run: (0, false), values: BTreeMap::new() }))
     }
 
     /// The value for `key`, computed by `work_out` if it is missing. It must depend only on key and effort; another run
@@ -171,17 +174,17 @@ impl<K: Ord, T> Shared<K, T> {
         let run = (effort.seed, effort.full);
         let locked = || {
             let mut stored = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-            if stored.0 != run {
-                *stored = (run, BTreeMap::new());
+            if stored.run != run {
+                *stored = Stored { run, values: BTreeMap::new() };
             }
             stored
         };
-        if let Some(value) = locked().1.get(&key) {
+        if let Some(value) = locked().values.get(&key) {
             return Arc::clone(value);
         }
         // Not under the lock: while it waits, a thread may be given another thread's work, which may need the lock too.
         let value = Arc::new(work_out());
-        locked().1.insert(key, Arc::clone(&value));
+        locked().values.insert(key, Arc::clone(&value));
         value
     }
 }

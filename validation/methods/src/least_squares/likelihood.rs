@@ -115,17 +115,16 @@ impl Rods {
             let covariance = &residuals.others + &scatter + &own * share;
             residuals.misfit(covariance).map(|misfit| misfit + ((share - rest) / sd).powi(2))
         };
-        let tried = (0..=SHARES).filter_map(|k| misfit(0.5f64.powi(k)).map(|misfit| (misfit, k)));
-        let least = tried.min_by(|a, b| a.0.total_cmp(&b.0)).map_or(0, |(_, k)| k);
+        let tried: Vec<f64> = (0..=SHARES).map(|k| misfit(0.5f64.powi(k)).unwrap_or(f64::INFINITY)).collect();
+        let least = (0..tried.len()).min_by(|a, b| tried[*a].total_cmp(&tried[*b])).unwrap_or(0);
         // A parabola in ln of the share, by its neighbours, where it has two.
-        let beside = [least - 1, least, least + 1].map(|k| misfit(0.5f64.powi(k)));
-        let moved = match beside {
-            [Some(before), Some(at), Some(after)] if (1..SHARES).contains(&least) && before + after > 2.0 * at => {
+        let moved = match tried[least.saturating_sub(1)..].first_chunk() {
+            Some([before, at, after]) if least > 0 && (before + after).is_finite() && before + after > 2.0 * at => {
                 0.5 * (before - after) / (before - 2.0 * at + after)
             }
             _ => 0.0,
         };
-        all * 0.5f64.powf(f64::from(least) + moved)
+        all * 0.5f64.powf(least as f64 + moved)
     }
 }
 

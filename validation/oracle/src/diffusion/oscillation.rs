@@ -9,7 +9,7 @@ use std::f64::consts::TAU;
 /// Steps of a period in the first solution.
 const FEWEST: f64 = 32.0;
 
-/// The largest number of steps of all solutions.
+/// The largest number of flows in a solution, two a step.
 const MOST: f64 = 50_000.0;
 
 /// Means over the rods at `times_s` ≥ 0, in ascending order, in the flow of `motion` times cos(2πt/T + φ), with

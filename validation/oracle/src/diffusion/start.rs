@@ -28,7 +28,7 @@ impl Start<'_> {
     pub(super) fn sharp(&self) -> Option<[f64; 3]> {
         match self {
             Self::Isotropic | Self::Density(_) | Self::Bingham(_) => None,
-            Self::Direction(p) => Some(p.map(f64::abs)),
+            Self::Direction(p) => Start::Directions(std::slice::from_ref(p)).sharp(),
             Self::Directions(all) => {
                 Some([0, 1, 2].map(|i| all.iter().map(|p| p[i].abs()).sum::<f64>() / all.len() as f64))
             }
@@ -46,15 +46,12 @@ impl Start<'_> {
                 unknowns[0] = mean;
                 Ok((basis, unknowns))
             }
-            // ∫ψY over a point, and over a great circle with the axis n (Funk & Hecke): P_l(0) Y(n).
-            Self::Direction(p) | Self::Plane(p) => {
-                let basis = Basis { degree: most, order: most, even: false };
-                let mut unknowns = basis.values(frame.inward(*p));
-                if matches!(self, Self::Plane(_)) {
-                    // P_l(0).
-                    let factors = by_ratio(most, 1.0, |l| -(l + 1.0) / (l + 2.0));
-                    unknowns.iter_mut().zip(basis.unknowns()).for_each(|(x, (l, ..))| *x *= factors[l / 2]);
-                }
+            Self::Direction(p) => Start::Directions(std::slice::from_ref(p)).unknowns(frame, most),
+            // ∫ψY over a great circle with the axis n (Funk & Hecke): P_l(0) Y(n).
+            Self::Plane(n) => {
+                let (basis, mut unknowns) = Self::Direction(*n).unknowns(frame, most)?;
+                let factors = by_ratio(most, 1.0, |l| -(l + 1.0) / (l + 2.0));
+                unknowns.iter_mut().zip(basis.unknowns()).for_each(|(x, (l, ..))| *x *= factors[l / 2]);
                 Ok((basis, unknowns))
             }
             Self::Directions(all) => {

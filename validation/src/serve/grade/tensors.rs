@@ -123,22 +123,20 @@ fn of_wrong_distribution(problem: &Problem, answer: &Answer, most: f64) -> Vec<N
     let rate = strain_rate_per_s(problem.gradient_per_s);
     let factors = [(2.0, "twice the D_r"), (0.5, "half the D_r"), (rate, "D_r γ̇ for D_r, as if it were a C_I")];
     let factors = factors.into_iter().filter(|(factor, _)| *factor > 0.0 && *factor != 1.0);
-    let own = problem.oscillation_period_s;
-    let mut wrong: Vec<(Motion, Option<f64>, f64, &str)> = factors
-        .map(|(factor, name)| (Motion { diffusivity: factor * rods.diffusivity, ..rods }, own, 0.0, name))
-        .collect();
-    if let Some(period_s) = own {
+    let own = problem.oscillation();
+    let mut wrong: Vec<(Motion, Option<[f64; 2]>, &str)> =
+        factors.map(|(factor, name)| (Motion { diffusivity: factor * rods.diffusivity, ..rods }, own, name)).collect();
+    if let Some([period_s, _]) = own {
         wrong.extend([
-            (rods, own, -0.25 * TAU, "sin 2πt/T for cos 2πt/T"),
-            (rods, None, 0.0, "a flow that does not oscillate"),
-            (rods, Some(TAU * period_s), 0.0, "cos t/T for cos 2πt/T"),
-            (rods, Some(2.0 * period_s), 0.0, "twice the period"),
-            (rods, Some(0.5 * period_s), 0.0, "half the period"),
+            (rods, Some([period_s, -0.25 * TAU]), "sin 2πt/T for cos 2πt/T"),
+            (rods, None, "a flow that does not oscillate"),
+            (rods, Some([TAU * period_s, 0.0]), "cos t/T for cos 2πt/T"),
+            (rods, Some([2.0 * period_s, 0.0]), "twice the period"),
+            (rods, Some([0.5 * period_s, 0.0]), "half the period"),
         ]);
     }
-    let of = |(rods, oscillation_period_s, phase, name): &(Motion, Option<f64>, f64, &str)| {
-        let wrong = Problem { oscillation_period_s: *oscillation_period_s, ..problem.clone() };
-        let all = wrong.distribution(rods, problem.times_s.len(), *phase).ok()?;
+    let of = |(rods, oscillation, name): &(Motion, Option<[f64; 2]>, &str)| {
+        let all = problem.distribution(rods, problem.times_s.len(), *oscillation).ok()?;
         let distance = apart(&answer.rows, &all.iter().map(|means| means.second.to_vec()).collect::<Vec<_>>());
         let (name, suspect) = (format!("the distribution with {name}"), (*name).to_owned());
         (distance <= most).then_some(Near { distance, name, suspect, advice: "", changes: 1 })
@@ -219,9 +217,13 @@ fn from_exact(problem: &Problem, rows: &[Vec<f64>], parts: &Parts, most: f64) ->
         let curve: Vec<_> = all.iter().map(picked).collect();
         Some(apart(rows, &curve)).filter(|off| *off <= most)
     };
-    // Saves time: most are far already at the first time.
-    near(problem.distribution(&motion, 1, 0.0).ok()?)?;
-    near(problem.distribution(&motion, problem.times_s.len(), 0.0).ok()?)
+    let at = |count: usize| problem.distribution(&motion, count, problem.oscillation()).ok();
+    let count = problem.times_s.len();
+    if count > 1 {
+        // Saves time: most are far already at the first time.
+        near(at(1)?)?;
+    }
+    near(at(count)?)
 }
 
 /// Names the closure, the mistake or the layout whose curve the answer is, given its `error`; the diagnosis is empty

@@ -208,7 +208,12 @@ impl Problem {
         if self.planar_start { diffusion::Start::Plane([0.0, 0.0, 1.0]) } else { diffusion::Start::Isotropic }
     }
 
-    /// Means over rods that move so, at the first `count` times; `phase` in rad is added to a flow that oscillates.
+    /// The period in s and the phase in rad of a flow that oscillates.
+    pub fn oscillation(&self) -> Option<[f64; 2]> {
+        self.oscillation_period_s.map(|period_s| [period_s, 0.0])
+    }
+
+    /// Means over rods that move so, at the first `count` times, in a flow with this oscillation.
     ///
     /// # Errors
     ///
@@ -217,11 +222,11 @@ impl Problem {
         &self,
         motion: &diffusion::Motion,
         count: usize,
-        phase: f64,
+        oscillation: Option<[f64; 2]>,
     ) -> Result<Vec<diffusion::Means>, NoAnswer> {
         let times = &self.times_s[..count];
-        match self.oscillation_period_s {
-            Some(period_s) => diffusion::oscillating(motion, [period_s, phase], self.directions(), times),
+        match oscillation {
+            Some(oscillation) => diffusion::oscillating(motion, oscillation, self.directions(), times),
             None if self.is_steady() => Ok(vec![diffusion::steady(motion)?]),
             None => diffusion::at(motion, self.directions(), times),
         }
