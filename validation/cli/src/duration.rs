@@ -10,8 +10,8 @@ use shearbed_validation::studies::suspensions::law::{self, Replicas};
 /// The longest pilot, in s.
 const PILOT_S: f64 = 3.0;
 
-/// Seconds of a replica on one core: those that the first one takes, or a guess by its rods and steps where they are
-/// many or it may not or cannot run. Collisions cost what they cost.
+/// Seconds of a replica on one core: the time of the first replica, with its collisions; a guess by rods and steps
+/// where that takes long, where `may_run` is false, or where the replica fails.
 pub(super) fn of_replica(plan: &Plan, may_run: bool) -> f64 {
     let rods = plan.scene().particles.count as f64;
     let guess = if plan.steps() > 0 {

@@ -36,8 +36,8 @@ pub struct Rods {
 pub enum Reading {
     /// This share.
     Share(f64),
-    /// The rest beside the rods' scatter. In u² that scatter is a sample's, known to this standard deviation relative
-    /// to u²; the residuals say the rest to more digits.
+    /// What the rods' scatter leaves of u². As u² holds the variance of a sample, it has this standard deviation,
+    /// relative to u²; within it the residuals decide.
     Rest(f64),
 }
 
@@ -66,7 +66,7 @@ impl Residuals {
     }
 }
 
-/// The number of points that say what part of u² is reading.
+/// The largest number of points by which the share of reading is chosen, about.
 const ENOUGH: usize = 200;
 
 /// Shares of u² that are tried as reading: powers of ½ down to 10⁻⁶.
@@ -102,7 +102,7 @@ impl Rods {
             Reading::Share(share) => return all * share,
             Reading::Rest(sd) => (1.0 - scatter.trace() / all.trace(), sd),
         };
-        // Some of many points say as much, for a time that grows with their third power.
+        // The time grows with the third power of the points, so not all of many are used.
         let some: Vec<usize> = (0..data.len()).step_by(data.len().div_ceil(ENOUGH).max(1)).collect();
         let of = |matrix: &DMatrix<f64>| matrix.select_rows(&some).select_columns(&some);
         let (own, scatter) = (of(&all), of(scatter));
