@@ -31,6 +31,27 @@ pub struct Column {
     /// The standard error of the mean: over replicas, or over the rods of a single replica. NaN for a single rod of a
     /// single replica.
     pub se: Vec<f64>,
+    /// The means over all replicas but those of one group, for each of [`group_sizes`]: whatever is derived from a mean
+    /// has its standard error from them, by the jackknife. Empty for a single replica, and where they would take more
+    /// than 64 MB.
+    pub without: Vec<Vec<f64>>,
+}
+
+/// The number of groups of replicas.
+const GROUPS: usize = 16;
+
+/// The largest number of sums, outputs times channels, for which those of groups are kept.
+const MOST_GROUPED: usize = 1 << 19;
+
+/// The number of replicas in each group: replica k belongs to group k modulo 16.
+pub fn group_sizes(replicas: u64) -> impl Iterator<Item = u64> {
+    let groups = GROUPS as u64;
+    (0..groups.min(replicas)).map(move |group| (replicas - group).div_ceil(groups))
+}
+
+/// The number of sums over groups for `len` sums.
+pub(crate) fn grouped(len: usize) -> usize {
+    if len <= MOST_GROUPED { len * GROUPS } else { 0 }
 }
 
 /// One observable against time.
@@ -167,6 +188,8 @@ pub struct Tally {
     deviation: Vec<f64>,
     /// Standard errors over the rods of a single replica.
     over_rods: Vec<f64>,
+    /// Sums over the replicas of each group, group by group.
+    groups: Vec<f64>,
     /// All rods at the outputs for which the scene asks for them.
     snapshots: Vec<Snapshot>,
 }
@@ -185,6 +208,7 @@ impl Tally {
             mean: vec![0.0; len],
             deviation: vec![0.0; len],
             over_rods: vec![f64::NAN; len],
+            groups: vec![0.0; grouped(len)],
             snapshots: Vec::new(),
         }
     }
@@ -202,6 +226,7 @@ impl Tally {
     pub fn check(&self, plan: &Plan) -> Result<(), &'static str> {
         let len = plan.outputs() * width(plan);
         if [&self.mean, &self.deviation, &self.over_rods].map(Vec::len) != [len; 3]
+            || self.groups.len() != grouped(len)
             || self.replicas > plan.scene().ensemble.replicas
         {
             return Err("its means are not those of this scene");
@@ -211,7 +236,7 @@ impl Tally {
             return Err("its rods are not those of this scene");
         }
         let deviations = self.deviation.iter().all(|x| x.is_finite() && *x >= 0.0);
-        if !deviations || !self.mean.iter().all(|x| x.is_finite()) {
+        if !deviations || !self.mean.iter().chain(&self.groups).all(|x| x.is_finite()) {
             return Err("it has a mean that is not finite, or a negative deviation");
         }
         Ok(())
@@ -227,12 +252,16 @@ impl Tally {
     /// Adds the sums of the next replica, which has `rods` rods.
     pub(crate) fn add_sums(&mut self, rods: usize, sums: &[Sum]) {
         let n = rods as f64;
+        let group = self.replicas as usize % GROUPS * sums.len();
         self.replicas += 1;
         let replicas = self.replicas as f64;
         for (k, sum) in sums.iter().enumerate() {
             let value = sum.value / n;
             let change = value - self.mean[k];
             self.mean[k] += change / replicas;
+            if let Some(of_group) = self.groups.get_mut(group + k) {
+                *of_group += value;
+            }
             self.deviation[k] += change * (value - self.mean[k]);
             if let Some(spread) = &sum.spread {
                 self.over_rods[k] = spread.standard_error();
@@ -254,6 +283,7 @@ impl Tally {
         let unit = plan.scene().unit(of);
         column.mean.iter_mut().for_each(|mean| *mean *= unit);
         column.se.iter_mut().for_each(|se| *se *= unit.abs());
+        column.without.iter_mut().flatten().for_each(|mean| *mean *= unit);
         if self.replicas == 1 && plan.runs(Stage::Lengths) && of.weighs_rods() {
             column.se.fill(f64::NAN);
         }
@@ -268,7 +298,22 @@ impl Tally {
     /// The column at index `place` of the `width` sums of each output.
     pub(crate) fn column(&self, name: String, place: usize, width: usize) -> Column {
         let all = || (place..self.mean.len()).step_by(width);
-        Column { name, mean: all().map(|k| self.mean[k]).collect(), se: all().map(|k| self.se(k)).collect() }
+        Column {
+            name,
+            mean: all().map(|k| self.mean[k]).collect(),
+            se: all().map(|k| self.se(k)).collect(),
+            without: if self.replicas > 1 && !self.groups.is_empty() { self.without(all) } else { Vec::new() },
+        }
+    }
+
+    /// The means at the indices `all` without each of the groups.
+    fn without<I: Iterator<Item = usize>>(&self, all: impl Fn() -> I) -> Vec<Vec<f64>> {
+        let of_group = |(group, size): (usize, u64)| {
+            let others = (self.replicas - size) as f64;
+            let own = &self.groups[group * self.mean.len()..];
+            all().map(|k| (self.mean[k] * self.replicas as f64 - own[k]) / others).collect()
+        };
+        group_sizes(self.replicas).enumerate().map(of_group).collect()
     }
 
     /// The results of the replicas added.

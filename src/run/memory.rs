@@ -6,7 +6,7 @@ use crate::motion::Propagator;
 use crate::observable::Sum;
 use crate::plan::free_motion::Way;
 use crate::plan::{Plan, Stage};
-use crate::run::ensemble::{batch, width};
+use crate::run::ensemble::{batch, grouped, width};
 use crate::suspension::rods;
 use crate::suspension::snapshot::Snapshot;
 use crate::suspension::{MOST_KEPT, bytes_of_lists};
@@ -51,8 +51,9 @@ pub fn bytes(plan: &Plan, at_once: u64) -> u64 {
     let phases = plan.outputs() * rods::bytes_per_output(plan);
     let search = kept(Stage::Neighbours, neighbours::bytes(count));
     let rods = replicas * (lists as u64 + (count * per_rod + search + phases) as u64) + maps[1] as u64;
-    // Sums of replicas that wait to be added in order, and three running moments of 8 bytes.
-    let sums = plan.outputs() as u64 * (waiting * per_output as u64 + 3 * 8 * width as u64);
+    // Sums of replicas that wait to be added in order, three running moments of 8 bytes, and the sums over groups.
+    let groups = 8 * grouped(plan.outputs() * width) as u64;
+    let sums = plan.outputs() as u64 * (waiting * per_output as u64 + 3 * 8 * width as u64) + groups;
     // All rods that the scene asks for are held until the end.
     let of_rod = Snapshot::bytes_per_rod(plan) as u64;
     (rods + sums).saturating_add(plan.rods_out().saturating_mul(of_rod))

@@ -166,10 +166,11 @@ fn replicas_and_tallies_of_other_scenes_are_refused() {
     (0..3).for_each(|k| tally.add(run_replica(&plan, k).unwrap()));
     assert_eq!(tally.check(&plan), Ok(()));
     let lengths = "its means are not those of this scene";
-    let spoilt: [(&str, Spoil, &str); 5] = [
+    let spoilt: [(&str, Spoil, &str); 6] = [
         ("mean", shorter, lengths),
         ("deviation", shorter, lengths),
         ("over_rods", shorter, lengths),
+        ("groups", shorter, lengths),
         ("replicas", |replicas| *replicas = json!(4), lengths),
         ("deviation", |all| all[3] = json!(-1.0), "it has a mean that is not finite, or a negative deviation"),
     ];

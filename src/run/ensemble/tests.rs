@@ -44,3 +44,27 @@ fn of_one_replica_the_error_is_over_its_rods_if_it_has_more_than_one() {
     assert_eq!(of(&[1.0, 1.0, 1.0, 5.0]), (2.0, 1.0));
     assert!(of(&[0.5]).1.is_nan());
 }
+
+/// The mean without a group is that of the other replicas, run alone: replica k belongs to group k modulo 16.
+#[test]
+fn each_group_of_replicas_is_left_out_once() {
+    let mut scene = Scene::default();
+    scene.particles.count = 3;
+    for replicas in [2, 16, 21] {
+        let plan = Plan::new(&scene).unwrap().with_replicas(replicas);
+        let values: Vec<f64> = (replicas_of(&plan, 0..replicas, &|| ()).unwrap().iter())
+            .map(|replica| replica.mean(Channel::named("x1").unwrap(), 5).unwrap())
+            .collect();
+        let results = run(&plan).unwrap();
+        let without = &results.column("x1").unwrap().without;
+        assert_eq!(without.len(), replicas.min(16) as usize);
+        assert_eq!(group_sizes(replicas).sum::<u64>(), replicas);
+        for (group, (mean, size)) in without.iter().zip(group_sizes(replicas)).enumerate() {
+            let others: Vec<f64> = (0..values.len()).filter(|k| k % 16 != group).map(|k| values[k]).collect();
+            assert_eq!(others.len() as u64, replicas - size);
+            let expected = others.iter().sum::<f64>() / others.len() as f64;
+            assert!((mean[5] - expected).abs() < 1e-14, "{replicas} {group}: {} {expected}", mean[5]);
+        }
+    }
+    assert_eq!(run(&Plan::new(&scene).unwrap().with_replicas(1)).unwrap().column("x1").unwrap().without.len(), 0);
+}

@@ -12,6 +12,7 @@ mod choice;
 mod cite;
 mod compare;
 mod converge;
+mod derived;
 mod duration;
 mod facts;
 mod finished;
@@ -190,6 +191,11 @@ pub fn figure(dirs: &[PathBuf], channel: Option<&str>) -> Result<Figure, String>
 
 fn with_name(arguments: Vec<OsString>) -> Vec<OsString> {
     std::iter::once("shearbed".into()).chain(arguments).collect()
+}
+
+/// The tables `extremes.csv` and `derived.csv` of a run.
+pub fn derived(plan: &shearbed::Plan, results: &shearbed::Results) -> Result<[String; 2], String> {
+    derived::files(plan, results).map(|files| files.map(|(_, text)| text))
 }
 
 /// Checks that a plan fits into memory with a replica on each thread; the error says why it does not.

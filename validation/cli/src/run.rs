@@ -2,11 +2,12 @@
 
 mod work;
 
+use super::derived::{DERIVED, EXTREMES};
 use super::record::Seconds;
 use super::scene::{Chosen, Ensemble, Named};
 use super::until::{self, Until};
 use super::{
-    Failure, Threads, Writing, agree, checkpoint, memory, number, pictures, print, probe, record, rods, scene,
+    Failure, Threads, Writing, agree, checkpoint, derived, memory, number, pictures, print, probe, record, rods, scene,
     spares_inputs, tables, threads,
 };
 use serde_json::{Value, json};
@@ -149,6 +150,7 @@ impl<'a> Run<'a> {
         let plan = until.as_ref().map_or(self.plan.clone(), |until| self.plan.with_replicas(until.replicas));
         let start = Instant::now();
         let mut files = files(&plan, &results).map_err(Failure::Failed)?;
+        files.extend(derived::files(&plan, &results).map_err(Failure::Failed)?);
         files.extend(rods::files(&plan, &results, self.args.vtk));
         seconds.tables_and_pictures = start.elapsed().as_secs_f64();
         let names = files.iter().map(|(name, _)| name.as_str()).collect();
@@ -165,7 +167,7 @@ impl<'a> Run<'a> {
                 line(&self.named.scene.title),
                 self.named.scene.particles.count,
                 plan.scene().ensemble.replicas,
-                tables::summary(&results),
+                tables::summary(&results) + &derived::summary(&plan, &results),
                 names.join(", "),
                 replaced.unwrap_or_default()
             ))?;
@@ -186,7 +188,7 @@ fn names(plan: &Plan, vtk: bool) -> Vec<String> {
     });
     let rods = (!plan.rods_outputs().is_empty()).then_some("rods.csv");
     let vtk = vtk.then_some("rods.pvd");
-    let others = [Some(RUN), rods, vtk].into_iter().flatten();
+    let others = [Some(RUN), Some(EXTREMES), Some(DERIVED), rods, vtk].into_iter().flatten();
     of_each.chain(others.map(str::to_owned)).collect()
 }
 

@@ -1,5 +1,6 @@
 //! `shearbed sweep`.
 
+use super::derived::{self, DERIVED};
 use super::scene::{Chosen, Ensemble};
 use super::{
     Failure, Threads, Writing, agree, log, memory, on_threads, print, progress, result_folder, scene, spares_inputs,
@@ -86,6 +87,7 @@ pub(super) fn sweep(args: &Args) -> Result<(), Failure> {
             pairs: (points.iter()).map(|point| sweep::pairs(&args.over, &point.values)).collect(),
             tables: (points[0].plan.observables().iter())
                 .map(|observable| format!("{}.csv", observable.name()))
+                .chain([DERIVED.to_owned()])
                 .collect(),
         };
         let opened = folder.insert(Folder::open(in_folder, &inputs, points)?);
@@ -205,7 +207,10 @@ fn tables_of(point: &Point) -> Result<Vec<Output>, String> {
         let name = format!("{}.csv", series.observable.name());
         Ok((name, tables::csv(&results, series)?))
     };
-    results.series.iter().map(table).collect()
+    let mut tables: Vec<Output> = results.series.iter().map(table).collect::<Result<_, String>>()?;
+    let [_, derived] = derived::files(&point.plan, &results)?;
+    tables.push(derived);
+    Ok(tables)
 }
 
 fn other_numbers(point: &Path) -> Failure {

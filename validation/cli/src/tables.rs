@@ -1,5 +1,6 @@
 //! Results as tables: CSV for files, and a short one for the terminal.
 
+use super::derived;
 use shearbed::observable::Channel;
 use shearbed::plan::Elapsed;
 use shearbed::run::ensemble::{Column, Series};
@@ -9,24 +10,13 @@ use shearbed_validation::files::csv::written;
 /// The CSV file of an observable: the time, also in s and as strain, then each channel with its standard error. Every
 /// number is the shortest text that reads back as the same bits.
 pub(super) fn csv(results: &Results, series: &Series) -> Result<String, String> {
-    // The scene's own time first.
-    let names: &[_] = match results.time_name {
-        "strain" => &["strain", "time_s"],
-        "time_s" => &["time_s", "strain"],
-        _ => &["t_over_T", "time_s", "strain"],
-    };
-    let mut header: Vec<_> = names.iter().map(|name| (*name).to_owned()).collect();
+    let mut header: Vec<_> = time_names(results).iter().map(|name| (*name).to_owned()).collect();
     for channel in &series.columns {
         header.extend([channel.name.clone(), format!("{}_se", channel.name)]);
     }
     let row = |(k, (time, elapsed)): (usize, (&f64, &Elapsed))| -> Vec<f64> {
-        let of_name = |name: &&str| match *name {
-            name if name == results.time_name => *time,
-            "time_s" => elapsed.seconds,
-            _ => elapsed.strain,
-        };
         let values = series.columns.iter().flat_map(|channel| [channel.mean[k], channel.se[k]]);
-        names.iter().map(of_name).chain(values).collect()
+        time_cells(results, *time, *elapsed).into_iter().chain(values).collect()
     };
     written(|table| {
         table.write_record(header)?;
@@ -34,31 +24,51 @@ pub(super) fn csv(results: &Results, series: &Series) -> Result<String, String> 
     })
 }
 
+/// The names of the time columns, the scene's own time first.
+pub(super) fn time_names(results: &Results) -> &'static [&'static str] {
+    match results.time_name {
+        "strain" => &["strain", "time_s"],
+        "time_s" => &["time_s", "strain"],
+        _ => &["t_over_T", "time_s", "strain"],
+    }
+}
+
+/// The cells of the time columns.
+pub(super) fn time_cells(results: &Results, time: f64, elapsed: Elapsed) -> Vec<f64> {
+    let of_name = |name: &&str| match *name {
+        name if name == results.time_name => time,
+        "time_s" => elapsed.seconds,
+        _ => elapsed.strain,
+    };
+    time_names(results).iter().map(of_name).collect()
+}
+
+/// A number is at most 24 letters long with its comma, as -2.2250738585072014e-308.
+pub(super) const NUMBER: usize = 24;
+
 /// The largest number of bytes of the table and of the pictures of each observable.
 fn most_of_each(plan: &Plan) -> impl Iterator<Item = (u64, u64)> {
-    // A number is at most 24 letters long with its comma, as -2.2250738585072014e-308; a picture has a curve and the
-    // two sides of its band, each point of two numbers of seven digits.
-    const NUMBER: u64 = 24;
+    // A picture has a curve and the two sides of its band, each point of two numbers of seven digits.
     const POINT: u64 = 3 * 16;
     let rows = plan.outputs() as u64 + 1;
     plan.observables().into_iter().map(move |observable| {
         // For a density only the mean is drawn, not its many bins.
         let drawn = if observable.is_density() { 1 } else { observable.width() };
-        let table = rows * NUMBER * (3 + 2 * observable.width() as u64);
+        let table = rows * NUMBER as u64 * (3 + 2 * observable.width() as u64);
         (table, rows * POINT * drawn as u64)
     })
 }
 
 /// The largest number of bytes of the tables and pictures of a plan's results.
 pub(super) fn most_bytes(plan: &Plan) -> u64 {
-    most_of_each(plan).map(|(table, picture)| table + picture).sum()
+    most_of_each(plan).map(|(table, picture)| table + picture).sum::<u64>() + derived::most_bytes(plan)
 }
 
 /// The largest memory for the results of a plan, their tables and their pictures, in bytes.
 pub(super) fn most_memory(plan: &Plan) -> u64 {
-    // Means and standard errors.
+    // Means and standard errors, and the means without each of 16 groups of replicas.
     let channels: usize = plan.observables().iter().map(|o| o.width()).sum();
-    let results = plan.outputs() as u64 * 16 * channels as u64;
+    let results = plan.outputs() as u64 * 18 * 8 * channels as u64;
     // A growing text may reserve twice its length; a drawn point is stored as numbers, as a place and in a path, about
     // eight times the length of its text.
     let (table, picture) = most_of_each(plan).fold((0, 0), |(a, b), (c, d)| (a.max(c), b.max(d)));

@@ -5,6 +5,7 @@
 //! Nothing here judges the simulator; that is done by the oracles.
 
 pub mod coefficients;
+pub mod derived;
 pub mod integrators;
 pub mod interpolate;
 pub mod least_squares;

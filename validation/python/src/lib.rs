@@ -211,6 +211,7 @@ fn dictionary<'py>(py: Python<'py>, plan: &Plan, results: Results) -> PyResult<B
     let time_s = results.elapsed.iter().map(|elapsed| elapsed.seconds).collect();
     let strain = results.elapsed.iter().map(|elapsed| elapsed.strain).collect();
     let rods = rods::columns(py, plan, &results)?;
+    let [extremes, derived] = shearbed_cli::derived(plan, &results).map_err(PyRuntimeError::new_err)?;
     for series in results.series {
         let mut names = Vec::new();
         for channel in series.columns {
@@ -227,6 +228,8 @@ fn dictionary<'py>(py: Python<'py>, plan: &Plan, results: Results) -> PyResult<B
     all.set_item("time_s", array(time_s))?;
     all.set_item("strain", array(strain))?;
     all.set_item("channels", channels)?;
+    all.set_item("extremes", extremes)?;
+    all.set_item("derived", derived)?;
     all.set_item("observables", observables)?;
     all.set_item("labels", labels)?;
     all.set_item("symbols", symbols)?;

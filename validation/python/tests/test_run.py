@@ -114,10 +114,21 @@ def test_what_the_program_wrote_is_loaded_as_a_run_gives_it(tmp_path: Path) -> N
     assert (loaded.seed, loaded.replicas, loaded.warnings) == (own.seed, own.replicas, own.warnings)
     for name in ("t", "time_s", "strain", "a", *own.channels, *(f"{name}_se" for name in own.channels)):
         assert np.array_equal(getattr(loaded, name), getattr(own, name)), name
-    assert all(np.array_equal(loaded.rods[name], values, equal_nan=True) for name, values in own.rods.items())
+    for tables in ("rods", "extremes", "derived"):
+        pairs = zip(getattr(loaded, tables).items(), getattr(own, tables).items(), strict=True)
+        assert all(a == b and np.array_equal(x, y, equal_nan=True) for (a, x), (b, y) in pairs)
     assert shearbed.Scene(toml=loaded.scene) == scene
     with pytest.raises(FileNotFoundError):
         shearbed.load(tmp_path)
+
+
+def test_derived_values_of_free_rods_are_those_of_their_theory() -> None:
+    free = {"particles.count": 400, "time.periods": 3, "interaction": None, "particles.aspect_ratio_sd_percent": 0}
+    run = shearbed.run("fig9-sd0", set=free, replicas=20)
+    assert abs(run.derived["x1_damping_rate"]) < 4 * run.derived["x1_damping_rate_se"] + 1e-6
+    assert np.isnan(run.derived["x1_steady"])
+    amplitudes = run.extremes["x1_amplitude"]
+    assert np.allclose(amplitudes[np.isfinite(amplitudes)], 0.48, atol=0.02)
 
 
 def test_a_scene_with_other_values() -> None:

@@ -1,6 +1,7 @@
 //! A channel of a run's tables, read row by row: only the drawn columns are kept in memory.
 
 use super::folders::Run;
+use crate::derived::{DERIVED, EXTREMES};
 use crate::{Failure, pictures};
 use shearbed_validation::files::csv::Table;
 use shearbed_validation::files::output::{RECORD, Sum};
@@ -26,8 +27,9 @@ pub(super) struct Found {
 /// may be read.
 pub(super) fn channel(run: &Run, wanted: Option<&str>, left: &mut usize) -> Result<Found, Failure> {
     let mut known = Vec::new();
-    for observable in &run.scene.output.observables {
-        let name = format!("{}.csv", observable.name());
+    let observables = run.scene.output.observables.iter().map(|observable| format!("{}.csv", observable.name()));
+    let derived = [EXTREMES, DERIVED].map(str::to_owned).into_iter();
+    for name in observables.chain(derived.filter(|name| run.record.files.contains_key(name))) {
         let path = run.dir.join(&name);
         let at = |what: String| Failure::Input(format!("{}{what}", path.shown()));
         let unread = |error: io::Error| at(format!(": cannot be read: {error}"));
@@ -80,7 +82,9 @@ impl RunTable {
 
     /// The names of columns with a standard error.
     fn channels(&self) -> Vec<String> {
-        let channels = self.0.names().iter().filter(|name| self.0.place(&format!("{name}_se")).is_some());
+        // The first column is the time, which has an error too where it is that of an extreme.
+        let names = self.0.names().iter().skip(1);
+        let channels = names.filter(|name| self.0.place(&format!("{name}_se")).is_some());
         channels.cloned().collect()
     }
 
@@ -91,7 +95,12 @@ impl RunTable {
         let places = [0, place(channel), place(&format!("{channel}_se"))];
         let mut columns = [(); 3].map(|()| Vec::new());
         while let Some(row) = self.0.next_row()? {
-            let [time, mean, se] = [row.number(places[0])?, row.number(places[1])?, row.number(places[2])?];
+            // A derived value that is undefined.
+            if row.cells[places[1]].is_empty() {
+                continue;
+            }
+            let se = if row.cells[places[2]].is_empty() { f64::NAN } else { row.number(places[2])? };
+            let [time, mean] = [row.number(places[0])?, row.number(places[1])?];
             let last = columns[0].last().copied();
             if !time.is_finite() || last.is_some_and(|last| time <= last) {
                 return Err(row.refused(places[0], "a finite number above that of the row before"));
@@ -113,7 +122,7 @@ impl RunTable {
                 column.push(value);
             }
         }
-        if columns[0].is_empty() { Err(self.0.error("has a header alone; rows are needed")) } else { Ok(columns) }
+        if columns[0].is_empty() { Err(self.0.error(format!("has no {channel}"))) } else { Ok(columns) }
     }
 
     /// The size and checksum of what was read.

@@ -41,6 +41,10 @@ class Results:
         self.scene: str = found["scene"]
         """The scene that was run, as TOML."""
         self.warnings: list[str] = found["warnings"]
+        self.extremes: dict[str, Array] = found["extremes"]
+        """The columns of ``extremes.csv``: maxima, minima and amplitudes of each channel, NaN where undefined."""
+        self.derived: dict[str, float] = {name: float(column[0]) for name, column in found["derived"].items()}
+        """``x1_damping_rate``, ``x1_steady``, … with ``_se``: the columns of ``derived.csv``, NaN where undefined."""
         self._rods: dict[str, Array] | None = found["rods"]
         self._channels: dict[str, tuple[Array, Array]] = found["channels"]
 

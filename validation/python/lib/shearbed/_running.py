@@ -9,7 +9,7 @@ import subprocess
 import sys
 import tempfile
 import warnings
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -19,6 +19,9 @@ from numpy.typing import NDArray
 from . import _core
 from ._results import Results
 from ._scene import Scene, _toml, _value, scene_of
+
+DERIVED = ("extremes", "derived")
+"""The tables of what is derived from a run's means."""
 
 
 def run(
@@ -56,7 +59,8 @@ def run(
     if time_limit_s is not None:
         raise TypeError("time_limit_s: it goes with until_se")
     told = _bar("replica") if progress is True else progress or None
-    return Results(_core.run(scene._name, scene._text, replicas, seed, threads, told))
+    found = _core.run(scene._name, scene._text, replicas, seed, threads, told)
+    return Results(found | {name: table(found[name].splitlines()) for name in DERIVED})
 
 
 def _apart(scene: Scene, words: Sequence[str]) -> Results:
@@ -92,6 +96,8 @@ def load(folder: str | os.PathLike[str]) -> Results:
         found["labels"][name] = label
         found["symbols"] |= dict(symbols)
         found |= {"time_name": times[0], "times": table[times[0]], "time_s": table["time_s"], "strain": table["strain"]}
+    files = {name: folder / f"{name}.csv" for name in DERIVED}
+    found |= {name: columns(file) if file.exists() else {} for name, file in files.items()}
     if (folder / "rods.csv").exists():
         found["rods"] = columns(folder / "rods.csv")
     ensemble = record["scene"]["ensemble"]
@@ -196,8 +202,13 @@ def options(*, set: Mapping[str, Any] | None = None, **numbers: int | None) -> l
 
 def columns(file: Path) -> dict[str, NDArray[Any]]:
     """The columns of a CSV file; a blank among numbers is NaN."""
-    with open(file, encoding="utf-8", newline="") as text:
-        header, *rows = list(csv.reader(text))
+    with open(file, encoding="utf-8", newline="") as lines:
+        return table(lines)
+
+
+def table(lines: Iterable[str]) -> dict[str, NDArray[Any]]:
+    """The columns of the lines of a CSV file."""
+    header, *rows = list(csv.reader(lines))
     return {name: column([row[k] for row in rows]) for k, name in enumerate(header)}
 
 

@@ -1,0 +1,127 @@
+//! Tables of what is derived from each mean of a run: maxima, minima and amplitudes, and damping rates and steady values.
+
+use super::tables;
+use shearbed::run::ensemble::Column;
+use shearbed::{Plan, Results};
+use shearbed_validation::files::csv;
+use shearbed_validation::files::output::Output;
+use shearbed_validation::methods::derived::{Derived, Estimate, Extreme};
+
+/// Maxima, minima and amplitudes, a row each.
+pub(super) const EXTREMES: &str = "extremes.csv";
+/// Damping rates and steady values, in one row.
+pub(super) const DERIVED: &str = "derived.csv";
+
+/// The largest number of extremes of each channel in a table: the first.
+const MOST: usize = 1000;
+
+/// The derived values of each channel, except those of densities.
+fn of<'a>(plan: &Plan, results: &'a Results) -> Vec<(&'a Column, Derived)> {
+    let replicas = plan.scene().ensemble.replicas;
+    let series = results.series.iter().filter(|series| !series.observable.is_density());
+    let columns = series.flat_map(|series| &series.columns);
+    columns.map(|column| (column, Derived::new(&results.times, column, replicas))).collect()
+}
+
+/// The tables [`EXTREMES`] and [`DERIVED`].
+pub(super) fn files(plan: &Plan, results: &Results) -> Result<[Output; 2], String> {
+    let all = of(plan, results);
+    Ok([(EXTREMES.to_owned(), extremes(plan, results, &all)?), (DERIVED.to_owned(), scalars(plan, results, &all)?)])
+}
+
+type Cells = Vec<Option<f64>>;
+
+fn cells(estimate: Option<Estimate>) -> [Option<f64>; 2] {
+    [estimate.map(|estimate| estimate.value), estimate.and_then(|estimate| estimate.se)]
+}
+
+fn time_cells(plan: &Plan, results: &Results, time: f64) -> Cells {
+    tables::time_cells(results, time, plan.elapsed(time)).into_iter().map(Some).collect()
+}
+
+fn head(results: &Results, kinds: &[&str], all: &[(&Column, Derived)]) -> Vec<String> {
+    let time = tables::time_names(results).iter().map(|name| (*name).to_owned());
+    let of_channel = |(column, _): &(&Column, Derived)| {
+        let name = column.name.clone();
+        kinds.iter().map(move |kind| format!("{name}_{kind}")).collect::<Vec<_>>()
+    };
+    time.chain(all.iter().flat_map(of_channel)).collect()
+}
+
+fn extremes(plan: &Plan, results: &Results, all: &[(&Column, Derived)]) -> Result<String, String> {
+    let kinds = ["maximum", "maximum_se", "minimum", "minimum_se", "amplitude", "amplitude_se"];
+    let mut header = head(results, &kinds, all);
+    let times = tables::time_names(results).len();
+    header.insert(times, format!("{}_se", results.time_name));
+    let mut rows: Vec<(f64, Cells)> = Vec::new();
+    for (k, (_, derived)) in all.iter().enumerate() {
+        for Extreme { is_maximum, time, value, amplitude } in derived.extremes.iter().take(MOST) {
+            let mut row: Cells = time_cells(plan, results, time.value);
+            row.push(time.se);
+            row.resize(header.len(), None);
+            let own = &mut row[times + 1 + 6 * k..];
+            let place = if *is_maximum { 0 } else { 2 };
+            own[place..place + 2].copy_from_slice(&cells(Some(*value)));
+            own[4..6].copy_from_slice(&cells(*amplitude));
+            rows.push((time.value, row));
+        }
+    }
+    rows.sort_by(|a, b| a.0.total_cmp(&b.0));
+    table(header, rows.into_iter().map(|(_, row)| row))
+}
+
+fn scalars(plan: &Plan, results: &Results, all: &[(&Column, Derived)]) -> Result<String, String> {
+    let kinds = ["damping_rate", "damping_rate_se", "steady", "steady_se", "steady_from"];
+    let last = results.times.last().copied().unwrap_or(0.0);
+    let mut row = time_cells(plan, results, last);
+    for (_, derived) in all {
+        row.extend(cells(derived.damping_rate));
+        row.extend(cells(derived.steady.map(|steady| steady.value)));
+        row.push(derived.steady.map(|steady| steady.from));
+    }
+    table(head(results, &kinds, all), [row])
+}
+
+/// The CSV text; undefined values are empty.
+fn table(header: Vec<String>, rows: impl IntoIterator<Item = Cells>) -> Result<String, String> {
+    csv::written(|table| {
+        table.write_record(header)?;
+        rows.into_iter().try_for_each(|row| table.serialize(row))
+    })
+}
+
+/// The largest number of bytes of both tables.
+pub(super) fn most_bytes(plan: &Plan) -> u64 {
+    let observables = plan.observables().into_iter().filter(|observable| !observable.is_density());
+    let channels: usize = observables.map(|observable| observable.width()).sum();
+    let rows = plan.outputs().min(MOST) * channels;
+    ((rows + 1) * (6 * channels + 10 * tables::NUMBER) + 11 * channels * tables::NUMBER) as u64
+}
+
+/// A line for the terminal on each channel whose oscillation decays or that is steady.
+pub(super) fn summary(plan: &Plan, results: &Results) -> String {
+    let unit = match results.time_name {
+        "t_over_T" => "T",
+        "time_s" => "s",
+        _ => "unit of strain",
+    };
+    let number = |estimate: Estimate, decimals: usize| match estimate.se {
+        Some(se) => format!("{:.decimals$} ± {se:.decimals$}", estimate.value),
+        None => format!("{:.decimals$}", estimate.value),
+    };
+    let mut text = String::new();
+    for (column, derived) in of(plan, results).iter().filter(|(column, _)| tables::is_bounded(&column.name)) {
+        let decays = |rate: &Estimate| rate.value.abs() > 3.0 * rate.se.unwrap_or(0.0) && rate.value.abs() > 1e-3;
+        let rate = derived.damping_rate.filter(decays);
+        let rate = rate.map(|rate| format!("amplitude ∝ exp(−λt), λ = {} per {unit}", number(rate, 3)));
+        let steady = derived.steady.filter(|_| column.se.iter().any(|se| *se > 0.0)).map(|steady| {
+            let from = (steady.from * 1e3).round() / 1e3;
+            format!("steady from {from} on at {}", number(steady.value, 4))
+        });
+        let said: Vec<_> = [rate, steady].into_iter().flatten().collect();
+        if !said.is_empty() {
+            text += &format!("{}: {}\n", column.name, said.join("; "));
+        }
+    }
+    text
+}

@@ -1,0 +1,229 @@
+//! What is derived from a mean against time: its maxima and minima, the amplitude and damping of its oscillation, and
+//! its steady value, each with a standard error by the jackknife over groups of replicas.
+
+#[cfg(test)]
+mod tests;
+
+use shearbed::run::ensemble::{Column, group_sizes};
+use statrs::distribution::{ContinuousCDF, Normal, StudentsT};
+use std::ops::RangeInclusive;
+
+/// A value and its standard error: `None` for a single replica, or if the value is undefined without one of the groups.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Estimate {
+    /// The value of all replicas.
+    pub value: f64,
+    /// Its standard error.
+    pub se: Option<f64>,
+}
+
+/// A maximum or a minimum of a mean.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Extreme {
+    /// True for a maximum.
+    pub is_maximum: bool,
+    /// Its time, in the unit of the outputs' times.
+    pub time: Estimate,
+    /// The mean there.
+    pub value: Estimate,
+    /// For a maximum, its height above the mean of the minima beside it: the ordinate A₁ of Figs 7 to 10 of Lee &
+    /// Springer (1982). Their drawing is not at hand; they give free rods "approximately 1/2", and half of this height
+    /// would not.
+    pub amplitude: Option<Estimate>,
+}
+
+/// The average over the last part of a run, in which the mean does not change.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Steady {
+    /// The time from which on no output differs from the average by more than its error explains.
+    pub from: f64,
+    /// The average over time from there to the end.
+    pub value: Estimate,
+}
+
+/// What is derived from a mean against time.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Derived {
+    /// The maxima and minima in order of time.
+    pub extremes: Vec<Extreme>,
+    /// The rate λ of A ∝ e^(−λt) for the amplitudes A, in 1 over the unit of time: the slope of ln A, weighted by the
+    /// relative errors. `None` for fewer than three maxima between two minima.
+    pub damping_rate: Option<Estimate>,
+    /// `None` if the mean still changes in the last quarter of the run.
+    pub steady: Option<Steady>,
+}
+
+impl Derived {
+    /// What is derived from the mean `column` of `replicas` replicas at `times`, which increase and may have any unit.
+    pub fn new(times: &[f64], column: &Column, replicas: u64) -> Self {
+        let mean = Mean { times, column, replicas };
+        let turns = mean.turns();
+        let extremes: Vec<_> = (0..turns.len()).filter_map(|k| mean.extreme(&turns, k)).collect();
+        let damping_rate = mean.damping_rate(&turns, &extremes);
+        Self { extremes, damping_rate, steady: mean.steady() }
+    }
+}
+
+/// The probability that noise alone makes a mean turn, or be unsteady, anywhere in a run.
+const BY_CHANCE: f64 = 0.01;
+
+/// A turn of a mean: a maximum or a minimum, and the outputs between its neighbours.
+struct Turn {
+    is_maximum: bool,
+    within: RangeInclusive<usize>,
+}
+
+struct Mean<'a> {
+    times: &'a [f64],
+    column: &'a Column,
+    replicas: u64,
+}
+
+impl Mean<'_> {
+    /// The value that `of` has for the mean over all replicas, with its error.
+    fn estimate(&self, of: impl Fn(&[f64]) -> Option<f64>) -> Option<Estimate> {
+        let value = of(&self.column.mean)?;
+        let without: Option<Vec<f64>> = self.column.without.iter().map(|mean| of(mean)).collect();
+        Some(Estimate { value, se: without.and_then(|without| jackknife(value, &without, self.replicas)) })
+    }
+
+    /// The standard error of an output; 0 if it is not known.
+    fn se(&self, output: usize) -> f64 {
+        Some(self.column.se[output]).filter(|se| se.is_finite()).unwrap_or(0.0)
+    }
+
+    /// The probability that the error of one output is larger than allowed, on one side.
+    fn tail(&self) -> f64 {
+        BY_CHANCE / 2.0 / self.times.len() as f64
+    }
+
+    /// Maxima and minima in turn. One counts if the mean moves away from it, before and after, by more than what the
+    /// errors of all outputs together exceed with the probability [`BY_CHANCE`], by Student's t. Nothing is before the
+    /// first output; after the last one the mean might move on.
+    fn turns(&self) -> Vec<Turn> {
+        let mean = &self.column.mean;
+        let first = mean.first().copied().unwrap_or_default();
+        let rounding = mean.iter().fold(0.0, |span: f64, x| span.max((x - first).abs())) * 1e-9;
+        let freedom = self.replicas.saturating_sub(1).clamp(1, 1000) as f64;
+        let errors = StudentsT::new(0.0, 1.0, freedom).map_or(f64::INFINITY, |t| -t.inverse_cdf(self.tail()));
+        let above = |a: usize, b: usize| mean[a] - mean[b] > (errors * (self.se(a) + self.se(b))).max(rounding);
+        let (mut highest, mut lowest) = (0, 0);
+        let mut at: Vec<(usize, bool)> = Vec::new();
+        for output in 1..mean.len() {
+            highest = if mean[output] > mean[highest] { output } else { highest };
+            lowest = if mean[output] < mean[lowest] { output } else { lowest };
+            let last = at.last().map(|(_, is_maximum)| *is_maximum);
+            if last != Some(false) && above(output, lowest) {
+                at.push((lowest, false));
+                highest = output;
+            } else if last != Some(true) && above(highest, output) {
+                at.push((highest, true));
+                lowest = output;
+            }
+        }
+        let turn = |k: usize| {
+            let neighbour = |k: Option<usize>, end| k.and_then(|k| at.get(k)).map_or(end, |(output, _)| *output);
+            let within = match at[k].0 {
+                // A run that begins at an extreme begins there in every replica.
+                0 => 0..=0,
+                _ => neighbour(k.checked_sub(1), 0)..=neighbour(Some(k + 1), mean.len() - 1),
+            };
+            Turn { is_maximum: at[k].1, within }
+        };
+        (0..at.len()).map(turn).collect()
+    }
+
+    /// The time and the value of a turn, by a parabola through the extreme output and the two beside it.
+    fn peak(&self, mean: &[f64], turn: &Turn) -> (f64, f64) {
+        let sign = if turn.is_maximum { 1.0 } else { -1.0 };
+        let top = turn.within.clone().max_by(|a, b| (sign * mean[*a]).total_cmp(&(sign * mean[*b]))).unwrap_or(0);
+        if top == *turn.within.start() || top == *turn.within.end() {
+            return (self.times[top], mean[top]);
+        }
+        let [before, after] = [top - 1, top + 1].map(|k| (self.times[k] - self.times[top], mean[k] - mean[top]));
+        // y = bx + cx² through both.
+        let c = (before.1 / before.0 - after.1 / after.0) / (before.0 - after.0);
+        let b = before.1 / before.0 - c * before.0;
+        let x = if c == 0.0 { 0.0 } else { -b / (2.0 * c) };
+        (self.times[top] + x, mean[top] + x * (b + c * x))
+    }
+
+    /// The height of maximum `k` above the mean of the minima beside it.
+    fn height(&self, mean: &[f64], turns: &[Turn], k: usize) -> Option<f64> {
+        let value = |turn: &Turn| self.peak(mean, turn).1;
+        let beside = [k.checked_sub(1), Some(k + 1)].map(|k| k.and_then(|k| turns.get(k)).map(value));
+        let beside: Vec<f64> = beside.into_iter().flatten().collect();
+        let is_one = turns[k].is_maximum && !beside.is_empty();
+        is_one.then(|| value(&turns[k]) - beside.iter().sum::<f64>() / beside.len() as f64)
+    }
+
+    fn extreme(&self, turns: &[Turn], k: usize) -> Option<Extreme> {
+        Some(Extreme {
+            is_maximum: turns[k].is_maximum,
+            time: self.estimate(|mean| Some(self.peak(mean, &turns[k]).0))?,
+            value: self.estimate(|mean| Some(self.peak(mean, &turns[k]).1))?,
+            amplitude: self.estimate(|mean| self.height(mean, turns, k)),
+        })
+    }
+
+    fn damping_rate(&self, turns: &[Turn], extremes: &[Extreme]) -> Option<Estimate> {
+        // The first and the last may have one minimum, which is not half-way between two.
+        let inner = 1..extremes.len().saturating_sub(1);
+        let maxima: Vec<_> = inner.filter(|k| extremes[*k].amplitude.is_some()).collect();
+        // A relative error of 0, as of one rod, would have all the weight.
+        let weight = |amplitude: Estimate| amplitude.se.map_or(1.0, |se| (amplitude.value / se).powi(2)).min(1e12);
+        let weights: Vec<f64> = maxima.iter().filter_map(|k| extremes[*k].amplitude).map(weight).collect();
+        let times: Vec<f64> = maxima.iter().map(|k| extremes[*k].time.value).collect();
+        if maxima.len() < 3 {
+            return None;
+        }
+        let all: f64 = weights.iter().sum();
+        let average = |x: &[f64]| x.iter().zip(&weights).map(|(x, weight)| x * weight).sum::<f64>() / all;
+        let centre = average(&times);
+        let spread = average(&times.iter().map(|time| (time - centre).powi(2)).collect::<Vec<_>>());
+        let rate = |mean: &[f64]| {
+            let moment = |(k, time): (&usize, &f64)| Some(self.height(mean, turns, *k)?.ln() * (time - centre));
+            let moments: Option<Vec<f64>> = maxima.iter().zip(&times).map(moment).collect();
+            Some(-average(&moments?) / spread).filter(|rate| rate.is_finite())
+        };
+        self.estimate(rate)
+    }
+
+    fn steady(&self) -> Option<Steady> {
+        let last = self.times.len().checked_sub(1)?;
+        // Not Student's t, by which a few replicas would be steady from the start.
+        let errors = -Normal::standard().inverse_cdf(self.tail());
+        // Of 64 beginnings in the first three quarters of the run, the first.
+        let begins = (0..64).map(|k| self.times[0] + 0.75 * f64::from(k) / 64.0 * (self.times[last] - self.times[0]));
+        begins.map(|begin| self.times.partition_point(|time| *time < begin)).find_map(|from| {
+            let average = self.average(&self.column.mean, from);
+            let is_same = |output: usize| {
+                (self.column.mean[output] - average).abs() <= (errors * self.se(output)).max(1e-9 * average.abs())
+            };
+            let value = || self.estimate(|mean| Some(self.average(mean, from)));
+            (from..=last).all(is_same).then(value)?.map(|value| Steady { from: self.times[from], value })
+        })
+    }
+
+    /// The average over time from output `from` to the last one, by the trapezoidal rule.
+    fn average(&self, mean: &[f64], from: usize) -> f64 {
+        let (times, mean) = (&self.times[from..], &mean[from..]);
+        let [Some(first), Some(last)] = [times.first(), times.last()] else { return f64::NAN };
+        let area = |k: usize| (times[k + 1] - times[k]) * (mean[k + 1] + mean[k]) / 2.0;
+        if times.len() < 2 { mean[0] } else { (0..times.len() - 1).map(area).sum::<f64>() / (last - first) }
+    }
+}
+
+/// The standard error of a value from its values without one group of replicas each, for groups of unequal sizes (Busing,
+/// Meijer & van der Leeden, Statistics and Computing 9 (1999) 3, eq. 10). `None` if there are fewer than two groups.
+fn jackknife(value: f64, without: &[f64], replicas: u64) -> Option<f64> {
+    let groups = without.len() as f64;
+    let shares: Vec<f64> = group_sizes(replicas).map(|size| size as f64 / replicas as f64).collect();
+    let rest: f64 = without.iter().zip(&shares).map(|(without, share)| (1.0 - share) * without).sum();
+    let centre = groups * value - rest;
+    let term = |(without, share): (&f64, &f64)| {
+        let pseudo = (value - (1.0 - share) * without) / share;
+        (pseudo - centre).powi(2) * share / (1.0 - share)
+    };
+    (without.len() > 1).then(|| (without.iter().zip(&shares).map(term).sum::<f64>() / groups).sqrt())
+}

@@ -1,0 +1,149 @@
+use super::*;
+use rand::{RngExt, SeedableRng};
+use rand_pcg::Pcg64Dxsm;
+use shearbed_oracle::larger;
+use std::f64::consts::TAU;
+
+/// Times from 0 to 4 at unequal distances.
+fn times() -> Vec<f64> {
+    (0..=800).map(|k| f64::from(k) / 200.0 + 1e-3 * f64::from(k % 3) * f64::from(k.min(1))).collect()
+}
+
+/// The mean of `replicas` curves, its standard errors, and the means without one group each, all by definition.
+fn column(curves: &[Vec<f64>]) -> Column {
+    let average = |curves: &[&Vec<f64>]| -> Vec<f64> {
+        let sum = |k: usize| curves.iter().map(|curve| curve[k]).sum::<f64>();
+        (0..curves[0].len()).map(|k| sum(k) / curves.len() as f64).collect()
+    };
+    let mean = average(&curves.iter().collect::<Vec<_>>());
+    let n = curves.len() as f64;
+    let se = |k: usize| {
+        let squares: f64 = curves.iter().map(|curve| (curve[k] - mean[k]).powi(2)).sum();
+        (squares / (n - 1.0) / n).sqrt()
+    };
+    let others = |group: usize| {
+        let others: Vec<_> = (0..curves.len()).filter(|k| k % 16 != group).map(|k| &curves[k]).collect();
+        average(&others)
+    };
+    let without = if curves.len() > 1 { (0..curves.len().min(16)).map(others).collect() } else { Vec::new() };
+    Column { name: "x1".into(), se: (0..mean.len()).map(se).collect(), mean, without }
+}
+
+/// Replicas of a damped oscillation with the period ½ about 0.3, each with an amplitude, a damping rate, a level and a
+/// phase of its own.
+fn damped(replicas: usize, seed: u64, scatter: f64) -> Vec<Vec<f64>> {
+    let mut random = Pcg64Dxsm::seed_from_u64(seed);
+    let mut normal = move || (0..12).map(|_| random.random::<f64>()).sum::<f64>() - 6.0;
+    let mut curve = || {
+        let [amplitude, rate, level] = [0.2, 0.4, 0.3].map(|mean| mean * (1.0 + scatter * normal()));
+        let phase = 2.0 * scatter * normal();
+        let at = |t: &f64| level + amplitude * (-rate * t).exp() * (2.0 * TAU * t + phase).cos();
+        times().iter().map(at).collect()
+    };
+    (0..replicas).map(|_| curve()).collect()
+}
+
+/// The extremes of 0.3 + 0.2 e^(−0.4t) cos 4πt lie where tan 4πt = −0.4/4π.
+#[test]
+fn a_damped_oscillation_has_its_extremes_amplitudes_and_rate() {
+    let Derived { extremes, damping_rate, steady } = Derived::new(&times(), &column(&damped(1, 1, 0.0)), 1);
+    let late = (0.4 / (2.0 * TAU)).atan() / (2.0 * TAU);
+    assert_eq!(extremes.len(), 17);
+    for (k, extreme) in extremes.iter().enumerate() {
+        assert_eq!((extreme.is_maximum, extreme.amplitude.is_some()), (k % 2 == 0, k % 2 == 0));
+        let time = if k == 0 { 0.0 } else { k as f64 / 4.0 - late };
+        let curve = |t: f64| 0.3 + 0.2 * (-0.4 * t).exp() * (2.0 * TAU * t).cos();
+        // The parabola is off by what is left of the fourth order: (4π·0.006)⁴/24 of the amplitude.
+        assert!((extreme.time.value - time).abs() < 2e-4, "{k} {:?}", extreme.time);
+        assert!((extreme.value.value - curve(time)).abs() < 2e-7, "{k} {:?}", extreme.value);
+        assert_eq!(extreme.value.se, None);
+    }
+    let rate = damping_rate.unwrap();
+    // Parabolas miss 2e-7 of amplitudes from 0.1 on.
+    assert!((rate.value - 0.4).abs() < 1e-5, "{rate:?}");
+    assert_eq!(steady, None);
+}
+
+/// Errors of 600 experiments: values less the truth, over the stated standard errors, have the spread 1; a control with
+/// replicas that are not independent has not.
+#[test]
+fn errors_are_as_large_as_they_are_said_to_be() {
+    // E e^(−λt) and E cos(4πt + φ) for Gaussian λ and φ.
+    let mean = |t: &f64| 0.3 + 0.2 * (-0.4 * t + (0.02 * t).powi(2) / 2.0 - 0.005).exp() * (2.0 * TAU * t).cos();
+    let truth = Derived::new(&times(), &column(&[times().iter().map(mean).collect()]), 1);
+    let spread = |replicas: usize, copies: usize| {
+        let mut squares = [0.0; 4];
+        for seed in 0..600 {
+            let curves = damped(replicas / copies, seed, 0.05);
+            let curves: Vec<_> = curves.iter().cycle().take(replicas).cloned().collect();
+            let found = Derived::new(&times(), &column(&curves), replicas as u64);
+            let pick = |derived: &Derived| {
+                let extreme = derived.extremes[3];
+                let amplitude = derived.extremes[4].amplitude.unwrap();
+                [extreme.time, extreme.value, amplitude, derived.damping_rate.unwrap()]
+            };
+            for (square, (found, truth)) in squares.iter_mut().zip(pick(&found).into_iter().zip(pick(&truth))) {
+                *square += ((found.value - truth.value) / found.se.unwrap()).powi(2) / 600.0;
+            }
+        }
+        squares
+    };
+    // Student's t with 15 degrees of freedom has the variance 15/13; that of 600 is known to 7 %. Groups of unequal
+    // sizes as well.
+    for replicas in [16, 40] {
+        let squares = spread(replicas, 1);
+        for square in squares {
+            assert!((square / (15.0 / 13.0) - 1.0).abs() < 0.3, "{replicas}: {squares:?}");
+        }
+    }
+    assert!(spread(40, 2).iter().all(|square| *square > 1.6));
+}
+
+/// Of a single output the jackknife is the standard error over replicas, if each replica is a group.
+#[test]
+fn the_jackknife_of_a_mean_is_its_standard_error() {
+    for replicas in [2, 5, 16] {
+        let column = column(&damped(replicas, 7, 0.1));
+        let without: Vec<_> = column.without.iter().map(|mean| mean[5]).collect();
+        let se = jackknife(column.mean[5], &without, replicas as u64).unwrap();
+        assert!((se / column.se[5] - 1.0).abs() < 1e-9, "{replicas}: {se} {}", column.se[5]);
+    }
+    assert_eq!(jackknife(1.0, &[], 1), None);
+}
+
+#[test]
+fn noise_neither_turns_nor_is_unsteady() {
+    let mut random = Pcg64Dxsm::seed_from_u64(3);
+    let mut noise = || times().iter().map(|_| 0.3 + 0.1 * (random.random::<f64>() - 0.5)).collect();
+    let curves: Vec<Vec<f64>> = (0..20).map(|_| noise()).collect();
+    let found = Derived::new(&times(), &column(&curves), 20);
+    assert_eq!((found.extremes, found.damping_rate), (vec![], None));
+    let steady = found.steady.unwrap();
+    assert_eq!(steady.from, 0.0);
+    // 800 outputs of 20 replicas.
+    let expected = 0.1 / 12.0_f64.sqrt() / (800.0 * 20.0_f64).sqrt();
+    assert!((steady.value.value - 0.3).abs() < 4.0 * expected, "{steady:?}");
+    assert!((0.6..1.6).contains(&(steady.value.se.unwrap() / expected)), "{steady:?}");
+    // A step at half the time: steady from there on.
+    let stepped = |curve: &Vec<f64>| {
+        let step = |(value, t): (&f64, &f64)| value + if *t < 2.0 { 0.2 } else { 0.0 };
+        curve.iter().zip(&times()).map(step).collect()
+    };
+    let curves: Vec<Vec<f64>> = curves.iter().map(stepped).collect();
+    let steady = Derived::new(&times(), &column(&curves), 20).steady.unwrap();
+    assert!((2.0..2.1).contains(&steady.from), "{steady:?}");
+    let growing = Derived::new(&times(), &column(&[times()]), 1);
+    assert_eq!((growing.extremes.len(), growing.extremes[0].is_maximum, growing.steady), (1, false, None));
+}
+
+/// A mean that grows turns nowhere but at its beginning, and one output has nothing to derive.
+#[test]
+fn lawless_means_have_nothing() {
+    let constant = column(&[vec![0.5; 3], vec![0.5; 3]]);
+    let found = Derived::new(&[0.0, 1.0, 2.0], &constant, 2);
+    assert_eq!(found.extremes, []);
+    let steady = found.steady.unwrap();
+    assert!(larger((steady.value.value - 0.5).abs(), steady.from) == 0.0 && steady.value.se == Some(0.0));
+    let one = Derived::new(&[0.0], &column(&[vec![0.5], vec![0.7]]), 2);
+    assert_eq!((one.extremes.len(), one.steady.map(|steady| steady.from)), (0, Some(0.0)));
+}
