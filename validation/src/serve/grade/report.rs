@@ -150,8 +150,8 @@ pub(super) fn words(graded: &Graded) -> Vec<&str> {
     parts.into_iter().flatten().collect()
 }
 
-/// Findings from several problems, the remarks on each (equal ones once), all missing problems in one line, and the
-/// other remarks.
+/// Findings from several problems, the remarks on each (equal ones once, faults of a running program only where the
+/// other remarks have them), all missing problems in one line, and the other remarks.
 fn lines(report: &Report) -> Vec<String> {
     let mut said: Vec<(Verdict, String, Vec<&str>)> = Vec::new();
     for graded in report.problems.iter().filter(|graded| graded.verdict != Verdict::Missing) {
@@ -161,8 +161,12 @@ fn lines(report: &Report) -> Vec<String> {
             None => said.push((graded.verdict, text, vec![&graded.name])),
         }
     }
+    let is_fault = |text: &str| {
+        let cause = text.strip_prefix("asked for ").and_then(|text| text.split_once(": "));
+        cause.is_some_and(|(_, cause)| report.remarks.iter().any(|remark| remark.contains(cause)))
+    };
     let of = |(verdict, text, names): (Verdict, String, Vec<&str>)| {
-        (!text.is_empty()).then(|| format!("{} {}: {text}", verdict.word(), names.join(", ")))
+        (!text.is_empty() && !is_fault(&text)).then(|| format!("{} {}: {text}", verdict.word(), names.join(", ")))
     };
     let mut lines = report.diagnosis.clone();
     lines.extend(said.into_iter().filter_map(of));

@@ -132,3 +132,16 @@ fn what_several_problems_say_alike_stands_once() {
         "{said:?}"
     );
 }
+
+#[test]
+fn a_fault_of_the_program_has_no_second_line() {
+    let mut report = report();
+    report.problems[1].diagnosis = None;
+    report.problems[1].note = Some("asked for 32 steps: the program ended: exit status: 3".into());
+    let said = |report: &Report| lines(report).iter().filter(|line| line.contains("exit status: 3")).count();
+    assert_eq!(said(&report), 1, "no remark has it");
+    report.remarks.push("b: the program ended: exit status: 3 (2 times)".into());
+    assert_eq!(said(&report), 1);
+    report.remarks[1] = "c: the program ended: exit status: 4".into();
+    assert_eq!(said(&report), 1, "another fault");
+}
