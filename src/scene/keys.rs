@@ -125,7 +125,7 @@ impl std::fmt::Display for Holds {
                 "\"isotropic\" or { phi_deg = a finite number, theta_deg = a number from 0 to 180 }; rods of a file \
                  are given by rods = { file = a text }",
             ),
-            Self::Rods => f.write_str("{ file = a text }, of which crc32 may be given too"),
+            Self::Rods => f.write_str("{ file = a text }, optionally with crc32"),
             Self::OneOf(words) => {
                 let words: Vec<_> = words.iter().map(|word| format!("\"{word}\"")).collect();
                 match words.split_last() {

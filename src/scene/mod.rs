@@ -100,15 +100,15 @@ table! {
             Other("box_mm or particles.volume_fraction"),
             "n, rods per volume";
         box_mm: Option<[f64; 3]> = None, "mm", Holds::Sides, Other("a cube"),
-            "sides of the control volume along the axes (eqs 12, 14): count and box give n; where it is given too, it \
-             agrees to 1e-3";
+            "sides of the control volume along the axes (eqs 12, 14): count and box give n; if given, it must agree \
+             within 0.1 %";
         alpha: f64 = 0.5, "", Holds::NotNegative, Required,
             "α of P_c = (α/(s/a + α))^m (eq. 7); 0: no rods collide";
         m: f64 = 3.0, "", Holds::Positive, Otherwise("3"),
             "m of eq. 7";
         update: Update = Update::Kick, "", Holds::OneOf(&["rotation", "angles", "kick"]), Otherwise("\"kick\""),
             "how a colliding rod takes its step; kick: as a free rod, then the change; rotation: a straight turn; \
-             angles: A.14 to the letter";
+             angles: exactly A.14";
         min_contact_arm: f64 = 0.0, "lengths of its own rod", Holds::NotNegative, Otherwise("0"),
             "a shorter contact arm is no contact";
     }
