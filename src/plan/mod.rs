@@ -107,7 +107,7 @@ impl Plan {
             return None;
         }
         let mut plan = self.clone();
-        let reason = || "kept by request".to_owned();
+        let reason = || "asked for by the caller".to_owned();
         for entry in &mut plan.entries {
             if entry.stage == stage || needs.contains(&entry.stage) {
                 entry.kept = true;

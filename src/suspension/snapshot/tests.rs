@@ -54,7 +54,7 @@ fn rods_that_are_not_the_plan_s_are_refused() {
 #[test]
 fn a_rod_that_meets_none_has_no_place() {
     let alone = plan(Some(Interaction::default()), 1);
-    // Neither plan has positions in its snapshots, even if the stage of positions is kept by request.
+    // Neither plan has positions in its snapshots, even if the stage of positions is asked for by the caller.
     for plan in [&alone, &alone.with_stage(Stage::Positions).unwrap()] {
         let whole = crate::run::run_replica(plan, 0).unwrap().snapshots;
         assert_eq!(whole[0].place_in_lengths, None);

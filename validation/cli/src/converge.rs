@@ -177,7 +177,7 @@ fn interacting(scene: &Scene, replicas: Replicas, warnings: Vec<String>, args: &
     let jobs = law::jobs(scene, replicas);
     memory::check_jobs(&jobs, args.threads.given)?;
     if !args.writing.quiet && cluster::is_root() {
-        complain(&format!("{}; nothing is kept before it ends\n", duration::of_jobs(&jobs)));
+        complain(&format!("{}; nothing is saved before it ends\n", duration::of_jobs(&jobs)));
     }
     let bar = progress(jobs.iter().map(|job| job.replicas).sum(), "replicas", args.writing.quiet);
     let found = cluster::share(jobs.len(), |k| jobs[k].run(&|| bar.inc(1)), |_, _| Ok(()));

@@ -60,7 +60,7 @@ impl Finished {
             Some(match kept.load(Ordering::Relaxed) {
                 0 => format!("no case or study is finished, and {path} has none"),
                 count => format!(
-                    "finished cases and studies are kept in {path} ({count}), and the same command goes on from there"
+                    "finished cases and studies are saved in {path} ({count}), and the same command goes on from there"
                 ),
             })
         });

@@ -24,8 +24,8 @@ pub(super) fn watch() {
         let code = 128 + signal;
         super::terminal::clear();
         let kept = checkpoint::last_words().unwrap_or_else(|| match super::words::command().as_str() {
-            "sweep" => "finished points are kept, and the same command goes on from them".to_owned(),
-            command => format!("`shearbed {command}` keeps nothing before it ends"),
+            "sweep" => "finished points are saved, and the same command goes on from them".to_owned(),
+            command => format!("`shearbed {command}` saves nothing before it ends"),
         });
         let message = format!("stopped by {name}: files that were not complete were not written; {kept}");
         cluster::failed(&message, code as u8);

@@ -91,7 +91,7 @@ enum Command {
     Fit(fit::Args),
     /// Grade any program's answers to the reference problems, from files or while it runs
     Grade(grade::Args),
-    /// List the reference problems for any program, or export them with their certified answers
+    /// List the reference problems for any program, or export them with their answers
     Problems(problems::Args),
     /// List the aspect ratio r_e of the ellipsoid that turns as a cylinder does, by published formulas
     Shape(shape::Args),

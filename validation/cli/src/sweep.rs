@@ -132,7 +132,7 @@ pub(super) fn sweep(args: &Args) -> Result<(), Failure> {
             _ => {
                 folder.write(k, tables)?;
                 ended += 1;
-                let line = format!("kept in {}: {ended} of {total} points are finished", out.shown());
+                let line = format!("saved in {}: {ended} of {total} points are finished", out.shown());
                 log(&line, args.writing.quiet);
                 Ok(())
             }

@@ -1,6 +1,6 @@
 //! Tools for users.
 //!
-//! - [`problems`]: reference problems with certified answers. [`grade`]: grades the answers of other programs, from
+//! - [`problems`]: reference problems with their answers. [`grade`]: grades the answers of other programs, from
 //!   files or live.
 //! - [`fit`]: parameters from measured points. [`sweep`]: a scene over values of its keys.
 //!

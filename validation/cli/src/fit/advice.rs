@@ -82,8 +82,8 @@ pub(super) fn of_warning(warning: &Warning) -> String {
         Warning::Polynomials(..) => ("", ": a narrower --over range makes the interval shorter"),
         Warning::Independent { .. } => (
             "--rods is not given, so ",
-            ". Give --rods N if u is the reading alone, --rods N --u-contains rods if it contains the scatter of N \
-             rods, and --u-contains reading if the points share no rods",
+            ". Give --rods N if u is the reading error alone, --rods N --u-contains rods if it contains the scatter of \
+             N rods, and --u-contains reading if the points share no rods",
         ),
         Warning::ReadingAlone { with_rods, .. } => {
             return format!(

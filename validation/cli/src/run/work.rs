@@ -118,10 +118,10 @@ impl Work<'_> {
     fn saved(&self, replicas: &Replicas, saved: Result<Progress, OutputError>) {
         match saved {
             Ok(progress) => {
-                log(&format!("kept in {}: {progress}", replicas.path().shown()), self.run.args.writing.quiet)
+                log(&format!("saved in {}: {progress}", replicas.path().shown()), self.run.args.writing.quiet)
             }
             Err(error) => {
-                let lost = format!("{error}; the run goes on, and what comes is not kept");
+                let lost = format!("{error}; the run goes on, later work is not saved");
                 scene::warn("--checkpoint", [&lost]);
             }
         }

@@ -31,7 +31,7 @@ fn a_signal_ends_a_run_with_a_message_and_leaves_nothing() {
         let message = ended.stderr;
         assert_eq!(ended.code, Some(code), "{message}");
         assert!(message.starts_with(&format!("error: stopped by {name}:")), "{message}");
-        assert!(message.ends_with("`shearbed run` keeps nothing before it ends\n"), "{message}");
+        assert!(message.ends_with("`shearbed run` saves nothing before it ends\n"), "{message}");
         let names: Vec<_> = fs::read_dir(dir.path()).unwrap().map(|entry| entry.unwrap().file_name()).collect();
         assert_eq!(names.len(), 2, "{names:?}");
     }
@@ -46,7 +46,7 @@ fn a_sweep_that_was_told_to_end_goes_on() {
     for life in 0..2 {
         let mut running = Running::start(command(dir.path(), SWEEP));
         match life {
-            0 => assert_eq!(running.message(), "kept in x: 1 of 2 points are finished\n"),
+            0 => assert_eq!(running.message(), "saved in x: 1 of 2 points are finished\n"),
             _ => assert_eq!(running.line(), "goes on from x: 1 of 2 points are finished\n"),
         }
         running.signal("-TERM");

@@ -301,10 +301,10 @@ impl Replicas {
         let path = self.file.path().shown();
         match self.save(Some(PATIENCE)) {
             Ok((progress, _)) => {
-                format!("{progress}; the run is kept in {path}, and the same command goes on from there")
+                format!("{progress}; the run is saved in {path}, and the same command goes on from there")
             }
             Err(error) => {
-                format!("{error}; the earlier state in {path} is kept, and the same command goes on from there")
+                format!("{error}; the earlier state stays in {path}, and the same command goes on from there")
             }
         }
     }

@@ -69,7 +69,7 @@ impl Saved {
         let has = saved.tally.replicas();
         if all < has {
             return Err(file.refused(&format!(
-                "has the sum of {has} replicas, of which the first {all} cannot be told apart; --replicas {has} or \
+                "has the sum of {has} replicas, of which the first {all} cannot be separated; --replicas {has} or \
                  more goes on from it"
             )));
         }

@@ -116,11 +116,11 @@ impl ResultFolder {
             };
         };
         if found.origin.command != *command {
-            let what = format!("results of `shearbed {}` are kept here", found.origin.command);
+            let what = format!("results of `shearbed {}` are here", found.origin.command);
             return Err(in_the_way(&record, &what));
         }
         if let Some(difference) = found.origin.difference(&self.origin).filter(|_| !self.from_any_input) {
-            let what = format!("results of `shearbed {command}` from other input are kept here: {difference}");
+            let what = format!("results of `shearbed {command}` from other input are here: {difference}");
             return Err(in_the_way(&record, &what));
         }
         names.try_for_each(|(name, path)| {

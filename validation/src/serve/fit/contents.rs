@@ -71,7 +71,7 @@ pub fn warning(
             let as_scene = Rods { over_measured: vec![1.0; counts.len()], ..Rods::none(0) };
             let beside = other(&as_scene).map(|best| {
                 format!(
-                    "; if u is the reading alone, and as many rods as the scene has were measured: about {}",
+                    "; if u is the reading error alone, and as many rods as the scene has were measured: about {}",
                     answer(fit, &best)
                 )
             });

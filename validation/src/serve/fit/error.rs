@@ -222,7 +222,7 @@ pub enum Warning {
     #[error("u is only {0:.2} times the scatter of {1} rods, and cannot contain it")]
     TooSmall(f64, u64),
     /// u over the scatter of this number of rods, which is little of it.
-    #[error("u is {0:.1} times the scatter of {1} rods, so most of it counts as reading")]
+    #[error("u is {0:.1} times the scatter of {1} rods, so most of it counts as reading error")]
     TooLarge(f64, u64),
     /// A concentration, in multiples of the scene's, at which no points can be designed, and why.
     #[error("no points of {0} times the concentration: {1}")]

@@ -64,7 +64,7 @@ fn header(path: &str, length: usize) -> [u8; BLOCK] {
 fn readme() -> String {
     let problems: String = all().iter().map(|def| format!("- `{}`: {}\n", def.name, def.title)).collect();
     format!(
-        "# Reference problems for rigid rods in shear flow\n\n{} problems with certified answers, version {VERSION}, \
+        "# Reference problems for rigid rods in shear flow\n\n{} problems with their answers, version {VERSION}, \
          format {FORMAT}. Any program that moves rigid rods (fibres, ellipsoids) by Jeffery's equation, or after Lee & \
          Springer (1982), can be verified with them.\n\n\
          Each folder has a description to read (`README.md`) and one for programs (`problem.json`), the start \

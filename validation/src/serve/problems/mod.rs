@@ -1,4 +1,4 @@
-//! Reference problems for any program: the question, the start, and the certified answer, as folders of files.
+//! Reference problems for any program: the question, the start, and the answer, as folders of files.
 //!
 //! `all` is the registry. `export` writes one folder per problem: `problem.json` ([`Problem`]), `start.csv` for given
 //! rods, `inputs.csv` for given pairs in contact and rows of a formula, `certified.csv`, `README.md`. `read` reads

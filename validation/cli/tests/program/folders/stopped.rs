@@ -91,7 +91,7 @@ fn a_signal_before_the_checkpoint_is_opened_says_that_it_stays() {
     lock.lock().unwrap();
     for (there, said) in [
         (true, "kept stays as it is, and the same command goes on from there"),
-        (false, "`shearbed run` keeps nothing before it ends"),
+        (false, "`shearbed run` saves nothing before it ends"),
     ] {
         if there {
             dir.write("kept", "");
