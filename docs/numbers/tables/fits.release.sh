@@ -19,7 +19,7 @@ rows() {
       }'
 }
 alpha=interaction.alpha=0.2:3
-rows 200 $alpha
+rows 800 $alpha
 rows 135 $alpha interaction.m=1.2:6
 rows 60 particles.aspect_ratio=10:30
 rows 50 $alpha particles.aspect_ratio_sd_percent=0:20
