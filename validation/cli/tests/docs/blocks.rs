@@ -1,9 +1,9 @@
-//! Shell blocks of the user guide, run in order, each page in an empty folder. A block is marked `sh`; `sh,slow`, which
-//! runs where DOCS_SLOW is set, as in `.ci/run`; or `sh,no-run`, for what needs a network or another machine. A block
-//! `text` right after it is what it prints; `…` stands for anything.
+//! Shell blocks of README and user guide, run in order, each page in an empty folder. A block is marked `sh`;
+//! `sh,slow`, which runs where DOCS_SLOW is set, as in `.ci/run`; or `sh,no-run`, for what needs a network or another
+//! machine. A block `text` right after it is what it prints; `…` stands for anything.
 
 use crate::bounded::{Bounded, bash};
-use crate::pages::{blocks, under};
+use crate::pages::{blocks, readmes, under};
 use std::path::Path;
 
 /// Commands, and what they are said to print.
@@ -102,9 +102,10 @@ fn same(shown: &[&str], found: &[&str]) -> bool {
 }
 
 #[test]
-fn the_shell_blocks_of_the_user_guide_run() {
+fn the_shell_blocks_of_readme_and_user_guide_run() {
     let slow = std::env::var_os("DOCS_SLOW").is_some();
-    let pages = under("docs/src/user");
+    let mut pages = under("docs/src/user");
+    pages.push(readmes().swap_remove(0));
     let mut number = 0;
     for page in &pages {
         number += run(&page.text, slow).unwrap_or_else(|wrong| panic!("{}: {wrong}", page.path));
