@@ -39,11 +39,6 @@ fn run(scene: &Scene) -> Results {
     run_plan(&planned(scene))
 }
 
-/// The larger of two errors; NaN if one of them is NaN.
-fn larger(a: f64, b: f64) -> f64 {
-    if a.is_nan() || b.is_nan() { f64::NAN } else { a.max(b) }
-}
-
 /// Why a text is refused.
 fn refusal(text: &str) -> String {
     match Plan::parse("dir/s.toml", text) {

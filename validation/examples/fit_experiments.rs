@@ -128,9 +128,9 @@ fn main() -> Result<(), String> {
     println!("# p < 0.05 in {}", share(fits.iter().filter(|fit| fit.2 < 0.05).count()));
     let mut p: Vec<f64> = fits.iter().map(|fit| fit.2).collect();
     p.sort_by(f64::total_cmp);
-    let distance = (p.iter().enumerate())
-        .map(|(k, p)| (p - k as f64 / n).max((k as f64 + 1.0) / n - p))
-        .fold(0.0, shearbed_validation::oracle::larger);
+    let distance = shearbed_validation::oracle::worst(
+        (p.iter().enumerate()).map(|(k, p)| (p - k as f64 / n).max((k as f64 + 1.0) / n - p)),
+    );
     // Kolmogorov's law with Stephens' correction for small samples.
     let x = distance * (n.sqrt() + 0.12 + 0.11 / n.sqrt());
     let tail = (1..50).map(|k| 2.0 * (-1f64).powi(k - 1) * (-2.0 * f64::from(k * k) * x * x).exp()).sum::<f64>();

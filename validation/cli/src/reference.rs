@@ -194,7 +194,7 @@ fn peclet(motion: &Motion, asked: &Asked, d_r: f64) -> String {
     let (rate, of) = match asked {
         Asked::Diffusing(rods) if rods.flows.len() > 1 => {
             let rates = rods.flows.iter().map(|(gradient, _)| strain_rate_per_s(*gradient));
-            (rates.fold(0.0, shearbed_validation::oracle::larger), " of the fastest flow")
+            (shearbed_validation::oracle::worst(rates), " of the fastest flow")
         }
         _ => (strain_rate_per_s(motion.gradient_per_s), ""),
     };

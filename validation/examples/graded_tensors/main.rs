@@ -140,7 +140,7 @@ type Rows = Vec<(f64, [f64; 6])>;
 
 fn apart(a: &Rows, b: &Rows) -> f64 {
     let each = a.iter().zip(b).flat_map(|((_, a), (_, b))| a.iter().zip(b).map(|(a, b)| (a - b).abs()));
-    each.fold(0.0, shearbed_validation::oracle::larger)
+    shearbed_validation::oracle::worst(each)
 }
 
 fn values(code: &Code, loaded: &LoadedProblem, strain: f64) -> Rows {

@@ -159,7 +159,7 @@ mod tests {
             let length = q[0].hypot(q[1]).hypot(q[2]);
             let apart = |(phi, theta): (f64, f64)| {
                 let p = [theta.sin() * phi.cos(), theta.sin() * phi.sin(), theta.cos()];
-                (0..3).map(|i| (p[i] - q[i] / length).abs()).fold(0.0, crate::larger)
+                crate::worst((0..3).map(|i| (p[i] - q[i] / length).abs()))
             };
             let (phi, theta) = angles_at(phi0, theta0, r, turns);
             // Conditioning: the round-off of ωt is stretched by r_e or 1/r_e.

@@ -123,11 +123,11 @@ mod tests {
     use super::*;
 
     fn most_apart(a: [f64; 3], b: [f64; 3]) -> f64 {
-        (0..3).map(|i| (a[i] - b[i]).abs()).fold(0.0, crate::larger)
+        crate::worst((0..3).map(|i| (a[i] - b[i]).abs()))
     }
 
     fn largest_ratio_error(a: [f64; 3], b: [f64; 3]) -> f64 {
-        (0..3).map(|i| (a[i] / b[i] - 1.0).abs()).fold(0.0, crate::larger)
+        crate::worst((0..3).map(|i| (a[i] / b[i] - 1.0).abs()))
     }
 
     /// Deviations down to those that no double shows: at the start every mean is 1/2, later that of the mean rod.

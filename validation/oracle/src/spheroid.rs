@@ -67,7 +67,7 @@ mod tests {
 
     /// The largest difference, relative to the larger of 1 and the value.
     fn off(found: [f64; 3], expected: [f64; 3]) -> f64 {
-        (0..3).map(|k| (found[k] - expected[k]).abs() / expected[k].abs().max(1.0)).fold(0.0, crate::larger)
+        crate::worst((0..3).map(|k| (found[k] - expected[k]).abs() / expected[k].abs().max(1.0)))
     }
 
     #[test]

@@ -128,7 +128,7 @@ fn changing_flows(run: &Run, effort: &Effort) -> Vec<Evidence> {
     let seconds: f64 = three.iter().map(|(gradient, strain)| strain / rate_per_s(gradient)).sum();
     vec![
         Evidence::on("reversed shear, extension and a mixed flow: largest angle to the start over the plan's bound")
-            .within(reversals.into_iter().fold(0.0, larger), 1.0)
+            .within(worst(reversals), 1.0)
             .because("what a bound is, with four roundings of a direction to double"),
         Evidence::on("three flows: largest angle in rad to the oracle's direction")
             .within(off.fold(f64::NEG_INFINITY, larger), 1e-12)

@@ -117,7 +117,7 @@ fn orbit_distribution(orbit: &Orbit, effort: &Effort) -> Vec<Evidence> {
     let before = constants(&suspension);
     let failed = (0..137).any(|_| suspension.step().is_err());
     let after = constants(&suspension);
-    let change = before.iter().zip(&after).map(|(a, b)| (a - b).abs()).fold(0.0, larger);
+    let change = crate::oracle::apart(&before, &after);
     let levels = after.iter().map(|&c| closed_form::orbit_constant_cdf(c, r)).collect();
     vec![
         Evidence::new(

@@ -190,7 +190,7 @@ const PROPERTIES: [(&str, Property); 11] = [
         let after = rule(pair)?;
         let off = |k: usize| {
             let lengths = [turn(&pair.p[k], &after[k], 0.1).0, step_angles(&pair.p[k], &after[k], 0.1).0];
-            let stretched = lengths.iter().map(|p| (p.norm() - 1.0).abs()).fold(0.0, larger);
+            let stretched = worst(lengths.iter().map(|p| (p.norm() - 1.0).abs()));
             stretched + after[k].dot(&pair.p[k]).abs()
         };
         Some(larger(off(0), off(1)))

@@ -263,5 +263,5 @@ fn weak(model: Model) -> Result<f64, NoAnswer> {
         let limit = near.second[i] + (near.second[i] - far.second[i]) / 3.0;
         (limit - mean_over_orbits(R, |c| second_moments_of_orbit(c, R)[i])).abs()
     };
-    Ok((0..3).map(off).fold(0.0, larger))
+    Ok(worst((0..3).map(off)))
 }

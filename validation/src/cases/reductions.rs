@@ -65,7 +65,7 @@ pub(super) fn difference(a: &Scene, b: &Scene) -> f64 {
         results.series.iter().flat_map(|series| &series.columns).flat_map(|c| c.mean.clone()).collect()
     };
     let pairs = channels(&a).into_iter().zip(channels(&b));
-    pairs.map(|(a, b)| (a - b).abs()).fold(0.0, larger)
+    worst(pairs.map(|(a, b)| (a - b).abs()))
 }
 
 fn reductions(limits: &Limits, effort: &Effort) -> [Evidence; 6] {
@@ -122,5 +122,5 @@ fn worst_ratio(results: &Results, expected: impl Fn(usize) -> Option<f64>) -> f6
         return f64::NAN;
     };
     let errors = channel.se.iter().enumerate();
-    errors.filter_map(|(output, se)| expected(output).map(|expected| (se / expected - 1.0).abs())).fold(0.0, larger)
+    worst(errors.filter_map(|(output, se)| expected(output).map(|expected| (se / expected - 1.0).abs())))
 }

@@ -180,7 +180,7 @@ fn apart<const K: usize>(a: &[[f64; 3]], b: &[[f64; 3]], signs: [f64; K]) -> f64
     let distance =
         |a: &[f64; 3], b: &[f64; 3], sign: f64| (0..3).map(|k| (a[k] - sign * b[k]).powi(2)).sum::<f64>().sqrt();
     let nearest = |(a, b)| signs.iter().map(|&sign| distance(a, b, sign)).fold(f64::INFINITY, f64::min);
-    a.iter().zip(b).map(nearest).fold(0.0, larger)
+    worst(a.iter().zip(b).map(nearest))
 }
 
 /// The same concentration in a box with `sides` relative to those of the cube.

@@ -191,8 +191,8 @@ fn in_plane(theta_deg: &f64, effort: &Effort) -> Vec<Evidence> {
             [run(Update::Kick, 200, replica), turned(200), turned(800)]
         })
         .collect();
-    let most = runs.iter().flatten().map(|(out_of_plane, _)| *out_of_plane).fold(0.0, larger);
-    let kicked = runs.iter().map(|[kick, ..]| kick.1).fold(0.0, larger);
+    let most = worst(runs.iter().flatten().map(|(out_of_plane, _)| *out_of_plane));
+    let kicked = worst(runs.iter().map(|[kick, ..]| kick.1));
     let fall = runs.iter().map(|[_, coarse, fine]| 0.5 * coarse.1 - fine.1);
     let round_off = "cos 90° is 6·10⁻¹⁷, which kicks ∝ 1/r grow: 60-fold at most in ten times these steps, and x \
                      times that with a probability ∝ 1/x";

@@ -185,7 +185,7 @@ const RATIOS: [f64; 9] = [0.1, 1.1, 1.5, 2.0, 2.5, 3.0, 11.6, 100.0, 1e4];
 
 fn agrees(claimed: &Claimed, _: &Effort) -> Vec<Evidence> {
     let judged = |integrator: Integrator| {
-        let worst = RATIOS.map(|r| {
+        let off = RATIOS.map(|r| {
             let expected = (claimed.theory)(r);
             match bisect(ONE_STEP, |h| holds(&integrator, claimed.property, r, h)) {
                 Limit::At(strain) => (strain / expected - 1.0).abs(),
@@ -194,7 +194,7 @@ fn agrees(claimed: &Claimed, _: &Effort) -> Vec<Evidence> {
             }
         });
         Evidence::on(format!("relative difference of the longest step and theory, {}", integrator.name))
-            .within(worst.into_iter().fold(0.0, larger), claimed.found_late * (PI / 1024.0).powi(2))
+            .within(worst(off), claimed.found_late * (PI / 1024.0).powi(2))
             .because(
                 "δ² times what stretches δ: of 512 rods one is within δ = π/1024 of the extreme one, where what is \
                  judged is flat",

@@ -146,7 +146,7 @@ fn relabelled(directions_too: bool, effort: &Effort) -> f64 {
     }
     let (forth, back) = (first.directions(), second.directions());
     let distances = forth.iter().zip(back.iter().rev()).map(|(a, b)| (a - b).norm());
-    distances.fold(0.0, larger) + if first.counters().collisions > 0 { 0.0 } else { f64::NAN }
+    worst(distances) + if first.counters().collisions > 0 { 0.0 } else { f64::NAN }
 }
 
 fn one_length(given: &OneLength, effort: &Effort) -> Vec<Evidence> {

@@ -53,7 +53,7 @@ fn units(unit: &UnitOf, effort: &Effort) -> Vec<Evidence> {
             let times = unit(scene);
             std::array::from_fn::<_, 2, _>(|i| (times[i] / expected[i] - 1.0).abs())
         });
-        errors.fold(0.0, larger)
+        worst(errors)
     };
     let because = "sums, products and a root, each rounded: eight roundings on both sides";
     let within = |what, scenes| Evidence::on(what).within(worst(scenes), 8.0 * f64::EPSILON).because(because);

@@ -74,7 +74,7 @@ fn check(wrong: &Wrong, effort: &Effort) -> Vec<Evidence> {
             Some((what, by)) if *what == one.what => double(&(first + BITS.of(*by) - second)).abs(),
             _ => double(&(first - second)).abs(),
         };
-        Evidence::on(one.what).within(one.pairs.iter().map(off).fold(0.0, larger), one.most).because(one.because)
+        Evidence::on(one.what).within(worst(one.pairs.iter().map(off)), one.most).because(one.because)
     };
     all.iter().map(evidence).collect()
 }

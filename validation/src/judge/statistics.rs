@@ -1,6 +1,6 @@
 //! Statistics of independent values, for runs, figures, cases and studies.
 
-pub use crate::oracle::larger;
+pub use crate::oracle::{larger, worst};
 use serde::{Deserialize, Serialize};
 use statrs::distribution::{ContinuousCDF, Normal, StudentsT};
 use statrs::statistics::Statistics;
@@ -67,11 +67,6 @@ impl Estimate {
     }
 }
 
-/// The largest error, 0 if there are none; NaN if one of them is NaN.
-pub fn worst(errors: impl IntoIterator<Item = f64>) -> f64 {
-    errors.into_iter().fold(0.0, larger)
-}
-
 /// Every pair of an item of one list and an item of the other.
 pub fn pairs<A: Clone, B: Clone>(
     first: impl IntoIterator<Item = A>,
@@ -129,14 +124,6 @@ pub fn freedom(samples: u64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn an_error_that_is_no_number_stays() {
-        assert_eq!(worst([0.1, 0.3, 0.2]), 0.3);
-        for errors in [[f64::NAN, 1.0, 2.0], [1.0, f64::NAN, 2.0], [1.0, 2.0, f64::NAN]] {
-            assert!(worst(errors).is_nan());
-        }
-    }
 
     #[test]
     fn pairs_are_all_pairs() {

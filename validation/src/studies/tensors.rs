@@ -155,7 +155,7 @@ fn equation(gradient: [[f64; 3]; 3], closure: Closure, c_i: f64) -> Equation {
 }
 
 fn apart(a: &Matrix3<f64>, exact: &Means) -> f64 {
-    PAIRS.iter().zip(exact.second).map(|(place, x)| (a[*place] - x).abs()).fold(0.0, crate::oracle::larger)
+    crate::oracle::worst(PAIRS.iter().zip(exact.second).map(|(place, x)| (a[*place] - x).abs()))
 }
 
 /// The errors of closures at each flow and C_I; closures that do not settle are left out.
@@ -191,7 +191,7 @@ pub fn work(effort: &Effort) -> Result<Vec<Work>, String> {
     let motion = Motion::new(gradient, 1e100, c_i);
     let solved = timed(|| diffusion::at(&motion, Start::Isotropic, &TIMES).ok());
     let (seconds, exact) = solved.ok_or("the exact distribution was not found")?;
-    let error = exact.iter().map(|means| means.error).fold(0.0, crate::oracle::larger);
+    let error = crate::oracle::worst(exact.iter().map(|means| means.error));
     let mut rows = vec![Work { method: "exact", tolerance: 4e-12, seconds, error }];
     for closure in Closure::ALL {
         for tolerance in [1e-2, 1e-4, 1e-6, 1e-8] {
@@ -200,13 +200,13 @@ pub fn work(effort: &Effort) -> Result<Vec<Work>, String> {
             else {
                 continue;
             };
-            let error = tensors.iter().zip(&exact).map(|(a, exact)| apart(a, exact)).fold(0.0, crate::oracle::larger);
+            let error = crate::oracle::worst(tensors.iter().zip(&exact).map(|(a, exact)| apart(a, exact)));
             rows.push(Work { method: closure.name(), tolerance, seconds, error });
         }
     }
     for rods in [100, 1000, 10_000, 100_000].into_iter().take(effort.pick(3, 4)) {
         let (seconds, tensors) = timed(|| random(rods, &TIMES)).ok_or("random rods did not run")?;
-        let error = tensors.iter().zip(&exact).map(|(a, exact)| apart(a, exact)).fold(0.0, crate::oracle::larger);
+        let error = crate::oracle::worst(tensors.iter().zip(&exact).map(|(a, exact)| apart(a, exact)));
         rows.push(Work { method: RANDOM, tolerance: (rods as f64).sqrt().recip(), seconds, error });
     }
     Ok(rows)

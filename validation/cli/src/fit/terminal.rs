@@ -49,8 +49,7 @@ pub(super) fn table(fit: &Fit, report: &Report) -> String {
     }
     text += &format!("runs: {}, replicas at each value: {}\n", report.runs, report.replicas);
     let of_uncertainty = |(range, seed): (&Range, &f64)| seed / report.parameters[&range.label()].standard_uncertainty;
-    let most =
-        fit.ranges.iter().zip(&report.another_seed).map(of_uncertainty).fold(0.0, shearbed_validation::oracle::larger);
+    let most = shearbed_validation::oracle::worst(fit.ranges.iter().zip(&report.another_seed).map(of_uncertainty));
     if most > LITTLE {
         let seeds = (most / LITTLE).powi(2).ceil();
         text += &format!("the seed matters: a mean over {seeds} seeds moves by a fifth of the uncertainty\n");

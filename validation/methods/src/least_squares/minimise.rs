@@ -60,7 +60,7 @@ pub fn descend(surface: &ChiSquare, fixed: &[Option<f64>], start: Vec<f64>) -> (
         for (k, step) in moving.iter().zip(step.iter()) {
             next[free[*k]] = (next[free[*k]] - step).clamp(-1.0, 1.0);
         }
-        let moved = next.iter().zip(&place).map(|(a, b)| (a - b).abs()).fold(0.0, shearbed_oracle::larger);
+        let moved = shearbed_oracle::apart(&next, &place);
         let found = surface.at(&next);
         if found < value {
             (place, value) = (next, found);

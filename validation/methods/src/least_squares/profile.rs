@@ -132,7 +132,7 @@ impl Profile {
             let own = 0.5 * (rise + (rise * (rise + 4.0 * noise)).sqrt());
             noise / (own + noise)
         };
-        next.into_iter().flatten().map(share).fold(0.0, shearbed_oracle::larger)
+        shearbed_oracle::worst(next.into_iter().flatten().map(share))
     }
 }
 

@@ -37,7 +37,7 @@ fn asymmetry(fourth: &Fourth) -> f64 {
         let first = fourth.at(i, j, k, l);
         [fourth.at(i, k, j, l), fourth.at(i, l, j, k), fourth.at(k, l, i, j)].map(|x| (x - first).abs())
     });
-    off.fold(0.0, shearbed_oracle::larger)
+    shearbed_oracle::worst(off)
 }
 
 #[test]
@@ -65,7 +65,7 @@ fn apart(fourth: &Fourth, of: impl Fn([usize; 4]) -> f64) -> f64 {
         let q = q.map(|i| i - 1);
         (fourth.at(q[0], q[1], q[2], q[3]) - of(q)).abs()
     });
-    off.fold(0.0, shearbed_oracle::larger)
+    shearbed_oracle::worst(off)
 }
 
 /// Random: a_ijkl = (δδ + δδ + δδ)/15. Aligned: p_i p_j p_k p_l. Random in a plane: the same with 1/8 and δ of the
@@ -309,7 +309,7 @@ fn every_mistake_is_one_and_right_closures_come_first() {
                 mistake.of(&right).map_or(0.0, |spoilt| (rate(&spoilt) - rate(&right)).amax())
             })
         });
-        assert!(off.fold(0.0, shearbed_oracle::larger) > 1e-4, "{}", mistake.name);
+        assert!(shearbed_oracle::worst(off) > 1e-4, "{}", mistake.name);
     }
     for (closure, stand) in Closure::ALL.iter().zip(&wrong::CLOSURES) {
         assert_eq!(stand.name, format!("the {} closure", closure.name()));

@@ -45,7 +45,7 @@ impl Means {
 
     /// The largest difference.
     pub fn apart(&self, other: &Self) -> f64 {
-        self.all().zip(other.all()).map(|(a, b)| (a - b).abs()).fold(0.0, crate::larger)
+        crate::worst(self.all().zip(other.all()).map(|(a, b)| (a - b).abs()))
     }
 
     fn all(&self) -> impl Iterator<Item = f64> {

@@ -226,9 +226,5 @@ pub fn steady(motion: &Motion) -> Result<Means, NoAnswer> {
 
 /// The largest difference of two solutions.
 fn differ(a: &[Vec<f64>], b: &[Vec<f64>]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| apart(a, b)).fold(0.0, crate::larger)
-}
-
-fn apart(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, crate::larger)
+    crate::worst(a.iter().zip(b).map(|(a, b)| crate::apart(a, b)))
 }

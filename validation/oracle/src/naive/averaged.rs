@@ -43,7 +43,7 @@ mod tests {
 
     fn apart(a: &Naive, b: &Naive) -> f64 {
         let rods = a.orientations.iter().zip(&b.orientations);
-        rods.map(|(a, b)| (vector(*a) - vector(*b)).norm()).fold(0.0, crate::larger)
+        crate::worst(rods.map(|(a, b)| (vector(*a) - vector(*b)).norm()))
     }
 
     /// Two rods, always each other's nearest, over one short step: the mean over the draws lies between the free step

@@ -90,7 +90,7 @@ fn come_in(
     let corners = [[0.0, 0.0], [0.0, 1.0], [1.0, 0.0], [1.0, 1.0]];
     let most = |face| {
         let of_corner = |corner| inflow(face, gradient, place(face, corner, edges_mm));
-        corners.into_iter().map(of_corner).fold(0.0, crate::larger)
+        crate::worst(corners.into_iter().map(of_corner))
     };
     let weight = |face: Face| {
         let area: f64 = (0..3).filter(|k| *k != face.0).map(|k| edges_mm[k]).product();

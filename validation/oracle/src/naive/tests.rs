@@ -16,7 +16,7 @@ fn fibres(count: usize, alpha: f64, change: impl FnOnce(&mut NaiveProblem)) -> N
 
 fn far(a: &[[f64; 3]], b: &[[f64; 3]]) -> f64 {
     let each = a.iter().zip(b).map(|(a, b)| (vector(*a) - vector(*b)).amax());
-    each.fold(0.0, crate::larger)
+    crate::worst(each)
 }
 
 #[test]

@@ -310,7 +310,7 @@ mod tests {
             let slope = ratio / ((ratio * phi.cos()).powi(2) + phi.sin().powi(2));
             slope * ratio / (cosine * cosine + (ratio * sine).powi(2)) / std::f64::consts::TAU
         };
-        let off = |found: &[f64]| found.iter().zip(&phi).map(|(x, phi)| (x - due(*phi)).abs()).fold(0.0, crate::larger);
+        let off = |found: &[f64]| crate::worst(found.iter().zip(&phi).map(|(x, phi)| (x - due(*phi)).abs()));
         assert!(off(&found(1e-5, strain)) < 1e-3, "{}", off(&found(1e-5, strain)));
         assert!(off(&found(1e-5, 1.1 * strain)) > 1e-2 && off(&found(1e-2, strain)) > 1e-2);
         let all = found(0.1, strain).iter().sum::<f64>() * std::f64::consts::PI / 18.0;

@@ -193,7 +193,7 @@ mod tests {
 
     fn apart(a: &Matrix, b: &Matrix) -> f64 {
         let differences = (0..9).map(|k| (k / 3, k % 3)).map(|(i, j)| double(&(&a[i][j] - &b[i][j])).abs());
-        differences.fold(0.0, crate::larger)
+        crate::worst(differences)
     }
 
     #[test]

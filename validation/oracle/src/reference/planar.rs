@@ -150,7 +150,7 @@ mod tests {
             let off = |map: &[[f64; 3]; 3], fourth| {
                 let found = Means::of(&super::super::motion::matrix(|i, j| bits.of(map[i][j])), bits).values(fourth);
                 let each = found.iter().zip(summed(&doubles, fourth)).map(|(a, b)| (double(a) - b).abs());
-                each.fold(0.0, crate::larger)
+                crate::worst(each)
             };
             // |p_i| has kinks, where the rule's error is of the order of its squared step, 2e-6.
             assert!(off(&doubles, true) < 1e-13, "{:e}", off(&doubles, true));

@@ -192,7 +192,7 @@ mod tests {
     #[test]
     fn means_of_unequal_rods_are_the_known_ones() {
         let apart = |found: [Big; 3], known: [f64; 3]| {
-            found.iter().zip(known).map(|(a, b)| (double(a) - b).abs()).fold(0.0, crate::larger)
+            crate::worst(found.iter().zip(known).map(|(a, b)| (double(a) - b).abs()))
         };
         assert!(apart(unequal(0.5, 11.6, 3.6, 0.0, 12), [0.5; 3]) < 1e-15);
         let time_s = std::f64::consts::TAU * (3.0 + 1.0 / 3.0) / 0.5 / 3.0;

@@ -231,7 +231,7 @@ impl Matrices {
 /// The nearest doubles of entries of one kind, which are good to 78 bits of the largest of them; an entry that is 0 is
 /// exactly so.
 fn nearest<const N: usize>(entries: [Big; N]) -> Option<[f64; N]> {
-    let largest = entries.iter().map(double).map(f64::abs).fold(0.0, crate::larger);
+    let largest = crate::worst(entries.iter().map(double).map(f64::abs));
     let bound = Bits(64).of(largest) >> 78;
     let mut found = [0.0; N];
     for (found, entry) in found.iter_mut().zip(&entries).filter(|(_, entry)| **entry != Big::ZERO) {

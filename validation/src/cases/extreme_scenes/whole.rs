@@ -35,7 +35,7 @@ pub(super) fn whole_run(scene: &Scene) -> Ended {
     }
     let trace = |output: usize| (["a11", "a22", "a33"].map(|name| mean(name, output)).iter().sum::<f64>() - 1.0).abs();
     let last = results.times.len() - 1;
-    Ended { trace: (0..=last).map(trace).fold(0.0, larger), finite, last_x1: mean("x1", last) }
+    Ended { trace: worst((0..=last).map(trace)), finite, last_x1: mean("x1", last) }
 }
 
 /// One rod at the end of a scene by a plain q = exp(At) p: without shifting growth away or removing whole periods.

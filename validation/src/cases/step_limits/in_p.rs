@@ -22,14 +22,14 @@ pub(super) fn at_least(integrators: &Integrators, _: &Effort) -> Vec<Evidence> {
                        long, which is no excuse; the bisection ends at 10⁻⁷";
         evidence.push(
             Evidence::on(format!("{quantity}, {}", integrator.name))
-                .within(RATIOS.iter().zip(longest).map(above).fold(0.0, larger), 1e-6)
+                .within(worst(RATIOS.iter().zip(longest).map(above)), 1e-6)
                 .because(because),
         );
         if order == 4 {
             let off = classical.iter().zip(longest).map(|(first, longest)| (longest / first - 1.0).abs());
             evidence.push(
                 Evidence::on(format!("relative difference to the first of order 4, {}", integrator.name))
-                    .within(off.fold(0.0, larger), 1e-6)
+                    .within(worst(off), 1e-6)
                     .because("the bisection ends at 10⁻⁷"),
             );
             if classical.is_empty() {

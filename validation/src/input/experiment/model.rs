@@ -45,7 +45,7 @@ pub(super) fn run(scene: &Scene, places: &[MeasuredAt], replicas: u64, finer: u6
     let per_period = scene.steps_per_unit();
     // Gauss–Hermite's outer nodes, ±√3 standard deviations.
     let nodes = |place: &MeasuredAt| [-1.0, 1.0].map(|side| place.turns + side * 3.0_f64.sqrt() * place.u_turns);
-    let last = places.iter().map(|place| nodes(place)[1]).fold(0.0, crate::oracle::larger);
+    let last = crate::oracle::worst(places.iter().map(|place| nodes(place)[1]));
     // One output more than the last place needs, for the cubic.
     scene.time.duration = ((last * per_period as f64).ceil() + 1.0) / per_period as f64;
     scene.time.outputs_per_unit = Some(per_period);

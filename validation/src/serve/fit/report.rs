@@ -247,7 +247,7 @@ const BESIDE_ANOTHER: &str = "beside a second key its 68 % interval held the tru
 /// without a word.
 fn another_minimum(rise: &[f64]) -> Option<usize> {
     let best = rise.iter().position(|rise| *rise == 0.0)?;
-    let ridge = |k: usize| rise[k.min(best)..=k.max(best)].iter().copied().fold(0.0, crate::oracle::larger);
+    let ridge = |k: usize| crate::oracle::worst(rise[k.min(best)..=k.max(best)].iter().copied());
     let apart = (0..rise.len()).filter(|k| rise[*k] <= rise_of(0.95) && ridge(*k) > rise[*k] + 0.1);
     apart.min_by(|a, b| rise[*a].total_cmp(&rise[*b]))
 }

@@ -225,7 +225,7 @@ impl Scenes {
             .per_unit(&own)
             .ok_or_else(|| refused("has no period: times as t_s or strain are allowed, not t_over_T"))?;
         let here = data.iter().filter(|datum| datum.set == set);
-        let last = here.map(|datum| (datum.time + OUTER * datum.u_time) / per_unit).fold(0.0, crate::oracle::larger);
+        let last = crate::oracle::worst(here.map(|datum| (datum.time + OUTER * datum.u_time) / per_unit));
         // One output more than the last point needs, for the cubic interpolation.
         let kinked = scene.interaction.is_none() && scene.particles.common_start_deg().is_some();
         let by_period = scene.time.unit == shearbed::scene::TimeUnit::Period;

@@ -39,7 +39,7 @@ pub fn compare(loaded: &LoadedProblem, answer: &Answer) -> Compared {
             let [found, due] = [&answer.rows[row][..], certified(row)].map(Vector3::from_row_slice);
             apart(&found, &due, false)
         }
-        Metric::Absolute => worst(answer.rows[row].iter().zip(certified(row)).map(|(a, b)| (a - b).abs())),
+        Metric::Absolute => crate::oracle::apart(&answer.rows[row], certified(row)),
         Metric::Relative => relative(names, &answer.rows[row], certified(row)),
         Metric::StandardErrors => standard_errors(names, &answer.rows[row], certified(row)),
     };

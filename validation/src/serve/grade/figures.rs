@@ -82,7 +82,7 @@ fn own_errors(integrator: &Integrator, loaded: &LoadedProblem, rate: f64, counts
             Some(errors.orientation_rad)
         };
         let errors: Option<Vec<_>> = loaded.start.iter().map(of_rod).collect();
-        Some((steps, errors?.into_iter().fold(0.0, crate::oracle::larger)))
+        Some((steps, crate::oracle::worst(errors?)))
     };
     let few = counts.iter().copied().filter(|steps| *steps <= MOST_STEPS);
     few.filter_map(error).collect()

@@ -171,9 +171,8 @@ mod tests {
             let off = |equation: Equation| {
                 // A failed solution counts as different.
                 let found = at(&equation, &problem.closed.start(), &times_s, 1e-11);
-                let apart = |all: Vec<Matrix3<f64>>| {
-                    all.iter().zip(&right).map(|(a, b)| (a - b).amax()).fold(0.0, crate::oracle::larger)
-                };
+                let apart =
+                    |all: Vec<Matrix3<f64>>| crate::oracle::worst(all.iter().zip(&right).map(|(a, b)| (a - b).amax()));
                 found.map_or(f64::INFINITY, apart)
             };
             for closure in Closure::ALL.into_iter().filter(|closure| *closure != problem.closed.closure) {

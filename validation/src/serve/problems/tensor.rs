@@ -136,7 +136,7 @@ mod tests {
                 |sd_percent| mean_projections_polydisperse(r, sd_percent, time / super::super::asked::period_s(r));
             let off = |expected: [f64; 3]| {
                 let found = row[1..].iter().map(|x| x.parse::<f64>().unwrap());
-                found.zip(expected).map(|(a, b)| (a - b).abs()).fold(0.0, crate::oracle::larger)
+                crate::oracle::worst(found.zip(expected).map(|(a, b)| (a - b).abs()))
             };
             // The claimed accuracy of the quadrature in doubles.
             assert!(off(by_doubles(sd_percent)) < 2e-12, "{time}");

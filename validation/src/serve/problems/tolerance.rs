@@ -62,7 +62,7 @@ pub fn general(motion: &Motion, start: &[[f64; 3]], end_s: f64) -> f64 {
         });
         sum.sum::<f64>() * strain
     };
-    rounded_up(start.iter().map(lost).fold(0.0, crate::oracle::larger))
+    rounded_up(crate::oracle::worst(start.iter().map(lost)))
 }
 
 /// The reason for the tolerance of `general`.

@@ -41,7 +41,7 @@ pub(crate) fn measure<T>(budget: Budget, run: impl Fn() -> T) -> Seconds {
     let times: Vec<_> = (0..runs.max(1)).map(|_| clock(repeats, &run)).collect();
     Seconds {
         least: times.iter().copied().fold(f64::INFINITY, f64::min),
-        most: times.iter().copied().fold(0.0, crate::oracle::larger),
+        most: crate::oracle::worst(times.iter().copied()),
         measurements: times.len(),
     }
 }

@@ -31,7 +31,7 @@ fn both_methods_agree_through_flows() {
         let end: f64 = flows.iter().map(|(.., duration_s)| duration_s).sum();
         let error = |flows: &[_]| {
             let found = through(&steps(flows), Start::Isotropic, &[end]).unwrap()[0];
-            off(&grid.second, &found.second).max(off(&grid.fourth, &found.fourth))
+            apart(&grid.second, &found.second).max(apart(&grid.fourth, &found.fourth))
         };
         assert!(error(&flows) < 5e-12, "{flows:?}: {:e}", error(&flows));
         for at in 0..flows.len() {
@@ -77,8 +77,8 @@ fn the_density_has_the_means() {
         assert!(here.iter().zip(opposite).all(|(a, b)| (a - b).abs() < 1e-12));
         let moment = |i: usize, j: usize| rule.iter().zip(here).map(|((p, w), x)| w * x * p[i] * p[j]).sum::<f64>();
         let second = PAIRS.map(|(i, j)| moment(i, j));
-        assert!(off(&second, &means.second) < 1e-11, "{second:?} {:?}", means.second);
-        assert!(off(&[1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0, 0.0, 0.0, 0.0], &means.second) > 0.01);
+        assert!(apart(&second, &means.second) < 1e-11, "{second:?} {:?}", means.second);
+        assert!(apart(&[1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0, 0.0, 0.0, 0.0], &means.second) > 0.01);
     }
     assert!(densities(&flows, Start::Plane([0.0, 0.0, 1.0]), &[0.0], &directions).is_err());
 }

@@ -23,8 +23,8 @@ fn apart(gradient: [[f64; 3]; 3], r: f64, c_i: f64, rings: usize, time: f64) -> 
     move |motion| {
         let found =
             if time.is_finite() { at(motion, Start::Isotropic, &[time]).unwrap()[0] } else { steady(motion).unwrap() };
-        off(&grid.second, &found.second)
-            .max(off(&grid.fourth, &found.fourth))
+        crate::apart(&grid.second, &found.second)
+            .max(crate::apart(&grid.fourth, &found.fourth))
             .max((grid.third_projection - found.projections[2]).abs())
     }
 }
@@ -62,7 +62,7 @@ fn both_methods_agree_from_a_plane() {
         let grid = angle_grid::planar_moments(gradient, shape_of(r), d_r, rings, time);
         let error = |motion: &Motion| {
             let found = at(motion, Start::Plane([0.0, 0.0, 1.0]), &[time]).unwrap()[0];
-            off(&grid.0, &found.second).max(off(&grid.1, &found.fourth))
+            crate::apart(&grid.0, &found.second).max(crate::apart(&grid.1, &found.fourth))
         };
         judge((gradient, r), Motion::diffusing(gradient, r, d_r), error, CLAIMED, 1e-5);
     }

@@ -16,7 +16,7 @@ fn diffusion_alone_has_the_known_decay() {
     let error = |motion: &Motion| {
         let [first, last] = at(motion, Start::Density(&start), &[0.0, 0.8]).unwrap()[..] else { panic!() };
         let due = at_rest(&matrix(first.second), |q| entry(&first.fourth, q), 0.3 * 0.8);
-        off(&last.second, &due.0).max(off(&last.fourth, &due.1))
+        apart(&last.second, &due.0).max(apart(&last.fourth, &due.1))
     };
     assert!(error(&still) < 1e-13, "{:e}", error(&still));
     // Not taken as steady while a difference of more than the rounding is left: 6D_r t = 21 and 42.
@@ -38,11 +38,11 @@ fn without_diffusion_rods_are_free() {
             let found = at(motion, Start::Isotropic, &times).unwrap();
             let each = times.iter().zip(&found).map(|(time, found)| {
                 let exact = Covariance::at(&free, &Bits(64).of(*time), Unit::Second).unwrap();
-                off(&found.second, &exact.second().each_ref().map(double))
-                    .max(off(&found.fourth, &exact.fourth().each_ref().map(double)))
-                    .max(off(&found.projections, &exact.projections().each_ref().map(double)))
+                apart(&found.second, &exact.second().each_ref().map(double))
+                    .max(apart(&found.fourth, &exact.fourth().each_ref().map(double)))
+                    .max(apart(&found.projections, &exact.projections().each_ref().map(double)))
             });
-            each.fold(0.0, crate::larger)
+            crate::worst(each)
         };
         let motion = Motion::new(gradient, aspect_ratio, 0.0);
         assert!(error(&Motion { diffusivity: 1e-9, ..motion }) > 1e-11);
@@ -55,8 +55,8 @@ fn late_times_are_the_steady_ones() {
     let motion = Motion::new(COUETTE, 4.0, 0.3);
     let last = at(&motion, Start::Isotropic, &[10.0, 40.0]).unwrap();
     let settled = steady(&motion).unwrap();
-    assert!(off(&last[0].fourth, &settled.fourth) < 1e-7 && off(&last[0].fourth, &settled.fourth) > 1e-10);
-    assert!(off(&last[1].fourth, &settled.fourth) < 1e-13);
+    assert!(apart(&last[0].fourth, &settled.fourth) < 1e-7 && apart(&last[0].fourth, &settled.fourth) > 1e-10);
+    assert!(apart(&last[1].fourth, &settled.fourth) < 1e-13);
 }
 
 /// The density of Bingham has the tensor that it is made for, and in extension with K = ΛD/2D_r it stays.
@@ -66,8 +66,8 @@ fn a_start_of_bingham_has_its_tensor() {
         let start = Start::Bingham(bingham(a).unwrap());
         let motion = Motion::new(ASKEW, 3.0, 0.1);
         let found = at(&motion, start, &[0.0, 0.5]).unwrap();
-        assert!(off(&found[0].second, &a) < 1e-13, "{a:?}: {:?}", found[0].second);
-        assert!(off(&found[1].second, &a) > 1e-2);
+        assert!(apart(&found[0].second, &a) < 1e-13, "{a:?}: {:?}", found[0].second);
+        assert!(apart(&found[1].second, &a) > 1e-2);
     }
     let l = [[-0.3, 0.0, 0.0], [0.0, 0.4, 0.0], [0.0, 0.0, -0.1]];
     let motion = Motion::diffusing(l, 3.0, 0.1);

@@ -96,7 +96,7 @@ fn turned(means: &Means, axes: &Matrix3<f64>) -> (Matrix3<f64>, [f64; 15]) {
 }
 
 fn apart(a: &(Matrix3<f64>, [f64; 15]), b: &(Matrix3<f64>, [f64; 15])) -> f64 {
-    (a.0 - b.0).amax().max(off(&a.1, &b.1))
+    (a.0 - b.0).amax().max(crate::apart(&a.1, &b.1))
 }
 
 fn plain(means: &Means) -> (Matrix3<f64>, [f64; 15]) {

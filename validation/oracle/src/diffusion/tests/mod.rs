@@ -12,6 +12,7 @@ mod sharp;
 mod steady;
 
 use super::{Means, Motion, Start, at, steady};
+use crate::apart;
 use crate::reference::isotropic::{PAIRS, QUADRUPLES};
 use nalgebra::Matrix3;
 use std::fmt::Debug;
@@ -62,8 +63,4 @@ fn rate(motion: &Motion, means: &Means) -> Matrix3<f64> {
     let (a, w, d) = (matrix(means.second), motion.spin.cross_matrix(), motion.strain);
     w * a - a * w + d * a + a * d - 2.0 * contracted(means.fourth, &d)
         + 2.0 * motion.diffusivity * (Matrix3::identity() - 3.0 * a)
-}
-
-fn off<const N: usize>(a: &[f64; N], b: &[f64; N]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, crate::larger)
 }

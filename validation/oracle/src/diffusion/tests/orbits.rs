@@ -33,8 +33,8 @@ fn moments_of_an_orbit_are_those_of_its_phases() {
         }
         assert!((shear_stress_of_orbit(c, r) - sheared).abs() < 1e-14);
         assert!((shear_stress_of_orbit(1.1 * c, r) - sheared).abs() > 1e-3);
-        assert!(off(&second_moments_of_orbit(c, r), &sums) < 1e-14);
-        assert!(off(&second_moments_of_orbit(1.1 * c, r), &sums) > 1e-3);
+        assert!(apart(&second_moments_of_orbit(c, r), &sums) < 1e-14);
+        assert!(apart(&second_moments_of_orbit(1.1 * c, r), &sums) > 1e-3);
     }
 }
 
@@ -49,15 +49,15 @@ fn weak_diffusion_is_the_limit_of_the_fokker_planck_equation() {
         };
         let expected = [0, 1, 2].map(|i| mean_over_orbits(r, |c| second_moments_of_orbit(c, r)[i]));
         let (near, far) = (of(2.5e-4), of(5e-4));
-        let limit = std::array::from_fn(|i| near[i] + (near[i] - far[i]) / 3.0);
-        let (first, second) = (off(&near, &expected), off(&limit, &expected));
+        let limit: [f64; 3] = std::array::from_fn(|i| near[i] + (near[i] - far[i]) / 3.0);
+        let (first, second) = (apart(&near, &expected), apart(&limit, &expected));
         assert!(second < 1e-7 && first > 10.0 * second, "{r}: {first:e} {second:e}");
         // Wrong orbits: those of isotropic rods, which free rods keep, and those of another r.
         let density = |c| crate::closed_form::orbit_constant_density(c, r);
         let free = [0, 1, 2].map(|i| over_orbits(r, 1.0, 1e-12, |c| density(c) * second_moments_of_orbit(c, r)[i]));
-        assert!(off(&free, &limit) > 1e-4, "{r}: {:e}", off(&free, &limit));
+        assert!(apart(&free, &limit) > 1e-4, "{r}: {:e}", apart(&free, &limit));
         let wrong = [0, 1, 2].map(|i| mean_over_orbits(1.2 * r, |c| second_moments_of_orbit(c, r)[i]));
-        assert!(off(&wrong, &limit) > 1e-3);
+        assert!(apart(&wrong, &limit) > 1e-3);
     }
 }
 

@@ -16,7 +16,7 @@ fn both_methods_agree_in_a_flow_that_oscillates() {
         let error = |motion: &Motion, period_s: f64| {
             let found = oscillating(motion, [period_s, 0.0], Start::Isotropic, &[0.7, 2.0]).unwrap()[1];
             assert!(found.error < 2e-11);
-            off(&grid.second, &found.second).max(off(&grid.fourth, &found.fourth))
+            apart(&grid.second, &found.second).max(apart(&grid.fourth, &found.fourth))
         };
         judge(flow, Motion::diffusing(flow, 3.0, 0.3), |motion| error(motion, 3.0), 5e-12, 1e-5);
         assert!(error(&Motion::diffusing(flow, 3.0, 0.3), 3.03) > 1e-5);
@@ -36,7 +36,7 @@ fn weak_and_slow_oscillations_have_their_limits() {
             let late = (-6.0 * d_r * t).exp() * (6.0 * d_r * due_phase.cos() + omega * due_phase.sin());
             0.8 * rate / 5.0 * (6.0 * d_r * cosine + omega * sine - late) / (36.0 * d_r * d_r + omega * omega)
         };
-        found.iter().zip(times).map(|(means, t)| (means.second[3] - due(t)).abs()).fold(0.0, crate::larger)
+        crate::worst(found.iter().zip(times).map(|(means, t)| (means.second[3] - due(t)).abs()))
     };
     for phase in [0.0, 1.0, -TAU / 4.0] {
         assert!(error(1.5, [phase; 2]) < 2e-12, "{phase}: {:e}", error(1.5, [phase; 2]));

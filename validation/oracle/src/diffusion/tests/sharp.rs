@@ -46,9 +46,9 @@ fn at_rest_moments_decay_by_the_closed_form() {
                 Start::Plane(_) => at_rest(&planar, of_plane, 0.3 * time),
                 _ => at_rest(&(p * p.transpose()), |q| q.iter().map(|i| p[*i]).product(), 0.3 * time),
             };
-            off(&found.second, &due.0).max(off(&found.fourth, &due.1))
+            apart(&found.second, &due.0).max(apart(&found.fourth, &due.1))
         });
-        each.fold(0.0, crate::larger)
+        crate::worst(each)
     };
     let still = Motion::diffusing([[0.0; 3]; 3], 5.0, 0.3);
     for start in [Start::Plane(AXIS), Start::Direction(SLANTED)] {
@@ -85,7 +85,7 @@ fn in_a_flow_a_plane_is_the_mean_of_its_directions() {
                 let one = at(motion, Start::Direction([c, s, 0.0]), &[0.5]).unwrap()[0];
                 sum.iter_mut().zip(one.second).for_each(|(sum, x)| *sum += x / AROUND as f64);
             }
-            off(&sum, &plane.second)
+            apart(&sum, &plane.second)
         };
         // Each is good to 4e-12, and harmonics of φ above 24 have no part in so early a mean.
         judge((gradient, r), motion, error, 2e-11, 1e-4);
@@ -106,7 +106,7 @@ fn directions_are_the_mean_of_each() {
             each.iter().for_each(|of_one| sum.add(1.0 / 3.0, &of_one[at]));
             sum
         };
-        of(Start::Directions(all)).iter().enumerate().map(|(at, found)| found.apart(&mean(at))).fold(0.0, crate::larger)
+        crate::worst(of(Start::Directions(all)).iter().enumerate().map(|(at, found)| found.apart(&mean(at))))
     };
     assert!(error(&[first, second, first.map(|x| -x)]) < 1e-11);
     assert!(error(&[first, second]) > 1e-2);

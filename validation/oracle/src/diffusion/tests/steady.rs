@@ -37,7 +37,7 @@ fn extension_has_the_density_of_bingham() {
                 (found.fourth[0], 0.375 * (1.0 - 2.0 * z2 + z4)),
                 (found.projections[2], z),
             ];
-            pairs.map(|(a, b)| (a - b).abs()).into_iter().fold(0.0, crate::larger)
+            crate::worst(pairs.map(|(a, b)| (a - b).abs()))
         };
         judge((rate, aspect_ratio, c_i), motion, error, 1e-12, 1e-6);
     }
@@ -57,7 +57,7 @@ fn planar_extension_agrees_with_a_rule_over_the_sphere() {
     }
     let error = |motion: &Motion| {
         let found = steady(motion).unwrap();
-        off(&[found.second[0], found.second[1], found.fourth[3]], &[1, 2, 3].map(|at| sums[at] / sums[0]))
+        apart(&[found.second[0], found.second[1], found.fourth[3]], &[1, 2, 3].map(|at| sums[at] / sums[0]))
     };
     judge("planar extension", motion, error, 1e-13, 1e-3);
 }
@@ -104,8 +104,8 @@ fn refinement_does_not_stop_too_early() {
         let of = |degree, order| settled::steady(&frame, Basis { degree, order, even: frame.even }).unwrap();
         let (refined, stated) = settled::refined(&frame).unwrap();
         let many = of(140, 70);
-        assert!(off(&refined, &many) <= stated + 1e-13, "{:e} {stated:e}", off(&refined, &many));
-        let few = off(&of(20, 14), &many);
+        assert!(apart(&refined, &many) <= stated + 1e-13, "{:e} {stated:e}", apart(&refined, &many));
+        let few = apart(&of(20, 14), &many);
         assert!(few > 1e-10, "{gradient:?} {aspect_ratio} {c_i}: {few:e}");
     }
 }
@@ -127,7 +127,7 @@ fn strong_diffusion_has_its_series() {
     let [endless, spheres] =
         [(4.0, f64::INFINITY), (1.0, 0.1)].map(|(r, c_i)| steady(&Motion::new(ASKEW, r, c_i)).unwrap());
     assert_eq!(endless.second[3], 0.0);
-    assert!(off(&endless.fourth, &spheres.fourth).max(off(&endless.projections, &spheres.projections)) < 1e-14);
+    assert!(apart(&endless.fourth, &spheres.fourth).max(apart(&endless.projections, &spheres.projections)) < 1e-14);
 }
 
 #[test]

@@ -119,7 +119,7 @@ fn a_scaled_overshoot_keeps_the_filling_even() {
             let mut x: Vec<f64> = naive.positions_mm.iter().map(|x| x[k] / edge).collect();
             x.sort_by(f64::total_cmp);
             let off = |(i, x): (usize, &f64)| (x - (i as f64 + 0.5) / 20_000.0).abs();
-            x.iter().enumerate().map(off).fold(0.0, crate::larger)
+            crate::worst(x.iter().enumerate().map(off))
         };
         distance(0).max(distance(1))
     };

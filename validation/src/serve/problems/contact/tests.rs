@@ -20,15 +20,13 @@ fn worst(pairs: &[Pair], sign: f64) -> f64 {
     let apart = |pair: &Pair| {
         let found = touched(&pair.map(|x| BITS.of(x)));
         let expected = by_naive(pair, sign);
-        (0..2)
-            .map(move |rod| {
-                let size = double(&length(&found[rod].rate));
-                let square = |i: usize| (double(&found[rod].rate[i]) - expected[rod][i]).powi(2);
-                (0..3).map(square).sum::<f64>().sqrt() / size
-            })
-            .fold(0.0, crate::oracle::larger)
+        crate::oracle::worst((0..2).map(move |rod| {
+            let size = double(&length(&found[rod].rate));
+            let square = |i: usize| (double(&found[rod].rate[i]) - expected[rod][i]).powi(2);
+            (0..3).map(square).sum::<f64>().sqrt() / size
+        }))
     };
-    pairs.iter().map(apart).fold(0.0, crate::oracle::larger)
+    crate::oracle::worst(pairs.iter().map(apart))
 }
 
 #[test]
