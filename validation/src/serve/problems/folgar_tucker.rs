@@ -5,7 +5,6 @@ use super::asked::{ASKEW, COUETTE, NEEDLE, SECOND, SHEAR_RATE_PER_S, UNIAXIAL};
 use super::table::twelve_decimals;
 use super::{Built, Kind, Problem, ProblemDef};
 use crate::files::csv::split;
-use crate::oracle::diffusion::{self, Means, Motion, NoAnswer, Start};
 
 /// A time at which every distribution here is steady, s: e^{−6D_r t} is below e^{−1000}.
 const LATE_S: f64 = 1e8;
@@ -94,19 +93,6 @@ impl DiffusionProblem {
     fn oscillation_s(&self) -> Option<f64> {
         self.oscillation.map(|period| period / SHEAR_RATE_PER_S)
     }
-
-    fn solved(&self) -> Result<Vec<Means>, NoAnswer> {
-        let motion = match self.diffusion {
-            Diffusion::Ci(c_i) => Motion::new(self.gradient_per_s, self.aspect_ratio, c_i),
-            Diffusion::PerS(d_r) => Motion::diffusing(self.gradient_per_s, self.aspect_ratio, d_r),
-        };
-        let start = if self.planar_start { Start::Plane([0.0, 0.0, 1.0]) } else { Start::Isotropic };
-        match (self.times, self.oscillation_s()) {
-            ([], _) => Ok(vec![diffusion::steady(&motion)?]),
-            (_, Some(period_s)) => diffusion::oscillating(&motion, [period_s, 0.0], start, &self.times_s()),
-            _ => diffusion::at(&motion, start, &self.times_s()),
-        }
-    }
 }
 
 /// The columns of fourth moments.
@@ -120,13 +106,16 @@ pub(super) const FOURTH: [&str; 15] = [
 pub(super) const TABLE: &str = include_str!("data/folgar-tucker.csv");
 
 pub(super) fn certify() -> Result<String, String> {
-    certified(&PROBLEMS).map_err(|why| why.to_string())
+    certified(&problems())
 }
 
-pub(super) fn certified(problems: &[DiffusionProblem]) -> Result<String, NoAnswer> {
+/// The table of the problems of second moments, which has the fourth ones too.
+pub(super) fn certified(problems: &[ProblemDef]) -> Result<String, String> {
     let mut table = format!("setting,time_s,{},{}\n", SECOND.join(","), FOURTH.join(","));
-    for problem in problems {
-        for (time, means) in problem.times_s().iter().zip(problem.solved()?) {
+    for problem in problems.iter().map(|def| &def.built().problem).filter(|problem| problem.columns[1..] == SECOND) {
+        let motion = problem.diffusing().ok_or("these rods diffuse")?;
+        let solved = problem.distribution(&motion, problem.times_s.len(), problem.oscillation());
+        for (time, means) in problem.times_s.iter().zip(solved.map_err(|why| why.to_string())?) {
             let values = twelve_decimals(means.second.iter().chain(&means.fourth).copied());
             table += &format!("{},{time:?},{values}\n", problem.name);
         }
@@ -235,7 +224,7 @@ mod tests {
                 let one = if i == j { 1.0 } else { 0.0 };
                 turned.sum::<f64>() - 2.0 * shape * stretched + 2.0 * c_i * rate * (one - 3.0 * two(i, j))
             };
-            pairs().map(of).map(f64::abs).fold(0.0, crate::oracle::larger)
+            crate::oracle::worst(pairs().map(of).map(f64::abs))
         };
         let steady = PROBLEMS.iter().filter(|problem| problem.times.is_empty());
         for problem in steady {
