@@ -8,9 +8,10 @@ mod lines;
 
 pub use lines::{LineEnds, Lines};
 
-use super::FileError;
 use super::text::{line, start};
-use std::io::BufRead;
+use super::{FileError, bounded};
+use std::fs::File;
+use std::io::{BufRead, BufReader};
 use std::path::Path;
 
 /// Parses a number as printed by C, C++, Fortran, Julia, Octave or Python: NaN and infinities too.
@@ -159,6 +160,21 @@ pub struct Table<R> {
 
 /// The name of a column to leave out, which several columns may have.
 pub const LEFT_OUT: &str = "-";
+
+/// A table in a file.
+pub type FileTable = Table<BufReader<File>>;
+
+impl FileTable {
+    /// Opens a file, and reads its header as [`Table::new`] does.
+    ///
+    /// # Errors
+    ///
+    /// A file that cannot be read, and those of [`Table::new`].
+    pub fn open(path: &Path) -> Result<Self, FileError> {
+        let file = bounded::open(path).map_err(|error| FileError::unreadable(path, &error))?;
+        Self::new(path, BufReader::new(file))
+    }
+}
 
 impl<R: BufRead> Table<R> {
     /// Reads the header, or that in the comment before a first line of numbers; `path` is for messages.
