@@ -7,6 +7,7 @@
 
 #[cfg(test)]
 mod again_tests;
+mod answer;
 pub mod budget;
 pub mod contents;
 pub mod data;

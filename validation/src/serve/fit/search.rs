@@ -1,15 +1,16 @@
 //! The search for the best fit: runs over the whole range, then over the part that the data leave, until the model's
 //! own error is small beside the data's.
 
+pub use super::answer::{Fit, fitted, values};
+
 use super::error::{FitError, ParameterError, Undescribed};
+
 use super::range::Range;
 use crate::methods::least_squares::Datum;
 use crate::methods::least_squares::basis::Basis;
-use crate::methods::least_squares::best::{Best, best};
-use crate::methods::least_squares::emulator::{Coefficients, Emulator, Model, Sides, coefficients};
+use crate::methods::least_squares::emulator::{Coefficients, Model, Sides, coefficients};
 use crate::methods::least_squares::likelihood::{EMULATOR, REPLICAS, Rods};
-use crate::methods::least_squares::profile::{Interval, Profile, interval, profile, rise_of};
-use nalgebra::{DMatrix, DVector};
+use crate::methods::least_squares::profile::{interval, rise_of};
 use rayon::prelude::*;
 
 /// Number of replicas of the first runs, which only show where to look closer.
@@ -32,7 +33,7 @@ const MOST_EXCESS: f64 = 0.5;
 const MOST_ROUNDS: u64 = 12;
 
 /// The rise of χ² at which the box may end: four standard deviations from the best place.
-const FAR: f64 = 16.0;
+pub(super) const FAR: f64 = 16.0;
 
 /// The same rise where polynomials over that box exceed [`MOST_SHARE`] of a parameter's variance: three standard
 /// deviations, over which the error of degree 4 is a quarter. The 95 % interval, two of them, must end inside.
@@ -94,25 +95,6 @@ impl Watch<'_> {
         };
         (0..count).into_par_iter().map(watched).collect()
     }
-}
-
-/// A fit.
-#[derive(Clone, Debug)]
-pub struct Fit {
-    /// The parameters.
-    pub ranges: Vec<Range>,
-    /// The last box, on the ranges' scales.
-    pub sides: Sides,
-    /// The best place in it.
-    pub best: Best,
-    /// The model over it.
-    pub emulator: Emulator,
-    /// A profile for each parameter.
-    pub profiles: Vec<Profile>,
-    /// Runs of the model, over all boxes.
-    pub runs: u64,
-    /// Boxes that were tried.
-    pub rounds: u64,
 }
 
 /// A search that goes on until the model's own error is small beside the data's.
@@ -239,30 +221,6 @@ fn whole(ranges: &[Range]) -> Sides {
     (ranges.iter()).map(|range| (range.scaled(range.from), range.scaled(range.to))).collect()
 }
 
-/// The values of the parameters at `place` of the box `sides`.
-pub fn values(ranges: &[Range], sides: &Sides, place: &[f64]) -> Vec<f64> {
-    let one = |((range, (low, high)), place): ((&Range, &(f64, f64)), &f64)| {
-        range.value(0.5 * (low + high) + 0.5 * (high - low) * place)
-    };
-    ranges.iter().zip(sides).zip(place).map(one).collect()
-}
-
-/// The fit over the box `sides`, from the coefficients of its replicas.
-pub fn fitted(measured: &Measured<'_>, basis: &Basis, sides: &Sides, found: &[Coefficients]) -> Result<Fit, String> {
-    let emulator = Emulator::new(basis, found);
-    let best = best(measured.data, &emulator, measured.rods)
-        .ok_or("the points say nothing about a parameter: no model value changes with it")?;
-    Ok(Fit {
-        ranges: measured.ranges.to_vec(),
-        sides: sides.clone(),
-        profiles: (0..sides.len()).map(|axis| profile(&best, axis)).collect(),
-        best,
-        emulator,
-        runs: 0,
-        rounds: 1,
-    })
-}
-
 /// The number of replicas that reduces the share of the sampling variance, which falls as one over that number, to
 /// `allowed`; a tenth more, as the share is known no better than the variance itself, and at most ten times as many at
 /// once.
@@ -305,128 +263,6 @@ fn enclosed(fit: &Fit, whole: &Sides) -> bool {
         let (own, all) = (fit.sides[axis], whole[axis]);
         (!found.open[0] || own.0 <= all.0) && (!found.open[1] || own.1 >= all.1)
     })
-}
-
-/// A standard uncertainty above this multiple of the range, with an interval of the whole range: no prediction depends
-/// on the parameter.
-const UNDETERMINED: f64 = 10.0;
-
-/// Ends of 68 and 95 % closer than this share of the distance from the best place are one end: those of a parabola are
-/// half of it apart.
-const SAME: f64 = 0.02;
-
-impl Fit {
-    /// The first parameter that the points do not determine at all.
-    fn undetermined(&self) -> Option<&Range> {
-        let covariance = self.best.covariance();
-        let axis = (0..self.ranges.len()).find(|&axis| {
-            // A box is 2 wide.
-            let (low, high) = self.sides[axis];
-            let uncertainty = 0.5 * (high - low) * covariance[(axis, axis)].sqrt();
-            let range = &self.ranges[axis];
-            let all = interval(&self.best, axis, &self.profiles[axis], rise_of(0.95)).open == [true; 2];
-            all && uncertainty > UNDETERMINED * (range.scaled(range.to) - range.scaled(range.from))
-        });
-        axis.map(|axis| &self.ranges[axis])
-    }
-
-    /// The largest share of the replicas' noise in the rise of χ² at the ends of the 95 % intervals.
-    pub fn noise_share(&self) -> f64 {
-        let all = self.profiles.iter().map(|profile| profile.feigned(rise_of(0.95)));
-        all.fold(0.0, crate::oracle::larger)
-    }
-
-    /// The values of the parameters at `place` of the box.
-    pub fn values(&self, place: &[f64]) -> Vec<f64> {
-        values(&self.ranges, &self.sides, place)
-    }
-
-    /// The value of parameter `axis` at its place in the box.
-    pub fn value(&self, axis: usize, place: f64) -> f64 {
-        let mut all = vec![0.0; self.ranges.len()];
-        all[axis] = place;
-        self.values(&all)[axis]
-    }
-
-    /// The place of a value of parameter `axis` in the box.
-    pub(super) fn place(&self, axis: usize, value: f64) -> f64 {
-        let (low, high) = self.sides[axis];
-        (2.0 * self.ranges[axis].scaled(value) - low - high) / (high - low)
-    }
-
-    /// Derivative of parameter `axis` with respect to its place in the box, at the best place.
-    pub fn scale(&self, axis: usize) -> f64 {
-        let (low, high) = self.sides[axis];
-        let scaled = 0.5 * (low + high) + 0.5 * (high - low) * self.best.place[axis];
-        0.5 * (high - low) * self.ranges[axis].slope(scaled)
-    }
-
-    /// The covariance of the parameters in their units, by linear theory.
-    pub fn covariance(&self) -> DMatrix<f64> {
-        let scales = DVector::from_fn(self.sides.len(), |axis, _| self.scale(axis));
-        self.best.covariance().component_mul(&(&scales * scales.transpose()))
-    }
-
-    /// The interval of parameter `axis` at a confidence level, in the parameter's unit. It is open at an end that is
-    /// the edge of the parameter's range.
-    pub fn interval(&self, axis: usize, confidence: f64) -> Interval {
-        let found = interval(&self.best, axis, &self.profiles[axis], rise_of(confidence));
-        let range = &self.ranges[axis];
-        let (low, high) = self.sides[axis];
-        // Exact to the last digit where the box ends at the end of the range.
-        let end = |open: bool, side: f64, edge: f64, place: f64| {
-            if open && side == range.scaled(edge) { edge } else { self.value(axis, place) }
-        };
-        Interval {
-            low: end(found.open[0], low, range.from, found.low),
-            high: end(found.open[1], high, range.to, found.high),
-            ..found
-        }
-    }
-
-    /// The parts of a parameter's range in which its profile is within the 95 % interval's level, where what lies
-    /// between them is ruled out by four standard deviations: a lower rise in between is no more than a ripple.
-    fn minima(&self, axis: usize) -> Vec<(f64, f64)> {
-        let profile = &self.profiles[axis];
-        let mut parts: Vec<(usize, usize)> = Vec::new();
-        for (k, _) in profile.rise.iter().enumerate().filter(|(_, rise)| **rise <= rise_of(0.95)) {
-            match parts.last_mut() {
-                Some((_, last)) if profile.rise[*last..k].iter().all(|between| *between < FAR) => *last = k,
-                _ => parts.push((k, k)),
-            }
-        }
-        let value = |k: usize| self.value(axis, profile.place[k]);
-        parts.into_iter().map(|(first, last)| (value(first), value(last))).collect()
-    }
-
-    /// Checks that every profile has one minimum in its intervals and no jump at their ends, and that the 68 % interval
-    /// is within 95 %'s.
-    ///
-    /// # Errors
-    ///
-    /// The parameter whose intervals cannot be determined, and what to do.
-    pub(super) fn is_smooth(&self) -> Result<(), FitError> {
-        for (axis, range) in self.ranges.iter().enumerate() {
-            let [inner, outer] =
-                [0.68, 0.95].map(|confidence| interval(&self.best, axis, &self.profiles[axis], rise_of(confidence)));
-            let centre = self.best.place[axis];
-            let error = |error| Err(FitError::Parameter(range.label(), error));
-            let minima = self.minima(axis);
-            if minima.len() > 1 {
-                return error(ParameterError::SeveralMinima(minima));
-            }
-            let same =
-                |inner: f64, outer: f64, open: bool| !open && (outer - inner).abs() < SAME * (outer - centre).abs();
-            if inner.jumps != [false; 2]
-                || outer.jumps != [false; 2]
-                || same(inner.low, outer.low, outer.open[0])
-                || same(inner.high, outer.high, outer.open[1])
-            {
-                return error(ParameterError::Jumps);
-            }
-        }
-        Ok(())
-    }
 }
 
 #[cfg(test)]
