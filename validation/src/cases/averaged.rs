@@ -11,7 +11,7 @@ use shearbed::model::orientation::from_angles;
 
 pub fn cases() -> Vec<Case> {
     vec![
-        Case::core("averaged-motion")
+        Case::of(Judges::Core, "averaged-motion")
             .claim(
                 "With a shortest arm, the model tends to the averaged (P_c-weighted) motion as Δt → 0, path by path; \
                  with arms of every size it does not.",
@@ -24,7 +24,7 @@ pub fn cases() -> Vec<Case> {
                 Limit { min_arm: 0.5, change: |average| average.alpha = 1e-9 },
             )
             .check(averaged),
-        Case::core("arm-pushed")
+        Case::of(Judges::Core, "arm-pushed")
             .claim(
                 "A collision pushes a short arm away from 0 where the gap opens, and towards 0 where it closes: dr/dt \
                  = h² ℓ·D·ℓ/(2 r sin²χ).",
@@ -35,7 +35,7 @@ pub fn cases() -> Vec<Case> {
             .mistake("twice the kick: the sum of the contact points' velocities for their mean", |[kick, _]| 2.0 * kick)
             .mistake("the other rod's kick", |[_, other]| other)
             .check(pushed),
-        Case::core("updates-in-the-limit")
+        Case::of(Judges::Core, "updates-in-the-limit")
             .claim(
                 "A kick of a given angle ends elsewhere by `angles` than by `rotation` however short the step; at a \
                  given rate both are Jeffery's step up to (GΔt)².",

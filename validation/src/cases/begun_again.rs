@@ -7,7 +7,7 @@ type Way = fn(&mut OwnRods);
 
 pub fn cases() -> Vec<Case> {
     vec![
-        Case::core("begun-again")
+        Case::of(Judges::Core, "begun-again")
             .claim(
                 "Unequal rods that begin again at t = T with the length, r_e, direction and place that they had go \
                  on, in law, as the suspension that they were.",

@@ -8,7 +8,7 @@ type Exact = fn([[f64; 3]; 3], f64) -> Option<[f64; 6]>;
 
 pub fn cases() -> Vec<Case> {
     vec![
-        Case::core("brownian-rods")
+        Case::of(Judges::Core, "brownian-rods")
             .claim(
                 "The stochastic run of rods with rotary diffusion has the a_ij of their distribution, in shear and in \
                  a flow without symmetry.",

@@ -19,7 +19,7 @@ type Run = fn(&Scene) -> Moved;
 
 pub fn cases() -> Vec<Case> {
     vec![
-        Case::core("changing-flows")
+        Case::of(Judges::Core, "changing-flows")
             .claim(
                 "Where one flow follows another, each free rod moves by the product of their exponentials: a reversal \
                  takes it back to its start, after an extension that aligns rods to 10⁻⁸ rad too, and three flows \

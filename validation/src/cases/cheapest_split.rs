@@ -10,7 +10,7 @@ type Respell = fn(&mut Split);
 
 pub fn cases() -> Vec<Case> {
     vec![
-        Case::program("cheapest-split")
+        Case::of(Judges::Program, "cheapest-split")
             .claim("Steps and replicas by the rule for an error of 0.02 give the bias and the scatter that it says.")
             .source("eq. 4")
             .under_test((|_| {}) as Respell)

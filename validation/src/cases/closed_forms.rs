@@ -19,7 +19,7 @@ type Motion = fn(f64, &UnitVector3<f64>, f64) -> UnitVector3<f64>;
 
 pub fn cases() -> Vec<Case> {
     vec![
-        Case::core("phase-means")
+        Case::of(Judges::Core, "phase-means")
             .claim(
                 "The time means of |p_i| of a rod on the orbit C are an elliptic integral, an arcsinh and an arcsine.",
             )
@@ -31,7 +31,7 @@ pub fn cases() -> Vec<Case> {
                 orientation::from_angles(phi + TAU * turns, theta)
             })
             .check(phase_means),
-        Case::core("orbit-distribution")
+        Case::of(Judges::Core, "orbit-distribution")
             .claim("Isotropic rods have the closed distribution of C, and free motion leaves every rod's C alone.")
             .source("eqs 12, 13")
             .under_test(orbit(|_| {}))
@@ -48,14 +48,14 @@ pub fn cases() -> Vec<Case> {
                 Orbit { change: |_| {}, constant: |p, _| orientation::bounded_orbit_constant(p, 1.0) },
             )
             .check(orbit_distribution),
-        Case::core("free-plateau")
+        Case::of(Judges::Core, "free-plateau")
             .claim("Free rods of Gaussian aspect ratio settle at the phase means averaged over isotropic orbits.")
             .source("eqs 16, 17")
             .under_test((|_| {}) as Change)
             .mistake("no spread: the phases stay together", |scene| scene.particles.aspect_ratio_sd_percent = 0.0)
             .mistake("r_e 20 % longer", |scene| scene.particles.aspect_ratio *= 1.2)
             .check(plateau),
-        Case::core("spread-damping")
+        Case::of(Judges::Core, "spread-damping")
             .claim(
                 "A Gaussian spread damps the first harmonic of X̄_1 by 1/e at t/T = 1/(2√2 π s), s = σ(r_e² − 1)/(r_e² \
                  + 1), to first order in σ.",
@@ -64,7 +64,7 @@ pub fn cases() -> Vec<Case> {
             .under_test(1.0)
             .mistake("σ 25 % too wide", 1.25)
             .check(spread_damping),
-        Case::core("in-plane-start")
+        Case::of(Judges::Core, "in-plane-start")
             .claim(
                 "Free rods started together in the shear plane follow |cos φ|, |sin φ| of A.4 and never leave the \
                  plane.",

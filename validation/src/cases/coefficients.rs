@@ -8,7 +8,7 @@ use shearbed::scene::Particles;
 pub fn cases() -> Vec<Case> {
     let right = Read { change: |_| {}, place: |k| k };
     vec![
-        Case::core("fourth-moments")
+        Case::of(Judges::Core, "fourth-moments")
             .claim(
                 "The 15 components of ⟨pppp⟩ of free rods that were isotropic are the closed integral, and in a \
                  suspension its trace over two indices is ⟨pp⟩.",
@@ -28,7 +28,7 @@ pub fn cases() -> Vec<Case> {
             )
             .mistake("r_e 20 % longer", Read { change: |scene| scene.particles.aspect_ratio *= 1.2, ..right })
             .check(fourth_moments),
-        Case::core("particle-stress")
+        Case::of(Judges::Core, "particle-stress")
             .claim(
                 "The rods' stress over μ_fiber G, of free rods that were isotropic, is that of the closed integral \
                  after a fifth of a period and in the mean over half a period, where N₁ and N₂ vanish.",
@@ -39,7 +39,7 @@ pub fn cases() -> Vec<Case> {
             .mistake("D counted twice", |stress| stress.map(|s| 2.0 * s))
             .mistake("N₁ and N₂ exchanged", |[s12, n1, n2]| [s12, n2, n1])
             .check(particle_stress),
-        Case::core("stress-in-pascals")
+        Case::of(Judges::Core, "stress-in-pascals")
             .claim(
                 "The rods' stress in Pa is that of the same run's ⟨pp⟩ and ⟨pppp⟩, with the coefficients of spheroids \
                  of r_e by Jeffery's integrals, or of cylinders of r by Batchelor's series.",

@@ -129,7 +129,7 @@ fn against_turning(rates: &AngleRates, _: &Effort) -> [Evidence; 2] {
 
 pub fn cases() -> Vec<Case> {
     vec![
-        Case::core("contact-rule")
+        Case::of(Judges::Core, "contact-rule")
             .claim("The contact rule keeps its invariants for any two rods in contact.")
             .source("eqs 5, 6, A.7–A.12")
             .under_test(core_rule as ContactRule)
@@ -141,7 +141,7 @@ pub fn cases() -> Vec<Case> {
             .mistake("the liquid's velocity left out", |pair| core_rule(&Pair { u: [Vector3::zeros(); 2], ..*pair }))
             .mistake("only A moved", |pair| Some([core_rule(pair)?[0], pair.rate[1]]))
             .check(invariants),
-        Case::core("corrected-a13")
+        Case::of(Judges::Core, "corrected-a13")
             .claim("The corrected A.13 is the rate of the angles of a turning rod; the text's is not.")
             .source("A.13, A.14")
             .under_test(angle_rates as AngleRates)

@@ -43,7 +43,7 @@ pub fn cases() -> Vec<Case> {
         design: Design::new(0.095, 0.045),
     };
     vec![
-        Case::statement("free-amplitude")
+        Case::of(Judges::Statement, "free-amplitude")
             .claim(
                 "\"The amplitude of oscillations is approximately half the particle length and is constant\" for free \
                  uniform rods.",
@@ -54,7 +54,7 @@ pub fn cases() -> Vec<Case> {
             .mistake("unequal aspect ratios", |scene| scene.particles.aspect_ratio_sd_percent = 7.2)
             .mistake("rods in collision", |scene| lab::paper_interaction(scene).concentration_per_cm3 = Some(100.0))
             .check(free_amplitude),
-        Case::statement("faster-with-spread")
+        Case::of(Judges::Statement, "faster-with-spread")
             .claim("\"The oscillations decay faster … as the differences in the aspect ratios become larger\".")
             .source("eq. 4; Results, before Fig. 7; Fig. 9")
             .under_test(spread)
@@ -67,7 +67,7 @@ pub fn cases() -> Vec<Case> {
                 },
             )
             .check(faster),
-        Case::statement("faster-with-concentration")
+        Case::of(Judges::Statement, "faster-with-concentration")
             .claim(
                 "\"The oscillations decay faster as the concentration (and consequently the number of collisions) \
                  increases\".",
@@ -79,7 +79,7 @@ pub fn cases() -> Vec<Case> {
                 Order { values: [250.0, 50.0, 10.0], ..concentration },
             )
             .check(faster),
-        Case::statement("faster-with-length")
+        Case::of(Judges::Statement, "faster-with-length")
             .claim("\"The oscillations decay faster … as the particles become longer\" at fixed r_e.")
             .source("eq. 4; Results, before Fig. 7; Fig. 8")
             .under_test(length)
@@ -88,7 +88,7 @@ pub fn cases() -> Vec<Case> {
                 Order { set: concentration.set, values: [400.0, 50.0, 6.25], ..length },
             )
             .check(faster),
-        Case::statement("faster-with-collisions")
+        Case::of(Judges::Statement, "faster-with-collisions")
             .claim(
                 "\"The amplitude decays much faster when collisions occur than in the absence of particle-particle \
                  interactions\".",
@@ -101,7 +101,7 @@ pub fn cases() -> Vec<Case> {
             )
             .mistake("α a tenth", |scene| lab::paper_interaction(scene).alpha *= 0.1)
             .check(collisions_damp),
-        Case::statement("dies-out")
+        Case::of(Judges::Statement, "dies-out")
             .claim(
                 "\"The oscillations die out … after a few rotations, in contrast to the undamped oscillations\": with \
                  collisions and σ = 3.6 % to less than 1/e in four rotations, where less is left than with σ = 3.6 % \
@@ -114,7 +114,7 @@ pub fn cases() -> Vec<Case> {
                 scene.particles.aspect_ratio_sd_percent = 0.0;
             })
             .check(dies_out),
-        Case::statement("other-axes-decay")
+        Case::of(Judges::Statement, "other-axes-decay")
             .claim(
                 "\"The amplitudes of X̄_2 and X̄_3 decay in similar manner\" as that of X̄_1: at rates that differ by \
                  less than a factor of two.",

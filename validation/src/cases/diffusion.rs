@@ -18,7 +18,7 @@ type Of = fn(Closure, &Matrix3<f64>) -> Fourth;
 pub fn cases() -> Vec<Case> {
     let right = Orbits { weak: cdf, collisions: |_| {} };
     vec![
-        Case::program("closures")
+        Case::of(Judges::Program, "closures")
             .claim(
                 "Hybrid, ORE and IBOF leave the steady tensors at rest that others published for them; the natural \
                  closure gives a_ijkl of free rods that started isotropic.",
@@ -42,7 +42,7 @@ pub fn cases() -> Vec<Case> {
             })
             .mistake("a_ijkl too large by 10⁻⁷", |closure, a| Fourth(closure.fourth(a).0 * (1.0 + 1e-7)))
             .check(check),
-        Case::interpretation("orbits-of-collisions")
+        Case::of(Judges::Interpretation, "orbits-of-collisions")
             .claim(
                 "Weak rotary diffusion leaves the closed form's 46.1 % of rods of r_e = 11.6 above C_b = ½; \
                  collisions leave far more there than isotropic directions have, 50.7 %.",
@@ -58,7 +58,7 @@ pub fn cases() -> Vec<Case> {
                 Orbits { collisions: |scene| lab::interaction(scene).alpha = 1e-6, ..right },
             )
             .check(orbits),
-        Case::oracle("diffusing-rods")
+        Case::of(Judges::Oracle, "diffusing-rods")
             .claim(
                 "The distribution of rods with rotary diffusion is exp(p·ΛD·p/2D_r) in extension, fulfils the \
                  equation of its second moments in any flow, is that of free rods for C_I = 0, and has the known \

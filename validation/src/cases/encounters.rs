@@ -6,7 +6,7 @@ use shearbed::model::collision::reach;
 
 pub fn cases() -> Vec<Case> {
     vec![
-        Case::core("collision-probability")
+        Case::of(Judges::Core, "collision-probability")
             .claim(
                 "The reach of a draw R, which runs compare distances with, is the s at which P_c of eq. 7 is R, for \
                  any α, m > 0.",
@@ -18,7 +18,7 @@ pub fn cases() -> Vec<Case> {
             .mistake("s in rod radii", |r, alpha, m| 0.5 * reach(r, alpha, m))
             .mistake("the reach of 1 − R", |r, alpha, m| reach(1.0 - r, alpha, m))
             .check(limits),
-        Case::core("collision-frequency")
+        Case::of(Judges::Core, "collision-frequency")
             .claim("In a run, nearest pairs become candidates as often as the sum of their P_c says.")
             .source("eqs 7–9")
             .under_test((|_| {}) as Change)

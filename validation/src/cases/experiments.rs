@@ -10,7 +10,7 @@ use crate::serve::fit::scenes::Scenes;
 
 pub fn cases() -> Vec<Case> {
     vec![
-        Case::measurement("okagawa-mason-1973")
+        Case::of(Judges::Measurement, "okagawa-mason-1973")
             .claim(
                 "With α = 0.5 the mean projections are those of the points given in the place of Okagawa & Mason's \
                  (1973), at each of n = 20, 50 and 100 per cm³ that has points.",
@@ -19,7 +19,7 @@ pub fn cases() -> Vec<Case> {
             .under_test((|_| {}) as Change)
             .mistakes(controls())
             .check(|change, effort| agreement(&OKAGAWA_MASON, *change, effort)),
-        Case::measurement("anczurowski-1967")
+        Case::of(Judges::Measurement, "anczurowski-1967")
             .claim(
                 "With α = 0.5 the mean projections up to t/T = 3 are those of the points given in the place of \
                  Anczurowski, Cox & Mason's (1967).",
@@ -28,13 +28,13 @@ pub fn cases() -> Vec<Case> {
             .under_test((|_| {}) as Change)
             .mistakes(controls())
             .check(|change, effort| agreement(&ANCZUROWSKI, *change, effort)),
-        Case::measurement("alpha-same-for-both")
+        Case::of(Judges::Measurement, "alpha-same-for-both")
             .claim("The α that fits the given points best is the same at r_e = 11.6 and at 14.2.")
             .source("eq. 7; Figs 4, 5")
             .under_test((|_| {}) as Change)
             .mistake("α doubled unseen, at r_e = 14.2 only", double_alpha as Change)
             .check(same_alpha),
-        Case::statement("in-plane-not-fitted")
+        Case::of(Judges::Statement, "in-plane-not-fitted")
             .claim(
                 "Curves of equal rods that start parallel in the shear plane, as the experiment at r_e = 3.96 had \
                  them, do not depend on α, and a fit of α to points of them is refused: \"not suitable for comparison \

@@ -25,7 +25,7 @@ type Program = fn(&Scene) -> Ended;
 
 pub fn cases() -> Vec<Case> {
     vec![
-        Case::program("extreme-suspensions")
+        Case::of(Judges::Program, "extreme-suspensions")
             .claim(
                 "Interacting rods stay finite and |p| = 1 to 4 ulp: dense and thin, N = 1 and 2, α = 0 and huge, m \
                  from 0.1 to 50, σ at its limit, G from 10⁻³⁰ to 10³⁰ 1/s, steps from 10⁻⁷ T to T, parallel to one \
@@ -49,7 +49,7 @@ pub fn cases() -> Vec<Case> {
             )
             .mistake("α without effect", Model { meeting: |scene| lab::interaction(scene).alpha = 1e-300, ..CORE })
             .check(extreme_suspensions),
-        Case::program("extreme-scenes")
+        Case::of(Judges::Program, "extreme-scenes")
             .claim(
                 "Scenes of free rods end with finite means and tr⟨pp⟩ = 1: G from 10⁻³⁰ to 10³⁰ 1/s, r_e from 10⁻⁸ to \
                  10⁸, σ at its limit, both poles, the flip, 10⁴ periods, and extension to a strain of 10⁴ (10⁵ and 10⁶ \

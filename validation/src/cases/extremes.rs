@@ -13,7 +13,7 @@ type FlowMotion = fn(&VelocityGradient, f64, &UnitVector3<f64>, f64) -> Vector3<
 
 pub fn cases() -> Vec<Case> {
     vec![
-        Case::core("extreme-motion")
+        Case::of(Judges::Core, "extreme-motion")
             .claim(
                 "Free rods in plane Couette flow keep |p| = 1 to 4 ulp and C_b to 8, and are where the closed form has \
                  them, for r_e from 10⁻⁸ to 10⁸, G from 10⁻³⁰ to 10³⁰ 1/s, 10⁻⁹ to 10⁸ periods, at once and in a \
@@ -37,7 +37,7 @@ pub fn cases() -> Vec<Case> {
                 end.unwrap_or(Vector3::repeat(f64::NAN))
             })
             .check(extreme_motion),
-        Case::core("extreme-flows")
+        Case::of(Judges::Core, "extreme-flows")
             .claim(
                 "In other flows rods keep |p| = 1 to 4 ulp up to a strain of 10⁶ and beyond, and end where the flow \
                  leads, to 4 ulp too where its two fastest rates are equal or next to each other and the start is \

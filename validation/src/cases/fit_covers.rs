@@ -53,7 +53,7 @@ enum Way {
 
 pub fn cases() -> Vec<Case> {
     vec![
-        Case::program("fit-covers")
+        Case::of(Judges::Program, "fit-covers")
             .claim("The 68 and 95 % intervals of `shearbed fit` hold the planted α in 68 and 95 % of synthetic sets.")
             .source("eq. 7; profile likelihood; docs/src/theory/fits.md")
             .under_test(Way::AsItIs)
@@ -61,7 +61,7 @@ pub fn cases() -> Vec<Case> {
             .mistake("the simulated curve taken for exact", Way::SimulationExact)
             .mistake("straight lines between the nodes", Way::StraightLines)
             .check(covers),
-        Case::program("fit-refuses")
+        Case::of(Judges::Program, "fit-refuses")
             .claim(
                 "χ² of a fit has the law of χ² where the model is right; a model without the spread of r_e does not \
                  pass it.",
@@ -70,7 +70,7 @@ pub fn cases() -> Vec<Case> {
             .under_test(Way::AsItIs)
             .mistake("σ = 0 % for points of σ = 3.6 %", Way::NoSpread)
             .check(refuses),
-        Case::program("fit-shares-rods")
+        Case::of(Judges::Program, "fit-shares-rods")
             .claim("Where all points are means over the same rods, χ² of a fit is no larger than due.")
             .source("eq. 7; docs/src/theory/fits.md")
             .under_test(rods::Treatment::AsItIs)

@@ -40,7 +40,7 @@ const REPLICAS: u64 = 600;
 
 pub(super) fn cases() -> Vec<Case> {
     vec![
-        Case::program("fit-tells-cut-lines")
+        Case::of(Judges::Program, "fit-tells-cut-lines")
             .claim(
                 "χ² of one α for two suspensions accepts points of whole contact lines and refuses points of lines \
                  cut at the rods' ends.",

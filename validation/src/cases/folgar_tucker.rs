@@ -10,7 +10,7 @@ use crate::studies::coefficients::{self, Places};
 
 pub fn cases() -> Vec<Case> {
     vec![
-        Case::program("effective-ci")
+        Case::of(Judges::Program, "effective-ci")
             .claim(
                 "J, summed over the steps of rods, gives the C_I that was put into synthetic rods (not measured, not \
                  of this model) with rotary diffusion, and is 0 for the core's free rods.",
@@ -27,7 +27,7 @@ pub fn cases() -> Vec<Case> {
             )
             .mistake("Jeffery's motion left in J", Estimator { alone: |_| Matrix3::identity(), of: Means::coefficient })
             .check(effective),
-        Case::interpretation("folgar-tucker-seven")
+        Case::of(Judges::Interpretation, "folgar-tucker-seven")
             .claim(
                 "The seven C_I that Folgar & Tucker measured (second-hand; n a³ above 3, not dilute) rise with φ r_p, \
                  as the model's rises with n a³; at n a³ = 1, where the model ends, it is below a third of the least \
@@ -38,7 +38,7 @@ pub fn cases() -> Vec<Case> {
             .mistake("C_I per radian of the phase in place of per unit of strain", |c| c * (11.6 + 1.0 / 11.6))
             .mistake("J with the other sign", |c| -c)
             .check(seven),
-        Case::interpretation("kicks-are-no-diffusion")
+        Case::of(Judges::Interpretation, "kicks-are-no-diffusion")
             .claim(
                 "At equal C_I, kicks leave far more rods alone than rotary diffusion does over a strain of 1, turn \
                  far more of them by more than 0.1 rad, and keep more of them in orbits of C_b > 1/2.",

@@ -5,7 +5,7 @@ use crate::oracle::isotropic;
 
 pub fn cases() -> Vec<Case> {
     vec![
-        Case::core("free-isotropic")
+        Case::of(Judges::Core, "free-isotropic")
             .claim("Free rods of one aspect ratio, isotropic at first, have the mean projections of the closed form.")
             .source("eqs 4, 12; Fig. 6 (top)")
             .under_test((|_| {}) as Change)
@@ -16,7 +16,7 @@ pub fn cases() -> Vec<Case> {
                 scene.flow = Flow::Gradient { gradient_per_s: [[0.0, 0.5, 0.0], [0.0; 3], [0.0; 3]] };
             })
             .check(|change, effort| compare(&UNIFORM, *change, effort)),
-        Case::core("free-polydisperse")
+        Case::of(Judges::Core, "free-polydisperse")
             .claim(
                 "Free rods of Gaussian aspect ratio, isotropic at first, have the mean projections of the quadrature.",
             )
@@ -26,7 +26,7 @@ pub fn cases() -> Vec<Case> {
             .mistake("the spread 20 % too wide", |scene| scene.particles.aspect_ratio_sd_percent *= 1.2)
             .mistake("r_e 10 % longer", |scene| scene.particles.aspect_ratio *= 1.1)
             .check(|change, effort| compare(&UNEQUAL, *change, effort)),
-        Case::core("free-half-period")
+        Case::of(Judges::Core, "free-half-period")
             .claim("Mean projections of free rods of one aspect ratio repeat after T/2, because p ≡ −p.")
             .source("eqs 4, 15")
             .under_test((|_| {}) as Change)

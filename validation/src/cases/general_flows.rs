@@ -13,7 +13,7 @@ type Motion = fn(&FlowProblem) -> Moved;
 
 pub fn cases() -> Vec<Case> {
     vec![
-        Case::core("general-flows")
+        Case::of(Judges::Core, "general-flows")
             .claim(
                 "In any flow, at r_e from 10⁻¹⁰⁰ to 10¹⁰⁰ and strains from 10⁻¹³ to 10⁶, a direction is off the \
                  oracle's, of hundreds of bits, by no more than the bound that comes with it; where that is above 10⁻⁶ \
@@ -40,7 +40,7 @@ pub fn cases() -> Vec<Case> {
                 Moved { error: moved.error.max(wide), ..moved }
             })
             .check(general_flows),
-        Case::core("listed-scenes")
+        Case::of(Judges::Core, "listed-scenes")
             .claim(
                 "Scenes that were wrong once end where the oracle has them, within the error that their plan states: \
                  slow swirls to a strain of 3000, r_e = 10¹⁰⁰ and 10⁻¹⁰⁰ along an axis, flows next to shear, Couette \

@@ -20,7 +20,7 @@ pub fn cases() -> Vec<Case> {
         pull - p * (shape * p.x * p.y)
     };
     vec![
-        Case::integrator("where-errors-show")
+        Case::of(Judges::Integrator, "where-errors-show")
             .claim(
                 "A phase that is off by a tenth of a period shows as an angle of less than 1/r_e where a long rod lies \
                  along the flow, and as more than ½ in its flip.",
@@ -29,7 +29,7 @@ pub fn cases() -> Vec<Case> {
             .under_test(1.0)
             .mistake("rods a thousandth as long", 1e-3)
             .check(where_errors_show),
-        Case::integrator("right-hand-side-digits")
+        Case::of(Judges::Integrator, "right-hand-side-digits")
             .claim(
                 "The right-hand sides of the integrators keep every digit of 1 − Λ, and with it the period, up to r_e \
                  = 10⁸.",
@@ -42,7 +42,7 @@ pub fn cases() -> Vec<Case> {
                 Vector3::new(-p.y / r2, p.x, 0.0) - p * (p.x * p.y)
             })
             .check(digits),
-        Case::integrator("flip-not-stiff")
+        Case::of(Judges::Integrator, "flip-not-stiff")
             .claim(
                 "No eigenvalue of Jeffery's equation in p is larger than (⅓ + Λ²)^½ G, or ½(1 + |Λ|) G where |Λ| < ⅓: \
                  at most 2/√3 G, so the flip is short, but the equation is not stiff.",
@@ -55,7 +55,7 @@ pub fn cases() -> Vec<Case> {
             .mistake("twice the pull along p", |problem, p| problem.rate_slope(p) - slope_of_pull(problem, p))
             .mistake("a rod 1 % longer", |problem, p| RodProblem::new(1.01 * problem.aspect_ratio, 1.0).rate_slope(p))
             .check(eigenvalues),
-        Case::integrator("who-loses-length")
+        Case::of(Judges::Integrator, "who-loses-length")
             .claim("The integrators that do not claim to keep |p| lose it: each by more than round-off.")
             .source("A.1; p·ṗ = 0")
             .under_test(crate::methods::integrators::own as Integrators)
@@ -63,7 +63,7 @@ pub fn cases() -> Vec<Case> {
                 in_p(4, false, |problem, p, h| rk4(|y| problem.rate(&y), p, h).normalize())
             })
             .check(lose_length),
-        Case::integrator("coarse-steps")
+        Case::of(Judges::Integrator, "coarse-steps")
             .claim(
                 "At GΔt = 10 and r_e = 11.6 RK4 in p gives no finite direction, and projected RK4 a wrong one of \
                  length 1.",
@@ -72,7 +72,7 @@ pub fn cases() -> Vec<Case> {
             .under_test(10.0)
             .mistake("GΔt = 0.1", 0.1)
             .check(coarse),
-        Case::integrator("grid-convergence-index")
+        Case::of(Judges::Integrator, "grid-convergence-index")
             .claim(
                 "At r_e = 11.6 the grid convergence index bounds the error of every fixed-step integrator on its \
                  finest three grids.",

@@ -65,19 +65,19 @@ pub fn cases() -> Vec<Case> {
     };
     let instead = |alternative, model| Alternative { model, ..alternative };
     vec![
-        Case::interpretation("interpretation-who-draws")
+        Case::of(Judges::Interpretation, "interpretation-who-draws")
             .claim("With one draw per mutual pair in place of two, rods are damped less: this interpretation matters.")
             .source("eqs 8, 9; whose R decides is left open")
             .under_test(who_draws)
             .mistake("index order instead", instead(who_draws, index_order))
             .check(matters),
-        Case::interpretation("interpretation-order")
+        Case::of(Judges::Interpretation, "interpretation-order")
             .claim("Taking candidates in index order in place of closest first changes next to nothing.")
             .source("eqs 8, 9; the order is left open")
             .under_test(index_order)
             .mistake("one draw per mutual pair instead", pair_draws)
             .check(does_not_matter),
-        Case::interpretation("interpretation-update")
+        Case::of(Judges::Interpretation, "interpretation-update")
             .claim(
                 "A.14 to the letter damps a little more than Jeffery's step and the kick: this interpretation matters.",
             )
@@ -85,7 +85,7 @@ pub fn cases() -> Vec<Case> {
             .under_test(angles)
             .mistake("no contact at arms below a thousandth of the length instead", instead(angles, hardly_any_arm))
             .check(matters),
-        Case::interpretation("interpretation-shortest-arm")
+        Case::of(Judges::Interpretation, "interpretation-shortest-arm")
             .claim(
                 "Without contacts at arms below the rod's radius, rods are damped less: this interpretation matters.",
             )
@@ -93,7 +93,7 @@ pub fn cases() -> Vec<Case> {
             .under_test(shortest_arm)
             .mistake("arms below a thousandth of the length instead", instead(shortest_arm, hardly_any_arm))
             .check(matters),
-        Case::interpretation("interpretation-contact-lines")
+        Case::of(Judges::Interpretation, "interpretation-contact-lines")
             .claim("With contact lines cut at the rods' ends, rods are damped less: this interpretation matters.")
             .source("A.7; Fig. 2, assumption ii")
             .under_test(cut_lines)

@@ -15,7 +15,7 @@ fn rate_in_a_run(p: &Vector3<f64>, r: f64, sign: f64) -> Vector3<f64> {
 
 pub fn cases() -> Vec<Case> {
     vec![
-        Case::core("angular-velocity")
+        Case::of(Judges::Core, "angular-velocity")
             .claim("The ṗ that a run's collisions start from is ω × p with ω by A.1 in the body frame, r_e = a/b.")
             .source("eqs 1, A.1")
             .under_test(rate_in_a_run as Rate)
@@ -28,7 +28,7 @@ pub fn cases() -> Vec<Case> {
             .mistake("r_e for r_e² in Λ", |p, r, sign| rate_in_a_run(p, r.sqrt(), sign))
             .mistake("the sign of G left out", |p, r, _| rate_in_a_run(p, r, 1.0))
             .check(body_frame),
-        Case::core("angle-rates")
+        Case::of(Judges::Core, "angle-rates")
             .claim("The angles of a rod that moves at a run's ṗ have the rates of A.2 and A.3.")
             .source("A.2, A.3")
             .under_test(rate_in_a_run as Rate)
@@ -41,7 +41,7 @@ pub fn cases() -> Vec<Case> {
                 rate_in_a_run(p, r, sign).component_mul(&Vector3::new(1.0, 1.0, -1.0))
             })
             .check(rates_of_angles),
-        Case::core("angles-in-closed-form")
+        Case::of(Judges::Core, "angles-in-closed-form")
             .claim("What a run makes of one rod is A.4 and A.5: its direction, φ and C_b at every output.")
             .source("eqs 13, 18, 20, A.4, A.5")
             .under_test((|_| {}) as Change)

@@ -11,7 +11,7 @@ use shearbed::scene::Interaction;
 
 pub fn cases() -> Vec<Case> {
     vec![
-        Case::core("kick-formula")
+        Case::of(Judges::Core, "kick-formula")
             .claim(
                 "Isotropic rods at random places are kicked by more than κ as often as P_c, the arm's \
                  density at 0 and the gap's velocity say, whatever Δt is.",
@@ -25,7 +25,7 @@ pub fn cases() -> Vec<Case> {
             })
             .mistake("a kick ∝ 2Δt", |fresh, chance| 2.0 * fresh.chances * chance(0.5))
             .check(formula),
-        Case::core("kick-memory")
+        Case::of(Judges::Core, "kick-memory")
             .claim(
                 "In runs, pairs whose gap closes are kicked as often as the formula says at any Δt; those \
                  whose gap opens ever less often as Δt → 0.",
@@ -35,14 +35,14 @@ pub fn cases() -> Vec<Case> {
             .mistake("the gap of the opposite shear", Counted { opens: |a, b| !(KICKS.opens)(a, b), ..KICKS })
             .mistake("the whole turn |ṗ′|Δt for the kick", Counted { angles: |c| c.angles_rad, ..KICKS })
             .check(memory),
-        Case::core("kick-tail")
+        Case::of(Judges::Core, "kick-tail")
             .claim("Kicks have a tail ∝ 1/κ: Hill's exponent is 1, in fresh pairs and in runs.")
             .source("A.13; docs/src/theory/time-step.md")
             .under_test((kicks_rad as Angles, 0.0))
             .mistake("arms below 0.05 a are no contact", (kicks_rad, 0.05))
             .mistake("a kick ∝ r^−½", (|c| c.kicks_rad.map(f64::sqrt), 0.0))
             .check(heavy),
-        Case::core("kick-bound")
+        Case::of(Judges::Core, "kick-bound")
             .claim(
                 "A kick is |g|Δt/(2|r|); with a shortest arm r_min it is at most ¼GΔt[(2 − Λ′)s/r_min + 2 − Λ − Λ′].",
             )

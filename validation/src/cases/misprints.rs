@@ -8,7 +8,7 @@ use shearbed::observable::{Block, Observable, Sum};
 
 pub fn cases() -> Vec<Case> {
     vec![
-        Case::oracle("gradient-of-eq-2")
+        Case::of(Judges::Oracle, "gradient-of-eq-2")
             .claim(
                 "With G_ij = ∂u_i/∂x_j a thread turns as the line between two points of the liquid does; with the \
                  text's ∂u_i/∂x_i it does not.",
@@ -18,7 +18,7 @@ pub fn cases() -> Vec<Case> {
             .mistake("∂u_i/∂x_i as in the text", |u, i, _| slope(u, i, i))
             .mistake("∂u_j/∂x_i", |u, i, j| slope(u, j, i))
             .check(gives_back_velocity),
-        Case::oracle("planar-projections")
+        Case::of(Judges::Oracle, "planar-projections")
             .claim("The planar projections are lengths of shadows; with the text's θ for φ they are not.")
             .source("eq. 21; Fig. 12")
             .under_test(observed_shadows as Shadows)
@@ -31,7 +31,7 @@ pub fn cases() -> Vec<Case> {
                 [a, c, b]
             })
             .check(shadows),
-        Case::oracle("who-moves-how")
+        Case::of(Judges::Oracle, "who-moves-how")
             .claim(
                 "In a run, rods that move freely keep C (A.2–A.6) and colliding rods get a new one (A.7–A.14), not the \
                  other way round.",

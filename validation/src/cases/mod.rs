@@ -49,7 +49,7 @@ mod work_precision;
 
 // What most cases use: the files of this folder begin with `use super::*`.
 use crate::judge::accept::{Design, Rule, kolmogorov_samples};
-use crate::judge::case::{Case, Effort, Evidence};
+use crate::judge::case::{Case, Effort, Evidence, Judges};
 use crate::judge::lab::{self, Change, Shared, per_replica};
 use crate::judge::statistics::{Estimate, Sample, larger, pairs, worst};
 use crate::oracle::closed_form;

@@ -33,7 +33,7 @@ fn apart(a: &UnitVector3<f64>, b: &UnitVector3<f64>) -> f64 {
 
 pub fn cases() -> Vec<Case> {
     vec![
-        Case::core("jeffery-period")
+        Case::of(Judges::Core, "jeffery-period")
             .claim("A free rod comes back after T = 2π(r_e + 1/r_e)/G, for r_e from 1.01 to 10⁶.")
             .source("eqs 15, A.6")
             .under_test(exact as Motion)
@@ -43,7 +43,7 @@ pub fn cases() -> Vec<Case> {
             })
             .mistake("half the shear rate", |flow, r, p, t| exact(flow, r, p, 0.5 * t))
             .check(period),
-        Case::core("orbit-constant")
+        Case::of(Judges::Core, "orbit-constant")
             .claim("The orbit constant of a free rod keeps its value over 10⁴ periods.")
             .source("eqs 13, A.5")
             .under_test(exact as Motion)
@@ -57,7 +57,7 @@ pub fn cases() -> Vec<Case> {
                 UnitVector3::new_normalize(rk4(rate, p.into_inner(), 0.01 / flow.magnitude_per_s()))
             })
             .check(orbit_constant),
-        Case::core("propagator-closed-form")
+        Case::of(Judges::Core, "propagator-closed-form")
             .claim("The propagator of plane Couette flow is Jeffery's closed form in angles.")
             .source("eqs 20, A.4, A.5")
             .under_test(exact as Motion)
@@ -70,7 +70,7 @@ pub fn cases() -> Vec<Case> {
                 orientation::from_angles(phi, orientation::angles(p).1)
             })
             .check(closed_form_motion),
-        Case::core("propagator-integrator")
+        Case::of(Judges::Core, "propagator-integrator")
             .claim(
                 "The propagator solves ṗ = W·p + Λ(D·p − p p·D·p) in any flow, by Dormand–Prince 8(5,3) of \
                  ode_solvers.",
@@ -86,7 +86,7 @@ pub fn cases() -> Vec<Case> {
                 exact(&VelocityGradient::new(flow.strain_rate()).unwrap_or(*flow), r, p, t)
             })
             .check(integrated_motion),
-        Case::core("mean-angle-quadrature")
+        Case::of(Judges::Core, "mean-angle-quadrature")
             .claim(
                 "⟨φ⟩ of a single rod, integrated over the φ(t) that a run has, is the dilogarithm, and tends to π/2 as \
                  (2/π)(1 + ln r_e)/r_e for a thread.",

@@ -10,7 +10,7 @@ type HalfTurn = fn(f64) -> (f64, f64);
 
 pub fn cases() -> Vec<Case> {
     vec![
-        Case::core("sph-half-turn")
+        Case::of(Judges::Core, "sph-half-turn")
             .claim(
                 "Fibres that others simulated by smoothed particle hydrodynamics (not measured) make their first half \
                  turn in T/2 of an r_e that published formulas give for their shape; their later damping is outside \

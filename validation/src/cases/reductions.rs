@@ -25,7 +25,7 @@ pub fn cases() -> Vec<Case> {
         limits
     };
     vec![
-        Case::core("reductions")
+        Case::of(Judges::Core, "reductions")
             .claim(
                 "α → 0, n → 0, m → ∞ and one rod give free rods to the bit; σ → 0 gives uniform rods and r_e → 1 gives \
                  spheres to round-off.",
@@ -39,7 +39,7 @@ pub fn cases() -> Vec<Case> {
             .mistake("σ = 10⁻⁶ %", taken(4, |scene| scene.particles.aspect_ratio_sd_percent = 1e-6))
             .mistake("r_e = 1 + 10⁻⁶", taken(5, |scene| scene.particles.aspect_ratio = 1.0 + 1e-6))
             .check(reductions),
-        Case::program("standard-errors")
+        Case::of(Judges::Program, "standard-errors")
             .claim("Standard errors are those of independent replicas, or of rods where there is one replica.")
             .source("the results' own columns")
             .under_test((|values| Sample::of(values).se) as StandardError)

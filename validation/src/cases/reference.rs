@@ -8,7 +8,7 @@ use shearbed::scene;
 pub fn cases() -> Vec<Case> {
     let mistakes = Mistake::ALL.into_iter().map(|mistake| (name(mistake), Some(mistake)));
     vec![
-        Case::core("naive-reference")
+        Case::of(Judges::Core, "naive-reference")
             .claim(
                 "The core and a naive O(N²) reference with the same draws have the same collisions and, to round-off, \
                  the same rods, in shear and in other flows.",

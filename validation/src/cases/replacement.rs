@@ -7,7 +7,7 @@ use crate::oracle::naive::{Mistake, carry, stream};
 pub fn cases() -> Vec<Case> {
     let mistake = |mistake| Inflow::Wrong(Some(mistake));
     vec![
-        Case::core("replacement")
+        Case::of(Judges::Core, "replacement")
             .claim(
                 "Replacement keeps every rod inside, new rods have x_1 = H√R and x_3 = HR, and the volume stays evenly \
                  filled.",
@@ -39,7 +39,7 @@ pub fn cases() -> Vec<Case> {
             )
             .mistake("steps as long as the whole strain", Volume::Core { step: STEPS })
             .check(replacement),
-        Case::core("even-inflow")
+        Case::of(Judges::Core, "even-inflow")
             .claim(
                 "In any flow without a trace, rods that leave come back inside, so that the volume stays evenly \
                  filled.",

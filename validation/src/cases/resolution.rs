@@ -54,7 +54,7 @@ struct Integrator {
 pub fn cases() -> Vec<Case> {
     let control = |k: usize| Integrator { sizes: &SIZES[k..=k], coarse: true };
     vec![
-        Case::core("default-step-resolves")
+        Case::of(Judges::Core, "default-step-resolves")
             .claim(
                 "The default steps resolve the motion: even twice their length changes X̄₁ at t/T = ½ by less than a \
                  drawn line, for r_e = 11.6 and 100.",

@@ -9,7 +9,7 @@ use crate::studies::stability::orbit::Place;
 
 pub fn cases() -> Vec<Case> {
     vec![
-        Case::integrator("stability-map")
+        Case::of(Judges::Integrator, "stability-map")
             .claim(
                 "In every corner of the map every integrator ends, with a direction or with an error: the exact \
                  propagator at round-off, A.4 and A.5 in angles within 4·10⁻⁵ rad, who keeps |p| with |p| = 1, and \

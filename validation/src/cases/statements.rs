@@ -6,7 +6,7 @@ use super::*;
 
 pub fn cases() -> Vec<Case> {
     vec![
-        Case::statement("period-unaffected")
+        Case::of(Judges::Statement, "period-unaffected")
             .claim(
                 "\"The period of oscillation is practically unaffected by collisions or by differences in \
                  particle size\".",
@@ -21,13 +21,13 @@ pub fn cases() -> Vec<Case> {
                 scene.time.outputs_per_unit = Some(53);
             })
             .check(period),
-        Case::statement("hundred-rods-suffice")
+        Case::of(Judges::Statement, "hundred-rods-suffice")
             .claim("\"The results did not change significantly when 100 or more particles were used\".")
             .source("eq. 4; Results, second paragraph")
             .under_test(100)
             .mistake("2 rods", 2)
             .check(enough_rods),
-        Case::statement("steady-stays-put")
+        Case::of(Judges::Statement, "steady-stays-put")
             .claim(
                 "\"According to the model, the mean axial projections should remain constant after their \
                  steady state values are reached\".",
@@ -36,7 +36,7 @@ pub fn cases() -> Vec<Case> {
             .under_test(6.0)
             .mistake("from the start", 0.0)
             .check(stays_put),
-        Case::statement("in-plane-rods")
+        Case::of(Judges::Statement, "in-plane-rods")
             .claim(
                 "Rods in the shear plane stay there and do not disturb each other, by `rotation` as Δt → 0: \"there \
                  should have been no collisions\".",

@@ -4,7 +4,7 @@ use super::*;
 
 pub fn cases() -> Vec<Case> {
     vec![
-        Case::statement("steady-mean-angle")
+        Case::of(Judges::Statement, "steady-mean-angle")
             .claim("The steady mean angle of interacting rods agrees closely with ⟨φ⟩ of a single rod.")
             .source("eqs 18, 19; Fig. 11")
             .under_test((|_| {}) as Change)

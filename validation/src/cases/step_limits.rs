@@ -50,7 +50,7 @@ pub fn cases() -> Vec<Case> {
     let side = |integrators, theory| claimed(Property::Side, OF_MIDPOINTS, integrators, theory);
     let folded = |integrators, theory| claimed(Property::Order, OF_MIDPOINTS, integrators, theory);
     vec![
-        Case::integrator("euler-step-limit")
+        Case::of(Judges::Integrator, "euler-step-limit")
             .claim("Explicit Euler's step on A.2 lets one rod overtake another where GΔt > 1/Λ, and never below.")
             .source("A.2; A.14 is such a step")
             .under_test(order(EULER))
@@ -58,7 +58,7 @@ pub fn cases() -> Vec<Case> {
             .mistake("RK4", order(RK4_IN_ANGLES))
             .mistake("the exact propagator", order(|| vec![exact_propagator()]))
             .check(agrees),
-        Case::integrator("step-limit-turning")
+        Case::of(Judges::Integrator, "step-limit-turning")
             .claim(
                 "Explicit Euler and the Lie-group midpoint rule turn every rod in the plane of shear by less than half \
                  a turn a step up to GΔt = π(1 + 1/r_e²), and not beyond.",
@@ -69,7 +69,7 @@ pub fn cases() -> Vec<Case> {
             .mistake("RK4", turning(RK4_IN_ANGLES))
             .mistake("the exact propagator", turning(|| vec![exact_propagator()]))
             .check(agrees),
-        Case::integrator("rods-come-to-rest")
+        Case::of(Judges::Integrator, "rods-come-to-rest")
             .claim(
                 "Just above GΔt = π(1 + 1/r_e²) explicit Euler brings every rod in the plane of shear to rest where \
                  there is no rest; just below it none stops.",
@@ -79,14 +79,14 @@ pub fn cases() -> Vec<Case> {
             .mistake("half of the rate", HALF_EULER)
             .mistake("RK4", RK4_IN_ANGLES)
             .check(rest),
-        Case::integrator("step-limit-side")
+        Case::of(Judges::Integrator, "step-limit-side")
             .claim("Explicit Euler lets no rod cross the plane of shear up to GΔt = 2/Λ, and not beyond.")
             .source("A.3; A.14 is such a step")
             .under_test(Claimed { found_late: OF_EULER, ..side(EULER, theory::euler_side) })
             .mistake("half of the rate", side(HALF_EULER, theory::euler_side))
             .mistake("RK4", side(RK4_IN_ANGLES, theory::euler_side))
             .check(agrees),
-        Case::integrator("implicit-midpoint-order")
+        Case::of(Judges::Integrator, "implicit-midpoint-order")
             .claim(
                 "The implicit midpoint rule keeps the order of rods in the plane of shear at every step for r_e < 1 + \
                  √2, and for longer rods up to GΔt = 2/(Λ(1 − u²)^{3/2}), 2u³ − 3u + 1/Λ = 0.",
@@ -103,7 +103,7 @@ pub fn cases() -> Vec<Case> {
             )
             .mistake("Newton's method after two changes", folded(two_changes, theory::implicit_midpoint_order))
             .check(agrees),
-        Case::integrator("implicit-midpoint-side")
+        Case::of(Judges::Integrator, "implicit-midpoint-side")
             .claim(
                 "The implicit midpoint rule lets no rod cross the plane of shear up to GΔt = 4/Λ or up to where its \
                  order is lost, whichever is less, and not beyond.",
@@ -114,7 +114,7 @@ pub fn cases() -> Vec<Case> {
             .mistake("where its order is lost, at every r_e", side(IMPLICIT_MIDPOINT, theory::implicit_midpoint_order))
             .mistake("explicit Euler", side(EULER, theory::implicit_midpoint_one_solution))
             .check(agrees),
-        Case::integrator("step-limit-at-least")
+        Case::of(Judges::Integrator, "step-limit-at-least")
             .claim(
                 "Explicit methods of order p in angles keep the order of rods at least up to GΔtΛ = x, x + … + xᵖ/p! = \
                  1; in the plane of shear the Lie-group RKMK4 is RK4 in angles.",
@@ -135,7 +135,7 @@ pub fn cases() -> Vec<Case> {
                 vec![RK4_IN_ANGLES(), named("RK4 in p")].into_iter().flatten().collect()
             })
             .check(at_least),
-        Case::integrator("rk4-near-a-sphere")
+        Case::of(Judges::Integrator, "rk4-near-a-sphere")
             .claim(
                 "As r_e → 1, RK4 in p turns every rod up to GΔt = 2√6 and its length is bounded up to 4√2, its limit \
                  on the imaginary axis.",
@@ -148,7 +148,7 @@ pub fn cases() -> Vec<Case> {
                 in_p(4, false, |problem, p, h| rk4(|y| problem.rate(&y), p, 0.5 * h))
             })
             .check(near_a_sphere),
-        Case::integrator("frozen-limit")
+        Case::of(Judges::Integrator, "frozen-limit")
             .claim(
                 "RK4 in p loses its length before the limit that frozen coefficients give on the real axis, GΔt = \
                  2.785/Λ, for r_e from 1.5 to 100.",

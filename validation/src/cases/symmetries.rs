@@ -40,7 +40,7 @@ const ONE_LENGTH: OneLength =
 
 pub fn cases() -> Vec<Case> {
     vec![
-        Case::core("symmetries")
+        Case::of(Judges::Core, "symmetries")
             .claim(
                 "Whole runs keep the symmetries: rods in another order and units of length and time to the bit, p → −p \
                  to round-off, the mirrored flow exactly for free rods.",
@@ -53,7 +53,7 @@ pub fn cases() -> Vec<Case> {
             .mistake("turned round axis 3, not head to tail", Mapping { tail_deg: [205.0, 70.0], ..SYMMETRIC })
             .mistake("the flow mirrored, the rods not", Mapping { mirrored_phi_deg: 25.0, ..SYMMETRIC })
             .check(symmetries),
-        Case::core("one-length-scale")
+        Case::of(Judges::Core, "one-length-scale")
             .claim(
                 "Rods of one length, in the cube of their concentration and with contacts at any arm, know one length: \
                  α a n^(1/3). 8 times the concentration at half of α, or half the length at twice α, change no bit.",
@@ -65,7 +65,7 @@ pub fn cases() -> Vec<Case> {
             .mistake("contacts end at a tenth of a rod's length", OneLength { min_contact_arm: 0.1, ..ONE_LENGTH })
             .mistake("a box that keeps its size", OneLength { box_mm: Some([12.0; 3]), ..ONE_LENGTH })
             .check(one_length),
-        Case::core("mirrored-flow")
+        Case::of(Judges::Core, "mirrored-flow")
             .claim("Interacting rods in the mirrored flow have the same mean projections in law.")
             .source("eqs 3, 14")
             .under_test(50.0)

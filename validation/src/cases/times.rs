@@ -13,7 +13,7 @@ fn unit(scene: &Scene) -> [f64; 2] {
 
 pub fn cases() -> Vec<Case> {
     vec![
-        Case::core("times-of-a-run")
+        Case::of(Judges::Core, "times-of-a-run")
             .claim(
                 "The seconds and the strain beside each t/T of a run are those of T = 2π(r_e + 1/r_e)/|G| in plane \
                  Couette flow, of 2π/ω in other flows in a plane that turn rods at ω, and of (2D:D)^½ where times are \

@@ -43,7 +43,7 @@ const STRESS: &str = "coefficients of the stress: integrals over u, and over ln 
 
 pub fn cases() -> Vec<Case> {
     vec![
-        Case::oracle("two-methods")
+        Case::of(Judges::Oracle, "two-methods")
             .claim(
                 "Every number that is called certified is found by two methods that share nothing but what is said, \
                  to its last digit.",

@@ -14,7 +14,7 @@ const TALL: Shape = [4.0, 0.5, 0.5];
 
 pub fn cases() -> Vec<Case> {
     vec![
-        Case::core("shape-of-the-volume")
+        Case::of(Judges::Core, "shape-of-the-volume")
             .claim(
                 "With thousands of rods, control volumes of equal H₁/H₂ give the same X̄₁, and one of eight times that \
                  a lower one: the paper's replacement is part of the model.",

@@ -15,7 +15,7 @@ pub fn cases() -> Vec<Case> {
     let spoiled = |of: usize, lay| vec![Start { lay, ..starts::ALL[of] }];
     let same = Beside { free: |_| {}, other: |_| {}, mean: |_| {} };
     vec![
-        Case::integrator("free-suspension-rates")
+        Case::of(Judges::Integrator, "free-suspension-rates")
             .claim(
                 "The error of a free suspension's X̄₁ falls as N^(−½) for random starts, N^(−1) for stratified ones \
                  and N^(−5/4) for a Fibonacci lattice.",
@@ -40,13 +40,13 @@ pub fn cases() -> Vec<Case> {
                 }),
             )
             .check(rates),
-        Case::program("replicas-are-independent")
+        Case::of(Judges::Program, "replicas-are-independent")
             .claim("The scatter of a mean over M replicas of interacting rods falls as M^(−½).")
             .source("eq. 12; section 'Method of solution': runs with other random numbers")
             .under_test((|replica| replica) as Number)
             .mistake("every two replicas are the same", |replica| replica / 2)
             .check(replicas),
-        Case::interpretation("faces-cost-collisions")
+        Case::of(Judges::Interpretation, "faces-cost-collisions")
             .claim(
                 "What the control volume's faces take from the collisions of a rod falls as N^(−1/3), the share of the \
                  volume near a face, and not as 1/N.",
@@ -55,7 +55,7 @@ pub fn cases() -> Vec<Case> {
             .under_test(law::FACES)
             .mistake("1/N", -1.0)
             .check(faces),
-        Case::core("paths-do-not-converge")
+        Case::of(Judges::Core, "paths-do-not-converge")
             .claim(
                 "Halving the time step again and again does not bring a rod's paths together, because \
                  kicks have no bound.",
@@ -66,7 +66,7 @@ pub fn cases() -> Vec<Case> {
                 lab::interaction(scene).min_contact_arm = 1.0
             })
             .check(paths),
-        Case::program("shared-random-numbers")
+        Case::of(Judges::Program, "shared-random-numbers")
             .claim(
                 "The same rods without collisions say more of X̄₁ than a run at half the step, and their \
                  mean is known; for a difference between two α, shared random numbers save a factor of \

@@ -124,10 +124,6 @@ pub struct About {
 }
 
 impl About {
-    fn new(name: &'static str, judges: Judges) -> Self {
-        Self { name, judges, claim: "", source: "", equations: Vec::new() }
-    }
-
     /// The claim, in one sentence.
     pub fn claim(self, claim: &'static str) -> Self {
         Self { claim, ..self }
@@ -175,40 +171,9 @@ pub struct Case {
 }
 
 impl Case {
-    /// A case that verifies the simulator's core.
-    pub fn core(name: &'static str) -> About {
-        About::new(name, Judges::Core)
-    }
-
-    /// A case that verifies whole runs and the program.
-    pub fn program(name: &'static str) -> About {
-        About::new(name, Judges::Program)
-    }
-
-    /// A case that verifies integrators.
-    pub fn integrator(name: &'static str) -> About {
-        About::new(name, Judges::Integrator)
-    }
-
-    /// A case that verifies an oracle.
-    pub fn oracle(name: &'static str) -> About {
-        About::new(name, Judges::Oracle)
-    }
-
-    /// A case on a modelling choice where the paper is open.
-    pub fn interpretation(name: &'static str) -> About {
-        About::new(name, Judges::Interpretation)
-    }
-
-    /// A case on a sentence of the paper.
-    pub fn statement(name: &'static str) -> About {
-        About::new(name, Judges::Statement)
-    }
-
-    /// A case that validates the model by measured points. If these are too few to catch a control, it is not the
-    /// code's fault, and the case is underpowered.
-    pub fn measurement(name: &'static str) -> About {
-        About::new(name, Judges::Measurement)
+    /// A case that judges such an implementation; its claim, source and check follow.
+    pub fn of(judges: Judges, name: &'static str) -> About {
+        About { name, judges, claim: "", source: "", equations: Vec::new() }
     }
 
     /// Runs the check, then every control. Without data, controls are not run, as they could not fail.
@@ -281,7 +246,7 @@ mod tests {
     #[test]
     fn a_case_passes_only_with_its_controls_caught() {
         let verdict = |value, broken: Vec<(&'static str, f64)>| {
-            let case = Case::core("a").claim("c").under_test(value).mistakes(broken).check(is_three);
+            let case = Case::of(Judges::Core, "a").claim("c").under_test(value).mistakes(broken).check(is_three);
             case.run(&Effort::gate()).verdict
         };
         assert_eq!(verdict(3.0, vec![("four", 4.0)]), Verdict::Pass);
@@ -315,7 +280,9 @@ mod tests {
             let judged = (*value > 0.0).then(|| Evidence::exact("three", value - 3.0));
             [none()].into_iter().chain(judged).chain([none()]).collect::<Vec<_>>()
         };
-        let verdict = |value| Case::core("a").under_test(value).mistake("four", 4.0).check(check).run(&Effort::gate());
+        let verdict = |value| {
+            Case::of(Judges::Core, "a").under_test(value).mistake("four", 4.0).check(check).run(&Effort::gate())
+        };
         for (value, expected) in [(3.0, Verdict::Pass), (4.0, Verdict::Fail), (0.0, Verdict::NoData)] {
             let outcome = verdict(value);
             assert_eq!((outcome.verdict, outcome.controls.len()), (expected, usize::from(value > 0.0)));
@@ -324,7 +291,7 @@ mod tests {
 
     #[test]
     fn measured_points_that_are_too_few_are_no_fault() {
-        let case = Case::measurement("a").under_test(3.0).mistake("not broken", 3.0).check(is_three);
+        let case = Case::of(Judges::Measurement, "a").under_test(3.0).mistake("not broken", 3.0).check(is_three);
         assert_eq!(case.run(&Effort::gate()).verdict, Verdict::Underpowered);
     }
 }

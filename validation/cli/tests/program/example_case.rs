@@ -1,4 +1,4 @@
-use shearbed_validation::judge::case::{Case, Effort, Evidence};
+use shearbed_validation::judge::case::{Case, Effort, Evidence, Judges};
 use shearbed_validation::oracle::closed_form;
 use shearbed_validation::judge::statistics::worst;
 
@@ -6,7 +6,7 @@ type Period = fn(f64, f64) -> f64;
 
 pub fn cases() -> Vec<Case> {
     vec![
-        Case::core("period-formula")
+        Case::of(Judges::Core, "period-formula")
             .claim("The core's period is T = 2π(r_e + 1/r_e)/G.")
             .source("eq. 15")
             .under_test(shearbed::model::jeffery::period_s as Period)

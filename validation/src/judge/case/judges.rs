@@ -19,7 +19,8 @@ pub enum Judges {
     Interpretation,
     /// A sentence of the paper about its model's results.
     Statement,
-    /// Validation: the model against measured points.
+    /// Validation: the model against measured points. If these are too few to catch a control, it is not the code's
+    /// fault, and the case is underpowered.
     Measurement,
 }
 
