@@ -1,6 +1,7 @@
 //! Tests of means and standard errors, by hand.
 
 use super::*;
+use crate::Scene;
 
 /// A sum without errors over rods.
 fn sum(value: f64) -> Sum {
