@@ -1,6 +1,6 @@
 //! How a picture looks: what the flags change in it.
 
-use crate::Failure;
+use crate::{Failure, number};
 use clap::builder::PossibleValuesParser;
 use shearbed_validation::oracle::reference::big::finite;
 use shearbed_validation::present::plot::{Figure, Theme};
@@ -29,6 +29,9 @@ pub(super) struct Look {
     /// Width and height in 1/96 inch, as 800x500
     #[arg(long, value_name = "WIDTHxHEIGHT", value_parser = size)]
     size: Option<(u32, u32)>,
+    /// Width in print, as 85 or 170, with letters of 8 points
+    #[arg(long, value_name = "MM", value_parser = width_mm, conflicts_with = "size")]
+    width_mm: Option<f64>,
     /// A logarithmic horizontal axis
     #[arg(long)]
     log_x: bool,
@@ -55,6 +58,13 @@ fn size(text: &str) -> Result<(u32, u32), String> {
     let sides = text.split_once('x').and_then(|(w, h)| Some((w.parse().ok()?, h.parse().ok()?)));
     let inside = sides.filter(|(width, height)| SIZES.contains(width) && SIZES.contains(height));
     inside.ok_or_else(|| format!("WIDTHxHEIGHT is allowed, as 800x500, each from {} to {}", SIZES.start(), SIZES.end()))
+}
+
+/// The range of a width in print: axes with letters of 8 points need the least, and a page is no wider than the most.
+const WIDTHS: std::ops::RangeInclusive<f64> = 45.0..=420.0;
+
+fn width_mm(text: &str) -> Result<f64, String> {
+    number(text, |width| WIDTHS.contains(&width), &format!("a width from {} to {} mm", WIDTHS.start(), WIDTHS.end()))
 }
 
 /// The coordinates of all curves and points, along and up.
@@ -135,6 +145,7 @@ impl Look {
         reached("--x-range", self.x_range, &x)?;
         reached("--y-range", self.y_range, &y)?;
         figure.size = self.size.or(figure.size);
+        figure.width_mm = self.width_mm.or(figure.width_mm);
         if self.theme == "dark" {
             figure.theme = Theme::Dark;
         }

@@ -8,12 +8,16 @@ use std::ops::Range;
 /// Larger magnitudes are treated as infinite, because differences of two of them would be.
 const LARGEST: f64 = 1e300;
 
+/// Steps between the ticks of a long linear axis.
+pub(super) const STEPS: f64 = 6.0;
+
 /// The place of a value on an axis: the value or its logarithm; NaN if it has no place there.
 pub(super) fn place(value: f64, log: bool) -> f64 {
     let placed = if log { value.log10() } else { value };
     if placed.abs() <= LARGEST { placed } else { f64::NAN }
 }
 
+#[derive(Clone)]
 pub(super) struct Axis {
     pub(super) low: f64,
     pub(super) high: f64,
@@ -24,8 +28,9 @@ pub(super) struct Axis {
 }
 
 impl Axis {
-    /// An axis that covers all finite `placed` values, with a margin as a part of their range.
-    pub(super) fn over(placed: impl Iterator<Item = f64>, log: bool, margin: f64) -> Self {
+    /// An axis that covers all finite `placed` values, with a margin as a part of their range, in about so many steps
+    /// if it is linear.
+    pub(super) fn over(placed: impl Iterator<Item = f64>, log: bool, margin: f64, steps: f64) -> Self {
         let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
         for value in placed.filter(|value| value.is_finite()) {
             low = low.min(value);
@@ -34,12 +39,12 @@ impl Axis {
         if low > high {
             (low, high) = (0.0, 1.0);
         }
-        if log { logarithmic(low, high) } else { linear(low, high, margin) }
+        if log { logarithmic(low, high) } else { linear(low, high, margin, steps) }
     }
 
     /// An axis with exactly these ends, in placed values.
     pub(super) fn exactly((low, high): (f64, f64), log: bool) -> Self {
-        let axis = if log { logarithmic(low, high) } else { linear(low, high, 0.0) };
+        let axis = if log { logarithmic(low, high) } else { linear(low, high, 0.0, STEPS) };
         let slack = 1e-9 * (high - low);
         let inside = |place: f64| (low - slack..=high + slack).contains(&place);
         Self {
@@ -48,6 +53,12 @@ impl Axis {
             ticks: axis.ticks.into_iter().filter(|(tick, _)| inside(*tick)).collect(),
             between: axis.between.into_iter().filter(|tick| inside(*tick)).collect(),
         }
+    }
+
+    /// The axis without labels, above another one that has them.
+    pub(super) fn unlabelled(mut self) -> Self {
+        self.ticks.iter_mut().for_each(|(_, label)| label.clear());
+        self
     }
 
     /// Removes labels that would touch their neighbours on an axis of this length.
@@ -89,14 +100,14 @@ impl ValueFormatter<f64> for Axis {
     }
 }
 
-fn linear(low: f64, high: f64, margin: f64) -> Axis {
+fn linear(low: f64, high: f64, margin: f64, steps: f64) -> Axis {
     let size = low.abs().max(high.abs());
     let span = high - low;
     // Constant but for round-off: the axis then shows the value, not its last bits.
     let pad =
         if span <= 1e-9 * size || span < 1e-290 { if size > 1e-280 { 0.1 * size } else { 1.0 } } else { margin * span };
     let (low, high) = (low - pad, high + pad);
-    let step = round_step((high - low) / 6.0);
+    let step = round_step((high - low) / steps);
     let ticks = ((low / step - 1e-9).ceil() as i64..=(high / step + 1e-9).floor() as i64)
         .map(|k| k as f64 * step)
         .collect::<Vec<_>>();
@@ -187,7 +198,7 @@ mod tests {
 
     fn labels(values: &[f64], log: bool) -> Vec<String> {
         let placed = values.iter().map(|v| place(*v, log));
-        let axis = Axis::over(placed, log, 0.0);
+        let axis = Axis::over(placed, log, 0.0, STEPS);
         axis.ticks.into_iter().map(|(_, label)| label).collect()
     }
 
@@ -205,12 +216,12 @@ mod tests {
         assert_eq!(labels(&[0.02, 1e3], true), ["0.1", "1", "10", "100", "1000"]);
         assert_eq!(labels(&[6.0, 40.0], true), ["5", "10", "20", "50"]);
         assert_eq!(labels(&[1e-30, 1e30], true).len(), 7);
-        let axis = Axis::over([1e-4, 1.0].into_iter().map(|v| place(v, true)), true, 0.0);
+        let axis = Axis::over([1e-4, 1.0].into_iter().map(|v| place(v, true)), true, 0.0, STEPS);
         assert_eq!(axis.between.len(), 4 * 8);
         assert!((axis.between[0] - 2e-4_f64.log10()).abs() < 1e-12);
         for value in (-6..7).flat_map(|k| [1.0, 2.0, 5.0].map(|factor| factor * 10f64.powi(k))) {
             let ends = [value, 30.0 * value].map(|v| place(v, true));
-            let axis = Axis::over(ends.into_iter(), true, 0.0);
+            let axis = Axis::over(ends.into_iter(), true, 0.0, STEPS);
             assert!(axis.low <= ends[0] && ends[1] <= axis.high, "{value}");
         }
     }
@@ -228,7 +239,7 @@ mod tests {
         for a in odd {
             for b in odd {
                 for log in [false, true] {
-                    let axis = Axis::over([a, b].into_iter().map(|v| place(v, log)), log, 0.05);
+                    let axis = Axis::over([a, b].into_iter().map(|v| place(v, log)), log, 0.05, STEPS);
                     assert!(axis.low < axis.high, "{a} {b} {log}");
                     assert!((1..20).contains(&axis.ticks.len()), "{a} {b} {log}: {:?}", axis.ticks);
                 }

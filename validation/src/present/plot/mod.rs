@@ -32,7 +32,7 @@ pub use png::png;
 use serde::{Deserialize, Deserializer, Serialize};
 use std::collections::BTreeSet;
 use std::error::Error;
-use style::{AXES_HEIGHT, FINE, MARGIN, ROW, TITLE, WIDTH};
+use style::{AXES_HEIGHT, BELOW, FINE, MARGIN, ROW, TITLE, WIDTH};
 pub use style::{FITTED, MEASURED};
 pub use theme::Theme;
 
@@ -153,6 +153,18 @@ pub struct Grid {
     pub shades: bool,
 }
 
+/// A second panel of a picture, such as that of residuals. Its curves and points look as those at the same place of the
+/// first, whose legend names them.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Panel {
+    /// Name of its vertical axis; a short word fits.
+    pub y_name: String,
+    /// Curves, drawn beneath the points.
+    pub curves: Vec<Curve>,
+    /// Points.
+    pub points: Vec<Points>,
+}
+
 /// A picture.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Figure {
@@ -183,9 +195,15 @@ pub struct Figure {
     /// Maps, in place of curves and points.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub grid: Option<Grid>,
+    /// A panel below, with the same horizontal axis.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub below: Option<Panel>,
     /// Width and height of the whole picture in pixels of 1/96 inch; `None` for the size that it needs.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub size: Option<(u32, u32)>,
+    /// Width in print, in mm, in place of `size`: the axes' letters have 8 points there, at any width.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub width_mm: Option<f64>,
     /// The background for which it is drawn.
     #[serde(default, skip_serializing_if = "is_light")]
     pub theme: Theme,
@@ -234,6 +252,14 @@ pub fn svg(figure: &Figure) -> Result<String, String> {
 /// Smallest height of the axes, whatever size is requested.
 const LEAST_AXES: i32 = 140 * FINE;
 
+/// Pixels in an inch of a picture whose width in print is given: the axes' letters, 16 high, have 8 points.
+const IN_PRINT: f64 = 144.0;
+
+/// Inches of a picture that is `width` wide in the units of the view box, by unit.
+fn inches(figure: &Figure, width: f64) -> f64 {
+    figure.width_mm.map_or(1.0 / (96.0 * f64::from(FINE)), |mm| mm / 25.4 / width)
+}
+
 /// The parts above the axes, and the size of the picture.
 struct Parts {
     title: Vec<String>,
@@ -245,15 +271,17 @@ struct Parts {
 
 impl Parts {
     fn of(figure: &Figure) -> Self {
-        let width = figure.size.map_or(WIDTH, |(width, _)| width as i32 * FINE);
+        let in_print = figure.width_mm.map(|mm| (mm / 25.4 * IN_PRINT * f64::from(FINE)).round() as i32);
+        let width = in_print.or(figure.size.map(|(width, _)| width as i32 * FINE)).unwrap_or(WIDTH);
         // The height of maps follows from their cells.
-        let asked = figure.size.filter(|_| figure.grid.is_none());
+        let asked = figure.size.filter(|_| figure.grid.is_none() && in_print.is_none());
         let title = style::wrap(&figure.title, width - 2 * MARGIN, TITLE);
         let legend = Legend::of(figure, width);
         let grid = figure.grid.as_ref().map(|grid| grid::Layout::of(grid, width));
         let head = MARGIN + title.len() as i32 * ROW + if grid.is_some() { 0 } else { legend.height() };
-        let own = asked.map_or(AXES_HEIGHT, |(_, height)| height as i32 * FINE - head);
-        let axes = own.max(LEAST_AXES).max(legend.height_beside() + style::AXES_FRAME);
+        let below = if figure.below.is_some() { BELOW } else { 0 };
+        let own = asked.map_or(AXES_HEIGHT, |(_, height)| height as i32 * FINE - head - below);
+        let axes = own.max(LEAST_AXES).max(legend.height_beside() + style::AXES_FRAME) + below;
         let body = grid.as_ref().map_or(axes, |layout| layout.height);
         Self { title, legend, grid, width, height: head + body }
     }
@@ -291,13 +319,14 @@ fn typeset(figure: &Figure) -> Figure {
     let mut figure = figure.clone();
     let curves = figure.curves.iter_mut().map(|curve| &mut curve.label);
     let points = figure.points.iter_mut().map(|points| &mut points.label);
-    let texts = [&mut figure.title, &mut figure.x_name, &mut figure.y_name];
+    let below = figure.below.iter_mut().map(|panel| &mut panel.y_name);
+    let texts = [&mut figure.title, &mut figure.x_name, &mut figure.y_name].into_iter().chain(below);
     let maps = figure.grid.iter_mut().flat_map(|grid| {
         let titles = grid.maps.iter_mut().map(|map| &mut map.title);
         let names = grid.rows.iter_mut().chain(&mut grid.columns).chain(&mut grid.classes);
         titles.chain(names)
     });
-    for text in texts.into_iter().chain(curves).chain(points).chain(maps) {
+    for text in texts.chain(curves).chain(points).chain(maps) {
         // XML does not allow some characters, not even escaped.
         let text_alone = powers(text).replace(LOW, "");
         let below = |part: &str| part.chars().flat_map(|letter| [LOW, letter]).collect();
@@ -333,11 +362,13 @@ fn finish(figure: &Figure, drawing: &str, (width, height): (i32, i32)) -> String
         .chain(figure.grid.iter().flat_map(|grid| &grid.maps).map(|map| map.title.as_str()))
         .collect();
     let spoken = |text: &str| escaped(&text.replace(LOW, ""));
+    let (across, down) = match figure.width_mm {
+        Some(mm) => (format!("{mm}mm"), format!("{:.2}mm", mm * f64::from(height) / f64::from(width))),
+        None => ((width / FINE).to_string(), (height / FINE).to_string()),
+    };
     let open = format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" role=\"img\" width=\"{}\" height=\"{}\" viewBox=\"0 0 {width} \
-         {height}\">\n<title>{}</title>\n<desc>{}</desc>",
-        width / FINE,
-        height / FINE,
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" role=\"img\" width=\"{across}\" height=\"{down}\" viewBox=\"0 0 \
+         {width} {height}\">\n<title>{}</title>\n<desc>{}</desc>",
         spoken(&figure.title),
         spoken(&format!("{} against {}: {}", figure.y_name, figure.x_name, labels.join(", "))),
     );

@@ -4,8 +4,7 @@
 mod tests;
 
 use super::sheet::{self, Canvas};
-use super::style::FINE;
-use super::{Drawing, Figure};
+use super::{Drawing, Figure, inches};
 use pdf_writer::types::LineJoinStyle;
 use pdf_writer::{Content, Filter, Finish, Name, Pdf, Rect, Ref, TextStr};
 use plotters_backend::BackendColor;
@@ -13,13 +12,12 @@ use std::collections::BTreeSet;
 use tiny_skia::PathSegment::{Close, CubicTo, LineTo, MoveTo, QuadTo};
 use tiny_skia::{Path, Point};
 
-/// The figure as a PDF page of its size: a pixel of the SVG is 1/96 inch, 0.75 points.
+/// The figure as a PDF page of its size.
 pub fn pdf(figure: &Figure) -> Result<Drawing, String> {
-    let (page, missing) = sheet::draw(figure, |width, height| Some(Page::new(width, height)))?;
+    let points = |width| (72.0 * inches(figure, f64::from(width))) as f32;
+    let (page, missing) = sheet::draw(figure, |width, height| Some(Page::new([width, height], points(width))))?;
     Ok(Drawing { bytes: page.file(&figure.title), missing })
 }
-
-const POINTS: f32 = 0.75 / FINE as f32;
 
 struct Page {
     size: [f32; 2],
@@ -29,11 +27,12 @@ struct Page {
 }
 
 impl Page {
-    fn new(width: u32, height: u32) -> Self {
-        let size = [width as f32 * POINTS, height as f32 * POINTS];
+    /// A page of so many units, each of so many points.
+    fn new(sides: [u32; 2], points: f32) -> Self {
+        let size = sides.map(|side| side as f32 * points);
         let mut content = Content::new();
         // y points down in pictures, up on pages.
-        content.transform([POINTS, 0.0, 0.0, -POINTS, 0.0, size[1]]);
+        content.transform([points, 0.0, 0.0, -points, 0.0, size[1]]);
         content.set_line_join(LineJoinStyle::RoundJoin);
         Self { size, content, opacities: BTreeSet::new() }
     }

@@ -4,8 +4,7 @@
 mod tests;
 
 use super::sheet::{self, Canvas};
-use super::style::FINE;
-use super::{Drawing, Figure};
+use super::{Drawing, Figure, inches};
 use plotters_backend::BackendColor;
 use std::io::Write;
 use tiny_skia::{Color, FillRule, LineJoin, Paint, Path, Pixmap, Stroke, StrokeDash, Transform};
@@ -13,7 +12,8 @@ use tiny_skia::{Color, FillRule, LineJoin, Paint, Path, Pixmap, Stroke, StrokeDa
 /// The most pixels that are drawn at a time: a larger picture is drawn in bands.
 const AT_ONCE: u32 = 1 << 24;
 
-/// The figure as [`super::svg`] draws it, as a PNG file with four pixels per SVG pixel in each direction, 384 an inch.
+/// The figure as [`super::svg`] draws it, as a PNG file with a pixel for each unit of the SVG's view box: 384 an inch,
+/// or 576 where the width in print is given.
 pub fn png(figure: &Figure) -> Result<Drawing, String> {
     in_bands(figure, AT_ONCE)
 }
@@ -24,7 +24,8 @@ fn in_bands(figure: &Figure, at_once: u32) -> Result<Drawing, String> {
     let (mut band_of_rows, missing) = band(0)?;
     let (width, height) = (band_of_rows.pixels.width(), band_of_rows.height);
     let mut bytes = Vec::new();
-    let mut writer = header(&mut bytes, width, height).map_err(cannot)?;
+    let inches = inches(figure, f64::from(width));
+    let mut writer = header(&mut bytes, [width, height], inches).map_err(cannot)?;
     let mut rows = writer.stream_writer().map_err(cannot)?;
     loop {
         for row in band_of_rows.pixels.pixels().chunks(width as usize) {
@@ -43,11 +44,15 @@ fn in_bands(figure: &Figure, at_once: u32) -> Result<Drawing, String> {
     Ok(Drawing { bytes, missing })
 }
 
-fn header(bytes: &mut Vec<u8>, width: u32, height: u32) -> Result<png::Writer<&mut Vec<u8>>, png::EncodingError> {
+/// The file's head; a pixel has so many `inches`.
+fn header(
+    bytes: &mut Vec<u8>,
+    [width, height]: [u32; 2],
+    inches: f64,
+) -> Result<png::Writer<&mut Vec<u8>>, png::EncodingError> {
     let mut encoder = png::Encoder::new(bytes, width, height);
     encoder.set_color(png::ColorType::Rgb);
-    // A browser's pixel is 1/96 inch.
-    let per_metre = (96.0 * f64::from(FINE) / 0.0254).round() as u32;
+    let per_metre = (1.0 / (inches * 0.0254)).round() as u32;
     encoder.set_pixel_dims(Some(png::PixelDimensions { xppu: per_metre, yppu: per_metre, unit: png::Unit::Meter }));
     encoder.write_header()
 }

@@ -10,6 +10,8 @@ pub(super) const WIDTH: i32 = 560 * FINE;
 pub(super) const AXES_HEIGHT: i32 = 340 * FINE;
 /// The part of that height above and below the axes.
 pub(super) const AXES_FRAME: i32 = 76 * FINE;
+/// The height that a panel below adds.
+pub(super) const BELOW: i32 = 100 * FINE;
 pub(super) const ROW: i32 = 23 * FINE;
 pub(super) const MARGIN: i32 = 12 * FINE;
 /// Sizes of letters.

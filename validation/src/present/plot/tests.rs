@@ -4,7 +4,7 @@ mod figures;
 
 use super::*;
 use crate::present::xml::is_well_formed;
-pub(super) use figures::{many, maps};
+pub(super) use figures::{fitted, many, maps};
 
 fn wave(label: &str, phase: f64) -> Curve {
     let x: Vec<f64> = (0..=300).map(|k| 0.02 * f64::from(k)).collect();
@@ -89,6 +89,52 @@ fn odd_data_draw_what_can_be_drawn() {
     assert!(svg(&Figure::default()).unwrap().contains("no data"));
 }
 
+/// The numbers of an attribute at its places, as of x in texts or corners in polygons.
+fn numbers_of<'a>(svg: &'a str, before: &'a str) -> impl Iterator<Item = f64> + 'a {
+    svg.split(before).skip(1).map(|rest| rest.split(['"', ' ', ',']).next().unwrap().parse().unwrap())
+}
+
+#[test]
+fn residuals_stand_below_their_points_in_their_colours() {
+    let drawn = svg(&fitted()).unwrap();
+    for name in 0..2 {
+        let RGBColor(red, green, blue) = style::colour(name);
+        // Three in each panel and one in the legend, at the same three places across.
+        let markers = format!("<polygon opacity=\"1\" fill=\"#{red:02X}{green:02X}{blue:02X}\" points=\"");
+        let across: Vec<f64> = numbers_of(&drawn, &markers).collect();
+        assert_eq!(across.len(), 7, "{name}: {across:?}");
+        let places: std::collections::BTreeSet<_> = across.iter().map(|x| *x as i32).collect();
+        assert_eq!(places.len(), 4, "{across:?}");
+    }
+    // One name of the shared axis; residuals have labels on both sides of 0.
+    assert_eq!(drawn.matches("t (s)").count(), 2, "axis and description");
+    assert!(drawn.contains(">\n−0.01\n<") && drawn.contains(">\n0.01\n<") && drawn.contains("residual"));
+    // Control: without the panel its points and its name are gone.
+    let alone = svg(&Figure { below: None, ..fitted() }).unwrap();
+    assert!(!alone.contains("residual") && alone.matches("<polygon").count() < drawn.matches("<polygon").count());
+}
+
+#[test]
+fn a_width_in_print_has_letters_of_eight_points() {
+    let size = |figure: &Figure| {
+        let svg = svg(figure).unwrap();
+        let view = numbers_of(&svg, "viewBox=\"0 0 ").next().unwrap();
+        let letters = numbers_of(&svg, "font-size=\"").fold(0.0, crate::oracle::larger);
+        let width = svg.split("width=\"").nth(1).unwrap().split('"').next().unwrap().to_owned();
+        (width, letters / view)
+    };
+    for mm in [45.0, 85.0, 170.0, 420.0] {
+        let (width, letters) = size(&Figure { width_mm: Some(mm), title: String::new(), ..fitted() });
+        assert_eq!(width, format!("{mm}mm"));
+        let points = letters * mm / 25.4 * 72.0;
+        // The view box has whole units, of which a letter has 64.
+        assert!((points / 8.0 - 1.0).abs() < 0.01, "{mm}: {points}");
+    }
+    // Control: a width in pixels has letters of 12 points.
+    let (width, letters) = size(&Figure { size: Some((321, 300)), title: String::new(), ..fitted() });
+    assert!(width == "321" && (letters * 321.0 / 96.0 * 72.0 / 12.0 - 1.0).abs() < 0.01, "{width} {letters}");
+}
+
 #[test]
 fn a_power_law_is_straight_on_logarithmic_axes() {
     let x: Vec<f64> = (0..=4).map(|k| 10f64.powi(-k)).collect();
@@ -112,7 +158,8 @@ fn a_power_law_is_straight_on_logarithmic_axes() {
 
 #[test]
 fn no_text_leaves_its_picture_or_overlaps_another() {
-    for figure in [synthetic(), many(), maps(), Figure::default()] {
+    let wide = |mm| Figure { width_mm: Some(mm), ..fitted() };
+    for figure in [synthetic(), many(), maps(), fitted(), wide(85.0), wide(170.0), Figure::default()] {
         let svg = svg(&figure).unwrap();
         assert!(is_well_formed(&svg), "{svg}");
         let faults = boxes::faults(&svg);

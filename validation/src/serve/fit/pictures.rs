@@ -1,4 +1,5 @@
-//! A fit as pictures: points with the best curve and its band, residuals, profiles, and the region of two parameters.
+//! A fit as pictures: points with the best curve, its band and their residuals, profiles, and the region of two
+//! parameters.
 
 use super::data::kinds;
 use super::report::{Report, levels};
@@ -7,7 +8,7 @@ use crate::methods::least_squares::Datum;
 use crate::methods::least_squares::emulator::Model;
 use crate::methods::least_squares::likelihood::REPLICAS;
 use crate::methods::least_squares::profile::{region, rise_of_several};
-use crate::present::plot::{Curve, FITTED, Figure, MEASURED, Points, names as letters};
+use crate::present::plot::{Curve, FITTED, Figure, MEASURED, Panel, Points, names as letters};
 
 const TIMES: usize = 200;
 
@@ -113,22 +114,21 @@ pub fn figures(
             }
         };
         let stem = if names.len() == 1 { String::new() } else { format!("_{}", set + 1) };
-        let figure = |title: &str, y_name: String, curves, points| Figure {
-            title: format!("{name}: {title}"),
+        let residuals = Panel {
+            y_name: "residual".into(),
+            curves: of_set.iter().map(zero).collect(),
+            points: of_set.iter().map(|c| points(c, &|k| report.residuals[k].residual)).collect(),
+        };
+        let figure = Figure {
+            title: name.clone(),
             x_name: letters::time(times[set]),
-            y_name,
-            curves,
-            points,
+            y_name: of_set.iter().map(|c| letters::channel(c)).collect::<Vec<_>>().join(", "),
+            curves: of_set.iter().map(curve).collect(),
+            points: of_set.iter().map(|c| points(c, &|k| data[k].value)).collect(),
+            below: Some(residuals),
             ..Figure::default()
         };
-        let names = of_set.iter().map(|c| letters::channel(c)).collect::<Vec<_>>().join(", ");
-        let measured = of_set.iter().map(|c| points(c, &|k| data[k].value)).collect();
-        let best = figure("points and best fit", names, of_set.iter().map(curve).collect(), measured);
-        all.push((format!("points{stem}"), best));
-        let residuals = of_set.iter().map(|c| points(c, &|k| report.residuals[k].residual)).collect();
-        let zeros = of_set.iter().map(zero).collect();
-        let residuals = figure("residuals", "measured less best fit".into(), zeros, residuals);
-        all.push((format!("residuals{stem}"), Figure { y_span: Some((-0.001, 0.001)), ..residuals }));
+        all.push((format!("points{stem}"), figure));
     }
     all.extend((0..fit.ranges.len()).map(|axis| profile_of(fit, axis)));
     for b in 1..fit.ranges.len() {

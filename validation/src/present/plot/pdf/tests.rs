@@ -1,8 +1,9 @@
 //! Tests the page and its paths as a reader finds them, unpacked by another crate than the one that packs them.
 
+use super::super::style::FINE;
 use super::super::style::{CURVE_WIDTH, colour, looks};
 use super::super::svg;
-use super::super::tests::{many, maps, synthetic};
+use super::super::tests::{fitted, many, maps, synthetic};
 use super::*;
 use plotters::style::RGBColor;
 
@@ -28,7 +29,8 @@ fn strokes(operators: &str, look: usize) -> usize {
 
 #[test]
 fn a_pdf_shows_what_the_svg_does() {
-    for figure in [synthetic(), many(), maps()] {
+    let in_print = Figure { width_mm: Some(85.0), ..fitted() };
+    for figure in [synthetic(), many(), maps(), in_print] {
         let drawing = svg(&figure).unwrap();
         let file = pdf(&figure).unwrap();
         assert!(file.missing.is_empty());
@@ -37,7 +39,9 @@ fn a_pdf_shows_what_the_svg_does() {
             .split_whitespace()
             .map(|number| number.parse().unwrap())
             .collect();
-        let (width, height) = (page[2] / POINTS, page[3] / POINTS);
+        // In print 85 mm are 1928 units.
+        let points = if figure.width_mm.is_some() { 85.0 / 25.4 * 72.0 / 1928.0 } else { 0.75 / FINE as f32 };
+        let (width, height) = (page[2] / points, page[3] / points);
         assert!(drawing.contains(&format!("viewBox=\"0 0 {} {}\"", width.round(), height.round())));
         for look in &looks(&figure)[..figure.curves.len()] {
             // The curve and its sample in the legend.
@@ -69,7 +73,7 @@ fn a_quadratic_curve_keeps_its_middle() {
     let mut path = tiny_skia::PathBuilder::new();
     path.move_to(0.0, 0.0);
     path.quad_to(3.0, 6.0, 6.0, 0.0);
-    let mut page = Page::new(10, 10);
+    let mut page = Page::new([10, 10], 1.0);
     page.draw(&path.finish().unwrap());
     let drawn = String::from_utf8(page.content.finish().to_vec()).unwrap();
     let curve = drawn.lines().find(|line| line.ends_with(" c")).unwrap();

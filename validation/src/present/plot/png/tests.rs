@@ -1,6 +1,6 @@
 use super::super::boxes::{TextBox, boxes};
-use super::super::style::{self, CURVE_WIDTH};
-use super::super::tests::{many, maps, synthetic};
+use super::super::style::{self, CURVE_WIDTH, FINE};
+use super::super::tests::{fitted, many, maps, synthetic};
 use super::super::{Curve, svg};
 use super::*;
 use crate::present::plot::style::looks;
@@ -26,7 +26,7 @@ fn inked(text: &TextBox, width: usize, pixels: &[[u8; 3]]) -> f64 {
 
 #[test]
 fn a_png_shows_what_the_svg_does() {
-    for figure in [synthetic(), many(), maps()] {
+    for figure in [synthetic(), many(), maps(), fitted()] {
         let drawing = svg(&figure).unwrap();
         let file = png(&figure).unwrap();
         assert!(file.missing.is_empty(), "{:?}", file.missing);

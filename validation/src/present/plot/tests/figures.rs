@@ -30,6 +30,28 @@ pub fn many() -> Figure {
     }
 }
 
+/// Two fitted curves with points, and their residuals below.
+pub fn fitted() -> Figure {
+    let names = ["X̄₁", "X̄₂"];
+    let curve =
+        |label: String, y: f64| Curve { label, x: vec![0.0, 300.0], y: vec![y; 2], half_band: Some(vec![0.01; 2]) };
+    let points =
+        |name: &str, y: f64| Points::with_bars(format!("{name}{MEASURED}"), [0.0, 150.0, 300.0], |x| (x, y, 0.012));
+    Figure {
+        title: "Synthetic: a fit".into(),
+        x_name: "t (s)".into(),
+        y_name: names.join(", "),
+        curves: names.map(|name| curve(format!("{name}{FITTED}"), 0.5)).into(),
+        points: names.map(|name| points(name, 0.51)).into(),
+        below: Some(Panel {
+            y_name: "residual".into(),
+            curves: names.map(|_| curve(String::new(), 0.0)).into(),
+            points: names.map(|name| points(name, 0.01)).into(),
+        }),
+        ..Default::default()
+    }
+}
+
 pub fn maps() -> Figure {
     let map = |k: usize| Map {
         title: format!("explicit Euler in angles {k}"),
