@@ -25,6 +25,7 @@ use shearbed_validation::serve::fit::design::{Candidate, design};
 use shearbed_validation::serve::fit::elsewhere::best_fit;
 use shearbed_validation::serve::fit::error::{FitError, SceneError};
 use shearbed_validation::serve::fit::report::{self, Report};
+use shearbed_validation::serve::fit::samples::samples_csv;
 use shearbed_validation::serve::fit::scenes::{AS_WRITTEN, Scenes};
 use shearbed_validation::serve::fit::search::{Fit, FitProblem, Measured, Watch};
 use shearbed_validation::serve::fit::{Hypothesis, Range, pictures};
@@ -125,7 +126,7 @@ pub(super) fn fit(args: &Args) -> Result<(), Failure> {
 /// The folder for the results, which may replace none of the files that are read.
 fn folder(args: &Args, input: &Input, asked: &Value) -> Result<ResultFolder, Failure> {
     let out = (args.out.clone()).unwrap_or_else(|| Path::new("out").join(format!("fit-{}", input.stem)));
-    let names = [FIT, "residuals.csv", "profiles.csv", "design.csv", super::plot::FIGURES];
+    let names = [FIT, "residuals.csv", "profiles.csv", "samples.csv", "design.csv", super::plot::FIGURES];
     let scenes = input.scenes.sets.iter();
     let scenes = scenes.flat_map(|set| set.starts.files().chain([PathBuf::from(&set.source)]));
     spares_inputs(&out, &names, input.files.iter().cloned().chain(scenes))?;
@@ -157,6 +158,7 @@ fn files(args: &Args, done: &Done, times: &[&str]) -> Result<Vec<Output>, String
     let mut files: Vec<Output> = vec![("residuals.csv".into(), report::residuals_csv(&done.report, times)?)];
     let Some(fit) = &done.fit else { return Ok(files) };
     files.push(("profiles.csv".into(), report::profiles_csv(fit)?));
+    files.push(("samples.csv".into(), samples_csv(fit)?));
     if args.design {
         files.push(("design.csv".into(), report::design_csv(fit, &done.candidates, times)?));
     }

@@ -5,6 +5,7 @@ use super::elsewhere::look_elsewhere;
 use super::pictures::best_curves;
 use super::range::Range;
 use super::report::{levels, report};
+use super::samples::{SAMPLES, samples};
 use super::search::{Fit, FitProblem, Measured, Watch, fitted, search, values};
 use crate::judge::accept::{Rule, Verdict, judge};
 use crate::methods::least_squares::Datum;
@@ -396,6 +397,27 @@ fn a_straight_line_has_the_estimate_and_the_intervals_of_the_textbook() {
         assert_eq!((row.measured, row.residual), (data[k].value, data[k].value - row.simulated));
         assert!((row.simulated - curves[k].0).abs() < 1e-3 && row.u >= 0.05, "{row:?}");
     }
+
+    // Samples have the mean and the covariance of the textbook. Their mean is off by 1/√4000 of a standard deviation,
+    // 0.064 at four of these, the standard deviation by 0.045 of itself, a correlation by less; the estimates by the
+    // 0.02 above, and ln b, which is covered evenly, moves b by σ²/b, 0.03 of σ.
+    let found = samples(&fit);
+    let column = |axis: usize| DVector::from_iterator(SAMPLES, found.iter().map(|row| row[axis]));
+    let columns = [column(0), column(1)];
+    let away = columns.clone().map(|values| values.add_scalar(-values.mean()));
+    let sd = [0, 1].map(|axis| columns[axis].variance().sqrt());
+    for axis in 0..2 {
+        let se = covariance[(axis, axis)].sqrt();
+        let off = (columns[axis].mean() - expected[axis]) / se;
+        assert!(off.abs() < 0.064 + 0.02 + 0.03, "{axis}: {off}");
+        assert!((sd[axis] / se - 1.0).abs() < 0.045 + 0.02 + 0.03, "{axis}: {} {se}", sd[axis]);
+    }
+    let correlation = away[0].dot(&away[1]) / (SAMPLES as f64 * sd[0] * sd[1]);
+    let wanted = covariance[(0, 1)] / (covariance[(0, 0)] * covariance[(1, 1)]).sqrt();
+    assert!((correlation - wanted).abs() < 0.045, "{correlation} {wanted}");
+    // Few are repeated: the walk moves.
+    let repeated = found.windows(2).filter(|pair| pair[0] == pair[1]).count();
+    assert!(repeated < SAMPLES / 100, "{repeated}");
 
     // The region of both parameters is a closed ellipse.
     let level = rise_of_several(0.68, 2);
