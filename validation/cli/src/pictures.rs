@@ -3,7 +3,7 @@
 use shearbed::run::ensemble::{Column, Series};
 use shearbed::{Observable, Results, Scene};
 use shearbed_validation::judge::statistics::student;
-use shearbed_validation::present::plot::{Curve, Figure};
+use shearbed_validation::present::plot::{Curve, Figure, names};
 
 /// The stems of the names of an observable's pictures.
 pub(super) fn stems(observable: Observable) -> Vec<String> {
@@ -22,19 +22,15 @@ pub(super) fn figures(scene: &Scene, results: &Results, series: &Series) -> Vec<
         curves,
         ..Figure::default()
     };
-    let time_name = match results.time_name {
-        "t_over_T" => "t/T",
-        "time_s" => "t (s)",
-        other => other,
-    };
+    let time_name = names::time(results.time_name);
     let against_time = |channels: &[Column]| {
         let curve = |channel: &Column| Curve {
-            label: channel.name.clone(),
+            label: names::channel(&channel.name),
             x: results.times.clone(),
             y: channel.mean.clone(),
             half_band: half_widths.map(|factor| channel.se.iter().map(|se| factor * se).collect()),
         };
-        figure(time_name, series.observable.label(), channels.iter().map(curve).collect())
+        figure(&time_name, series.observable.label(), channels.iter().map(curve).collect())
     };
     match (series.observable.is_density(), series.columns.split_first()) {
         (true, Some((mean, density))) => {

@@ -1,10 +1,12 @@
-//! `shearbed plot`: one picture of a channel from several runs or the points of a sweep, or a picture of a fit or a
+//! `shearbed plot`: one picture of channels from several runs or the points of a sweep, or a picture of a fit or a
 //! report.
 
 mod against;
+mod exact;
 mod folders;
 mod look;
 mod measured;
+mod shades;
 mod table;
 
 use super::{Failure, ending_in, number, print, scene, spares};
@@ -27,10 +29,10 @@ pub(super) struct Args {
     /// `validate`
     #[arg(required = true, value_name = "DIR")]
     dirs: Vec<PathBuf>,
-    /// The column to draw, as x1, phi or a12 [default: the first of the first table]; of a fit or a report, the
+    /// The columns to draw, as x1 or phi,a12 [default: the first of the first table]; of a fit or a report, the
     /// picture's name
-    #[arg(long = "y", value_name = "CHANNEL")]
-    channel: Option<String>,
+    #[arg(long = "y", value_name = "CHANNELS", value_delimiter = ',')]
+    channels: Vec<String>,
     /// A key of a sweep to draw its channel against, at the last output
     #[arg(long = "x", value_name = "KEY", conflicts_with = "data")]
     key: Option<String>,
@@ -40,6 +42,9 @@ pub(super) struct Args {
     /// Measured points to draw over the curves, in the columns that `shearbed fit` takes
     #[arg(long, value_name = "FILE.csv")]
     data: Option<PathBuf>,
+    /// Exact curves of `shearbed reference` to draw over the runs
+    #[arg(long, value_name = "FILE.csv", conflicts_with = "key")]
+    reference: Option<PathBuf>,
     #[command(flatten)]
     look: Look,
     /// The picture, whose name ends in .svg, .png or .pdf
@@ -60,7 +65,7 @@ fn picture(text: &str) -> Result<PathBuf, String> {
 
 /// Draws a channel of every folder, or a picture stored in a folder.
 pub(super) fn plot(args: &Args) -> Result<(), Failure> {
-    spares(&args.out, [args.out.clone()], args.data.clone())?;
+    spares(&args.out, [args.out.clone()], args.data.iter().chain(&args.reference).cloned())?;
     let (mut figure, said) = match &args.dirs[..] {
         [dir] => match kept(dir)? {
             Some(kept) => named(args, dir, kept)?,
@@ -75,20 +80,23 @@ pub(super) fn plot(args: &Args) -> Result<(), Failure> {
 }
 
 fn of_runs(args: &Args) -> Result<(Figure, String), Failure> {
-    let drawn = figure(&args.dirs, args.channel.as_deref())?;
+    let mut drawn = figure(&args.dirs, &args.channels)?;
+    let (channels, runs) = (drawn.channels.join(", "), drawn.runs.len());
     if let Some(key) = &args.key {
         if args.dirs.len() > 1 {
             let message = format!("--x {key}: {} folders are given; one sweep is allowed", args.dirs.len());
             return Err(Failure::Input(message));
         }
-        let said = format!("{} of {} points", drawn.channel, drawn.runs.len());
-        return Ok((against(drawn, key, args.at)?, said));
+        return Ok((against(drawn, key, args.at)?, format!("{channels} of {runs} points")));
     }
-    let mut figure = drawn.figure;
+    shades::colour(&mut drawn);
     if let Some(path) = &args.data {
-        figure.points.push(measured::points(path, &drawn.runs, &drawn.channel)?);
+        drawn.figure.points = measured::points(path, &drawn.runs, &drawn.channels)?;
     }
-    Ok((figure, format!("{} of {} runs", drawn.channel, drawn.runs.len())))
+    if let Some(path) = &args.reference {
+        drawn.figure.curves.extend(exact::curves(path, &drawn.time, &drawn.channels)?);
+    }
+    Ok((drawn.figure, format!("{channels} of {runs} runs")))
 }
 
 /// The requested picture of a fit or a report, by default the first.
@@ -99,11 +107,10 @@ fn named(args: &Args, dir: &Path, kept: Vec<(String, Figure)>) -> Result<(Figure
             dir.shown()
         )));
     }
-    if args.data.is_some() {
-        return Err(Failure::Input(format!(
-            "--data: {} is no run; a folder of `shearbed run` is allowed",
-            dir.shown()
-        )));
+    let over_runs = [("--data", &args.data), ("--reference", &args.reference)];
+    if let Some((flag, _)) = over_runs.into_iter().find(|(_, file)| file.is_some()) {
+        let why = format!("{flag}: {} is no run; a folder of `shearbed run` is allowed", dir.shown());
+        return Err(Failure::Input(why));
     }
     if kept.is_empty() {
         return Err(Failure::Input(format!(
@@ -112,68 +119,82 @@ fn named(args: &Args, dir: &Path, kept: Vec<(String, Figure)>) -> Result<(Figure
         )));
     }
     let names = kept.iter().map(|(name, _)| name.as_str()).collect::<Vec<_>>().join(", ");
-    let is_it = |(name, _): &(String, Figure)| args.channel.as_ref().is_none_or(|asked| asked == name);
+    let is_it = |(name, _): &(String, Figure)| args.channels.is_empty() || args.channels == [name.as_str()];
     let found = kept.into_iter().find(is_it).ok_or_else(|| {
-        let asked = args.channel.as_deref().unwrap_or("its first");
-        Failure::Input(format!("--y {asked}: {} has no such picture; there are {names}", dir.shown()))
+        let asked = args.channels.join(",");
+        let why =
+            format!("--y {asked}: {} has no such picture; there are {names}, of which one is allowed", dir.shown());
+        Failure::Input(why)
     })?;
     Ok((found.1, format!("{} of {}", found.0, dir.shown())))
 }
 
-/// A picture of a channel for several runs.
+/// A picture of channels for several runs.
 pub(super) struct Drawn {
+    /// Its curves are those of the first run, channel by channel, then of the next.
     pub(super) figure: Figure,
-    channel: String,
+    channels: Vec<String>,
+    /// The column of times.
+    time: String,
     /// The runs, at least one.
     runs: Vec<Run>,
 }
 
-/// A channel of every folder; by default the first channel of the first folder.
-pub(super) fn figure(dirs: &[PathBuf], channel: Option<&str>) -> Result<Drawn, Failure> {
+/// Channels of every folder; by default the first channel of the first folder.
+pub(super) fn figure(dirs: &[PathBuf], channels: &[String]) -> Result<Drawn, Failure> {
     let mut runs = Vec::new();
     for dir in dirs {
         runs.extend(runs_in(dir)?);
     }
-    let mut wanted = channel.map(str::to_owned);
-    let mut found = Vec::new();
-    let mut rows = MOST_ROWS;
-    for run in &runs {
-        let of_run = table::channel(run, wanted.as_deref(), &mut rows)?;
-        // The first run's channel is required of the others.
-        wanted.get_or_insert_with(|| of_run.channel.clone());
-        found.push(of_run);
-    }
-    let (Some(first), Some(scene)) = (found.first(), runs.first().map(|run| &run.scene)) else {
+    let Some(first) = runs.first() else {
         return Err(Failure::Input("plot: no run was found in these folders".into()));
     };
-    if let Some(k) = found.iter().position(|other| other.time != first.time) {
-        return Err(Failure::Input(format!(
-            "{}: its time is {}, that of {} is {}: one of the two can be drawn",
-            runs[k].dir.shown(),
-            found[k].time,
-            runs[0].dir.shown(),
-            first.time
-        )));
-    }
-    let channel = first.channel.clone();
-    let titles: BTreeSet<&str> = runs.iter().map(|run| run.scene.title.as_str()).collect();
-    let mut figure = Figure {
-        title: match titles.len() {
-            1 => scene.title.clone(),
-            _ => format!("{} of {} scenes", names::channel(&channel), titles.len()),
-        },
-        x_name: names::time(&first.time),
-        y_name: names::channel(&channel),
-        curves: found.into_iter().map(|found| found.curve).collect(),
-        ..Figure::default()
+    let mut rows = MOST_ROWS;
+    let channels = match channels {
+        [] => vec![table::channel(first, None, &mut rows.clone())?.channel],
+        asked => asked.to_vec(),
     };
-    // Scenes of different titles are labelled by them.
-    if runs.len() > 1 && titles.len() == runs.len() {
-        for (curve, run) in figure.curves.iter_mut().zip(&runs) {
-            curve.label.clone_from(&run.scene.title);
+    let symbols = channels.iter().map(|channel| names::channel(channel)).collect::<Vec<_>>();
+    let titles: BTreeSet<&str> = runs.iter().map(|run| run.scene.title.as_str()).collect();
+    let mut curves = Vec::new();
+    let mut time: Option<String> = None;
+    for run in &runs {
+        // Scenes of different titles are labelled by them.
+        let differ = runs.len() > 1 && titles.len() == runs.len();
+        let label = if differ { &run.scene.title } else { &run.label };
+        for (channel, symbol) in channels.iter().zip(&symbols) {
+            let mut found = table::channel(run, Some(channel), &mut rows)?;
+            let time = time.get_or_insert_with(|| found.time.clone());
+            if *time != found.time {
+                return Err(Failure::Input(format!(
+                    "{}: its time is {}, that of {} is {time}: one of the two can be drawn",
+                    run.dir.shown(),
+                    found.time,
+                    first.dir.shown(),
+                )));
+            }
+            found.curve.label = match (channels.len(), runs.len()) {
+                (1, _) => label.clone(),
+                (_, 1) => symbol.clone(),
+                _ => format!("{symbol}, {label}"),
+            };
+            curves.push(found.curve);
         }
     }
-    Ok(Drawn { figure, channel, runs })
+    let swept = first.point.iter().flatten().map(|(key, _)| key.as_str()).collect::<Vec<_>>();
+    let y_name = symbols.join(", ");
+    let time = time.unwrap_or_default();
+    let figure = Figure {
+        title: match titles.len() {
+            1 => names::title_without(&first.scene.title, &swept),
+            count => format!("{y_name} of {count} scenes"),
+        },
+        x_name: names::time(&time),
+        y_name,
+        curves,
+        ..Figure::default()
+    };
+    Ok(Drawn { figure, channels, time, runs })
 }
 
 fn write(out: &Path, figure: &Figure, force: bool) -> Result<(), Failure> {

@@ -4,13 +4,14 @@ use super::folders::Run;
 use crate::Failure;
 use shearbed::Plan;
 use shearbed_validation::files::text::Shown;
+use shearbed_validation::methods::least_squares::Datum;
 use shearbed_validation::present::plot::{MEASURED, Points, names};
 use shearbed_validation::serve::fit::data::{self, Reading};
 use std::path::Path;
 
-/// The points of a channel, with times in the unit of the runs, of which there is at least one, and with bars of one
-/// standard uncertainty.
-pub(super) fn points(path: &Path, runs: &[Run], channel: &str) -> Result<Points, Failure> {
+/// The points of each channel that was measured, with times in the unit of the runs, of which there is at least one,
+/// and with bars of one standard uncertainty.
+pub(super) fn points(path: &Path, runs: &[Run], channels: &[String]) -> Result<Vec<Points>, Failure> {
     let at = |what: String| Failure::Input(format!("--data {}: {what}", path.shown()));
     let read = data::read(path, 0, &Reading::default())?;
     let unit = |run: &Run| {
@@ -32,20 +33,25 @@ pub(super) fn points(path: &Path, runs: &[Run], channel: &str) -> Result<Points,
             runs[k].label
         )));
     }
-    let own: Vec<_> = read.points.iter().filter(|point| point.column == channel).collect();
-    if own.is_empty() {
+    let of_channel = |channel: &String| {
+        let own: Vec<_> = read.points.iter().filter(|point| point.column == *channel).collect();
+        let each = |value: fn(&Datum) -> f64| own.iter().map(|point| value(point)).collect::<Vec<f64>>();
+        let in_units = |value: fn(&Datum) -> f64| each(value).into_iter().map(|time| time / unit).collect();
+        Points {
+            label: names::channel(channel) + MEASURED,
+            x: in_units(|point| point.time),
+            y: each(|point| point.value),
+            x_error: own.iter().any(|point| point.u_time > 0.0).then(|| in_units(|point| point.u_time)),
+            y_error: Some(each(|point| point.u)),
+        }
+    };
+    let mut found: Vec<Points> = channels.iter().map(of_channel).collect();
+    found.retain(|points| !points.x.is_empty());
+    if found.is_empty() {
         let mut columns: Vec<_> = read.points.iter().map(|point| point.column.as_str()).collect();
         columns.dedup();
-        return Err(at(format!("has no points of {channel}; it has {}, which --y takes", columns.join(", "))));
+        let (channels, columns) = (channels.join(", "), columns.join(", "));
+        return Err(at(format!("has no points of {channels}; it has {columns}, which --y takes")));
     }
-    let each = |value: &dyn Fn(&shearbed_validation::methods::least_squares::Datum) -> f64| {
-        own.iter().map(|point| value(point)).collect::<Vec<f64>>()
-    };
-    Ok(Points {
-        label: names::channel(channel) + MEASURED,
-        x: each(&|point| point.time / unit),
-        y: each(&|point| point.value),
-        x_error: own.iter().any(|point| point.u_time > 0.0).then(|| each(&|point| point.u_time / unit)),
-        y_error: Some(each(&|point| point.u)),
-    })
+    Ok(found)
 }

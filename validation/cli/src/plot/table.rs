@@ -20,6 +20,7 @@ pub(super) const MOST_ROWS: usize = 200_000;
 pub(super) struct Found {
     pub(super) time: String,
     pub(super) channel: String,
+    /// Without a label.
     pub(super) curve: Curve,
 }
 
@@ -53,7 +54,7 @@ pub(super) fn channel(run: &Run, wanted: Option<&str>, left: &mut usize) -> Resu
             time: table.0.names()[0].clone(),
             channel: chosen.clone(),
             curve: Curve {
-                label: run.label.clone(),
+                label: String::new(),
                 x,
                 y,
                 half_band: half.map(|factor| se.iter().map(|se| factor * se).collect()),

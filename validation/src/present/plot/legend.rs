@@ -1,8 +1,9 @@
 //! The legend: rows above the axes, where it covers no data; with more than five entries, labels beside the axes, each
-//! as near to the end of its curve as the others allow.
+//! as near to the end of its curve as the others allow. Shades are shown in a bar above.
 
 use super::style::{
-    FINE, MARGIN, MARKER, ROW, SMALL_MARKER, TEXT, curve, cut, in_rows, looks, marker, text, text_width, wrap,
+    FINE, MARGIN, MARKER, ROW, SMALL_MARKER, TEXT, colour, curve, cut, in_rows, is_shade, looks, marker, text,
+    text_width, wrap,
 };
 use super::{Backend, Drawn, Figure};
 use plotters::coord::Shift;
@@ -26,7 +27,15 @@ enum Mark {
     Band,
 }
 
+/// A bar of shades, from left to right: the quantity's name, and each shade with its value.
+struct Bar {
+    name: String,
+    shades: Vec<(usize, String)>,
+    width: i32,
+}
+
 pub(super) struct Legend {
+    bar: Option<Bar>,
     /// Samples and labels above the axes, with their left edges.
     rows: Vec<Vec<((Mark, String), i32)>>,
     /// Entries beside the axes: index of the series, its sample, and the lines of its label.
@@ -46,7 +55,7 @@ impl Legend {
             }
         };
         let mut series: Vec<_> = (labels.enumerate())
-            .filter(|(_, label)| !label.is_empty())
+            .filter(|(series, label)| !label.is_empty() && !is_shade(looks[*series]))
             .map(|(series, label)| (series, mark(series), label.clone()))
             .collect();
         let beside = if series.len() > MOST { std::mem::take(&mut series) } else { Vec::new() };
@@ -63,11 +72,14 @@ impl Legend {
         };
         let mut rows = in_rows(above.map(sized), width);
         rows.retain(|row| !row.is_empty());
-        Self { rows, beside }
+        let shades = figure.curves.iter().zip(&looks).filter(|(_, look)| is_shade(**look));
+        let shades = shades.map(|(curve, look)| (*look, curve.label.clone())).collect();
+        let bar = figure.shaded_by.clone().map(|name| Bar { name, shades, width: width - 2 * MARGIN });
+        Self { bar, rows, beside }
     }
 
     pub(super) fn height(&self) -> i32 {
-        self.rows.len() as i32 * ROW
+        (self.rows.len() as i32 + if self.bar.is_some() { 2 } else { 0 }) * ROW
     }
 
     pub(super) fn height_beside(&self) -> i32 {
@@ -88,6 +100,9 @@ impl Legend {
 
     /// Draws the rows above the axes, with the top at `top`.
     pub(super) fn draw<DB: Backend>(&self, canvas: &DrawingArea<DB, Shift>, top: i32) -> Drawn {
+        if let Some(bar) = &self.bar {
+            bar.draw(canvas, top + self.rows.len() as i32 * ROW)?;
+        }
         for (row, entries) in self.rows.iter().enumerate() {
             let y = top + row as i32 * ROW;
             for ((mark, label), x) in entries {
@@ -126,6 +141,30 @@ impl Legend {
             for (k, line) in lines.iter().enumerate() {
                 let place = (left + GAP + SHORT + GAP / 2, y - 6 * FINE + k as i32 * LINE);
                 canvas.draw(&Text::new(line.as_str(), place, text(SMALL)))?;
+            }
+        }
+        Ok(())
+    }
+}
+
+impl Bar {
+    /// Draws the name and the shades, and below these their values, of which those are left out that would meet.
+    fn draw<DB: Backend>(&self, canvas: &DrawingArea<DB, Shift>, top: i32) -> Drawn {
+        let name = cut(&self.name, self.width / 3, TEXT);
+        canvas.draw(&Text::new(name.as_str(), (MARGIN, top + 3 * FINE), text(TEXT)))?;
+        let count = self.shades.len().max(1) as i32;
+        let left = MARGIN + text_width(&name, TEXT) + 2 * GAP;
+        // Half of the last value extends beyond its shade.
+        let widest = self.shades.iter().map(|(_, value)| text_width(value, SMALL)).max().unwrap_or(0);
+        let across = MARGIN + self.width - left - widest / 2;
+        let edge = |k: i32| left + across * k / count;
+        let every = (widest + GAP) * count / across.max(1) + 1;
+        for (k, (look, value)) in (0..).zip(&self.shades) {
+            let corners = [(edge(k), top + 4 * FINE), (edge(k + 1), top + 18 * FINE)];
+            canvas.draw(&Rectangle::new(corners, colour(*look).filled()))?;
+            if k % every == 0 {
+                let middle = (edge(k) + edge(k + 1)) / 2 - text_width(value, SMALL) / 2;
+                canvas.draw(&Text::new(value.as_str(), (middle, top + 21 * FINE), text(SMALL)))?;
             }
         }
         Ok(())

@@ -30,10 +30,10 @@ pub use pdf::pdf;
 use plotters::prelude::*;
 pub use png::png;
 use serde::{Deserialize, Deserializer, Serialize};
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::error::Error;
 use style::{AXES_HEIGHT, BELOW, FINE, MARGIN, ROW, TITLE, WIDTH};
-pub use style::{FITTED, MEASURED};
+pub use style::{FITTED, MEASURED, REFERENCE};
 pub use theme::Theme;
 
 /// A curve, optionally with its 95 % band.
@@ -76,7 +76,8 @@ impl Curve {
     /// True if the curve's points are marked: there are few, and each is a result by itself. A line through two points
     /// guides the eye, and theory has no points.
     fn is_marked(&self) -> bool {
-        (3..=40).contains(&self.x.len()) && !self.label.ends_with(", theory")
+        let is_exact = self.label.ends_with(", theory") || self.label.ends_with(REFERENCE);
+        (3..=40).contains(&self.x.len()) && !is_exact
     }
 }
 
@@ -195,6 +196,10 @@ pub struct Figure {
     /// Maps, in place of curves and points.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub grid: Option<Grid>,
+    /// A quantity that grows from curve to curve, whose values are their labels: they are coloured from dark to light,
+    /// and a bar with the values stands in place of the legend.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub shaded_by: Option<String>,
     /// A panel below, with the same horizontal axis.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub below: Option<Panel>,
@@ -319,7 +324,7 @@ fn typeset(figure: &Figure) -> Figure {
     let mut figure = figure.clone();
     let curves = figure.curves.iter_mut().map(|curve| &mut curve.label);
     let points = figure.points.iter_mut().map(|points| &mut points.label);
-    let below = figure.below.iter_mut().map(|panel| &mut panel.y_name);
+    let below = figure.below.iter_mut().map(|panel| &mut panel.y_name).chain(&mut figure.shaded_by);
     let texts = [&mut figure.title, &mut figure.x_name, &mut figure.y_name].into_iter().chain(below);
     let maps = figure.grid.iter_mut().flat_map(|grid| {
         let titles = grid.maps.iter_mut().map(|map| &mut map.title);
@@ -374,9 +379,10 @@ fn finish(figure: &Figure, drawing: &str, (width, height): (i32, i32)) -> String
     );
     let body = drawing.split_once('>').map_or("", |(_, body)| body);
     let looks = style::looks(figure);
-    let dashed = looks[..figure.curves.len()].iter().fold(body.to_string(), |body, look| {
-        let stroke = style::curve_stroke(*look);
-        let dashes = style::dashes(*look);
+    // Of many shades some may be equal.
+    let strokes: BTreeMap<_, _> =
+        looks[..figure.curves.len()].iter().map(|look| (style::curve_stroke(*look), style::dashes(*look))).collect();
+    let dashed = strokes.into_iter().fold(body.to_string(), |body, (stroke, dashes)| {
         body.replace(&stroke, &format!("{stroke} stroke-linejoin=\"round\"{dashes}"))
     });
     open + &below_the_line(&dashed)

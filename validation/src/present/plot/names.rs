@@ -52,8 +52,20 @@ pub fn point(pairs: &[(String, String)]) -> String {
     pairs.iter().map(label).collect::<Vec<_>>().join(", ")
 }
 
+/// A scene's title without the parts between commas that give the value of a swept key, as `n = 50 per cm³`.
+pub fn title_without(title: &str, swept: &[&str]) -> String {
+    let is_of = |part: &str, key: &str| {
+        // The paper's letter for the spread, in its captions.
+        let letters =
+            if key == "particles.aspect_ratio_sd_percent" { ["σ", letter(key).0] } else { [letter(key).0; 2] };
+        part.split_once('=').is_some_and(|(name, _)| letters.contains(&name.trim()))
+    };
+    let stays = |part: &&str| !swept.iter().any(|key| is_of(part, key));
+    title.split(", ").filter(stays).collect::<Vec<_>>().join(", ")
+}
+
 /// A number with more than seven characters in four significant digits; anything else as it is.
-fn short(value: &str) -> String {
+pub fn short(value: &str) -> String {
     match value.parse::<f64>() {
         Ok(number) if value.len() > 7 => {
             let rounded = format!("{number:.3e}").parse::<f64>();
@@ -88,5 +100,9 @@ mod tests {
             "α = 0.25, n = 20 cm⁻³, orientation = { phi_deg = 0.0, theta_deg = 90.0 }"
         );
         assert_eq!(point(&[(alpha, "0.2727272727272727")]), "α = 0.2727");
+        let title = |keys: &[&str]| title_without("Fig. 7, n = 50 per cm³, σ = 0 %", keys);
+        assert_eq!(title(&[n, alpha]), "Fig. 7, σ = 0 %");
+        assert_eq!(title(&["particles.aspect_ratio_sd_percent"]), "Fig. 7, n = 50 per cm³");
+        assert_eq!([title(&[alpha]), title(&[])], ["Fig. 7, n = 50 per cm³, σ = 0 %"; 2]);
     }
 }

@@ -68,9 +68,46 @@ const THEORY: usize = 42;
 pub const MEASURED: &str = ", measured ± u";
 /// That of a curve.
 pub const FITTED: &str = ", best fit";
+/// That of an exact curve over those of runs.
+pub const REFERENCE: &str = ", exact";
+
+/// The looks of exact curves begin here: black, as what they are compared with has a colour, and dashed.
+const EXACT: usize = 2 * THEORY;
+
+/// The looks of shades begin here.
+pub(super) const SHADES: usize = 1000;
+
+/// The number of shades.
+pub(super) const LEVELS: usize = 256;
+
+/// Shades from dark to light, evenly apart: matplotlib's plasma without its ends, which are hard to see on black or on
+/// white.
+const PLASMA: [[f64; 3]; 7] = [
+    [70.0, 3.0, 159.0],
+    [114.0, 1.0, 168.0],
+    [156.0, 23.0, 158.0],
+    [189.0, 55.0, 134.0],
+    [216.0, 87.0, 107.0],
+    [237.0, 121.0, 83.0],
+    [251.0, 159.0, 58.0],
+];
+
+/// The shade at a level.
+fn plasma(level: usize) -> RGBColor {
+    let place = level as f64 / (LEVELS - 1) as f64 * (PLASMA.len() - 1) as f64;
+    let first = (place as usize).min(PLASMA.len() - 2);
+    let part = |k: usize| PLASMA[first][k] + (place - first as f64) * (PLASMA[first + 1][k] - PLASMA[first][k]);
+    let [red, green, blue] = [0, 1, 2].map(|k| part(k).round() as u8);
+    RGBColor(red, green, blue)
+}
+
+/// True if a look is a shade, which the legend shows in a bar.
+pub(super) fn is_shade(index: usize) -> bool {
+    index >= SHADES
+}
 
 /// The look of every curve and then of all points: that of the integrator named in the label, or the first that is not
-/// used in the figure. Where several curves were fitted, points look as theirs.
+/// used in the figure. Where there are several curves, points look as that of the same name.
 pub(super) fn looks(figure: &Figure) -> Vec<usize> {
     let labels = figure.curves.iter().map(|c| &c.label).chain(figure.points.iter().map(|p| &p.label));
     let named = |label: &String| {
@@ -80,14 +117,25 @@ pub(super) fn looks(figure: &Figure) -> Vec<usize> {
         };
         NAMED.iter().position(|known| *known == name).map(|look| look + theory)
     };
-    let known: Vec<_> = labels.map(named).collect();
+    let mut known: Vec<_> = labels.map(named).collect();
+    let exact = |curve: &super::Curve| curve.label.ends_with(REFERENCE);
+    let shaded = figure.curves.iter().filter(|curve| figure.shaded_by.is_some() && !exact(curve)).count();
+    for (k, curve) in figure.curves.iter().enumerate() {
+        if exact(curve) {
+            known[k] = Some(EXACT + figure.curves[..k].iter().filter(|curve| exact(curve)).count());
+        } else if shaded > 0 {
+            known[k] = Some(SHADES + k * (LEVELS - 1) / (shaded - 1).max(1));
+        }
+    }
     let mut free = (0..).filter(|look| !known.contains(&Some(*look)));
     let mut looks: Vec<usize> = (known.iter()).map(|look| look.or_else(|| free.next()).unwrap_or(0)).collect();
-    let fitted: Vec<_> = figure.curves.iter().map(|curve| curve.label.strip_suffix(FITTED)).collect();
-    if fitted.len() > 1 {
+    let names: Vec<_> = (figure.curves.iter().filter(|curve| !exact(curve)))
+        .map(|curve| curve.label.strip_suffix(FITTED).unwrap_or(&curve.label))
+        .collect();
+    if names.len() > 1 {
         for (k, points) in figure.points.iter().enumerate() {
             let what = points.label.strip_suffix(MEASURED);
-            let own = fitted.iter().position(|curve| curve.is_some() && *curve == what);
+            let own = names.iter().position(|curve| Some(*curve) == what);
             own.into_iter().for_each(|curve| looks[figure.curves.len() + k] = looks[curve]);
         }
     }
@@ -96,6 +144,12 @@ pub(super) fn looks(figure: &Figure) -> Vec<usize> {
 
 /// The colour of a look. All differ, if only in the last bits, so that `curve_stroke` identifies one curve.
 pub(super) fn colour(index: usize) -> RGBColor {
+    if is_shade(index) {
+        return plasma(index - SHADES);
+    }
+    if index >= EXACT {
+        return RGBColor((index - EXACT + 1) as u8, 0, 0);
+    }
     let (method, theory) = (index % THEORY, (index / THEORY) as u8);
     match PALETTE.get(method) {
         Some(RGBColor(red, green, blue)) => RGBColor(*red, *green, blue ^ theory),
@@ -108,7 +162,7 @@ pub(super) fn colour(index: usize) -> RGBColor {
 
 /// True if a look has a colour of the palette, and is not grey.
 pub(super) fn is_coloured(index: usize) -> bool {
-    index % THEORY < PALETTE.len()
+    index >= EXACT || index % THEORY < PALETTE.len()
 }
 
 /// The colours of a map's classes, from right to not run. They also differ in grey, on a dark page that inverts
@@ -163,7 +217,11 @@ pub(super) fn curve_stroke(index: usize) -> String {
 
 /// The lengths of a curve's dashes and gaps; empty for a solid curve.
 pub(super) fn dash_lengths(index: usize) -> &'static str {
-    DASHES[index % DASHES.len()]
+    match index {
+        SHADES.. => "",
+        EXACT.. => DASHES[1 + (index - EXACT) % (DASHES.len() - 1)],
+        _ => DASHES[index % DASHES.len()],
+    }
 }
 
 /// The SVG attribute for the dashes of a curve.
@@ -295,6 +353,10 @@ mod tests {
         };
         assert_eq!(looks(&figure(&["x1"])), [0, 1]);
         assert_eq!(looks(&figure(&["x1", "phi"])), [0, 1, 0, 1]);
+        let mut of_runs = figure(&["x1", "phi"]);
+        of_runs.curves.iter_mut().for_each(|curve| curve.label = curve.label.replace(FITTED, ""));
+        of_runs.curves.push(Curve { label: format!("x1{REFERENCE}"), ..Curve::default() });
+        assert_eq!(looks(&of_runs), [0, 1, EXACT, 0, 1]);
         let mut other = figure(&["x1", "phi"]);
         other.points.reverse();
         other.points[1].label = "theirs".into();

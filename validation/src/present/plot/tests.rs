@@ -115,6 +115,59 @@ fn residuals_stand_below_their_points_in_their_colours() {
 }
 
 #[test]
+fn a_marker_on_the_frame_is_whole() {
+    let point = Points { label: "corner".into(), x: vec![0.0], y: vec![1.0], ..Points::default() };
+    let ends = Some((0.0, 1.0));
+    let figure = Figure { points: vec![point], x_range: ends, y_range: ends, ..Figure::default() };
+    let drawn = svg(&figure).unwrap();
+    assert!(!drawn.contains("clip"));
+    let corners: Vec<&str> = drawn.split("points=\"").skip(1).map(|rest| rest.split('"').next().unwrap()).collect();
+    let marker = corners.iter().filter(|points| points.split_whitespace().count() >= 16);
+    let across = |points: &str| {
+        let x = points.split_whitespace().map(|point| point.split(',').next().unwrap().parse::<i32>().unwrap());
+        (x.clone().min().unwrap(), x.max().unwrap())
+    };
+    // The sample in the legend and the point, both as wide as a disc.
+    let wide: Vec<_> = marker.map(|points| across(points)).map(|(from, to)| to - from).collect();
+    assert_eq!(wide, [2 * (0.85 * f64::from(style::SMALL_MARKER + FINE)).round() as i32; 2], "{wide:?}");
+}
+
+#[test]
+fn shades_go_from_dark_to_light_and_have_their_values() {
+    let curve =
+        |k: usize| Curve { label: (10 * k).to_string(), x: vec![0.0, 1.0], y: vec![0.0, k as f64], half_band: None };
+    let shaded = |count: usize| Figure {
+        title: "Synthetic: a sweep".into(),
+        curves: (1..=count).map(curve).collect(),
+        shaded_by: Some("n (cm⁻³)".into()),
+        ..Figure::default()
+    };
+    let light = |k: usize| {
+        let RGBColor(red, green, blue) = style::colour(k);
+        0.2126 * f64::from(red) + 0.7152 * f64::from(green) + 0.0722 * f64::from(blue)
+    };
+    for count in [1, 2, 9, 300] {
+        let figure = shaded(count);
+        let looks = style::looks(&figure);
+        // Parts of colours are whole numbers, rounded by up to a half.
+        assert!(looks.windows(2).all(|pair| light(pair[0]) <= light(pair[1]) + 1.0), "{count}: {looks:?}");
+        assert!(count < 2 || light(looks[count - 1]) > light(looks[0]) + 100.0);
+        let drawn = svg(&figure).unwrap();
+        assert!(is_well_formed(&drawn) && !drawn.contains("dasharray"), "{count}");
+        assert!(drawn.contains(">\n10\n<") && drawn.contains("n (cm⁻³)"));
+        assert!(boxes::faults(&drawn).is_empty(), "{count}: {:?}", boxes::faults(&drawn));
+    }
+    // An exact curve beside them is named in the legend, dashed and black.
+    let mut figure = shaded(9);
+    figure.curves.push(Curve { label: format!("X̄₁{REFERENCE}"), ..curve(5) });
+    let drawn = svg(&figure).unwrap();
+    assert!(drawn.contains("X̄₁, exact") && drawn.matches("dasharray").count() == 2, "{drawn}");
+    // Control: without shades the curves are named one by one.
+    let named = svg(&Figure { shaded_by: None, ..shaded(9) }).unwrap();
+    assert!(named.contains("dasharray") && !named.contains("n (cm⁻³)"));
+}
+
+#[test]
 fn a_width_in_print_has_letters_of_eight_points() {
     let size = |figure: &Figure| {
         let svg = svg(figure).unwrap();

@@ -63,6 +63,7 @@ impl Theme {
 
 #[cfg(test)]
 mod tests {
+    use super::super::style::{LEVELS, SHADES};
     use super::super::tests::synthetic;
     use super::super::{Figure, svg};
     use super::*;
@@ -84,7 +85,7 @@ mod tests {
     fn ink_and_every_colour_is_seen_on_a_dark_ground() {
         let ground = Theme::Dark.rgb((255, 255, 255));
         assert!(contrast(Theme::Dark.rgb((34, 34, 34)), ground) > 7.0);
-        for look in 0..11 {
+        for look in (0..11).chain(SHADES..SHADES + LEVELS) {
             let color = super::super::style::colour(look);
             let color = (color.0, color.1, color.2);
             // WCAG requires 3 for graphics; control: a colour as it is on white may not reach it.
