@@ -55,6 +55,8 @@ def test_the_result_is_that_of_the_program(points: dict[str, np.ndarray], tmp_pa
     assert str(found).splitlines()[0] == ended.stdout.splitlines()[0] and "out:" not in str(found)
     assert found.covariance.shape == (1, 1) and found.degrees_of_freedom == 9
     assert np.array_equal(found.residuals["measured"], points["x1"])
+    samples = found.samples["interaction.alpha"]
+    assert len(samples) == 4000 and abs(np.median(samples) - alpha.estimate) < alpha.standard_uncertainty
     values, rise = found.profiles["interaction.alpha"]
     assert len(values) == len(rise) > 5 and rise.min() >= 0
     [tested] = shearbed.fit(SCENE, points, OVER, replicas=60, seed=3, test=["interaction.alpha=0.8"]).tests
@@ -70,6 +72,18 @@ def test_the_result_is_that_of_the_program(points: dict[str, np.ndarray], tmp_pa
     halves[1]["x1"] = np.where(np.arange(5) == 2, np.nan, halves[1]["x1"])
     both = shearbed.fit(SCENE, halves[0], OVER, also=[(SCENE, halves[1])], replicas=60, seed=3)
     assert both.degrees_of_freedom == 8 and set(both.residuals["set"]) == {1.0, 2.0}
+
+
+def test_a_plot_has_the_best_curve_and_the_residuals(points: dict[str, np.ndarray]) -> None:
+    matplotlib = pytest.importorskip("matplotlib", reason="matplotlib is not here")
+    matplotlib.use("Agg")
+    found = shearbed.fit(SCENE, points, OVER, replicas=60, seed=3)
+    upper, lower = found.plot().figure.axes
+    assert [text.get_text() for text in upper.get_legend().get_texts()] == ["X̄₁, best fit", "X̄₁, measured ± u"]
+    # The curve is drawn between the points too.
+    assert max(len(line.get_xdata()) for line in upper.lines) > 100
+    below = [line.get_ydata() for line in lower.lines if len(line.get_ydata()) == 10]
+    assert any(np.array_equal(values, found.residuals["residual"]) for values in below)
 
 
 def test_what_is_not_allowed_is_said_in_the_programs_words(points: dict[str, np.ndarray], tmp_path: Path) -> None:

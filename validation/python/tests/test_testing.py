@@ -162,7 +162,9 @@ def test_a_plot_names_what_it_shows() -> None:
     matplotlib = pytest.importorskip("matplotlib", reason="matplotlib is not here")
     matplotlib.use("Agg")
     results = shearbed.run("fig4-n50", replicas=2)
-    assert results.plot("x1").get_ylabel() == results.labels["projections"]
+    drawn = results.plot("x1")
+    assert drawn.get_ylabel() == results.labels["projections"]
+    assert drawn.get_legend().get_texts()[0].get_text() == "X̄₁"
     with pytest.raises(AttributeError, match="x9: this run has the channels x1"):
         results.plot("x9")
 

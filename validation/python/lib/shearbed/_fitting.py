@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ._results import typeset
 from ._running import columns as columns_of, options, program
 from ._scene import Scene, scene_of
 
@@ -39,7 +40,7 @@ class Estimate:
 
 
 class Fit:
-    """What a fit found: ``fit.json``, ``residuals.csv`` and ``profiles.csv`` of ``shearbed fit``."""
+    """What a fit found: ``fit.json``, ``residuals.csv``, ``profiles.csv`` and ``samples.csv`` of ``shearbed fit``."""
 
     def __init__(self, folder: Path, words: str) -> None:
         self.record: dict[str, Any] = json.loads((folder / "fit.json").read_text(encoding="utf-8"))
@@ -65,6 +66,12 @@ class Fit:
             for rows in [profiles["parameter"] == key]
         }
         """Of each parameter: its values, and chi2 above its least there."""
+        self.samples: dict[str, Array] = columns_of(folder / "samples.csv") if self.order else {}
+        """Samples of the parameters, for corner plots."""
+        pictures = json.loads((folder / "figures.json").read_text(encoding="utf-8")) if self.order else []
+        self._curves: list[dict[str, Any]] = [
+            curve for name, picture in pictures if name.startswith("points") for curve in picture["curves"]
+        ]
         self.tests: list[dict[str, Any]] = self.record.get("tests", [])
         """What was asked by ``test=``: hypothesis, rise_of_chi2, p_value (at most that where beyond_the_box, and not below 1e-6), and of two keys their difference."""
         self.warnings: list[str] = self.record["warnings"]
@@ -80,18 +87,38 @@ class Fit:
         return self._words
 
     def plot(self, ax: Any = None) -> Any:
-        """Draws points with their uncertainties and the best model at their times, and returns the axes."""
+        """Draws points with their uncertainties, the best model with its 95 % band, and on axes below their residuals; without
+        a fit the model at the points alone. Returns the axes of the points; on given axes no residuals are drawn."""
         import matplotlib.pyplot as plt
 
+        below = None
         if ax is None:
-            _, ax = plt.subplots(layout="constrained")
+            _, (ax, below) = plt.subplots(2, 1, sharex=True, height_ratios=(3, 1), layout="constrained")
         found = self.residuals
-        for group in sorted(set(zip(found["set"], found["column"]))):
-            rows = (found["set"] == group[0]) & (found["column"] == group[1])
-            time = found["time"][rows]
-            drawn = ax.errorbar(time, found["measured"][rows], found["u"][rows], fmt="o", label=f"{group[1]}, points")
-            ax.plot(time, found["simulated"][rows], color=drawn[0].get_color(), label=f"{group[1]}, best model")
-        ax.set_xlabel(", ".join(sorted(set(found["time_unit"]))).replace("t_over_T", "t/T"))
+        groups = sorted(set(zip(found["set"], found["column"])))
+        for k, (set_, column) in enumerate(groups):
+            curve = self._curves[k] if self._curves else None
+            symbol = column if curve is None else typeset(curve["label"].removesuffix(", best fit"))
+            rows = (found["set"] == set_) & (found["column"] == column)
+            time, u = found["time"][rows], found["u"][rows]
+            drawn = ax.errorbar(time, found["measured"][rows], u, fmt="o", clip_on=False, label=f"{symbol}, measured ± u")
+            colour = drawn[0].get_color()
+            if below is not None:
+                below.errorbar(time, found["residual"][rows], u, fmt="o", clip_on=False, color=colour)
+            if curve is None:
+                ax.plot(time, found["simulated"][rows], color=colour, label=f"{symbol}, model")
+                continue
+            x, y, half = (np.array(curve[name], dtype=float) for name in ("x", "y", "half_band"))
+            ax.plot(x, y, color=colour, label=f"{symbol}, best fit")
+            for axes, middle in ((ax, y), (below, 0 * y)):
+                if axes is not None:
+                    axes.fill_between(x, middle - half, middle + half, color=colour, alpha=0.2, linewidth=0)
+        lowest = ax if below is None else below
+        times = {"t_over_T": "t/T", "t_s": "t (s)", "strain": "strain Gt"}
+        lowest.set_xlabel(", ".join(times[unit] for unit in sorted(set(found["time_unit"]))))
+        if below is not None:
+            below.axhline(0, color="0.5", linewidth=1)
+            below.set_ylabel("residual")
         ax.legend()
         return ax
 

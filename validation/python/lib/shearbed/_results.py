@@ -17,6 +17,11 @@ Array = NDArray[np.float64]
 _PAIRS = (("a11", 0, 0), ("a22", 1, 1), ("a33", 2, 2), ("a12", 0, 1), ("a13", 0, 2), ("a23", 1, 2))
 
 
+def typeset(symbol: str) -> str:
+    """A symbol such as ``a_12`` for matplotlib."""
+    return re.sub(r"\b(\w)_(\w+)", r"$\1_{\\mathrm{\2}}$", symbol)
+
+
 class Results:
     """Means over rods and replicas against time.
 
@@ -144,7 +149,7 @@ class Results:
             if name not in self._channels:
                 raise AttributeError(f"{name}: this run has the channels {', '.join(self._channels)}")
             mean, se = self._channels[name]
-            (line,) = ax.plot(self.t, mean, label=name)
+            (line,) = ax.plot(self.t, mean, label=typeset(self.symbols[name]))
             ax.fill_between(self.t, mean - 1.96 * se, mean + 1.96 * se, color=line.get_color(), alpha=0.2, linewidth=0)
         ax.set_xlabel(self._time_label)
         ax.set_ylabel(", ".join(label for of, label in self.labels.items() if set(drawn) & set(self.observables[of])))
