@@ -1,4 +1,4 @@
-//! Letters of DejaVu Sans: the width of a text, and its outline.
+//! Letters of DejaVu Sans: the width of a text, its letters' places, and their outlines.
 
 use std::sync::LazyLock;
 use tiny_skia::{PathBuilder, Transform};
@@ -6,8 +6,17 @@ use ttf_parser::{Face, GlyphId, OutlineBuilder, Rect};
 
 type Font = LazyLock<Option<Face<'static>>>;
 
-static PLAIN: Font = Font::new(|| Face::parse(include_bytes!("../../../fonts/DejaVuSans.ttf"), 0).ok());
-static BOLD: Font = Font::new(|| Face::parse(include_bytes!("../../../fonts/DejaVuSans-Bold.ttf"), 0).ok());
+/// The fonts' files: plain and bold. They have only the letters of our pictures.
+pub(super) const FILES: [&[u8]; 2] =
+    [include_bytes!("../../../fonts/DejaVuSans.ttf"), include_bytes!("../../../fonts/DejaVuSans-Bold.ttf")];
+
+static PLAIN: Font = Font::new(|| Face::parse(FILES[0], 0).ok());
+static BOLD: Font = Font::new(|| Face::parse(FILES[1], 0).ok());
+
+/// A font, if its file can be read.
+pub(super) fn face(bold: bool) -> Option<&'static Face<'static>> {
+    if bold { BOLD.as_ref() } else { PLAIN.as_ref() }
+}
 
 /// Before each letter of a subscript; a character of the private use area, which no font has.
 pub(super) const LOW: char = '\u{E000}';
@@ -22,16 +31,16 @@ const UNKNOWN: f64 = 1.0;
 #[derive(Clone, Copy)]
 struct Glyph {
     face: &'static Face<'static>,
+    bold: bool,
     id: GlyphId,
 }
 
 impl Glyph {
     /// The glyph of a letter, plain if there is no bold one; `None` if the fonts lack it.
     fn of(letter: char, bold: bool) -> Option<Self> {
-        let fonts = if bold { [&BOLD, &PLAIN] } else { [&PLAIN, &BOLD] };
-        fonts.into_iter().find_map(|font| {
-            let face = font.as_ref()?;
-            face.glyph_index(letter).map(|id| Self { face, id })
+        [bold, !bold].into_iter().find_map(|bold| {
+            let face = face(bold)?;
+            face.glyph_index(letter).map(|id| Self { face, bold, id })
         })
     }
 
@@ -69,17 +78,43 @@ pub(super) fn ems(text: &str, bold: bool) -> f64 {
     sum
 }
 
-/// A text's outline in units of the letters' size, starting at (0, 0), with y upwards.
+/// A letter on its line: its place and size in units of the letters' size, with y upwards.
+#[derive(Clone, Copy)]
+pub(super) struct Letter {
+    pub(super) letter: char,
+    glyph: Glyph,
+    pub(super) size: f32,
+    pub(super) x: f32,
+    pub(super) y: f32,
+}
+
+impl Letter {
+    /// The number of its glyph, and true for that of the bold font.
+    pub(super) fn glyph(&self) -> (u16, bool) {
+        (self.glyph.id.0, self.glyph.bold)
+    }
+
+    /// True if this letter stands where the one before ends, on the same line and in the same font.
+    pub(super) fn follows(&self, before: &Self) -> bool {
+        let end = before.x + before.size * before.glyph.advance();
+        (self.glyph.bold, self.size, self.y) == (before.glyph.bold, before.size, before.y)
+            && (self.x - end).abs() < 1e-4
+    }
+}
+
+/// A text's letters from (0, 0) on.
 pub(super) struct Line {
-    pub(super) outline: PathBuilder,
+    pub(super) letters: Vec<Letter>,
+    /// The boxes that stand for letters that the fonts lack.
+    pub(super) boxes: PathBuilder,
     pub(super) width: f32,
-    /// Letters that the fonts lack, drawn as empty boxes.
+    /// Letters that the fonts lack.
     pub(super) missing: Vec<char>,
 }
 
 impl Line {
     pub(super) fn of(text: &str, bold: bool) -> Self {
-        let mut line = Self { outline: PathBuilder::new(), width: 0.0, missing: Vec::new() };
+        let mut line = Self { letters: Vec::new(), boxes: PathBuilder::new(), width: 0.0, missing: Vec::new() };
         let mut last: Option<(Glyph, f32)> = None;
         let mut low = false;
         for letter in text.chars() {
@@ -87,18 +122,19 @@ impl Line {
                 low = true;
                 continue;
             }
+            let mut put = |glyph, size, x, y| line.letters.push(Letter { letter, glyph, size, x, y });
             match (Glyph::of(letter, bold), last) {
                 (Some(mark), Some((base, at))) if is_mark(letter) => {
                     let (x, y) = above(base, mark);
-                    line.draw(mark, 1.0, at + x, y);
+                    put(mark, 1.0, at + x, y);
                 }
                 (Some(glyph), _) if std::mem::take(&mut low) => {
-                    line.draw(glyph, LOW_SIZE, line.width, -LOW_DROP);
+                    put(glyph, LOW_SIZE, line.width, -LOW_DROP);
                     last = None;
                     line.width += LOW_SIZE * glyph.advance();
                 }
                 (Some(glyph), _) => {
-                    line.draw(glyph, 1.0, line.width, 0.0);
+                    put(glyph, 1.0, line.width, 0.0);
                     last = Some((glyph, line.width));
                     line.width += glyph.advance();
                 }
@@ -112,15 +148,20 @@ impl Line {
         line
     }
 
-    fn draw(&mut self, glyph: Glyph, size: f32, x: f32, y: f32) {
-        let scale = size * glyph.ems(1.0);
-        let mut pen = Pen(PathBuilder::new());
-        glyph.face.outline_glyph(glyph.id, &mut pen);
-        let placed = Transform::from_row(scale, 0.0, 0.0, scale, x, y);
-        // A letter without an outline, such as a blank, has no path.
-        if let Some(path) = pen.0.finish().and_then(|path| path.transform(placed)) {
-            self.outline.push_path(&path);
+    /// The outlines of all letters and boxes.
+    pub(super) fn outline(&self) -> PathBuilder {
+        let mut outline = self.boxes.clone();
+        for Letter { glyph, size, x, y, .. } in &self.letters {
+            let scale = size * glyph.ems(1.0);
+            let mut pen = Pen(PathBuilder::new());
+            glyph.face.outline_glyph(glyph.id, &mut pen);
+            let placed = Transform::from_row(scale, 0.0, 0.0, scale, *x, *y);
+            // A letter without an outline, such as a blank, has no path.
+            if let Some(path) = pen.0.finish().and_then(|path| path.transform(placed)) {
+                outline.push_path(&path);
+            }
         }
+        outline
     }
 
     /// Draws an upright box whose inside is white, because the inner outline runs the other way.
@@ -130,11 +171,11 @@ impl Line {
         let outer = [(left, 0.0), (right, 0.0), (right, top), (left, top)];
         let (l, r, b, t) = (left + thick, right - thick, thick, top - thick);
         for corners in [outer, [(l, b), (l, t), (r, t), (r, b)]] {
-            self.outline.move_to(corners[0].0, corners[0].1);
+            self.boxes.move_to(corners[0].0, corners[0].1);
             for (x, y) in &corners[1..] {
-                self.outline.line_to(*x, *y);
+                self.boxes.line_to(*x, *y);
             }
-            self.outline.close();
+            self.boxes.close();
         }
         self.width += UNKNOWN as f32;
     }
@@ -198,7 +239,7 @@ mod tests {
         let low = |text: &str| text.replace('_', &LOW.to_string());
         assert!((ems(&low("C_b"), false) - ems("C", false) - 0.7 * ems("b", false)).abs() < 1e-6);
         assert!((f64::from(Line::of(&low("C_bX"), false).width) - ems(&low("C_bX"), false)).abs() < 1e-5);
-        let bounds = |text: &str| Line::of(text, false).outline.finish().unwrap().bounds();
+        let bounds = |text: &str| Line::of(text, false).outline().finish().unwrap().bounds();
         let (alone, below) = (bounds("b"), bounds(&low("_b")));
         assert!(below.top() < alone.top() - 0.1 && below.height() < 0.75 * alone.height(), "{alone:?} {below:?}");
         assert!(Line::of(&low("C_b"), false).missing.is_empty());
@@ -206,7 +247,7 @@ mod tests {
 
     #[test]
     fn a_mark_stands_over_its_letter_and_clear_of_it() {
-        let height = |text: &str| Line::of(text, false).outline.finish().unwrap().bounds();
+        let height = |text: &str| Line::of(text, false).outline().finish().unwrap().bounds();
         let (bare, barred) = (height("X"), height("X\u{304}"));
         assert!(barred.bottom() > bare.bottom() + 0.1, "{bare:?} {barred:?}");
         assert_eq!((bare.left(), bare.right()), (barred.left(), barred.right()));

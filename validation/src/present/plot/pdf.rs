@@ -1,16 +1,20 @@
-//! The figure on a page of a PDF, made only of paths: letters are outlines and need no font.
+//! The figure on a page of a PDF: paths, and letters as text in the fonts that the file brings with it.
+
+mod fonts;
 
 #[cfg(test)]
 mod tests;
 
+use super::letters::Line;
 use super::sheet::{self, Canvas};
 use super::{Drawing, Figure, inches};
+use fonts::Fonts;
 use pdf_writer::types::LineJoinStyle;
-use pdf_writer::{Content, Filter, Finish, Name, Pdf, Rect, Ref, TextStr};
+use pdf_writer::{Content, Filter, Finish, Name, Pdf, Rect, Ref, Str, TextStr};
 use plotters_backend::BackendColor;
 use std::collections::BTreeSet;
 use tiny_skia::PathSegment::{Close, CubicTo, LineTo, MoveTo, QuadTo};
-use tiny_skia::{Path, Point};
+use tiny_skia::{Path, Point, Transform};
 
 /// The figure as a PDF page of its size.
 pub fn pdf(figure: &Figure) -> Result<Drawing, String> {
@@ -24,6 +28,7 @@ struct Page {
     content: Content,
     /// Opacities in use, in 255ths.
     opacities: BTreeSet<u8>,
+    fonts: Fonts,
 }
 
 impl Page {
@@ -34,7 +39,7 @@ impl Page {
         // y points down in pictures, up on pages.
         content.transform([points, 0.0, 0.0, -points, 0.0, size[1]]);
         content.set_line_join(LineJoinStyle::RoundJoin);
-        Self { size, content, opacities: BTreeSet::new() }
+        Self { size, content, opacities: BTreeSet::new(), fonts: Fonts::default() }
     }
 
     fn draw(&mut self, path: &Path) {
@@ -86,10 +91,12 @@ impl Page {
                 .stroking_alpha(share);
         }
         states.finish();
+        self.fonts.list(&mut resources.fonts());
         resources.finish();
         sheet.finish();
         let packed = miniz_oxide::deflate::compress_to_vec_zlib(&self.content.finish(), 6);
         pdf.stream(content, &packed).filter(Filter::FlateDecode);
+        self.fonts.embed(&mut pdf);
         pdf.finish()
     }
 }
@@ -111,5 +118,21 @@ impl Canvas for Page {
         self.content.set_line_width(width).set_dash_pattern(dashes.iter().copied(), 0.0);
         self.draw(path);
         self.content.stroke();
+    }
+
+    fn write(&mut self, line: &Line, place: Transform, color: BackendColor) {
+        if let Some(boxes) = line.boxes.clone().finish().and_then(|boxes| boxes.transform(place)) {
+            self.fill(&boxes, color);
+        }
+        self.set(color);
+        self.content.begin_text();
+        for run in line.letters.chunk_by(|before, letter| letter.follows(before)) {
+            let first = run[0];
+            let at = place.pre_translate(first.x, first.y).pre_scale(first.size, first.size);
+            self.content.set_text_matrix([at.sx, at.ky, at.kx, at.sy, at.tx, at.ty]);
+            let (name, codes) = self.fonts.codes(run);
+            self.content.set_font(Name(name), 1.0).show(Str(&codes));
+        }
+        self.content.end_text();
     }
 }

@@ -1,4 +1,4 @@
-//! Draws what plotters would write as SVG as paths on another canvas; letters are outlines of DejaVu Sans.
+//! Draws what plotters would write as SVG as paths on another canvas, and letters of DejaVu Sans.
 
 use super::letters::Line;
 use super::style::{self, CURVE_WIDTH};
@@ -19,6 +19,12 @@ pub(super) trait Canvas {
     fn fill(&mut self, path: &Path, color: BackendColor);
     /// Strokes with round joins; `dashes` are the lengths of dashes and gaps, if any.
     fn stroke(&mut self, path: &Path, color: BackendColor, width: f32, dashes: &[f32]);
+    /// Writes a line of text; its letters are outlines where a canvas has no fonts.
+    fn write(&mut self, line: &Line, place: Transform, color: BackendColor) {
+        if let Some(outline) = line.outline().finish().and_then(|outline| outline.transform(place)) {
+            self.fill(&outline, color);
+        }
+    }
 }
 
 /// Draws a figure on the canvas that `make` returns for a width and a height. Returns the characters that the fonts
@@ -140,7 +146,7 @@ impl<C: Canvas> DrawingBackend for &mut Sheet<C> {
 
     fn draw_text<S: BackendTextStyle>(&mut self, text: &str, style: &S, (x, y): BackendCoord) -> Done {
         let line = Line::of(text, matches!(style.style(), FontStyle::Bold));
-        self.missing.extend(line.missing);
+        self.missing.extend(&line.missing);
         // As in the SVG: plotters divides by 1.24, and an ex is 0.55 of an em.
         let size = style.size() as f32 / 1.24;
         let along = match style.anchor().h_pos {
@@ -162,6 +168,7 @@ impl<C: Canvas> DrawingBackend for &mut Sheet<C> {
         };
         let (x, y) = (x as f32, y as f32);
         let place = Transform::from_rotate_at(turn, x, y).pre_translate(x + along, y + down).pre_scale(size, -size);
-        self.fill(line.outline.finish(), style.color(), place)
+        self.canvas.write(&line, place, self.theme.of(style.color()));
+        Ok(())
     }
 }

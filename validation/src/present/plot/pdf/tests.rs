@@ -1,5 +1,7 @@
 //! Tests the page and its paths as a reader finds them, unpacked by another crate than the one that packs them.
 
+use super::super::boxes::boxes;
+use super::super::letters::face;
 use super::super::style::FINE;
 use super::super::style::{CURVE_WIDTH, colour, looks};
 use super::super::svg;
@@ -54,7 +56,40 @@ fn a_pdf_shows_what_the_svg_does() {
         // Every path is painted, and no state is saved: nothing is left open.
         let count = |operator: &str| operators.lines().filter(|line| line.trim() == operator).count();
         let starts = operators.lines().filter(|line| line.ends_with(" m")).count();
-        assert!(count("f") + count("S") > 50 && starts >= count("f") + count("S"));
+        assert!(count("f") + count("S") > 20 && starts >= count("f") + count("S"));
+        assert!(count("BT") > 10 && count("BT") == count("ET"));
+    }
+}
+
+/// What shows a text's letters in a font, and the entries that say which letters these are.
+fn shown(text: &str, bold: bool) -> Option<(String, Vec<String>)> {
+    let glyph = |letter: char| Some((face(bold)?.glyph_index(letter)?.0, u32::from(letter)));
+    let glyphs: Vec<_> = text.chars().map(glyph).collect::<Option<_>>()?;
+    let mut content = Content::new();
+    content.show(Str(&glyphs.iter().flat_map(|(glyph, _)| glyph.to_be_bytes()).collect::<Vec<_>>()));
+    let entries = glyphs.iter().map(|(glyph, letter)| format!("<{glyph:04X}> <{letter:04X}>")).collect();
+    Some((String::from_utf8_lossy(&content.finish()).trim().to_owned(), entries))
+}
+
+#[test]
+fn texts_are_texts_whose_letters_the_file_says() {
+    for figure in [synthetic(), many(), fitted()] {
+        let (text, operators) = read(&pdf(&figure).unwrap().bytes);
+        // A bar over a letter is shown by itself.
+        let texts: Vec<_> = boxes(&svg(&figure).unwrap()).into_iter().map(|text| text.text).collect();
+        let whole: Vec<_> = texts.iter().filter(|text| !text.is_empty() && !text.contains('\u{304}')).collect();
+        assert!(whole.len() > 10);
+        for whole in whole {
+            let found = [false, true].into_iter().filter_map(|bold| shown(whole, bold));
+            let found = found.filter(|(shows, _)| operators.contains(shows)).collect::<Vec<_>>();
+            assert!(!found.is_empty(), "{whole} is not there");
+            assert!(found.iter().any(|(_, entries)| entries.iter().all(|entry| text.contains(entry))), "{whole}");
+        }
+        // Control: a text that is not in the picture.
+        let (shows, _) = shown("another text", false).unwrap();
+        assert!(!operators.contains(&shows));
+        // Both fonts, of some 50 kB, are in the file once, packed.
+        assert_eq!(text.matches("/FontFile2").count(), 2);
     }
 }
 
