@@ -18,7 +18,6 @@ mod folders {
 }
 mod order;
 mod report;
-mod resources;
 mod run;
 mod supply;
 #[cfg(target_os = "linux")]
