@@ -9,15 +9,19 @@ pub(super) fn table(figure: &ReportFigure) -> ReportTable {
     let picture = &figure.figure;
     let series = series(picture);
     let quarters = (0..=24).map(|k| 0.25 * f64::from(k));
-    let rows: Vec<f64> = match picture.points.first() {
-        Some(points) if picture.x_span.is_none() => points.x.clone(),
-        _ => quarters.filter(|t| series.iter().any(|curve| near(curve, *t).is_some())).collect(),
+    let (rows, within): (Vec<f64>, f64) = match picture.points.first() {
+        Some(points) if picture.x_span.is_none() => (points.x.clone(), 0.0),
+        _ => {
+            let value = |t: &f64| series.iter().any(|curve| near(curve, *t, EIGHTH).is_some());
+            (quarters.filter(value).collect(), EIGHTH)
+        }
     };
     let mut columns: Vec<Column<f64>> = vec![field(&picture.x_name, |x: &f64| *x)];
-    columns.extend(series.into_iter().map(column));
+    columns.extend(series.into_iter().map(|curve| column(curve, within)));
+    let rule = if within > 0.0 { "; `–` where there is none within T/8" } else { "" };
     ReportTable::new(
         [&figure.name, &picture.title],
-        "Numbers of the picture, with half the width of their 95 % intervals; `–` where there is none within T/8.",
+        format!("Numbers of the picture, ± their standard errors{rule}."),
         rows,
         columns,
     )
@@ -35,18 +39,23 @@ fn series(figure: &Figure) -> Vec<Curve> {
     points.chain(curves).collect()
 }
 
-/// The point of a curve that is nearest to an abscissa, and at most T/8 from it.
-fn near(curve: &Curve, wanted: f64) -> Option<usize> {
+/// An eighth of a period.
+const EIGHTH: f64 = 0.125;
+
+/// The point of a curve that is nearest to an abscissa, and at most `within` from it.
+fn near(curve: &Curve, wanted: f64, within: f64) -> Option<usize> {
     let apart = |k: &usize| (curve.x[*k] - wanted).abs();
     let nearest = (0..curve.x.len()).min_by(|a, b| apart(a).total_cmp(&apart(b)));
-    nearest.filter(|k| apart(k) <= 0.125)
+    nearest.filter(|k| apart(k) <= within)
 }
 
-fn column<'a>(curve: Curve) -> Column<'a, f64> {
+fn column<'a>(curve: Curve, within: f64) -> Column<'a, f64> {
     let label = curve.label.clone();
-    match curve.half_band.clone() {
-        Some(half) => estimate(label, move |wanted: &f64| near(&curve, *wanted).map(|k| (curve.y[k], half[k]))),
-        None => number(label, decimals(3), move |wanted: &f64| near(&curve, *wanted).map(|k| curve.y[k])),
+    let half_band = curve.half_band.clone();
+    let near = move |wanted: &f64| near(&curve, *wanted, within).map(|k| (curve.y[k], k));
+    match half_band {
+        Some(half) => estimate(label, move |wanted: &f64| near(wanted).map(|(y, k)| (y, half[k]))),
+        None => number(label, decimals(3), move |wanted: &f64| near(wanted).map(|found| found.0)),
     }
 }
 
@@ -61,6 +70,15 @@ mod tests {
             .curves([maxima, Curve::of("b", [0.5], |t| (t, 0.25))])
             .spans(Some((0.0, 6.0)), None);
         let rows = [["0", "0.5", "–"], ["0.5", "0.45200 ± 0.00059", "0.250"], ["1", "0.3980 ± 0.0013", "–"]];
+        assert_eq!(table(&figure).rows, rows.map(|row| row.map(String::from).to_vec()));
+    }
+
+    #[test]
+    fn beside_points_stands_the_curve_at_their_place_alone() {
+        let figure = ReportFigure::new(["synthetic", "Synthetic"], "", ["r_e", "φ"])
+            .curves([Curve::of("theory", [5.0, 11.5, 11.6], |r| (r, r / 8.0)), Curve::of("other", [5.1], |r| (r, r))])
+            .points([Points::with_bars("measured", [5.0, 11.6], |r| (r, 1.0, 0.25))]);
+        let rows = [["5", "1.00 ± 0.25", "0.625", "–"], ["11.6", "1.00 ± 0.25", "1.450", "–"]];
         assert_eq!(table(&figure).rows, rows.map(|row| row.map(String::from).to_vec()));
     }
 }

@@ -55,10 +55,13 @@ pub fn draw(effort: &Effort, replicas: Replicas, finished: &dyn Fn()) -> Result<
     let Some(runs) = Runs::new(plans, finished)? else {
         return Ok(None);
     };
-    let beside = |figure: ReportFigure| Exhibit { table: Some(beside::table(&figure)), figure: Some(figure) };
+    // Bands are 95 %, and ± in tables are standard errors, as everywhere.
+    let tables = paper::figures(&runs.with_standard_errors(), effort)?;
+    let tables = tables.iter().map(|figure| Some(beside::table(figure)));
+    let figures = paper::figures(&runs, effort)?.into_iter().map(Some);
     Ok(Some(Findings {
         answer: paper::answer(&runs)?,
-        exhibits: (paper::figures(&runs, effort)?.into_iter()).map(beside).collect(),
+        exhibits: figures.zip(tables).map(|(figure, table)| Exhibit { figure, table }).collect(),
         plans: shown,
         ..Default::default()
     }))

@@ -4,13 +4,14 @@ use super::measured::measured;
 use super::run::{Run, Runs, amplitude};
 use super::*;
 use crate::oracle::closed_form;
+use crate::present::table::two_digits;
 
 const PROJECTION: &str = "mean projection (rod lengths)";
 const AMPLITUDE: &str = "amplitude A₁ of X̄₁ (rod lengths)";
 
 /// All figures, in the paper's order.
 pub(super) fn figures(runs: &Runs, effort: &Effort) -> Result<Vec<ReportFigure>, String> {
-    let mut figures = vec![fig4(runs, effort)?, fig4_differences(runs)?, fig5(runs, effort)?, fig6_overlaid(runs)?];
+    let mut figures = vec![fig4_differences(runs)?, fig4(runs, effort)?, fig5(runs, effort)?, fig6_overlaid(runs)?];
     figures.extend(fig6(runs)?);
     figures.extend(amplitudes(runs)?);
     figures.push(fig11(runs)?);
@@ -81,10 +82,10 @@ pub(super) fn answer(runs: &Runs) -> Result<String, String> {
         let run = runs.get(&format!("fig4-n{n}"))?;
         let output = run.times().iter().position(|t| (t - 2.0).abs() < 1e-9);
         let sample = run.sample("x1", |x1| output.map_or(f64::NAN, x1));
-        Ok::<_, String>(format!("{:.3} ± {:.3} at n = {n}", sample.mean, sample.half_width()))
+        Ok::<_, String>(format!("{} at n = {n}", two_digits(sample.mean, sample.se)))
     };
     Ok(format!(
-        "In Fig. 4 X̄₁ at its maximum at t/T = 2 is {}, {} and {} per cm³ (95 %); measured points are needed to say \
+        "In Fig. 4 X̄₁ at its maximum at t/T = 2 is {}, {} and {} per cm³; measured points are needed to say \
          whether nature does so too.",
         at(20)?,
         at(50)?,
@@ -154,8 +155,8 @@ const AMPLITUDES: [(u32, Compared, &str, &str); 4] = [
         &[("fig7-n20", "n = 20 cm⁻³"), ("fig7-n50", "n = 50 cm⁻³"), ("fig7-n100", "n = 100 cm⁻³")],
         "A₁ and the concentration",
         "The amplitude decays faster where n is larger. A₁ is the height of a maximum of X̄₁ above the mean of the \
-         minima on its two sides: the paper defines it in a drawing that is not at hand, and this reading gives free \
-         rods of one size the \"approximately 1/2\" of its text.",
+         minima on its two sides: the paper defines it in a drawing that is not at hand, and this interpretation gives \
+         free rods of one size the \"approximately 1/2\" of its text.",
     ),
     (
         8,
@@ -204,9 +205,12 @@ fn fig11(runs: &Runs) -> Result<ReportFigure, String> {
         let first = times.last().copied().unwrap_or(0.0) - STEADY_PERIODS;
         let late: Vec<usize> = (0..times.len()).filter(|k| times[*k] > first + 1e-9).collect();
         let sample = run.sample("phi", |phi| late.iter().map(|k| phi(*k)).sum::<f64>() / late.len() as f64);
-        steady.push((run.scene().particles.aspect_ratio, sample.mean, sample.half_width()));
+        steady.push(run.point((run.scene().particles.aspect_ratio, sample)));
     }
-    let ratios = (4..=220).map(|k| 0.25 * f64::from(k));
+    // The table needs the curve at each point.
+    let drawn = (4..=220).map(|k| 0.25 * f64::from(k));
+    let mut ratios: Vec<f64> = drawn.chain(steady.iter().map(|point| point.0)).collect();
+    ratios.sort_by(f64::total_cmp);
     let caption = format!(
         "The steady mean angle of interacting rods lies close to the time average of a single rod, π/4 at r_e = 1 and \
          towards π/2 for long rods. Each point is the mean over the last {STEADY_PERIODS} periods of ten, with its 95 \

@@ -23,9 +23,12 @@ impl Replicas {
     }
 }
 
+#[derive(Clone)]
 pub(super) struct Run {
-    plan: Plan,
-    replicas: Vec<Replica>,
+    plan: Arc<Plan>,
+    replicas: Arc<Vec<Replica>>,
+    /// The ± of a sample.
+    error: fn(Sample) -> f64,
 }
 
 impl Run {
@@ -62,24 +65,29 @@ impl Run {
             let [own, other] = [self, other].map(|run| run.values(channel, |mean| mean(output)));
             Sample::of_differences(&own, &other)
         };
-        with_band(label, times.iter().copied().zip((0..times.len()).map(sample)))
+        self.with_errors(label, times.iter().copied().zip((0..times.len()).map(sample)))
     }
 
-    /// A channel's mean against t/T with its 95 % band.
+    /// A channel's mean against t/T with its ±.
     pub(super) fn curve(&self, channel: &str, label: impl Into<String>) -> Curve {
         let times = self.times();
         let samples = (0..times.len()).map(|output| self.sample(channel, |mean| mean(output)));
-        with_band(label, times.iter().copied().zip(samples))
+        self.with_errors(label, times.iter().copied().zip(samples))
+    }
+
+    fn with_errors(&self, label: impl Into<String>, samples: impl Iterator<Item = (f64, Sample)>) -> Curve {
+        Curve::with_band(label, samples, |at| self.point(at))
+    }
+
+    /// A sample at an abscissa as abscissa, mean and ±.
+    pub(super) fn point(&self, (x, sample): (f64, Sample)) -> (f64, f64, f64) {
+        (x, sample.mean, (self.error)(sample))
     }
 }
 
-/// A curve through samples, with a band of 95 % by Student's t.
-pub(super) fn with_band(label: impl Into<String>, samples: impl Iterator<Item = (f64, Sample)>) -> Curve {
-    Curve::with_band(label, samples, |(x, sample)| (x, sample.mean, sample.half_width()))
-}
-
-/// The runs of all scenes, by the scenes' names. Scenes that differ only in their titles share a run.
-pub(super) struct Runs(BTreeMap<&'static str, Arc<Run>>);
+/// The runs of all scenes, by the scenes' names. Scenes that differ only in their titles share a run. Their ± are 95 %
+/// by Student's t.
+pub(super) struct Runs(BTreeMap<&'static str, Run>);
 
 impl Runs {
     /// Runs the scenes over all ranks; `finished` is called on the root for each replica, after its scene. `None`
@@ -103,17 +111,22 @@ impl Runs {
             return Ok(None);
         };
         let run = |(k, replicas): (&usize, _)| {
-            let plan = plans[*k].1.clone();
-            (*k, Arc::new(Run { plan, replicas }))
+            let plan = Arc::new(plans[*k].1.clone());
+            (*k, Run { plan, replicas: Arc::new(replicas), error: Sample::half_width })
         };
-        let runs: BTreeMap<usize, Arc<Run>> = own.iter().zip(results).map(run).collect();
+        let runs: BTreeMap<usize, Run> = own.iter().zip(results).map(run).collect();
         let named = (0..plans.len()).filter_map(|k| Some((plans[k].0, runs.get(&first(k)?)?.clone())));
         Ok(Some(Self(named.collect())))
     }
 
+    /// The same with standard errors as ±.
+    pub(super) fn with_standard_errors(&self) -> Self {
+        let run = |(name, run): (&&'static str, &Run)| (*name, Run { error: |sample| sample.se, ..run.clone() });
+        Self(self.0.iter().map(run).collect())
+    }
+
     pub(super) fn get(&self, name: &str) -> Result<&Run, String> {
-        let run = self.0.get(name);
-        run.map(Arc::as_ref).ok_or_else(|| format!("{name}: no figure's scene has this name"))
+        self.0.get(name).ok_or_else(|| format!("{name}: no figure's scene has this name"))
     }
 }
 
@@ -144,8 +157,8 @@ pub(super) fn shown((name, plan): &(&'static str, Plan)) -> ScenePlan {
     }
 }
 
-/// A₁, the amplitude of the oscillation of X̄₁ (Figs 7 to 10), against t/T, with a 95 % band from the same heights in
-/// every replica.
+/// A₁, the amplitude of the oscillation of X̄₁ (Figs 7 to 10), against t/T, with its ± from the same heights in every
+/// replica.
 ///
 /// The paper defines A₁ in the drawing of Fig. 7, which is not at hand. Here A₁ is the height of a maximum of X̄₁
 /// above the mean of the minima on its two sides, at the time of the maximum. The text allows this interpretation:
@@ -165,7 +178,7 @@ pub(super) fn amplitude(run: &Run, label: impl Into<String>) -> Curve {
         });
         (times[extremes[at]], height)
     });
-    with_band(label, heights)
+    run.with_errors(label, heights)
 }
 
 /// The outputs of maxima and minima, alternating, the first a maximum.
@@ -185,6 +198,16 @@ fn extremes(times: &[f64], mean: &[f64]) -> Vec<usize> {
 mod tests {
     use super::*;
     use std::f64::consts::TAU;
+
+    #[test]
+    fn the_error_of_a_curve_is_half_of_95_percent_or_a_standard_error() {
+        let mut scene = scenes::find("fig6-uniform").unwrap().scene().unwrap();
+        (scene.ensemble.replicas, scene.particles.count) = (3, 10);
+        let runs = Runs::new(vec![("few", Plan::new(&scene).unwrap())], &|| ()).unwrap().unwrap();
+        let error = |runs: &Runs| runs.get("few").unwrap().curve("x1", "").half_band.unwrap()[1];
+        // Student's t with two degrees of freedom.
+        assert!((error(&runs) / error(&runs.with_standard_errors()) - 4.3027).abs() < 1e-4);
+    }
 
     #[test]
     fn extremes_of_a_damped_wave_are_found() {
