@@ -78,5 +78,5 @@ pub(super) fn frozen(integrators: &Integrators, _: &Effort) -> Evidence {
     });
     Evidence::on("largest step with a bounded length over 2.785/(ΛG)")
         .within(worst(shares), 0.99)
-        .because("a hundredth below is told from equal: ten periods find a growth of 10⁻³ a step")
+        .because("a hundredth below differs from equal: ten periods find a growth of 10⁻³ a step")
 }
