@@ -143,10 +143,12 @@ fn below(text: &str) -> &str {
     }
 }
 
-/// The text with numbers such as 1.2e-3 written as 1.2·10⁻³, 1e-9 as 10⁻⁹, and 4e0 as 4.
+/// The text with numbers such as 1.2e-3 written as 1.2·10⁻³, 1e-9 as 10⁻⁹, and 4e0 as 4, and with a true minus before
+/// negative ones.
 pub(crate) fn powers(text: &str) -> String {
     let mut typeset = String::new();
-    let mut rest = text;
+    let text = minus(text);
+    let mut rest = &text[..];
     while let Some(at) = rest.find('e') {
         let (before, after) = (&rest[..at], &rest[at + 1..]);
         let mantissa = before.trim_end_matches(|c: char| c.is_ascii_digit() || c == '.');
@@ -175,6 +177,19 @@ pub(crate) fn powers(text: &str) -> String {
         }
     }
     typeset + rest
+}
+
+/// The text with a minus for each hyphen that is the sign of a number: after nothing, a blank or a bracket.
+fn minus(text: &str) -> String {
+    let mut before = ' ';
+    let mut after = text.chars().skip(1);
+    let sign = |c: char| {
+        let number = after.next().is_some_and(|c| c.is_ascii_digit());
+        let begins = before.is_whitespace() || "([|=".contains(before);
+        before = c;
+        if c == '-' && number && begins { '−' } else { c }
+    };
+    text.chars().map(sign).collect()
 }
 
 /// 10 with its exponent as a superscript.
@@ -245,7 +260,8 @@ mod tests {
     fn powers_of_ten_are_raised() {
         for (text, typeset) in [
             ("p = 1.2e-3; at", "p = 1.2·10⁻³; at"),
-            ("1e-16, -4e0 ± 2.0e12, 0.0e0", "10⁻¹⁶, -4 ± 2.0·10¹², 0"),
+            ("1e-16, -4e0 ± 2.0e12, 0.0e0", "10⁻¹⁶, −4 ± 2.0·10¹², 0"),
+            ("-0.5 (-1) |p|=-2, 1-2, fig-4, 2026-11-28, -x", "−0.5 (−1) |p|=−2, 1-2, fig-4, 2026-11-28, -x"),
             ("the end, e-3, 1e, 3e-x and a1e2", "the end, e-3, 1e, 3e-x and a1e2"),
             ("1e99999999999", "1e99999999999"),
         ] {
