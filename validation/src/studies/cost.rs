@@ -84,7 +84,8 @@ fn run(request: &Request) -> Result<Option<Findings>, String> {
         format!(
             "One core. The error is that of the step and one standard error over replicas, in quadrature. Replicas are \
              independent: the time is theirs times that of one, measured with {USUAL} steps a period where it is not \
-             this program's. {}",
+             this program's. Steps are those of the table below; other numbers than in `cheapest-split`, which are for \
+             one period and any number of steps. {}",
             agreement(&steps, &measured)
         ),
         costs.iter().copied(),

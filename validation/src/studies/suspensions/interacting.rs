@@ -198,8 +198,8 @@ fn rule(constants: &Constants) -> String {
     };
     format!(
         "{seen}Mean-square error = (b/S + c N^(−1/3))² + v/(N M) for S steps per period, N rods and M replicas, with \
-         b = {:.2} for S ≥ {}, c = {:.3} (each the largest that its standard error allows: estimate + 2 se) and \
-         v = {:.3}; cost = N M S. With the scene's own rods \
+         b = {:.2} for S ≥ {}, c = {:.3} (each the largest that its standard error allows: estimate + 2 se; c is an \
+         upper bound, no fit, and rows with N → ∞ use it) and v = {:.3}; cost = N M S. With the scene's own rods \
          S = √3 b/ε and N M = 3v/(2ε²), or the fewest steps and N M = v/(ε² − \
          (b/S)²) where that is more; without faces as many rods in as few replicas as there may be.",
         constants.steps_bias, constants.fewest_steps, constants.rods_bias, constants.variance_per_rod

@@ -101,12 +101,20 @@ fn rods(law: &Law) -> ReportTable {
         ),
         None => format!("No straight line in {name} fits"),
     };
+    /// Below this p a line does not fit.
+    const POOR: f64 = 0.01;
+    let poor = law.rods_lines.iter().all(|line| line.as_ref().and_then(|line| line.p).is_none_or(|p| p < POOR));
+    let power = if poor {
+        format!("Neither fits, as p < {POOR}: no power of N is claimed")
+    } else {
+        "These points cannot distinguish N^(−1/2) from N^(−1/3)".into()
+    };
     ReportTable::new(
         ["rods", "X̄₁ at t/T = 1 against the rods"],
         format!(
             "Rods near a face of the volume lack neighbours, and the share of the volume near faces is ∝ N^(−1/3) \
-             (`faces-cost-collisions`). {}; {}. p is the probability that a right line fits no better by chance. These \
-             points cannot distinguish N^(−1/2) from N^(−1/3).",
+             (`faces-cost-collisions`). {}; {}. p is the probability that a right line fits no better by chance. \
+             {power}.",
             line(0, "N^(−1/3)"),
             line(1, "N^(−1)")
         ),
