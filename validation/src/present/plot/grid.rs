@@ -7,7 +7,7 @@ use plotters::coord::Shift;
 use plotters::prelude::*;
 
 /// Size of letters inside the panels.
-const SMALL: f64 = 11.0;
+const SMALL: f64 = 13.0;
 const CELL_HEIGHT: i32 = 15 * FINE;
 const GAP: i32 = 10 * FINE;
 const KEY: i32 = 16 * FINE;
@@ -31,7 +31,9 @@ impl Layout {
         let room = width - 2 * MARGIN;
         // Cells are at least as wide as a glyph and as the columns' names need.
         let widest = |across: usize| (room / across as i32 - names - GAP) / columns;
-        let least = (grid.columns.iter().map(|c| text_width(c, SMALL) / 3).max()).unwrap_or(0);
+        let named = grid.columns.iter().filter(|name| !name.is_empty()).count() as i32;
+        let name = grid.columns.iter().map(|name| text_width(name, SMALL)).max();
+        let least = name.unwrap_or(0) * named / columns;
         let fits = |across: &usize| widest(*across) >= least.max(9 * FINE);
         let across = (1..=3).rev().find(fits).unwrap_or(1).min(grid.maps.len().max(1));
         let cell_width = widest(across).min(36 * FINE);

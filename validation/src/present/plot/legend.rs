@@ -12,7 +12,7 @@ use plotters::prelude::*;
 const SAMPLE: i32 = 34 * FINE;
 const GAP: i32 = 6 * FINE;
 /// Size of letters beside the axes, height of their lines, and length of the samples before them.
-const SMALL: f64 = 12.0;
+const SMALL: f64 = 13.0;
 const LINE: i32 = 16 * FINE;
 const SHORT: i32 = 18 * FINE;
 /// Largest number of entries above the axes.

@@ -274,7 +274,7 @@ pub(super) fn text_width(text: &str, size: f64) -> i32 {
 }
 
 /// Size of the letters of a map's title.
-pub(super) const SMALL_BOLD: f64 = 12.0;
+pub(super) const SMALL_BOLD: f64 = 13.5;
 
 /// The part of a text that fits into `room`; `…` stands for the rest.
 pub(super) fn cut(text: &str, room: i32, size: f64) -> String {

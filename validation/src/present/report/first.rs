@@ -20,24 +20,42 @@ pub(super) fn means(judges: Judges) -> &'static str {
     }
 }
 
-/// The sizes of the errors, and what is not known, a line each; of the cases that this report has.
+/// The verdict, then the sizes of the errors with their scope, and what is not known, a line each; of the cases that
+/// this report has.
 pub(super) fn sizes(report: &Report) -> Vec<String> {
     let error = |name: &str| {
         let row = report.cases.iter().find(|row| row.name == name && row.verdict == Verdict::Pass)?;
         row.worst().map(|line| number(line.error))
     };
-    let free = error("propagator-closed-form")
-        .map(|error| format!("Free rods: off Jeffery's closed form by {error} rad, times max(r_e, 1/r_e)·(1 + t/T)."));
-    let colliding = error("naive-reference")
-        .map(|error| format!("Collisions: off an independent code with the same interpretation by {error}."));
+    let summary = &report.summary;
+    let red = summary.fail + summary.underpowered;
+    let verdict = match red {
+        0 => format!("Verdict: nothing is red; {} of {} cases pass.", summary.pass, report.cases.len()),
+        _ => format!("Verdict: {red} of {} cases are red.", report.cases.len()),
+    };
+    let free = error("propagator-closed-form").map(|error| {
+        format!(
+            "Free rods: exact to {error} rad times max(r_e, 1/r_e)·(1 + t/T), against Jeffery's closed form in plane \
+             shear."
+        )
+    });
+    let colliding = error("naive-reference").map(|error| {
+        format!(
+            "Collisions: agree with an independent code of the same interpretation of the paper to {error} rod \
+             lengths, over up to one period and with the same random numbers."
+        )
+    });
     let measured = report.summary.parts.iter().find(|part| part.judges == Judges::Measurement).map(|part| {
         let judged = part.cases - part.nodata;
         let mut of: Vec<_> = report.origin.points.iter().map(|stated| stated.short(80)).collect();
         of.dedup();
         let of = if of.is_empty() { String::new() } else { format!(": {}", of.join("; ")) };
-        format!("Experiments: {judged} of {} comparisons have points{of}.", part.cases)
+        match judged {
+            0 => "Experiments: none at hand; that these are the right equations is not shown.".into(),
+            _ => format!("Experiments: {judged} of {} comparisons have points{of}.", part.cases),
+        }
     });
-    [free, colliding, measured].into_iter().flatten().collect()
+    [Some(verdict), free, colliding, measured].into_iter().flatten().collect()
 }
 
 /// The cards, one for each part of the verdict.
@@ -70,9 +88,10 @@ fn count(part: &Part) -> String {
 /// The pictures of the first screen, if they exist: the paper's Fig. 4, error against run time, and one map of
 /// stability.
 pub(super) fn thumbnails(report: &Report) -> Result<Vec<Json>, String> {
-    // Three pictures are side by side and must be legible: those with space for larger letters have them.
+    // Three pictures are side by side and must be legible: they are drawn narrow, with large letters, and the one of
+    // most methods wider.
     let wanted =
-        [("fig4", Some((420, 320))), ("work-precision-re11.6", Some((420, 440))), ("stability-steps", Some((420, 0)))];
+        [("fig4", Some((310, 380))), ("work-precision-re11.6", Some((430, 440))), ("stability-steps", Some((310, 0)))];
     let found = |(name, size)| {
         let figure = report.sections.figures().find(|figure| figure.name == name)?;
         Some((figure, Figure { size, ..figure.figure.clone() }))
@@ -84,7 +103,7 @@ pub(super) fn thumbnails(report: &Report) -> Result<Vec<Json>, String> {
                 let shown = grid.maps.iter().position(|map| map.title == "implicit midpoint in p");
                 grid.maps = grid.maps.drain(..).skip(shown.unwrap_or(0)).take(1).collect();
             }
-            Ok(json!({ "name": figure.name, "svg": plot::svg(&small)? }))
+            Ok(json!({ "name": figure.name, "svg": plot::svg(&small)?, "map": small.grid.is_some() }))
         })
         .collect()
 }

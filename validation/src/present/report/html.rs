@@ -153,6 +153,7 @@ fn figure(report: &Report, figure: &ReportFigure) -> Result<Json, String> {
     Ok(json!({
         "name": figure.name,
         "svg": plot::svg(&figure.figure)?,
+        "map": figure.figure.grid.is_some(),
         "caption": figure.caption,
         "source": figure.source,
         "cases": case_links(report, &figure.cases),

@@ -32,7 +32,7 @@ impl Anchors {
                 (Some(before), Some(_)) => typeset(before),
                 _ => typeset(text),
             },
-            Piece::Code(code) => self.link(&format!("case-{code}"), format!("<code>{}</code>", escaped(code))),
+            Piece::Code(code) => self.link(&format!("case-{code}"), format!("<code>{}</code>", breakable(code))),
             Piece::Equation(number) => self.link(&format!("equation-{number}"), escaped(number)),
             Piece::Figure(number) => {
                 let before = k.checked_sub(1).and_then(|k| pieces.get(k));
@@ -64,6 +64,11 @@ impl Anchors {
     }
 }
 
+/// A name of code, which a line may break after `_` and `::`.
+fn breakable(code: &str) -> String {
+    escaped(code).replace("::", "::<wbr/>").replace('_', "_<wbr/>")
+}
+
 fn anchor(target: &str, html: &str) -> String {
     format!("<a href=\"#{}\">{html}</a>", escaped(target))
 }
@@ -89,6 +94,7 @@ mod tests {
         };
         for (text, html) in [
             ("`a` & `b`", "<a href=\"#case-a\"><code>a</code></a> &amp; <code>b</code>"),
+            ("`a_b::c`", "<code>a_<wbr/>b::<wbr/>c</code>"),
             ("eqs 5, A.7", "eqs 5, <a href=\"#equation-A.7\">A.7</a>"),
             ("Fig. 4", "<a href=\"#figure-fig4-n20\">Fig.\u{a0}4</a>"),
             ("in Figs 4 and 1", "in Figs <a href=\"#figure-fig4-n20\">4</a> and 1"),

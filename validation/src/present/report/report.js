@@ -1,5 +1,5 @@
 "use strict";
-// A filter of the cases by words and tags, links that open what they lead to, and tables folded on phones. Without it everything can be read all the
+// A filter of the cases by words and tags, links that open what they lead to, and cases folded on phones. Without it everything can be read all the
 // same. Neither angle brackets nor ampersands: the page stays well-formed XML.
 (function () {
   const field = document.getElementById("filter");
@@ -25,7 +25,7 @@
     target?.scrollIntoView();
   }
   if (matchMedia("screen and (max-width: 44rem)").matches) {
-    document.querySelectorAll("details.tabled, details.fold").forEach(function (item) { item.open = false; });
+    document.querySelectorAll("details.fold").forEach(function (item) { item.open = false; });
   }
   field.closest("p").hidden = false;
   field.addEventListener("input", show);

@@ -82,7 +82,7 @@ fn steps(integrators: &[Integrator]) -> ReportFigure {
         ["stability-steps", "Stability by step and aspect ratio"],
         format!(
             "Runs end during a flip, at φ = 1 rad, after one period or twenty steps, whichever is more; at short steps \
-             after {MOST_STEPS} of them. Right: within 10⁻² rad of the closed form. The black line is theory's longest \
+             after {MOST_STEPS} of them. Right: within 10⁻² rad of the closed form. The line is theory's longest \
              step without overtaking, where there is one: a step is inaccurate long before. The exact propagator takes \
              no steps and is right everywhere."
         ),
@@ -205,7 +205,7 @@ fn figure(words: [&str; 2], caption: impl Into<String>, axes: [&str; 2], grid: G
     let mut figure = ReportFigure::new(words, caption, axes);
     figure.figure.grid = Some(Grid {
         classes: Fate::CLASSES.map(String::from).into(),
-        limit_name: "theory: the longest step without overtaking".into(),
+        limit_name: "theory: no overtaking up to here".into(),
         ..grid
     });
     figure.judged("A.1 to A.5", &["stability-map"])

@@ -33,6 +33,8 @@ fn html_stands_alone() {
         "href=\"#figure-synthetic\"",
         "href=\"curves/synthetic.csv\"",
         "href=\"tables/synthetic.csv\"",
+        // A table is folded.
+        "id=\"table-synthetic\" data-numbers",
         "Is it synthetic?",
         "1 &lt; 2 &amp; so on",
         "&lt;2.5&gt;",
