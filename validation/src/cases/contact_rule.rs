@@ -179,7 +179,7 @@ const PROPERTIES: [(&str, Property); 11] = [
         let [a, b] = contact_velocities(pair, &rule(pair)?);
         Some(geometry(pair).0.dot(&(a - b)).abs())
     }),
-    ("their sum kept (eq. 6)", |rule, pair| {
+    ("their sum unchanged (eq. 6)", |rule, pair| {
         let sum = |rate: &[Vector3<f64>; 2]| {
             let [a, b] = contact_velocities(pair, rate);
             geometry(pair).0.dot(&(a + b))

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::methods::integrators::{RodProblem, Setting, closed_form};
-use crate::studies::stability::corners;
+use crate::studies::stability::extremes;
 use crate::studies::stability::map::{ASPECT_RATIOS, STEPS};
 use shearbed::model::phase::Phase;
 
@@ -20,7 +20,7 @@ pub fn cases() -> Vec<Case> {
                  thousand steps, from any start.",
             )
             .source("eqs 13, 15")
-            .under_test(corners::exact as Motion)
+            .under_test(extremes::exact as Motion)
             .mistake("q not rescaled", |r, g, p, turns| {
                 let Phase { cos, sin } = Phase::of_turns(g.signum() * turns);
                 Vector3::new(p.x * cos - p.y / r * sin, r * p.x * sin + p.y * cos, p.z)
@@ -30,7 +30,7 @@ pub fn cases() -> Vec<Case> {
                 Vector3::new(p.x * cos - p.y / r * sin, r * p.x * sin + p.y * cos, p.z).normalize()
             })
             .mistake("G t for G t/T", |r, g, p, turns| {
-                corners::exact(r, g, p, turns * shearbed::model::jeffery::strain_per_period(r))
+                extremes::exact(r, g, p, turns * shearbed::model::jeffery::strain_per_period(r))
             })
             .mistake("through tan θ and φ (A.4, A.5)", |r, _, p, turns| {
                 let end = closed_form().advance(&RodProblem::new(r, turns), p, Setting::Once);
@@ -82,8 +82,8 @@ pub(super) fn off_length(p: &Vector3<f64>) -> f64 {
 }
 
 fn extreme_motion(motion: &Motion, _: &Effort) -> Vec<Evidence> {
-    let all: Vec<_> = ASPECT_RATIOS.into_iter().chain([1.0]).map(|r| corners::worst(r, motion)).collect();
-    let most = |of: fn(&corners::Worst) -> f64| worst(all.iter().map(of));
+    let all: Vec<_> = ASPECT_RATIOS.into_iter().chain([1.0]).map(|r| extremes::worst(r, motion)).collect();
+    let most = |of: fn(&extremes::Worst) -> f64| worst(all.iter().map(of));
     let (stepped_length, stepped_orbit) = thousand_steps(motion);
     vec![
         Evidence::on("largest ||p| − 1|")

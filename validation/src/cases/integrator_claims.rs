@@ -185,7 +185,7 @@ fn lose_length(integrators: &Integrators, _: &Effort) -> Evidence {
     let all = integrators();
     let losing = all.iter().filter(|integrator| !integrator.keeps_length && integrator.theory != Theory::Exact);
     Evidence::exact(
-        "subjects that keep |p| to round-off without being said to",
+        "integrators that keep |p| to round-off, though theirs is not said to be",
         losing.filter(|integrator| keeps(integrator)).count() as f64,
     )
 }

@@ -10,7 +10,7 @@ pub(super) type Integrators = fn() -> Vec<Integrator>;
 
 pub fn cases() -> Vec<Case> {
     vec![
-        Case::of(Judges::Integrator, "subject-orders")
+        Case::of(Judges::Integrator, "integrator-orders")
             .claim("The error of every fixed-step integrator falls with the order of its theory.")
             .source("A.2–A.5; Jeffery's equation in p")
             .under_test(crate::methods::integrators::own as Integrators)
@@ -37,7 +37,7 @@ pub fn cases() -> Vec<Case> {
                 in_p(1, false, |problem, p, h| rk4(|y| problem.rate(&y), p, h) + Vector3::new(0.0, 0.0, 1e-9))
             })
             .check(orders),
-        Case::of(Judges::Integrator, "subject-lengths")
+        Case::of(Judges::Integrator, "integrator-lengths")
             .claim("Integrators that are said to keep |p| = 1 keep it to round-off at any step.")
             .source("A.1; p·ṗ = 0")
             .under_test(crate::methods::integrators::own as Integrators)
@@ -59,7 +59,7 @@ pub fn cases() -> Vec<Case> {
             .mistake("whole turns are left in the phase", || vec![whole_turns()])
             .mistake("A.4 and A.5 in angles", || vec![closed_form()])
             .check(round_off),
-        Case::of(Judges::Integrator, "adaptive-subjects")
+        Case::of(Judges::Integrator, "adaptive-integrators")
             .claim(
                 "At a tolerance of 10⁻¹¹ both adaptive integrators come as near as their steps, each off by \
                  the tolerance, allow.",

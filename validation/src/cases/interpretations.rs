@@ -78,9 +78,7 @@ pub fn cases() -> Vec<Case> {
             .mistake("one draw per mutual pair instead", pair_draws)
             .check(does_not_matter),
         Case::of(Judges::Interpretation, "interpretation-update")
-            .claim(
-                "A.14 to the letter damps a little more than Jeffery's step and the kick: this interpretation matters.",
-            )
+            .claim("Exactly A.14 damps a little more than Jeffery's step and the kick: this interpretation matters.")
             .source("A.13, A.14; the pole of the angles")
             .under_test(angles)
             .mistake("no contact at arms below a thousandth of the length instead", instead(angles, hardly_any_arm))

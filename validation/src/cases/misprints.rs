@@ -10,8 +10,8 @@ pub fn cases() -> Vec<Case> {
     vec![
         Case::of(Judges::Oracle, "gradient-of-eq-2")
             .claim(
-                "With G_ij = ∂u_i/∂x_j a thread turns as the line between two points of the liquid does; with the \
-                 text's ∂u_i/∂x_i it does not.",
+                "With G_ij = ∂u_i/∂x_j a rod of Λ = 1 turns as the line between two points of the liquid does; with \
+                 the text's ∂u_i/∂x_i it does not.",
             )
             .source("eqs 2, 3")
             .under_test((|u, i, j| slope(u, i, j)) as Gradient)
@@ -62,7 +62,7 @@ fn gives_back_velocity(component: &Gradient, _: &Effort) -> [Evidence; 2] {
         }),
     ];
     let because = "RK4 on the field: (|G|h)⁴|G|t/120 = 10⁻¹³ at |G| = 6 and h = 2.5·10⁻⁴, and 2000 roundings, both \
-                   stretched e^{|G|t} = 20-fold; the thread's 1 − Λ is 2·10⁻¹⁸";
+                   stretched e^{|G|t} = 20-fold; the rod's 1 − Λ is 2·10⁻¹⁸";
     fields.map(|(name, u)| {
         let gradient = Matrix3::from_fn(|i, j| component(u, i, j));
         let flow = VelocityGradient::new(gradient).expect("finite components");
@@ -73,9 +73,7 @@ fn gives_back_velocity(component: &Gradient, _: &Effort) -> [Evidence; 2] {
             let carried = (0..2000).fold(line, |x, _| rk4(u, x, TIME_S / 2000.0));
             end.cross(&carried.normalize()).norm()
         });
-        Evidence::on(format!("largest angle between thread and line, {name}"))
-            .within(worst(off), 1e-11)
-            .because(because)
+        Evidence::on(format!("largest angle between rod and line, {name}")).within(worst(off), 1e-11).because(because)
     })
 }
 

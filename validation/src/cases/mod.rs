@@ -5,7 +5,7 @@
 //! file of this folder; a new file is declared here and its `cases()` listed. CONTRIBUTING.md has a whole one.
 
 mod averaged;
-mod begun_again;
+mod continued_run;
 mod brownian;
 pub mod catalogue;
 mod changing_flows;
@@ -85,7 +85,7 @@ pub fn all() -> Vec<Case> {
         closed_forms::cases(),
         reductions::cases(),
         symmetries::cases(),
-        begun_again::cases(),
+        continued_run::cases(),
         extremes::cases(),
         general_flows::cases(),
         changing_flows::cases(),

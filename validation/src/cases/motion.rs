@@ -37,7 +37,7 @@ pub fn cases() -> Vec<Case> {
             .claim("A free rod comes back after T = 2π(r_e + 1/r_e)/G, for r_e from 1.01 to 10⁶.")
             .source("eqs 15, A.6")
             .under_test(exact as Motion)
-            .mistake("Λ = 1: a thread", |flow, _, p, t| exact(flow, 1e9, p, t))
+            .mistake("Λ = 1", |flow, _, p, t| exact(flow, 1e9, p, t))
             .mistake("r_e − 1/r_e in the period", |flow, r, p, t| {
                 exact(flow, r, p, t * (r + 1.0 / r) / (r - 1.0 / r))
             })
@@ -89,7 +89,7 @@ pub fn cases() -> Vec<Case> {
         Case::of(Judges::Core, "mean-angle-quadrature")
             .claim(
                 "⟨φ⟩ of a single rod, integrated over the φ(t) that a run has, is the dilogarithm, and tends to π/2 as \
-                 (2/π)(1 + ln r_e)/r_e for a thread.",
+                 (2/π)(1 + ln r_e)/r_e for r_e → ∞.",
             )
             .source("eqs 18–20")
             .under_test(angle_in_a_run as Angle)

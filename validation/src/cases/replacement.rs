@@ -101,7 +101,7 @@ fn replacement(volume: &Volume, effort: &Effort) -> Vec<Evidence> {
         Evidence::on("largest |x_2 − overshoot modulo H| of new rods, over H")
             .within(overshoot_off, 4.0 * f64::EPSILON)
             .because("five roundings of numbers near 1, half an ε each"),
-        Evidence::exact("new rods that kept x_1 or x_3", places.unchanged as f64),
+        Evidence::exact("new rods with unchanged x_1 or x_3", places.unchanged as f64),
         Evidence::new(
             "p of (x_1/H)² of new rods being uniform",
             lab::uniform(squares, 0.2, "Kolmogorov–Smirnov; x_1 = HR is ¼ off, √u − u at u = ¼"),

@@ -11,7 +11,7 @@ pub fn cases() -> Vec<Case> {
     vec![
         Case::of(Judges::Integrator, "stability-map")
             .claim(
-                "In every corner of the map every integrator ends, with a direction or with an error: the exact \
+                "Over the whole map every integrator ends, with a direction or with an error: the exact \
                  propagator at round-off, A.4 and A.5 in angles within 4·10⁻⁵ rad, who keeps |p| with |p| = 1, and \
                  orders 2 and 4 within 4 (GΔt)² rad over one period where GΔt ≤ ½.",
             )
@@ -23,11 +23,11 @@ pub fn cases() -> Vec<Case> {
                 in_angles(4, |problem, y, h| explicit_euler(|y| problem.angle_rates(&y), y, h))
             })
             .mistake("an error in place of every direction", || vec![refuses()])
-            .check(corners),
+            .check(whole_map),
     ]
 }
 
-fn corners(integrators: &Integrators, effort: &Effort) -> Vec<Evidence> {
+fn whole_map(integrators: &Integrators, effort: &Effort) -> Vec<Evidence> {
     let most_steps = effort.pick(2_000, 20_000);
     let mut exact = 0.0f64;
     let mut angles = 0.0f64;
@@ -54,7 +54,7 @@ fn corners(integrators: &Integrators, effort: &Effort) -> Vec<Evidence> {
         }
     }
     vec![
-        Evidence::exact("cells in which a subject without steps, other than in angles, is not at round-off", exact),
+        Evidence::exact("cells in which an integrator without steps, other than in angles, is not at round-off", exact),
         Evidence::on("largest angle to the closed form, A.4 and A.5 in angles").within(angles, 4e-5).because(
             "the starting phase is added to t/T before whole turns are taken out: rounded to half an ulp of 10³, \
              6·10⁻¹⁴, times 2π r_e = 6·10⁸",

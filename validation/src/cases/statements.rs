@@ -123,7 +123,7 @@ fn enough_rods(count: &usize, effort: &Effort) -> [Evidence; 2] {
         let difference = |(few, many): (&[[f64; 2]], &[f64; 2])| {
             few.iter().map(|change| change[k]).sum::<f64>() / share as f64 - many[k]
         };
-        let because = "\"not significantly\": less than two curves are told apart by, twice the width of a \
+        let because = "\"not significantly\": less than what distinguishes two curves, twice the width of a \
                        line; rods near a face have fewer neighbours";
         Evidence::on(format!("bias of X̄₁ at t/T = {}, {count} rods against {MANY}", k + 1))
             .is(Sample::of(few.chunks(share).zip(&many).map(difference)), 0.0, 2.0 * LINE, design.effect)

@@ -23,7 +23,7 @@ pub fn cases() -> Vec<Case> {
             .source("eqs 4, 12")
             .under_test(starts::ALL.to_vec())
             .mistake(
-                "the generator starts anew every 100 rods",
+                "the generator starts again every 100 rods",
                 spoiled(0, |count, unequal, rng| {
                     let seed = rng.random();
                     (0..count.div_ceil(100))

@@ -54,8 +54,8 @@ mod tests {
 
     const ASK_FOR_ALL: [&str; 6] = [
         "stability-map",
-        "subject-orders",
-        "subject-lengths",
+        "integrator-orders",
+        "integrator-lengths",
         "who-loses-length",
         "coarse-steps",
         "grid-convergence-index",

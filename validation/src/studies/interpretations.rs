@@ -47,7 +47,7 @@ pub fn table(rows: &[InterpretationRow]) -> ReportTable {
     let replicas = rows.iter().map(|row| row.replicas).min().unwrap_or(0);
     let mut columns = vec![
         words("left open", |row: &InterpretationRow| row.open),
-        words("read as", |row: &InterpretationRow| row.interpretation),
+        words("alternative", |row: &InterpretationRow| row.interpretation),
     ];
     for (k, (name, _)) in QUANTITIES.iter().enumerate() {
         columns.push(estimate(*name, move |row: &InterpretationRow| row.values[k]));
@@ -114,7 +114,7 @@ pub type Change = fn(&mut NaiveProblem);
 const ALTERNATIVES: [(&str, &str, Change); 17] = [
     ("who collides", "one draw per mutual pair", |p| p.reading.who = Who::PairDraws),
     ("who collides", "index order, not closest first", |p| p.reading.who = Who::IndexOrder),
-    ("update", "angles: A.14 to the letter", |p| p.update = Update::Angles),
+    ("update", "angles: exactly A.14", |p| p.update = Update::Angles),
     ("update", "exact step plus kick", |p| p.update = Update::ExactStepAndKick),
     ("shortest arm", "the rod's radius, 1/(2r_e)", |p| p.min_contact_arm = 0.5 / p.aspect_ratio),
     ("contact lines", "cut at the rods' ends", |p| p.reading.lines = Lines::CutAtEnds),

@@ -104,7 +104,7 @@ fn setting_columns<'a>() -> Vec<Column<'a, Coefficients>> {
         field("r_e", |row: &Coefficients| row.setting.aspect_ratio),
         field("α", |row: &Coefficients| row.setting.alpha),
         words("update", |row: &Coefficients| {
-            let redrawn = if row.setting.places == Places::Redrawn { ", places anew" } else { "" };
+            let redrawn = if row.setting.places == Places::Redrawn { ", places redrawn" } else { "" };
             format!("{:?}{redrawn}", row.setting.update).to_lowercase()
         }),
         field("steps ×", |row: &Coefficients| row.setting.finer),
@@ -119,13 +119,17 @@ fn measured<'a>(name: &str, value: impl Fn(&Coefficients) -> Estimate + 'a) -> C
 /// C_I of each suspension, and the residual of a fit by a single C_I.
 fn coefficients(rows: &[Coefficients]) -> ReportTable {
     let replicas = rows.first().map_or(0, |row| row.replicas);
+    let redrawn = match rows.iter().any(|row| row.setting.places == Places::Redrawn) {
+        true => " Places redrawn: at random before every step, so that no pair has a past.",
+        false => "",
+    };
     let mut columns = setting_columns();
     columns.push(number("φ r_p", decimals(4), |row: &Coefficients| row.phi_rp));
     columns.push(measured("C_I", |row| row.c_i));
     for (k, name) in ["of 11", "of 22", "of 33"].into_iter().enumerate() {
         columns.push(measured(name, move |row| row.own[k]));
     }
-    columns.push(measured("left over", |row| row.misfit));
+    columns.push(measured("residual", |row| row.misfit));
     columns.push(estimate("X̄₁'s decay per T", |row: &Coefficients| row.damping_per_period.map(Into::into)));
     ReportTable::new(
         ["folgar-tucker", "The effective Folgar–Tucker coefficient"],
@@ -134,8 +138,7 @@ fn coefficients(rows: &[Coefficients]) -> ReportTable {
              squares over all components of J, then by its diagonal components alone: where these differ, no single \
              C_I describes the collisions, and the relative residual is in the next column. steps ×: time steps over \
              those that resolve the motion. periods: before the window and in it. φ r_p: for cylinders, π n a³/(4 \
-             r_e). The decay of X̄₁'s oscillation is over the first two periods from isotropic directions. places \
-             anew: drawn at random before every step, so that no pair has a past."
+             r_e). The decay of X̄₁'s oscillation is over the first two periods from isotropic directions.{redrawn}"
         ),
         rows,
         columns,

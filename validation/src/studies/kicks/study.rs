@@ -155,7 +155,7 @@ fn steps(study: &Limit) -> ReportTable {
         ["kick-rates", "Kicks per rod and period against the step"],
         format!(
             "Scene {SCENE} (σ = 3.6 %), t/T from 0 to 2, {} replicas. A kick is |ṗ′ − ṗ|Δt. Kicks above 0.1 rad are \
-             also told apart by what the liquid does to the gap between the contact points, and stand beside the \
+             also distinguished by what the liquid does to the gap between the contact points, and stand beside the \
              formula for fresh arms with the directions of the run. `kick-formula`, `kick-memory`",
             study.replicas[0]
         ),

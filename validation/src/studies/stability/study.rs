@@ -1,6 +1,6 @@
 //! The study of stability: maps of outcomes, and the longest steps compared with theory.
 
-use super::corners::{self, Worst};
+use super::extremes::{self, Worst};
 use super::map::{self, ASPECT_RATIOS, Cell, STEPS};
 use super::maps::{self, MOST_STEPS, ratio, tolerances_from_fine, with_theory, with_tolerance};
 use super::*;
@@ -38,7 +38,7 @@ fn run(_: &Request) -> Result<Option<Findings>, String> {
         exhibit.table = Some(table);
     }
     exhibits.extend(limit_study::exhibits(&integrators));
-    exhibits.push(corners_table().into());
+    exhibits.push(core_table().into());
     Ok(Some(Findings::new(answer, exhibits, [])))
 }
 
@@ -87,17 +87,17 @@ fn ends(integrators: &[Integrator]) -> [ReportTable; 2] {
     ]
 }
 
-fn corners_table() -> ReportTable {
+fn core_table() -> ReportTable {
     type Row = (f64, Worst);
     ReportTable::new(
-        ["stability-core", "The core in the corners of plane Couette flow"],
+        ["stability-core", "The core at the extremes of plane Couette flow"],
         format!(
             "The worst over G = 10⁻³⁰, ½ and 10³⁰ 1/s, {} durations from 10⁻⁹ to 10⁸ periods, and {} starts: both \
              poles, the flip, C = 0, 10⁻³⁰⁰, 10³⁰⁰, ∞. ε = 2.2·10⁻¹⁶. Bounds: 4 ε, 8 ε, and 1.",
-            corners::TURNS.len(),
+            extremes::TURNS.len(),
             map::places(2.0).len()
         ),
-        ASPECT_RATIOS.map(|r| (r, corners::worst(r, &corners::exact))),
+        ASPECT_RATIOS.map(|r| (r, extremes::worst(r, &extremes::exact))),
         vec![
             number("r_e", ratio, |row: &Row| row.0),
             number("||p| − 1| / ε", decimals(1), |row: &Row| row.1.length / f64::EPSILON),

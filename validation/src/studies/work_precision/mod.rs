@@ -36,7 +36,6 @@ pub struct Point {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct IntegratorCurve {
     /// The integrator's name.
-    #[serde(rename = "subject")]
     pub integrator: String,
     /// The theory of its error.
     pub theory: Theory,

@@ -59,7 +59,6 @@ pub struct Richardson {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Convergence {
     /// The integrator's name.
-    #[serde(rename = "subject")]
     pub integrator: String,
     /// The order by theory.
     pub theory: u32,

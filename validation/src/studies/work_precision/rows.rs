@@ -11,7 +11,7 @@ pub fn bench_csv(benches: &[Bench]) -> Result<String, String> {
     let mut columns = vec![
         words("case", |r: &Row| r.0.name.clone()),
         field("aspect_ratio", |r: &Row| r.0.aspect_ratio),
-        words("subject", |r: &Row| r.1.integrator.clone()),
+        words("integrator", |r: &Row| r.1.integrator.clone()),
         field("steps", |r: &Row| r.2.setting.steps().ok()),
         field("tolerance", |r: &Row| r.2.setting.tolerance().ok()),
         words("status", |r: &Row| r.2.failure.clone().unwrap_or("ok".into())),
@@ -26,7 +26,7 @@ pub fn orders_csv(studies: &[Convergence]) -> Result<String, String> {
     type Row<'a> = (&'a Convergence, &'a Halving);
     let rows = studies.iter().flat_map(|study| study.halvings.iter().map(move |halving| (study, halving)));
     let mut columns = vec![
-        words("subject", |r: &Row| r.0.integrator.clone()),
+        words("integrator", |r: &Row| r.0.integrator.clone()),
         field("theory", |r: &Row| r.0.theory),
         field("steps", |r: &Row| r.1.steps),
     ];

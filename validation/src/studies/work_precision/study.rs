@@ -12,10 +12,10 @@ pub const STUDY: Study = Study {
     title: "Integrators: error against run time",
     question: "Which integrator of one free rod reaches an error soonest, and does each converge at its order?",
     cases: &[
-        "subject-orders",
+        "integrator-orders",
         "exact-propagator-round-off",
-        "subject-lengths",
-        "adaptive-subjects",
+        "integrator-lengths",
+        "adaptive-integrators",
         "grid-convergence-index",
         "where-errors-show",
         "flip-not-stiff",
@@ -96,7 +96,7 @@ pub(super) fn figure(bench: &Bench) -> ReportFigure {
     .points(exact.iter().map(|curve| Points::of(&curve.integrator, &curve.points, place)))
     .points((!failed.x.is_empty()).then_some(failed))
     .spans(Some((1e-8, 0.1)), Some((LEAST, FAILED)))
-    .judged("A.1 to A.5, eq. 20", &["subject-orders", "exact-propagator-round-off"])
+    .judged("A.1 to A.5, eq. 20", &["integrator-orders", "exact-propagator-round-off"])
 }
 
 /// The error of every method with steps against the number of steps.
@@ -110,7 +110,7 @@ fn orders_figure(orders: &Orders) -> ReportFigure {
         ["log steps", "log angle to the closed form (rad)"],
     )
     .curves(orders.studies.iter().map(curve))
-    .judged("A.1 to A.5", &["subject-orders", "grid-convergence-index"])
+    .judged("A.1 to A.5", &["integrator-orders", "grid-convergence-index"])
 }
 
 /// A curve of a bench and one of its points.
@@ -181,7 +181,8 @@ fn ratio(benches: &[Bench]) -> ReportTable {
 /// The time of every integrator of a bench for each error, then its smallest error.
 pub(super) fn every_integrator(bench: &Bench) -> ReportTable {
     let best = |curve: &IntegratorCurve| Some((curve.best()?.clone(), curve.best()?.errors?));
-    let mut columns: Vec<Column<IntegratorCurve>> = vec![words("subject", |c: &IntegratorCurve| c.integrator.clone())];
+    let mut columns: Vec<Column<IntegratorCurve>> =
+        vec![words("integrator", |c: &IntegratorCurve| c.integrator.clone())];
     columns.extend(TARGETS_RAD.map(|target| {
         number(format!("{target:.0e} rad"), time, move |c: &IntegratorCurve| {
             c.cheapest(target).map(|point| point.seconds.least)
@@ -233,7 +234,7 @@ pub fn orders_table(orders: &Orders) -> ReportTable {
         ),
         &orders.studies,
         vec![
-            words("subject", |s: &Convergence| s.integrator.clone()),
+            words("integrator", |s: &Convergence| s.integrator.clone()),
             words("theory", |s: &Convergence| s.theory.to_string()),
             words("observed", observed),
             words("verdict", verdict),

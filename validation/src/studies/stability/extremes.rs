@@ -1,4 +1,4 @@
-//! The core's motion of free rods in every corner of plane Couette flow.
+//! The core's motion of free rods at the extremes of plane Couette flow.
 
 use super::*;
 use crate::judge::statistics::larger;

@@ -7,20 +7,20 @@ type Way = fn(&mut OwnRods);
 
 pub fn cases() -> Vec<Case> {
     vec![
-        Case::of(Judges::Core, "begun-again")
+        Case::of(Judges::Core, "continued-run")
             .claim(
-                "Unequal rods that begin again at t = T with the length, r_e, direction and place that they had go \
+                "Unequal rods that continue at t = T with the length, r_e, direction and place that they had go \
                  on, in law, as the suspension that they were.",
             )
             .source("eqs 11, 12; the method of solution: what a suspension is")
             .under_test((|_| ()) as Way)
-            .mistake("r_e drawn anew", (|own| own.aspect_ratio = None) as Way)
+            .mistake("r_e drawn again", (|own| own.aspect_ratio = None) as Way)
             .mistake(
                 "each direction to the next rod",
                 (|own| own.p.iter_mut().flatten().for_each(|axis| axis.rotate_right(1))) as Way,
             )
             .mistake("isotropic again", (|own| own.p = None) as Way)
-            .check(begins_again),
+            .check(continues),
     ]
 }
 
@@ -29,7 +29,7 @@ const STEPS_PER_PERIOD: u64 = 100;
 const SD: f64 = 0.013;
 const EFFECT: f64 = 0.01;
 
-fn begins_again(way: &Way, effort: &Effort) -> Evidence {
+fn continues(way: &Way, effort: &Effort) -> Evidence {
     let mut scene = lab::interacting_scene(effort);
     scene.particles.aspect_ratio_sd_percent = 8.5;
     scene.particles.length_sd_percent = 20.0;
@@ -39,9 +39,9 @@ fn begins_again(way: &Way, effort: &Effort) -> Evidence {
     let replicas = effort.samples(Design { effect: EFFECT, sd: SD });
     let differences = (0..replicas).into_par_iter().map(|replica| again_less_straight(&scene, *way, replica));
     let differences: Vec<f64> = differences.collect();
-    Evidence::on("X̄₁ at t/T = 1½, begun again at t = T less straight on")
+    Evidence::on("X̄₁ at t/T = 1½, continued at t = T less straight on")
         .is(Sample::of(&differences), 0.0, 0.0, EFFECT)
-        .because("the same rods, with other collisions; with r_e drawn anew they fall out of step more slowly")
+        .because("the same rods, with other collisions; with r_e drawn again they fall out of step more slowly")
 }
 
 fn again_less_straight(scene: &Scene, way: Way, replica: u64) -> f64 {
