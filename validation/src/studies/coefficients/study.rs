@@ -119,10 +119,9 @@ fn measured<'a>(name: &str, value: impl Fn(&Coefficients) -> Estimate + 'a) -> C
 /// C_I of each suspension, and the residual of a fit by a single C_I.
 fn coefficients(rows: &[Coefficients]) -> ReportTable {
     let replicas = rows.first().map_or(0, |row| row.replicas);
-    let redrawn = match rows.iter().any(|row| row.setting.places == Places::Redrawn) {
-        true => " Places redrawn: at random before every step, so that no pair has a past.",
-        false => "",
-    };
+    let is_redrawn = rows.iter().any(|row| row.setting.places == Places::Redrawn);
+    let redrawn =
+        if is_redrawn { " Places redrawn: at random before every step, so that no pair has a past." } else { "" };
     let mut columns = setting_columns();
     columns.push(number("φ r_p", decimals(4), |row: &Coefficients| row.phi_rp));
     columns.push(measured("C_I", |row| row.c_i));
