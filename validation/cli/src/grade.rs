@@ -2,6 +2,7 @@
 
 mod args;
 mod inputs;
+mod several;
 mod tolerances;
 
 pub(super) use args::Args;
@@ -11,7 +12,8 @@ use super::{Failure, print, result_folder, spares_inputs};
 use serde_json::Value;
 use shearbed_validation::files::output::{self, RECORD, Record, ResultFolder};
 use shearbed_validation::files::text::Shown;
-use shearbed_validation::present::plot;
+use shearbed_validation::present::plot::{self, Figure};
+use shearbed_validation::present::report::figure_csv;
 use shearbed_validation::serve::grade::live::{self, Mode, Program, Protocol};
 use shearbed_validation::serve::grade::{
     self, Axes, Claim, DumpOptions, FileOptions, Graded, LineEnds, Options, Report,
@@ -21,8 +23,8 @@ use std::io;
 use std::path::Path;
 use std::time::Duration;
 
-/// Pictures of the report: error against steps, and error against run time.
-const PICTURES: [&str; 2] = ["steps.svg", "work-precision.svg"];
+/// Pictures of the report with their numbers: error against steps, and error against run time.
+const PICTURES: [&str; 4] = ["steps.svg", "steps.csv", "work-precision.svg", "work-precision.csv"];
 
 /// The report in four formats.
 const PAGES: [&str; 4] = ["grade.json", "grade.html", "grade.md", "junit.xml"];
@@ -47,7 +49,10 @@ pub(super) fn grade(args: &Args) -> Result<(), Failure> {
         let incomplete = |why: String| Failure::Input(format!("{}: {why}", dir.join(RECORD).shown()));
         record.is_complete().map_err(incomplete)?;
     }
-    let (report, wanted, inputs) = match (&args.command, &args.reference, &args.mine) {
+    if args.command.len() > 1 {
+        return several::compare(args);
+    }
+    let (report, wanted, inputs) = match (args.command.first(), &args.reference, &args.mine) {
         (Some(command), reference, _) => program(args, command, reference.as_deref())?,
         (None, Some(reference), Some(mine)) => files(args, reference, mine)?,
         _ => {
@@ -55,7 +60,8 @@ pub(super) fn grade(args: &Args) -> Result<(), Failure> {
         }
     };
     let pictures = pictures(&report, &wanted).map_err(Failure::Failed)?;
-    let inside: Vec<_> = pictures.iter().map(|(_, svg)| svg.as_str()).collect();
+    let svg = pictures.iter().filter(|(name, _)| name.ends_with(".svg"));
+    let inside: Vec<_> = svg.map(|(_, svg)| svg.as_str()).collect();
     let html = grade::html(&report, report.passes(), &inside).map_err(Failure::Failed)?;
     let pages = [grade::json(&report).map_err(Failure::Failed)?, html, grade::markdown(&report), grade::junit(&report)];
     let mut files: Vec<_> = PAGES.map(str::to_owned).into_iter().zip(pages).collect();
@@ -72,16 +78,17 @@ pub(super) fn grade(args: &Args) -> Result<(), Failure> {
     }
 }
 
-/// Pictures of the program in bold and of the project's own integrators, as SVG with file names.
+/// Pictures of the program in bold and of the project's own integrators, as SVG and CSV with file names.
 fn pictures(report: &Report, problems: &[LoadedProblem]) -> Result<Vec<output::Output>, String> {
-    let mut pictures = Vec::new();
-    if let Some(steps) = grade::figures::steps(problems, &report.problems) {
-        pictures.push((PICTURES[0].to_owned(), plot::svg_of_one(&steps)?));
-    }
-    if let Some(bench) = report.live.as_ref().and_then(|live| live.work_precision.as_ref()) {
-        pictures.push((PICTURES[1].to_owned(), bench.picture()?));
-    }
-    Ok(pictures)
+    let bench = report.live.as_ref().and_then(|live| live.work_precision.as_ref());
+    let figures = [grade::figures::steps(problems, &report.problems), bench.map(live::Bench::figure)];
+    let files = |(figure, names): (Option<Figure>, &[&str])| -> Result<Vec<_>, String> {
+        let Some(figure) = figure else { return Ok(Vec::new()) };
+        let contents = [plot::svg_of_one(&figure)?, figure_csv(&figure)?];
+        Ok(names.iter().map(|name| (*name).to_owned()).zip(contents).collect())
+    };
+    let files: Result<Vec<_>, _> = figures.into_iter().zip(PICTURES.chunks(2)).map(files).collect();
+    Ok(files?.concat())
 }
 
 fn options(args: &Args) -> Options {

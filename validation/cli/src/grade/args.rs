@@ -46,9 +46,10 @@ pub(crate) struct Args {
     /// The folder with the answers: MINE/NAME/answer.csv or MINE/NAME/steps-N.csv
     #[arg(value_name = "MINE", required_unless_present_any = ["command", "echo"], conflicts_with = "command")]
     pub(super) mine: Option<PathBuf>,
-    /// Start this program once and ask it line by line, in place of answers in files
+    /// Start this program once and ask it line by line, in place of answers in files. Repeated, as NAME=PROGRAM ARGS,
+    /// it compares programs on one problem
     #[arg(long, value_name = "PROGRAM ARGS")]
-    pub(super) command: Option<String>,
+    pub(super) command: Vec<String>,
     /// The form of a program's lines: json, or text (numbers separated by blanks, for C and Fortran) [default: json,
     /// and text if the first answer is none]
     #[arg(long, value_name = "json|text", conflicts_with = "mine")]

@@ -28,7 +28,7 @@ pub(super) fn of_program(args: &Args, reference: Option<&Path>, wanted: &[Loaded
     Ok(json!({
         "problems": problems,
         "reference_crc32": reference,
-        "command": args.command,
+        "command": command(args),
         "protocol": args.protocol.map(Protocol::word),
         "flow": args.flow,
         "tolerances": wanted.iter().map(|loaded| loaded.problem.tolerance).collect::<Vec<_>>(),
@@ -43,6 +43,11 @@ pub(super) fn of_program(args: &Args, reference: Option<&Path>, wanted: &[Loaded
         "rod_axis": args.rod_axis,
         "order": args.order,
     }))
+}
+
+/// The program, or a list of several.
+fn command(args: &Args) -> Value {
+    if args.command.len() > 1 { json!(args.command) } else { json!(args.command.first()) }
 }
 
 /// The checksums of the files in each problem's folder inside `dir`, by `NAME/FILE`.

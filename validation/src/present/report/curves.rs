@@ -1,6 +1,5 @@
 //! The curves and points of a figure as a table.
 
-use super::ReportFigure;
 use crate::files::csv::written;
 use crate::files::text::cell;
 use crate::present::plot::{Figure, Grid};
@@ -8,8 +7,7 @@ use crate::present::table::{columns_csv, words};
 
 /// A figure as CSV: a row for each point of each curve, with the half widths of its 95 % intervals if it has them.
 /// Every number is the shortest text that reads back as the same bits.
-pub(super) fn csv(figure: &ReportFigure) -> Result<String, String> {
-    let picture = &figure.figure;
+pub fn csv(picture: &Figure) -> Result<String, String> {
     if let Some(grid) = &picture.grid {
         return cells(picture, grid);
     }
@@ -55,19 +53,16 @@ mod tests {
 
     #[test]
     fn every_point_has_a_row() {
-        let figure = ReportFigure {
-            figure: Figure {
-                x_name: "t/T".into(),
-                y_name: "X̄₁, in rod lengths".into(),
-                curves: vec![Curve {
-                    label: "synthetic".into(),
-                    x: vec![0.0, 0.1],
-                    y: vec![0.5, f64::NAN],
-                    half_band: Some(vec![0.01, 0.02]),
-                }],
-                points: vec![Points { label: "a, b".into(), x: vec![1.0], y: vec![2.0], ..Default::default() }],
-                ..Default::default()
-            },
+        let figure = Figure {
+            x_name: "t/T".into(),
+            y_name: "X̄₁, in rod lengths".into(),
+            curves: vec![Curve {
+                label: "synthetic".into(),
+                x: vec![0.0, 0.1],
+                y: vec![0.5, f64::NAN],
+                half_band: Some(vec![0.01, 0.02]),
+            }],
+            points: vec![Points { label: "a, b".into(), x: vec![1.0], y: vec![2.0], ..Default::default() }],
             ..Default::default()
         };
         let expected = "series,t/T,\"X̄₁, in rod lengths\",± x,± y\n\

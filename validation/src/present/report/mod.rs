@@ -14,6 +14,7 @@ mod sections;
 #[cfg(test)]
 mod tests;
 
+pub use curves::csv as figure_csv;
 pub(crate) use formats::digits;
 pub(crate) use html::rendered;
 pub use json::{FORMAT, check, passed};
@@ -138,7 +139,7 @@ impl Report {
     /// The data behind figures and tables: names of files, and CSV.
     pub fn data(&self) -> Result<Vec<Output>, String> {
         let figures = self.sections.figures();
-        let curves = figures.map(|figure| Ok((format!("curves/{}.csv", figure.name), curves::csv(figure)?)));
+        let curves = figures.map(|figure| Ok((format!("curves/{}.csv", figure.name), curves::csv(&figure.figure)?)));
         let tables = self.sections.tables();
         let tables = tables.map(|table| Ok((format!("tables/{}.csv", table.name), table.csv()?)));
         curves.chain(tables).collect()

@@ -97,6 +97,13 @@ impl Orders {
         }
     }
 
+    /// The whole order of the last usable pair and the finer error of it; none if the order is not near a whole one.
+    pub fn whole(&self) -> Option<(u32, f64)> {
+        let (order, error) = *self.usable.last()?;
+        let whole = order.round();
+        (whole >= 1.0 && (order - whole).abs() < ORDER_TOLERANCE).then_some((whole as u32, error))
+    }
+
     /// The evidence about a claimed order.
     pub fn judged(&self, claimed: f64) -> Order {
         let agree = |a: (f64, f64), b: (f64, f64)| (a.0 - b.0).abs() < ORDER_TOLERANCE;

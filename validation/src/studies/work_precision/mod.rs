@@ -7,6 +7,7 @@ pub mod study;
 mod time;
 
 use super::*;
+use crate::methods::integrators::Failure;
 pub(crate) use time::measure;
 pub use time::{Budget, Seconds};
 
@@ -30,6 +31,9 @@ pub struct Point {
     pub failure: Option<String>,
     /// The time of a run, failed or not.
     pub seconds: Seconds,
+    /// The number of evaluations of ṗ for each rod, if the integrator counts them.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub evaluations: Option<u64>,
 }
 
 /// The error of an integrator against its run time.
@@ -76,20 +80,33 @@ pub fn run(aspect_ratio: f64, integrators: &[Integrator], budget: Budget) -> Ben
 /// take twice as long.
 pub fn curve(integrator: &Integrator, aspect_ratio: f64, budget: Budget) -> IntegratorCurve {
     let (problem, start) = RodProblem::mid_flip(aspect_ratio);
+    let graded = |setting| Ok((grade(integrator, &problem, &start, setting)?, None));
+    let run = |setting| integrator.advance(&problem, &start, setting);
+    curve_of(&integrator.name, integrator.theory, budget, graded, run)
+}
+
+/// A curve of anything that can be run: `graded` returns the errors and the number of evaluations, `run` is timed.
+pub(crate) fn curve_of<T>(
+    name: &str,
+    theory: Theory,
+    budget: Budget,
+    graded: impl Fn(Setting) -> Result<(Errors, Option<u64>), Failure>,
+    run: impl Fn(Setting) -> T,
+) -> IntegratorCurve {
     let mut points = Vec::new();
-    for setting in settings(integrator.theory) {
-        let graded = grade(integrator, &problem, &start, setting);
-        let seconds = time::measure(budget, || integrator.advance(&problem, &start, setting));
-        let (errors, failure) = match graded {
-            Ok(errors) => (Some(errors), None),
-            Err(failure) => (None, Some(failure.to_string())),
+    for setting in settings(theory) {
+        let found = graded(setting);
+        let seconds = time::measure(budget, || run(setting));
+        let (errors, evaluations, failure) = match found {
+            Ok((errors, evaluations)) => (Some(errors), evaluations, None),
+            Err(failure) => (None, None, Some(failure.to_string())),
         };
-        points.push(Point { setting, errors, failure, seconds });
+        points.push(Point { setting, errors, failure, seconds, evaluations });
         if seconds.least > 0.5 * budget.seconds_per_run {
             break;
         }
     }
-    IntegratorCurve { integrator: integrator.name.clone(), theory: integrator.theory, points }
+    IntegratorCurve { integrator: name.to_owned(), theory, points }
 }
 
 /// The settings for a theory: 16, 32, … 2³⁰ steps, tolerances from 10⁻² to 10⁻¹⁴, or a single exact one.
@@ -143,7 +160,6 @@ impl Bench {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::methods::integrators::Failure;
 
     const QUICK: Budget = Budget { seconds_per_run: 1e-4, runs: 1 };
 
@@ -151,7 +167,7 @@ mod tests {
         let errors =
             error.map(|orientation_rad| Errors { orientation_rad, orbit_constant: 0.0, phase_turns: 0.0, length: 0.0 });
         let seconds = Seconds { least: seconds, most: seconds, measurements: 1 };
-        Point { setting: Setting::Once, errors, failure: None, seconds }
+        Point { setting: Setting::Once, errors, failure: None, seconds, evaluations: None }
     }
 
     #[test]

@@ -3,11 +3,27 @@
 use super::order::{Convergence, Halving};
 use super::*;
 
+/// A run of a bench: its bench, curve and point.
+type Row<'a> = (&'a Bench, &'a IntegratorCurve, &'a Point);
+
 /// The content of bench.csv.
 pub fn bench_csv(benches: &[Bench]) -> Result<String, String> {
-    type Row<'a> = (&'a Bench, &'a IntegratorCurve, &'a Point);
+    columns_csv(bench_rows(benches), bench_columns())
+}
+
+/// The same with the evaluations of each run.
+pub fn runs_csv(benches: &[Bench]) -> Result<String, String> {
+    let mut columns = bench_columns();
+    columns.push(field("evaluations", |r: &Row| r.2.evaluations));
+    columns_csv(bench_rows(benches), columns)
+}
+
+fn bench_rows(benches: &[Bench]) -> impl Iterator<Item = Row<'_>> {
     let curves = benches.iter().flat_map(|bench| bench.curves.iter().map(move |curve| (bench, curve)));
-    let rows = curves.flat_map(|(bench, curve)| curve.points.iter().map(move |point| (bench, curve, point)));
+    curves.flat_map(|(bench, curve)| curve.points.iter().map(move |point| (bench, curve, point)))
+}
+
+fn bench_columns<'a>() -> Vec<Column<'a, Row<'a>>> {
     let mut columns = vec![
         words("case", |r: &Row| r.0.name.clone()),
         field("aspect_ratio", |r: &Row| r.0.aspect_ratio),
@@ -18,7 +34,7 @@ pub fn bench_csv(benches: &[Bench]) -> Result<String, String> {
     ];
     columns.extend(seconds(|r: &Row| r.2.seconds));
     columns.extend(errors(|r: &Row| r.2.errors));
-    columns_csv(rows, columns)
+    columns
 }
 
 /// The content of converge.csv for a free scene.
@@ -44,12 +60,12 @@ pub(crate) fn seconds<'a, R>(of: impl Fn(&R) -> Seconds + Copy + 'a) -> [Column<
     ]
 }
 
-/// The columns of the errors of a run, empty if it failed.
+/// The columns of the errors of a run, empty if it failed and where they are undefined.
 fn errors<'a, R>(of: impl Fn(&R) -> Option<Errors> + Copy + 'a) -> [Column<'a, R>; 4] {
     [
         field("orientation_error_rad", move |row| of(row).map(|errors| errors.orientation_rad)),
-        field("orbit_constant_error", move |row| of(row).map(|errors| errors.orbit_constant)),
-        field("phase_error_turns", move |row| of(row).map(|errors| errors.phase_turns)),
-        field("length_error", move |row| of(row).map(|errors| errors.length)),
+        field("orbit_constant_error", move |row| of(row).map(|errors| errors.orbit_constant).filter(|x| x.is_finite())),
+        field("phase_error_turns", move |row| of(row).map(|errors| errors.phase_turns).filter(|x| x.is_finite())),
+        field("length_error", move |row| of(row).map(|errors| errors.length).filter(|x| x.is_finite())),
     ]
 }

@@ -4,7 +4,7 @@ use super::pipe::{LONGEST_LINE, next_line};
 use super::program::{Program, Question};
 use super::protocol::Protocol;
 use crate::methods::integrators::{Setting, Theory};
-use crate::present::plot;
+use crate::present::plot::{Curve, Figure};
 use crate::present::table::{ReportTable, of_words};
 use crate::serve::grade::figures::{LEAST, PROGRAM};
 use crate::studies::integrators;
@@ -100,8 +100,8 @@ impl Bench {
         program
     }
 
-    /// The program's curve in bold and ours in grey, as SVG. A program that takes no steps has a dashed line.
-    pub fn picture(&self) -> Result<String, String> {
+    /// The program's curve, then ours. A program that takes no steps has a level line.
+    pub fn figure(&self) -> Figure {
         let mut program = self.without_pipe();
         program.integrator = PROGRAM.to_owned();
         let line = |curve: &IntegratorCurve| {
@@ -111,9 +111,9 @@ impl Bench {
             if let ([only], [error]) = (&x[..], &y[..]) {
                 (x, y) = (vec![*only, 1.5 * only], vec![*error; 2]);
             }
-            plot::Curve { label: curve.integrator.clone(), x, y, half_band: None }
+            Curve { label: curve.integrator.clone(), x, y, half_band: None }
         };
-        plot::svg_of_one(&plot::Figure {
+        Figure {
             title: format!("Error against run time, one rod, r_e = {}", self.aspect_ratio),
             x_name: "run time (s), without the pipe's".into(),
             y_name: "angle to the closed form (rad)".into(),
@@ -122,8 +122,8 @@ impl Bench {
             y_log: true,
             x_span: Some((1e-8, 0.1)),
             y_span: Some((LEAST, 10.0)),
-            ..plot::Figure::default()
-        })
+            ..Figure::default()
+        }
     }
 
     /// The times of the program and of our integrators for each target error.

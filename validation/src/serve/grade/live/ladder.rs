@@ -17,7 +17,7 @@ use crate::serve::grade::digits;
 use crate::serve::grade::files::{Claim, judge};
 use crate::serve::grade::order::other;
 use crate::serve::grade::{Graded, Order, Verdict};
-use crate::serve::problems::{Kind, LoadedProblem, Problem};
+use crate::serve::problems::{Kind, LoadedProblem};
 use climb::{End, climb, converges};
 use std::time::{Duration, Instant};
 
@@ -68,7 +68,7 @@ impl Rung {
 }
 
 /// An answer of a program that runs: no file, and no lines.
-fn printed(rows: Vec<Vec<f64>>) -> Answer {
+pub(super) fn printed(rows: Vec<Vec<f64>>) -> Answer {
     Answer { path: "standard output".into(), lines: vec![0; rows.len()], rows }
 }
 
@@ -89,12 +89,10 @@ fn timeless(program: &Program, problem: &LoadedProblem, mode: Mode, claim: Claim
     match problem.problem.kind {
         Kind::Rods => {
             let last = last_time(problem);
-            let Problem { gradient_per_s, aspect_ratio, .. } = last.problem;
-            let (start, end_s) = (last.start.clone(), last.problem.times_s[0]);
-            let question = Question { gradient_per_s, aspect_ratio, start, end_s };
+            let question = Question::of(&last);
             climbed(program, &last, mode, claim, |setting| {
-                let (p, took) = program.ask(&question, setting)?;
-                Ok((p.into_iter().map(Vec::from).collect(), took))
+                let (found, took) = program.ask(&question, setting)?;
+                Ok((found.p.into_iter().map(Vec::from).collect(), took))
             })
         }
         Kind::Formula => formula(program, problem),

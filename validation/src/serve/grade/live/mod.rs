@@ -7,6 +7,7 @@ pub mod pipe;
 mod program;
 mod protocol;
 mod request;
+mod several;
 mod studies;
 mod tables;
 mod text;
@@ -16,6 +17,7 @@ pub use kill::end_all;
 pub use ladder::{Mode, grade, prepared};
 pub use program::{Asked, Program, Question};
 pub use protocol::Protocol;
+pub use several::{Several, several};
 pub use studies::{Studies, studies};
 pub use tables::can_be_asked;
 

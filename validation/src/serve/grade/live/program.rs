@@ -2,9 +2,10 @@
 
 use super::pipe::{Pipe, Trouble};
 use super::protocol::{self, Protocol};
-use super::request::{Answer, Request};
+use super::request::{Answer, Request, Turned};
 use crate::methods::integrators::{Failure, Integrator, RodProblem, Setting, Theory};
 use crate::serve::grade::Axes;
+use crate::serve::problems::{LoadedProblem, Problem};
 use nalgebra::{UnitVector3, Vector3};
 use serde_json::Value;
 use std::hash::{BuildHasher, RandomState};
@@ -31,6 +32,13 @@ pub struct Question {
 }
 
 impl Question {
+    /// The last time of a problem about rods.
+    pub(super) fn of(last: &LoadedProblem) -> Self {
+        let Problem { gradient_per_s, aspect_ratio, .. } = last.problem;
+        let end_s = last.problem.times_s.last().copied().unwrap_or_default();
+        Self { gradient_per_s, aspect_ratio, start: last.start.clone(), end_s }
+    }
+
     /// In plane Couette flow with G = 1/s.
     pub(super) fn couette(aspect_ratio: f64, start: Vec<[f64; 3]>, end_s: f64) -> Self {
         Self { gradient_per_s: [[0.0; 3], [1.0, 0.0, 0.0], [0.0; 3]], aspect_ratio, start, end_s }
@@ -131,8 +139,8 @@ impl Program {
         self.state().given_up.clone()
     }
 
-    /// Asks a question and returns directions, which may be NaN, and the time that the answer took.
-    pub fn ask(&self, question: &Question, setting: Setting) -> Result<(Vec<[f64; 3]>, Duration), Asked> {
+    /// Asks a question and returns the answer and the time that it took.
+    pub fn ask(&self, question: &Question, setting: Setting) -> Result<(Turned, Duration), Asked> {
         self.asked(|state| state.ask(self, question, setting))
     }
 
@@ -195,8 +203,8 @@ impl Program {
     ) -> Result<Vec<Vector3<f64>>, Failure> {
         let start = starts.iter().map(|p| [p.x, p.y, p.z]).collect();
         let question = Question::couette(problem.aspect_ratio, start, problem.strain());
-        let (p, _) = self.ask(&question, setting).map_err(|asked| Failure::Gave(asked.to_string()))?;
-        Ok(p.into_iter().map(Vector3::from).collect())
+        let (found, _) = self.ask(&question, setting).map_err(|asked| Failure::Gave(asked.to_string()))?;
+        Ok(found.p.into_iter().map(Vector3::from).collect())
     }
 
     fn state(&self) -> MutexGuard<'_, State> {
@@ -232,7 +240,8 @@ impl State {
         let (line, text) = self.exchange(program, request)?;
         let answer = (program.protocol.read(&text, self.asked, question.start.len()))
             .map_err(|reason| wrong(format!("line {line} of standard output: {reason}")))?;
-        Ok(answer.map(|p| p.into_iter().map(|p| axes.to_ours(p)).collect()))
+        let ours = |p: Vec<_>| p.into_iter().map(|p| axes.to_ours(p)).collect();
+        Ok(answer.map(|found| Turned { p: ours(found.p), ..found }))
     }
 
     /// The table of the answer, or the program's own error.

@@ -1,7 +1,7 @@
 //! Requests and answers as lines of JSON (`docs/src/user/grading.md`), and the form of lines that a program uses.
 
 use super::pipe::excerpt;
-use super::request::{Answer, Request};
+use super::request::{Answer, Request, Turned};
 use super::text;
 use crate::files::text::start;
 use serde::Deserialize;
@@ -71,14 +71,21 @@ impl Protocol {
 
 /// Parses the answer to request `id` about `rods` rods. `Err` says what is wrong with the line.
 pub fn read(line: &str, id: u64, rods: usize) -> Result<Answer, String> {
-    let found = match content(line, id, "p", |answer| answer.p)? {
+    let (found, evaluations) = match content(line, id, "p", |answer| Some((answer.p?, answer.evaluations)))? {
         Ok(found) => found,
         Err(reason) => return Ok(Err(reason)),
     };
+    let evaluations =
+        match evaluations.filter(|found| !found.is_null()) {
+            None => None,
+            Some(found) => Some(found.as_u64().ok_or_else(|| {
+                format!("\"evaluations\" is {}; a whole number is allowed", excerpt(&found.to_string()))
+            })?),
+        };
     match found {
         Value::Array(found) if found.len() == rods => {
             let all: Result<_, _> = found.iter().enumerate().map(|(k, p)| direction(k, p)).collect();
-            all.map(Ok)
+            all.map(|p| Ok(Turned { p, evaluations }))
         }
         Value::Array(found) => Err(format!("{} rods where {rods} were asked", found.len())),
         other => Err(format!("\"p\" is {}; a list of directions is allowed", excerpt(&other.to_string()))),
@@ -103,12 +110,7 @@ pub fn table(line: &str, id: u64, [rows, columns]: [usize; 2]) -> Result<Result<
 }
 
 /// The value of an answer's key `name`, or the program's own error.
-fn content(
-    line: &str,
-    id: u64,
-    name: &str,
-    of: impl Fn(Line) -> Option<Value>,
-) -> Result<Result<Value, String>, String> {
+fn content<T>(line: &str, id: u64, name: &str, of: impl Fn(Line) -> Option<T>) -> Result<Result<T, String>, String> {
     let answer = parse(line)?;
     let found = answer.id.as_ref().ok_or_else(|| format!("it has no \"id\": {}", excerpt(line)))?;
     if found.as_u64() != Some(id) {
@@ -141,6 +143,7 @@ struct Line {
     id: Option<Value>,
     error: Option<Value>,
     p: Option<Value>,
+    evaluations: Option<Value>,
     rows: Option<Value>,
 }
 
@@ -184,12 +187,14 @@ mod tests {
 
     #[test]
     fn answers_are_read() {
-        let p = vec![[1.0, 0.0, -2.5]];
-        assert_eq!(read(r#"{"id": 3, "p": [[1, 0.0, -2.5]], "more": {}}"#, 3, 1), Ok(Ok(p)));
+        for (more, evaluations) in [(r#", "more": {}"#, None), (r#", "evaluations": 40"#, Some(40))] {
+            let found = read(&format!(r#"{{"id": 3, "p": [[1, 0.0, -2.5]]{more}}}"#), 3, 1);
+            assert_eq!(found, Ok(Ok(Turned { p: vec![[1.0, 0.0, -2.5]], evaluations })));
+        }
         assert_eq!(read(r#"{"id": 3, "error": "too stiff"}"#, 3, 1), Ok(Err("too stiff".into())));
         for line in [r#"{"id":3,"p":[[NaN,0,1]]}"#, r#"{"id":3,"p":[[-Infinity,0,1]]}"#, r#"{"id":3,"p":[[null,0,1]]}"#]
         {
-            let p = read(line, 3, 1).unwrap().unwrap();
+            let p = read(line, 3, 1).unwrap().unwrap().p;
             assert!(p[0][0].is_nan() && p[0][2] == 1.0);
         }
     }
@@ -222,6 +227,7 @@ mod tests {
             (r#"{"id": 3, "p": [[1,0]]}"#, "rod 0 is `[1,0]`; three numbers"),
             (r#"{"id": 3, "p": [["1",0,0]]}"#, "three numbers"),
             (r#"{"id": 3, "p": [[1e400,0,0]]}"#, "not JSON"),
+            (r#"{"id": 3, "p": [[1,0,0]], "evaluations": 0.5}"#, "\"evaluations\" is `0.5`; a whole number"),
             (r#"{"id": 3, "error": 5}"#, "a text is allowed"),
             (r#"{"id": 4, "p": [[0,0,1]], "id": 3}"#, "duplicate field `id`"),
             (r#"{"id": 3, "p": [[0,0,1]], "p": [[1,0,0]]}"#, "duplicate field `p`"),

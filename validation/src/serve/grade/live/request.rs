@@ -23,5 +23,14 @@ pub struct Request<'a> {
     pub tolerance: Option<f64>,
 }
 
-/// The directions of the rods, or the program's own error; components that were NaN, infinite or null are NaN.
-pub type Answer = Result<Vec<[f64; 3]>, String>;
+/// What a program answers about rods.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Turned {
+    /// The directions; components that were NaN, infinite or null are NaN.
+    pub p: Vec<[f64; 3]>,
+    /// The number of evaluations of ṗ for each rod, if the program counts them.
+    pub evaluations: Option<u64>,
+}
+
+/// The answer, or the program's own error.
+pub type Answer = Result<Turned, String>;

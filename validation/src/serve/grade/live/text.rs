@@ -2,7 +2,7 @@
 //! (`docs/src/user/grading.md`).
 
 use super::pipe::excerpt;
-use super::request::{Answer, Request};
+use super::request::{Answer, Request, Turned};
 use crate::files::csv;
 
 /// The request as one line: `id`, the nine ∂u_i/∂x_j row by row, r_e, the time in s, the number of steps or 0, the
@@ -34,7 +34,7 @@ pub fn read(line: &str, id: u64, rods: usize) -> Result<Answer, String> {
         return Err(format!("{found} numbers after the id where {} were asked ({rods} rods)", 3 * rods));
     }
     let numbers: Vec<f64> = rest.iter().map(|word| number(word)).collect::<Result<_, _>>()?;
-    Ok(Ok(numbers.chunks(3).map(|p| [p[0], p[1], p[2]]).collect()))
+    Ok(Ok(Turned { p: numbers.chunks(3).map(|p| [p[0], p[1], p[2]]).collect(), evaluations: None }))
 }
 
 /// Parses a number as printed by C, C++, Fortran, Julia, Octave or Python. Infinities become NaN.
@@ -72,12 +72,12 @@ mod tests {
 
     #[test]
     fn answers_are_read_and_whatever_else_is_refused_with_its_reason() {
-        let p = |x: f64| Ok(Ok(vec![[1.0, x, -2.5]]));
+        let p = |x: f64| Ok(Ok(Turned { p: vec![[1.0, x, -2.5]], evaluations: None }));
         for line in ["3 1 0.125 -2.5", " 3  1.0\t1.25E-01 -2.5 ", "3 1.D0 0.125d0 -25.0D-1\r"] {
             assert_eq!(read(line, 3, 1), p(0.125), "{line}");
         }
         for word in ["NaN", "nan", "-inf", "Infinity", "-Infinity"] {
-            let p = read(&format!("3 1 {word} -2.5"), 3, 1).unwrap().unwrap();
+            let p = read(&format!("3 1 {word} -2.5"), 3, 1).unwrap().unwrap().p;
             assert!(p[0][1].is_nan() && p[0][2] == -2.5);
         }
         assert_eq!(read("3 error too stiff", 3, 1), Ok(Err("too stiff".into())));
