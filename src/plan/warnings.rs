@@ -227,8 +227,8 @@ impl Plan {
         let shown = if n_a3 < 1e4 { format!("{n_a3:.3}") } else { format!("{n_a3:.3e}") };
         let lengths = if scene.particles.rods.is_some() { "rods" } else { "length_mm" };
         Some(format!(
-            "{} and particles.{lengths} give n a³ = {shown}: {}. The model is for dilute suspensions, n a³ far below 1, \
-             in which two rods meet at a time",
+            "{} and particles.{lengths} give n a³ = {shown}: {}. The model is for dilute suspensions, n a³ far \
+             below 1, in which two rods meet at a time",
             scene.concentration_key(),
             scene.regime()?
         ))

@@ -49,7 +49,7 @@ pub struct Derived {
     /// The rate λ of A ∝ e^(−λt) for the amplitudes A, in 1 over the unit of time: the slope of ln A, weighted by the
     /// relative errors. `None` for fewer than three maxima between two minima.
     pub damping_rate: Option<Estimate>,
-    /// `None` if the mean still changes in the last quarter of the run.
+    /// `None` if the mean still changes in the last quarter of the run, and for two to seven replicas.
     pub steady: Option<Steady>,
 }
 
@@ -66,6 +66,9 @@ impl Derived {
 
 /// The probability that noise alone makes a mean turn, or be unsteady, anywhere in a run.
 const BY_CHANCE: f64 = 0.01;
+
+/// Of fewer replicas, any mean is as good as steady.
+const FEWEST: u64 = 8;
 
 /// A turn of a mean: a maximum or a minimum, and the outputs between its neighbours.
 struct Turn {
@@ -191,6 +194,9 @@ impl Mean<'_> {
 
     fn steady(&self) -> Option<Steady> {
         let last = self.times.len().checked_sub(1)?;
+        if (2..FEWEST).contains(&self.replicas) {
+            return None;
+        }
         // Not Student's t, by which a few replicas would be steady from the start.
         let errors = -Normal::standard().inverse_cdf(self.tail());
         // Of 64 beginnings in the first three quarters of the run, the first.

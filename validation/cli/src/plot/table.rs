@@ -95,7 +95,9 @@ impl RunTable {
         let place = |name: &str| self.0.place(name).unwrap_or(0);
         let places = [0, place(channel), place(&format!("{channel}_se"))];
         let mut columns = [(); 3].map(|()| Vec::new());
+        let mut rows = 0;
         while let Some(row) = self.0.next_row()? {
+            rows += 1;
             // A derived value that is undefined.
             if row.cells[places[1]].is_empty() {
                 continue;
@@ -123,7 +125,11 @@ impl RunTable {
                 column.push(value);
             }
         }
-        if columns[0].is_empty() { Err(self.0.error(format!("has no {channel}"))) } else { Ok(columns) }
+        match (columns[0].len(), rows) {
+            (0, 0) => Err(self.0.error("has a header alone; rows are needed")),
+            (0, _) => Err(self.0.error(format!("has no {channel}: it is undefined in this run"))),
+            _ => Ok(columns),
+        }
     }
 
     /// The size and checksum of what was read.

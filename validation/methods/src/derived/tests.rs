@@ -139,11 +139,11 @@ fn noise_neither_turns_nor_is_unsteady() {
 /// A mean that grows turns nowhere but at its beginning, and one output has nothing to derive.
 #[test]
 fn lawless_means_have_nothing() {
-    let constant = column(&[vec![0.5; 3], vec![0.5; 3]]);
-    let found = Derived::new(&[0.0, 1.0, 2.0], &constant, 2);
+    let constant = column(&vec![vec![0.5; 3]; 8]);
+    let found = Derived::new(&[0.0, 1.0, 2.0], &constant, 8);
     assert_eq!(found.extremes, []);
     let steady = found.steady.unwrap();
     assert!(larger((steady.value.value - 0.5).abs(), steady.from) == 0.0 && steady.value.se == Some(0.0));
     let one = Derived::new(&[0.0], &column(&[vec![0.5], vec![0.7]]), 2);
-    assert_eq!((one.extremes.len(), one.steady.map(|steady| steady.from)), (0, Some(0.0)));
+    assert_eq!((one.extremes.len(), one.steady), (0, None));
 }

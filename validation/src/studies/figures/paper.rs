@@ -169,7 +169,7 @@ const AMPLITUDES: [(u32, Compared, &str, &str); 4] = [
         &[("fig9-sd0", "σ = 0"), ("fig9-sd1.8", "σ = 1.8 %"), ("fig9-sd3.6", "σ = 3.6 %"), ("fig9-sd7.2", "σ = 7.2 %")],
         "A₁ and the spread of r_e, free rods",
         "Without collisions the amplitude decays by the spread of r_e alone: not at all at σ = 0, faster the larger σ \
-         is. Where an oscillation is lost in noise, the difference of two extremes of the noise is left.",
+         is. A curve ends where its oscillation is lost in noise.",
     ),
     (
         10,
