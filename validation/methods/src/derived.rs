@@ -220,8 +220,8 @@ impl Mean<'_> {
     }
 }
 
-/// The standard error of a value from its values without one group of replicas each, for groups of unequal sizes (Busing,
-/// Meijer & van der Leeden, Statistics and Computing 9 (1999) 3, eq. 10). `None` if there are fewer than two groups.
+/// The standard error of a value from its values without one group of replicas each, for groups of unequal sizes
+/// (Busing, Meijer & van der Leeden, Statistics and Computing 9 (1999) 3, eq. 10). `None` if there are fewer than two.
 fn jackknife(value: f64, without: &[f64], replicas: u64) -> Option<f64> {
     let groups = without.len() as f64;
     let shares: Vec<f64> = group_sizes(replicas).map(|size| size as f64 / replicas as f64).collect();
