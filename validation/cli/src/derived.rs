@@ -1,4 +1,4 @@
-//! Tables of what is derived from each mean of a run: maxima, minima and amplitudes, and damping rates and steady values.
+//! Tables of what is derived from each mean of a run: extremes and amplitudes, and damping rates and steady values.
 
 use super::tables;
 use shearbed::run::ensemble::Column;
