@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from typing import Any
 
 import numpy as np
@@ -126,8 +127,11 @@ def test_a_sweep_gives_all_times_and_says_how_far_it_is() -> None:
     last = shearbed.sweep("fig4-n50", over, **given)
     ends = np.flatnonzero(np.r_[np.diff(every["t_over_T"]) < 0, True])
     assert len(ends) == 2 and told[-1] == (2, 2)
-    for name, values in last.items():
-        assert np.array_equal(every[name][ends], values), name
+    for name, values in every.items():
+        assert np.array_equal(values[ends], last[name]), name
+    # One value a point.
+    derived = re.compile("x[123]_(damping_rate|steady)(_se|_from)?")
+    assert all(derived.fullmatch(name) for name in set(last) - set(every)) and {"x1", "x3_se"} <= set(every)
     with pytest.raises(ValueError, match="times = 'first'"):
         shearbed.sweep("fig4-n50", over, times="first")
 

@@ -184,10 +184,11 @@ def _dataset(table: Mapping[str, NDArray[Any]], over: Mapping[str, Sequence[Any]
 
 
 def _tables(point: Path) -> dict[str, NDArray[Any]]:
-    """The columns of a point's tables, side by side, in the order of the columns of ``sweep.csv``."""
+    """The columns of a point's tables of means, side by side, in the order of the columns of ``sweep.csv``."""
     tables: dict[str, NDArray[Any]] = {}
     for file in sorted(point.glob("*.csv")):
-        tables |= columns(file)
+        if file.stem not in DERIVED:
+            tables |= columns(file)
     return tables
 
 
