@@ -272,21 +272,24 @@ impl Tally {
     /// The standard errors of a channel's mean at each output; `None` if the plan does not observe the channel.
     pub fn standard_errors(&self, plan: &Plan, channel: Channel) -> Option<Vec<f64>> {
         let place = channel.place(&plan.observables())?;
-        Some(self.column_of(plan, &*channel.observable, channel.name(), place, width(plan)).se)
+        Some(self.errors_of(plan, &*channel.observable, place, width(plan)))
     }
 
-    /// [`Self::column`] of an observable, in its unit. Of rods that count by their cubed lengths a mean is a quotient
-    /// of two sums, whose error one replica cannot give.
+    /// The standard errors of an observable's channel, in its unit. Of rods that count by their cubed lengths a mean is
+    /// a quotient of two sums, whose error one replica cannot give.
+    fn errors_of(&self, plan: &Plan, of: &dyn Observe, place: usize, width: usize) -> Vec<f64> {
+        let unknown = self.replicas == 1 && plan.runs(Stage::Lengths) && of.weighs_rods();
+        let unit = if unknown { f64::NAN } else { plan.scene().unit(of).abs() };
+        (place..self.mean.len()).step_by(width).map(|k| self.se(k) * unit).collect()
+    }
+
+    /// [`Self::column`] of an observable, in its unit.
     pub(crate) fn column_of(&self, plan: &Plan, of: &dyn Observe, name: String, place: usize, width: usize) -> Column {
         let mut column = self.column(name, place, width);
         // Only here, as squares of very small and large numbers are 0 and infinite.
         let unit = plan.scene().unit(of);
-        column.mean.iter_mut().for_each(|mean| *mean *= unit);
-        column.se.iter_mut().for_each(|se| *se *= unit.abs());
-        column.without.iter_mut().flatten().for_each(|mean| *mean *= unit);
-        if self.replicas == 1 && plan.runs(Stage::Lengths) && of.weighs_rods() {
-            column.se.fill(f64::NAN);
-        }
+        column.mean.iter_mut().chain(column.without.iter_mut().flatten()).for_each(|mean| *mean *= unit);
+        column.se = self.errors_of(plan, of, place, width);
         column
     }
 

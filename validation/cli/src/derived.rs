@@ -16,17 +16,19 @@ pub(super) const DERIVED: &str = "derived.csv";
 const MOST: usize = 1000;
 
 /// The derived values of each channel, except those of densities.
-fn of<'a>(plan: &Plan, results: &'a Results) -> Vec<(&'a Column, Derived)> {
+pub(super) fn of<'a>(plan: &Plan, results: &'a Results) -> Vec<OfChannel<'a>> {
     let replicas = plan.scene().ensemble.replicas;
     let series = results.series.iter().filter(|series| !series.observable.is_density());
     let columns = series.flat_map(|series| &series.columns);
     columns.map(|column| (column, Derived::new(&results.times, column, replicas))).collect()
 }
 
+/// A channel and what is derived from its mean.
+type OfChannel<'a> = (&'a Column, Derived);
+
 /// The tables [`EXTREMES`] and [`DERIVED`].
-pub(super) fn files(plan: &Plan, results: &Results) -> Result<[Output; 2], String> {
-    let all = of(plan, results);
-    Ok([(EXTREMES.to_owned(), extremes(plan, results, &all)?), (DERIVED.to_owned(), scalars(plan, results, &all)?)])
+pub(super) fn files(plan: &Plan, results: &Results, all: &[OfChannel]) -> Result<[Output; 2], String> {
+    Ok([(EXTREMES.to_owned(), extremes(plan, results, all)?), (DERIVED.to_owned(), scalars(plan, results, all)?)])
 }
 
 type Cells = Vec<Option<f64>>;
@@ -39,16 +41,16 @@ fn time_cells(plan: &Plan, results: &Results, time: f64) -> Cells {
     tables::time_cells(results, time, plan.elapsed(time)).into_iter().map(Some).collect()
 }
 
-fn head(results: &Results, kinds: &[&str], all: &[(&Column, Derived)]) -> Vec<String> {
+fn head(results: &Results, kinds: &[&str], all: &[OfChannel]) -> Vec<String> {
     let time = tables::time_names(results).iter().map(|name| (*name).to_owned());
-    let of_channel = |(column, _): &(&Column, Derived)| {
+    let of_channel = |(column, _): &OfChannel| {
         let name = column.name.clone();
         kinds.iter().map(move |kind| format!("{name}_{kind}")).collect::<Vec<_>>()
     };
     time.chain(all.iter().flat_map(of_channel)).collect()
 }
 
-fn extremes(plan: &Plan, results: &Results, all: &[(&Column, Derived)]) -> Result<String, String> {
+fn extremes(plan: &Plan, results: &Results, all: &[OfChannel]) -> Result<String, String> {
     let kinds = ["maximum", "maximum_se", "minimum", "minimum_se", "amplitude", "amplitude_se"];
     let mut header = head(results, &kinds, all);
     let times = tables::time_names(results).len();
@@ -70,7 +72,7 @@ fn extremes(plan: &Plan, results: &Results, all: &[(&Column, Derived)]) -> Resul
     table(header, rows.into_iter().map(|(_, row)| row))
 }
 
-fn scalars(plan: &Plan, results: &Results, all: &[(&Column, Derived)]) -> Result<String, String> {
+fn scalars(plan: &Plan, results: &Results, all: &[OfChannel]) -> Result<String, String> {
     let kinds = ["damping_rate", "damping_rate_se", "steady", "steady_se", "steady_from"];
     let last = results.times.last().copied().unwrap_or(0.0);
     let mut row = time_cells(plan, results, last);
@@ -99,8 +101,8 @@ pub(super) fn most_bytes(plan: &Plan) -> u64 {
 }
 
 /// A line for the terminal on each channel whose oscillation decays or that is steady.
-pub(super) fn summary(plan: &Plan, results: &Results) -> String {
-    let unit = match results.time_name {
+pub(super) fn summary(time_name: &str, all: &[OfChannel]) -> String {
+    let unit = match time_name {
         "t_over_T" => "T",
         "time_s" => "s",
         _ => "unit of strain",
@@ -110,7 +112,7 @@ pub(super) fn summary(plan: &Plan, results: &Results) -> String {
         None => format!("{:.decimals$}", estimate.value),
     };
     let mut text = String::new();
-    for (column, derived) in of(plan, results).iter().filter(|(column, _)| tables::is_bounded(&column.name)) {
+    for (column, derived) in all.iter().filter(|(column, _)| tables::is_bounded(&column.name)) {
         let decays = |rate: &Estimate| rate.value.abs() > 3.0 * rate.se.unwrap_or(0.0) && rate.value.abs() > 1e-3;
         let rate = derived.damping_rate.filter(decays);
         let rate = rate.map(|rate| format!("amplitude ∝ exp(−λt), λ = {} per {unit}", number(rate, 3)));

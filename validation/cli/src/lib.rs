@@ -196,7 +196,7 @@ fn with_name(arguments: Vec<OsString>) -> Vec<OsString> {
 
 /// The tables `extremes.csv` and `derived.csv` of a run.
 pub fn derived(plan: &shearbed::Plan, results: &shearbed::Results) -> Result<[String; 2], String> {
-    derived::files(plan, results).map(|files| files.map(|(_, text)| text))
+    derived::files(plan, results, &derived::of(plan, results)).map(|files| files.map(|(_, text)| text))
 }
 
 /// Checks that a plan fits into memory with a replica on each thread; the error says why it does not.

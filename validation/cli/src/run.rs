@@ -150,7 +150,8 @@ impl<'a> Run<'a> {
         let plan = until.as_ref().map_or(self.plan.clone(), |until| self.plan.with_replicas(until.replicas));
         let start = Instant::now();
         let mut files = files(&plan, &results).map_err(Failure::Failed)?;
-        files.extend(derived::files(&plan, &results).map_err(Failure::Failed)?);
+        let derived = derived::of(&plan, &results);
+        files.extend(derived::files(&plan, &results, &derived).map_err(Failure::Failed)?);
         files.extend(rods::files(&plan, &results, self.args.vtk));
         seconds.tables_and_pictures = start.elapsed().as_secs_f64();
         let names = files.iter().map(|(name, _)| name.as_str()).collect();
@@ -167,7 +168,7 @@ impl<'a> Run<'a> {
                 line(&self.named.scene.title),
                 self.named.scene.particles.count,
                 plan.scene().ensemble.replicas,
-                tables::summary(&results) + &derived::summary(&plan, &results),
+                tables::summary(&results) + &derived::summary(results.time_name, &derived),
                 names.join(", "),
                 replaced.unwrap_or_default()
             ))?;

@@ -208,7 +208,7 @@ fn tables_of(point: &Point) -> Result<Vec<Output>, String> {
         Ok((name, tables::csv(&results, series)?))
     };
     let mut tables: Vec<Output> = results.series.iter().map(table).collect::<Result<_, String>>()?;
-    let [_, derived] = derived::files(&point.plan, &results)?;
+    let [_, derived] = derived::files(&point.plan, &results, &derived::of(&point.plan, &results))?;
     tables.push(derived);
     Ok(tables)
 }
