@@ -101,7 +101,7 @@ table! {
         steps_per_second: Option<u64> = None, "", PER_UNIT, Other("as many as resolve the motion"),
             "steps of interacting rods per second";
         outputs_per_period: Option<u64> = None, "", PER_UNIT,
-            Other("50, or one per strain of 1.5 above r_e = 11.8; a divisor of the steps"),
+            Other("50, or one per strain of 1.5 above r_e = 11.8"),
             "outputs; of interacting rods a divisor of the steps";
         outputs_per_strain: Option<u64> = None, "", PER_UNIT, Other("10, or the largest divisor below"),
             "outputs per unit of strain, likewise";
