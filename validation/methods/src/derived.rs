@@ -67,7 +67,7 @@ impl Derived {
 /// The probability that noise alone makes a mean turn, or be unsteady, anywhere in a run.
 const BY_CHANCE: f64 = 0.01;
 
-/// Of fewer replicas, any mean is as good as steady.
+/// The fewest replicas that can show a mean to be steady: with larger errors every mean seems so.
 const FEWEST: u64 = 8;
 
 /// A turn of a mean: a maximum or a minimum, and the outputs between its neighbours.

@@ -8,19 +8,18 @@ use rand::{RngExt, SeedableRng};
 use rand_distr::StandardNormal;
 use rand_pcg::Pcg64Dxsm;
 
-/// Number of samples, and of steps of the walk from one to the next: by then it has forgotten where it was.
+/// Number of samples, and of steps of the walk from one to the next, which suffice to forget the former.
 pub const SAMPLES: usize = 4000;
 const STEPS: usize = 20;
 
-/// The parameters' values, one row for each sample, with the density exp(−Δχ²/2) over the last box, which the points
-/// leave; Δχ² is the rise that the intervals are made of, and a range is covered evenly before, on its own scale. The
-/// same fit has the same samples.
+/// Samples of the parameters, one row each, from the density exp(−Δχ²/2) within the last box. Δχ² is the rise that the
+/// intervals use; the prior is uniform on the scale of each range. The same fit gives the same samples.
 pub fn samples(fit: &Fit) -> Vec<Vec<f64>> {
     let best = &fit.best;
     let parameters = best.place.len();
     let rise = |place: &[f64]| rise_to(best, &place.iter().copied().map(Some).collect::<Vec<_>>());
-    // The steps of a random walk (Metropolis) that forgets fastest in a Gaussian: Gelman, Roberts & Gilks (1996). What
-    // is wider than the box needs no larger steps.
+    // The steps of a random walk (Metropolis) that forgets fastest in a Gaussian: Gelman, Roberts & Gilks (1996). Axes
+    // wider than the box need no larger steps.
     let axes = best.covariance().symmetric_eigen();
     let lengths = axes.eigenvalues.map(|square| 2.4 * square.sqrt().clamp(0.0, 1.0) / (parameters as f64).sqrt());
     let steps = axes.eigenvectors * DMatrix::from_diagonal(&lengths);
