@@ -49,6 +49,12 @@ impl Frame {
         Self { axes, motion, even: true }
     }
 
+    /// The same axes for the flow times a factor, with another diffusivity in 1/s.
+    pub fn times(&self, factor: f64, diffusivity: f64) -> Self {
+        let Motion { strain, spin, .. } = self.motion;
+        Self { motion: Motion { strain: strain * factor, spin: spin * factor, diffusivity }, ..*self }
+    }
+
     /// The axes of an extension: the pole is the axis of the largest stretching.
     fn of_extension(motion: &Motion) -> Self {
         let eigen = SymmetricEigen::new(motion.strain);

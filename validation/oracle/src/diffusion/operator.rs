@@ -38,6 +38,16 @@ impl Motion {
         }
     }
 
+    /// The factor by which this flow is another one, to a few last digits.
+    pub(super) fn over(&self, other: &Self) -> Option<f64> {
+        let size = |of: &Self| of.strain.amax().max(of.spin.amax());
+        let pairs = || self.strain.iter().chain(&self.spin).zip(other.strain.iter().chain(&other.spin));
+        let factor =
+            pairs().find(|(_, other_rate)| other_rate.abs() == size(other)).map(|(rate, other)| rate / other)?;
+        let off = |(rate, other): (&f64, &f64)| (rate - factor * other).abs();
+        pairs().all(|pair| off(pair) <= 8.0 * f64::EPSILON * size(self)).then_some(factor)
+    }
+
     /// If positive, a rate in 1/s at which every deviation from the steady density decays at least.
     pub(super) fn least_decay(&self) -> f64 {
         6.0 * self.diffusivity - 1.5 * SymmetricEigen::new(self.strain).eigenvalues.max()

@@ -60,10 +60,6 @@ fn extrapolated(fine: &Means, coarse: &Means, k: usize) -> Means {
 /// Steps that end at each time, at least `each` a period; `None` if they are too many.
 fn flows(motion: &Motion, [period_s, phase]: [f64; 2], times_s: &[f64], each: f64) -> Option<Vec<(Frame, f64)>> {
     let frame = Frame::of(motion);
-    let times = |factor: f64| {
-        let motion = Motion { strain: frame.motion.strain * factor, spin: frame.motion.spin * factor, ..frame.motion };
-        Frame { motion, ..frame }
-    };
     // Nodes of Gauss in a step, and the weights of the first and the second in its first half.
     let third = 3f64.sqrt() / 6.0;
     let (nodes, weights) = ([0.5 - third, 0.5 + third], [0.5 + 2.0 * third, 0.5 - 2.0 * third]);
@@ -80,7 +76,7 @@ fn flows(motion: &Motion, [period_s, phase]: [f64; 2], times_s: &[f64], each: f6
                 nodes.map(|node| (phase + TAU * ((now + (k as f64 + node) * step_s) / period_s)).cos());
             let [more, less] = weights;
             for factor in [more * first + less * second, less * first + more * second] {
-                steps.push((times(factor), 0.5 * step_s));
+                steps.push((frame.times(factor, motion.diffusivity), 0.5 * step_s));
             }
         }
         now = *time;

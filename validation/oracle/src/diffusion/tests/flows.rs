@@ -22,10 +22,12 @@ fn steps(flows: &[([[f64; 3]; 3], f64, f64)]) -> Vec<FlowStep> {
 fn both_methods_agree_through_flows() {
     let backwards = COUETTE.map(|row| row.map(|x| -x));
     let turned = [[0.0, 0.0, 0.0], [0.0, 0.0, 0.0], [1.0, 0.0, 0.0]];
+    let askew_backwards = ASKEW.map(|row| row.map(|x| -0.8 * x));
     for (flows, mirrored) in [
         (vec![(COUETTE, 0.2, 1.5), (REST, 0.2, 0.3), (backwards, 0.2, 0.7)], true),
         (vec![(PLANAR, 0.2, 1.0), (turned, 0.3, 1.0)], true),
         (vec![(ASKEW, 0.3, 1.0), (COUETTE, 0.2, 0.5), (PLANAR, 0.3, 0.5)], false),
+        (vec![(ASKEW, 0.2, 0.5), (askew_backwards, 0.2, 1.0)], false),
     ] {
         let grid = angle_grid::through(&flows, SHAPE, if mirrored { 28 } else { 20 });
         let end: f64 = flows.iter().map(|(.., duration_s)| duration_s).sum();
