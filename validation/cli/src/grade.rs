@@ -8,7 +8,7 @@ mod tolerances;
 pub(super) use args::Args;
 
 use super::choice::unknown as unknown_name;
-use super::{Failure, print, result_folder, spares_inputs};
+use super::{Failure, print, spares_inputs};
 use serde_json::Value;
 use shearbed_validation::files::output::{self, RECORD, Record, ResultFolder};
 use shearbed_validation::files::text::Shown;
@@ -66,16 +66,28 @@ pub(super) fn grade(args: &Args) -> Result<(), Failure> {
     let pages = [grade::json(&report).map_err(Failure::Failed)?, html, grade::markdown(&report), grade::junit(&report)];
     let mut files: Vec<_> = PAGES.map(str::to_owned).into_iter().zip(pages).collect();
     files.extend(pictures);
-    ResultFolder::new(&args.out, "grade", inputs, args.writing.force).write(files)?;
+    let folder = folder(args, inputs);
+    let replaced = replaced(&folder);
+    folder.write(files)?;
     if !args.writing.quiet {
         let place = args.out.join("grade.html");
-        print(&format!("{}\nreport: {}\n", grade::terminal(&report), place.shown()))?;
+        print(&format!("{}\nreport: {}\n{replaced}", grade::terminal(&report), place.shown()))?;
     }
     if report.passes() {
         Ok(())
     } else {
         Err(Failure::Failed(format!("not every problem passed: {}", report.counts())))
     }
+}
+
+/// The folder of the report. Who mends a code grades it again, so that an earlier grading is replaced.
+fn folder(args: &Args, inputs: Value) -> ResultFolder {
+    ResultFolder::new(&args.out, "grade", inputs, args.writing.force).from_any_input()
+}
+
+/// A line on the grading that is replaced, if its input was another.
+fn replaced(folder: &ResultFolder) -> String {
+    folder.difference().map(|difference| format!("(replaced an earlier grading: {difference})\n")).unwrap_or_default()
 }
 
 /// Pictures of the program in bold and of the project's own integrators, as SVG and CSV with file names.
@@ -221,6 +233,7 @@ fn asked(args: &Args, reference: Option<&Path>) -> Result<Vec<LoadedProblem>, Fa
     all.retain(is_wanted);
     let wanted = chosen(args, all)?;
     let tables = wanted.iter().find(|loaded| loaded.problem.kind != Kind::Rods);
+    let formulas = wanted.iter().any(|loaded| loaded.problem.kind == Kind::Formula);
     let refused = match wanted.iter().find(|loaded| !live::can_be_asked(&loaded.problem)) {
         Some(loaded) => {
             Some((loaded, "a program that runs is not asked about it; answers go into files (grade REF MINE)"))
@@ -231,9 +244,9 @@ fn asked(args: &Args, reference: Option<&Path>) -> Result<Vec<LoadedProblem>, Fa
     };
     match refused {
         Some((loaded, why)) => Err(Failure::Input(format!("--problem {}: {why}", loaded.problem.name))),
-        None if tables.is_some() && args.axes != Axes::default() => {
-            Err(Failure::Input("--axes: with --command it is for problems of rods alone".to_owned()))
-        }
+        None if formulas && args.axes != Axes::default() => Err(Failure::Input(
+            "--axes: with --command it is for rods and curves of tensors, not for formulas".to_owned(),
+        )),
         None => Ok(wanted),
     }
 }
@@ -241,8 +254,8 @@ fn asked(args: &Args, reference: Option<&Path>) -> Result<Vec<LoadedProblem>, Fa
 fn program(args: &Args, command: &str, reference: Option<&Path>) -> Result<Done, Failure> {
     let wanted = tolerances::with(&args.tolerances, asked(args, reference)?)?;
     let inputs = inputs::of_program(args, reference, &wanted)?;
-    let origin = ("grade", inputs.clone(), args.writing.force);
-    result_folder(&args.out, origin, 0, &[&PAGES[..], &PICTURES].concat())?;
+    output::probe(&args.out, 0)?;
+    folder(args, inputs.clone()).check(&[&PAGES[..], &PICTURES].concat())?;
     let timeout = Duration::from_secs_f64(args.timeout);
     let program = Program::start(command, args.protocol.unwrap_or_default(), timeout)
         .map_err(|error| Failure::Input(format!("--command {error}")))?

@@ -1,7 +1,8 @@
 //! Several programs on one problem: compared, not judged.
 
-use super::{Args, asked, inputs};
-use crate::{Failure, print, result_folder};
+use super::{Args, asked, folder, inputs, replaced};
+use crate::{Failure, print};
+use shearbed_validation::files::output;
 use shearbed_validation::files::text::{Shown, complain, line};
 use shearbed_validation::present::{plot, report};
 use shearbed_validation::serve::grade::live::{self, Program};
@@ -22,7 +23,10 @@ pub(super) fn compare(args: &Args) -> Result<(), Failure> {
     let inputs = inputs::of_program(args, args.reference.as_deref(), std::slice::from_ref(&problem))?;
     let names = ["work-precision", "steps", "evaluations", "tolerance"];
     let names: Vec<_> = names.iter().flat_map(|name| [".svg", ".csv"].map(|end| format!("{name}{end}"))).collect();
-    let folder = result_folder(&args.out, ("grade", inputs, args.writing.force), 0, &names)?;
+    output::probe(&args.out, 0)?;
+    let folder = folder(args, inputs);
+    folder.check(&names)?;
+    let replaced = replaced(&folder);
     let mut programs: Vec<(String, Program, live::Mode)> = Vec::new();
     for (name, command) in args.command.iter().map(|command| named(command)) {
         if programs.iter().any(|(known, ..)| *known == name) {
@@ -52,7 +56,8 @@ pub(super) fn compare(args: &Args) -> Result<(), Failure> {
     };
     folder.write(files().map_err(Failure::Failed)?)?;
     if !args.writing.quiet {
-        print(&format!("{}picture: {}\n", table.for_terminal(), args.out.join("work-precision.svg").shown()))?;
+        let picture = args.out.join("work-precision.svg");
+        print(&format!("{}picture: {}\n{replaced}", table.for_terminal(), picture.shown()))?;
     }
     match found.silent()[..] {
         [] => Ok(()),

@@ -70,13 +70,29 @@ impl Axes {
         std::array::from_fn(|k| self.sign[k] * p[self.theirs[k]])
     }
 
-    /// A gradient ∂u_i/∂x_j in the program's axes.
-    pub fn gradient_to_theirs(&self, l: [[f64; 3]; 3]) -> [[f64; 3]; 3] {
+    /// A tensor, such as the gradient ∂u_i/∂x_j, in the program's axes.
+    pub fn tensor_to_theirs(&self, l: [[f64; 3]; 3]) -> [[f64; 3]; 3] {
         let mut theirs = [[0.0; 3]; 3];
         for (k, row) in l.into_iter().enumerate() {
             theirs[self.theirs[k]] = self.to_theirs(row).map(|value| self.sign[k] * value);
         }
         theirs
+    }
+
+    /// A row of the problem's columns from one that the program wrote in the same columns of its own axes.
+    pub(super) fn row_to_ours(&self, columns: &[String], theirs: &[f64]) -> Vec<f64> {
+        let sorted = |name: &str| {
+            let mut letters: Vec<_> = name.bytes().collect();
+            letters.sort_unstable();
+            letters
+        };
+        let of = |column: &String| {
+            let (name, sign) = self.theirs(column);
+            // A fourth moment is symmetric: its digits have no order.
+            let place = columns.iter().position(|other| sorted(other) == sorted(&name));
+            place.and_then(|place| theirs.get(place)).map_or(f64::NAN, |value| sign * value)
+        };
+        columns.iter().map(of).collect()
     }
 
     /// The program's name of one of the problem's columns, and the sign for its values: `p1` is `p2` if the program's
@@ -125,9 +141,9 @@ mod tests {
         assert_eq!(axes.to_theirs([1.0, 2.0, 3.0]), [2.0, -1.0, 3.0]);
         assert_eq!(axes.to_ours([2.0, -1.0, 3.0]), [1.0, 2.0, 3.0]);
         // Their first axis is our second, their second our first, reversed.
-        let theirs = axes.gradient_to_theirs([[2.0, 3.0, 4.0], [5.0, 6.0, 7.0], [8.0, 9.0, 1.0]]);
+        let theirs = axes.tensor_to_theirs([[2.0, 3.0, 4.0], [5.0, 6.0, 7.0], [8.0, 9.0, 1.0]]);
         assert_eq!(theirs, [[6.0, -5.0, 7.0], [-3.0, 2.0, -4.0], [9.0, -8.0, 1.0]]);
-        assert_eq!(Axes::default().gradient_to_theirs(theirs), theirs);
+        assert_eq!(Axes::default().tensor_to_theirs(theirs), theirs);
     }
 
     #[test]

@@ -271,7 +271,7 @@ fn in_other_axes() -> impl Iterator<Item = Mistake> {
         let axes = format!("{two},{third}").parse::<Axes>().unwrap_or_default();
         moved(&format!("{AXES}, one of them in {axes}"), move |s| {
             let l = std::array::from_fn(|i| std::array::from_fn(|j| s.gradient_per_s[(i, j)]));
-            let l = axes.gradient_to_theirs(l);
+            let l = axes.tensor_to_theirs(l);
             Setting { gradient_per_s: Matrix3::from_fn(|i, j| l[i][j]), ..s }
         })
     })

@@ -56,7 +56,7 @@ pub struct Program {
     pub(super) timeout: Duration,
     /// The form of its lines.
     pub protocol: Protocol,
-    axes: Axes,
+    pub(super) axes: Axes,
     state: Arc<Mutex<State>>,
 }
 
@@ -229,7 +229,7 @@ impl State {
         let start: Vec<_> = question.start.iter().map(|p| axes.to_theirs(*p)).collect();
         let request = Request {
             id: self.asked,
-            gradient_per_s: &axes.gradient_to_theirs(question.gradient_per_s),
+            gradient_per_s: &axes.tensor_to_theirs(question.gradient_per_s),
             aspect_ratio: question.aspect_ratio,
             start: &start,
             end_s: question.end_s,

@@ -1,6 +1,7 @@
 //! Requests for tables, as JSON alone: rows of a formula, and a tensor at the times of a problem.
 
 use crate::methods::integrators::Setting;
+use crate::serve::grade::Axes;
 use crate::serve::problems::{Kind, LoadedProblem, Problem};
 use serde_json::{Value, json};
 
@@ -25,18 +26,22 @@ pub(super) fn of_formula(loaded: &LoadedProblem) -> Value {
     })
 }
 
-/// The equation, the start and the times; `tensor` is null where the distribution itself is asked for.
-pub(super) fn of_tensor(problem: &Problem, setting: Setting) -> Value {
+/// The equation, the start and the times, in the program's axes; `tensor` is null where the distribution itself is
+/// asked for.
+pub(super) fn of_tensor(problem: &Problem, setting: Setting, axes: Axes) -> Value {
     let mut request = json!({
         "tensor": problem.closed.map(|closed| json!({ "closure": closed.closure, "model": closed.model })),
         "c_i": problem.c_i,
         "d_r_per_s": problem.d_r_per_s,
-        "gradient_per_s": problem.gradient_per_s,
+        "gradient_per_s": axes.tensor_to_theirs(problem.gradient_per_s),
         "aspect_ratio": problem.aspect_ratio,
-        "start": problem.start_tensor(),
+        "start": axes.tensor_to_theirs(problem.start_tensor()),
         "times_s": problem.times_s,
         "answer": problem.columns[1..],
     });
+    if let Some(period_s) = problem.oscillation_period_s {
+        request["oscillation_period_s"] = period_s.into();
+    }
     if let Ok(steps) = setting.steps() {
         request["steps"] = steps.into();
     }

@@ -55,10 +55,14 @@ pub(super) fn climb(
     let claimed = claimed.filter(|_| mode == Mode::Steps);
     let mut rungs: Vec<Rung> = Vec::new();
     let (mut says, mut refused) = (None, 0);
-    let begun = Instant::now();
+    let mut begun = Instant::now();
     for setting in settings(problem, mode) {
         let took = match ask(setting) {
             Ok(rung) => {
+                // The first answer may hold the program's start.
+                if rungs.is_empty() {
+                    begun = Instant::now();
+                }
                 let took = rung.took;
                 rungs.push(rung);
                 refused = 0;
@@ -96,7 +100,9 @@ pub(super) fn climb(
             return (rungs, end);
         }
         let spent = begun.elapsed();
-        if !affordable(spent, took, timeout, !arrived && within(&rungs, tolerance)) {
+        let confirms = !arrived && within(&rungs, tolerance);
+        let starts = rungs.len() == 1 && !confirms;
+        if !starts && !affordable(spent, took, timeout, confirms) {
             let seconds = spent.as_secs_f64();
             let why = if arrived { "the order is not clear yet, and finer ones" } else { "finer ones" };
             let words = format!("{why} would take too long (--timeout): {seconds:.1} s so far");
@@ -225,8 +231,19 @@ fn settings(problem: &LoadedProblem, mode: Mode) -> Vec<Setting> {
     let largest = of.gradient_per_s.iter().flatten().fold(0.0, |a: f64, b| a.max(b.abs()));
     let strain = largest * of.times_s.last().copied().unwrap_or_default();
     let coarsest = (strain.ceil() as u64).next_power_of_two().max(8);
+    let coarsest = reaching_each(&of.times_s, coarsest).unwrap_or(coarsest);
     match mode {
         Mode::Steps => (0..=DOUBLINGS).map(|k| Setting::Steps(coarsest << k)).collect(),
         Mode::Tolerance => (2..=14).map(|k| Setting::Tolerance(10f64.powi(-k))).collect(),
     }
+}
+
+/// The least number of equal steps, from `least` to a hundred times as many, that end at each of these times.
+fn reaching_each(times_s: &[f64], least: u64) -> Option<u64> {
+    let last = times_s.last()?;
+    let ends_at = |steps: u64, time: &f64| {
+        let step = time / last * steps as f64;
+        (step - step.round()).abs() < 1e-9
+    };
+    (least..100 * least).find(|steps| times_s.iter().all(|time| ends_at(*steps, time)))
 }
