@@ -5,6 +5,7 @@ mod acting;
 #[path = "../common/bounded.rs"]
 mod bounded;
 mod cases;
+mod tensors;
 
 use bounded::{ANSWER_S, Bounded, PATIENCE, end};
 use cases::{CASES, Case, EXTRAPOLATED};
@@ -30,6 +31,7 @@ fn main() -> ExitCode {
         trials.extend(["", "_normalised"].map(|end| trial(format!("rk_{order}{end}"), "PASS", words)));
     }
     trials.push(Trial::test("program_with_axes_of_its_own", axes_of_its_own));
+    trials.push(Trial::test("program_for_tensors", for_tensors));
     trials.push(Trial::test("program_ends_with_shearbed", ends_with_shearbed));
     #[cfg(target_os = "linux")]
     trials.push(Trial::test("program_of_another_user_is_named", another_user_s_is_named));
@@ -137,6 +139,30 @@ fn axes_of_its_own() -> Result<(), Failed> {
         let (code, words) = shearbed(&command, &out, ANSWER_S, &PROBLEMS[..1], &["--axes", axes]);
         if code != Some(expected) {
             return Err(format!("{axes}: {code:?} {words}").into());
+        }
+    }
+    Ok(())
+}
+
+/// Right codes for tensors pass in their own ways: by steps that end at each time, by a tolerance alone where steps are
+/// refused, and with axes of their own if these are said.
+fn for_tensors() -> Result<(), Failed> {
+    let dir = tempfile::tempdir()?;
+    let own = std::env::current_exe()?;
+    let pids = dir.path().join("pids");
+    let theirs = ["--axes", "flow,gradient,vorticity"];
+    for (name, more, expected) in [
+        ("tensors_by_equal_steps", &[][..], 0),
+        ("tensors_by_tolerance", &[], 0),
+        ("tensors_by_tolerance", &theirs, 1),
+        ("tensors_flow_along_1", &theirs, 0),
+        ("tensors_flow_along_1", &[], 1),
+    ] {
+        let command = format!("'{}' --program {name} '{}'", own.display(), pids.display());
+        let out = dir.path().join(format!("{name}{}", more.len()));
+        let (code, words) = shearbed(&command, &out, ANSWER_S, &["closed-ft-quadratic-0.01"], more);
+        if code != Some(expected) {
+            return Err(format!("{name} {more:?}: {code:?} {words}").into());
         }
     }
     Ok(())

@@ -144,6 +144,11 @@ mod tests {
         let theirs = axes.tensor_to_theirs([[2.0, 3.0, 4.0], [5.0, 6.0, 7.0], [8.0, 9.0, 1.0]]);
         assert_eq!(theirs, [[6.0, -5.0, 7.0], [-3.0, 2.0, -4.0], [9.0, -8.0, 1.0]]);
         assert_eq!(Axes::default().tensor_to_theirs(theirs), theirs);
+        let second = ["a11", "a22", "a33", "a12", "a13", "a23"].map(String::from);
+        assert_eq!(axes.row_to_ours(&second, &[1.0, 2.0, 3.0, 4.0, 5.0, 6.0]), [2.0, 1.0, 3.0, -4.0, -6.0, 5.0]);
+        // A fourth moment is symmetric: a1233 is a2133 of theirs, which they write a1233.
+        let fourth = ["a1233", "a1122"].map(String::from);
+        assert_eq!(axes.row_to_ours(&fourth, &[7.0, 8.0]), [-7.0, 8.0]);
     }
 
     #[test]

@@ -226,7 +226,7 @@ pub(super) fn converges(problem: &LoadedProblem, rungs: &[Rung]) -> Option<Strin
     })
 }
 
-fn settings(problem: &LoadedProblem, mode: Mode) -> Vec<Setting> {
+pub(super) fn settings(problem: &LoadedProblem, mode: Mode) -> Vec<Setting> {
     let of = &problem.problem;
     let largest = of.gradient_per_s.iter().flatten().fold(0.0, |a: f64, b| a.max(b.abs()));
     let strain = largest * of.times_s.last().copied().unwrap_or_default();
@@ -239,7 +239,7 @@ fn settings(problem: &LoadedProblem, mode: Mode) -> Vec<Setting> {
 }
 
 /// The least number of equal steps, from `least` to a hundred times as many, that end at each of these times.
-fn reaching_each(times_s: &[f64], least: u64) -> Option<u64> {
+pub(super) fn reaching_each(times_s: &[f64], least: u64) -> Option<u64> {
     let last = times_s.last()?;
     let ends_at = |steps: u64, time: &f64| {
         let step = time / last * steps as f64;

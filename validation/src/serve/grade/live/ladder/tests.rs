@@ -1,9 +1,9 @@
-use super::climb::{hopeless, reached, within};
+use super::climb::{hopeless, reached, reaching_each, settings, within};
 use super::jumps::falling_order;
 use super::*;
 use crate::serve::grade::live::program::Asked;
 use crate::serve::grade::mistakes;
-use crate::serve::problems::loaded;
+use crate::serve::problems::{self, loaded};
 use nalgebra::Vector3;
 use std::cell::Cell;
 
@@ -185,6 +185,9 @@ fn an_order_is_no_answer_and_one_that_is_unclear_is_asked_on_to_round_off() {
 fn what_would_take_too_long_is_not_asked_unless_it_confirms() {
     let end = |error: f64, seconds: f64| climbed_in(Mode::Steps, None, |_| (error, seconds)).2;
     assert!(matches!(end(0.5, 16.0), End::OutOfTime(words) if words.contains("finer ones would take too long")));
+    // The first answer may hold the program's start.
+    let starts = |k: i32| if k == 0 { (0.5, 59.0) } else { (0.5 * 16f64.powi(-k), 0.0) };
+    assert_eq!(climbed_in(Mode::Steps, None, starts).2, End::Reached);
     // An answer within the tolerance is confirmed in twice its time.
     assert_eq!(end(1e-15, 29.0), End::Reached);
     assert!(matches!(end(1e-15, 31.0), End::OutOfTime(_)));
@@ -291,6 +294,23 @@ fn two_answers_on_the_curve_of_one_mistake_are_wrong_before_time_is_up() {
     // A right code that lags, by less with more steps.
     let right = |late: f64| (mistakes::right_map(&setting, late * time_s).unwrap() * start).normalize();
     assert!(!stays_on_a_mistake(&problem, &[rung(64, right(0.97)), rung(128, right(0.985))]));
+}
+
+/// Otherwise a code of equal steps passes no time of the problem but the last.
+#[test]
+fn steps_of_tensors_end_at_every_time_of_the_problem() {
+    let times = |name: &str| loaded(name).problem.times_s;
+    for name in problems::all().iter().map(|def| def.name).filter(|name| name.starts_with("closed-")) {
+        let problem = loaded(name);
+        let coarsest = settings(&problem, Mode::Steps)[0].steps().unwrap();
+        for time in times(name) {
+            let step = time / times(name).last().unwrap() * coarsest as f64;
+            assert!((step - step.round()).abs() < 1e-9, "{name}: {step} of {coarsest}");
+        }
+    }
+    // In eighths of the last time.
+    assert_eq!([5, 8, 9].map(|least| reaching_each(&[0.25, 0.75, 2.0], least)), [Some(8), Some(8), Some(16)]);
+    assert_eq!(reaching_each(&[1.0, std::f64::consts::PI], 8), None);
 }
 
 #[test]
