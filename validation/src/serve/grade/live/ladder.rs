@@ -18,7 +18,7 @@ use crate::serve::grade::files::{Claim, judge};
 use crate::serve::grade::order::other;
 use crate::serve::grade::{Graded, Order, Verdict};
 use crate::serve::problems::{Kind, LoadedProblem};
-use climb::{End, climb, converges};
+use climb::{End, climb, converges, fewest};
 use std::time::{Duration, Instant};
 
 /// The setting that a program accepts.
@@ -148,7 +148,7 @@ fn climbed(
     };
     let (rungs, mut end) = climb(problem, mode, program.timeout, claim.order, ask);
     if matches!(end, End::Reached) {
-        end = jumps::judged(&rungs, of.tolerance, ask);
+        end = jumps::judged(&rungs, of.tolerance, fewest(&of.times_s), ask);
     }
     let mut graded = Graded::without_answer(problem);
     graded.set_orders(errors(&rungs), problem, claim.order);

@@ -230,20 +230,20 @@ pub(super) fn settings(problem: &LoadedProblem, mode: Mode) -> Vec<Setting> {
     let of = &problem.problem;
     let largest = of.gradient_per_s.iter().flatten().fold(0.0, |a: f64, b| a.max(b.abs()));
     let strain = largest * of.times_s.last().copied().unwrap_or_default();
-    let coarsest = (strain.ceil() as u64).next_power_of_two().max(8);
-    let coarsest = reaching_each(&of.times_s, coarsest).unwrap_or(coarsest);
+    let coarsest = (strain.ceil() as u64).next_power_of_two().max(8).next_multiple_of(fewest(&of.times_s));
     match mode {
         Mode::Steps => (0..=DOUBLINGS).map(|k| Setting::Steps(coarsest << k)).collect(),
         Mode::Tolerance => (2..=14).map(|k| Setting::Tolerance(10f64.powi(-k))).collect(),
     }
 }
 
-/// The least number of equal steps, from `least` to a hundred times as many, that end at each of these times.
-pub(super) fn reaching_each(times_s: &[f64], least: u64) -> Option<u64> {
-    let last = times_s.last()?;
+/// The fewest equal steps that end at each of these times, of which all other such numbers are multiples; 1 if there are
+/// none below a thousand.
+pub(super) fn fewest(times_s: &[f64]) -> u64 {
+    let last = times_s.last().copied().unwrap_or_default();
     let ends_at = |steps: u64, time: &f64| {
         let step = time / last * steps as f64;
         (step - step.round()).abs() < 1e-9
     };
-    (least..100 * least).find(|steps| times_s.iter().all(|time| ends_at(*steps, time)))
+    (1..1000).find(|steps| times_s.iter().all(|time| ends_at(*steps, time))).unwrap_or(1)
 }

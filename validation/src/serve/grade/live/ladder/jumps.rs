@@ -1,7 +1,8 @@
 //! Judges every setting, not the finest alone: a method's error is a continuous function of its step.
 //!
 //! If a method follows the motion, its error falls by its order when the number of steps doubles. If an error falls by
-//! far more, the numbers of steps between the two are bisected down to neighbours N and N + 1. A method that is
+//! far more, the numbers of steps between the two are bisected down to neighbours N and N + 1 (or multiples of what ends
+//! at each time). A method that is
 //! unstable with long steps, or misses the motion, becomes correct gradually, over many N. Answers that are wrong at N
 //! and right at N + 1 do not come from a method.
 
@@ -23,8 +24,8 @@ const OUTLIER: f64 = 1000.0;
 /// From this tolerance on a right program follows the motion; with larger ones its steps may pass over a flip.
 const SHARP: f64 = 1e-6;
 
-/// Judges every rung of a ladder whose last ones are within the tolerance.
-pub(super) fn judged(rungs: &[Rung], tolerance: f64, ask: impl Fn(Setting) -> Result<Rung, Asked>) -> End {
+/// Judges every rung of a ladder whose last ones are within the tolerance; `unit` divides every number of steps.
+pub(super) fn judged(rungs: &[Rung], tolerance: f64, unit: u64, ask: impl Fn(Setting) -> Result<Rung, Asked>) -> End {
     let order = falling_order(rungs, tolerance);
     let end = |found: Result<Option<String>, Asked>| match found {
         Ok(None) | Err(Asked::Says(_)) => None,
@@ -32,7 +33,7 @@ pub(super) fn judged(rungs: &[Rung], tolerance: f64, ask: impl Fn(Setting) -> Re
         Err(Asked::Late(words)) => Some(End::OutOfTime(words)),
         Err(Asked::Breach(words)) => Some(End::Broke(words)),
     };
-    if let Some(end) = end(beside(rungs, tolerance, order, &ask)) {
+    if let Some(end) = end(beside(rungs, tolerance, order, unit, &ask)) {
         return end;
     }
     for k in (0..rungs.len().saturating_sub(1)).rev() {
@@ -44,7 +45,7 @@ pub(super) fn judged(rungs: &[Rung], tolerance: f64, ask: impl Fn(Setting) -> Re
             (Setting::Steps(coarse), Setting::Steps(fine)) => {
                 let foretold = Foretold::from(&rungs[k + 1..], fine, tolerance, order);
                 if far(&rungs[k], foretold.at(coarse)) {
-                    jump([&rungs[k], &rungs[k + 1]], [coarse, fine], &foretold, &ask)
+                    jump([&rungs[k], &rungs[k + 1]], [coarse, fine], &foretold, unit, &ask)
                 } else {
                     Ok(None)
                 }
@@ -109,12 +110,13 @@ pub(super) fn falling_order(rungs: &[Rung], tolerance: f64) -> f64 {
     orders.get(orders.len() / 2).copied().unwrap_or(HIGHEST)
 }
 
-/// Asks for one step more than the coarsest setting from which on all follow the motion: a ladder that doubles asks for
+/// Asks for one unit of steps more than the coarsest setting from which on all follow the motion: a ladder that doubles asks for
 /// even numbers alone, and a program may lose the last of an odd number of steps.
 fn beside(
     rungs: &[Rung],
     tolerance: f64,
     order: f64,
+    unit: u64,
     ask: impl Fn(Setting) -> Result<Rung, Asked>,
 ) -> Result<Option<String>, Asked> {
     let follow = rungs.iter().rev().take_while(|rung| rung.error() < FOLLOWS).count();
@@ -127,8 +129,8 @@ fn beside(
         None => tolerance,
     };
     let due = capped(&finer[0]).max(foretold);
-    let error = capped(&ask(Setting::Steps(steps + 1))?);
-    Ok((error > FAR * due).then(|| jumping([steps, steps + 1], [capped(&finer[0]), error])))
+    let error = capped(&ask(Setting::Steps(steps + unit))?);
+    Ok((error > FAR * due).then(|| jumping([steps, steps + unit], [capped(&finer[0]), error])))
 }
 
 fn jumping([one, other]: [u64; 2], [error, other_error]: [f64; 2]) -> String {
@@ -144,11 +146,12 @@ fn jump(
     ends: [&Rung; 2],
     [mut bad, mut good]: [u64; 2],
     foretold: &Foretold,
+    unit: u64,
     ask: impl Fn(Setting) -> Result<Rung, Asked>,
 ) -> Result<Option<String>, Asked> {
     let [mut bad_error, mut good_error] = ends.map(capped);
-    while good - bad > 1 {
-        let middle = bad + (good - bad) / 2;
+    while good - bad > unit {
+        let middle = bad + (good - bad) / unit / 2 * unit;
         let rung = ask(Setting::Steps(middle))?;
         if far(&rung, foretold.at(middle)) {
             (bad, bad_error) = (middle, capped(&rung))

@@ -1,4 +1,4 @@
-use super::climb::{hopeless, reached, reaching_each, settings, within};
+use super::climb::{fewest, hopeless, reached, settings, within};
 use super::jumps::falling_order;
 use super::*;
 use crate::serve::grade::live::program::Asked;
@@ -204,7 +204,7 @@ fn judged(error: impl Fn(u64, u32) -> f64) -> End {
     for k in 0..24 {
         rungs.push(ask(Setting::Steps(8 << k)).unwrap());
         if reached(&rungs, TOLERANCE) {
-            return jumps::judged(&rungs, TOLERANCE, ask);
+            return jumps::judged(&rungs, TOLERANCE, 1, ask);
         }
     }
     panic!("the tolerance is not reached");
@@ -257,7 +257,7 @@ fn a_tolerance_far_worse_than_both_its_neighbours_is_no_methods() {
     let judged_where = |spoilt: &dyn Fn(i32) -> bool, error: f64| {
         let of = |k: i32| if spoilt(k) { error } else { 3.0 * 10f64.powi(-k) };
         let rungs: Vec<_> = (2..=9).map(|k| rung(Setting::Tolerance(10f64.powi(-k)), of(k), 0.0)).collect();
-        jumps::judged(&rungs, TOLERANCE, |_| Err(Asked::Says("it is not asked".to_owned())))
+        jumps::judged(&rungs, TOLERANCE, 1, |_| Err(Asked::Says("it is not asked".to_owned())))
     };
     let judged = |spoilt: i32, error: f64| judged_where(&|k| k == spoilt, error);
     assert_eq!(judged(0, 0.0), End::Reached);
@@ -308,9 +308,8 @@ fn steps_of_tensors_end_at_every_time_of_the_problem() {
             assert!((step - step.round()).abs() < 1e-9, "{name}: {step} of {coarsest}");
         }
     }
-    // In eighths of the last time.
-    assert_eq!([5, 8, 9].map(|least| reaching_each(&[0.25, 0.75, 2.0], least)), [Some(8), Some(8), Some(16)]);
-    assert_eq!(reaching_each(&[1.0, std::f64::consts::PI], 8), None);
+    assert_eq!(fewest(&[0.25, 0.75, 2.0]), 8);
+    assert_eq!(fewest(&[1.0, std::f64::consts::PI]), 1);
 }
 
 #[test]
