@@ -16,9 +16,37 @@ pub(super) const LEAST: f64 = 1e-17;
 /// The program's label in a picture: its own name may be long, and _ would set the next letter as an index.
 pub(super) const PROGRAM: &str = "the graded program";
 
+/// The largest number of problems of tensors in one picture.
+const MOST_CURVES: usize = 8;
+
 /// Error against the number of steps on one problem about rods in plane Couette flow, first for the program, then for
-/// the project's own integrators; `None` if the program answered no such problem with two numbers of steps.
+/// the project's own integrators, or else on problems of tensors; `None` if the program answered no such problem with
+/// two numbers of steps.
 pub fn steps(problems: &[LoadedProblem], graded: &[Graded]) -> Option<Figure> {
+    of_rods(problems, graded).or_else(|| of_tensors(graded))
+}
+
+fn figure(title: String, y_name: &str, curves: Vec<Curve>) -> Figure {
+    Figure {
+        title,
+        x_name: "steps".into(),
+        y_name: y_name.into(),
+        curves,
+        x_log: true,
+        y_log: true,
+        ..Figure::default()
+    }
+}
+
+/// A curve for each problem of tensors.
+fn of_tensors(graded: &[Graded]) -> Option<Figure> {
+    let with_steps = graded.iter().filter(|graded| graded.kind == Kind::Tensor && drawn(graded).len() >= 2);
+    let curves: Vec<_> =
+        with_steps.take(MOST_CURVES).map(|graded| curve(graded.name.clone(), &drawn(graded))).collect();
+    (!curves.is_empty()).then(|| figure("Error against steps, tensors".into(), "largest error of a component", curves))
+}
+
+fn of_rods(problems: &[LoadedProblem], graded: &[Graded]) -> Option<Figure> {
     let with_steps = |name: &str| {
         let of = |graded: &&Graded| graded.name == name && drawn(graded).len() >= 2;
         graded.iter().find(of)
@@ -38,15 +66,7 @@ pub fn steps(problems: &[LoadedProblem], graded: &[Graded]) -> Option<Figure> {
             curves.push(curve(integrator.name.clone(), &errors));
         }
     }
-    Some(Figure {
-        title: format!("Error against steps, {}", loaded.problem.name),
-        x_name: "steps".into(),
-        y_name: "error (rad)".into(),
-        curves,
-        x_log: true,
-        y_log: true,
-        ..Figure::default()
-    })
+    Some(figure(format!("Error against steps, {}", loaded.problem.name), "error (rad)", curves))
 }
 
 fn drawn(graded: &Graded) -> Vec<(u64, f64)> {
@@ -101,5 +121,19 @@ mod tests {
         let figure = steps(&problems, &[of(&problems[0], 1e-2), of(&problems[1], 1e-3)]).unwrap();
         assert!(figure.title.ends_with("mid-flip-11.6") && figure.x_log && figure.y_log);
         assert_eq!(figure.curves[0].y, [1e-3, 1e-4]);
+    }
+
+    #[test]
+    fn problems_of_tensors_have_a_curve_each() {
+        let problems = ["closed-ft-linear-0.1", "closed-ft-hybrid-0.01", "closed-ft-ibof-0.01"].map(loaded);
+        let of =
+            |(loaded, errors): (&LoadedProblem, Vec<(u64, f64)>)| Graded { errors, ..Graded::without_answer(loaded) };
+        let errors = [vec![(20, 1e-2), (40, 1e-3)], vec![(20, 1e-2)], vec![(40, 3e-2), (80, 1e-2)]];
+        let graded: Vec<_> = problems.iter().zip(errors).map(of).collect();
+        let figure = steps(&problems, &graded).unwrap();
+        let labels: Vec<_> = figure.curves.iter().map(|curve| curve.label.as_str()).collect();
+        assert_eq!(labels, ["closed-ft-linear-0.1", "closed-ft-ibof-0.01"]);
+        assert_eq!((&figure.curves[1].x, &figure.curves[1].y), (&vec![40.0, 80.0], &vec![3e-2, 1e-2]));
+        assert!(steps(&problems, &graded[1..2]).is_none());
     }
 }

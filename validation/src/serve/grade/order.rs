@@ -9,7 +9,7 @@
 //! with several hundred integrators.
 
 use super::{Graded, Verdict};
-use crate::serve::problems::LoadedProblem;
+use crate::serve::problems::{Kind, LoadedProblem};
 use serde::Serialize;
 
 /// The largest difference between an observed order and the claimed one, and between two orders that agree.
@@ -225,7 +225,8 @@ pub fn settle(problems: &[LoadedProblem], graded: &mut [Graded], claimed: Option
     }
 }
 
-/// A sentence that lists where a claimed order was seen and where it is unclear; none without a claim.
+/// A sentence that lists where a claimed order was seen and where it is unclear; none without a claim, or of formulas
+/// alone, which have no steps.
 pub fn remark(graded: &[Graded], claimed: Option<f64>) -> Option<String> {
     let claimed = claimed?;
     let found =
@@ -234,7 +235,11 @@ pub fn remark(graded: &[Graded], claimed: Option<f64>) -> Option<String> {
     // Of a wrong answer the verdict says why.
     let unclear = found(Order::Unclear).into_iter().filter(|graded| graded.verdict == Verdict::Pass);
     let unclear: Vec<&str> = unclear.map(|graded| graded.name.as_str()).collect();
-    let answered = graded.iter().filter(|graded| graded.verdict != Verdict::Missing).count();
+    let has_steps = |graded: &&Graded| graded.verdict != Verdict::Missing && graded.kind != Kind::Formula;
+    let answered = graded.iter().filter(has_steps).count();
+    if answered == 0 {
+        return None;
+    }
     let mut said = format!("order {claimed} is seen on {} of {answered} problems", seen.len());
     if !unclear.is_empty() {
         let names = unclear.join(", ");

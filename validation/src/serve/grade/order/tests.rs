@@ -110,6 +110,10 @@ fn right_answers_alone_are_said_to_have_an_unclear_order() {
     .map(of);
     let said = remark(&graded, Some(4.0)).unwrap();
     assert!(said.starts_with("order 4 is seen on 1 of 3 problems; ") && said.ends_with(" wander, on spiral"), "{said}");
+    // A formula has no steps.
+    let formula = Graded { verdict: Verdict::Pass, ..Graded::without_answer(&loaded("pdot-rod")) };
+    assert_eq!(remark(&[&graded[..], std::slice::from_ref(&formula)].concat(), Some(4.0)), Some(said));
+    assert_eq!(remark(&[formula], Some(4.0)), None);
 }
 
 #[test]
