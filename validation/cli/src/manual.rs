@@ -20,11 +20,8 @@ pub fn commands() -> String {
 /// Adds a command and its subcommands to the page; what was `said` of an argument is not said again.
 fn add(page: &mut String, command: &Command, above: &str, said: &mut BTreeSet<String>) {
     let name = format!("{above} {}", command.get_name());
-    let usage = command.clone().render_usage().to_string();
-    let usage = usage.split_whitespace().skip(1).collect::<Vec<_>>().join(" ");
     let about = command.get_about().map(ToString::to_string).unwrap_or_default();
-    let _ =
-        write!(page, "\n## {}\n\n{}.\n\n```text\n{usage}\n```\n", name.trim_start_matches("shearbed "), plain(&about));
+    let _ = write!(page, "\n## {}\n\n{}.\n", name.trim_start_matches("shearbed "), plain(&about));
     let shown = |arg: &&Arg| !arg.is_hide_set() && arg.get_id() != "help" && arg.get_id() != "version";
     let mut rows = command.get_arguments().filter(shown).peekable();
     if rows.peek().is_some() {
@@ -43,7 +40,8 @@ fn add(page: &mut String, command: &Command, above: &str, said: &mut BTreeSet<St
         let _ = writeln!(page, "- {}: as above", again.join(", "));
     }
     if let Some(words) = command.get_after_help() {
-        let _ = write!(page, "\n```text\n{}\n```\n", words.to_string().trim());
+        let words = words.to_string();
+        let _ = write!(page, "\n```text\n{}\n```\n", words.trim().trim_start_matches("Example:").trim());
     }
     for below in command.get_subcommands().filter(|below| !below.is_hide_set()) {
         add(page, below, &name, said);
