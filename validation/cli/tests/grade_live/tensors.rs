@@ -1,5 +1,5 @@
 //! Programs that solve da/dt of Folgar & Tucker with the quadratic closure: by equal steps that must end at every time
-//! asked for, by a tolerance alone, and in axes of their own.
+//! asked for, by a tolerance alone, and in axes of their own; and one with random numbers.
 
 use serde_json::{Value, json};
 use shearbed::nalgebra::Matrix3;
@@ -15,8 +15,37 @@ fn matrix(value: &Value) -> M {
     M::from_fn(|i, j| number(&value[i][j]))
 }
 
+/// Means of a Monte Carlo code for rods at rest that diffuse: a − 1/3 fades as e^{−6D_r t}, with errors of `scatter`.
+fn at_rest(name: &str, request: &Value) -> Value {
+    let factor = if name == "tensors_random_slow" { 0.5 } else { 1.0 };
+    let scatter = if name == "tensors_random_few" { 0.01 } else { 1e-3 };
+    let d_r = factor * number(&request["d_r_per_s"]);
+    let start = matrix(&request["start"]);
+    let mut random = request["id"].as_u64().unwrap();
+    let mut next = || {
+        random = random.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (random >> 40) as f64 / (1u64 << 24) as f64 - 0.5
+    };
+    // The sum of twelve has the variance 1.
+    let mut gauss = || (0..12).map(|_| next()).sum::<f64>();
+    let row = |time: &Value| {
+        let fades = (-6.0 * d_r * number(time)).exp();
+        PLACES.map(|place| {
+            let random = M::identity()[place] / 3.0;
+            random + (start[place] - random) * fades + scatter * gauss()
+        })
+    };
+    let rows: Vec<_> = request["times_s"].as_array().unwrap().iter().map(row).collect();
+    json!({"id": request["id"], "rows": rows, "rows_se": vec![[scatter; 6]; rows.len()]})
+}
+
+const PLACES: [(usize, usize); 6] = [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)];
+
 /// The table that is asked for, or the program's own error.
 pub fn answer(name: &str, request: &Value) -> Value {
+    if name.starts_with("tensors_random") {
+        return at_rest(name, request);
+    }
     let id = &request["id"];
     let refused = |words: &str| json!({"id": id, "error": words});
     let times: Vec<_> = request["times_s"].as_array().unwrap().iter().map(number).collect();
@@ -46,7 +75,7 @@ pub fn answer(name: &str, request: &Value) -> Value {
             a = rk4(rate, a, h);
             taken += 1.0;
         }
-        rows.push([(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)].map(|place| a[place]));
+        rows.push(PLACES.map(|place| a[place]));
     }
     json!({"id": id, "rows": rows})
 }

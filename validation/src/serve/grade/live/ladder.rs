@@ -2,6 +2,7 @@
 
 mod climb;
 mod jumps;
+mod random;
 #[cfg(test)]
 mod tests;
 
@@ -97,10 +98,19 @@ fn timeless(program: &Program, problem: &LoadedProblem, mode: Mode, claim: Claim
         }
         Kind::Formula => formula(program, problem),
         _ => {
-            let (axes, columns) = (program.axes, &problem.problem.columns[1..]);
+            let axes = program.axes;
+            let table = |setting: Setting| {
+                let size = [problem.problem.times_s.len(), problem.problem.columns.len() - 1];
+                program.ask_table(&tables::of_tensor(&problem.problem, setting, axes), size)
+            };
+            // A closed equation has no random answer.
+            let coarsest = climb::settings(problem, mode)[0];
+            if problem.problem.closed.is_none() && matches!(table(coarsest), Ok(((_, Some(_)), _))) {
+                return random::graded(program, problem, mode, table);
+            }
+            let columns = &problem.problem.columns[1..];
             let ask = |setting: Setting| {
-                let size = [problem.problem.times_s.len(), columns.len()];
-                let (rows, took) = program.ask_table(&tables::of_tensor(&problem.problem, setting, axes), size)?;
+                let ((rows, _), took) = table(setting)?;
                 Ok((rows.iter().map(|row| axes.row_to_ours(columns, row)).collect(), took))
             };
             let graded = climbed(program, problem, mode, claim, ask);
@@ -118,7 +128,7 @@ fn formula(program: &Program, problem: &LoadedProblem) -> Graded {
     let mut graded = Graded::without_answer(problem);
     let size = [problem.certified.rows.len(), problem.problem.columns.len() - 1];
     match program.ask_table(&tables::of_formula(problem), size) {
-        Ok((rows, _)) => judge(&mut graded, problem, &printed(rows), Claim::default()),
+        Ok(((rows, _), _)) => judge(&mut graded, problem, &printed(rows), Claim::default()),
         Err(asked) => {
             graded.note = Some(asked.to_string());
             graded.verdict = match asked {

@@ -1,7 +1,7 @@
 //! A program that answers requests, kept within its limits, and restarted after a breach of the protocol.
 
 use super::pipe::{Pipe, Trouble};
-use super::protocol::{self, Protocol};
+use super::protocol::{self, Protocol, Rows};
 use super::request::{Answer, Request, Turned};
 use crate::methods::integrators::{Failure, Integrator, RodProblem, Setting, Theory};
 use crate::serve::grade::Axes;
@@ -144,9 +144,9 @@ impl Program {
         self.asked(|state| state.ask(self, question, setting))
     }
 
-    /// Asks for a table of so many rows and columns, as JSON alone, and returns it with the time that the answer took.
-    /// `request` has all keys but the id.
-    pub fn ask_table(&self, request: &Value, size: [usize; 2]) -> Result<(Vec<Vec<f64>>, Duration), Asked> {
+    /// Asks for a table of so many rows and columns, as JSON alone, and returns it, with the standard errors of a random
+    /// code, and the time that the answer took. `request` has all keys but the id.
+    pub fn ask_table(&self, request: &Value, size: [usize; 2]) -> Result<((Rows, Option<Rows>), Duration), Asked> {
         self.asked(|state| state.ask_table(self, request, size))
     }
 
@@ -250,7 +250,7 @@ impl State {
         program: &Program,
         request: &Value,
         size: [usize; 2],
-    ) -> Result<Result<Vec<Vec<f64>>, String>, Breach> {
+    ) -> Result<Result<(Rows, Option<Rows>), String>, Breach> {
         self.asked = next_id(self.asked);
         let mut request = request.clone();
         request["id"] = self.asked.into();

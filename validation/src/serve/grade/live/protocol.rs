@@ -92,21 +92,32 @@ pub fn read(line: &str, id: u64, rods: usize) -> Result<Answer, String> {
     }
 }
 
-/// Parses the table of so many rows and columns in the answer to request `id`, or the program's own error. `Err` says
-/// what is wrong with the line.
-pub fn table(line: &str, id: u64, [rows, columns]: [usize; 2]) -> Result<Result<Vec<Vec<f64>>, String>, String> {
-    let found = match content(line, id, "rows", |answer| answer.rows)? {
+/// A table of numbers, row by row.
+pub type Rows = Vec<Vec<f64>>;
+
+/// Parses the table of so many rows and columns in the answer to request `id`, with that of the standard errors if it
+/// has one, or the program's own error. `Err` says what is wrong with the line.
+pub fn table(line: &str, id: u64, size: [usize; 2]) -> Result<Result<(Rows, Option<Rows>), String>, String> {
+    let (found, errors) = match content(line, id, "rows", |answer| Some((answer.rows?, answer.rows_se)))? {
         Ok(found) => found,
         Err(reason) => return Ok(Err(reason)),
     };
+    let errors = errors.filter(|errors| !errors.is_null()).map(|errors| rows("rows_se", &errors, size)).transpose()?;
+    Ok(Ok((rows("rows", &found, size)?, errors)))
+}
+
+/// The numbers of the key `name`.
+fn rows(name: &str, found: &Value, [rows, columns]: [usize; 2]) -> Result<Rows, String> {
     let table = found.as_array().filter(|found| found.len() == rows);
-    let table = table.ok_or_else(|| format!("\"rows\" must be a list of {rows} rows"))?;
+    let table = table.ok_or_else(|| format!("\"{name}\" must be a list of {rows} rows"))?;
     let row = |(k, row): (usize, &Value)| {
         let found = row.as_array().filter(|found| found.len() == columns);
         let numbers = found.and_then(|found| found.iter().map(number).collect());
-        numbers.ok_or_else(|| format!("row {k} is {}; {columns} numbers are allowed", excerpt(&row.to_string())))
+        let wrong =
+            || format!("row {k} of \"{name}\" is {}; {columns} numbers are asked for", excerpt(&row.to_string()));
+        numbers.ok_or_else(wrong)
     };
-    table.iter().enumerate().map(row).collect::<Result<_, _>>().map(Ok)
+    table.iter().enumerate().map(row).collect()
 }
 
 /// The value of an answer's key `name`, or the program's own error.
@@ -145,6 +156,7 @@ struct Line {
     p: Option<Value>,
     evaluations: Option<Value>,
     rows: Option<Value>,
+    rows_se: Option<Value>,
 }
 
 /// Parses JSON that may also contain the texts of Python and JavaScript for NaN and infinities.
@@ -202,10 +214,14 @@ mod tests {
     #[test]
     fn tables_are_read_and_others_refused() {
         let line = r#"{"id": 3, "rows": [[1, null], [0.5, -2]]}"#;
-        let found = table(line, 3, [2, 2]).unwrap().unwrap();
-        assert!(found[0][1].is_nan() && found[1] == [0.5, -2.0]);
+        let (found, errors) = table(line, 3, [2, 2]).unwrap().unwrap();
+        assert!(found[0][1].is_nan() && found[1] == [0.5, -2.0] && errors.is_none());
+        let with_errors = r#"{"id": 3, "rows": [[1, 2]], "rows_se": [[0.1, 0.2]]}"#;
+        assert_eq!(table(with_errors, 3, [1, 2]), Ok(Ok((vec![vec![1.0, 2.0]], Some(vec![vec![0.1, 0.2]])))));
+        let short = r#"{"id": 3, "rows": [[1, 2]], "rows_se": [[0.1]]}"#;
+        assert!(table(short, 3, [1, 2]).unwrap_err().contains("row 0 of \"rows_se\" is `[0.1]`; 2 numbers"));
         assert_eq!(table(r#"{"id": 3, "error": "no"}"#, 3, [2, 2]), Ok(Err("no".into())));
-        for (size, reason) in [([3, 2], "a list of 3 rows"), ([2, 3], "row 0 is `[1,null]`; 3 numbers")] {
+        for (size, reason) in [([3, 2], "a list of 3 rows"), ([2, 3], "row 0 of \"rows\" is `[1,null]`; 3 numbers")] {
             assert!(table(line, 3, size).unwrap_err().contains(reason), "{reason}");
         }
         assert!(table(r#"{"id": 3, "p": [[1,0,0]]}"#, 3, [1, 3]).unwrap_err().contains("neither \"rows\""));
