@@ -1,10 +1,34 @@
 //! Validation of a checkpoint's path.
 
-use super::Failure;
+use super::{Failure, number};
 use shearbed_validation::files::checkpoint::{on_stop, stays};
 use shearbed_validation::files::text::Shown;
 use shearbed_validation::files::{cluster, output};
 use std::path::{Component, Path, PathBuf};
+use std::time::Duration;
+
+/// Where a command keeps its state, and how often.
+#[derive(clap::Args)]
+pub(super) struct Kept {
+    /// Keep the run in this file while it runs, and go on from there where the file exists, with more --replicas too
+    #[arg(long = "checkpoint", id = "checkpoint", value_name = "FILE")]
+    pub(super) file: Option<PathBuf>,
+    /// Seconds between two checkpoints [default: 60]
+    #[arg(long, value_name = "S", value_parser = seconds, requires = "checkpoint", allow_negative_numbers = true)]
+    every: Option<Duration>,
+}
+
+impl Kept {
+    pub(super) fn every(&self) -> Duration {
+        self.every.unwrap_or(Duration::from_secs(60))
+    }
+}
+
+/// Parses the time between checkpoints, in s.
+fn seconds(text: &str) -> Result<Duration, String> {
+    let seconds = number(text, |s| (0.01..=86_400.0).contains(&s), "a number of seconds from 0.01 to 86400")?;
+    Ok(Duration::from_secs_f64(seconds))
+}
 
 /// The extensions of result files.
 const ENDINGS: [&str; 9] = ["csv", "svg", "json", "pvd", "vtp", "html", "md", "xml", "png"];

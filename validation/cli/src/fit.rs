@@ -6,7 +6,8 @@ mod shifts;
 mod terminal;
 
 use super::{
-    Failure, Threads, Writing, number, on_threads, print, progress, restart, result_folder, scene, spares_inputs, whole,
+    Failure, Threads, Writing, checkpoint, number, on_threads, print, progress, restart, result_folder, scene,
+    spares_inputs, whole,
 };
 use advice::{of_fit, of_scene, of_warning};
 use input::{Input, input};
@@ -25,6 +26,7 @@ use shearbed_validation::serve::fit::design::{Candidate, design};
 use shearbed_validation::serve::fit::elsewhere::best_fit;
 use shearbed_validation::serve::fit::error::{FitError, SceneError};
 use shearbed_validation::serve::fit::report::{self, Report};
+use shearbed_validation::serve::fit::runs::Runs;
 use shearbed_validation::serve::fit::samples::samples_csv;
 use shearbed_validation::serve::fit::scenes::{AS_WRITTEN, Scenes};
 use shearbed_validation::serve::fit::search::{Fit, FitProblem, Measured, Watch};
@@ -87,6 +89,8 @@ pub(super) struct Args {
     settings: Vec<KeyValue>,
     #[command(flatten)]
     threads: Threads,
+    #[command(flatten)]
+    kept: checkpoint::Kept,
     /// List further points, at all times and at half and twice the concentration, with the uncertainties that each
     /// would leave
     #[arg(long)]
@@ -112,14 +116,22 @@ pub(super) fn fit(args: &Args) -> Result<(), Failure> {
     let check =
         |test: &Hypothesis| test.check(&args.over).map_err(|error| Failure::Input(advice::of_test(test, &error)));
     args.test.iter().try_for_each(check)?;
-    let input = input(args)?;
+    let mut input = input(args)?;
     let asked = asked(args, &input)?;
     let folder = folder(args, &input, &asked)?;
+    let path = checkpoint::check(args.kept.file.as_deref(), folder.dir())?;
+    let open = |path: PathBuf| Runs::open(&path, args.kept.every(), json!({ "data": asked["data"] }));
+    let runs = path.map(open).transpose()?;
+    if let Some(runs) = runs.as_ref().filter(|runs| runs.count() > 0 && !args.writing.quiet) {
+        print(&format!("goes on from {} finished runs\n", runs.count()))?;
+    }
+    input.scenes = input.scenes.with_runs(runs.clone());
     let bar = progress(0, "runs", args.writing.quiet);
     let watch =
         Watch { stage: &|name| restart(&bar, name), planned: &|runs| bar.inc_length(runs), done: &|| bar.inc(1) };
     let done = on_threads(args.threads.given, || work(args, &input, &watch))?;
     bar.finish_and_clear();
+    runs.as_ref().map_or(Ok(()), |runs| runs.write())?;
     write(args, &input, &folder, &asked, &done?)
 }
 

@@ -7,7 +7,7 @@ use super::record::Seconds;
 use super::scene::{Chosen, Ensemble, Named};
 use super::until::{self, Until};
 use super::{
-    Failure, Threads, Writing, agree, checkpoint, derived, memory, number, pictures, print, probe, record, rods, scene,
+    Failure, Threads, Writing, agree, checkpoint, derived, memory, pictures, print, probe, record, rods, scene,
     spares_inputs, tables, threads,
 };
 use serde_json::{Value, json};
@@ -49,20 +49,10 @@ pub(super) struct Args {
     #[arg(long, value_name = "TIME", value_parser = until::time_limit, requires = "rules",
         allow_negative_numbers = true)]
     time_limit: Option<Duration>,
-    /// Keep the run in this file while it runs, and go on from there where the file exists, with more --replicas too
-    #[arg(long, value_name = "FILE")]
-    checkpoint: Option<PathBuf>,
-    /// Seconds between two checkpoints [default: 60]
-    #[arg(long, value_name = "S", value_parser = seconds, requires = "checkpoint", allow_negative_numbers = true)]
-    every: Option<Duration>,
+    #[command(flatten)]
+    kept: checkpoint::Kept,
     #[command(flatten)]
     writing: Writing,
-}
-
-/// Parses the time between checkpoints, in s.
-fn seconds(text: &str) -> Result<Duration, String> {
-    let seconds = number(text, |s| (0.01..=86_400.0).contains(&s), "a number of seconds from 0.01 to 86400")?;
-    Ok(Duration::from_secs_f64(seconds))
 }
 
 /// The plan of the run; with rules for standard errors it allows the largest number of replicas.
@@ -122,19 +112,18 @@ impl<'a> Run<'a> {
     fn prepare(args: &'a Args) -> Result<Self, Failure> {
         let named = args.chosen.load(&args.ensemble, &[])?;
         let plan = planned(args, &named)?;
-        let beside = args.checkpoint.as_ref().map_or(0, |_| Halfway::bytes(&plan));
+        let beside = args.kept.file.as_ref().map_or(0, |_| Halfway::bytes(&plan));
         memory::check_each([(&plan, named.source.clone())], args.threads.given, args.vtk, beside)?;
         let out = args.out.clone().unwrap_or_else(|| Path::new("out").join(&named.stem));
         let inputs = inputs(args, &plan);
         agree("run", inputs.clone())?;
-        let path = checkpoint::check(args.checkpoint.as_deref(), &out)?;
+        let path = checkpoint::check(args.kept.file.as_deref(), &out)?;
         let names = names(&plan, args.vtk);
         if cluster::is_root() {
             spares_inputs(&out, &names, named.files())?;
         }
         probe(&out, tables::most_bytes(&plan).saturating_add(rods::most_bytes(&plan, args.vtk)))?;
-        let every = args.every.unwrap_or(Duration::from_secs(60));
-        let checkpoint = path.map(|path| Replicas::open(&plan, &path, every)).transpose()?;
+        let checkpoint = path.map(|path| Replicas::open(&plan, &path, args.kept.every())).transpose()?;
         let folder = ResultFolder::new(&out, "run", inputs, args.writing.force).from_any_input();
         if cluster::is_root() {
             folder.check(&names)?;

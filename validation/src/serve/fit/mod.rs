@@ -23,6 +23,7 @@ mod noise_tests;
 pub mod pictures;
 mod range;
 pub mod report;
+pub mod runs;
 pub mod samples;
 #[cfg(test)]
 mod scarce_tests;

@@ -6,6 +6,7 @@ mod one_length;
 use super::data::TimeColumn;
 use super::error::{SceneError, Warning};
 use super::range::Range;
+use super::runs::{Runs, key};
 use crate::input::scenes;
 use crate::input::start::Starts;
 use crate::methods::interpolate::interpolate;
@@ -16,6 +17,7 @@ use shearbed::observable::Channel;
 use shearbed::run::run_replica;
 use shearbed::scene::{Holds, Output, keys};
 use shearbed::{Observable, Plan, Scene};
+use std::sync::Arc;
 use toml::Value;
 
 /// A scene with the times and columns at which it was measured.
@@ -73,6 +75,8 @@ pub struct Scenes {
     /// Steps per period or unit of strain of each scene, the same for all parameter values, so that the random numbers
     /// stay the same.
     steps: Vec<u64>,
+    /// Finished runs, if they outlive the fit.
+    runs: Option<Arc<Runs>>,
 }
 
 /// √3: the outer nodes of Gauss–Hermite quadrature, in standard deviations.
@@ -93,7 +97,7 @@ impl Scenes {
         if let Some(range) = ranges.iter().find(is_whole) {
             return Err(SceneError::Whole(range.label()));
         }
-        let mut scenes = Self { steps: vec![0; sets.len()], sets, ranges };
+        let mut scenes = Self { steps: vec![0; sets.len()], sets, ranges, runs: None };
         for set in 0..scenes.sets.len() {
             for corner in scenes.corners() {
                 let scene = scenes.scene(set, &corner)?;
@@ -256,16 +260,25 @@ impl Scenes {
         self.corners().into_iter().map(of).try_fold(false, |any, one: Result<bool, SceneError>| Ok(any || one?))
     }
 
+    /// The same scenes, with runs that a checkpoint has and takes.
+    #[must_use]
+    pub fn with_runs(self, runs: Option<Arc<Runs>>) -> Self {
+        Self { runs, ..self }
+    }
+
     /// The model of the points `data` at these parameter values.
     pub fn model(&self, data: &[Datum], variant: Variant, values: &[f64]) -> Result<Replica, SceneError> {
         let part = |(set, plan): (usize, Plan)| {
             let looks = looks(&plan, self.sets[set].time, data, set);
             let own = self.ranges.iter().zip(values).filter(|(range, _)| range.is_of(set));
             let depends_on = std::iter::once(set as u64).chain(own.map(|(_, value)| value.to_bits()));
-            Part {
-                depends_on: Some(depends_on.collect()),
-                run: Box::new(move |replica| predict(&plan, &looks, replica)),
-            }
+            let depends_on = Some(depends_on.collect());
+            let Some(runs) = self.runs.clone() else {
+                return Part { depends_on, run: Box::new(move |replica| predict(&plan, &looks, replica)) };
+            };
+            let key = key((set, serde_json::to_string(&plan.scene().resolved()).ok(), format!("{looks:?}")));
+            let run = move |replica| runs.run(key, replica, || predict(&plan, &looks, replica));
+            Part { depends_on, run: Box::new(run) }
         };
         Ok(Replica(self.plans(values, data, variant)?.into_iter().enumerate().map(part).collect()))
     }
