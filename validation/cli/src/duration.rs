@@ -1,8 +1,11 @@
 //! A rough estimate of the run time of suspensions before they start.
 
+use super::fit::MOST_REPLICAS;
 use shearbed::Plan;
 use shearbed::plan::Stage;
 use shearbed::run::ensemble;
+use shearbed_validation::methods::least_squares::basis::Basis;
+use shearbed_validation::serve::fit::search::FIRST_REPLICAS;
 use shearbed_validation::studies::speed::{SECONDS_PER_DRAW, SECONDS_PER_OUTPUT, SECONDS_PER_ROD_AND_STEP};
 use shearbed_validation::studies::suspensions::job::Job;
 use shearbed_validation::studies::suspensions::law::{self, Replicas};
@@ -51,6 +54,37 @@ fn about(seconds: f64) -> String {
         s if s < 7200.0 => format!("some {:.0} min", s / 60.0),
         s => format!("some {:.0} h", s / 3600.0),
     }
+}
+
+/// What a replica has to do, in rods × steps, or rods × outputs of free rods.
+fn work(plan: &Plan) -> f64 {
+    plan.scene().particles.count as f64 * plan.steps().max(plan.outputs() as u64) as f64
+}
+
+/// The cost of a sweep's points, as text, if a replica of `plan` takes `each_s`.
+pub(super) fn of_sweep<'a>(plan: &Plan, each_s: f64, points: impl ExactSizeIterator<Item = &'a Plan>) -> String {
+    let count = points.len();
+    let all: f64 = points.map(|point| work(point) * point.scene().ensemble.replicas as f64).sum();
+    format!("sweep: {count} points, {} of one core\n", about(each_s * all / work(plan)))
+}
+
+/// The cost of a fit of so many parameters, as text, if a replica of `plan` takes `each_s`: its first runs, and as many
+/// as are allowed; `corners` are the ends of the ranges.
+pub(super) fn of_fit<'a>(
+    plan: &Plan,
+    each_s: f64,
+    parameters: usize,
+    corners: impl ExactSizeIterator<Item = &'a Plan>,
+) -> String {
+    let nodes = Basis::new(parameters).nodes.len() as u64;
+    let count = corners.len() as f64;
+    let each_s = each_s * corners.map(work).sum::<f64>() / (count * work(plan));
+    let of = |replicas: u64| {
+        let runs = nodes * replicas;
+        format!("{runs} runs, {} of one core", about(each_s * runs as f64))
+    };
+    let [first, most] = [FIRST_REPLICAS, MOST_REPLICAS].map(of);
+    format!("fit: at first {first}; then up to {most}, in each range that it tries\n")
 }
 
 /// The cost of a study's jobs, as text: `4.0e9 rods × steps, some 3 min of one core`.

@@ -37,7 +37,7 @@ use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
 /// The default of the largest number of replicas at each value of the parameters.
-const MOST_REPLICAS: u64 = 1000;
+pub(super) const MOST_REPLICAS: u64 = 1000;
 
 /// Arguments of `fit`.
 #[derive(clap::Args)]

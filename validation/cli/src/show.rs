@@ -1,11 +1,15 @@
 //! `shearbed plan` and `shearbed scenes`.
 
 use super::facts::Facts;
-use super::scene::{Chosen, Ensemble};
+use super::scene::{Chosen, Ensemble, Named};
 use super::until::{LEAST, Until};
-use super::{Failure, Threads, duration, memory, print};
+use super::{Failure, Threads, duration, memory, print, sweep};
+use shearbed::Plan;
 use shearbed_validation::files::text::{left_aligned, line};
 use shearbed_validation::input::{scene_keys, scenes};
+use shearbed_validation::methods::least_squares::basis::MOST_PARAMETERS;
+use shearbed_validation::serve::fit::Range;
+use shearbed_validation::serve::sweep::Axis;
 
 /// Arguments of `plan`.
 #[derive(clap::Args)]
@@ -19,6 +23,44 @@ pub(super) struct PlanArgs {
     threads: Threads,
     #[command(flatten)]
     until: Until,
+    /// A key and its values or range, as `sweep` and `fit` take them: what that would cost; repeatable
+    #[arg(long, value_name = "KEY=VALUES", value_parser = Over::parse)]
+    over: Vec<Over>,
+}
+
+/// A key to vary: with the values of a sweep, or both ends of a fit's range.
+#[derive(Clone, Debug)]
+struct Over {
+    axis: Axis,
+    is_range: bool,
+}
+
+impl Over {
+    fn parse(text: &str) -> Result<Self, String> {
+        match Range::parse(text) {
+            Ok(Range { key, from, to, .. }) => {
+                Ok(Self { axis: Axis { key, values: vec![from.into(), to.into()] }, is_range: true })
+            }
+            Err(_) => Ok(Self { axis: Axis::parse(text)?, is_range: false }),
+        }
+    }
+}
+
+/// The cost of a sweep or a fit over these keys, as text.
+fn of_keys(named: &Named, plan: &Plan, each_s: f64, over: &[Over]) -> Result<String, Failure> {
+    let refused = |why: String| Err(Failure::Input(format!("--over: {why}")));
+    let ranges = over.iter().filter(|over| over.is_range).count();
+    if over.is_empty() {
+        return Ok(String::new());
+    } else if ranges > 0 && ranges < over.len() {
+        return refused("KEY=FROM:TO of a fit beside values of a sweep; one kind is allowed".to_owned());
+    } else if ranges > MOST_PARAMETERS {
+        return refused(format!("given {ranges} times; a fit takes up to {MOST_PARAMETERS} parameters"));
+    }
+    let axes: Vec<_> = over.iter().map(|over| over.axis.clone()).collect();
+    let points = sweep::points(named, &axes)?;
+    let plans = points.iter().map(|point| &point.plan);
+    Ok(if ranges > 0 { duration::of_fit(plan, each_s, ranges, plans) } else { duration::of_sweep(plan, each_s, plans) })
 }
 
 /// Arguments of `scenes`.
@@ -41,6 +83,7 @@ pub(super) fn plan(args: &PlanArgs) -> Result<(), Failure> {
     // A plan that `run` would refuse here is still shown: it may fit on another machine.
     let fits = memory::check(&plan, args.threads.given, &named.source);
     let each_s = duration::of_replica(&plan, fits.is_ok());
+    let of_keys = of_keys(&named, &plan, each_s, &args.over)?;
     let (plan, replicas) = if args.until.is_empty() {
         (plan, String::new())
     } else {
@@ -54,7 +97,7 @@ pub(super) fn plan(args: &PlanArgs) -> Result<(), Failure> {
     let text = plan.to_string();
     let stages = text.strip_suffix(&warnings).unwrap_or(&text);
     print(&format!(
-        "{stages}{}{}{}{warnings}",
+        "{stages}{}{}{}{of_keys}{warnings}",
         Facts::of(&plan).text(),
         duration::of_scene(&plan, each_s, args.threads.given),
         replicas

@@ -1,7 +1,7 @@
 //! `shearbed sweep`.
 
 use super::derived::{self, DERIVED};
-use super::scene::{Chosen, Ensemble};
+use super::scene::{Chosen, Ensemble, Named};
 use super::{
     Failure, Threads, Writing, agree, log, memory, on_threads, print, progress, result_folder, scene, spares_inputs,
     tables::{self, is_bounded},
@@ -48,15 +48,20 @@ fn flag(error: &GridError) -> &'static str {
     }
 }
 
+/// The points of a sweep of these keys.
+pub(super) fn points(named: &Named, over: &[Axis]) -> Result<Vec<Point>, Failure> {
+    check(over)?;
+    sweep::points(&named.text, &named.starts, &named.settings, over)
+        .map_err(|error| Failure::Input(format!("{}: {}{error}", named.source, flag(&error))))
+}
+
 /// Runs the unfinished points of a sweep, and writes one row per point.
 pub(super) fn sweep(args: &Args) -> Result<(), Failure> {
     let named = args.chosen.load(&args.ensemble, &args.over)?;
-    check(&args.over)?;
+    let points = points(&named, &args.over)?;
     if let Some(key) = named.scene.output.rods_key() {
         return Err(Failure::Input(format!("{}: {key}: a sweep writes no rods; remove this key", named.source)));
     }
-    let points = sweep::points(&named.text, &named.starts, &named.settings, &args.over)
-        .map_err(|error| Failure::Input(format!("{}: {}{error}", named.source, flag(&error))))?;
     for point in &points {
         if point.plan.time_name() != points[0].plan.time_name() {
             return Err(Failure::Input(format!(
