@@ -120,7 +120,9 @@ pub(super) fn fit(args: &Args) -> Result<(), Failure> {
     let asked = asked(args, &input)?;
     let folder = folder(args, &input, &asked)?;
     let path = checkpoint::check(args.kept.file.as_deref(), folder.dir())?;
-    let open = |path: PathBuf| Runs::open(&path, args.kept.every(), json!({ "data": asked["data"] }));
+    let scenes = input.scenes.sets.iter().map(|set| json!({ "seed": set.seed, "text": set.text }));
+    let scenes = json!({ "scenes": scenes.collect::<Vec<_>>() });
+    let open = |path: PathBuf| Runs::open(&path, args.kept.every(), scenes);
     let runs = path.map(open).transpose()?;
     if let Some(runs) = runs.as_ref().filter(|runs| runs.count() > 0 && !args.writing.quiet) {
         print(&format!("goes on from {} finished runs\n", runs.count()))?;

@@ -139,6 +139,7 @@ def fit(
     design: bool = False,
     test: Sequence[str] = (),
     threads: int | None = None,
+    checkpoint: str | os.PathLike[str] | None = None,
 ) -> Fit:
     """Fits keys of a scene to measured points, as ``shearbed fit`` does, with the same result.
 
@@ -152,7 +153,8 @@ def fit(
     ``set={"particles.count": 50}`` gives a key of every scene another value. ``replicas`` is the most at each value,
     ``rods`` how many each point is a mean over. ``design=True`` lists further points, with what each would leave of the
     uncertainties, in ``design``. ``test=["interaction.alpha=1"]`` tests values of fitted keys, and
-    ``test=["1:interaction.alpha=2:interaction.alpha"]`` whether two scenes have the same: see ``tests``.
+    ``test=["1:interaction.alpha=2:interaction.alpha"]`` whether two scenes have the same: see ``tests``. ``checkpoint``
+    is a file that keeps the runs: the same call goes on with them.
 
     The work is done in a process of its own: other Python threads go on meanwhile, and Ctrl-C ends it. Raises ``ValueError``
     with the program's words for what is not allowed, ``RuntimeError`` for a fit that cannot go on.
@@ -173,7 +175,10 @@ def fit(
         words += [] if columns is None else ["--columns", ",".join(columns)]
         words += ["--design"] if design else []
         words += [word for held in test for word in ("--test", held)]
+        words += [] if checkpoint is None else ["--checkpoint", os.path.abspath(checkpoint)]
         said = program(words, folder)
+        if said.startswith("goes on from"):
+            said = said.split("\n", 1)[1]
         # The last line names a folder that is no more.
         return Fit(folder / "out", said.rsplit("\nin out", 1)[0])
 
