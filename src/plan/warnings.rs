@@ -1,8 +1,9 @@
 //! Warnings about results that may be doubtful.
 
 use super::{Plan, Stage};
+use crate::model::collision::reach;
 use crate::observable::Observable;
-use crate::scene::{Orientation, Update};
+use crate::scene::{Interaction, Orientation, Update};
 
 /// The aspect ratio below which the slender limit of the rods' stress triggers a warning. A rule of thumb: the terms
 /// that the limit leaves out fall slowly with r_e, and vanish at no r_e.
@@ -12,6 +13,9 @@ const SLENDER: f64 = 30.0;
 /// contact rule joins the rods' axes, so it ignores their diameter, which is more than a tenth of the length here; and
 /// the paper compares no rods below r_e = 11.6 with measurements.
 const RULE_OF_LINES: f64 = 10.0;
+
+/// Rods in the cube of a rod's length from which on neighbours may be more than one. The paper's densest has 0.037.
+const DENSE: f64 = 0.1;
 
 /// Largest relative difference between the mean r_e of a file and the scene's without a warning: three standard errors
 /// of a few rods.
@@ -34,6 +38,7 @@ impl Plan {
             self.not_slender(),
             self.cut_short(),
             self.dense(),
+            self.all_collide(),
             self.thin_box(),
             self.undisturbed(),
         ]
@@ -220,10 +225,10 @@ impl Plan {
         })
     }
 
-    /// Warns if more than two rods meet at a time.
+    /// Warns if more than two rods may meet at a time.
     fn dense(&self) -> Option<String> {
         let scene = &self.scene;
-        let n_a3 = scene.rods_per_cubed_length().filter(|n_a3| *n_a3 >= 1.0)?;
+        let n_a3 = scene.rods_per_cubed_length().filter(|n_a3| *n_a3 >= DENSE)?;
         let shown = if n_a3 < 1e4 { format!("{n_a3:.3}") } else { format!("{n_a3:.3e}") };
         let lengths = if scene.particles.rods.is_some() { "rods" } else { "length_mm" };
         Some(format!(
@@ -232,6 +237,20 @@ impl Plan {
             scene.concentration_key(),
             scene.regime()?
         ))
+    }
+
+    /// Warns if more than half of the rods collide in a step: then the means depend on the step.
+    fn all_collide(&self) -> Option<String> {
+        let scene = &self.scene;
+        let Interaction { alpha, m, .. } = *scene.interaction.as_ref().filter(|_| self.runs(Stage::Contacts))?;
+        // The mean distance of the nearest of random points: Chandrasekhar 1943, Rev. Mod. Phys. 15, 1.
+        let distance_mm = 10.0 * 0.554 / libm::cbrt(scene.concentration_per_cm3()?);
+        (distance_mm < scene.particles.length_mm * reach(0.5, alpha, m)).then(|| {
+            format!(
+                "interaction.alpha = {alpha}, m = {m}: a rod collides with its neighbour at {distance_mm:.3} mm, the \
+                 mean distance, in more than half of all steps, however short: the means depend on the step"
+            )
+        })
     }
 
     /// Warns if the control volume is thinner than a rod is long.
@@ -283,7 +302,16 @@ mod tests {
             (rods, n, "periods = 0", none),
             (rods, n, "periods = 0.35", "time.periods = 0.35 ends between two outputs: the last one is at 0.34;"),
             (rods, n, "periods = 0.005", "time.periods = 0.005 ends between two outputs: the last one is at 0;"),
-            (rods, "concentration_per_cm3 = 2600", t, none),
+            (rods, "concentration_per_cm3 = 260", t, none),
+            (
+                rods,
+                "concentration_per_cm3 = 270",
+                t,
+                "interaction.concentration_per_cm3 and particles.length_mm give \
+                n a³ = 0.101: dilute.",
+            ),
+            (rods, "concentration_per_cm3 = 50\nm = 0.5", t, none),
+            (rods, "concentration_per_cm3 = 50\nm = 0.4", t, "interaction.alpha = 0.5, m = 0.4: a rod collides with"),
             (
                 rods,
                 "concentration_per_cm3 = 5000",
@@ -298,7 +326,7 @@ mod tests {
                 "interaction.concentration_per_cm3 and particles.length_mm \
                 give n a³ = 18.662: concentrated.",
             ),
-            (rods, "box_mm = [0.73, 10, 10]", t, none),
+            (rods, "box_mm = [0.73, 50, 50]", t, none),
             (rods, "box_mm = [0.71, 50, 50]", t, "interaction.box_mm = [0.71, 50.0, 50.0]: 0.71 mm is less than a"),
             (&start(90.0, 90.0), n, t, "interaction has no effect: all rods start parallel in the shear plane"),
             (&start(0.0, 0.0), n, t, "interaction has no effect: all rods start along the vorticity axis"),

@@ -119,6 +119,9 @@ pub(super) fn check_steps(scene: &Scene, flow: &VelocityGradient) -> Result<(), 
     let steps = scene.steps_per_unit();
     let refused = |allowed: String| Err(Invalid::new(scene.time.unit.steps_key(), steps, allowed));
     let longest = flow.per_s().amax();
+    if longest == 0.0 {
+        return Ok(());
+    }
     let (gradient, duration) = (flow.per_s() / longest, longest * scene.seconds_per_unit(flow));
     let needed = gradient.norm() * duration / MAX_STEP;
     if needed.is_nan() || needed > steps as f64 {

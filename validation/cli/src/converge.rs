@@ -14,6 +14,7 @@ use shearbed::scene::{MAX_REPLICAS, resolved_strain};
 use shearbed_validation::files::output::Output;
 use shearbed_validation::files::text::{Shown, complain};
 use shearbed_validation::files::{build, cluster};
+use shearbed_validation::present::plot;
 use shearbed_validation::present::table::{ReportTable, rows_csv};
 use shearbed_validation::studies::suspensions::interacting::splits_table;
 use shearbed_validation::studies::suspensions::law::{self, Law, Replicas};
@@ -21,7 +22,7 @@ use shearbed_validation::studies::suspensions::law_tables;
 use shearbed_validation::studies::suspensions::split::{Constants, Scope, Split, TARGETS};
 use shearbed_validation::studies::work_precision::order::{self, OrderVerdict};
 use shearbed_validation::studies::work_precision::rows::orders_csv;
-use shearbed_validation::studies::work_precision::study::orders_table;
+use shearbed_validation::studies::work_precision::study::{orders_figure, orders_table};
 use std::path::{Path, PathBuf};
 
 /// Arguments of `converge`.
@@ -62,7 +63,7 @@ pub(super) fn converge(args: &Args) -> Result<(), Failure> {
     let out = (args.out.clone()).unwrap_or_else(|| Path::new("out").join(stem));
     let input = json!({ "scene": named.scene.resolved(), "replicas": args.replicas });
     agree("converge", input.clone())?;
-    let names = ["converge.csv", "converge.json", "replicas.csv"];
+    let names = ["converge.csv", "converge.svg", "converge.json", "replicas.csv"];
     spares_inputs(&out, &names, named.files())?;
     let folder = result_folder(&out, ("converge", input, args.writing.force), 0, &names)?;
     let replicas = args.replicas.map_or(Replicas::CONVERGE, Replicas::Each);
@@ -127,11 +128,12 @@ fn free(scene: &Scene) -> Result<Done, Failure> {
         Failure::Input("time: converge compares integrators of free rods over periods; give periods".into())
     })?;
     let (csv, json) = (orders_csv(&orders.studies), build::json(&orders));
+    let picture = plot::svg(&orders_figure(&orders).figure);
     let wrong: Vec<_> = (orders.studies.iter())
         .filter(|study| study.found == OrderVerdict::Not)
         .map(|study| study.integrator.as_str())
         .collect();
-    let files = vec![("converge.csv", csv), ("converge.json", json)];
+    let files = vec![("converge.csv", csv), ("converge.svg", picture), ("converge.json", json)];
     Ok(Done { wrong: (!wrong.is_empty()).then(|| wrong.join(", ")), ..done(vec![orders_table(&orders)], files)? })
 }
 
@@ -198,8 +200,10 @@ fn interacting(scene: &Scene, replicas: Replicas, warnings: Vec<String>, args: &
         .flatten()
         .collect();
     tables.extend((constants.iter()).map(|constants| splits_table(constants, &splits)));
+    let picture = plot::svg(&law_tables::steps_figure(&law).figure);
     let (csv, blocks) = (law_tables::law_csv(&law), rows_csv(law.blocks.iter().copied()));
     let json = build::json(&Written { warnings, law, constants, splits });
-    let files = vec![("converge.csv", csv), ("replicas.csv", blocks), ("converge.json", json)];
+    let files =
+        vec![("converge.csv", csv), ("converge.svg", picture), ("replicas.csv", blocks), ("converge.json", json)];
     done(tables, files).map(Some)
 }

@@ -54,7 +54,7 @@ pub(super) struct Args {
     /// those of one set
     #[arg(long, value_name = "FILE.csv", required = true)]
     data: Vec<OsString>,
-    /// One standard uncertainty for all points, for files without columns x1_u, …
+    /// One standard uncertainty for all points, in the unit of their column, for files without columns x1_u, …
     #[arg(long, value_name = "X", value_parser = positive, allow_negative_numbers = true)]
     u: Option<f64>,
     /// The files' columns in their order, - for one to leave out: t_s,-,x1,x1_u

@@ -39,9 +39,12 @@ pub(super) struct Args {
     /// With --x: the time of another output
     #[arg(long, value_name = "TIME", requires = "key", value_parser = time, allow_negative_numbers = true)]
     at: Option<f64>,
-    /// Measured points to draw over the curves, in the columns that `shearbed fit` takes
+    /// Measured points to draw over the curves, in the columns that `shearbed fit` takes, or without uncertainties
     #[arg(long, value_name = "FILE.csv")]
     data: Option<PathBuf>,
+    /// The columns of --data in their order, - for one to leave out: t_s,-,x1
+    #[arg(long, value_name = "NAMES", value_delimiter = ',', allow_hyphen_values = true, requires = "data")]
+    columns: Option<Vec<String>>,
     /// Exact curves of `shearbed reference` to draw over the runs
     #[arg(long, value_name = "FILE.csv", conflicts_with = "key")]
     reference: Option<PathBuf>,
@@ -91,7 +94,7 @@ fn of_runs(args: &Args) -> Result<(Figure, String), Failure> {
     }
     shades::colour(&mut drawn);
     if let Some(path) = &args.data {
-        drawn.figure.points = measured::points(path, &drawn.runs, &drawn.channels)?;
+        drawn.figure.points = measured::points(path, args.columns.as_ref(), &drawn.runs, &drawn.channels)?;
     }
     if let Some(path) = &args.reference {
         drawn.figure.curves.extend(exact::curves(path, &drawn.time, &drawn.channels)?);

@@ -1,6 +1,6 @@
 //! `shearbed sweep`.
 
-use super::derived::{self, DERIVED};
+use super::derived::{self, DERIVED, EXTREMES};
 use super::scene::{Chosen, Ensemble, Named};
 use super::{
     Failure, Threads, Writing, agree, log, memory, on_threads, print, progress, result_folder, scene, spares_inputs,
@@ -90,9 +90,10 @@ pub(super) fn sweep(args: &Args) -> Result<(), Failure> {
         let in_folder = result_folder(&out, origin, bytes, &[""; 0])?;
         let points = Points {
             pairs: (points.iter()).map(|point| sweep::pairs(&args.over, &point.values)).collect(),
+            beside: [EXTREMES].map(str::to_owned).to_vec(),
             tables: (points[0].plan.observables().iter())
                 .map(|observable| format!("{}.csv", observable.name()))
-                .chain([DERIVED.to_owned()])
+                .chain([EXTREMES.to_owned(), DERIVED.to_owned()])
                 .collect(),
         };
         let opened = folder.insert(Folder::open(in_folder, &inputs, points)?);
@@ -213,8 +214,7 @@ fn tables_of(point: &Point) -> Result<Vec<Output>, String> {
         Ok((name, tables::csv(&results, series)?))
     };
     let mut tables: Vec<Output> = results.series.iter().map(table).collect::<Result<_, String>>()?;
-    let [_, derived] = derived::files(&point.plan, &results, &derived::of(&point.plan, &results))?;
-    tables.push(derived);
+    tables.extend(derived::files(&point.plan, &results, &derived::of(&point.plan, &results))?);
     Ok(tables)
 }
 

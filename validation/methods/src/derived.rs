@@ -70,6 +70,9 @@ const BY_CHANCE: f64 = 0.01;
 /// The fewest replicas that can show a mean to be steady: with larger errors every mean seems so.
 const FEWEST: u64 = 8;
 
+/// The fewest outputs over which a mean can be steady.
+const FEWEST_OUTPUTS: usize = 10;
+
 /// A turn of a mean: a maximum or a minimum, and the outputs between its neighbours.
 struct Turn {
     is_maximum: bool,
@@ -207,7 +210,8 @@ impl Mean<'_> {
                 (self.column.mean[output] - average).abs() <= (errors * self.se(output)).max(1e-9 * average.abs())
             };
             let value = || self.estimate(|mean| Some(self.average(mean, from)));
-            (from..=last).all(is_same).then(value)?.map(|value| Steady { from: self.times[from], value })
+            let is_steady = last - from >= FEWEST_OUTPUTS - 1 && (from..=last).all(is_same);
+            is_steady.then(value)?.map(|value| Steady { from: self.times[from], value })
         })
     }
 

@@ -4,6 +4,7 @@ use super::fit_covers::set;
 use super::*;
 use crate::files::FileError;
 use crate::input::experiment::{self, ANCZUROWSKI, Comparison, MeasuredCurve, OKAGAWA_MASON, Runs, Source};
+use crate::judge::accept::MEASURED_LEVEL;
 use crate::serve::fit::Range;
 use crate::serve::fit::data::TimeColumn;
 use crate::serve::fit::scenes::Scenes;
@@ -157,6 +158,7 @@ fn fit(comparison: &Comparison, curves: &[MeasuredCurve], late: usize, source: &
         p: comparison.p,
         samples: n as u64,
         enough: 3,
+        level: MEASURED_LEVEL,
         distance: None,
         because: "χ² over all points with their full covariance; three points can tell a shape from a shift, and the \
                   controls show the power"

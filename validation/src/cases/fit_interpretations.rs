@@ -7,6 +7,7 @@
 
 use super::fit_covers::{fit, set};
 use super::*;
+use crate::judge::accept::LEVEL;
 use crate::judge::lab::problem;
 use crate::methods::least_squares::Datum;
 use crate::methods::least_squares::basis::Basis;
@@ -138,6 +139,7 @@ fn accepted(change: &Change, effort: &Effort) -> Result<Evidence, String> {
             p: fit.best.goodness.p_value(),
             samples: replicas,
             enough: REPLICAS,
+            level: LEVEL,
             distance: None,
             because: "with these replicas χ² of cut lines is 5.5 of its standard deviations above what is accepted"
                 .into(),

@@ -1,7 +1,7 @@
 //! Tools shared by cases and studies: the paper's problem as a scene, samples of replicas, and the scene in the form of
 //! the naive reference.
 
-use crate::judge::accept::{Rule, Text, kolmogorov_samples};
+use crate::judge::accept::{LEVEL, Rule, Text, kolmogorov_samples};
 use crate::judge::case::Effort;
 use crate::judge::statistics::Sample;
 use crate::oracle::naive::{self, Mistake, NaiveProblem, OtherFlow, Reading, Start};
@@ -149,7 +149,7 @@ pub fn uniform(values: Vec<f64>, distance: f64, because: impl Into<Text>) -> Rul
         .ok()
         .and_then(|unit| ks_onesample(values, &unit, method, NaNPolicy::Propogate).ok())
         .unwrap_or((f64::NAN, f64::NAN));
-    Rule::PValue { p, samples, enough, distance: Some(distance), because: because.into() }
+    Rule::PValue { p, samples, enough, level: LEVEL, distance: Some(distance), because: because.into() }
 }
 
 /// Values that a check shares with its controls, by their keys, for the seed and the effort of one run: a control that

@@ -77,7 +77,7 @@ pub(super) fn input(args: &Args) -> Result<Input, Failure> {
     }
     let (mut sets, mut data, mut names, mut files) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
     let (mut stem, mut warnings) = (String::new(), Vec::new());
-    let reading = Reading { columns: args.columns.clone(), u: args.u };
+    let reading = Reading { columns: args.columns.clone(), u: args.u, without_u: false };
     for (k, given) in args.data.iter().enumerate() {
         let (scene, path) = scene_and_file(&args.scene, given);
         let named = scene::load(scene, Vec::new())?;

@@ -5,15 +5,20 @@ use crate::Failure;
 use shearbed::Plan;
 use shearbed_validation::files::text::Shown;
 use shearbed_validation::methods::least_squares::Datum;
-use shearbed_validation::present::plot::{MEASURED, Points, names};
+use shearbed_validation::present::plot::{MEASURED, Points, WITHOUT_BARS, names};
 use shearbed_validation::serve::fit::data::{self, Reading};
 use std::path::Path;
 
 /// The points of each channel that was measured, with times in the unit of the runs, of which there is at least one,
-/// and with bars of one standard uncertainty.
-pub(super) fn points(path: &Path, runs: &[Run], channels: &[String]) -> Result<Vec<Points>, Failure> {
+/// and with bars of one standard uncertainty if all points have one; `columns` replace the names of the file's.
+pub(super) fn points(
+    path: &Path,
+    columns: Option<&Vec<String>>,
+    runs: &[Run],
+    channels: &[String],
+) -> Result<Vec<Points>, Failure> {
     let at = |what: String| Failure::Input(format!("--data {}: {what}", path.shown()));
-    let read = data::read(path, 0, &Reading::default())?;
+    let read = data::read(path, 0, &Reading { columns: columns.cloned(), u: None, without_u: true })?;
     let unit = |run: &Run| {
         let plan = Plan::new(&run.scene).map_err(|error| at(error.to_string()))?;
         read.time.per_unit(&plan).ok_or_else(|| {
@@ -37,12 +42,13 @@ pub(super) fn points(path: &Path, runs: &[Run], channels: &[String]) -> Result<V
         let own: Vec<_> = read.points.iter().filter(|point| point.column == *channel).collect();
         let each = |value: fn(&Datum) -> f64| own.iter().map(|point| value(point)).collect::<Vec<f64>>();
         let in_units = |value: fn(&Datum) -> f64| each(value).into_iter().map(|time| time / unit).collect();
+        let has_u = own.iter().all(|point| point.u.is_finite());
         Points {
-            label: names::channel(channel) + MEASURED,
+            label: names::channel(channel) + if has_u { MEASURED } else { WITHOUT_BARS },
             x: in_units(|point| point.time),
             y: each(|point| point.value),
             x_error: own.iter().any(|point| point.u_time > 0.0).then(|| in_units(|point| point.u_time)),
-            y_error: Some(each(|point| point.u)),
+            y_error: has_u.then(|| each(|point| point.u)),
         }
     };
     let mut found: Vec<Points> = channels.iter().map(of_channel).collect();

@@ -97,6 +97,9 @@ pub(super) fn read(path: &Path, bytes: &[u8]) -> Result<(OwnRods, Vec<u64>, Opti
             push(&mut rods.p, direction.map(|x| x / length));
         }
         if let Some([phi_deg, theta_deg]) = values(angles, number)? {
+            if !(0.0..=180.0).contains(&theta_deg) {
+                return Err(row.error(format!("theta_deg = {theta_deg}: 0 to 180 is allowed, from the vorticity axis")));
+            }
             push(&mut rods.p, from_degrees(phi_deg, theta_deg).into_inner().into());
         }
         // Free rods have no position, and empty cells in rods.csv.

@@ -18,6 +18,8 @@ use std::borrow::Cow;
 pub const FALSE_ALARM_BUDGET: f64 = 1e-3;
 /// The probability that a statistical check of correct code fails, and that of too few data for it.
 pub const LEVEL: f64 = 2e-6;
+/// The same for measured points, which contradict the model at this p: they judge no code.
+pub const MEASURED_LEVEL: f64 = 1e-3;
 /// The probability that a statistical check misses the effect for which it is sized.
 pub const MISS: f64 = 4e-6;
 
@@ -90,7 +92,7 @@ pub enum Rule {
         /// The reason for the bound and the effect.
         because: Text,
     },
-    /// p ≥ [`LEVEL`], for a test on at least `enough` samples.
+    /// p ≥ `level`, for a test on at least `enough` samples.
     PValue {
         /// The p-value of a goodness-of-fit test.
         p: f64,
@@ -98,6 +100,8 @@ pub enum Rule {
         samples: u64,
         /// The number of samples below which the test has no power.
         enough: u64,
+        /// The probability of a smaller p if the claim holds.
+        level: f64,
         /// The largest distance between the two distribution functions, if the test is about that.
         distance: Option<f64>,
         /// The test, and the reason for the number of samples.
@@ -143,7 +147,7 @@ impl Rule {
             Self::Within { tolerance, .. } => *tolerance,
             Self::Mean { se, samples, allowance, .. } => student(LEVEL, *samples) * se + allowance,
             Self::Above { se, samples, bound, .. } => bound + student(LEVEL, *samples) * se,
-            Self::PValue { .. } => LEVEL,
+            Self::PValue { level, .. } => *level,
             Self::NoData { .. } => f64::NAN,
         }
     }
@@ -154,7 +158,7 @@ impl Rule {
             // The mean may be far off, or the scatter larger than planned.
             Self::Mean { .. } => 2.0 * LEVEL,
             Self::Above { .. } => MISS + LEVEL,
-            Self::PValue { .. } => LEVEL,
+            Self::PValue { level, .. } => *level,
             Self::Within { .. } | Self::NoData { .. } => 0.0,
         }
     }
@@ -177,9 +181,9 @@ impl Rule {
                 let t = if self.has_enough() { critical } else { -critical };
                 Some(noncentral(t, (mean - bound) / se, *samples))
             }
-            Self::PValue { distance, samples, .. } => {
+            Self::PValue { distance, samples, level, .. } => {
                 let distance = distance.as_ref()?;
-                Some(2.0 * (distance * (*samples as f64).sqrt() - massart(LEVEL)))
+                Some(2.0 * (distance * (*samples as f64).sqrt() - massart(*level)))
             }
             Self::Within { .. } | Self::NoData { .. } => None,
         }
@@ -213,7 +217,7 @@ pub fn judge(rule: &Rule) -> Verdict {
     let holds = match rule {
         Rule::Within { .. } | Rule::Mean { .. } => rule.error() <= rule.tolerance(),
         Rule::Above { .. } => rule.error() > rule.tolerance(),
-        Rule::PValue { p, .. } => *p >= LEVEL,
+        Rule::PValue { p, level, .. } => p >= level,
         Rule::NoData { .. } => return Verdict::NoData,
     };
     // True if the sample does not exclude that the mean is above its bound.

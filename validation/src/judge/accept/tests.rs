@@ -55,14 +55,15 @@ fn tolerances_are_closed_and_nan_fails() {
 
 #[test]
 fn a_p_value_needs_samples() {
-    let p = |p, samples| judge(&Rule::PValue { p, samples, enough: 100, distance: None, because: "".into() });
+    let p =
+        |p, samples| judge(&Rule::PValue { p, samples, enough: 100, level: LEVEL, distance: None, because: "".into() });
     assert_eq!(p(0.5, 100), Verdict::Pass);
     assert_eq!(p(0.5, 99), Verdict::Underpowered);
     assert_eq!(p(1e-7, 1000), Verdict::Fail);
 }
 
 fn distance(distance: Option<f64>, samples: u64) -> Rule {
-    Rule::PValue { p: 0.0, samples, enough: 1, distance, because: "".into() }
+    Rule::PValue { p: 0.0, samples, enough: 1, level: LEVEL, distance, because: "".into() }
 }
 
 fn of_a_million(mean: f64, reference: f64) -> Rule {

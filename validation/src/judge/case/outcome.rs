@@ -1,6 +1,6 @@
 //! The outcome of a case: its evidence and its controls, judged.
 
-use super::{About, Evidence};
+use super::{About, Evidence, Judges};
 use crate::judge::accept::{MISS, Rule, Text, Verdict, judge};
 use serde::{Deserialize, Serialize};
 
@@ -87,8 +87,9 @@ pub struct Outcome {
 
 impl Outcome {
     /// The largest probability that correct code fails this case: by its checks, or by a control that is not caught.
+    /// Measured points judge the model, not the code.
     pub fn false_alarm(&self) -> f64 {
-        if self.verdict == Verdict::NoData {
+        if self.verdict == Verdict::NoData || self.about.judges == Judges::Measurement {
             return 0.0;
         }
         let rules = || self.evidence.iter().map(|judged| &judged.evidence.rule);

@@ -33,7 +33,7 @@ use serde::{Deserialize, Deserializer, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
 use std::error::Error;
 use style::{AXES_HEIGHT, BELOW, FINE, MARGIN, ROW, TITLE, WIDTH};
-pub use style::{FITTED, MEASURED, REFERENCE};
+pub use style::{FITTED, MEASURED, REFERENCE, WITHOUT_BARS};
 pub use theme::Theme;
 
 /// A curve, optionally with its 95 % band.

@@ -66,6 +66,8 @@ const THEORY: usize = 42;
 // The ends of the labels of measured points and of the curve that was fitted to them.
 /// That of points.
 pub const MEASURED: &str = ", measured ± u";
+/// That of points without uncertainties.
+pub const WITHOUT_BARS: &str = ", measured";
 /// That of a curve.
 pub const FITTED: &str = ", best fit";
 /// That of an exact curve over those of runs.
@@ -134,7 +136,7 @@ pub(super) fn looks(figure: &Figure) -> Vec<usize> {
         .collect();
     if names.len() > 1 {
         for (k, points) in figure.points.iter().enumerate() {
-            let what = points.label.strip_suffix(MEASURED);
+            let what = [MEASURED, WITHOUT_BARS].iter().find_map(|end| points.label.strip_suffix(end));
             let own = names.iter().position(|curve| Some(*curve) == what);
             own.into_iter().for_each(|curve| looks[figure.curves.len() + k] = looks[curve]);
         }

@@ -5,7 +5,7 @@ mod synthetic;
 
 use super::*;
 use crate::input::experiment::Stated;
-use crate::judge::accept::{Rule, judge};
+use crate::judge::accept::{LEVEL, Rule, judge};
 use crate::judge::case::{About, Control, Evidence, GATE_SEED, Judged, Judges};
 use crate::present::plot::{Curve, Figure};
 use crate::present::study::Exhibit;
@@ -53,7 +53,14 @@ fn mean(se: f64) -> Rule {
 }
 
 fn p_value(p: f64) -> Rule {
-    Rule::PValue { p, samples: 1000, enough: 100, distance: None, because: "synthetic: Kolmogorov–Smirnov".into() }
+    Rule::PValue {
+        p,
+        samples: 1000,
+        enough: 100,
+        level: LEVEL,
+        distance: None,
+        because: "synthetic: Kolmogorov–Smirnov".into(),
+    }
 }
 
 #[test]

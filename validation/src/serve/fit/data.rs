@@ -71,8 +71,10 @@ pub struct Points {
 pub struct Reading {
     /// Names of the columns in the order of the file, in place of its own; `-` leaves one out.
     pub columns: Option<Vec<String>>,
-    /// The uncertainty of each point of a file without a column of uncertainties.
+    /// The uncertainty of each point of a file without a column of uncertainties, in the unit of its column.
     pub u: Option<f64>,
+    /// True if uncertainties may be missing, as for a picture: they are NaN then.
+    pub without_u: bool,
 }
 
 /// Every column that can be measured: the channels of all observables.
@@ -165,10 +167,12 @@ pub fn read(path: &Path, set: usize, reading: &Reading) -> Result<Points, FileEr
     if columns.is_empty() {
         return Err(refused(format!("no column of measured values among {}: {EXPECTED}", header.join(", "))));
     }
-    let bare = |name: &&String| reading.u.is_none() && !header.contains(&format!("{name}_u").as_str());
+    let bare =
+        |name: &&String| reading.u.is_none() && !reading.without_u && !header.contains(&format!("{name}_u").as_str());
     if let Some(bare) = columns.iter().find(bare) {
+        let u = if bare.ends_with(PERCENT) { "0.5 (per cent)" } else { "0.005" };
         return Err(refused(format!(
-            "column {bare}_u is missing: one standard deviation of each {bare} is needed, or u = 0.005 for all points"
+            "column {bare}_u is missing: one standard deviation of each {bare} is needed, or u = {u} for all points"
         )));
     }
     let mut points = Vec::new();
@@ -179,7 +183,7 @@ pub fn read(path: &Path, set: usize, reading: &Reading) -> Result<Points, FileEr
         let (name, factor) = channel(&dataset.name, &known).unwrap_or((&dataset.name, 1.0));
         for row in dataset.rows {
             let refused = |message: String| FileError::line(path, row.line, message);
-            let u = row.u_y.or(reading.u).ok_or_else(|| {
+            let u = row.u_y.or(reading.u).or(reading.without_u.then_some(f64::NAN)).ok_or_else(|| {
                 refused(format!("column {}_u is blank: one standard deviation, a number > 0, is needed", dataset.name))
             })?;
             if row.x < 0.0 {
@@ -196,7 +200,7 @@ pub fn read(path: &Path, set: usize, reading: &Reading) -> Result<Points, FileEr
                 return Err(refused(not_allowed(&dataset.name, &format!("{:?}", row.y), &expected)));
             }
             // A smaller u is lost in the rounding of the model, a larger one carries no information.
-            if !(LEAST_U..=most - least).contains(&u) {
+            if u.is_finite() && !(LEAST_U..=most - least).contains(&u) {
                 let (name, width) = (&dataset.name, most - least);
                 let expected =
                     format!("one standard deviation from {LEAST_U:?} to {width}, the width of what {name} can be");

@@ -50,6 +50,8 @@ pub struct Points {
     pub pairs: Vec<Pairs>,
     /// The names of the tables that each point has.
     pub tables: Vec<String>,
+    /// Those of them whose last rows are not in `sweep.csv`.
+    pub beside: Vec<String>,
 }
 
 /// The folder of one sweep; no other process writes to it during the lifetime of this value.
@@ -245,7 +247,7 @@ impl Folder {
             let tables = self.tables(k)?;
             let (record, text) = self.record(k, &tables).file();
             records.push((format!("{}/{record}", self.name(k)), text));
-            for (name, text) in tables {
+            for (name, text) in tables.into_iter().filter(|(name, _)| !self.points.beside.contains(name)) {
                 let (columns, last) =
                     last_row(&self.point(k).join(&name), &text).map_err(|error| Refused(error.to_string()))?;
                 for (column, value) in columns.into_iter().zip(last) {

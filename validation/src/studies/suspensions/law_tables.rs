@@ -166,7 +166,7 @@ pub fn steps_figure(law: &Law) -> ReportFigure {
         ["step Δt/T", "X̄₁ (rod lengths)"],
     )
     .curves(line)
-    .points([Points::with_bars("measured, ± 2 se", &law.steps, |s| (step(s), s.x1, 2.0 * s.se))])
+    .points([Points::with_bars("simulated, ± 2 se", &law.steps, |s| (step(s), s.x1, 2.0 * s.se))])
     .judged("eqs 4 to 14", &["cheapest-split", "paths-do-not-converge"])
 }
 

@@ -100,7 +100,7 @@ pub(super) fn figure(bench: &Bench) -> ReportFigure {
 }
 
 /// The error of every method with steps against the number of steps.
-fn orders_figure(orders: &Orders) -> ReportFigure {
+pub fn orders_figure(orders: &Orders) -> ReportFigure {
     let curve = |study: &Convergence| {
         Curve::of(&study.integrator, &study.halvings, |halving| (halving.steps as f64, drawn(halving.errors)))
     };

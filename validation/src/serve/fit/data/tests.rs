@@ -30,7 +30,7 @@ fn points_are_read_column_by_column_with_blanks_left_out() {
 fn names_and_an_uncertainty_can_be_given_beside_the_file() {
     let reading = |names: &str, u: Option<f64>| {
         let columns = (!names.is_empty()).then(|| names.split(',').map(str::to_owned).collect());
-        Reading { columns, u }
+        Reading { columns, u, without_u: false }
     };
     let expected = read_of("t_s,x1,x1_u\n1,0.5,0.02\n2,0.4,0.02\n").unwrap();
     assert_eq!(expected.u_column.as_deref(), Some("x1_u"));
