@@ -31,9 +31,7 @@ pub fn diagnose(loaded: &LoadedProblem, answer: &Answer, error: f64, steps: Opti
         Kind::Rods if rests(loaded, answer, nearer_than) => {
             Diagnosis::sentence("every rod is where it started: nothing has moved")
         }
-        Kind::Tensor if loaded.problem.diffusing().is_some() || loaded.problem.closed.is_some() => {
-            tensors::diagnose(loaded, answer, error)
-        }
+        Kind::Tensor if loaded.problem.is_diffusive() => tensors::diagnose(loaded, answer, error),
         _ => {
             let known = mistakes::all();
             let near: Vec<_> = (known.iter())
@@ -83,12 +81,16 @@ fn has_come_to_rest(loaded: &LoadedProblem, mistake: &Mistake, nearer_than: f64)
 }
 
 /// True if a mistake is detectable on a problem: its curve is not within the tolerance of the certified answer.
-pub(super) fn shows(loaded: &LoadedProblem, mistake: &Mistake) -> bool {
-    if loaded.problem.aspect_ratio_sd_percent > 0.0 {
-        return false;
-    }
-    let certified = Answer::certified(loaded);
-    distance(loaded, &certified, mistake).is_some_and(|distance| distance > 2.0 * loaded.problem.tolerance)
+pub(super) fn shows(loaded: &LoadedProblem, name: &str) -> bool {
+    let (problem, certified) = (&loaded.problem, Answer::certified(loaded));
+    let distance = match problem.kind {
+        _ if problem.aspect_ratio_sd_percent > 0.0 => None,
+        Kind::Tensor if problem.is_diffusive() => tensors::off(loaded, name),
+        Kind::Formula => tensors::formulas::off(loaded, name),
+        _ => (mistakes::all().iter().find(|mistake| mistake.name == name))
+            .and_then(|mistake| distance(loaded, &certified, mistake)),
+    };
+    distance.is_some_and(|distance| distance > 2.0 * problem.tolerance)
 }
 
 /// True if no rod has moved: then many curves are alike, and none is named.

@@ -3,7 +3,6 @@
 
 use super::diagnosis::shows;
 use super::estimate::{self, Wrong};
-use super::mistakes::{self, Mistake};
 use super::nearness::CURVE;
 use super::{Graded, Verdict};
 use crate::serve::problems::{Kind, LoadedProblem};
@@ -56,9 +55,10 @@ fn passing<'a>(problems: &'a [LoadedProblem], graded: &[Graded]) -> Vec<&'a Load
 /// rest.
 fn by_name(problems: &[LoadedProblem], graded: &[Graded], wrong: &[&Graded]) -> Vec<Finding> {
     let passing = passing(problems, graded);
-    let contradicted = |mistake: &Mistake| passing.iter().any(|loaded| shows(loaded, mistake));
-    let known: Vec<_> = mistakes::all().into_iter().map(|mistake| (contradicted(&mistake), mistake.name)).collect();
-    let allowed = |name: &String| !known.iter().any(|(contradicted, known)| *contradicted && known == name);
+    let mut all: Vec<&String> = wrong.iter().flat_map(|graded| &graded.suspects).collect();
+    all.sort();
+    all.dedup();
+    all.retain(|name| !passing.iter().any(|loaded| shows(loaded, name)));
     let mut left: Vec<&Graded> = wrong.to_vec();
     let mut said = Vec::new();
     loop {
@@ -66,14 +66,10 @@ fn by_name(problems: &[LoadedProblem], graded: &[Graded], wrong: &[&Graded]) -> 
             let of = left.iter().filter(|graded| graded.suspects.contains(name));
             of.map(|graded| graded.name.as_str()).collect()
         };
-        let mut names: Vec<&String> = left.iter().flat_map(|graded| &graded.suspects).collect();
-        names.sort();
-        names.dedup();
-        names.retain(|name| allowed(name));
-        let Some(most) = names.iter().map(|name| explained(name).len()).max().filter(|most| *most > 1) else {
+        let Some(most) = all.iter().map(|name| explained(name).len()).max().filter(|most| *most > 1) else {
             return said;
         };
-        let best: Vec<_> = names.into_iter().filter(|name| explained(name).len() == most).collect();
+        let best: Vec<_> = all.iter().copied().filter(|name| explained(name).len() == most).collect();
         let of = explained(best[0]);
         // Where a curve has come to rest, many share its end: some problem must tell the mistake by itself.
         let alone = left.iter().any(|graded| of.contains(&graded.name.as_str()) && graded.diagnosis.is_some());
@@ -122,7 +118,7 @@ fn by_law(passing: &[&LoadedProblem], problems: &[LoadedProblem], wrong: &[&Grad
 mod tests {
     use super::super::answer::Answer;
     use super::super::compare::compare;
-    use super::super::mistakes::Setting;
+    use super::super::mistakes::{self, Setting};
     use super::*;
     use crate::serve::problems::loaded;
     use nalgebra::Vector3;

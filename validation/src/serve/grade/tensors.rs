@@ -267,9 +267,9 @@ pub(super) fn diagnose(loaded: &LoadedProblem, answer: &Answer, error: f64) -> D
     // time.
     if near.is_empty() {
         near = with(2);
-    }
-    if near.is_empty() && is_second {
-        near = in_other_layouts(&of_closures(problem, &parts, &start, own), answer, most);
+        if is_second {
+            near.extend(in_other_layouts(&of_closures(problem, &parts, &start, own), answer, most));
+        }
     }
     if near.is_empty() && !problem.is_steady() {
         near = estimate::of_curve(problem, answer, &closed, own, most);
@@ -279,6 +279,28 @@ pub(super) fn diagnose(loaded: &LoadedProblem, answer: &Answer, error: f64) -> D
         None => format!("; it costs {}", cost(loaded, answer)),
     };
     said(CURVE, near, problem.tolerance, &cost)
+}
+
+/// How far the certified answer is from that of a code with this mistake, or in this layout; `None` if the mistake is
+/// unknown here or makes no difference.
+pub(super) fn off(loaded: &LoadedProblem, name: &str) -> Option<f64> {
+    let (problem, rows) = (&loaded.problem, certified(loaded).1);
+    let (closed, own) = asked(problem)?;
+    let parts = closed.equation(&problem.gradient_per_s, problem.aspect_ratio).parts();
+    let change = changes(&parts, problem.d_r_per_s.is_none()).into_iter().find(|change| change.name == name);
+    let of_change = |change: &Change| {
+        let Some(own) = own else { return from_exact(problem, &rows, &change.parts, f64::INFINITY) };
+        let candidate = Candidate { parts: change.parts, closure: CLOSURES[own], near: Near::new(0.0, name) };
+        // An equation without a solution does not have the certified one.
+        distance(problem, &rows, &closed.start(), &candidate, f64::INFINITY).or(Some(f64::INFINITY))
+    };
+    change.as_ref().map_or_else(|| of_layout(&rows, name), of_change)
+}
+
+/// How far rows are from themselves in the layout of this name.
+fn of_layout(rows: &[Vec<f64>], name: &str) -> Option<f64> {
+    let layout = LAYOUTS.iter().find(|layout| layout.name == name)?;
+    Some(apart(rows, &rows.iter().map(|row| layout.read(row)).collect::<Option<Vec<_>>>()?))
 }
 
 /// The right values in other layouts; each of `curves` is a name and the values that a code writes.

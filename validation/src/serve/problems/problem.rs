@@ -203,6 +203,11 @@ impl Problem {
         }
     }
 
+    /// True if a_ij is that of rods with rotary diffusion, or of a closed equation.
+    pub fn is_diffusive(&self) -> bool {
+        self.closed.is_some() || self.diffusing().is_some()
+    }
+
     /// The directions of rods with rotary diffusion at t = 0.
     pub fn directions(&self) -> diffusion::Start<'static> {
         if self.planar_start { diffusion::Start::Plane([0.0, 0.0, 1.0]) } else { diffusion::Start::Isotropic }

@@ -9,7 +9,7 @@ use serde_json::{Value, json};
 pub fn can_be_asked(problem: &Problem) -> bool {
     match problem.kind {
         Kind::Rods | Kind::Formula => true,
-        Kind::Tensor => (problem.closed.is_some() || problem.diffusing().is_some()) && !problem.is_steady(),
+        Kind::Tensor => problem.is_diffusive() && !problem.is_steady(),
         Kind::Contact | Kind::Ensemble => false,
     }
 }

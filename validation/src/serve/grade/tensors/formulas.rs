@@ -1,7 +1,7 @@
 //! Diagnosis of answers to formulas, row by row: the same mistakes as in curves, without an integration.
 
 use super::estimate::words;
-use super::{CLOSURES, Near, apart, index, near_of};
+use super::{CLOSURES, Near, Stand, apart, index, near_of};
 use crate::methods::tensors::fourth::PAIRS;
 use crate::methods::tensors::wrong::{MISTAKES, Mistake, spread};
 use crate::methods::tensors::{Closure, Equation, Model, Parts};
@@ -16,10 +16,9 @@ type Rows = Vec<Vec<f64>>;
 /// Names the mistake whose values the answer has, given its `error`.
 pub(in crate::serve::grade) fn diagnose(loaded: &LoadedProblem, answer: &Answer, error: f64) -> Diagnosis {
     let most = NEARER * error;
-    let (Some(formula), Some(inputs)) = (&loaded.problem.formula, &loaded.inputs) else {
+    let (Some(formula), Some(rows)) = (&loaded.problem.formula, inputs(loaded)) else {
         return Diagnosis::default();
     };
-    let rows: Rows = inputs.rows.iter().map(|row| row[1..].to_vec()).collect();
     let mut near = super::in_other_layouts(&[super::certified(loaded)], answer, most);
     near.extend(match *formula {
         Formula::Pdot => of_rods(&rows, answer, most),
@@ -29,13 +28,34 @@ pub(in crate::serve::grade) fn diagnose(loaded: &LoadedProblem, answer: &Answer,
     said("these are the values", near, loaded.problem.tolerance, "")
 }
 
+/// How far the certified values are from those of a code with this mistake, or in this layout; `None` if the mistake
+/// is unknown here or makes no difference.
+pub(in crate::serve::grade) fn off(loaded: &LoadedProblem, name: &str) -> Option<f64> {
+    let (right, rows) = (Answer::certified(loaded), inputs(loaded)?);
+    let of_mistake = || match loaded.problem.formula? {
+        Formula::Pdot => of_rods(&rows, &right, f64::INFINITY).into_iter().find(|n| n.name == name).map(|n| n.distance),
+        Formula::Closure { .. } => None,
+        Formula::Dadt { closure, model } => {
+            let mistake = MISTAKES.iter().find(|mistake| mistake.name == name)?;
+            let parts = spoilt(&parts_of(&rows, closure, model), Some(mistake))?;
+            Some(apart(&right.rows, &rates(&rows, &parts, &CLOSURES[index(closure)?])))
+        }
+    };
+    super::of_layout(&right.rows, name).or_else(of_mistake)
+}
+
+/// The rows that are asked about, without their numbers.
+fn inputs(loaded: &LoadedProblem) -> Option<Rows> {
+    Some(loaded.inputs.as_ref()?.rows.iter().map(|row| row[1..].to_vec()).collect())
+}
+
 fn within(near: Near, answer: &Answer, rows: &Rows, most: f64) -> Option<Near> {
     let distance = apart(&answer.rows, rows);
     (distance <= most).then_some(Near { distance, ..near })
 }
 
 fn of_closures(rows: &Rows, answer: &Answer, closure: Closure, most: f64) -> Vec<Near> {
-    let of = |(k, stand): (usize, &super::Stand)| {
+    let of = |(k, stand): (usize, &Stand)| {
         let found = rows.iter().map(|row| components(&(stand.fourth)(&tensor(row)))).collect();
         within(near_of("", "", k, index(closure)), answer, &found, most)
     };
@@ -49,17 +69,24 @@ fn spoilt(all: &[Parts], mistake: Option<&Mistake>) -> Option<Vec<Parts>> {
     changed.iter().any(Option::is_some).then(|| all.iter().zip(changed).map(|(own, new)| new.unwrap_or(*own)).collect())
 }
 
+fn parts_of(rows: &Rows, closure: Closure, model: Model) -> Vec<Parts> {
+    rows.iter().map(|row| equation(closure, model, row)).map(|e: Equation| e.parts()).collect()
+}
+
+/// da_ij/dt of each row with these parts and this closure.
+fn rates(rows: &Rows, parts: &[Parts], closure: &Stand) -> Rows {
+    let of = |(row, parts): (&Vec<f64>, &Parts)| {
+        let a = tensor(row);
+        let rate = parts.rate(&a, &(closure.fourth)(&a));
+        PAIRS.map(|place| rate[place]).to_vec()
+    };
+    rows.iter().zip(parts).map(of).collect()
+}
+
 fn of_rates(rows: &Rows, answer: &Answer, closure: Closure, model: Model, most: f64) -> Vec<Near> {
     let own = index(closure);
-    let parts: Vec<_> = rows.iter().map(|row| equation(closure, model, row)).map(|e: Equation| e.parts()).collect();
-    let rates = |parts: &[Parts], k: usize| -> Rows {
-        let of = |(row, parts): (&Vec<f64>, &Parts)| {
-            let a = tensor(row);
-            let rate = parts.rate(&a, &(CLOSURES[k].fourth)(&a));
-            PAIRS.map(|place| rate[place]).to_vec()
-        };
-        rows.iter().zip(parts).map(of).collect()
-    };
+    let parts = parts_of(rows, closure, model);
+    let rates = |parts: &[Parts], k: usize| rates(rows, parts, &CLOSURES[k]);
     let mut near = Vec::new();
     for mistake in std::iter::once(None).chain(MISTAKES.iter().map(Some)) {
         let Some(parts) = spoilt(&parts, mistake) else { continue };
@@ -95,7 +122,7 @@ const ORDERS: [([usize; 3], &str); 5] = [
 
 fn of_rods(rows: &Rows, answer: &Answer, most: f64) -> Vec<Near> {
     let model = Model::FolgarTucker { c_i: 0.0 };
-    let parts: Vec<_> = rows.iter().map(|row| equation(Closure::Linear, model, row).parts()).collect();
+    let parts = parts_of(rows, Closure::Linear, model);
     let rates = |parts: &[Parts]| -> Rows {
         let of = |(row, Parts { spin, strain, of_strain, of_fourth, .. }): (&Vec<f64>, &Parts)| {
             let p = Vector3::from_row_slice(&row[..3]);
