@@ -129,8 +129,11 @@ fn problems_of(closure: &str) -> Vec<LoadedProblem> {
     }
     let c_i = if closure == "linear" { "0.1" } else { "0.01" };
     let names = [format!("dadt-ft-{closure}"), format!("closed-ft-{closure}-{c_i}")];
-    let further =
-        if closure == "hybrid" { &["closed-ft-hybrid-extension", "folgar-tucker-shear-0.01"][..] } else { &[] };
+    let further = match closure {
+        "hybrid" => &["closed-ft-hybrid-mixed", "closed-ft-hybrid-extension", "folgar-tucker-shear-0.01"][..],
+        "quadratic" => &["closed-ft-quadratic-mixed"],
+        _ => &[],
+    };
     let all = names.iter().map(String::as_str).chain(further.iter().copied());
     all.map(|name| problems::named(name).expect("a problem").loaded(name.into())).collect()
 }

@@ -11,6 +11,9 @@ use nalgebra::Matrix3;
 const THIRD: f64 = 1.0 / 3.0;
 const RANDOM: [[f64; 3]; 3] = [[THIRD, 0.0, 0.0], [0.0, THIRD, 0.0], [0.0, 0.0, THIRD]];
 
+/// An a_ij with six components, none of which equals another, in axes of its own.
+const UNEVEN: [[f64; 3]; 3] = [[0.25, 0.125, -0.0625], [0.125, 0.4375, 0.09375], [-0.0625, 0.09375, 0.3125]];
+
 /// Times in 1/G, G = 0.5/s.
 const TIMES: [f64; 6] = [1.0, 2.0, 4.0, 7.0, 12.0, 20.0];
 const TO_REST: [f64; 6] = [1.0, 2.0, 4.0, 6.25, 10.0, 65.0];
@@ -32,7 +35,13 @@ const fn ft(name: &'static str, closure: Closure, c_i: f64) -> ClosureProblem {
     shear(name, closure, Model::FolgarTucker { c_i }, RANDOM)
 }
 
-const PROBLEMS: [ClosureProblem; 15] = [
+/// All components of a_ij, L and 𝔸 differ: mistakes that shear from random rods hides show.
+const fn mixed(name: &'static str, closure: Closure) -> ClosureProblem {
+    let closed = Closed { closure, model: Model::FolgarTucker { c_i: 0.02 }, start: UNEVEN };
+    ClosureProblem { name, gradient_per_s: ASKEW, aspect_ratio: 5.0, closed, times: TIMES }
+}
+
+const PROBLEMS: [ClosureProblem; 17] = [
     ft("closed-ft-linear-0.1", Closure::Linear, 0.1),
     ft("closed-ft-quadratic-0.01", Closure::Quadratic, 0.01),
     ft("closed-ft-hybrid-0.01", Closure::Hybrid, 0.01),
@@ -48,6 +57,8 @@ const PROBLEMS: [ClosureProblem; 15] = [
         aspect_ratio: 11.6,
         ..ft("closed-ft-hybrid-extension", Closure::Hybrid, 0.05)
     },
+    mixed("closed-ft-quadratic-mixed", Closure::Quadratic),
+    mixed("closed-ft-hybrid-mixed", Closure::Hybrid),
     ClosureProblem { gradient_per_s: ASKEW, aspect_ratio: 3.0, ..ft("closed-ft-ibof-mixed", Closure::Ibof, 0.02) },
     shear("closed-rsc-ore-0.01", Closure::Ore, Model::Rsc { c_i: 0.01, kappa: 0.1 }, APART),
     // The parameters of the other settings are published: see `published/README.md` and fiberoripy's comparison in
@@ -122,7 +133,7 @@ fn built(def: &ProblemDef, problem: &ClosureProblem) -> Built {
             if problem.closed.start == RANDOM {
                 "from a_ij = δ_ij/3 at t = 0."
             } else {
-                "from the a_ij(0) of problem.json, whose axes are apart: the model needs them."
+                "from the a_ij(0) of problem.json, whose axes are apart."
             }
         ),
         gradient_per_s: problem.gradient_per_s,
