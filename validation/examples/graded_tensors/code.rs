@@ -7,7 +7,7 @@ use std::array::from_fn;
 
 pub type M = [[f64; 3]; 3];
 pub type Closure = fn(&M, [usize; 4]) -> f64;
-pub type Diffusivity = fn(&M, &M, f64, f64) -> M;
+pub type Diffusivity = fn(&M, &M, &M, f64, f64) -> M;
 
 /// The parts of a code; [`Code::right`] has the right ones.
 #[derive(Clone)]
@@ -18,6 +18,10 @@ pub struct Code {
     pub shape: fn(f64) -> f64,
     /// γ̇ from L and D.
     pub speed: fn(&M, &M) -> f64,
+    /// Before Wa and aW, and before Da and aD.
+    pub sides: [[f64; 2]; 2],
+    /// Before products of 𝔸 and D with k ≠ l.
+    pub pairs: f64,
     /// Before Da + aD, and before 𝔸:D, from Λ.
     pub stretch: [fn(f64) -> f64; 2],
     /// The 2 and the 3 of 2 C_I γ̇ (δ − 3a), and the 1 before δ.
@@ -25,7 +29,9 @@ pub struct Code {
     pub closure: Closure,
     /// κ in RSC's bracket and at the diffusion, from κ.
     pub slow: fn(f64) -> [f64; 2],
-    /// C/C_I from a, D, γ̇ and a parameter; `None` for C = C_I δ.
+    /// Before Ca + aC and 𝔸:C, halves of the 5 and the 10.
+    pub drift: [f64; 2],
+    /// C/C_I from a, D, L, γ̇ and a parameter; `None` for C = C_I δ.
     pub anisotropic: Option<Diffusivity>,
     /// What is written for 11, 22, 33, 12, 13, 23.
     pub written: fn([f64; 6]) -> [f64; 6],
@@ -37,6 +43,14 @@ fn sum(of: impl Fn(usize) -> f64) -> f64 {
 
 pub fn double(a: &M, b: &M) -> f64 {
     sum(|i| sum(|j| a[i][j] * b[i][j]))
+}
+
+pub fn transposed(a: &M) -> M {
+    from_fn(|i| from_fn(|j| a[j][i]))
+}
+
+pub fn product(a: &M, b: &M) -> M {
+    from_fn(|i| from_fn(|j| sum(|k| a[i][k] * b[k][j])))
 }
 
 pub const fn delta(i: usize, j: usize) -> f64 {
@@ -52,6 +66,15 @@ pub fn linear_by(a: &M, [i, j, k, l]: [usize; 4], seventh: f64, ones: f64) -> f6
 
 pub fn linear(a: &M, at: [usize; 4]) -> f64 {
     linear_by(a, at, 1.0 / 7.0, -1.0 / 35.0)
+}
+
+pub fn planar(a: &M, at: [usize; 4]) -> f64 {
+    linear_by(a, at, 1.0 / 6.0, -1.0 / 24.0)
+}
+
+/// The determinant of the plane 12.
+pub fn in_plane(a: &M) -> f64 {
+    a[0][0] * a[1][1] - a[0][1] * a[1][0]
 }
 
 pub fn quadratic(a: &M, [i, j, k, l]: [usize; 4]) -> f64 {
@@ -72,7 +95,12 @@ pub fn hybrid(a: &M, at: [usize; 4]) -> f64 {
 
 /// C/C_I of iARD: δ − 4 C_M D²/γ̇², with another factor for the 4.
 pub fn iard(d: &M, speed: f64, c_m: f64, four: f64) -> M {
-    from_fn(|i| from_fn(|j| delta(i, j) - four * c_m * sum(|k| d[i][k] * d[k][j]) / (speed * speed)))
+    iard_of(&product(d, d), c_m, four / (speed * speed))
+}
+
+/// δ − `factor` C_M `square`.
+pub fn iard_of(square: &M, c_m: f64, factor: f64) -> M {
+    from_fn(|i| from_fn(|j| delta(i, j) - factor * c_m * square[i][j]))
 }
 
 /// C/C_I of pARD: the `shares` along the axes of a, from the largest eigenvalue.
@@ -99,12 +127,15 @@ impl Code {
         Self {
             gradient: |l| *l,
             half: [0.5, 0.5],
+            sides: [[1.0, -1.0], [1.0, 1.0]],
+            pairs: 1.0,
             shape: |r| 1.0 - 2.0 / (r * r + 1.0),
             speed: |_, d| (2.0 * double(d, d)).sqrt(),
             stretch: [|shape| shape, |shape| 2.0 * shape],
             spread: [2.0, 3.0, 1.0],
             closure,
             slow: |kappa| [kappa; 2],
+            drift: [2.5, 5.0],
             anisotropic: None,
             written: |six| six,
         }
@@ -119,8 +150,11 @@ impl Code {
         let [strain, fourth] = self.stretch.map(|of| of(shape));
         let [two, three, one] = self.spread;
         let speed = (self.speed)(&l, &d);
-        let by_closure =
-            |x: &M| -> M { from_fn(|i| from_fn(|j| sum(|k| sum(|m| (self.closure)(a, [i, j, k, m]) * x[k][m])))) };
+        let weight = |k: usize, m: usize| if k == m { 1.0 } else { self.pairs };
+        let by_closure = |x: &M| -> M {
+            let term = |i, j, k: usize, m: usize| weight(k, m) * (self.closure)(a, [i, j, k, m]) * x[k][m];
+            from_fn(|i| from_fn(|j| sum(|k| sum(|m| term(i, j, k, m)))))
+        };
         let [mut contracted, mut slow] = [by_closure(&d), [[0.0; 3]; 3]];
         let mut kappas = [1.0; 2];
         if self.anisotropic.is_none() && !other.is_nan() {
@@ -136,20 +170,23 @@ impl Code {
         let diffusion: M = match self.anisotropic {
             None => from_fn(|i| from_fn(|j| two * kappas[1] * (one * delta(i, j) - three * a[i][j]))),
             Some(of) => {
-                let c = of(a, &d, speed, other);
+                let c = of(a, &d, &l, speed, other);
                 let (trace, fourth) = (sum(|k| c[k][k]), by_closure(&c));
                 let both = |i: usize, j: usize| sum(|k| c[i][k] * a[k][j] + a[i][k] * c[k][j]);
-                let each = |i: usize, j: usize| c[i][j] - trace * a[i][j] - 2.5 * both(i, j) + 5.0 * fourth[i][j];
+                let each = |i: usize, j: usize| {
+                    c[i][j] - trace * a[i][j] - self.drift[0] * both(i, j) + self.drift[1] * fourth[i][j]
+                };
                 from_fn(|i| from_fn(|j| two * each(i, j)))
             }
         };
-        from_fn(|i| {
-            from_fn(|j| {
-                let turned = sum(|k| w[i][k] * a[k][j] - a[i][k] * w[k][j]);
-                let stretched = sum(|k| d[i][k] * a[k][j] + a[i][k] * d[k][j]);
-                turned + strain * stretched - fourth * contracted[i][j] + c_i * speed * diffusion[i][j]
-            })
-        })
+        let [[wa, aw], [da, ad]] = self.sides;
+        let rate = |i: usize, j: usize| {
+            let turned = sum(|k| wa * w[i][k] * a[k][j] + aw * a[i][k] * w[k][j]);
+            let stretched = sum(|k| da * d[i][k] * a[k][j] + ad * a[i][k] * d[k][j]);
+            turned + strain * stretched - fourth * contracted[i][j] + c_i * speed * diffusion[i][j]
+        };
+        // Six components are stored: those above the diagonal.
+        from_fn(|i| from_fn(|j| rate(i.min(j), i.max(j))))
     }
 
     /// a_ij at the times, by RK4 in steps of `strain`.

@@ -97,8 +97,8 @@ impl Model {
         }
     }
 
-    /// The diffusivity C; `d` is D, and `rate` is γ̇ in 1/s.
-    fn diffusivity(self, a: &Matrix3<f64>, d: &Matrix3<f64>, rate: f64) -> Matrix3<f64> {
+    /// The diffusivity C; `d` is D, `square` D², and `rate` is γ̇ in 1/s.
+    fn diffusivity(self, a: &Matrix3<f64>, d: &Matrix3<f64>, square: &Matrix3<f64>, rate: f64) -> Matrix3<f64> {
         let one = Matrix3::identity();
         let along = |c_i: f64, d: [f64; 3]| {
             let (_, axes) = principal(a);
@@ -107,9 +107,9 @@ impl Model {
         match self {
             Self::FolgarTucker { c_i } | Self::Rsc { c_i, .. } => one * c_i,
             Self::PhelpsTucker { b, .. } => {
-                one * b[0] + a * b[1] + a * a * b[2] + d * (b[3] / rate) + d * d * (b[4] / (rate * rate))
+                one * b[0] + a * b[1] + a * a * b[2] + d * (b[3] / rate) + square * (b[4] / (rate * rate))
             }
-            Self::Iard { c_i, c_m } => (one - d * d * (4.0 * c_m / (rate * rate))) * c_i,
+            Self::Iard { c_i, c_m } => (one - square * (4.0 * c_m / (rate * rate))) * c_i,
             Self::Pard { c_i, omega } => along(c_i, [1.0, omega, 1.0 - omega]),
             Self::Mrd { c_i, d } => along(c_i, d),
         }
@@ -169,7 +169,20 @@ impl Equation {
         let (spin, strain) = ((l - l.transpose()) * 0.5, (l + l.transpose()) * 0.5);
         let speed = (2.0 * strain.dot(&strain)).sqrt();
         let shape = self.shape_factor;
-        Parts { spin, strain, of_strain: shape, of_fourth: 2.0 * shape, speed, decay: 3.0, model: self.model }
+        Parts {
+            spin,
+            strain,
+            square: strain * strain,
+            spun: [1.0, -1.0],
+            stretched: [1.0, 1.0],
+            of_strain: shape,
+            of_fourth: 2.0 * shape,
+            pairs: 1.0,
+            speed,
+            decay: 3.0,
+            drift: RIGHT,
+            model: self.model,
+        }
     }
 }
 
@@ -180,14 +193,24 @@ pub struct Parts {
     pub spin: Matrix3<f64>,
     /// D in 1/s.
     pub strain: Matrix3<f64>,
+    /// D² of a diffusivity, in 1/s².
+    pub square: Matrix3<f64>,
+    /// The 1 before Wa and the −1 before aW.
+    pub spun: [f64; 2],
+    /// The 1 before Da and before aD.
+    pub stretched: [f64; 2],
     /// Λ before Da + aD.
     pub of_strain: f64,
     /// 2Λ before 𝔸:D.
     pub of_fourth: f64,
+    /// The weight of off-diagonal pairs k, l in 𝔸:D and 𝔸:C, 1.
+    pub pairs: f64,
     /// γ̇ in 1/s.
     pub speed: f64,
     /// The 3 of Folgar & Tucker's δ − 3a.
     pub decay: f64,
+    /// The 5 before Ca + aC and the 10 before 𝔸:C.
+    pub drift: [f64; 2],
     /// The model.
     pub model: Model,
 }
@@ -195,20 +218,27 @@ pub struct Parts {
 impl Parts {
     /// The rate da_ij/dt in 1/s of the equation with these parts, as it stands: the trace is not corrected.
     pub fn rate(&self, a: &Matrix3<f64>, fourth: &Fourth) -> Matrix3<f64> {
-        let Self { spin: w, strain: d, of_strain, of_fourth, speed, decay, model } = self;
-        let turned = w * a - a * w;
+        let Self { spin: w, strain: d, square, spun, stretched, of_strain, of_fourth, speed, decay, .. } = self;
+        let sides = |x: &Matrix3<f64>, [left, right]: &[f64; 2]| x * a * *left + a * x * *right;
+        let turned = sides(w, spun);
         if *d == Matrix3::zeros() {
             return turned;
         }
-        let kappa = model.slowness();
-        let c = model.diffusivity(a, d, *speed);
+        let kappa = self.model.slowness();
+        let c = self.model.diffusivity(a, d, square, *speed);
         let (fourth, source) = if kappa == 1.0 { (*fourth, c) } else { slowed(kappa, a, fourth, &c) };
-        let stretched = (d * a + a * d) * *of_strain - fourth.contract(d) * *of_fourth;
-        let diffused = match *model {
+        let by_fourth = |x: &Matrix3<f64>| {
+            fourth.contract(&Matrix3::from_fn(|k, l| if k == l { x[(k, l)] } else { self.pairs * x[(k, l)] }))
+        };
+        let stretched = sides(d, stretched) * *of_strain - by_fourth(d) * *of_fourth;
+        let diffused = match self.model {
             Model::FolgarTucker { c_i } | Model::Rsc { c_i, .. } => {
                 (Matrix3::identity() - a * *decay) * (2.0 * kappa * c_i)
             }
-            _ => diffusion(a, &fourth, &c) + (source - c) * 2.0 + a * (2.0 * (1.0 - kappa) * c.trace()),
+            _ => {
+                let slowness = (source - c) * 2.0 + a * (2.0 * (1.0 - kappa) * c.trace());
+                drifted(a, &c, &by_fourth(&c), self.drift) + slowness
+            }
         };
         turned + stretched + diffused * *speed
     }
@@ -216,7 +246,14 @@ impl Parts {
 
 /// 2C − 2 tr(C) a − 5(Ca + aC) + 10𝔸:C.
 pub(crate) fn diffusion(a: &Matrix3<f64>, fourth: &Fourth, c: &Matrix3<f64>) -> Matrix3<f64> {
-    c * 2.0 - a * (2.0 * c.trace()) - (c * a + a * c) * 5.0 + fourth.contract(c) * 10.0
+    drifted(a, c, &fourth.contract(c), RIGHT)
+}
+
+/// The 5 and the 10 of diffusion.
+const RIGHT: [f64; 2] = [5.0, 10.0];
+
+fn drifted(a: &Matrix3<f64>, c: &Matrix3<f64>, by_fourth: &Matrix3<f64>, [five, ten]: [f64; 2]) -> Matrix3<f64> {
+    c * 2.0 - a * (2.0 * c.trace()) - (c * a + a * c) * five + by_fourth * ten
 }
 
 /// 𝔸 + (1 − κ)(𝕃 − 𝕄:𝔸) and C − (1 − κ)𝕄:C, with 𝕃 = Σλ_i eeee and 𝕄 = Σ eeee over the axes of a.

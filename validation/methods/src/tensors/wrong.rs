@@ -22,10 +22,14 @@ impl Mistake {
 
 const L: &str = "L_ij = ∂u_i/∂x_j, W = (L − Lᵀ)/2, D = (L + Lᵀ)/2";
 const SHAPE: &str = "Λ = (r_e² − 1)/(r_e² + 1), below 0 for discs";
+const SIDES: &str = "the rate is Wa − aW + Λ(Da + aD − 2𝔸:D) + diffusion: Da is not symmetric, Da + aD is";
+const CONTRACTION: &str = "𝔸:D sums over all nine pairs k, l: 12, 13 and 23 count twice";
 const SPEED: &str = "γ̇ = (2D:D)^½, which is G in shear";
 const SPREAD: &str = "diffusion is 2 C_I γ̇ (δ − 3a)";
 const STRETCH: &str = "the rate by strain is Λ(Da + aD − 2𝔸:D)";
 const RSC: &str = "RSC is Λ(Da + aD − 2[𝔸 + (1 − κ)(𝕃 − 𝕄:𝔸)]:D) + 2κC_I γ̇(δ − 3a)";
+const DRIFT: &str = "diffusion is γ̇[2C − 2 tr(C) a − 5(Ca + aC) + 10𝔸:C]";
+const IARD: &str = "iARD is C = C_I(δ − 4 C_M D²/γ̇²)";
 const ANISOTROPIC: &str = "C is given in problem.json, with the axes of a from the largest eigenvalue";
 
 const fn mistake(name: &'static str, advice: &'static str, change: fn(Parts) -> Option<Parts>) -> Mistake {
@@ -33,7 +37,7 @@ const fn mistake(name: &'static str, advice: &'static str, change: fn(Parts) -> 
 }
 
 /// Every known mistake in the parts of the rate.
-pub const MISTAKES: [Mistake; 43] = [
+pub const MISTAKES: [Mistake; 65] = [
     mistake("a transposed gradient", L, |p| Some(Parts { spin: -p.spin, ..p })),
     mistake("the flow reversed (L with the wrong sign, or time backwards)", L, |p| {
         Some(Parts { spin: -p.spin, strain: -p.strain, ..p })
@@ -59,11 +63,24 @@ pub const MISTAKES: [Mistake; 43] = [
     mistake("Λ missing before Da + aD", STRETCH, |p| Some(Parts { of_strain: 1.0, ..p })),
     mistake("the 2 missing before 𝔸:D", STRETCH, |p| Some(Parts { of_fourth: 0.5 * p.of_fourth, ..p })),
     mistake("𝔸:D left out", STRETCH, |p| Some(Parts { of_fourth: 0.0, ..p })),
+    mistake("𝔸:D with the wrong sign", STRETCH, |p| Some(Parts { of_fourth: -p.of_fourth, ..p })),
+    mistake("off-diagonal D counted once in 𝔸:D", CONTRACTION, |p| Some(Parts { pairs: 0.5, ..p })),
+    mistake("Da alone, aD missing", SIDES, |p| Some(Parts { stretched: [1.0, 0.0], ..p })),
+    mistake("aD alone, Da missing", SIDES, |p| Some(Parts { stretched: [0.0, 1.0], ..p })),
+    mistake("2Da for Da + aD", SIDES, |p| Some(Parts { stretched: [2.0, 0.0], ..p })),
+    mistake("2aD for Da + aD", SIDES, |p| Some(Parts { stretched: [0.0, 2.0], ..p })),
+    mistake("(Da + aD)/2 for Da + aD", SIDES, |p| Some(Parts { stretched: [0.5, 0.5], ..p })),
+    mistake("Wa alone, aW missing", SIDES, |p| Some(Parts { spun: [1.0, 0.0], ..p })),
+    mistake("−aW alone, Wa missing", SIDES, |p| Some(Parts { spun: [0.0, -1.0], ..p })),
+    mistake("Wa + aW for Wa − aW", SIDES, |p| Some(Parts { spun: [1.0, 1.0], ..p })),
     mistake("γ̇ = (D:D)^½", SPEED, |p| Some(Parts { speed: p.speed * std::f64::consts::FRAC_1_SQRT_2, ..p })),
     mistake("D:D for γ̇", SPEED, |p| Some(Parts { speed: 0.5 * p.speed * p.speed, ..p })),
     mistake("2D:D for γ̇", SPEED, |p| Some(Parts { speed: p.speed * p.speed, ..p })),
-    mistake("|L| = (L:L)^½ for γ̇", SPEED, |p| Some(Parts { speed: (p.spin + p.strain).norm(), ..p })),
-    mistake("L_21 for γ̇", SPEED, |p| Some(Parts { speed: p.spin[(1, 0)] + p.strain[(1, 0)], ..p })),
+    mistake("|L| = (L:L)^½ for γ̇", SPEED, |p| Some(Parts { speed: gradient(&p).norm(), ..p })),
+    mistake("L_21 for γ̇", SPEED, |p| Some(Parts { speed: gradient(&p)[(1, 0)], ..p })),
+    mistake("|L_21| for γ̇", SPEED, |p| Some(Parts { speed: gradient(&p)[(1, 0)].abs(), ..p })),
+    mistake("L_12 for γ̇", SPEED, |p| Some(Parts { speed: gradient(&p)[(0, 1)], ..p })),
+    mistake("|L_12| for γ̇", SPEED, |p| Some(Parts { speed: gradient(&p)[(0, 1)].abs(), ..p })),
     mistake("γ̇ left out", SPEED, |p| Some(Parts { speed: 1.0, ..p })),
     mistake("half the C_I (C_I γ̇ (δ − 3a), without the 2)", SPREAD, |p| spread(p, 0.5)),
     mistake("twice the C_I", SPREAD, |p| spread(p, 2.0)),
@@ -79,10 +96,20 @@ pub const MISTAKES: [Mistake; 43] = [
         Model::Rsc { kappa, .. } => Some(Parts { speed: p.speed / kappa, ..p }),
         _ => None,
     }),
-    mistake("C_M D²/γ̇² without its 4", ANISOTROPIC, |p| anisotropic(p, 0.25)),
-    mistake("(D²:D²)^½ for the norm (D²:D²/2)^½", ANISOTROPIC, |p| {
-        anisotropic(p, std::f64::consts::FRAC_1_SQRT_2)
+    mistake("C_M D²/γ̇² without its 4", IARD, |p| anisotropic(p, 0.25)),
+    mistake("(D²:D²)^½ for the norm (D²:D²/2)^½", IARD, |p| anisotropic(p, std::f64::consts::FRAC_1_SQRT_2)),
+    mistake("+ C_M for − C_M", IARD, |p| anisotropic(p, -1.0)),
+    mistake("LᵀL for D²", IARD, |p| squared(p, gradient(&p).transpose() * gradient(&p))),
+    mistake("LLᵀ for D²", IARD, |p| squared(p, gradient(&p) * gradient(&p).transpose())),
+    mistake("LᵀL/L:L for 4 D²/γ̇²", IARD, |p| {
+        let l = gradient(&p);
+        squared(p, l.transpose() * l * (p.speed * p.speed / (4.0 * l.dot(&l))))
     }),
+    mistake("2.5(Ca + aC) for 5(Ca + aC)", DRIFT, |p| drifting(p, [2.5, 10.0])),
+    mistake("5𝔸:C for 10𝔸:C", DRIFT, |p| drifting(p, [5.0, 5.0])),
+    mistake("2.5(Ca + aC) and 5𝔸:C for twice as much", DRIFT, |p| drifting(p, [2.5, 5.0])),
+    mistake("5(Ca + aC) and 10𝔸:C left out", DRIFT, |p| drifting(p, [0.0, 0.0])),
+    mistake("10𝔸:C left out", DRIFT, |p| drifting(p, [5.0, 0.0])),
     mistake("the eigenvalues of a in ascending order", ANISOTROPIC, |p| match p.model {
         Model::Pard { c_i, omega } => Some(Parts { model: Model::Mrd { c_i, d: [1.0 - omega, omega, 1.0] }, ..p }),
         Model::Mrd { c_i, d: [x, y, z] } => Some(Parts { model: Model::Mrd { c_i, d: [z, y, x] }, ..p }),
@@ -90,8 +117,15 @@ pub const MISTAKES: [Mistake; 43] = [
     }),
 ];
 
-fn scaled(parts: Parts, spin: f64, strain: f64, speed: f64) -> Parts {
-    Parts { spin: parts.spin * spin, strain: parts.strain * strain, speed: parts.speed * speed, ..parts }
+/// L in 1/s.
+fn gradient(parts: &Parts) -> Matrix3<f64> {
+    parts.spin + parts.strain
+}
+
+/// The parts with these factors on W, D and γ̇.
+pub fn scaled(parts: Parts, spin: f64, strain: f64, speed: f64) -> Parts {
+    let square = parts.square * (strain * strain);
+    Parts { spin: parts.spin * spin, strain: parts.strain * strain, square, speed: parts.speed * speed, ..parts }
 }
 
 /// The parts with another Λ.
@@ -134,6 +168,17 @@ fn anisotropic(parts: Parts, factor: f64) -> Option<Parts> {
     }
 }
 
+/// The parts with another tensor for D², where a diffusivity has one.
+fn squared(parts: Parts, square: Matrix3<f64>) -> Option<Parts> {
+    matches!(parts.model, Model::Iard { .. }).then_some(Parts { square, ..parts })
+}
+
+/// The parts with other numbers for the 5 and the 10 of diffusion, where C is not C_I δ.
+fn drifting(parts: Parts, drift: [f64; 2]) -> Option<Parts> {
+    let isotropic = matches!(parts.model, Model::FolgarTucker { .. } | Model::Rsc { .. });
+    (!isotropic).then_some(Parts { drift, ..parts })
+}
+
 /// What stands for a_ijkl in a code.
 #[derive(Clone, Copy)]
 pub struct Stand {
@@ -144,7 +189,7 @@ pub struct Stand {
 }
 
 /// Every closure, right and wrong ones.
-pub const CLOSURES: [Stand; 15] = [
+pub const CLOSURES: [Stand; 23] = [
     Stand { name: "the linear closure", fourth: linear },
     Stand { name: "the quadratic closure", fourth: quadratic },
     Stand { name: "the hybrid closure", fourth: |a| Closure::Hybrid.fourth(a) },
@@ -165,7 +210,40 @@ pub const CLOSURES: [Stand; 15] = [
         name: "a hybrid closure with + 1/35 for − 1/35",
         fourth: |a| mixed(a, 1.0 - 27.0 * a.determinant(), |a| linear_by(a, 7.0, -35.0)),
     },
+    Stand {
+        name: "a hybrid closure with (1 + f) linear − f quadratic",
+        fourth: |a| mixed(a, 27.0 * a.determinant() - 1.0, linear),
+    },
+    Stand { name: "the linear closure of rods in a plane (1/6, − 1/24)", fourth: planar },
+    Stand {
+        name: "the hybrid closure of rods in a plane (1/6, − 1/24, f = 1 − 4(a_11 a_22 − a_12²))",
+        fourth: |a| mixed(a, 1.0 - 4.0 * in_plane(a), planar),
+    },
+    Stand {
+        name: "a hybrid closure with 1/6 and − 1/24", fourth: |a| mixed(a, 1.0 - 27.0 * a.determinant(), planar)
+    },
+    Stand {
+        name: "a hybrid closure with f = 1 − 4(a_11 a_22 − a_12²)",
+        fourth: |a| mixed(a, 1.0 - 4.0 * in_plane(a), linear),
+    },
+    Stand {
+        name: "a hybrid closure with f = 1 − 4 det a", fourth: |a| mixed(a, 1.0 - 4.0 * a.determinant(), linear)
+    },
+    Stand {
+        name: "a hybrid closure with f = 1 − 9 det a", fourth: |a| mixed(a, 1.0 - 9.0 * a.determinant(), linear)
+    },
+    Stand { name: "a hybrid closure with f = 2 a:a − 1", fourth: |a| mixed(a, 2.0 * a.dot(a) - 1.0, linear) },
 ];
+
+/// The linear closure with the numbers of rods in a plane.
+fn planar(a: &Matrix3<f64>) -> Fourth {
+    linear_by(a, 6.0, 24.0)
+}
+
+/// The determinant of a in the plane 12.
+fn in_plane(a: &Matrix3<f64>) -> f64 {
+    a[(0, 0)] * a[(1, 1)] - a[(0, 1)] * a[(0, 1)]
+}
 
 fn symmetric(a: &Matrix3<f64>) -> Fourth {
     Fourth::from_fn(|i, j, k, l| (a[(i, j)] * a[(k, l)] + a[(i, k)] * a[(j, l)] + a[(i, l)] * a[(j, k)]) / 3.0)

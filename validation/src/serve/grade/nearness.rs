@@ -12,7 +12,7 @@ pub(super) const NEARER: f64 = 1e-3;
 pub(super) const CURVE: &str = "this is the curve";
 
 /// Above this number of names none is reported: most mistakes share a curve that has come to rest.
-const MOST_NAMES: usize = 4;
+const MOST_NAMES: usize = 5;
 
 /// The diagnosis of an answer to one problem.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -9,7 +9,7 @@ use super::answer::Answer;
 use super::nearness::{CURVE, Diagnosis, NEARER, Near, said};
 use crate::judge::statistics::worst;
 use crate::methods::tensors::fourth::PAIRS;
-use crate::methods::tensors::wrong::{CLOSURES, MISTAKES, Mistake, Stand};
+use crate::methods::tensors::wrong::{CLOSURES, MISTAKES, Stand, scaled};
 use crate::methods::tensors::{Closure, Model, Parts, at_rate, isotropic, steady_of};
 use crate::oracle::diffusion::{Means, Motion, strain_rate_per_s};
 use crate::serve::problems::formula::tensor;
@@ -17,7 +17,9 @@ use crate::serve::problems::{Closed, LoadedProblem, Problem};
 use layouts::LAYOUTS;
 use nalgebra::Matrix3;
 use rayon::prelude::*;
+use std::collections::BTreeMap;
 use std::f64::consts::TAU;
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 /// The tolerance of a step of the integration of a curve; of a rough one, which saves time, and how far that may be
 /// off.
@@ -25,23 +27,29 @@ const STEP: f64 = 1e-11;
 const ROUGH: f64 = 1e-6;
 const OFF: f64 = 1e-4;
 
-/// A closed equation that a code may solve.
+/// A closed equation that a code may solve, with its curve, which is computed once for all answers.
 struct Candidate {
     parts: Parts,
     closure: Stand,
-    near: Near,
+    /// Its names: mistakes may have the same parts.
+    near: Vec<Near>,
+    /// Rough values at the first time; all values.
+    first: OnceLock<Option<Vec<f64>>>,
+    whole: OnceLock<Option<Vec<Vec<f64>>>>,
 }
 
 impl Candidate {
+    fn new(parts: Parts, closure: Stand, near: Vec<Near>) -> Self {
+        Self { parts, closure, near, first: OnceLock::new(), whole: OnceLock::new() }
+    }
+
     fn rate(&self, a: &Matrix3<f64>) -> Matrix3<f64> {
         self.rate_in(1.0, a)
     }
 
     /// The rate in `factor` times the flow, with the same diffusion.
     fn rate_in(&self, factor: f64, a: &Matrix3<f64>) -> Matrix3<f64> {
-        let Parts { spin, strain, .. } = self.parts;
-        let parts = Parts { spin: spin * factor, strain: strain * factor, ..self.parts };
-        parts.rate(a, &(self.closure.fourth)(a))
+        scaled(self.parts, factor, factor, 1.0).rate(a, &(self.closure.fourth)(a))
     }
 
     /// The norm of the flow in 1/s.
@@ -60,28 +68,62 @@ impl Candidate {
         };
         all.iter().map(|a| values(problem, &self.closure, a)).collect()
     }
+
+    fn first(&self, problem: &Problem, start: &Matrix3<f64>) -> Option<&Vec<f64>> {
+        self.first.get_or_init(|| self.curve(problem, start, 1, ROUGH)?.pop()).as_ref()
+    }
+
+    fn whole(&self, problem: &Problem, start: &Matrix3<f64>) -> Option<&Vec<Vec<f64>>> {
+        self.whole.get_or_init(|| self.curve(problem, start, problem.times_s.len(), STEP)).as_ref()
+    }
 }
 
-/// A change of one part: its name, what is right, and the parts with it.
+/// A change of one part: the names of the mistakes that make it, with what is right, and the parts with it.
 struct Change {
-    name: &'static str,
-    advice: &'static str,
+    names: Vec<(&'static str, &'static str)>,
     parts: Parts,
 }
 
 /// The right parts without a name, then those with each mistake that makes a difference. Rods with a D_r diffuse as
 /// they do whatever γ̇ and C_I a code has.
 fn changes(parts: &Parts, has_c_i: bool) -> Vec<Change> {
-    let right = Change { name: "", advice: "", parts: *parts };
-    let of = |mistake: &Mistake| {
-        let changed = mistake.of(parts)?;
+    let mut all = vec![Change { names: vec![("", "")], parts: *parts }];
+    for mistake in &MISTAKES {
+        let Some(changed) = mistake.of(parts) else { continue };
         let Parts { speed, decay, model, .. } = *parts;
         let changed = if has_c_i { changed } else { Parts { speed, decay, model, ..changed } };
-        (changed != *parts).then_some(Change { name: mistake.name, advice: mistake.advice, parts: changed })
-    };
-    let mut all: Vec<_> = std::iter::once(right).chain(MISTAKES.iter().filter_map(of)).collect();
-    all.dedup_by(|second, first| first.parts == second.parts);
+        let name = (mistake.name, mistake.advice);
+        match all.iter_mut().find(|change| change.parts == changed) {
+            _ if changed == *parts => {}
+            Some(same) => same.names.push(name),
+            None => all.push(Change { names: vec![name], parts: changed }),
+        }
+    }
     all
+}
+
+/// What is known of a problem before any answer.
+struct Known {
+    /// The index of the closure in [`CLOSURES`]; `None` if no closure is the right one.
+    own: Option<usize>,
+    parts: Parts,
+    start: Matrix3<f64>,
+    changes: Vec<Change>,
+    candidates: Vec<Candidate>,
+}
+
+/// What is known of a problem, computed once for each; `None` if it has no closed equation that a code may solve.
+fn known(problem: &Problem) -> Option<Arc<Known>> {
+    static ALL: Mutex<BTreeMap<String, Option<Arc<Known>>>> = Mutex::new(BTreeMap::new());
+    let of = || {
+        let (closed, own) = asked(problem)?;
+        let parts = closed.equation(&problem.gradient_per_s, problem.aspect_ratio).parts();
+        let changes = changes(&parts, problem.d_r_per_s.is_none());
+        let candidates = candidates(&changes, own);
+        Some(Arc::new(Known { own, parts, start: closed.start(), changes, candidates }))
+    };
+    let key = serde_json::to_string(problem).ok()?;
+    ALL.lock().unwrap_or_else(PoisonError::into_inner).entry(key).or_insert_with(of).clone()
 }
 
 /// The words for a change with a closure; `own` is the index of the one that is asked for, if one is.
@@ -144,16 +186,15 @@ fn of_wrong_distribution(problem: &Problem, answer: &Answer, most: f64) -> Vec<N
     wrong.par_iter().filter_map(of).collect()
 }
 
-fn candidates(parts: &Parts, own: Option<usize>, has_c_i: bool) -> Vec<Candidate> {
+fn candidates(changes: &[Change], own: Option<usize>) -> Vec<Candidate> {
     let with = |change: &Change| {
-        let (parts, name, advice) = (change.parts, change.name, change.advice);
-        let of = move |(closure, stand): (usize, &Stand)| {
-            let near = near_of(name, advice, closure, own);
-            (near.changes > 0).then_some(Candidate { parts, closure: *stand, near })
+        let of = |(closure, stand): (usize, &Stand)| {
+            let near: Vec<_> = change.names.iter().map(|(name, advice)| near_of(name, advice, closure, own)).collect();
+            (near[0].changes > 0).then(|| Candidate::new(change.parts, *stand, near))
         };
         CLOSURES.iter().enumerate().filter_map(of).collect::<Vec<_>>()
     };
-    changes(parts, has_c_i).iter().flat_map(with).collect()
+    changes.iter().flat_map(with).collect()
 }
 
 /// The values of the problem's columns for a, with the fourth moments by the closure; `None` for other columns.
@@ -184,18 +225,18 @@ fn distance(
     candidate: &Candidate,
     most: f64,
 ) -> Option<f64> {
-    let near = |count: usize, tolerance: f64, most: f64| {
-        let curve = candidate.curve(problem, start, count, tolerance)?;
-        Some(apart(rows, &curve)).filter(|off| *off <= most)
-    };
+    let far = |off: &f64| off.is_nan() || *off > most + OFF;
     // Saves time: most candidates are far already at the first time, or not at rest where the answer is.
     if !problem.is_steady() {
-        near(1, ROUGH, most + OFF)?;
+        let first = candidate.first(problem, start)?;
+        if far(&apart(&rows[..1], std::slice::from_ref(first))) {
+            return None;
+        }
     } else if rows[0].len() == PAIRS.len() && candidate.rate(&tensor(&rows[0])).amax() > 100.0 * most * candidate.norm()
     {
         return None;
     }
-    near(problem.times_s.len(), STEP, most)
+    Some(apart(rows, candidate.whole(problem, start)?)).filter(|off| *off <= most)
 }
 
 /// The distance of an answer from the distribution with these parts; `None` if it is larger than `most`, or no motion
@@ -236,43 +277,47 @@ pub(super) fn diagnose(loaded: &LoadedProblem, answer: &Answer, error: f64) -> D
         return Diagnosis::default();
     }
     let mut near = of_wrong_distribution(problem, answer, most);
-    let Some((closed, own)) = asked(problem) else { return said(CURVE, near, problem.tolerance, "") };
-    let start = closed.start();
-    let parts = closed.equation(&problem.gradient_per_s, problem.aspect_ratio).parts();
+    let Some(known) = known(problem) else { return said(CURVE, near, problem.tolerance, "") };
+    let Known { start, candidates, .. } = &*known;
     let is_second = problem.columns.len() == PAIRS.len() + 1;
     if is_second && answer.rows.iter().all(|row| (tensor(row) - start).amax() <= most) {
         return Diagnosis::sentence("a_ij stays where it started: nothing has moved");
     }
     near.extend(in_other_layouts(&[certified(loaded)], answer, most));
-    let has_c_i = problem.d_r_per_s.is_none();
-    let all = candidates(&parts, own, has_c_i);
     let with = |changes: u8| -> Vec<Near> {
         let near = |candidate: &Candidate| {
-            let distance = distance(problem, &answer.rows, &start, candidate, most)?;
-            Some(Near { distance, ..candidate.near.clone() })
+            let distance = distance(problem, &answer.rows, start, candidate, most)?;
+            Some(candidate.near.iter().map(move |near| Near { distance, ..near.clone() }).collect::<Vec<_>>())
         };
-        all.par_iter().filter(|candidate| candidate.near.changes == changes).filter_map(near).collect()
+        let of = candidates.par_iter().filter(|candidate| candidate.near[0].changes == changes);
+        of.filter_map(near).flatten().collect()
     };
     near.extend(with(1));
-    if problem.closed.is_none() || start == isotropic() {
-        let exact = changes(&parts, has_c_i);
-        let exact = exact.par_iter().filter(|change| problem.closed.is_some() == change.name.is_empty());
-        near.par_extend(exact.filter_map(|Change { name, advice, parts }| {
-            let distance = from_exact(problem, &answer.rows, parts, most)?;
-            let name = if name.is_empty() { "the distribution, without a closure" } else { name };
-            Some(Near { advice, ..Near::new(distance, name) })
-        }));
+    if problem.closed.is_none() || *start == isotropic() {
+        let exact = known.changes.par_iter().filter(|change| problem.closed.is_some() == change.names[0].0.is_empty());
+        near.par_extend(
+            exact
+                .filter_map(|Change { names, parts }| {
+                    let distance = from_exact(problem, &answer.rows, parts, most)?;
+                    let of = move |(name, advice): &(&str, &'static str)| {
+                        let name = if name.is_empty() { "the distribution, without a closure" } else { name };
+                        Near { advice, ..Near::new(distance, name) }
+                    };
+                    Some(names.iter().map(of).collect::<Vec<_>>())
+                })
+                .flatten(),
+        );
     }
     // More changes are sought only where fewer explain nothing: that is what a code is likely to have, and it saves
     // time.
     if near.is_empty() {
         near = with(2);
         if is_second {
-            near.extend(in_other_layouts(&of_closures(problem, &parts, &start, own), answer, most));
+            near.extend(in_other_layouts(&of_closures(problem, &known), answer, most));
         }
     }
     if near.is_empty() && !problem.is_steady() {
-        near = estimate::of_curve(problem, answer, &closed, own, most);
+        near = estimate::of_curve(problem, answer, &known, most);
     }
     let cost = match problem.closed {
         Some(_) => String::new(),
@@ -285,16 +330,18 @@ pub(super) fn diagnose(loaded: &LoadedProblem, answer: &Answer, error: f64) -> D
 /// unknown here or makes no difference.
 pub(super) fn off(loaded: &LoadedProblem, name: &str) -> Option<f64> {
     let (problem, rows) = (&loaded.problem, certified(loaded).1);
-    let (closed, own) = asked(problem)?;
-    let parts = closed.equation(&problem.gradient_per_s, problem.aspect_ratio).parts();
-    let change = changes(&parts, problem.d_r_per_s.is_none()).into_iter().find(|change| change.name == name);
+    let known = known(problem)?;
+    let change = known.changes.iter().find(|change| change.names.iter().any(|(own, _)| *own == name));
     let of_change = |change: &Change| {
-        let Some(own) = own else { return from_exact(problem, &rows, &change.parts, f64::INFINITY) };
-        let candidate = Candidate { parts: change.parts, closure: CLOSURES[own], near: Near::new(0.0, name) };
+        if known.own.is_none() {
+            return from_exact(problem, &rows, &change.parts, f64::INFINITY);
+        }
+        let of = |candidate: &&Candidate| candidate.parts == change.parts && candidate.near[0].changes == 1;
+        let candidate = known.candidates.iter().find(of)?;
         // An equation without a solution does not have the certified one.
-        distance(problem, &rows, &closed.start(), &candidate, f64::INFINITY).or(Some(f64::INFINITY))
+        distance(problem, &rows, &known.start, candidate, f64::INFINITY).or(Some(f64::INFINITY))
     };
-    change.as_ref().map_or_else(|| of_layout(&rows, name), of_change)
+    change.map_or_else(|| of_layout(&rows, name), of_change)
 }
 
 /// How far rows are from themselves in the layout of this name.
@@ -331,18 +378,11 @@ fn certified(loaded: &LoadedProblem) -> (Near, Vec<Vec<f64>>) {
 }
 
 /// The curves of every closure but the problem's own.
-fn of_closures(
-    problem: &Problem,
-    parts: &Parts,
-    start: &Matrix3<f64>,
-    own: Option<usize>,
-) -> Vec<(Near, Vec<Vec<f64>>)> {
-    let curve = |(closure, stand): (usize, &Stand)| {
-        let candidate = Candidate { parts: *parts, closure: *stand, near: near_of("", "", closure, own) };
-        let curve = candidate.curve(problem, start, problem.times_s.len(), STEP)?;
-        (own != Some(closure)).then_some((candidate.near, curve))
-    };
-    CLOSURES.par_iter().enumerate().filter_map(curve).collect()
+fn of_closures(problem: &Problem, known: &Known) -> Vec<(Near, Vec<Vec<f64>>)> {
+    let of = known.candidates.par_iter().filter(|candidate| candidate.parts == known.parts);
+    let curve =
+        |candidate: &Candidate| Some((candidate.near[0].clone(), candidate.whole(problem, &known.start)?.clone()));
+    of.filter_map(curve).collect()
 }
 
 /// The largest error, with its column and time.

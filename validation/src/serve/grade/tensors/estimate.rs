@@ -1,10 +1,10 @@
 //! A number that is off by an unknown factor: C_I, or Λ.
 
-use super::{Candidate, Near, STEP, distance, near_of};
+use super::{Candidate, Known, Near, STEP, distance, near_of};
 use crate::methods::tensors::Parts;
 use crate::methods::tensors::wrong::{CLOSURES, shaped, spread};
 use crate::serve::grade::answer::Answer;
-use crate::serve::problems::{Closed, Problem};
+use crate::serve::problems::Problem;
 use rayon::prelude::*;
 
 /// A quantity and the parts in which it is `factor` times what is asked.
@@ -23,26 +23,18 @@ pub(super) fn words(quantity: &str, factor: f64) -> String {
 }
 
 /// The curves of equations with another C_I or Λ, found at the first time, that fit at all times.
-pub(super) fn of_curve(
-    problem: &Problem,
-    answer: &Answer,
-    closed: &Closed,
-    own: Option<usize>,
-    most: f64,
-) -> Vec<Near> {
-    let parts = closed.equation(&problem.gradient_per_s, problem.aspect_ratio).parts();
-    let start = closed.start();
+pub(super) fn of_curve(problem: &Problem, answer: &Answer, known: &Known, most: f64) -> Vec<Near> {
     let all: Vec<_> = QUANTITIES.iter().flat_map(|q| (0..CLOSURES.len()).map(move |closure| (q, closure))).collect();
     let fit = |((name, change), closure): &(&Quantity, usize)| {
         let name = if problem.d_r_per_s.is_some() { name.replace("C_I", "D_r") } else { (*name).to_owned() };
         let with = |factor: f64| {
-            let near = near_of(&words(&name, factor), "", *closure, own);
-            Some(Candidate { parts: change(parts, factor)?, closure: CLOSURES[*closure], near })
+            let near = near_of(&words(&name, factor), "", *closure, known.own);
+            Some(Candidate::new(change(known.parts, factor)?, CLOSURES[*closure], vec![near]))
         };
-        let row = |factor: f64| with(factor)?.curve(problem, &start, 1, STEP)?.pop();
-        let candidate = with(newton(&answer.rows[0], row)?)?;
-        let distance = distance(problem, &answer.rows, &start, &candidate, most)?;
-        Some(Near { distance, ..candidate.near })
+        let row = |factor: f64| with(factor)?.curve(problem, &known.start, 1, STEP)?.pop();
+        let mut candidate = with(newton(&answer.rows[0], row)?)?;
+        let distance = distance(problem, &answer.rows, &known.start, &candidate, most)?;
+        Some(Near { distance, ..candidate.near.remove(0) })
     };
     all.par_iter().filter_map(fit).collect()
 }

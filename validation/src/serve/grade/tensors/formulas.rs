@@ -4,7 +4,7 @@ use super::estimate::words;
 use super::{CLOSURES, Near, Stand, apart, index, near_of};
 use crate::methods::tensors::fourth::PAIRS;
 use crate::methods::tensors::wrong::{MISTAKES, Mistake, spread};
-use crate::methods::tensors::{Closure, Equation, Model, Parts};
+use crate::methods::tensors::{Closure, Equation, Fourth, Model, Parts};
 use crate::serve::grade::answer::Answer;
 use crate::serve::grade::nearness::{Diagnosis, NEARER, said};
 use crate::serve::problems::formula::{components, equation, tensor};
@@ -38,7 +38,7 @@ pub(in crate::serve::grade) fn off(loaded: &LoadedProblem, name: &str) -> Option
         Formula::Dadt { closure, model } => {
             let mistake = MISTAKES.iter().find(|mistake| mistake.name == name)?;
             let parts = spoilt(&parts_of(&rows, closure, model), Some(mistake))?;
-            Some(apart(&right.rows, &rates(&rows, &parts, &CLOSURES[index(closure)?])))
+            Some(apart(&right.rows, &rates(&rows, &parts, &fourths(&rows, &CLOSURES[index(closure)?]))))
         }
     };
     super::of_layout(&right.rows, name).or_else(of_mistake)
@@ -73,20 +73,25 @@ fn parts_of(rows: &Rows, closure: Closure, model: Model) -> Vec<Parts> {
     rows.iter().map(|row| equation(closure, model, row)).map(|e: Equation| e.parts()).collect()
 }
 
-/// da_ij/dt of each row with these parts and this closure.
-fn rates(rows: &Rows, parts: &[Parts], closure: &Stand) -> Rows {
-    let of = |(row, parts): (&Vec<f64>, &Parts)| {
-        let a = tensor(row);
-        let rate = parts.rate(&a, &(closure.fourth)(&a));
+/// a_ijkl of each row by a closure.
+fn fourths(rows: &Rows, closure: &Stand) -> Vec<Fourth> {
+    rows.iter().map(|row| (closure.fourth)(&tensor(row))).collect()
+}
+
+/// da_ij/dt of each row with these parts and these a_ijkl.
+fn rates(rows: &Rows, parts: &[Parts], fourths: &[Fourth]) -> Rows {
+    let of = |(row, (parts, fourth)): (&Vec<f64>, (&Parts, &Fourth))| {
+        let rate = parts.rate(&tensor(row), fourth);
         PAIRS.map(|place| rate[place]).to_vec()
     };
-    rows.iter().zip(parts).map(of).collect()
+    rows.iter().zip(parts.iter().zip(fourths)).map(of).collect()
 }
 
 fn of_rates(rows: &Rows, answer: &Answer, closure: Closure, model: Model, most: f64) -> Vec<Near> {
     let own = index(closure);
     let parts = parts_of(rows, closure, model);
-    let rates = |parts: &[Parts], k: usize| rates(rows, parts, &CLOSURES[k]);
+    let fourths: Vec<_> = CLOSURES.iter().map(|closure| fourths(rows, closure)).collect();
+    let rates = |parts: &[Parts], k: usize| rates(rows, parts, &fourths[k]);
     let mut near = Vec::new();
     for mistake in std::iter::once(None).chain(MISTAKES.iter().map(Some)) {
         let Some(parts) = spoilt(&parts, mistake) else { continue };

@@ -1,5 +1,7 @@
 //! Six components in another order, with factors, or in other axes.
 
+use std::f64::consts::SQRT_2;
+
 /// A way to write the six components of a symmetric tensor.
 pub(super) struct Layout {
     /// The layout, to stand after "this is the curve of".
@@ -8,39 +10,45 @@ pub(super) struct Layout {
     pub(super) advice: &'static str,
     /// The place in the answer of 11, 22, 33, 12, 13, 23.
     places: [usize; 6],
-    /// The factor on 12, 13 and 23.
-    factor: f64,
+    /// The factors on 12, 13 and 23.
+    factors: [f64; 3],
 }
 
 const ORDER: &str = "the columns are 11, 22, 33, 12, 13, 23; the names of the columns say another order";
 const PLAIN: &str = "a12, a13 and a23 are ⟨p_i p_j⟩, without a factor";
 const AXES: &str = "1 = gradient, 2 = flow, 3 = vorticity: the order of the program's axes can be given";
 
-const fn layout(name: &'static str, advice: &'static str, places: [usize; 6], factor: f64) -> Layout {
-    Layout { name, advice, places, factor }
+const fn order(name: &'static str, advice: &'static str, places: [usize; 6]) -> Layout {
+    Layout { name, advice, places, factors: [1.0; 3] }
+}
+
+const fn factors(name: &'static str, factors: [f64; 3]) -> Layout {
+    Layout { name, advice: PLAIN, places: [0, 1, 2, 3, 4, 5], factors }
 }
 
 /// Layouts of other programs, and mistakes.
-pub(super) const LAYOUTS: [Layout; 13] = [
-    layout("columns in Voigt's order 11, 22, 33, 23, 13, 12", ORDER, [0, 1, 2, 5, 4, 3], 1.0),
-    layout("columns in the order 11, 22, 33, 12, 23, 13", ORDER, [0, 1, 2, 3, 5, 4], 1.0),
-    layout("columns in the order 11, 22, 33, 23, 12, 13", ORDER, [0, 1, 2, 4, 5, 3], 1.0),
-    layout("columns in the order 11, 22, 33, 13, 12, 23", ORDER, [0, 1, 2, 4, 3, 5], 1.0),
-    layout("columns in the order 11, 12, 13, 22, 23, 33", ORDER, [0, 3, 5, 1, 2, 4], 1.0),
-    layout("2 a_12 for a_12 (engineering shear)", PLAIN, [0, 1, 2, 3, 4, 5], 2.0),
-    layout("√2 a_12 for a_12 (Mandel's notation)", PLAIN, [0, 1, 2, 3, 4, 5], std::f64::consts::SQRT_2),
-    layout("a_12/2 for a_12", PLAIN, [0, 1, 2, 3, 4, 5], 0.5),
-    layout("axes in the order flow,gradient,vorticity", AXES, [1, 0, 2, 3, 5, 4], 1.0),
-    layout("axes in the order vorticity,flow,gradient", AXES, [2, 1, 0, 5, 4, 3], 1.0),
-    layout("axes in the order gradient,vorticity,flow", AXES, [0, 2, 1, 4, 3, 5], 1.0),
-    layout("axes in the order flow,vorticity,gradient", AXES, [2, 0, 1, 4, 5, 3], 1.0),
-    layout("axes in the order vorticity,gradient,flow", AXES, [1, 2, 0, 5, 3, 4], 1.0),
+pub(super) const LAYOUTS: [Layout; 15] = [
+    order("columns in Voigt's order 11, 22, 33, 23, 13, 12", ORDER, [0, 1, 2, 5, 4, 3]),
+    order("columns in the order 11, 22, 33, 12, 23, 13", ORDER, [0, 1, 2, 3, 5, 4]),
+    order("columns in the order 11, 22, 33, 23, 12, 13", ORDER, [0, 1, 2, 4, 5, 3]),
+    order("columns in the order 11, 22, 33, 13, 12, 23", ORDER, [0, 1, 2, 4, 3, 5]),
+    order("columns in the order 11, 12, 13, 22, 23, 33", ORDER, [0, 3, 5, 1, 2, 4]),
+    factors("2 a_12 for a_12 (engineering shear)", [2.0; 3]),
+    factors("√2 a_12 for a_12 (Mandel's notation)", [SQRT_2; 3]),
+    factors("a_12/2 for a_12", [0.5; 3]),
+    factors("a_12, a_13 and a_23 with the wrong sign", [-1.0; 3]),
+    factors("a_12 with the wrong sign", [-1.0, 1.0, 1.0]),
+    order("axes in the order flow,gradient,vorticity", AXES, [1, 0, 2, 3, 5, 4]),
+    order("axes in the order vorticity,flow,gradient", AXES, [2, 1, 0, 5, 4, 3]),
+    order("axes in the order gradient,vorticity,flow", AXES, [0, 2, 1, 4, 3, 5]),
+    order("axes in the order flow,vorticity,gradient", AXES, [2, 0, 1, 4, 5, 3]),
+    order("axes in the order vorticity,gradient,flow", AXES, [1, 2, 0, 5, 3, 4]),
 ];
 
 impl Layout {
     /// A row of an answer in this layout, as 11, 22, 33, 12, 13, 23; `None` for other rows.
     pub(super) fn read(&self, row: &[f64]) -> Option<Vec<f64>> {
-        let of = |(k, place): (usize, &usize)| if k < 3 { row[*place] } else { row[*place] / self.factor };
+        let of = |(k, place): (usize, &usize)| if k < 3 { row[*place] } else { row[*place] / self.factors[k - 3] };
         (row.len() == 6).then(|| self.places.iter().enumerate().map(of).collect())
     }
 }
