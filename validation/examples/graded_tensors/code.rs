@@ -141,6 +141,14 @@ impl Code {
         }
     }
 
+    /// a_ijkl of each two pairs, written as a_ij is on rows and on columns.
+    pub fn fourth(&self, a: &M, pairs: [(usize, usize); 6]) -> Vec<f64> {
+        let row = |(i, j)| (self.written)(pairs.map(|(k, l)| (self.closure)(a, [i, j, k, l])));
+        let rows = pairs.map(row);
+        let columns: [[f64; 6]; 6] = from_fn(|k| (self.written)(rows.map(|row| row[k])));
+        (0..6).flat_map(|j| (j..6).map(move |k| columns[k][j])).collect()
+    }
+
     /// da_ij/dt with the parameters C_I and κ, C_M or Ω.
     pub fn rate(&self, a: &M, l: &M, r: f64, [c_i, other]: [f64; 2]) -> M {
         let l = (self.gradient)(l);

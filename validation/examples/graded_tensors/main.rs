@@ -58,6 +58,7 @@ const WRONG: &[Wrong] = &[
     ("no diffusion", "diffusion left out", |c| c.spread[0] = 0.0),
     ("diffusion's sign", "diffusion with the wrong sign", |c| c.spread[0] = -2.0),
     ("0.73 C_I", "C_I times 0.7300", |c| c.spread[0] = 1.46),
+    ("0.95 Λ", "Λ times 0.9500", |c| c.shape = |r| 0.95 - 1.9 / (r * r + 1.0)),
     ("Λ missing at 𝔸:D", "Λ missing before 𝔸:D", |c| c.stretch[1] = |_| 2.0),
     ("Λ missing at Da + aD", "Λ missing before Da + aD", |c| c.stretch[0] = |_| 1.0),
     ("2 missing at 𝔸:D", "the 2 missing before 𝔸:D", |c| c.stretch[1] = |shape| shape),
@@ -127,6 +128,9 @@ const WRONG: &[Wrong] = &[
         let root = 2f64.sqrt();
         [x[0], x[1], x[2], root * x[3], root * x[4], root * x[5]]
     }),
+    ("half", "a_12/2 for a_12", |c| {
+        c.written = |x| [x[0], x[1], x[2], 0.5 * x[3], 0.5 * x[4], 0.5 * x[5]];
+    }),
     ("Voigt", "Voigt's order", |c| c.written = |x| [x[0], x[1], x[2], x[5], x[4], x[3]]),
     ("flow along 1", "axes in the order flow,gradient,vorticity", |c| {
         c.written = |x| [x[1], x[0], x[2], x[3], x[5], x[4]];
@@ -193,7 +197,7 @@ fn problems_of(closure: &str) -> Vec<LoadedProblem> {
         return vec![problems::named(&format!("dadt-{closure}")).expect("a problem").loaded(closure.into())];
     }
     let c_i = if closure == "linear" { "0.1" } else { "0.01" };
-    let names = [format!("dadt-ft-{closure}"), format!("closed-ft-{closure}-{c_i}")];
+    let names = [format!("closure-{closure}"), format!("dadt-ft-{closure}"), format!("closed-ft-{closure}-{c_i}")];
     let further = match closure {
         "hybrid" => &["closed-ft-hybrid-mixed", "closed-ft-hybrid-extension", "folgar-tucker-shear-0.01"][..],
         "quadratic" => &["closed-ft-quadratic-mixed"],
@@ -203,8 +207,8 @@ fn problems_of(closure: &str) -> Vec<LoadedProblem> {
     all.map(|name| problems::named(name).expect("a problem").loaded(name.into())).collect()
 }
 
-/// The rows of a code's answer: a time or a number, and six components.
-type Rows = Vec<(f64, [f64; 6])>;
+/// The rows of a code's answer: a time or a number, and the components.
+type Rows = Vec<(f64, Vec<f64>)>;
 
 fn apart(a: &Rows, b: &Rows) -> f64 {
     let each = a.iter().zip(b).flat_map(|((_, a), (_, b))| a.iter().zip(b).map(|(a, b)| (a - b).abs()));
@@ -212,7 +216,7 @@ fn apart(a: &Rows, b: &Rows) -> f64 {
 }
 
 fn values(code: &Code, loaded: &LoadedProblem, strain: f64) -> Rows {
-    let six = |a: &M| (code.written)([a[0][0], a[1][1], a[2][2], a[0][1], a[0][2], a[1][2]]);
+    let six = |a: &M| (code.written)(PAIRS.map(|(i, j)| a[i][j])).to_vec();
     let matrix = |x: &[f64]| -> M { [[x[0], x[3], x[4]], [x[3], x[1], x[5]], [x[4], x[5], x[2]]] };
     let problem = &loaded.problem;
     let parameters = |model: Model| match model.parameters()[..] {
@@ -220,6 +224,10 @@ fn values(code: &Code, loaded: &LoadedProblem, strain: f64) -> Rows {
         ref all => [all[0], f64::NAN],
     };
     match (&problem.formula, &loaded.inputs) {
+        (Some(Formula::Closure { .. }), Some(inputs)) => {
+            let of = |row: &Vec<f64>| (row[0], code.fourth(&matrix(&row[1..]), PAIRS));
+            inputs.rows.iter().map(of).collect()
+        }
         (Some(Formula::Dadt { model, .. }), Some(inputs)) => {
             let of = |row: &Vec<f64>| {
                 let l: M = from_fn(|i| from_fn(|j| row[7 + 3 * i + j]));
@@ -239,16 +247,19 @@ fn values(code: &Code, loaded: &LoadedProblem, strain: f64) -> Rows {
     }
 }
 
+/// 11, 22, 33, 12, 13, 23.
+const PAIRS: [(usize, usize); 6] = [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)];
+
 /// The smallest difference that a mistake makes: what steps of 0.04 are off is more.
 const DIFFERENCE: f64 = 1e-9;
 
 fn certified(loaded: &LoadedProblem) -> Rows {
-    loaded.certified.rows.iter().map(|row| (row[0], from_fn(|k| row[k + 1]))).collect()
+    loaded.certified.rows.iter().map(|row| (row[0], row[1..].to_vec())).collect()
 }
 
 fn text(loaded: &LoadedProblem, rows: &Rows) -> String {
-    let row = |(key, six): &(f64, [f64; 6])| {
-        let values: Vec<_> = six.iter().map(|x| format!("{x:e}")).collect();
+    let row = |(key, values): &(f64, Vec<f64>)| {
+        let values: Vec<_> = values.iter().map(|x| format!("{x:e}")).collect();
         format!("{key},{}\n", values.join(","))
     };
     format!("{}\n{}", loaded.problem.columns.join(","), rows.iter().map(row).collect::<String>())

@@ -2,6 +2,7 @@
 
 use super::answer::Answer;
 use super::nearness::apart;
+use super::trace;
 use crate::judge::statistics::worst;
 use crate::serve::problems::{LoadedProblem, Metric};
 use nalgebra::Vector3;
@@ -132,32 +133,31 @@ fn remark(loaded: &LoadedProblem, answer: &Answer, row: usize, error: f64, large
             "too little data to judge: the largest standard error is {largest_se:.2e}, {enough:.2e} is allowed"
         ));
     }
-    trace(loaded, answer, row).map(|words| format!("{}: {words}", place()))
+    trace::remark(loaded, answer, row).map(|words| format!("{}: {words}", place()))
 }
 
-/// What is wrong with the trace of a_ij in a row, if anything is.
-fn trace(loaded: &LoadedProblem, answer: &Answer, row: usize) -> Option<String> {
-    // Six printed digits and an integrator's drift change the trace by less.
-    const OFF: f64 = 1e-3;
-    let names = &loaded.problem.columns[loaded.problem.kind.keys().len()..];
-    let places = ["a11", "a22", "a33"].map(|name| names.iter().position(|found| found == name));
-    let [Some(a), Some(b), Some(c)] = places else { return None };
-    let of = |row: usize| answer.rows[row][a] + answer.rows[row][b] + answer.rows[row][c];
-    let is_one = |sum: f64| (sum - 1.0).abs() <= OFF;
-    let found = of(row);
-    if is_one(found) {
-        return None;
-    }
-    let digits = if found.abs() < 1e4 { format!("{found:.4}") } else { format!("{found:.1e}") };
-    let values = &answer.rows[row];
-    let others = || (0..values.len()).flat_map(|i| (0..i).flat_map(move |j| (0..j).map(move |k| [i, j, k])));
-    let permuted = others().any(|of| is_one(of.iter().map(|k| values[*k]).sum()));
-    let drifts = row > 0 && is_one(of(0));
-    Some(match (drifts, permuted) {
-        (true, _) => format!("the trace drifts from {:.4} to {digits}: the rate of a_ij has a trace", of(0)),
-        (false, true) => format!("the trace is {digits}; are the columns in another order?"),
-        (false, false) => format!("the trace is {digits}, where 1 is due"),
-    })
+/// The component of a row that is farthest from what is due, with both values; `None` of directions and of relative
+/// errors, which have one value for several components.
+pub(super) fn worst_entry(loaded: &LoadedProblem, answer: &Answer, row: usize) -> Option<String> {
+    let keys = loaded.problem.kind.keys().len();
+    let (names, values) = (&loaded.problem.columns[keys..], &answer.rows[row]);
+    let certified = &loaded.certified.rows[row][keys..];
+    let off = |k: usize| values[k] - certified[k];
+    let errors: Vec<_> = match loaded.problem.metric {
+        Metric::Absolute => (0..names.len()).map(|k| (k, off(k).abs())).collect(),
+        Metric::StandardErrors => {
+            with_errors(names).map(|(k, se)| (k, off(k).abs() / values[se].hypot(certified[se]))).collect()
+        }
+        Metric::Angle | Metric::Relative => return None,
+    };
+    let (k, _) = errors.into_iter().max_by(|a, b| a.1.total_cmp(&b.1))?;
+    // Three digits of the difference, where a double has them.
+    let decimals = (2.0 - off(k).abs().log10().floor()).clamp(4.0, 15.0) as usize;
+    let [found, due] = [values[k], certified[k]].map(|x| match x.abs() < 1e6 {
+        true => format!("{x:.decimals$}"),
+        false => format!("{x:.3e}"),
+    });
+    Some(format!("{} is {found}, {due} is due", names[k]))
 }
 
 fn orbit_drift(loaded: &LoadedProblem, answer: &Answer) -> f64 {

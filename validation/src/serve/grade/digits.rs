@@ -15,11 +15,17 @@ pub(super) fn remark(answer: &Answer, error: f64) -> Option<String> {
         return None;
     }
     let size = all().fold(0.0, |size: f64, x| size.max(x.abs()));
-    if error <= ROUNDINGS * f64::from(f32::EPSILON) * size && all().all(|x| f64::from(x as f32) == x) {
-        return Some("every number is one of single precision, which explains this error".to_owned());
+    let printed = |x: f64, digits: usize| format!("{x:.*e}", digits - 1).parse::<f64>();
+    let digits = DIGITS.into_iter().find(|digits| all().all(|x| printed(x, *digits) == Ok(x)));
+    // Fewer than nine digits say nothing: they round to numbers of single precision and back.
+    let is_single = |x: f64| {
+        let single = f64::from(x as f32);
+        single == x || digits.is_some_and(|digits| digits > 8 && printed(single, digits) == Ok(x))
+    };
+    if error <= ROUNDINGS * f64::from(f32::EPSILON) * size && all().all(is_single) {
+        return Some("your answer has single precision, whose errors of 1e-7 and more explain this one".to_owned());
     }
-    let has = |digits: &usize| all().all(|x| format!("{x:.*e}", digits - 1).parse() == Ok(x));
-    let digits = DIGITS.into_iter().find(has)?;
+    let digits = digits?;
     let last = 10f64.powi(1 - digits as i32) * size;
     (error <= ROUNDINGS * last).then(|| {
         format!(
@@ -38,6 +44,11 @@ mod tests {
         let single = of(vec![vec![f64::from(0.1f32), f64::from(0.7f32)]]);
         assert!(remark(&single, 1e-7).unwrap().contains("single precision"));
         assert_eq!(remark(&single, 1e-3), None);
+        let nine = |x: f32| format!("{x:.8e}").parse().unwrap();
+        let single = of(vec![vec![nine(0.1), nine(0.7), nine(1.0 / 3.0)]]);
+        assert!(remark(&single, 1e-7).unwrap().contains("single precision"));
+        let printed = of(vec![vec![0.123_456_789, 0.7, 0.333_333_333]]);
+        assert!(remark(&printed, 1e-7).unwrap().contains("9 digits"));
         let printed = of(vec![vec![0.123_456_78, -0.5, 0.0]]);
         assert!(remark(&printed, 1e-8).unwrap().contains("8 digits"));
         assert_eq!(remark(&printed, 1e-3), None);

@@ -77,15 +77,15 @@ pub(super) fn laws(wrong: &[Wrong<'_>], passing: &[&LoadedProblem]) -> Vec<Strin
             wrong.iter().all(|wrong| wrong.fits(other(wrong.setting(), *value)))
                 && !passing.iter().any(|loaded| shows(loaded, law, *value))
         };
-        values.find(explains).map(|value| words.replace("{}", &digits(value)) + &of_pi(law, value))
+        values.find(explains).map(|value| words.replace("{}", &digits(value, 3)) + &of_pi(law, value))
     };
     LAWS.iter().filter_map(found).collect()
 }
 
-/// A value with three decimals, or with as many as show three digits of its difference from 1.
-fn digits(value: f64) -> String {
+/// A value with `least` decimals, or with as many as show three digits of its difference from 1.
+pub(super) fn digits(value: f64, least: usize) -> String {
     let off = -(value - 1.0).abs().log10() - 0.1;
-    let decimals = if off < 2.0 { 3 } else { off.ceil() as usize + 2 };
+    let decimals = if off < 2.0 { least } else { least.max(off.min(13.0).ceil() as usize + 2) };
     format!("{value:.*}", decimals.min(15))
 }
 

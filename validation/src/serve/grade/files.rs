@@ -1,7 +1,7 @@
 //! Verdicts on answers in files.
 
 use super::answer::Answer;
-use super::compare::compare;
+use super::compare::{compare, worst_entry};
 use super::digits;
 use super::lammps;
 use super::layout::FileOptions;
@@ -126,7 +126,12 @@ pub(super) fn judge(graded: &mut Graded, loaded: &LoadedProblem, answer: &Answer
         off
     } else {
         let digits = digits::remark(answer, compared.error).filter(|_| !compared.too_little_data);
-        let place = compared.remark.unwrap_or_else(|| place(loaded, answer, compared.row));
+        let worst = place(loaded, answer, compared.row);
+        let place = match compared.remark {
+            None => format!("{worst}, in {}", answer.place(compared.row)),
+            Some(remark) if compared.error.is_finite() && !compared.too_little_data => format!("{remark}; {worst}"),
+            Some(remark) => remark,
+        };
         let needed = graded.steps_needed().filter(|_| off.is_none());
         Some(off.into_iter().chain(needed).chain([place]).chain(digits).collect::<Vec<_>>().join("; "))
     };
@@ -143,5 +148,6 @@ fn place(loaded: &LoadedProblem, answer: &Answer, row: usize) -> String {
         Metric::Relative => "relative",
         Metric::StandardErrors => "standard errors",
     };
-    format!("worst ({unit}) at {}, in {}", key.join(", "), answer.place(row))
+    let entry = worst_entry(loaded, answer, row).map_or(String::new(), |entry| format!(": {entry}"));
+    format!("worst ({unit}) at {}{entry}", key.join(", "))
 }

@@ -22,6 +22,7 @@ mod overall;
 mod read;
 mod report;
 mod tensors;
+mod trace;
 
 pub use crate::files::csv::LineEnds;
 pub use axes::Axes;

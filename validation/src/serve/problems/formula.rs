@@ -78,6 +78,12 @@ pub(crate) fn components(fourth: &Fourth) -> Vec<f64> {
     (0..6).flat_map(|row| (row..6).map(move |column| fourth.0[(row, column)])).collect()
 }
 
+/// The place in [`FOURTH`] of the pair (j, k) or (k, j) of index pairs.
+pub(crate) fn paired(j: usize, k: usize) -> usize {
+    let (j, k) = (j.min(k), j.max(k));
+    j * (11 - j) / 2 + k
+}
+
 /// The equation whose rate a row asks for.
 pub(crate) fn equation(closure: Closure, model: Model, row: &[f64]) -> Equation {
     let closed = Closed { closure, model, start: [[0.0; 3]; 3] };

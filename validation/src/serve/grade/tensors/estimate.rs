@@ -4,22 +4,25 @@ use super::{Candidate, Known, Near, STEP, distance, near_of};
 use crate::methods::tensors::Parts;
 use crate::methods::tensors::wrong::{CLOSURES, shaped, spread};
 use crate::serve::grade::answer::Answer;
+use crate::serve::grade::estimate::digits;
 use crate::serve::problems::Problem;
 use rayon::prelude::*;
 
 /// A quantity and the parts in which it is `factor` times what is asked.
-type Quantity = (&'static str, fn(Parts, f64) -> Option<Parts>);
+pub(super) type Quantity = (&'static str, fn(Parts, f64) -> Option<Parts>);
 
-const QUANTITIES: [Quantity; 2] =
+pub(super) const QUANTITIES: [Quantity; 2] =
     [("C_I", spread), ("Λ", |parts, factor| Some(shaped(parts, factor * parts.of_strain)))];
 
 /// The step of the slope, and the number of steps of Newton's method.
 const SLOPE: f64 = 1e-6;
 const STEPS: usize = 12;
 
-/// The words for a quantity that is `factor` times what is asked.
+/// The words for a quantity that is `factor` times what is asked, with as many digits as tell the factor from 1.
 pub(super) fn words(quantity: &str, factor: f64) -> String {
-    format!("{quantity} times {factor:.4}")
+    let words = format!("{quantity} times {}", digits(factor, 4));
+    // Rounding one number to single precision changes it by half of this.
+    if (factor - 1.0).abs() <= f64::from(f32::EPSILON) { format!("{words} (single precision?)") } else { words }
 }
 
 /// The curves of equations with another C_I or Λ, found at the first time, that fit at all times.
@@ -61,4 +64,11 @@ fn newton(found: &[f64], row: impl Fn(f64) -> Option<Vec<f64>>) -> Option<f64> {
         }
     }
     Some(factor)
+}
+
+#[test]
+fn a_factor_has_the_digits_that_tell_it_from_1() {
+    assert_eq!(words("C_I", 0.73), "C_I times 0.7300");
+    assert_eq!(words("Λ", 1.000_012), "Λ times 1.0000120");
+    assert_eq!(words("C_I", f64::from(0.01f32) / 0.01), "C_I times 0.9999999776 (single precision?)");
 }

@@ -1,9 +1,9 @@
 //! Diagnosis of answers to formulas, row by row: the same mistakes as in curves, without an integration.
 
-use super::estimate::words;
+use super::estimate::{QUANTITIES, Quantity, words};
 use super::{CLOSURES, Near, Stand, apart, index, near_of};
 use crate::methods::tensors::fourth::PAIRS;
-use crate::methods::tensors::wrong::{MISTAKES, Mistake, spread};
+use crate::methods::tensors::wrong::{MISTAKES, Mistake};
 use crate::methods::tensors::{Closure, Equation, Fourth, Model, Parts};
 use crate::serve::grade::answer::Answer;
 use crate::serve::grade::nearness::{Diagnosis, NEARER, said};
@@ -102,18 +102,18 @@ fn of_rates(rows: &Rows, answer: &Answer, closure: Closure, model: Model, most: 
     if !near.is_empty() {
         return near;
     }
-    // The rate is linear in C_I.
-    let scaled = |factor: f64| parts.iter().map(|parts| spread(*parts, factor)).collect::<Option<Vec<_>>>();
-    let of = |k: usize| {
+    // The rate is linear in C_I and in Λ.
+    let of = |((name, change), k): (&Quantity, usize)| {
+        let scaled = |factor: f64| parts.iter().map(|parts| change(*parts, factor)).collect::<Option<Vec<_>>>();
         let [none, one] = [0.0, 1.0].map(|factor| Some(rates(&scaled(factor)?, k).concat()));
         let (none, one, found) = (none?, one?, answer.rows.concat());
         let pairs = || none.iter().zip(&one).zip(&found);
         let along: f64 = pairs().map(|((none, one), found)| (one - none) * (found - none)).sum();
         let square: f64 = pairs().map(|((none, one), _)| (one - none).powi(2)).sum();
         let factor = along / square;
-        within(near_of(&words("C_I", factor), "", k, own), answer, &rates(&scaled(factor)?, k), most)
+        within(near_of(&words(name, factor), "", k, own), answer, &rates(&scaled(factor)?, k), most)
     };
-    (0..CLOSURES.len()).filter_map(of).collect()
+    QUANTITIES.iter().flat_map(|quantity| (0..CLOSURES.len()).map(move |k| (quantity, k))).filter_map(of).collect()
 }
 
 /// The order of components, for ṗ.
