@@ -153,10 +153,8 @@ pub(super) fn worst_entry(loaded: &LoadedProblem, answer: &Answer, row: usize) -
     let (k, _) = errors.into_iter().max_by(|a, b| a.1.total_cmp(&b.1))?;
     // Three digits of the difference, where a double has them.
     let decimals = (2.0 - off(k).abs().log10().floor()).clamp(4.0, 15.0) as usize;
-    let [found, due] = [values[k], certified[k]].map(|x| match x.abs() < 1e6 {
-        true => format!("{x:.decimals$}"),
-        false => format!("{x:.3e}"),
-    });
+    let digits = |x: f64| if x.abs() < 1e6 { format!("{x:.decimals$}") } else { format!("{x:.3e}") };
+    let [found, due] = [values[k], certified[k]].map(digits);
     Some(format!("{} is {found}, {due} is due", names[k]))
 }
 

@@ -137,8 +137,8 @@ pub(super) fn judge(graded: &mut Graded, loaded: &LoadedProblem, answer: &Answer
     };
 }
 
-/// The place of the largest error, in words.
-fn place(loaded: &LoadedProblem, answer: &Answer, row: usize) -> String {
+/// The place of the largest error, in words, and the component there.
+pub(super) fn place(loaded: &LoadedProblem, answer: &Answer, row: usize) -> String {
     let keys = loaded.problem.kind.keys();
     let values = &loaded.certified.rows[row];
     let key: Vec<_> = keys.iter().zip(values).map(|(name, value)| format!("{name} = {value}")).collect();

@@ -15,10 +15,10 @@ use crate::serve::grade::answer::Answer;
 use crate::serve::grade::compare::{Compared, compare};
 use crate::serve::grade::diagnosis::diagnose;
 use crate::serve::grade::digits;
-use crate::serve::grade::files::{Claim, judge};
+use crate::serve::grade::files::{Claim, judge, place};
 use crate::serve::grade::order::other;
 use crate::serve::grade::{Graded, Order, Verdict};
-use crate::serve::problems::{Kind, LoadedProblem};
+use crate::serve::problems::{Kind, LoadedProblem, Metric};
 use climb::{End, climb, converges, fewest};
 use std::time::{Duration, Instant};
 
@@ -186,7 +186,12 @@ fn climbed(
         End::Reached => not_finite(&rungs),
         End::Wrong(words) | End::OutOfTime(words) => {
             let digits = rungs.last().and_then(|finest| digits::remark(&finest.answer, finest.error()));
-            Some(std::iter::once(why(&graded, rungs.last(), words)).chain(digits).collect::<Vec<_>>().join("; "))
+            let finite = rungs.last().filter(|finest| finest.error().is_finite());
+            // Of directions there is no worst component.
+            let finite = finite.filter(|_| problem.problem.metric == Metric::Absolute);
+            let worst = finite.map(|finest| place(problem, &finest.answer, finest.compared.row));
+            let all = std::iter::once(why(&graded, rungs.last(), words)).chain(worst).chain(digits);
+            Some(all.collect::<Vec<_>>().join("; "))
         }
     };
     graded
