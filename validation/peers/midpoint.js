@@ -36,6 +36,7 @@ function advance(A, start, time, steps) {
 
 function answer(request) {
   if (!request.steps) return { id: request.id, error: "it takes steps, no tolerance" };
+  if (request.rotation_rad_per_s) return { id: request.id, error: "it takes a steady flow" };
   const A = rateMatrix(request.gradient_per_s, request.aspect_ratio);
   return { id: request.id, p: request.start.map((p) => advance(A, p, request.end_s, request.steps)) };
 }
@@ -43,7 +44,7 @@ function answer(request) {
 function files(reference, mine) {
   for (const name of fs.readdirSync(reference)) {
     const problem = JSON.parse(fs.readFileSync(path.join(reference, name, "problem.json")));
-    if (problem.kind !== "rods") continue;
+    if (problem.kind !== "rods" || problem.rotation_rad_per_s) continue;
     const rows = fs.readFileSync(path.join(reference, name, "start.csv"), "utf8").trim().split("\n").slice(1);
     const start = rows.map((row) => row.split(",").slice(1).map(Number));
     const lines = ["time_s,rod,p1,p2,p3"];

@@ -195,8 +195,8 @@ def main():
     reference, mine = map(Path, arguments)
     for file in sorted(reference.glob("*/problem.json")):
         problem = json.loads(file.read_text())
-        if {"c_i", "d_r_per_s", "closed"} & problem.keys() or problem.get("formula", {}).get("of", "pdot") != "pdot":
-            continue  # rods with rotary diffusion and closures, which single free rods do not answer
+        if {"c_i", "d_r_per_s", "closed", "rotation_rad_per_s"} & problem.keys() or problem.get("formula", {}).get("of", "pdot") != "pdot":
+            continue  # rods with rotary diffusion, closures and flows that turn, which free rods in steady flow do not answer
         folder = mine / problem["name"]
         folder.mkdir(parents=True, exist_ok=True)
         if problem["kind"] == "rods":
@@ -213,7 +213,9 @@ def live():
     for line in sys.stdin:
         request = json.loads(line)
         answer = {"id": request["id"]}
-        if "steps" in request:
+        if "rotation_rad_per_s" in request:
+            answer["error"] = "it takes a steady flow"
+        elif "steps" in request:
             found = directions(
                 request["gradient_per_s"], request["aspect_ratio"], request["start"], request["end_s"], request["steps"]
             )

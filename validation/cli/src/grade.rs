@@ -218,8 +218,10 @@ fn asked(args: &Args, reference: Option<&Path>) -> Result<Vec<LoadedProblem>, Fa
     let own = args.kind.is_none() && args.problems.is_empty();
     let by_name = |name: &String| args.problems.contains(name);
     let is_wanted = |LoadedProblem { problem, .. }: &LoadedProblem| {
-        let default = own && problem.kind == Kind::Rods && problem.name != LONG;
-        default || by_name(&problem.name) || !own && live::can_be_asked(problem)
+        let default =
+            if own { problem.kind == Kind::Rods && problem.name != LONG } else { live::can_be_asked(problem) };
+        // A code that does not know of flows that turn would answer another question.
+        by_name(&problem.name) || default && problem.rotation_rad_per_s.is_none()
     };
     let mut all = match reference {
         Some(dir) => problems::read(dir)?,

@@ -111,9 +111,18 @@ fn row(built: &Built, at: usize) -> Vec<Big> {
 
 fn rods(full: bool) -> Vec<(Big, Big)> {
     let names: &[_] = if !full {
-        &["mid-flip-2", "spiral"]
+        &["mid-flip-2", "spiral", "turning-axes-5"]
     } else {
-        &["mid-flip-2", "mid-flip-11.6", "disc-0.1", "sphere", "planar-extension", "couette-turned", "spiral"]
+        &[
+            "mid-flip-2",
+            "mid-flip-11.6",
+            "disc-0.1",
+            "sphere",
+            "planar-extension",
+            "couette-turned",
+            "spiral",
+            "turning-axes-5",
+        ]
     };
     let mut pairs = Vec::new();
     for built in names.iter().map(|name| named(name)) {
@@ -123,7 +132,8 @@ fn rods(full: bool) -> Vec<(Big, Big)> {
             let size = length(&start);
             let start = start.map(|x| x / &size);
             for (time, time_s) in problem.times_s.iter().enumerate() {
-                let p = second::direction(&problem.gradient_per_s, problem.aspect_ratio, &start, &BITS.of(*time_s));
+                let (l, rotation) = (&problem.gradient_per_s, problem.rotation_rad_per_s.unwrap_or_default());
+                let p = second::direction(l, rotation, problem.aspect_ratio, &start, &BITS.of(*time_s));
                 pairs.extend(row(built, time * built.start.len() + at).into_iter().zip(p));
             }
         }

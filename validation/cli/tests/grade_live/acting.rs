@@ -2,8 +2,8 @@
 
 use crate::tensors;
 use serde_json::{Value, json};
-use shearbed::nalgebra::{Matrix3, Vector3};
-use shearbed_validation::methods::textbook::extrapolated::{extrapolated, rk4_in_p};
+use shearbed::nalgebra::{Matrix3, Rotation3, Vector3};
+use shearbed_validation::methods::textbook::extrapolated::{extrapolated, jeffery_rate, rk4_in_p};
 use std::fs;
 use std::io::{BufRead, Write};
 use std::process::{Command, ExitCode, Stdio};
@@ -130,7 +130,10 @@ fn answer(name: &str, request: &Value, count: u64) -> Value {
     let finer = if name == "ends_after_a_right_answer" { 1024 } else { 1 };
     let steps = finer * request["steps"].as_u64().unwrap();
     let h = number(&request["end_s"]) / steps as f64;
+    let rotation = request.get("rotation_rad_per_s").filter(|_| name.starts_with("turns"));
+    let rotation = rotation.map(|rotation| Vector3::from_fn(|i, _| number(&rotation[i])));
     let moved = |p: Vector3<f64>| match method(name) {
+        _ if let Some(rotation) = rotation => in_turning_flow(name, (l, rotation), square, p, h, steps),
         (Some(order), normalised) => extrapolated(order, normalised, &a, p, h, steps),
         (None, _) => rk4_in_p(&a, p, h, steps),
     };
@@ -149,6 +152,42 @@ fn answer(name: &str, request: &Value, count: u64) -> Value {
         _ => {}
     }
     json!({"id": id, "p": p})
+}
+
+/// RK4 in the gradient L(t) = Q L Qᵀ + S with S p = ω × p of `flow` = (L, ω), formed and taken as the name says.
+fn in_turning_flow(
+    name: &str,
+    flow: (Matrix3<f64>, Vector3<f64>),
+    square: f64,
+    p: Vector3<f64>,
+    h: f64,
+    steps: u64,
+) -> Vector3<f64> {
+    let (l, rotation) = flow;
+    let a = |time: f64| {
+        let turned = Rotation3::new(rotation * if name == "turns_back" { -time } else { time }).into_inner();
+        let spin = rotation.cross_matrix();
+        let spin = match name {
+            "turns_without_spin" => 0.0 * spin,
+            "turns_back" | "turns_with_the_spin_reversed" => -spin,
+            _ => spin,
+        };
+        let l = turned * l * turned.transpose() + spin;
+        (square * l - l.transpose()) / (square + 1.0)
+    };
+    let when = |time: f64, begun: f64| match name {
+        "turns_by_steps" => begun,
+        "turns_at_first" => 0.0,
+        _ => time,
+    };
+    (0..steps).fold(p, |p, k| {
+        let begun = k as f64 * h;
+        let [first, half, last] = [0.0, 0.5, 1.0].map(|share| a(when(begun + share * h, begun)));
+        let one = jeffery_rate(&first, p);
+        let two = jeffery_rate(&half, p + 0.5 * h * one);
+        let three = jeffery_rate(&half, p + 0.5 * h * two);
+        p + h / 6.0 * (one + 2.0 * (two + three) + jeffery_rate(&last, p + h * three))
+    })
 }
 
 /// The order of a Runge–Kutta method by its name, `rk_P` or `rk_P_normalised`, and whether it takes |p| back to 1.

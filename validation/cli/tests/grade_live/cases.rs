@@ -6,6 +6,17 @@ pub type Case<'a> = (&'a str, &'a str, &'a [&'a str]);
 /// Said of methods of first order.
 pub const EXTRAPOLATED: &[&str] = &["converges to the certified answer at order"];
 
+/// Programs on the problem of a flow that turns; the last does not know of such flows.
+pub const TURNING: &[Case] = &[
+    ("turns", "PASS", &[]),
+    ("turns_by_steps", "FAIL", &["L(t) taken at the start of each step, where any method is of order 1"]),
+    ("turns_at_first", "FAIL", &["the curve of L(t) taken at t = 0 for ever"]),
+    ("turns_without_spin", "FAIL", &["the curve of L(t) without the spin Q̇Qᵀ"]),
+    ("turns_with_the_spin_reversed", "FAIL", &["the curve of L(t) with −Q̇Qᵀ for Q̇Qᵀ"]),
+    ("turns_back", "FAIL", &["the curve of the rotation of the flow with the wrong sign"]),
+    ("is_right", "FAIL", &["the curve of a flow that does not turn (rotation_rad_per_s left out)"]),
+];
+
 pub const CASES: &[Case] = &[
     ("is_right", "PASS", &[]),
     ("is_right_on_one_line_of_stderr_each", "PASS", &[]),

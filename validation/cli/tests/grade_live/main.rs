@@ -8,7 +8,7 @@ mod cases;
 mod tensors;
 
 use bounded::{ANSWER_S, Bounded, PATIENCE, end};
-use cases::{CASES, Case, EXTRAPOLATED};
+use cases::{CASES, Case, EXTRAPOLATED, TURNING};
 use libtest_mimic::{Arguments, Failed, Trial};
 use serde_json::Value;
 use std::fs;
@@ -24,8 +24,14 @@ fn main() -> ExitCode {
     let trial = |program: String, verdict: &'static str, words: &'static [&str]| {
         Trial::test(format!("program_that_{program}"), move || judge((&program, verdict, words)))
     };
+    let turning = |case: &'static Case| {
+        Trial::test(format!("program_in_a_flow_that_turns_{}", case.0), move || {
+            judge_on(&["turning-axes-5"], &["--order", "4"], *case)
+        })
+    };
     let mut trials: Vec<_> =
         CASES.iter().map(|(program, verdict, words)| trial((*program).into(), verdict, words)).collect();
+    trials.extend(TURNING.iter().map(turning));
     for order in 1..=8 {
         let words = if order == 1 { EXTRAPOLATED } else { &[] };
         trials.extend(["", "_normalised"].map(|end| trial(format!("rk_{order}{end}"), "PASS", words)));
@@ -56,24 +62,27 @@ fn shearbed(command: &str, out: &Path, timeout_s: &str, problems: &[&str], more:
     (output.status.code(), words.concat())
 }
 
-fn judge((program, verdict, words): Case) -> Result<(), Failed> {
+fn judge(case: Case) -> Result<(), Failed> {
+    // One problem shows what is wrong; several that all is right, and that a program is given up.
+    let several = case.1 == "PASS" || case.0.starts_with("hangs");
+    judge_on(if several { &PROBLEMS } else { &PROBLEMS[..1] }, &[], case)
+}
+
+fn judge_on(problems: &[&str], more: &[&str], (program, verdict, words): Case) -> Result<(), Failed> {
     let dir = tempfile::tempdir()?;
     let pids = dir.path().join("pids");
     let own = std::env::current_exe()?;
     let command = format!("'{}' --program {program} '{}'", own.display(), pids.display());
     // Those that answer have time to, however busy the machine is; the others must run out of it.
     let runs_out = verdict == "NOT REACHED";
-    // One problem shows what is wrong; several that all is right, and that a program is given up.
-    let several = verdict == "PASS" || program.starts_with("hangs");
-    let problems = if several { &PROBLEMS[..] } else { &PROBLEMS[..1] };
     let timeout_s = if runs_out { "1" } else { ANSWER_S };
-    let (code, printed) = shearbed(&command, dir.path(), timeout_s, problems, &[]);
+    let (code, printed) = shearbed(&command, dir.path(), timeout_s, problems, more);
     let grade: Value = serde_json::from_str(&fs::read_to_string(dir.path().join("grade.json"))?)?;
     let found = &grade["problems"][0];
     let check = |holds: bool, what: &str| {
         if holds { Ok(()) } else { Err(Failed::from(format!("{what}: {grade:#}\n{printed}"))) }
     };
-    check(found["name"] == "mid-flip-2", "the name")?;
+    check(found["name"] == problems[0], "the name")?;
     check(found["verdict"] == verdict, "the verdict")?;
     check(code == Some(i32::from(verdict != "PASS")), "the exit code")?;
     if verdict == "PASS" {

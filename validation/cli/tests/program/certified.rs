@@ -44,7 +44,9 @@ fn error(loaded: &LoadedProblem, l: Matrix3<f64>, step: Step, steps_per_strain: 
 
 #[test]
 fn a_right_code_in_doubles_passes_and_wrong_ones_fail() {
-    let loaded: Vec<_> = of_kind(Kind::Rods).collect();
+    // `grade_live` has codes for flows that turn.
+    let steady = |loaded: &&LoadedProblem| loaded.problem.rotation_rad_per_s.is_none();
+    let loaded: Vec<_> = of_kind(Kind::Rods).filter(steady).collect();
     loaded.into_par_iter().for_each(|loaded| {
         let problem = &loaded.problem;
         let (name, tolerance) = (problem.name.as_str(), problem.tolerance);

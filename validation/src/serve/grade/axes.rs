@@ -1,5 +1,7 @@
 //! Axes in another order: the map between a program's columns and the problem's.
 
+use nalgebra::Vector3;
+
 /// The map from a program's axes to ours (1 gradient, 2 flow, 3 vorticity), with signs for reversed axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Axes {
@@ -77,6 +79,13 @@ impl Axes {
             theirs[self.theirs[k]] = self.to_theirs(row).map(|value| self.sign[k] * value);
         }
         theirs
+    }
+
+    /// A rate of rotation ω in the program's axes: ω × p is a vector, so ω changes its sign in axes of the other hand.
+    pub fn rotation_to_theirs(&self, rotation: [f64; 3]) -> [f64; 3] {
+        let spin = Vector3::from(rotation).cross_matrix();
+        let l = self.tensor_to_theirs(spin.transpose().into());
+        [l[2][1], l[0][2], l[1][0]]
     }
 
     /// A row of the problem's columns from one that the program wrote in the same columns of its own axes.

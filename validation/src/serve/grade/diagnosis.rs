@@ -44,7 +44,10 @@ pub fn diagnose(loaded: &LoadedProblem, answer: &Answer, error: f64, steps: Opti
             let mut found = said(CURVE, if others.is_empty() { axes } else { others }, tolerance, "");
             found.suspects.extend(also);
             if found.suspects.is_empty() && loaded.problem.kind == Kind::Rods {
-                let off = steps.and_then(|steps| steps_off(&Wrong::new(loaded.clone(), answer, error), steps));
+                let off = steps.and_then(|steps| {
+                    steps_off(&Wrong::new(loaded.clone(), answer, error), steps)
+                        .or_else(|| frozen(loaded, answer, nearer_than, steps))
+                });
                 if let Some(off) = off.or_else(|| reordered(loaded, answer, nearer_than)) {
                     return Diagnosis { said: Some(format!("this is {off}")), suspects: vec![off.to_owned()] };
                 }
@@ -121,6 +124,22 @@ fn steps_off(wrong: &Wrong<'_>, steps: u64) -> Option<&'static str> {
     let is = |due: f64| wrong.rates().into_iter().any(|rate| (missing(rate) - due).abs() < 0.01);
     let known = [(1.0, "one step too few: N − 1 of N"), (-1.0, "one step too many: N + 1 for N")];
     known.into_iter().find(|(due, _)| is(*due)).map(|(_, name)| name)
+}
+
+/// L(t) taken at the start of each step, if the answer is that.
+fn frozen(loaded: &LoadedProblem, answer: &Answer, nearer_than: f64, steps: u64) -> Option<&'static str> {
+    let (problem, setting) = (&loaded.problem, Setting::from(&loaded.problem));
+    problem.rotation_rad_per_s?;
+    let end_s = problem.times_s.last()?;
+    let of_time = |time_s: &f64| {
+        let share = (steps as f64 * time_s / end_s).round().max(1.0);
+        let map = mistakes::frozen(&setting, *time_s, share as u32)?;
+        Some(loaded.start.iter().map(move |p| (map * Vector3::from(*p)).normalize().as_slice().to_vec()))
+    };
+    let curve: Option<Vec<_>> = problem.times_s.iter().map(of_time).collect();
+    let curve: Vec<_> = curve?.into_iter().flatten().collect();
+    let near = between(loaded, &answer.rows, &curve, false)? <= nearer_than;
+    near.then_some("L(t) taken at the start of each step, where any method is of order 1")
 }
 
 /// Rods in another order, if the answer is that: the same one at all times.

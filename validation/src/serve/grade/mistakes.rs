@@ -1,28 +1,31 @@
 //! The curves of known mistakes: the answers of a program that has one of them and is correct otherwise.
 //!
-//! The exact motion is p = q/|q|, q = exp(At) p(0), A = W + ΛD. A mistake changes only flow, r_e, start, map or answer.
+//! The exact motion is p = q/|q|, q = exp(At) p(0), A = W + ΛD; in a flow that turns, Q exp((A − S)t) p(0). A mistake changes only flow, r_e, start, map or answer.
 
 mod angles;
 mod physical;
 
 use super::Axes;
 use crate::serve::problems::Problem;
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{Matrix3, Rotation3, Vector3};
 use shearbed::model::flow::VelocityGradient;
 use shearbed::motion::{Propagator, Span};
 
 /// The flow and the aspect ratio of a free rod.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Setting {
-    /// L in 1/s.
+    /// L at t = 0 in 1/s, with the spin.
     pub gradient_per_s: Matrix3<f64>,
+    /// S of a flow that turns, L(t) = Q (L − S) Qᵀ + S with Q = exp(St), in 1/s; 0 in a steady one.
+    pub spin_per_s: Matrix3<f64>,
     /// r_e.
     pub aspect_ratio: f64,
 }
 
 impl From<&Problem> for Setting {
     fn from(problem: &Problem) -> Self {
-        Self { gradient_per_s: problem.gradient(), aspect_ratio: problem.aspect_ratio }
+        let spin_per_s = problem.spin();
+        Self { gradient_per_s: problem.gradient() + spin_per_s, spin_per_s, aspect_ratio: problem.aspect_ratio }
     }
 }
 
@@ -68,20 +71,30 @@ impl Mistake {
 }
 
 /// The correct motion.
-pub struct Motion(Propagator);
+pub struct Motion {
+    seen_turning: Propagator,
+    spin_per_s: Matrix3<f64>,
+}
 
 impl Motion {
     /// The motion of a rod of this aspect ratio in this flow; `None` if the gradient is not finite.
     pub fn of(setting: &Setting) -> Option<Self> {
-        let flow = VelocityGradient::new(setting.gradient_per_s)?;
-        Some(Self(Propagator::new(&flow, setting.aspect_ratio)))
+        let flow = VelocityGradient::new(setting.gradient_per_s - setting.spin_per_s)?;
+        let seen_turning = Propagator::new(&flow, setting.aspect_ratio);
+        Some(Self { seen_turning, spin_per_s: setting.spin_per_s })
     }
 
     /// The map over a time, with determinant 1 in an incompressible flow; `None` if it is not finite.
     pub fn map(&self, time_s: f64) -> Option<Matrix3<f64>> {
-        let (map, _) = self.0.map(Span::Seconds(time_s, 1.0))?;
-        unimodular(map)
+        let (map, _) = self.seen_turning.map(Span::Seconds(time_s, 1.0))?;
+        Some(rotation(&self.spin_per_s, time_s) * unimodular(map)?)
     }
+}
+
+/// Q = exp(St): the rotation about ω by |ω|t.
+fn rotation(spin_per_s: &Matrix3<f64>, time_s: f64) -> Matrix3<f64> {
+    let [x, y, z] = [spin_per_s.m32, spin_per_s.m13, spin_per_s.m21];
+    Rotation3::new(Vector3::new(x, y, z) * time_s).into_inner()
 }
 
 /// The correct map after a time.
@@ -101,7 +114,7 @@ fn unimodular(map: Matrix3<f64>) -> Option<Matrix3<f64>> {
 fn map_of(a: &Matrix3<f64>, time_s: f64) -> Option<Matrix3<f64>> {
     // r_e = √3 has Λ = ½: this flow has the strain rate 2 sym A, and so W + ΛD = A.
     let gradient_per_s = 0.5 * (a - a.transpose()) + (a + a.transpose());
-    right_map(&Setting { gradient_per_s, aspect_ratio: 3f64.sqrt() }, time_s)
+    right_map(&Setting { gradient_per_s, spin_per_s: Matrix3::zeros(), aspect_ratio: 3f64.sqrt() }, time_s)
 }
 
 fn shape(aspect_ratio: f64) -> f64 {
@@ -112,7 +125,7 @@ fn shape(aspect_ratio: f64) -> f64 {
 /// The shear rate in 1/s of a flow u_2 = G x_1 with G > 0; `None` for other flows.
 fn couette_per_s(setting: &Setting) -> Option<f64> {
     let flow = VelocityGradient::new(setting.gradient_per_s)?;
-    flow.shear_rate_per_s().filter(|rate| *rate > 0.0)
+    flow.shear_rate_per_s().filter(|rate| *rate > 0.0 && setting.spin_per_s == Matrix3::zeros())
 }
 
 fn linear(name: &str, map: impl Fn(&Setting, f64) -> Option<Matrix3<f64>> + Send + Sync + 'static) -> Mistake {
@@ -130,7 +143,8 @@ fn rate(name: &str, a: fn(Matrix3<f64>, Matrix3<f64>, f64) -> Matrix3<f64>) -> M
     linear(name, move |setting, time| {
         let l = setting.gradient_per_s;
         let (w, d) = (0.5 * (l - l.transpose()), 0.5 * (l + l.transpose()));
-        map_of(&a(w, d, shape(setting.aspect_ratio)), time)
+        let a = a(w, d, shape(setting.aspect_ratio));
+        Some(rotation(&setting.spin_per_s, time) * map_of(&(a - setting.spin_per_s), time)?)
     })
 }
 
@@ -205,11 +219,38 @@ pub fn all() -> Vec<Mistake> {
         }));
     }
     all.push(Mistake { has_length: true, ..linear("p that is not normalised", right_map) });
+    all.extend(of_turning_flows());
     all.extend(permuted());
     all.extend(in_other_axes());
     all.extend(angles::all());
     all.extend(physical::all());
     all
+}
+
+/// A gradient L(t) = Q L Qᵀ + S that is formed in a wrong way.
+fn of_turning_flows() -> [Mistake; 5] {
+    let steady = |s: Setting| Setting { spin_per_s: Matrix3::zeros(), ..s };
+    let with_spin = |s: Setting, factor: f64| {
+        let gradient_per_s = s.gradient_per_s + (factor - 1.0) * s.spin_per_s;
+        Setting { gradient_per_s, ..s }
+    };
+    [
+        moved("a flow that does not turn (rotation_rad_per_s left out)", move |s| steady(with_spin(s, 0.0))),
+        moved("L(t) taken at t = 0 for ever", steady),
+        moved("L(t) without the spin Q̇Qᵀ", move |s| with_spin(s, 0.0)),
+        moved("L(t) with −Q̇Qᵀ for Q̇Qᵀ", move |s| with_spin(s, -1.0)),
+        moved("the rotation of the flow with the wrong sign", move |s| {
+            let back = with_spin(s, -1.0);
+            Setting { spin_per_s: -back.spin_per_s, ..back }
+        }),
+    ]
+}
+
+/// The map of a flow that turns after so many steps, each with the L of its start: any method is of order 1 then.
+pub fn frozen(setting: &Setting, time_s: f64, steps: u32) -> Option<Matrix3<f64>> {
+    let (spin, step_s) = (&setting.spin_per_s, time_s / f64::from(steps));
+    let step = right_map(&Setting { spin_per_s: Matrix3::zeros(), ..*setting }, step_s)?;
+    Some(rotation(spin, time_s) * (rotation(spin, -step_s) * step).pow(steps))
 }
 
 fn scaled(setting: Setting, factor: f64) -> Setting {

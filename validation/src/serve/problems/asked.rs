@@ -25,6 +25,7 @@ pub(super) const SECOND: [&str; 6] = ["a11", "a22", "a33", "a12", "a13", "a23"];
 /// The properties in which problems of free rods differ.
 pub(super) struct Asked {
     pub gradient_per_s: [[f64; 3]; 3],
+    pub rotation_rad_per_s: Option<[f64; 3]>,
     pub aspect_ratio: f64,
     pub start: Vec<[f64; 3]>,
     pub times_s: Vec<f64>,
@@ -35,7 +36,8 @@ impl Asked {
     /// Rods in plane Couette flow at times in periods.
     pub fn couette(aspect_ratio: f64, start: Vec<[f64; 3]>, turns: &[f64], summary: &str) -> Self {
         let times_s = periods_s(aspect_ratio, turns);
-        Self { gradient_per_s: COUETTE, aspect_ratio, start, times_s, summary: summary.to_owned() }
+        let summary = summary.to_owned();
+        Self { gradient_per_s: COUETTE, rotation_rad_per_s: None, aspect_ratio, start, times_s, summary }
     }
 }
 

@@ -76,6 +76,11 @@ pub(super) fn check(folder: &Path, problem: &Problem) -> Result<(), Refused> {
     between("tolerance", problem.tolerance, tolerances)?;
     columns(problem, lists)?;
     problem.gradient_per_s.iter().flatten().try_for_each(|x| between("gradient_per_s", *x, [-MOST, MOST]))?;
+    if let Some(rotation) = problem.rotation_rad_per_s {
+        let key = "rotation_rad_per_s";
+        ensure(problem.kind == Kind::Rods, || (key, "it belongs to the kind \"rods\" alone".to_owned()))?;
+        rotation.iter().try_for_each(|x| between(key, *x, [-MOST, MOST]))?;
+    }
     between("aspect_ratio", problem.aspect_ratio, RATIOS)?;
     let spread = if problem.columns.iter().any(|column| column == "x1") { MOST_SPREAD } else { 0.0 };
     between("aspect_ratio_sd_percent", problem.aspect_ratio_sd_percent, [0.0, spread])?;
@@ -198,7 +203,8 @@ fn times(problem: &Problem) -> Result<(), Refused> {
             formulas none";
         ("times_s", ALLOWED.to_owned())
     })?;
-    let rate = problem.gradient_per_s.iter().flatten().fold(0.0, |a: f64, b| a.max(b.abs()));
+    let turning = problem.rotation_rad_per_s.unwrap_or_default();
+    let rate = problem.gradient_per_s.iter().flatten().chain(&turning).fold(0.0, |a: f64, b| a.max(b.abs()));
     ensure(times.iter().all(|time| *time <= 1e300 && time * rate <= MOST_STRAIN), || {
         ("times_s", format!("a strain of at most {MOST_STRAIN:e} is allowed"))
     })

@@ -6,6 +6,7 @@ use nalgebra::{Matrix3, Rotation3, Vector3};
 pub(super) fn extension(rates_per_s: [f64; 3], name: &str) -> Asked {
     Asked {
         gradient_per_s: Matrix3::from_diagonal(&rates_per_s.into()).into(),
+        rotation_rad_per_s: None,
         aspect_ratio: 11.6,
         start: vec![
             direction(1.5, 1.3),
@@ -51,9 +52,17 @@ pub(super) fn mirrored() -> Asked {
     )
 }
 
+pub(super) fn turning() -> Asked {
+    let summary = "Three free rods of r_e = 5 in plane Couette flow, seen from axes that turn: the velocity gradient L(t) \
+        changes in time. A code that takes L once a step falls to order 1, and one that takes it at wrong times within a \
+        step loses its order too: no steady flow shows that.";
+    Asked { rotation_rad_per_s: Some([0.375, -0.25, 0.5]), ..three(COUETTE, summary) }
+}
+
 pub(super) fn spiral() -> Asked {
     Asked {
         gradient_per_s: [[-0.25, -1.0, 0.5], [0.75, -0.25, 0.125], [0.25, -0.5, 0.5]],
+        rotation_rad_per_s: None,
         aspect_ratio: 3.0,
         start: vec![direction(0.2, 1.0), direction(2.4, 1.9), direction(4.0, 1.57)],
         times_s: vec![0.5, 2.0, 5.0, 10.0],

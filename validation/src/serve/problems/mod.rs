@@ -145,9 +145,10 @@ pub fn built() -> Vec<&'static Built> {
     all().par_iter().map(ProblemDef::built).collect()
 }
 
-/// The names of the problems of given free rods.
+/// The names of the problems of given free rods in steady flow, which any code for rods is asked.
 pub fn free_rods() -> Vec<&'static str> {
-    rods::problems().iter().map(|def| def.name).collect()
+    let steady = |def: &&ProblemDef| def.built().problem.rotation_rad_per_s.is_none();
+    rods::problems().iter().filter(steady).map(|def| def.name).collect()
 }
 
 /// The problem of this name with its certified answer, or none.

@@ -14,6 +14,12 @@ pub(super) fn page(built: &Built) -> String {
     if problem.kind != Kind::Formula {
         let [x, y, z] = problem.gradient_per_s.map(|[x, y, z]| format!("[{x}, {y}, {z}]"));
         page += &format!("The flow is u = L x with L = [{x}, {y}, {z}] in 1/s, row i and column j being ∂u_i/∂x_j. ");
+        if let Some([x, y, z]) = problem.rotation_rad_per_s {
+            page += &format!(
+                "It turns: at the time t the gradient is Q L Qᵀ + S with S p = ω × p, ω = [{x}, {y}, {z}] rad/s, and Q = \
+                 exp(St), the right-handed rotation about ω by |ω|t. "
+            );
+        }
         steps =
             ", or one file a step size, `steps-100.csv`, `steps-200.csv` and so on, so that an order can be read off";
     }

@@ -4,7 +4,7 @@ use super::asked::{AXES, COUETTE, matrix};
 use super::{Formula, ProblemDef, Table, check, ensemble, formula};
 use crate::methods::tensors::{Closure, Model};
 use crate::oracle::diffusion::{self, NoAnswer};
-use nalgebra::Matrix3;
+use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 use shearbed::model::flow::VelocityGradient;
 use std::path::PathBuf;
@@ -106,6 +106,11 @@ pub struct Problem {
     pub kind: Kind,
     /// L, row i and column j: ∂u_i/∂x_j, 1/s.
     pub gradient_per_s: [[f64; 3]; 3],
+    /// ω in rad/s of a gradient that turns: L(t) = Q L Qᵀ + S with L as above, S p = ω × p and Q = exp(St), the rotation
+    /// about ω by the angle |ω|t, right-handed where positive. So the flow turns by ω as seen from the axes, and the axes
+    /// turn by −ω. None for a steady gradient.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rotation_rad_per_s: Option<[f64; 3]>,
     /// r_e (1); the mean where rods are unequal.
     pub aspect_ratio: f64,
     /// Standard deviation of r_e, percent of the mean.
@@ -169,6 +174,7 @@ impl Problem {
             summary: String::new(),
             kind,
             gradient_per_s: COUETTE,
+            rotation_rad_per_s: None,
             aspect_ratio: 11.6,
             aspect_ratio_sd_percent: 0.0,
             c_i: None,
@@ -192,6 +198,11 @@ impl Problem {
     /// The velocity gradient L in 1/s.
     pub fn gradient(&self) -> Matrix3<f64> {
         matrix(&self.gradient_per_s)
+    }
+
+    /// S in 1/s, S p = ω × p, of a gradient that turns; 0 of a steady one.
+    pub fn spin(&self) -> Matrix3<f64> {
+        Vector3::from(self.rotation_rad_per_s.unwrap_or_default()).cross_matrix()
     }
 
     /// The motion of rods with rotary diffusion; `None` for others.
@@ -251,7 +262,7 @@ impl Problem {
 
     /// G in 1/s in plane Couette flow u_2 = G x_1; `None` in other flows.
     pub fn shear_rate_per_s(&self) -> Option<f64> {
-        shear_rate_per_s(self.gradient())
+        shear_rate_per_s(self.gradient()).filter(|_| self.rotation_rad_per_s.is_none())
     }
 
     /// a_ij at t = 0 of a tensor problem.

@@ -1,11 +1,12 @@
 //! Problems of given free rods.
 
 use super::asked::{Asked, direction};
-use super::flows::{extension, mirrored, spiral, turned};
+use super::flows::{extension, mirrored, spiral, turned, turning};
 use super::{Built, Kind, Problem, ProblemDef, tolerance};
 use crate::oracle::reference::big::{Bits, digits};
-use crate::oracle::reference::motion::{Motion, Unit};
+use crate::oracle::reference::motion::{Motion, Unit, image};
 use crate::oracle::reference::rod::{self, Direction};
+use nalgebra::{Matrix3, Vector3};
 use std::f64::consts::{PI, TAU};
 
 /// Significant digits of a certified number: eight more than a double holds.
@@ -33,6 +34,7 @@ pub(super) fn problems() -> Vec<ProblemDef> {
         ("couette-turned", "Plane Couette flow turned in space", turned),
         ("couette-mirrored", "Plane Couette flow with gradient and flow exchanged", mirrored),
         ("spiral", "A general gradient: rods spiral into an axis", spiral),
+        ("turning-axes-5", "Plane Couette flow seen from axes that turn: L changes in time", turning),
     ];
     PROBLEMS.iter().map(|(name, title, asked)| ProblemDef::new(name, title, |def| built(def, asked()))).collect()
 }
@@ -40,19 +42,27 @@ pub(super) fn problems() -> Vec<ProblemDef> {
 fn built(def: &ProblemDef, asked: Asked) -> Built {
     let motion = Motion { gradient_per_s: asked.gradient_per_s, aspect_ratio: asked.aspect_ratio };
     let end_s = asked.times_s.last().copied().unwrap_or_default();
-    let (tolerance, because, equations) = match motion.couette() {
+    let rotation = Vector3::from(asked.rotation_rad_per_s.unwrap_or_default());
+    // W = S and D = 0: its motion is Q.
+    let turn = Motion { gradient_per_s: rows(rotation.cross_matrix()), aspect_ratio: 1.0 };
+    let (tolerance, because, equations) = match motion.couette().filter(|_| asked.rotation_rad_per_s.is_none()) {
         Some(rate) => (
             tolerance::couette(asked.aspect_ratio, rate * end_s),
             tolerance::because_couette(asked.aspect_ratio),
             COUETTE_EQUATIONS,
         ),
-        None => (tolerance::general(&motion, &asked.start, end_s), tolerance::BECAUSE_GENERAL.to_owned(), ANY_FLOW),
+        None => {
+            let tolerance = tolerance::general(&motion, rotation.norm(), &asked.start, end_s);
+            let equations = if rotation == Vector3::zeros() { &ANY_FLOW[..1] } else { ANY_FLOW };
+            (tolerance, tolerance::BECAUSE_GENERAL.to_owned(), equations)
+        }
     };
-    let rows = asked.times_s.iter().flat_map(|time| (0..).zip(&asked.start).map(move |rod| (*time, rod)));
-    let certified = rows.map(|(time, (rod, start))| certified(&motion, time, rod, *start)).collect();
+    let all = asked.times_s.iter().flat_map(|time| (0..).zip(&asked.start).map(move |rod| (*time, rod)));
+    let certified = all.map(|(time, (rod, start))| certified(&motion, &turn, time, rod, *start)).collect();
     let problem = Problem {
         summary: asked.summary,
         gradient_per_s: asked.gradient_per_s,
+        rotation_rad_per_s: asked.rotation_rad_per_s,
         aspect_ratio: asked.aspect_ratio,
         times_s: asked.times_s,
         tolerance,
@@ -63,11 +73,17 @@ fn built(def: &ProblemDef, asked: Asked) -> Built {
     Built { start: asked.start, ..Built::new(problem, certified) }
 }
 
-fn certified(motion: &Motion, time_s: f64, rod: usize, start: [f64; 3]) -> Vec<String> {
-    let at = rod::at(motion, Direction::Vector(start), &Bits(64).of(time_s), Unit::Second);
-    let at = at.expect("seconds have a meaning in every flow");
+fn rows(matrix: Matrix3<f64>) -> [[f64; 3]; 3] {
+    matrix.transpose().into()
+}
+
+fn certified(motion: &Motion, turn: &Motion, time_s: f64, rod: usize, start: [f64; 3]) -> Vec<String> {
+    let time = Bits(64).of(time_s);
+    let at = rod::at(motion, Direction::Vector(start), &time, Unit::Second);
+    let turned = turn.map(&time, Unit::Second, turn.bits(time_s, Unit::Second, 128));
+    let (at, turned) = at.zip(turned).expect("seconds have a meaning in every flow");
     let mut row = vec![format!("{time_s:?}"), rod.to_string()];
-    row.extend(at.p.iter().map(|x| digits(x, DIGITS)));
+    row.extend(image(&turned, &at.p).iter().map(|x| digits(x, DIGITS)));
     row
 }
 
@@ -81,6 +97,9 @@ const COUETTE_EQUATIONS: &[&str] = &[
 const ANY_FLOW: &[&str] = &[
     "Jeffery's equation (A.1 of Lee & Springer 1982), solved by p = q/|q|, q = exp((W + ΛD)t) p(0) with W and D the \
      antisymmetric and symmetric parts of the velocity gradient and Λ = (r_e² - 1)/(r_e² + 1)",
+    "in a flow that turns by ω = rotation_rad_per_s: the velocity gradient is L(t) = Q L Qᵀ + S with L = gradient_per_s, \
+     S p = ω × p and Q = exp(St) (Q̇Qᵀ = S), the rotation about ω by |ω|t, right-handed. So the flow turns by ω as seen \
+     from the axes, and the axes turn by -ω; p(t) = Q times the p of the steady flow L",
 ];
 
 fn mid_flip(aspect_ratio: f64) -> Asked {

@@ -36,7 +36,7 @@ fn moments(def: &ProblemDef, gradient_per_s: [[f64; 3]; 3], aspect_ratio: f64, t
     let end_s = times_s.last().copied().unwrap_or_default();
     let of_rods = match motion.couette() {
         Some(rate) => tolerance::couette(aspect_ratio, rate * end_s),
-        None => tolerance::general(&motion, &all_round(), end_s),
+        None => tolerance::general(&motion, 0.0, &all_round(), end_s),
     };
     let row = |time: &f64| {
         let covariance = Covariance::at(&motion, &Bits(64).of(*time), Unit::Second);

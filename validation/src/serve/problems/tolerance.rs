@@ -38,10 +38,10 @@ pub fn because_couette(aspect_ratio: f64) -> String {
     )
 }
 
-/// The tolerance of angles (rad) in any steady flow: the integral in this module's documentation by the midpoint rule
-/// in 400 steps, the largest over rods, rounded up to one digit. κ is the Frobenius norm, which bounds the spectral
-/// one.
-pub fn general(motion: &Motion, start: &[[f64; 3]], end_s: f64) -> f64 {
+/// The tolerance of angles (rad) in any flow: the integral in this module's documentation by the midpoint rule in 400
+/// steps, the largest over rods, rounded up to one digit. κ is the Frobenius norm, which bounds the spectral one. A flow
+/// that turns by `rotation_rad_per_s` has that much more to evaluate and to turn: rotations leave κ alone.
+pub fn general(motion: &Motion, rotation_rad_per_s: f64, start: &[[f64; 3]], end_s: f64) -> f64 {
     const STEPS: usize = 400;
     let bits = motion.bits(end_s, Unit::Second, 160);
     // The map over half a step and its powers: cheaper than one exponential per step, and 800 roundings of 160 bits are
@@ -53,12 +53,13 @@ pub fn general(motion: &Motion, start: &[[f64; 3]], end_s: f64) -> f64 {
     let rounded = |x: &Big| double(&Bits(64).round(x.clone()));
     let maps: Vec<_> = powers.take(2 * STEPS + 1).map(|m| Matrix3::from_fn(|i, j| rounded(&m[i][j]))).collect();
     let strain = motion.strain(end_s, Unit::Second) / STEPS as f64;
+    let spun = rotation_rad_per_s * end_s / STEPS as f64 / strain;
     let lost = |p0: &[f64; 3]| {
         let p = |half: usize| (maps[half] * Vector3::from(*p0)).normalize();
         let sum = (0..STEPS).map(|k| {
             let (before, now, after) = (p(2 * k), p(2 * k + 1), p(2 * k + 2));
             let turned = (after - before).norm() / strain;
-            growth(&maps[2 * STEPS - (2 * k + 1)], &now) * (ROUNDING + truncation() * turned)
+            growth(&maps[2 * STEPS - (2 * k + 1)], &now) * (ROUNDING * (1.0 + spun) + truncation() * (turned + spun))
         });
         sum.sum::<f64>() * strain
     };
@@ -114,7 +115,7 @@ mod tests {
             // In the shear plane, at the place of fastest rotation: the bound is met up to the rounding to one digit
             // and the Frobenius norm of two directions.
             let start = if aspect_ratio < 1.0 { [0.0, 1.0, 0.0] } else { [1.0, 0.0, 0.0] };
-            let ratio = general(&motion, &[start], period) / couette(aspect_ratio, period);
+            let ratio = general(&motion, 0.0, &[start], period) / couette(aspect_ratio, period);
             assert!((0.5..=3.0).contains(&ratio), "{aspect_ratio} {ratio}");
         }
     }

@@ -87,6 +87,11 @@ pub fn grade(program: &Program, problem: &LoadedProblem, mode: Mode, claim: Clai
 }
 
 fn timeless(program: &Program, problem: &LoadedProblem, mode: Mode, claim: Claim) -> Graded {
+    let is_line_of_numbers = problem.problem.kind == Kind::Rods && problem.problem.rotation_rad_per_s.is_none();
+    if program.protocol == Protocol::Text && !is_line_of_numbers {
+        let note = Some("not asked: a request about it needs lines of JSON".to_owned());
+        return Graded { verdict: Verdict::Refused, note, ..Graded::without_answer(problem) };
+    }
     match problem.problem.kind {
         Kind::Rods => {
             let last = last_time(problem);
@@ -164,7 +169,7 @@ fn climbed(
     graded.set_orders(errors(&rungs), problem, claim.order);
     let refuted = graded.order_found == Some(Order::Lower);
     // Whether a mistake is named must not depend on how fast the machine is; that of a step is of order 1.
-    let mistaken = matches!(end, End::OutOfTime(_)) && stays_on_a_mistake(problem, &rungs);
+    let mistaken = matches!(end, End::OutOfTime(_)) && claim.order != Some(1.0) && stays_on_a_mistake(problem, &rungs);
     let late = matches!(end, End::OutOfTime(_)) && !mistaken;
     let converging = late.then(|| converges(problem, &rungs)).flatten().filter(|_| !refuted);
     graded.verdict = match converging {

@@ -23,6 +23,8 @@ const MOST_BREACHES: u32 = 20;
 pub struct Question {
     /// L in 1/s.
     pub gradient_per_s: [[f64; 3]; 3],
+    /// ω in rad/s of a gradient that turns.
+    pub rotation_rad_per_s: Option<[f64; 3]>,
     /// r_e.
     pub aspect_ratio: f64,
     /// Directions at t = 0.
@@ -34,14 +36,15 @@ pub struct Question {
 impl Question {
     /// The last time of a problem about rods.
     pub(super) fn of(last: &LoadedProblem) -> Self {
-        let Problem { gradient_per_s, aspect_ratio, .. } = last.problem;
+        let Problem { gradient_per_s, rotation_rad_per_s, aspect_ratio, .. } = last.problem;
         let end_s = last.problem.times_s.last().copied().unwrap_or_default();
-        Self { gradient_per_s, aspect_ratio, start: last.start.clone(), end_s }
+        Self { gradient_per_s, rotation_rad_per_s, aspect_ratio, start: last.start.clone(), end_s }
     }
 
     /// In plane Couette flow with G = 1/s.
     pub(super) fn couette(aspect_ratio: f64, start: Vec<[f64; 3]>, end_s: f64) -> Self {
-        Self { gradient_per_s: [[0.0; 3], [1.0, 0.0, 0.0], [0.0; 3]], aspect_ratio, start, end_s }
+        let gradient_per_s = [[0.0; 3], [1.0, 0.0, 0.0], [0.0; 3]];
+        Self { gradient_per_s, rotation_rad_per_s: None, aspect_ratio, start, end_s }
     }
 }
 
@@ -230,6 +233,7 @@ impl State {
         let request = Request {
             id: self.asked,
             gradient_per_s: &axes.tensor_to_theirs(question.gradient_per_s),
+            rotation_rad_per_s: question.rotation_rad_per_s.map(|rotation| axes.rotation_to_theirs(rotation)),
             aspect_ratio: question.aspect_ratio,
             start: &start,
             end_s: question.end_s,

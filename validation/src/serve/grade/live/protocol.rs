@@ -184,6 +184,7 @@ mod tests {
         let request = Request {
             id: 7,
             gradient_per_s: &[[0.0; 3], [0.5, 0.0, 0.0], [0.0; 3]],
+            rotation_rad_per_s: None,
             aspect_ratio: 11.6,
             start: &[[1.0, 0.0, 0.0]],
             end_s: 2.0,

@@ -9,6 +9,9 @@ pub struct Request<'a> {
     pub id: u64,
     /// L in 1/s, row i and column j holding ∂u_i/∂x_j.
     pub gradient_per_s: &'a [[f64; 3]; 3],
+    /// ω in rad/s of a gradient that turns: L(t) = Q L Qᵀ + S, S p = ω × p, Q = exp(St).
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub rotation_rad_per_s: Option<[f64; 3]>,
     /// r_e.
     pub aspect_ratio: f64,
     /// The rods' directions at t = 0.

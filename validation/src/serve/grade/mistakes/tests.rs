@@ -9,7 +9,7 @@ use std::f64::consts::TAU;
 fn couette(aspect_ratio: f64) -> Setting {
     let mut gradient_per_s = Matrix3::zeros();
     gradient_per_s[(1, 0)] = 0.5;
-    Setting { gradient_per_s, aspect_ratio }
+    Setting { gradient_per_s, spin_per_s: Matrix3::zeros(), aspect_ratio }
 }
 
 /// RK4 of ṗ = Ap − p (p·Ap) with many steps, independent of the maps above.
@@ -41,7 +41,9 @@ fn the_maps_are_exponentials_of_any_traceless_matrix() {
 fn every_mistake_differs_from_the_truth_somewhere_and_from_the_others() {
     let mut general = Setting { aspect_ratio: 3.0, ..couette(3.0) };
     general.gradient_per_s += Matrix3::new(0.2, 0.1, -0.3, 0.0, -0.3, 0.4, 0.25, -0.35, 0.1);
-    let settings = [couette(11.6), couette(0.3), general];
+    let spin_per_s = Vector3::new(0.3, -0.2, 0.4).cross_matrix();
+    let turning = Setting { spin_per_s, gradient_per_s: general.gradient_per_s + spin_per_s, ..general };
+    let settings = [couette(11.6), couette(0.3), general, turning];
     let starts = [0.3, -0.3].map(|x| Vector3::new(x, 0.5, 0.8).normalize());
     let curve_of = |mistake: &Mistake| -> Vec<Option<Vector3<f64>>> {
         let of = |s| starts.iter().flat_map(move |p| [1.0, 7.3, 19.0].map(|t| mistake.direction(s, p, t)));
