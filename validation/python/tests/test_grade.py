@@ -110,6 +110,55 @@ def test_a_function_that_fails_has_no_answer_and_a_wrong_shape_is_said() -> None
         shearbed.grade(rate, order=4)
 
 
+def test_patterns_ask_for_problems_and_without_names_a_formula_is_told_how() -> None:
+    report = shearbed.grade(rate, names=["pdot-*", "pdot-rod"])
+    assert report and len(report.problems) > 3
+    assert all(problem["name"].startswith("pdot-") for problem in report.problems), str(report)
+    with pytest.raises(ValueError, match="mid-flop"):
+        shearbed.grade(rk4, names=["mid-flip-2", "mid-flop-*"])
+    with pytest.raises(ValueError, match=r"names=\['closure-\*'\]"):
+        shearbed.grade(lambda a: np.einsum("ij,kl->ijkl", a, a))
+    # A flow that turns is not asked of a function that is given one gradient.
+    with pytest.raises(ValueError, match="turning-axes-5"):
+        shearbed.grade(rk4, names=["turning-axes-5"])
+
+
+def test_both_triangles_of_a_tensor_are_read() -> None:
+    def quadratic(a: Array) -> Array:
+        return np.einsum("ij,kl->ijkl", a, a)
+
+    def lower(a: Array) -> Array:
+        # Right in every entry that is a column of the answer.
+        spoilt = quadratic(a)
+        spoilt[1, 0, 2, 2] += 0.1
+        return spoilt
+
+    report = shearbed.grade(quadratic, names=["closure-quadratic"])
+    assert report, str(report)
+    found = shearbed.grade(lower, names=["closure-quadratic"])["closure-quadratic"]
+    assert found["verdict"] == "FAIL" and found["error"] <= found["tolerance"], found
+    assert "row 0: a" in found["diagnosis"] and " but a" in found["diagnosis"], found
+
+
+def test_work_against_precision_is_that_of_the_method() -> None:
+    def counted(gradient: Array, r: float, p: Array, dt: float) -> Array:
+        counted.evaluations += 4  # type: ignore[attr-defined]
+        return rk4(gradient, r, p, dt)
+
+    counted.evaluations = 0  # type: ignore[attr-defined]
+    found = shearbed.grade(counted, names=NAMES, steps=(512, 1024, 2048)).work_precision()
+    assert list(found["problem"]) == [name for name in sorted(NAMES) for _ in range(3)]
+    assert list(found["steps"]) == [512, 1024, 2048] * 2
+    # As many steps as asked, but for the rounding of each of three times' shares.
+    assert (abs(found["evaluations"] - 4 * found["steps"]) <= 4 * 3).all(), found
+    # 512 steps are few for the longer rod.
+    assert (abs(np.log2(found["error"][1::3] / found["error"][2::3]) - 4) < 0.3).all(), found
+    assert (found["seconds"] > 0).all() and (found["seconds"][2::3] > found["seconds"][::3]).all(), found
+    assert np.isnan(shearbed.grade(rk4, names=["mid-flip-2"], steps=(64,)).work_precision()["evaluations"]).all()
+    with pytest.raises(ValueError, match="work_precision"):
+        shearbed.grade(rate, names=["mid-flip-2"]).work_precision()
+
+
 def test_a_right_hand_side_is_judged_as_it_is() -> None:
     report = shearbed.grade(rate)
     assert len(report.problems) > 10

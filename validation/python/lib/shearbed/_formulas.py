@@ -14,14 +14,15 @@ Array = NDArray[np.float64]
 _PAIRS = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))
 
 
-def answers(function: Callable[..., Any], formula: Mapping[str, Any], inputs: Mapping[str, Array], columns: tuple[str, ...]) -> list[list[float]]:
-    """The rows of the answer, below ``columns``, of which the first is the number of the row.
+def answers(function: Callable[..., Any], formula: Mapping[str, Any], inputs: Mapping[str, Array], columns: tuple[str, ...], tolerance: float) -> tuple[list[list[float]], str | None]:
+    """The rows of the answer, below ``columns``, of which the first is the number of the row, and what is uneven in it: the columns have
+    each entry of a symmetric tensor once, so its equals must agree with it within the tolerance.
 
     ``pdot``: ``function(gradient_per_s, aspect_ratio, p)`` returns dp/dt, with p as (1, 3) or (3,). ``closure``: ``function(a)``
     returns a_ijkl as (3, 3, 3, 3). ``dadt``: ``function(gradient_per_s, aspect_ratio, a)`` or ``function(gradient_per_s,
     aspect_ratio, a, model)`` returns da/dt as (3, 3); ``model`` is that of ``formula``, with its parameters.
     """
-    of, rows = formula["of"], []
+    of, rows, uneven = formula["of"], [], None
     shape = {"pdot": (3,), "closure": (3, 3, 3, 3), "dadt": (3, 3)}[of]
     for row in range(len(inputs["row"])):
         at = {name: float(values[row]) for name, values in inputs.items()}
@@ -30,8 +31,20 @@ def answers(function: Callable[..., Any], formula: Mapping[str, Any], inputs: Ma
             found = found[0]
         if found.shape != shape:
             raise TypeError(f"row {row}: {shape} is asked for, not {found.shape}")
+        uneven = uneven or _uneven(row, "da" if of == "dadt" else "a", found, tolerance)
         rows.append([float(row), *(float(found[_place(name)]) for name in columns[1:])])
-    return rows
+    return rows, uneven
+
+
+def _uneven(row: int, name: str, found: Array, tolerance: float) -> str | None:
+    """Two entries that must be equal and are not: of a tensor a_ij, or of a_ijkl by i and j, k and l, or both pairs."""
+    for axes in {2: ((1, 0),), 4: ((1, 0, 2, 3), (0, 1, 3, 2), (2, 3, 0, 1))}.get(found.ndim, ()):
+        apart = np.abs(found - found.transpose(axes))
+        if apart.max() > tolerance:
+            at = np.unravel_index(int(apart.argmax()), found.shape)
+            one, other = (f"{name}{''.join(str(i + 1) for i in place)} = {found[place]:g}" for place in (at, tuple(at[k] for k in axes)))
+            return f"row {row}: {one} but {other}"
+    return None
 
 
 def _given(of: str, function: Callable[..., Any], formula: Mapping[str, Any], at: Mapping[str, float]) -> tuple[Any, ...]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import fnmatch
 import inspect
 import json
 import os
@@ -62,6 +63,8 @@ class Problem:
     """What a problem of kind ``formula`` asks for: ``of`` (``pdot``, ``closure`` or ``dadt``), ``closure``, ``model``."""
     inputs: dict[str, Array] | None = None
     """The columns of ``inputs.csv``, a row each, of formulas and contacts."""
+    rotation_rad_per_s: tuple[float, ...] | None = None
+    """ω of a flow that turns: L(t) = Q L Qᵀ + S with S p = ω × p and Q = exp(St). A function is not asked about these."""
 
     def __str__(self) -> str:
         return self.name
@@ -112,15 +115,38 @@ def _problem(folder: Path) -> Problem:
         columns=tuple(told["columns"]),
         formula=told.get("formula"),
         inputs=columns(inputs) if inputs.exists() else None,
+        rotation_rad_per_s=tuple(told["rotation_rad_per_s"]) if "rotation_rad_per_s" in told else None,
     )
 
 
 class Report:
     """What was found: a verdict for each problem. True where a problem passes, and none fails or was not reached."""
 
-    def __init__(self, told: dict[str, Any]) -> None:
+    def __init__(self, told: dict[str, Any], runs: Sequence[tuple[str, int, float, float]] = ()) -> None:
         self.problems: list[dict[str, Any]] = told["problems"]
         """name, verdict, reference, error, tolerance, observed_order, diagnosis, raised, ... of each problem."""
+        self._runs = runs
+
+    def work_precision(self) -> dict[str, Any]:
+        """Error against work of a step or a solver: arrays with an entry for each problem and number of steps, as the columns of the
+        command's ``runs.csv``; ``pandas.DataFrame`` takes them.
+
+        ``problem``, ``steps``, ``evaluations``, ``error`` (in the problem's metric, the largest over all times) and ``seconds`` (of
+        one answer to all times, by the clock). ``evaluations`` is by how much ``function.evaluations`` grew, and NaN where the
+        function has no such counter. Raises ``ValueError`` for a right-hand side or a formula, which takes no steps.
+        """
+        if not self._runs:
+            raise ValueError("work_precision: no answer has a number of steps; a step or a solver has")
+        errors = {(judged["name"], steps): error for judged in self.problems for steps, error in judged["errors"]}
+        name, steps, evaluations, seconds = zip(*self._runs)
+        error = [errors.get((of, count)) for of, count in zip(name, steps)]
+        return {
+            "problem": np.array(name),
+            "steps": np.array(steps),
+            "evaluations": np.array(evaluations),
+            "error": np.array([np.nan if one is None else one for one in error]),
+            "seconds": np.array(seconds),
+        }
 
     def __bool__(self) -> bool:
         verdicts = [problem["verdict"] for problem in self.problems]
@@ -185,11 +211,14 @@ def grade(
     - ``"solver"``: ``function(gradient_per_s, aspect_ratio, start, times_s, steps)`` returns p at the times as
       (times, rods, 3), with at least ``steps`` steps to the last time.
 
-    A function for the formulas ``pdot-*``, ``closure-*`` or ``dadt-*`` in ``names`` is one of
+    ``names`` are names of problems, or patterns with ``*``: ``["mid-flip-*"]``. Without them all problems of free rods are asked. A
+    function for formulas needs ``names`` of formulas, such as ``["pdot-*"]``, ``["closure-ibof"]`` or ``["dadt-*"]``, and is one of
 
     - ``function(gradient_per_s, aspect_ratio, p)``, which returns dp/dt;
     - ``function(a)``, which returns a_ijkl as (3, 3, 3, 3);
     - ``function(gradient_per_s, aspect_ratio, a)``, or with ``model`` as a fourth, which returns da/dt as (3, 3).
+
+    Entries of a tensor that must be equal and are not FAIL.
 
     All rods come and go at once: ``start``, ``p`` and dp/dt are (rods, 3). A step or a solver is asked with twice the steps
     each time, until two answers in a row are within the tolerance (and with ``order`` until round-off), or nothing changes any
@@ -200,16 +229,19 @@ def grade(
     ``steps`` are given. A function that raises an ``ArithmeticError``, ``ValueError`` or ``RuntimeError`` has no answer from there
     on, and the report says what it raised.
     """
-    known = {problem.name: problem for problem in problems() if problem.kind in ("rods", "formula")}
-    for name in names or ():
-        if name not in known:
-            raise ValueError(f"{name}: no problem about rods or formulas has this name; there are {', '.join(known)}")
+    known = {problem.name: problem for problem in problems() if problem.kind in ("rods", "formula") and not problem.rotation_rad_per_s}
+    asked: set[str] = set()
+    for pattern in [names] if isinstance(names, str) else names or ():
+        found = fnmatch.filter(known, pattern)
+        if not found:
+            raise ValueError(f"{pattern}: no problem about rods or formulas has this name; there are {', '.join(known)}")
+        asked.update(found)
     of_rods = [name for name, problem in known.items() if problem.kind == "rods"]
-    asked = names or [name for name in of_rods if steps is not None or name not in OF_METHODS]
+    asked = asked or {name for name in of_rods if steps is not None or name not in OF_METHODS}
     wanted = [problem for name, problem in known.items() if name in asked]
     kind = "formula" if wanted[0].formula else kind or _kind_of(function)
     if any((problem.formula is None) != (kind != "formula") for problem in wanted):
-        raise ValueError("names: problems about rods and formulas take functions of their own")
+        raise ValueError("names: problems about rods and formulas take functions of their own; names=['pdot-*'] asks for a formula")
     if kind not in (*_KINDS.values(), "formula"):
         raise ValueError(f"kind = {kind!r}: 'rhs', 'step' and 'solver' are allowed")
     if kind in ("rhs", "formula"):
@@ -218,6 +250,8 @@ def grade(
                 what = "right-hand side" if kind == "rhs" else "formula"
                 raise ValueError(f"{name} = {given!r}: a {what} has none; a step or a solver has")
     raised: dict[str, str] = {}
+    uneven: dict[str, str] = {}
+    runs: list[tuple[str, int, float, float]] = []
     late: dict[str, int] = {}
     with tempfile.TemporaryDirectory(prefix="shearbed-") as folder:
         mine, out = Path(folder, "mine"), Path(folder, "out")
@@ -228,10 +262,16 @@ def grade(
                 asked_at = time.monotonic()
                 try:
                     if problem.formula:
-                        rows = answers(function, problem.formula, problem.inputs or {}, problem.columns)
+                        allowed = max(problem.tolerance, tolerance or 0.0)
+                        rows, words = answers(function, problem.formula, problem.inputs or {}, problem.columns, allowed)
+                        uneven |= {problem.name: words} if words else {}
                         _write_rows(mine / problem.name / "answer.csv", problem.columns, rows)
                         continue
+                    counted = getattr(function, "evaluations", np.nan)
                     found = _answer(function, kind, problem, count)
+                    if count is not None:
+                        counted = getattr(function, "evaluations", np.nan) - counted
+                        runs.append((problem.name, count, float(counted), time.monotonic() - asked_at))
                 except Lost as error:
                     raised[problem.name] = str(error)
                     found = np.full((len(problem.times_s), len(problem.start), 3), np.nan)
@@ -268,11 +308,13 @@ def grade(
         judged["raised"] = raised.get(judged["name"])
         if judged["verdict"] == "MISSING" and judged["raised"]:
             judged["note"] = None
+        if judged["name"] in uneven:
+            judged["verdict"], judged["diagnosis"] = "FAIL", uneven[judged["name"]]
         # An order that is too low is so whatever the time.
         if judged["name"] in late and judged["verdict"] == "FAIL" and judged["order_found"] != "lower":
             judged["verdict"] = "NOT REACHED"
             judged["note"] = f"time ran out (timeout_s = {timeout_s:g}) after {late[judged['name']]} steps; {judged['note']}"
-    return Report(told)
+    return Report(told, runs)
 
 
 def _ladder(problem: Problem) -> list[int]:
@@ -313,7 +355,7 @@ def _kind_of(function: Callable[..., Any]) -> str:
     if any(parameter.kind is parameter.VAR_POSITIONAL for parameter in needed) or len(needed) not in _KINDS:
         raise ValueError(
             f"kind: a function of {', '.join(map(str, needed)) or 'nothing'} does not tell what it is; "
-            "kind='rhs', 'step' or 'solver' says it"
+            "kind='rhs', 'step' or 'solver' says it, and names=['closure-*'], ['dadt-*'] or ['pdot-*'] asks for a formula"
         )
     return _KINDS[len(needed)]
 

@@ -25,4 +25,8 @@ def problems(kind: str = "rods") -> list[Problem]:
         raise ValueError(
             f"kind = {kind!r}: 'rods' and 'formula' are allowed; a program's answers to the others are graded by `shearbed grade`"
         )
-    return [problem for problem in _grading.problems() if problem.kind == kind and problem.name not in _grading.OF_METHODS]
+    return [
+        problem
+        for problem in _grading.problems()
+        if problem.kind == kind and not problem.rotation_rad_per_s and problem.name not in _grading.OF_METHODS
+    ]

@@ -41,7 +41,7 @@ impl Protocol {
     pub(super) fn write(self, request: &Request<'_>) -> Result<String, String> {
         match self {
             Self::Json => serde_json::to_string(request).map_err(|error| error.to_string()),
-            Self::Text => Ok(text::write(request)),
+            Self::Text => text::write(request),
         }
     }
 

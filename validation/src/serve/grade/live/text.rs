@@ -6,13 +6,16 @@ use super::request::{Answer, Request, Turned};
 use crate::files::csv;
 
 /// The request as one line: `id`, the nine ∂u_i/∂x_j row by row, r_e, the time in s, the number of steps or 0, the
-/// tolerance or 0, the number of rods, and three numbers for each rod.
-pub fn write(request: &Request<'_>) -> String {
+/// tolerance or 0, the number of rods, and three numbers for each rod. `Err` in a flow that turns, which has no place in it.
+pub fn write(request: &Request<'_>) -> Result<String, String> {
+    if request.rotation_rad_per_s.is_some() {
+        return Err("a flow that turns needs lines of JSON".to_owned());
+    }
     let joined = |numbers: &[f64]| numbers.iter().map(|number| format!(" {number:e}")).collect::<String>();
     let gradient = joined(request.gradient_per_s.as_flattened());
     let [r_e, end, tolerance] = [request.aspect_ratio, request.end_s, request.tolerance.unwrap_or(0.0)];
     let (steps, rods, start) = (request.steps.unwrap_or(0), request.start.len(), joined(request.start.as_flattened()));
-    format!("{}{gradient} {r_e:e} {end:e} {steps} {tolerance:e} {rods}{start}", request.id)
+    Ok(format!("{}{gradient} {r_e:e} {end:e} {steps} {tolerance:e} {rods}{start}", request.id))
 }
 
 /// Parses the answer to request `id` about `rods` rods: `id` and three numbers for each rod, or `id error REASON`.
@@ -66,9 +69,10 @@ mod tests {
             tolerance: None,
         };
         let expected = "7 0e0 0e0 0e0 5e-1 0e0 0e0 0e0 0e0 -1e-7 1.16e1 2e0 64 0e0 2 1e0 0e0 0e0 6e-1 8e-1 0e0";
-        assert_eq!(write(&request), expected);
+        assert_eq!(write(&request).unwrap(), expected);
         let request = Request { steps: None, tolerance: Some(1e-6), ..request };
-        assert_eq!(write(&request), expected.replace(" 64 0e0 ", " 0 1e-6 "));
+        assert_eq!(write(&request).unwrap(), expected.replace(" 64 0e0 ", " 0 1e-6 "));
+        assert!(write(&Request { rotation_rad_per_s: Some([0.0, 0.0, 1.0]), ..request }).is_err());
     }
 
     #[test]
