@@ -1,11 +1,13 @@
 #!/usr/bin/env bash
 # Follows CONTRIBUTING's recipes that need another program: adds a key, a command and a reference problem to a copy of the sources, as
-# recipes/*.diff show them, and asks the program that is built from it for each of them.
+# recipes/*.diff show them, and asks the program that is built from it for each of them; and makes a crate that uses the library.
 # Usage: bash validation/recipes.sh
 set -euo pipefail
 root=$(cd "$(dirname "$0")/.." && pwd)
-copy=$(mktemp -d)
-trap 'rm -rf "$copy"' EXIT
+beside=$(mktemp -d)
+trap 'rm -rf "$beside"' EXIT
+copy=$beside/shearbed
+mkdir "$copy"
 cd "$root"
 git ls-files -z | xargs -0 cp --parents -t "$copy"
 # A folder of its own: cargo would take the copy's program for that of the sources.
@@ -33,4 +35,7 @@ UPDATE_DOCS=1 cargo test --locked --quiet -p shearbed-cli --test docs generated
 for made in "docs/src/reference/keys.md density_kg_per_m3" "docs/src/reference/commands.md shearbed period" "validation/schemas/scene.json density_kg_per_m3"; do
   says "${made#* }" cat "${made%% *}"
 done
-echo "recipes: a key, a command and a problem were added and found"
+# A crate of one's own, by the commands at the head of its source; with the versions of this repository.
+cd "$beside"
+says "observed order 2.0" bash -ec "$(sed -n 's|^//! \(c[apo].*\)|\1|p' "$root/validation/recipes/own_method.rs" | sed 's,cd my_method,& && cp ../shearbed/Cargo.lock .,')"
+echo "recipes: a key, a command and a problem were added and found, and a crate of one's own shows its order"

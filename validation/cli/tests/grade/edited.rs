@@ -73,7 +73,9 @@ fn no_value_of_any_key_panics_or_is_taken_silently() {
     // for isotropic ones, unequal rods for ensembles, mixed flows for diffusing rods, rest and an oscillation for
     // Brownian ones. Of every other form there is one.
     let one_of_a_form = |name: &String| match name.as_str() {
-        "mid-flip-2" | "spiral" | "isotropic-3" | "isotropic-extension" | "lee-springer-unequal" => true,
+        "mid-flip-2" | "spiral" | "turning-axes-5" | "isotropic-3" | "isotropic-extension" | "lee-springer-unequal" => {
+            true
+        }
         "pdot-rod" | "closure-hybrid" | "dadt-rsc-ibof" | "brownian-relaxation" | "brownian-oscillation" => true,
         name if ["pdot", "closure", "dadt", "brownian"].iter().any(|kind| name.starts_with(kind)) => false,
         name if ["folgar-tucker", "closed"].iter().any(|kind| name.starts_with(kind)) => name.ends_with("-mixed"),

@@ -29,7 +29,7 @@ fn numpy_rk4_passes_with_order_4_and_euler_fails_with_order_1() {
     }
     let Some(python) = python("numpy") else { return };
     // It has no rods that collide or diffuse, and no closures.
-    let kinds = ["lee-springer", "folgar-tucker", "brownian", "closed", "closure", "dadt"];
+    let kinds = ["lee-springer", "folgar-tucker", "brownian", "closed", "closure", "dadt", "turning"];
     let others = |name: &&String| kinds.iter().any(|kind| name.starts_with(kind));
     for name in &names() {
         let expected = if others(&name) { "MISSING" } else { "PASS" };

@@ -38,6 +38,7 @@ fn main() -> ExitCode {
     }
     trials.push(Trial::test("program_with_axes_of_its_own", axes_of_its_own));
     trials.push(Trial::test("program_for_tensors", for_tensors));
+    trials.push(Trial::test("programs_of_two_orders_in_one_picture", two_in_one_picture));
     trials.push(Trial::test("program_ends_with_shearbed", ends_with_shearbed));
     #[cfg(target_os = "linux")]
     trials.push(Trial::test("program_of_another_user_is_named", another_user_s_is_named));
@@ -179,6 +180,32 @@ fn for_tensors() -> Result<(), Failed> {
         }
     }
     Ok(())
+}
+
+/// Two methods share one picture: each run is in the table and in the CSV beside the picture, with the order of its own.
+fn two_in_one_picture() -> Result<(), Failed> {
+    let dir = tempfile::tempdir()?;
+    let (own, pids, out) = (std::env::current_exe()?, dir.path().join("pids"), dir.path().join("out"));
+    let command = |order: u32| format!("of-{order}='{}' --program rk_{order} '{}'", own.display(), pids.display());
+    let (code, words) = shearbed(&command(2), &out, "5", &PROBLEMS[..1], &["--command", &command(4)]);
+    let read = |file: &str| fs::read_to_string(out.join(file));
+    let (runs, programs, picture) = (read("runs.csv")?, read("programs.csv")?, read("steps.csv")?);
+    for order in [2, 4] {
+        let rows = runs.lines().filter(|line| line.contains(&format!(",of-{order},")));
+        let run = |line: &str| -> Vec<String> { line.split(',').map(String::from).collect() };
+        let of: Vec<_> = rows.map(run).map(|run| [run[3].clone(), run[9].clone()]).collect();
+        let drawn = |[steps, error]: &[String; 2]| picture.contains(&format!("of-{order},{steps}.0,{error},"));
+        // 64 and 128 steps, long before round-off.
+        let error = |steps: &str| of.iter().find(|run| run[0] == steps).map(|run| run[1].parse::<f64>());
+        let (Some(coarse), Some(fine)) = (error("64"), error("128")) else { return Err(runs.into()) };
+        let seen = ((coarse? / fine?).log2() - f64::from(order)).abs() < 0.2;
+        let said = programs.contains(&format!("of-{order},{order},"));
+        if code != Some(0) || of.len() < 4 || !of.iter().all(drawn) || !seen || !said {
+            return Err(format!("order {order}: {words}\n{programs}\n{runs}\n{picture}").into());
+        }
+    }
+    let drawing = read("steps.svg")?;
+    if drawing.contains("of-2") && drawing.contains("of-4") { Ok(()) } else { Err(drawing.into()) }
 }
 
 /// Asked to end while it waits, shearbed leaves nobody behind.

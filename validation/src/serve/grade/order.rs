@@ -97,11 +97,14 @@ impl Orders {
         }
     }
 
-    /// The whole order of the last usable pair and the finer error of it; none if the order is not near a whole one.
+    /// The whole order of the last usable pair and the finer error of it, or of the pair before, as round-off may have a
+    /// part in the last; none if neither order is near a whole one.
     pub fn whole(&self) -> Option<(u32, f64)> {
-        let (order, error) = *self.usable.last()?;
-        let whole = order.round();
-        (whole >= 1.0 && (order - whole).abs() < ORDER_TOLERANCE).then_some((whole as u32, error))
+        let near = |(order, error): &(f64, f64)| {
+            let whole = order.round();
+            (whole >= 1.0 && (order - whole).abs() < ORDER_TOLERANCE).then_some((whole as u32, *error))
+        };
+        self.usable.iter().rev().take(2).find_map(near)
     }
 
     /// The evidence about a claimed order.
