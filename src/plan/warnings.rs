@@ -231,11 +231,11 @@ impl Plan {
         let n_a3 = scene.rods_per_cubed_length().filter(|n_a3| *n_a3 >= DENSE)?;
         let shown = if n_a3 < 1e4 { format!("{n_a3:.3}") } else { format!("{n_a3:.3e}") };
         let lengths = if scene.particles.rods.is_some() { "rods" } else { "length_mm" };
+        let regime = if n_a3 < 1.0 { "not far below 1" } else { scene.regime()? };
         Some(format!(
-            "{} and particles.{lengths} give n a³ = {shown}: {}. The model is for dilute suspensions, n a³ far \
+            "{} and particles.{lengths} give n a³ = {shown}: {regime}. The model is for dilute suspensions, n a³ far \
              below 1, in which two rods meet at a time",
             scene.concentration_key(),
-            scene.regime()?
         ))
     }
 
@@ -246,9 +246,10 @@ impl Plan {
         // The mean distance of the nearest of random points: Chandrasekhar 1943, Rev. Mod. Phys. 15, 1.
         let distance_mm = 10.0 * 0.554 / libm::cbrt(scene.concentration_per_cm3()?);
         (distance_mm < scene.particles.length_mm * reach(0.5, alpha, m)).then(|| {
+            let alpha = if alpha < 1e4 { format!("{}", (1e4 * alpha).round() / 1e4) } else { format!("{alpha:e}") };
             format!(
-                "interaction.alpha = {alpha}, m = {m}: a rod collides with its neighbour at {distance_mm:.3} mm, the \
-                 mean distance, in more than half of all steps, however short: the means depend on the step"
+                "interaction.alpha = {alpha}, m = {m}: a rod and its neighbour at the mean distance collide in more \
+                 than half of all steps, however short: the means depend on the step"
             )
         })
     }
@@ -308,10 +309,15 @@ mod tests {
                 "concentration_per_cm3 = 270",
                 t,
                 "interaction.concentration_per_cm3 and particles.length_mm give \
-                n a³ = 0.101: dilute.",
+                n a³ = 0.101: not far below 1.",
             ),
             (rods, "concentration_per_cm3 = 50\nm = 0.5", t, none),
-            (rods, "concentration_per_cm3 = 50\nm = 0.4", t, "interaction.alpha = 0.5, m = 0.4: a rod collides with"),
+            (
+                rods,
+                "concentration_per_cm3 = 50\nm = 0.4",
+                t,
+                "interaction.alpha = 0.5, m = 0.4: a rod and its neighbour",
+            ),
             (
                 rods,
                 "concentration_per_cm3 = 5000",
