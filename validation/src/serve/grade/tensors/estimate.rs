@@ -30,14 +30,11 @@ pub(super) fn of_curve(problem: &Problem, answer: &Answer, known: &Known, most: 
     let all: Vec<_> = QUANTITIES.iter().flat_map(|q| (0..CLOSURES.len()).map(move |closure| (q, closure))).collect();
     let fit = |((name, change), closure): &(&Quantity, usize)| {
         let name = if problem.d_r_per_s.is_some() { name.replace("C_I", "D_r") } else { (*name).to_owned() };
-        let with = |factor: f64| {
-            let near = near_of(&words(&name, factor), "", *closure, known.own);
-            Some(Candidate::new(change(known.parts, factor)?, CLOSURES[*closure], vec![near]))
-        };
+        let with = |factor: f64| Some(Candidate::new(change(known.parts, factor)?, CLOSURES[*closure], Vec::new()));
         let row = |factor: f64| with(factor)?.curve(problem, &known.start, 1, STEP)?.pop();
-        let mut candidate = with(newton(&answer.rows[0], row)?)?;
-        let distance = distance(problem, &answer.rows, &known.start, &candidate, most)?;
-        Some(Near { distance, ..candidate.near.remove(0) })
+        let factor = newton(&answer.rows[0], row)?;
+        let distance = distance(problem, &answer.rows, &known.start, &with(factor)?, most)?;
+        Some(Near { distance, ..near_of(&words(&name, factor), "", *closure, known.own) })
     };
     all.par_iter().filter_map(fit).collect()
 }
