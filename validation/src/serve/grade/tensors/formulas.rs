@@ -79,7 +79,7 @@ fn fourths(rows: &Rows, closure: &Stand) -> Vec<Fourth> {
 }
 
 /// da_ij/dt of each row with these parts and these a_ijkl.
-fn rates(rows: &Rows, parts: &[Parts], fourths: &[Fourth]) -> Rows {
+fn rates(rows: &[Vec<f64>], parts: &[Parts], fourths: &[Fourth]) -> Rows {
     let of = |(row, (parts, fourth)): (&Vec<f64>, (&Parts, &Fourth))| {
         let rate = parts.rate(&tensor(row), fourth);
         PAIRS.map(|place| rate[place]).to_vec()
@@ -96,8 +96,13 @@ fn of_rates(rows: &Rows, answer: &Answer, closure: Closure, model: Model, most: 
     for mistake in std::iter::once(None).chain(MISTAKES.iter().map(Some)) {
         let Some(parts) = spoilt(&parts, mistake) else { continue };
         let (name, advice) = mistake.map_or(("", ""), |mistake| (mistake.name, mistake.advice));
+        // Saves time: most are far already in the first row.
+        let begins = |k: &usize| {
+            let first = self::rates(&rows[..1], &parts[..1], &fourths[*k][..1]);
+            apart(&answer.rows[..1], &first) <= most
+        };
         let of = |k: usize| within(near_of(name, advice, k, own), answer, &rates(&parts, k), most);
-        near.extend((0..CLOSURES.len()).filter_map(of));
+        near.extend((0..CLOSURES.len()).filter(begins).filter_map(of));
     }
     if !near.is_empty() {
         return near;
