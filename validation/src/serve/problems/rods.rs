@@ -98,8 +98,9 @@ const ANY_FLOW: &[&str] = &[
     "Jeffery's equation (A.1 of Lee & Springer 1982), solved by p = q/|q|, q = exp((W + ΛD)t) p(0) with W and D the \
      antisymmetric and symmetric parts of the velocity gradient and Λ = (r_e² - 1)/(r_e² + 1)",
     "A.1 of Lee & Springer 1982 in a flow that turns by ω = rotation_rad_per_s: the velocity gradient is \
-     L(t) = Q L Qᵀ + S with L = gradient_per_s, S p = ω × p and Q = exp(St) (Q̇Qᵀ = S), the rotation about ω by |ω|t, right-handed. \
-     So the flow turns by ω as seen from the axes, and the axes turn by -ω; p(t) = Q times the p of the steady flow L",
+     L(t) = Q L Qᵀ + S with L = gradient_per_s, S p = ω × p and Q = exp(St) (Q̇Qᵀ = S), the rotation about ω by \
+     |ω|t, right-handed. So the flow turns by ω as seen from the axes, and the axes turn by -ω; p(t) = Q \
+     times the p of the steady flow L",
 ];
 
 fn mid_flip(aspect_ratio: f64) -> Asked {
