@@ -182,7 +182,8 @@ fn for_tensors() -> Result<(), Failed> {
     Ok(())
 }
 
-/// Two methods share one picture: each run is in the table and in the CSV beside the picture, with the order of its own.
+/// Two methods share one picture: each run is in the table and in the CSV beside the picture, with the order of its
+/// own.
 fn two_in_one_picture() -> Result<(), Failed> {
     let dir = tempfile::tempdir()?;
     let (own, pids, out) = (std::env::current_exe()?, dir.path().join("pids"), dir.path().join("out"));

@@ -19,9 +19,9 @@ fn cross(a: &[Big; 3], b: &[Big; 3]) -> [Big; 3] {
 /// p after `time_s` from the unit vector `start`, by Taylor's series of Jeffery's equation ṗ = Wp + Λ(Dp − p p·Dp)
 /// itself (A.1): no exponential, no linear equation and no closed form.
 ///
-/// `gradient_per_s` has ∂u_i/∂x_j in row i and column j. For |L| `time_s` up to some hundreds. In a flow that turns by ω
-/// = `rotation_rad_per_s`, ṗ has L(t) = M + S with S p = ω × p, and M obeys Ṁ = SM − MS: its series too are taken, without
-/// a rotation.
+/// `gradient_per_s` has ∂u_i/∂x_j in row i and column j. For |L| `time_s` up to some hundreds. In a flow that turns by
+/// ω = `rotation_rad_per_s`, ṗ has L(t) = M + S with S p = ω × p, and M obeys Ṁ = SM − MS: its series too are taken,
+/// without a rotation.
 pub fn direction(
     gradient_per_s: &[[f64; 3]; 3],
     rotation_rad_per_s: [f64; 3],

@@ -1,6 +1,7 @@
 //! The curves of known mistakes: the answers of a program that has one of them and is correct otherwise.
 //!
-//! The exact motion is p = q/|q|, q = exp(At) p(0), A = W + ΛD; in a flow that turns, Q exp((A − S)t) p(0). A mistake changes only flow, r_e, start, map or answer.
+//! The exact motion is p = q/|q|, q = exp(At) p(0), A = W + ΛD; in a flow that turns, Q exp((A − S)t) p(0). A mistake
+//! changes only flow, r_e, start, map or answer.
 
 mod angles;
 mod physical;

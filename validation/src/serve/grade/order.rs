@@ -97,8 +97,8 @@ impl Orders {
         }
     }
 
-    /// The whole order of the last usable pair and the finer error of it, or of the pair before, as round-off may have a
-    /// part in the last; none if neither order is near a whole one.
+    /// The whole order of the last usable pair and the finer error of it, or of the pair before, as round-off may have
+    /// a part in the last; none if neither order is near a whole one.
     pub fn whole(&self) -> Option<(u32, f64)> {
         let near = |(order, error): &(f64, f64)| {
             let whole = order.round();

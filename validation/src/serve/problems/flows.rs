@@ -53,9 +53,9 @@ pub(super) fn mirrored() -> Asked {
 }
 
 pub(super) fn turning() -> Asked {
-    let summary = "Three free rods of r_e = 5 in plane Couette flow, seen from axes that turn: the velocity gradient L(t) \
-        changes in time. A code that takes L once a step falls to order 1, and one that takes it at wrong times within a \
-        step loses its order too: no steady flow shows that.";
+    let summary = "Three free rods of r_e = 5 in plane Couette flow, seen from axes that turn: the velocity gradient \
+        L(t) changes in time. A code that takes L once a step falls to order 1, and one that takes it at wrong times \
+        within a step loses its order too: no steady flow shows that.";
     Asked { rotation_rad_per_s: Some([0.375, -0.25, 0.5]), ..three(COUETTE, summary) }
 }
 

@@ -16,8 +16,8 @@ pub(super) fn page(built: &Built) -> String {
         page += &format!("The flow is u = L x with L = [{x}, {y}, {z}] in 1/s, row i and column j being ∂u_i/∂x_j. ");
         if let Some([x, y, z]) = problem.rotation_rad_per_s {
             page += &format!(
-                "It turns: at the time t the gradient is Q L Qᵀ + S with S p = ω × p, ω = [{x}, {y}, {z}] rad/s, and Q = \
-                 exp(St), the right-handed rotation about ω by |ω|t. "
+                "It turns: at the time t the gradient is Q L Qᵀ + S with S p = ω × p, ω = [{x}, {y}, {z}] rad/s, and \
+                 Q = exp(St), the right-handed rotation about ω by |ω|t. "
             );
         }
         steps =

@@ -106,9 +106,9 @@ pub struct Problem {
     pub kind: Kind,
     /// L, row i and column j: ∂u_i/∂x_j, 1/s.
     pub gradient_per_s: [[f64; 3]; 3],
-    /// ω in rad/s of a gradient that turns: L(t) = Q L Qᵀ + S with L as above, S p = ω × p and Q = exp(St), the rotation
-    /// about ω by the angle |ω|t, right-handed where positive. So the flow turns by ω as seen from the axes, and the axes
-    /// turn by −ω. None for a steady gradient.
+    /// ω in rad/s of a gradient that turns: L(t) = Q L Qᵀ + S with L as above, S p = ω × p and Q = exp(St), the
+    /// rotation about ω by the angle |ω|t, right-handed where positive. So the flow turns by ω as seen from the axes,
+    /// and the axes turn by −ω. None for a steady gradient.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rotation_rad_per_s: Option<[f64; 3]>,
     /// r_e (1); the mean where rods are unequal.

@@ -39,8 +39,8 @@ pub fn because_couette(aspect_ratio: f64) -> String {
 }
 
 /// The tolerance of angles (rad) in any flow: the integral in this module's documentation by the midpoint rule in 400
-/// steps, the largest over rods, rounded up to one digit. κ is the Frobenius norm, which bounds the spectral one. A flow
-/// that turns by `rotation_rad_per_s` has that much more to evaluate and to turn: rotations leave κ alone.
+/// steps, the largest over rods, rounded up to one digit. κ is the Frobenius norm, which bounds the spectral one. A
+/// flow that turns by `rotation_rad_per_s` has that much more to evaluate and to turn: rotations leave κ alone.
 pub fn general(motion: &Motion, rotation_rad_per_s: f64, start: &[[f64; 3]], end_s: f64) -> f64 {
     const STEPS: usize = 400;
     let bits = motion.bits(end_s, Unit::Second, 160);

@@ -6,7 +6,8 @@ use super::request::{Answer, Request, Turned};
 use crate::files::csv;
 
 /// The request as one line: `id`, the nine ∂u_i/∂x_j row by row, r_e, the time in s, the number of steps or 0, the
-/// tolerance or 0, the number of rods, and three numbers for each rod. `Err` in a flow that turns, which has no place in it.
+/// tolerance or 0, the number of rods, and three numbers for each rod. `Err` in a flow that turns, which has no place
+/// in it.
 pub fn write(request: &Request<'_>) -> Result<String, String> {
     if request.rotation_rad_per_s.is_some() {
         return Err("a flow that turns needs lines of JSON".to_owned());
