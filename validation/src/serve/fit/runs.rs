@@ -31,8 +31,8 @@ pub struct Runs {
 }
 
 impl Runs {
-    /// Opens the checkpoint at `path`, to be written at least every `every`, or makes it. `inputs` are the scenes: other points,
-    /// ranges and numbers of replicas may use its runs.
+    /// Opens the checkpoint at `path`, to be written at least every `every`, or makes it. `inputs` are the scenes:
+    /// other points, ranges and numbers of replicas may use its runs.
     ///
     /// # Errors
     ///

@@ -147,8 +147,8 @@ impl Program {
         self.asked(|state| state.ask(self, question, setting))
     }
 
-    /// Asks for a table of so many rows and columns, as JSON alone, and returns it, with the standard errors of a random
-    /// code, and the time that the answer took. `request` has all keys but the id.
+    /// Asks for a table of so many rows and columns, as JSON alone, and returns it, with the standard errors of a
+    /// random code, and the time that the answer took. `request` has all keys but the id.
     pub fn ask_table(&self, request: &Value, size: [usize; 2]) -> Result<((Rows, Option<Rows>), Duration), Asked> {
         self.asked(|state| state.ask_table(self, request, size))
     }

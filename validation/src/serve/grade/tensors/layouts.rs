@@ -50,7 +50,8 @@ pub(super) const LAYOUTS: [Layout; 16] = [
 ];
 
 impl Layout {
-    /// A row of an answer in this layout, as 11, 22, 33, 12, 13, 23, or a_ijkl as pairs of these; `None` for other rows.
+    /// A row of an answer in this layout, as 11, 22, 33, 12, 13, 23, or a_ijkl as pairs of these; `None` for
+    /// others.
     pub(super) fn read(&self, row: &[f64]) -> Option<Vec<f64>> {
         let factor = |k: usize| if k < 3 { 1.0 } else { self.factors[k - 3] };
         let on_row = |k: usize| if self.on_rows { factor(k) } else { 1.0 };

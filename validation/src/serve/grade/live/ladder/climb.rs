@@ -237,8 +237,8 @@ pub(super) fn settings(problem: &LoadedProblem, mode: Mode) -> Vec<Setting> {
     }
 }
 
-/// The fewest equal steps that end at each of these times, of which all other such numbers are multiples; 1 if there are
-/// none below a thousand.
+/// The fewest equal steps that end at each of these times, of which all other such numbers are multiples; 1 if there
+/// are none below a thousand.
 pub(super) fn fewest(times_s: &[f64]) -> u64 {
     let last = times_s.last().copied().unwrap_or_default();
     let ends_at = |steps: u64, time: &f64| {
