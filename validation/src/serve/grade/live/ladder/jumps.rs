@@ -1,8 +1,8 @@
 //! Judges every setting, not the finest alone: a method's error is a continuous function of its step.
 //!
 //! If a method follows the motion, its error falls by its order when the number of steps doubles. If an error falls by
-//! far more, the numbers of steps between the two are bisected down to neighbours N and N + 1, or multiples of the steps
-//! that end at each time. A method that is unstable with long steps, or misses the motion, becomes correct gradually,
+//! far more, the numbers of steps between the two are bisected down to neighbours N and N + 1, or multiples of what
+//! ends at each time. A method that is unstable with long steps, or misses the motion, becomes correct gradually,
 //! over many N. Answers that are wrong at N and right at N + 1 do not come from a method.
 
 use super::Rung;
