@@ -26,17 +26,25 @@ fn hybrid(a: &M) -> f64 {
     1.0 - 27.0 * a.determinant()
 }
 
-/// The rows of a problem by RK4 with steps of about 0.01 of strain; late times end at a strain of 600.
+/// A step of a rate.
+type Step = fn(&dyn Fn(M) -> M, M, f64) -> M;
+
+/// The rows of a problem by RK4 with steps of about 0.01 of strain.
 fn answer(name: &str, c_i: f64, closure: fn(&M) -> f64) -> Vec<Vec<String>> {
+    answer_by(|rate, a, h| rk4(rate, a, h), 0.01, name, c_i, closure)
+}
+
+/// The rows of a problem with steps of about `strain`; late times end at a strain of 600.
+fn answer_by(step: Step, strain: f64, name: &str, c_i: f64, closure: fn(&M) -> f64) -> Vec<Vec<String>> {
     const G: f64 = 0.5;
     let (_, mut rows) = problem(name);
     let rate = |a: M| rate(&a, c_i, G, closure);
     let (mut a, mut now) = (M::identity() / 3.0, 0.0);
     for row in rows.iter_mut().skip(1) {
         let time: f64 = row[0].parse::<f64>().unwrap().min(1200.0);
-        let steps = ((time - now) * G / 0.01).ceil();
+        let steps = ((time - now) * G / strain).ceil();
         let h = (time - now) / steps;
-        a = (0..steps as usize).fold(a, |a, _| rk4(rate, a, h));
+        a = (0..steps as usize).fold(a, |a, _| step(&rate, a, h));
         now = time;
         for (at, place) in [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)].into_iter().enumerate() {
             row[1 + at] = format!("{:e}", a[place]);
@@ -67,6 +75,26 @@ fn the_closure_of_a_program_is_named_with_its_cost() {
     }
     let overall = "one mistake explains 2 of 3 that do not pass: the quadratic closure";
     assert!(ended.words.contains(overall), "{}", ended.words);
+}
+
+/// Too coarse for the tolerance, but at its order: right, if what it converges to is.
+#[test]
+fn steps_that_converge_to_the_certified_answer_pass() {
+    let name = "closed-ft-quadratic-0.01";
+    let of = |c_i: f64| {
+        let dir = tempfile::tempdir().unwrap();
+        let midpoint: Step = |rate, a, h| a + h * rate(a + 0.5 * h * rate(a));
+        for steps in [320, 640, 1280, 2560] {
+            let rows = answer_by(midpoint, 20.0 / f64::from(steps), name, c_i, quadratic);
+            write(dir.path(), name, &format!("steps-{steps}.csv"), text(&rows));
+        }
+        answers(dir.path())
+    };
+    let right = of(0.01);
+    let (error, tolerance) = (right.of(name)["error"].as_f64(), right.of(name)["tolerance"].as_f64());
+    assert!(right.verdict(name) == "PASS" && error > tolerance, "{}", right.words);
+    assert!(right.words.contains("converges to the certified answer at order 2.0"), "{}", right.words);
+    assert_eq!(of(0.0101).verdict(name), "FAIL");
 }
 
 #[test]

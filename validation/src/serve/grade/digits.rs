@@ -8,6 +8,9 @@ const DIGITS: std::ops::RangeInclusive<usize> = 4..=12;
 /// The largest error in units of the last digit that rounding on the way explains.
 const ROUNDINGS: f64 = 100.0;
 
+/// The same for printed digits of a double, which round once.
+const PRINTINGS: f64 = 2.0;
+
 /// A sentence if the answer has few digits, and its `error` is no more than these explain.
 pub(super) fn remark(answer: &Answer, error: f64) -> Option<String> {
     let all = || answer.rows.iter().flatten().copied();
@@ -27,7 +30,7 @@ pub(super) fn remark(answer: &Answer, error: f64) -> Option<String> {
     }
     let digits = digits?;
     let last = 10f64.powi(1 - digits as i32) * size;
-    (error <= ROUNDINGS * last).then(|| {
+    (error <= PRINTINGS * last).then(|| {
         format!(
             "its numbers have {digits} digits, which explains this error: 17 make a double, or a larger tolerance does"
         )
@@ -48,7 +51,8 @@ mod tests {
         let single = of(vec![vec![nine(0.1), nine(0.7), nine(1.0 / 3.0)]]);
         assert!(remark(&single, 1e-7).unwrap().contains("single precision"));
         let printed = of(vec![vec![0.123_456_789, 0.7, 0.333_333_333]]);
-        assert!(remark(&printed, 1e-7).unwrap().contains("9 digits"));
+        assert!(remark(&printed, 1e-8).unwrap().contains("9 digits"));
+        assert_eq!(remark(&printed, 1e-7), None);
         let printed = of(vec![vec![0.123_456_78, -0.5, 0.0]]);
         assert!(remark(&printed, 1e-8).unwrap().contains("8 digits"));
         assert_eq!(remark(&printed, 1e-3), None);

@@ -128,6 +128,20 @@ fn timeless(program: &Program, problem: &LoadedProblem, mode: Mode, claim: Claim
     }
 }
 
+/// Says that answers to numbers of steps that double converge to the certified one, though none may be within the
+/// tolerance.
+pub(in crate::serve::grade) fn converging(problem: &LoadedProblem, answers: &[(u64, Answer)]) -> Option<String> {
+    let last = answers.last_chunk::<4>()?;
+    let rung = |(steps, answer): &(u64, Answer)| Rung {
+        setting: Setting::Steps(*steps),
+        compared: compare(problem, answer),
+        answer: answer.clone(),
+        took: Duration::ZERO,
+    };
+    let doubles = last.windows(2).all(|pair| pair[1].0 == 2 * pair[0].0);
+    doubles.then(|| converges(problem, &last.each_ref().map(rung))).flatten()
+}
+
 /// Grades a program on a formula, which has no steps.
 fn formula(program: &Program, problem: &LoadedProblem) -> Graded {
     let mut graded = Graded::without_answer(problem);

@@ -14,6 +14,7 @@ mod text;
 
 pub use bench::{Bench, EchoError, echo, theory};
 pub use kill::end_all;
+pub(super) use ladder::converging;
 pub use ladder::{Mode, grade, prepared};
 pub use program::{Asked, Program, Question};
 pub use protocol::Protocol;

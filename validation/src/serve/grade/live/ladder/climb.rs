@@ -7,7 +7,7 @@ use crate::serve::grade::answer::Answer;
 use crate::serve::grade::compare::compare;
 use crate::serve::grade::live::program::Asked;
 use crate::serve::grade::order::{Order, orders};
-use crate::serve::problems::LoadedProblem;
+use crate::serve::problems::{Kind, LoadedProblem, Metric};
 use std::time::{Duration, Instant};
 
 /// The largest number of doublings of the steps, from GΔt of about 1.
@@ -15,6 +15,9 @@ const DOUBLINGS: u32 = 24;
 
 /// Number of rungs that allow no prediction: after them a step is at most a hundredth of a unit of strain.
 const RESOLVING: usize = 7;
+
+/// The same for tensors, which do not flip: after them a step is some sixteenth of a unit of strain.
+const RESOLVING_TENSORS: usize = 3;
 
 /// Number of settings in a row that a program may refuse before any answer, by which a step is short, and after one.
 const REFUSALS: [usize; 2] = [RESOLVING + 1, 2];
@@ -54,6 +57,8 @@ pub(super) fn climb(
     // A program that chooses its steps shows no order.
     let claimed = claimed.filter(|_| mode == Mode::Steps);
     let mut rungs: Vec<Rung> = Vec::new();
+    // Errors of random answers are in units of their own.
+    let smooth = problem.problem.kind != Kind::Rods && problem.problem.metric != Metric::StandardErrors;
     let (mut says, mut refused) = (None, 0);
     let mut begun = Instant::now();
     for setting in settings(problem, mode) {
@@ -96,7 +101,7 @@ pub(super) fn climb(
             },
             _ => {}
         }
-        if !arrived && let Some(end) = hopeless(&rungs, tolerance, timeout) {
+        if !arrived && let Some(end) = hopeless(&rungs, tolerance, timeout, smooth) {
             return (rungs, end);
         }
         let spent = begun.elapsed();
@@ -141,10 +146,12 @@ pub(super) fn reached(rungs: &[Rung], tolerance: f64) -> bool {
     }
 }
 
-/// The reason why finer settings would not come within the tolerance, if the settings so far prove it.
-pub(super) fn hopeless(rungs: &[Rung], tolerance: f64, timeout: Duration) -> Option<End> {
+/// The reason why finer settings would not come within the tolerance, if the settings so far prove it. A `smooth`
+/// motion is that of tensors.
+pub(super) fn hopeless(rungs: &[Rung], tolerance: f64, timeout: Duration, smooth: bool) -> Option<End> {
     // Coarse steps prove nothing: they may be unstable, or miss the motion.
-    let resolving = &rungs[RESOLVING.min(rungs.len())..];
+    let coarse = if smooth { RESOLVING_TENSORS } else { RESOLVING };
+    let resolving = &rungs[coarse.min(rungs.len())..];
     let [.., third, second, first, last] = resolving else {
         return None;
     };
@@ -155,7 +162,7 @@ pub(super) fn hopeless(rungs: &[Rung], tolerance: f64, timeout: Duration) -> Opt
     let changes = [(third, second), (second, first), (first, last)];
     let changes = changes.map(|(coarse, fine)| coarse.answer.largest_change(&fine.answer));
     // A method that follows the motion, with any order above 0.02, changes by more than a hundredth of its error.
-    let still = if errors[3] < FOLLOWED { 0.01 * errors[3] } else { 0.01 * tolerance };
+    let still = if errors[3] < FOLLOWED || smooth { 0.01 * errors[3] } else { 0.01 * tolerance };
     if changes == [0.0; 3] && matches!(last.setting, Setting::Steps(_)) && errors[3] > tolerance {
         let words = "the program ignores \"steps\": the answers are the same to the last digit. If it chooses its own, \
             let it answer \"error\" to \"steps\", and it is asked by \"tolerance\"";

@@ -37,7 +37,7 @@ fn rung(setting: Setting, error: f64, seconds: f64) -> Rung {
 
 fn climbed(rungs: impl Fn(i32) -> (f64, f64)) -> Option<String> {
     let rungs = ladder(rungs);
-    let end = (1..=rungs.len()).find_map(|k| hopeless(&rungs[..k], TOLERANCE, Duration::from_secs(60)))?;
+    let end = (1..=rungs.len()).find_map(|k| hopeless(&rungs[..k], TOLERANCE, Duration::from_secs(60), false))?;
     match end {
         End::Wrong(words) => Some(words),
         End::OutOfTime(words) => Some(format!("out of time: {words}")),
@@ -99,6 +99,22 @@ fn what_no_longer_changes_is_not_asked_on() {
     assert_eq!(off.as_deref(), Some("finer ones no longer change the answer"));
     let not_a_number = climbed(|k| (f64::NAN, seconds(k)));
     assert_eq!(not_a_number.as_deref(), Some("finer ones are not finite either"));
+}
+
+/// A wrong code for tensors is told after few of its steps, which may be slow.
+#[test]
+fn tensors_that_no_longer_change_are_told_early() {
+    let ends = |smooth: bool, error: &dyn Fn(i32) -> f64| {
+        let rungs = ladder(|k| (error(k), seconds(k)));
+        (1..=15).find(|k| hopeless(&rungs[..*k], TOLERANCE, Duration::from_secs(60), smooth).is_some())
+    };
+    let wrong = |k: i32| 0.28 + 1e-3 * 16f64.powi(-k);
+    assert_eq!([true, false].map(|smooth| ends(smooth, &wrong)), [Some(7), Some(11)]);
+    assert_eq!([true, false].map(|smooth| ends(smooth, &|_| f64::NAN)), [Some(7), Some(11)]);
+    // Right ones of any order are asked on.
+    for order in [1.0, 2.0, 4.0] {
+        assert_eq!(ends(true, &|k| 0.3 * 2f64.powf(-order * f64::from(k))), None, "{order}");
+    }
 }
 
 #[test]
