@@ -37,5 +37,5 @@ for made in "docs/src/reference/keys.md density_kg_per_m3" "docs/src/reference/c
 done
 # A crate of one's own, by the commands at the head of its source; with the versions of this repository.
 cd "$beside"
-says "observed order 2.0" bash -ec "$(sed -n 's|^//! \(c[apo].*\)|\1|p' "$root/validation/recipes/own_method.rs" | sed 's,cd my_method,& && cp ../shearbed/Cargo.lock .,')"
+says "observed order 2.0" bash -ec "$(sed -n 's|^//! \(c[apo].*\)|\1|p' "$root/validation/recipes/own_method.rs" | sed 's,cd my_method,& \&\& cp ../shearbed/Cargo.lock .,')"
 echo "recipes: a key, a command and a problem were added and found, and a crate of one's own shows its order"
