@@ -232,10 +232,10 @@ def grade(
     known = {problem.name: problem for problem in problems() if problem.kind in ("rods", "formula") and not problem.rotation_rad_per_s}
     asked: set[str] = set()
     for pattern in [names] if isinstance(names, str) else names or ():
-        found = fnmatch.filter(known, pattern)
-        if not found:
+        matching = fnmatch.filter(known, pattern)
+        if not matching:
             raise ValueError(f"{pattern}: no problem about rods or formulas has this name; there are {', '.join(known)}")
-        asked.update(found)
+        asked.update(matching)
     of_rods = [name for name, problem in known.items() if problem.kind == "rods"]
     asked = asked or {name for name in of_rods if steps is not None or name not in OF_METHODS}
     wanted = [problem for name, problem in known.items() if name in asked]
@@ -263,8 +263,8 @@ def grade(
                 try:
                     if problem.formula:
                         allowed = max(problem.tolerance, tolerance or 0.0)
-                        rows, words = answers(function, problem.formula, problem.inputs or {}, problem.columns, allowed)
-                        uneven |= {problem.name: words} if words else {}
+                        rows, why = answers(function, problem.formula, problem.inputs or {}, problem.columns, allowed)
+                        uneven |= {problem.name: why} if why else {}
                         _write_rows(mine / problem.name / "answer.csv", problem.columns, rows)
                         continue
                     counted = getattr(function, "evaluations", np.nan)
