@@ -8,7 +8,7 @@ mod tolerances;
 pub(super) use args::Args;
 
 use super::choice::unknown as unknown_name;
-use super::{Failure, print, spares_inputs};
+use super::{Failure, print, replaced, spares_inputs};
 use serde_json::Value;
 use shearbed_validation::files::output::{self, RECORD, Record, ResultFolder};
 use shearbed_validation::files::text::Shown;
@@ -67,7 +67,7 @@ pub(super) fn grade(args: &Args) -> Result<(), Failure> {
     let mut files: Vec<_> = PAGES.map(str::to_owned).into_iter().zip(pages).collect();
     files.extend(pictures);
     let folder = folder(args, inputs);
-    let replaced = replaced(&folder);
+    let replaced = replaced(&folder, "grading");
     folder.write(files)?;
     if !args.writing.quiet {
         let place = args.out.join("grade.html");
@@ -83,11 +83,6 @@ pub(super) fn grade(args: &Args) -> Result<(), Failure> {
 /// The folder of the report. Who mends a code grades it again, so that an earlier grading is replaced.
 fn folder(args: &Args, inputs: Value) -> ResultFolder {
     ResultFolder::new(&args.out, "grade", inputs, args.writing.force).from_any_input()
-}
-
-/// A line on the grading that is replaced, if its input was another.
-fn replaced(folder: &ResultFolder) -> String {
-    folder.difference().map(|difference| format!("(replaced an earlier grading: {difference})\n")).unwrap_or_default()
 }
 
 /// Pictures of the program in bold and of the project's own integrators, as SVG and CSV with file names.

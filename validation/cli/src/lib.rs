@@ -312,6 +312,12 @@ fn result_folder<N: AsRef<str>>(
     Ok(folder)
 }
 
+/// A line for the terminal on earlier results, as a run, that are replaced, if their input was another.
+fn replaced(folder: &ResultFolder, what: &str) -> String {
+    let line = |difference: String| format!("(replaced an earlier {what}: {difference})\n");
+    folder.difference().map(line).unwrap_or_default()
+}
+
 /// Refuses a folder in which the results would replace or remove a file that the command reads, also with --force: one
 /// of these names, the record, or a file of earlier results that it lists.
 fn spares_inputs(

@@ -7,8 +7,8 @@ use super::record::Seconds;
 use super::scene::{Chosen, Ensemble, Named};
 use super::until::{self, Until};
 use super::{
-    Failure, Threads, Writing, agree, checkpoint, derived, memory, pictures, print, probe, record, rods, scene,
-    spares_inputs, tables, threads,
+    Failure, Threads, Writing, agree, checkpoint, derived, memory, pictures, print, probe, record, replaced, rods,
+    scene, spares_inputs, tables, threads,
 };
 use serde_json::{Value, json};
 use shearbed::run::resume::Halfway;
@@ -87,8 +87,8 @@ struct Run<'a> {
     plan: Plan,
     threads: usize,
     folder: ResultFolder,
-    /// The first input by which an earlier run in that folder differs.
-    replaced: Option<String>,
+    /// A line on an earlier run in that folder.
+    replaced: String,
     checkpoint: Option<Arc<Replicas>>,
 }
 
@@ -128,7 +128,7 @@ impl<'a> Run<'a> {
         if cluster::is_root() {
             folder.check(&names)?;
         }
-        let replaced = folder.difference();
+        let replaced = replaced(&folder, "run");
         scene::warn(&named.source, &plan.warnings());
         let threads = threads::count(args.threads.given)? as usize;
         Ok(Self { args, named, plan, threads, folder, replaced, checkpoint })
@@ -151,7 +151,6 @@ impl<'a> Run<'a> {
         self.folder.write(files)?;
         if !self.args.writing.quiet {
             let until = until.as_ref().map(|until| format!("{}\n\n", until.text())).unwrap_or_default();
-            let replaced = self.replaced.map(|difference| format!("(replaced an earlier run: {difference})\n"));
             print(&format!(
                 "{}\nMeans ± standard errors, rods: {}, replicas: {}\n\n{}{until}in {out}: {}\n{}",
                 line(&self.named.scene.title),
@@ -159,7 +158,7 @@ impl<'a> Run<'a> {
                 plan.scene().ensemble.replicas,
                 tables::summary(&results) + &derived::summary(results.time_name, &derived),
                 names.join(", "),
-                replaced.unwrap_or_default()
+                self.replaced
             ))?;
         }
         until.map_or(Ok(()), |until| until.failure())

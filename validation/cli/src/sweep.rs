@@ -90,7 +90,7 @@ pub(super) fn sweep(args: &Args) -> Result<(), Failure> {
         let in_folder = result_folder(&out, origin, bytes, &[""; 0])?;
         let points = Points {
             pairs: (points.iter()).map(|point| sweep::pairs(&args.over, &point.values)).collect(),
-            beside: [EXTREMES].map(str::to_owned).to_vec(),
+            beside: vec![EXTREMES.to_owned()],
             tables: (points[0].plan.observables().iter())
                 .map(|observable| format!("{}.csv", observable.name()))
                 .chain([EXTREMES.to_owned(), DERIVED.to_owned()])

@@ -1,7 +1,7 @@
 //! Several programs on one problem: compared, not judged.
 
-use super::{Args, asked, folder, inputs, replaced};
-use crate::{Failure, print};
+use super::{Args, asked, folder, inputs};
+use crate::{Failure, print, replaced};
 use shearbed_validation::files::output;
 use shearbed_validation::files::text::{Shown, complain, line};
 use shearbed_validation::present::{plot, report};
@@ -26,7 +26,7 @@ pub(super) fn compare(args: &Args) -> Result<(), Failure> {
     output::probe(&args.out, 0)?;
     let folder = folder(args, inputs);
     folder.check(&names)?;
-    let replaced = replaced(&folder);
+    let replaced = replaced(&folder, "grading");
     let mut programs: Vec<(String, Program, live::Mode)> = Vec::new();
     for (name, command) in args.command.iter().map(|command| named(command)) {
         if programs.iter().any(|(known, ..)| *known == name) {

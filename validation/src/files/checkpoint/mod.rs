@@ -12,7 +12,7 @@ mod tests;
 
 pub use replicas::Replicas;
 pub use saved::{Progress, without_replicas};
-pub use stop::{last_words, on_stop, stays};
+pub use stop::{last_words, on_stop, on_stop_of, stays};
 
 use crate::files::build;
 use crate::files::output::{Origin, OutputError, Part, Refused, Replaced};

@@ -4,7 +4,7 @@
 //! sum, and none waits in the middle of a step for another one, as could happen in a common pool.
 
 use super::saved::{Progress, Saved, without_replicas};
-use super::{Checkpoint, on_stop, stays};
+use super::{Checkpoint, on_stop_of};
 use crate::files::output::{OutputError, Refused};
 use crate::files::text::Shown;
 use serde_json::json;
@@ -81,12 +81,7 @@ impl Replicas {
             changed: Condvar::new(),
             file,
         });
-        // A weak reference, so that the file is released when the run is over.
-        let (last, path) = (Arc::downgrade(&replicas), path.to_owned());
-        on_stop(move || match last.upgrade() {
-            Some(replicas) => Some(replicas.last_words()),
-            None => stays(&path),
-        });
+        on_stop_of(&replicas, path, Self::last_words);
         Ok(replicas)
     }
 

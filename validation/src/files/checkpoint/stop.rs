@@ -2,7 +2,7 @@
 
 use crate::files::text::Shown;
 use std::path::Path;
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError};
 
 type Last = Box<dyn FnOnce() -> Option<String> + Send>;
 
@@ -12,6 +12,20 @@ static LAST: Mutex<Option<Last>> = Mutex::new(None);
 /// resume, if possible.
 pub fn on_stop(last: impl FnOnce() -> Option<String> + Send + 'static) {
     *LAST.lock().unwrap_or_else(PoisonError::into_inner) = Some(Box::new(last));
+}
+
+/// Sets the last action as `last`, on what holds the checkpoint at `path`, as long as that exists. The reference is
+/// weak, so that the file is released when the work is over.
+pub fn on_stop_of<T: Send + Sync + 'static>(
+    holder: &Arc<T>,
+    path: &Path,
+    last: impl FnOnce(&T) -> String + Send + 'static,
+) {
+    let (holder, path) = (Arc::downgrade(holder), path.to_owned());
+    on_stop(move || match holder.upgrade() {
+        Some(holder) => Some(last(&holder)),
+        None => stays(&path),
+    });
 }
 
 /// Runs the last action, at most once, and returns its message.

@@ -200,7 +200,7 @@ pub fn read(path: &Path, set: usize, reading: &Reading) -> Result<Points, FileEr
                 return Err(refused(not_allowed(&dataset.name, &format!("{:?}", row.y), &expected)));
             }
             // A smaller u is lost in the rounding of the model, a larger one carries no information.
-            if u.is_finite() && !(LEAST_U..=most - least).contains(&u) {
+            if !u.is_nan() && !(LEAST_U..=most - least).contains(&u) {
                 let (name, width) = (&dataset.name, most - least);
                 let expected =
                     format!("one standard deviation from {LEAST_U:?} to {width}, the width of what {name} can be");

@@ -1,7 +1,7 @@
 //! Finished runs of a fit in a checkpoint, so that an interrupted fit need not run them again. A run is the same
 //! whenever it is asked for, so the fit goes on to the same bits.
 
-use crate::files::checkpoint::{Checkpoint, on_stop, stays};
+use crate::files::checkpoint::{Checkpoint, on_stop_of};
 use crate::files::output::{OutputError, Refused};
 use crate::files::text::Shown;
 use crate::methods::least_squares::emulator::Predictions;
@@ -18,9 +18,14 @@ type Found = HashMap<u64, BTreeMap<u64, Predictions>>;
 
 struct State {
     found: Found,
-    count: usize,
     /// The last time at which the file had all of them.
     written: Instant,
+}
+
+impl State {
+    fn count(&self) -> usize {
+        self.found.values().map(BTreeMap::len).sum()
+    }
 }
 
 /// The runs that a checkpoint has.
@@ -41,20 +46,14 @@ impl Runs {
         let file = Checkpoint::open(path, "fit", inputs)?;
         let found: Found = file.read()?.unwrap_or_default();
         file.write(&found).map_err(|error| file.refused(&error.to_string()))?;
-        let count = found.values().map(BTreeMap::len).sum();
-        let runs = Arc::new(Self { file, every, state: Mutex::new(State { found, count, written: Instant::now() }) });
-        // A weak reference, so that the file is released when the fit is over.
-        let (last, path) = (Arc::downgrade(&runs), path.to_owned());
-        on_stop(move || match last.upgrade() {
-            Some(runs) => Some(runs.last_words()),
-            None => stays(&path),
-        });
+        let runs = Arc::new(Self { file, every, state: Mutex::new(State { found, written: Instant::now() }) });
+        on_stop_of(&runs, path, Self::last_words);
         Ok(runs)
     }
 
     /// The number of runs.
     pub fn count(&self) -> usize {
-        self.state().count
+        self.state().count()
     }
 
     /// Writes all runs to the file.
@@ -78,9 +77,7 @@ impl Runs {
         }
         let found = run()?;
         let mut state = self.state();
-        if state.found.entry(key).or_default().insert(replica, found.clone()).is_none() {
-            state.count += 1;
-        }
+        state.found.entry(key).or_default().insert(replica, found.clone());
         if state.written.elapsed() >= self.every {
             self.write_state(&mut state).map_err(|error| error.to_string())?;
         }
@@ -97,7 +94,7 @@ impl Runs {
         let path = self.file.path().shown();
         let mut state = self.state();
         match self.write_state(&mut state) {
-            Ok(()) => format!("{} runs are saved in {path}, and the same command goes on from there", state.count),
+            Ok(()) => format!("{} runs are saved in {path}, and the same command goes on from there", state.count()),
             Err(error) => format!("{error}; earlier runs stay in {path}, and the same command goes on from there"),
         }
     }

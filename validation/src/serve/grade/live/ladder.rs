@@ -20,6 +20,7 @@ use crate::serve::grade::order::other;
 use crate::serve::grade::{Graded, Order, Verdict};
 use crate::serve::problems::{Kind, LoadedProblem, Metric};
 use climb::{End, climb, converges, fewest};
+use std::cell::Cell;
 use std::time::{Duration, Instant};
 
 /// The setting that a program accepts.
@@ -104,13 +105,16 @@ fn timeless(program: &Program, problem: &LoadedProblem, mode: Mode, claim: Claim
         Kind::Formula => formula(program, problem),
         _ => {
             let axes = program.axes;
-            let table = |setting: Setting| {
+            let asked = |setting: Setting| {
                 let size = [problem.problem.times_s.len(), problem.problem.columns.len() - 1];
                 program.ask_table(&tables::of_tensor(&problem.problem, setting, axes), size)
             };
+            let first = asked(climb::settings(problem, mode)[0]);
             // A closed equation has no random answer.
-            let coarsest = climb::settings(problem, mode)[0];
-            if problem.problem.closed.is_none() && matches!(table(coarsest), Ok(((_, Some(_)), _))) {
+            let is_random = problem.problem.closed.is_none() && matches!(first, Ok(((_, Some(_)), _)));
+            let first = Cell::new(Some(first));
+            let table = |setting: Setting| first.take().unwrap_or_else(|| asked(setting));
+            if is_random {
                 return random::graded(program, problem, mode, table);
             }
             let columns = &problem.problem.columns[1..];
