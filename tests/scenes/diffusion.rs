@@ -1,6 +1,7 @@
 //! Free rods with rotary diffusion: their limit without it, and default steps.
 
 use crate::{planned, run};
+use shearbed::Observable;
 use shearbed::scene::{Flow, Orientation, Scene, Time};
 
 pub(crate) fn scene(diffusivity: f64) -> Scene {
@@ -57,5 +58,23 @@ fn rods_that_hardly_diffuse_are_free_rods() {
             let moved = shearbed_oracle::worst(free.iter().map(|x| (x - free[0]).abs()));
             assert!(moved > 0.01, "{name} {moved}");
         }
+    }
+}
+
+/// In a liquid at rest a_33 of rods that start along axis 3 relaxes as 1/3 + 2/3 e^(−6 D_r t).
+#[test]
+fn rods_at_rest_relax() {
+    let mut scene = scene(0.05);
+    scene.flow = Flow::Gradient { gradient_per_s: [[0.0; 3]; 3] };
+    scene.time = Time { outputs_per_unit: Some(1), ..Time::seconds(4.0) };
+    scene.particles.orientation = Orientation::Given { phi_deg: 0.0, theta_deg: 0.0 };
+    scene.ensemble.replicas = 30;
+    scene.output.rods_at = Vec::new();
+    scene.output.observables = vec![Observable::OrientationTensor];
+    let results = run(&scene);
+    let a33 = results.column("a33").unwrap();
+    for (time_s, (mean, se)) in a33.mean.iter().zip(&a33.se).enumerate() {
+        let due = (1.0 + 2.0 * (-0.3 * time_s as f64).exp()) / 3.0;
+        assert!((mean - due).abs() <= 5.0 * se + 1e-15 && *se < 0.01, "{time_s} s: {mean} ± {se}, {due} is due");
     }
 }
