@@ -91,7 +91,10 @@ fn pictures(report: &Report, problems: &[LoadedProblem]) -> Result<Vec<output::O
     let figures = [grade::figures::steps(problems, &report.problems), bench.map(live::Bench::figure)];
     let files = |(figure, names): (Option<Figure>, &[&str])| -> Result<Vec<_>, String> {
         let Some(figure) = figure else { return Ok(Vec::new()) };
-        let contents = [plot::svg_of_one(&figure)?, figure_csv(&figure)?];
+        // On problems of tensors every curve is the program's.
+        let is_of_one = figure.curves.first().is_some_and(|curve| curve.label == grade::figures::PROGRAM);
+        let svg = if is_of_one { plot::svg_of_one(&figure) } else { plot::svg(&figure) };
+        let contents = [svg?, figure_csv(&figure)?];
         Ok(names.iter().map(|name| (*name).to_owned()).zip(contents).collect())
     };
     let files: Result<Vec<_>, _> = figures.into_iter().zip(PICTURES.chunks(2)).map(files).collect();

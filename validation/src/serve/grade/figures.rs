@@ -14,7 +14,7 @@ const MOST_STEPS: u64 = 20_000;
 pub(super) const LEAST: f64 = 1e-17;
 
 /// The program's label in a picture: its own name may be long, and _ would set the next letter as an index.
-pub(super) const PROGRAM: &str = "the graded program";
+pub const PROGRAM: &str = "the graded program";
 
 /// The largest number of problems of tensors in one picture.
 const MOST_CURVES: usize = 8;
