@@ -1,6 +1,7 @@
 //! Diagnosis of answers about orientation tensors: another closure, a mistake in one part of the equation, another
 //! layout of the columns, or two of these.
 
+mod distribution;
 mod estimate;
 pub(super) mod formulas;
 mod layouts;
@@ -11,14 +12,14 @@ use crate::judge::statistics::worst;
 use crate::methods::tensors::fourth::PAIRS;
 use crate::methods::tensors::wrong::{CLOSURES, MISTAKES, Stand, scaled};
 use crate::methods::tensors::{Closure, Model, Parts, at_rate, isotropic, steady_of};
-use crate::oracle::diffusion::{Means, Motion, strain_rate_per_s};
+use crate::oracle::diffusion::strain_rate_per_s;
 use crate::serve::problems::formula::tensor;
 use crate::serve::problems::{Closed, LoadedProblem, Problem};
+use distribution::{from_exact, of_wrong_distribution};
 use layouts::LAYOUTS;
 use nalgebra::Matrix3;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
-use std::f64::consts::TAU;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 /// The tolerance of a step of the integration of a curve; of a rough one, which saves time, and how far that may be
@@ -159,33 +160,6 @@ fn asked(problem: &Problem) -> Option<(Closed, Option<usize>)> {
     }
 }
 
-/// The curves of the distribution with a wrong D_r, or a flow that oscillates wrongly.
-fn of_wrong_distribution(problem: &Problem, answer: &Answer, most: f64) -> Vec<Near> {
-    let Some(rods) = problem.diffusing().filter(|_| problem.d_r_per_s.is_some()) else { return Vec::new() };
-    let rate = strain_rate_per_s(problem.gradient_per_s);
-    let factors = [(2.0, "twice the D_r"), (0.5, "half the D_r"), (rate, "D_r γ̇ for D_r, as if it were a C_I")];
-    let factors = factors.into_iter().filter(|(factor, _)| *factor > 0.0 && *factor != 1.0);
-    let own = problem.oscillation();
-    let mut wrong: Vec<(Motion, Option<[f64; 2]>, &str)> =
-        factors.map(|(factor, name)| (Motion { diffusivity: factor * rods.diffusivity, ..rods }, own, name)).collect();
-    if let Some([period_s, _]) = own {
-        wrong.extend([
-            (rods, Some([period_s, -0.25 * TAU]), "sin 2πt/T for cos 2πt/T"),
-            (rods, None, "a flow that does not oscillate"),
-            (rods, Some([TAU * period_s, 0.0]), "cos t/T for cos 2πt/T"),
-            (rods, Some([2.0 * period_s, 0.0]), "twice the period"),
-            (rods, Some([0.5 * period_s, 0.0]), "half the period"),
-        ]);
-    }
-    let of = |(rods, oscillation, name): &(Motion, Option<[f64; 2]>, &str)| {
-        let all = problem.distribution(rods, problem.times_s.len(), *oscillation).ok()?;
-        let distance = apart(&answer.rows, &all.iter().map(|means| means.second.to_vec()).collect::<Vec<_>>());
-        let (name, suspect) = (format!("the distribution with {name}"), (*name).to_owned());
-        (distance <= most).then_some(Near { distance, name, suspect, advice: "", changes: 1 })
-    };
-    wrong.par_iter().filter_map(of).collect()
-}
-
 fn candidates(changes: &[Change], own: Option<usize>) -> Vec<Candidate> {
     let with = |change: &Change| {
         let of = |(closure, stand): (usize, &Stand)| {
@@ -237,34 +211,6 @@ fn distance(
         return None;
     }
     Some(apart(rows, candidate.whole(problem, start)?)).filter(|off| *off <= most)
-}
-
-/// The distance of an answer from the distribution with these parts; `None` if it is larger than `most`, or no motion
-/// of rods has these parts.
-fn from_exact(problem: &Problem, rows: &[Vec<f64>], parts: &Parts, most: f64) -> Option<f64> {
-    let Model::FolgarTucker { c_i } = parts.model else { return None };
-    let gradient = parts.spin + parts.strain;
-    let speed = (2.0 * parts.strain.dot(&parts.strain)).sqrt();
-    let (c_i, own) = (c_i * parts.speed / speed, parts.of_fourth == 2.0 * parts.of_strain && parts.decay == 3.0);
-    if !own || parts.of_strain.abs() > 1.0 || !(1e-9..=1e9).contains(&c_i) {
-        return None;
-    }
-    // Where Λ = 1 the square of any large aspect ratio will do.
-    let ratio = ((1.0 + parts.of_strain) / (1.0 - parts.of_strain)).sqrt().clamp(1e-100, 1e100);
-    let motion = Motion::new(std::array::from_fn(|i| std::array::from_fn(|j| gradient[(i, j)])), ratio, c_i);
-    let picked =
-        |means: &Means| if rows[0].len() == PAIRS.len() { means.second.to_vec() } else { means.fourth.to_vec() };
-    let near = |all: Vec<Means>| {
-        let curve: Vec<_> = all.iter().map(picked).collect();
-        Some(apart(rows, &curve)).filter(|off| *off <= most)
-    };
-    let at = |count: usize| problem.distribution(&motion, count, problem.oscillation()).ok();
-    let count = problem.times_s.len();
-    if count > 1 {
-        // Saves time: most are far already at the first time.
-        near(at(1)?)?;
-    }
-    near(at(count)?)
 }
 
 /// Names the closure, the mistake or the layout whose curve the answer is, given its `error`; the diagnosis is empty
