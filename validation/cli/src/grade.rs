@@ -167,9 +167,14 @@ fn files(args: &Args, reference: &Path, mine: &Path) -> Result<Done, Failure> {
     let problems = grade::grade(&wanted, mine, &options(args));
     let mut report = report(args, [reference.shown(), mine.shown()], problems, not_read(mine, &names));
     report.diagnosis = grade::overall(&wanted, &mut report.problems);
-    report.remarks.extend(grade::remark(&report.problems, args.order));
+    report.remarks.extend(on_order(&report.problems, args.order));
     let inputs = inputs::of_files(args, reference, mine, &wanted)?;
     Ok((report, wanted, inputs))
+}
+
+fn on_order(graded: &[Graded], claimed: Option<f64>) -> Option<String> {
+    let said = grade::remark(graded, claimed)?;
+    Some(if claimed.is_none() { format!("{said}; --order claims one") } else { said })
 }
 
 /// Remarks on folders of answers without a problem, and on files outside a folder with a problem's name.
@@ -245,7 +250,8 @@ fn asked(args: &Args, reference: Option<&Path>) -> Result<Vec<LoadedProblem>, Fa
     match refused {
         Some((loaded, why)) => Err(Failure::Input(format!("--problem {}: {why}", loaded.problem.name))),
         None if formulas && args.axes != Axes::default() => Err(Failure::Input(
-            "--axes: with --command it is for rods and curves of tensors, not for formulas".to_owned(),
+            "--axes: with --command it is for rods and curves of tensors; formulas hold in any axes: grade them without it"
+                .to_owned(),
         )),
         None => Ok(wanted),
     }
@@ -275,7 +281,7 @@ fn program(args: &Args, command: &str, reference: Option<&Path>) -> Result<Done,
     let mut remarks: Vec<_> = left_out
         .map(|what| format!("{what}: not measured, as the program needs longer for it than --timeout, or broke off"))
         .collect();
-    remarks.extend(grade::remark(&problems, claim.order));
+    remarks.extend(on_order(&problems, claim.order));
     remarks.extend(program.breaches());
     remarks.extend(program.given_up().map(|reason| format!("the program was given up: {reason}")));
     if let Err(end) = program.close() {

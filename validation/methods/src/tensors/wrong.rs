@@ -37,7 +37,7 @@ const fn mistake(name: &'static str, advice: &'static str, change: fn(Parts) -> 
 }
 
 /// Every known mistake in the parts of the rate.
-pub const MISTAKES: [Mistake; 65] = [
+pub const MISTAKES: [Mistake; 68] = [
     mistake("a transposed gradient", L, |p| Some(Parts { spin: -p.spin, ..p })),
     mistake("the flow reversed (L with the wrong sign, or time backwards)", L, |p| {
         Some(Parts { spin: -p.spin, strain: -p.strain, ..p })
@@ -47,6 +47,10 @@ pub const MISTAKES: [Mistake; 65] = [
     mistake("D without its ½", L, |p| Some(scaled(p, 1.0, 2.0, 2.0))),
     mistake("D without its ½, with the right γ̇", L, |p| Some(scaled(p, 1.0, 2.0, 1.0))),
     mistake("D halved twice", L, |p| Some(scaled(p, 1.0, 0.5, 0.5))),
+    mistake("D_12, D_13 and D_23 without their ½ (engineering shear)", L, |p| {
+        Some(sheared(p, speed_of(&doubled(&p))))
+    }),
+    mistake("D_12, D_13 and D_23 without their ½, with the right γ̇", L, |p| Some(sheared(p, p.speed))),
     mistake("W without its ½", L, |p| Some(scaled(p, 2.0, 1.0, 1.0))),
     mistake("W halved twice", L, |p| Some(scaled(p, 0.5, 1.0, 1.0))),
     mistake("W left out", L, |p| Some(scaled(p, 0.0, 1.0, 1.0))),
@@ -81,6 +85,10 @@ pub const MISTAKES: [Mistake; 65] = [
     mistake("|L_21| for γ̇", SPEED, |p| Some(Parts { speed: gradient(&p)[(1, 0)].abs(), ..p })),
     mistake("L_12 for γ̇", SPEED, |p| Some(Parts { speed: gradient(&p)[(0, 1)], ..p })),
     mistake("|L_12| for γ̇", SPEED, |p| Some(Parts { speed: gradient(&p)[(0, 1)].abs(), ..p })),
+    mistake("γ̇ with D_12, D_13 and D_23 counted once", SPEED, |p| {
+        let square = 2.0 * p.strain.lower_triangle().norm_squared();
+        Some(Parts { speed: square.sqrt(), ..p })
+    }),
     mistake("γ̇ left out", SPEED, |p| Some(Parts { speed: 1.0, ..p })),
     mistake("half the C_I (C_I γ̇ (δ − 3a), without the 2)", SPREAD, |p| spread(p, 0.5)),
     mistake("twice the C_I", SPREAD, |p| spread(p, 2.0)),
@@ -126,6 +134,22 @@ fn gradient(parts: &Parts) -> Matrix3<f64> {
 pub fn scaled(parts: Parts, spin: f64, strain: f64, speed: f64) -> Parts {
     let square = parts.square * (strain * strain);
     Parts { spin: parts.spin * spin, strain: parts.strain * strain, square, speed: parts.speed * speed, ..parts }
+}
+
+/// D with its off-diagonal components doubled.
+fn doubled(parts: &Parts) -> Matrix3<f64> {
+    Matrix3::from_fn(|i, j| if i == j { 1.0 } else { 2.0 } * parts.strain[(i, j)])
+}
+
+/// (2D:D)^½.
+fn speed_of(strain: &Matrix3<f64>) -> f64 {
+    (2.0 * strain.norm_squared()).sqrt()
+}
+
+/// The parts with that D, and with a γ̇.
+fn sheared(parts: Parts, speed: f64) -> Parts {
+    let strain = doubled(&parts);
+    Parts { strain, square: strain * strain, speed, ..parts }
 }
 
 /// The parts with another Λ.
@@ -189,7 +213,7 @@ pub struct Stand {
 }
 
 /// Every closure, right and wrong ones.
-pub const CLOSURES: [Stand; 23] = [
+pub const CLOSURES: [Stand; 24] = [
     Stand { name: "the linear closure", fourth: linear },
     Stand { name: "the quadratic closure", fourth: quadratic },
     Stand { name: "the hybrid closure", fourth: |a| Closure::Hybrid.fourth(a) },
@@ -199,6 +223,10 @@ pub const CLOSURES: [Stand; 23] = [
     Stand { name: "the IBOF closure", fourth: |a| Closure::Ibof.fourth(a) },
     Stand { name: "the ORF closure (Cintra & Tucker 1995)", fourth: orthotropic::orf },
     Stand { name: "the quadratic closure made symmetric in all indices", fourth: symmetric },
+    Stand {
+        name: "a·D·a for 𝔸:D (a_ik a_jl for a_ij a_kl)",
+        fourth: |a| Fourth::from_fn(|i, j, k, l| 0.5 * (a[(i, k)] * a[(j, l)] + a[(i, l)] * a[(j, k)])),
+    },
     Stand { name: "a linear closure with + 1/35 for − 1/35", fourth: |a| linear_by(a, 7.0, -35.0) },
     Stand { name: "a linear closure without its term of 1/35", fourth: |a| linear_by(a, 7.0, f64::INFINITY) },
     Stand { name: "a linear closure with its 1/7 before both brackets", fourth: |a| linear_by(a, 7.0, 245.0) },

@@ -19,6 +19,11 @@ pub fn diagnose(loaded: &LoadedProblem, answer: &Answer, error: f64, steps: Opti
         return Diagnosis::default();
     }
     let (tolerance, nearer_than) = (loaded.problem.tolerance, NEARER * error);
+    let in_time =
+        matches!(loaded.problem.kind, Kind::Rods | Kind::Tensor) && loaded.problem.metric != Metric::StandardErrors;
+    if let Some(off) = in_time.then(|| row_off(loaded, answer, nearer_than)).flatten() {
+        return Diagnosis { said: Some(format!("this is the right answer {off}")), suspects: vec![off.to_owned()] };
+    }
     match loaded.problem.kind {
         Kind::Contact => said(CURVE, contact::near(loaded, answer, nearer_than), tolerance, ""),
         Kind::Formula => tensors::formulas::diagnose(loaded, answer, error),
@@ -31,7 +36,7 @@ pub fn diagnose(loaded: &LoadedProblem, answer: &Answer, error: f64, steps: Opti
         Kind::Rods if rests(loaded, answer, nearer_than) => {
             Diagnosis::sentence("every rod is where it started: nothing has moved")
         }
-        Kind::Tensor if loaded.problem.is_diffusive() => tensors::diagnose(loaded, answer, error),
+        Kind::Tensor if loaded.problem.is_diffusive() => tensors::diagnose(loaded, answer, error, steps),
         _ => {
             let known = mistakes::all();
             let near: Vec<_> = (known.iter())
@@ -118,12 +123,44 @@ fn not_unit(loaded: &LoadedProblem, answer: &Answer, nearer_than: f64) -> Option
     right.then(|| format!("only the directions' length is wrong: |p| is {least:.6} to {most:.6}, where 1 is due"))
 }
 
+/// One step too few and one too many.
+pub(super) const STEPS_OFF: [&str; 2] =
+    ["one step too few: N − 1 of N, or Δt = T/(N + 1)", "one step too many: N + 1 for N, or Δt = T/(N − 1)"];
+
+/// What a rate of time means after so many steps, if it is that of a step too few or too many.
+pub(super) fn step_off(rate: f64, steps: u64) -> Option<&'static str> {
+    let (steps, missing) = (steps as f64, (1.0 - rate) * steps as f64);
+    let is = |due: f64| (missing - due).abs() < 0.01 || (missing - due * steps / (steps + due)).abs() < 0.01;
+    STEPS_OFF.into_iter().zip([1.0, -1.0]).find(|(_, due)| is(*due)).map(|(name, _)| name)
+}
+
 /// The right motion with a step too few or too many, if the answer is that.
 fn steps_off(wrong: &Wrong<'_>, steps: u64) -> Option<&'static str> {
-    let missing = |rate: f64| (1.0 - rate) * steps as f64;
-    let is = |due: f64| wrong.rates().into_iter().any(|rate| (missing(rate) - due).abs() < 0.01);
-    let known = [(1.0, "one step too few: N − 1 of N"), (-1.0, "one step too many: N + 1 for N")];
-    known.into_iter().find(|(due, _)| is(*due)).map(|(_, name)| name)
+    wrong.rates().into_iter().find_map(|rate| step_off(rate, steps))
+}
+
+/// The right rows at the times before or after their own, if the answer is that where there are such times.
+fn row_off(loaded: &LoadedProblem, answer: &Answer, nearer_than: f64) -> Option<&'static str> {
+    let rods = answer.rows.len() / loaded.problem.times_s.len();
+    let right = Answer::certified(loaded).rows;
+    let (most, last) = (right.len(), 2 * rods);
+    let apart = |(found, due): (&Vec<f64>, &Vec<f64>)| match loaded.problem.kind {
+        Kind::Rods => {
+            let [found, due] = [found, due].map(|row| Vector3::from_row_slice(row));
+            self::apart(&found, &due, false)
+        }
+        _ => crate::oracle::apart(found, due),
+    };
+    let near = |found: &[Vec<f64>], due: &[Vec<f64>]| {
+        found.len() >= last && found.iter().zip(due).all(|pair| apart(pair) <= nearer_than)
+    };
+    if most < last + rods {
+        None
+    } else if near(&answer.rows[rods..], &right[..most - rods]) {
+        Some("a row too late: each is that of the time before")
+    } else {
+        near(&answer.rows[..most - rods], &right[rods..]).then_some("a row too early: each is that of the time after")
+    }
 }
 
 /// L(t) taken at the start of each step, if the answer is that.
@@ -236,6 +273,26 @@ mod tests {
             assert!((apart(&found, &long, true) - 0.1).abs() < 1e-15);
             assert!((apart(&found, &long, false) - (aside.norm() - 1.0)).abs() < 1e-15);
             assert!((apart(&found.normalize(), &long, false) - 0.1f64.atan()).abs() < 1e-15);
+        }
+    }
+
+    #[test]
+    fn rows_of_the_time_before_or_after_are_named() {
+        for name in ["mid-flip-11.6", "closed-ft-hybrid-mixed"] {
+            let loaded = loaded(name);
+            let (right, rods) = (Answer::certified(&loaded).rows, loaded.start.len().max(1));
+            let said = |rows: Vec<Vec<f64>>| {
+                diagnose(&loaded, &Answer { rows, ..Answer::certified(&loaded) }, 0.1, None).said.unwrap_or_default()
+            };
+            let late = [&right[..rods], &right[..right.len() - rods]].concat();
+            let early = [&right[rods..], &right[right.len() - rods..]].concat();
+            assert_eq!(
+                said(late),
+                "this is the right answer a row too late: each is that of the time before",
+                "{name}"
+            );
+            assert_eq!(said(early), "this is the right answer a row too early: each is that of the time after");
+            assert!(!said(right.into_iter().rev().collect()).contains("a row too"), "{name}");
         }
     }
 

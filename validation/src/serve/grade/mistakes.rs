@@ -229,7 +229,7 @@ pub fn all() -> Vec<Mistake> {
 }
 
 /// A gradient L(t) = Q L Qᵀ + S that is formed in a wrong way.
-fn of_turning_flows() -> [Mistake; 5] {
+fn of_turning_flows() -> [Mistake; 6] {
     let steady = |s: Setting| Setting { spin_per_s: Matrix3::zeros(), ..s };
     let with_spin = |s: Setting, factor: f64| {
         let gradient_per_s = s.gradient_per_s + (factor - 1.0) * s.spin_per_s;
@@ -239,6 +239,7 @@ fn of_turning_flows() -> [Mistake; 5] {
         moved("a flow that does not turn (rotation_rad_per_s left out)", move |s| steady(with_spin(s, 0.0))),
         moved("L(t) taken at t = 0 for ever", steady),
         moved("L(t) without the spin Q̇Qᵀ", move |s| with_spin(s, 0.0)),
+        moved("L(t) with Qᵀ for Q", |s| Setting { spin_per_s: -s.spin_per_s, ..s }),
         moved("L(t) with −Q̇Qᵀ for Q̇Qᵀ", move |s| with_spin(s, -1.0)),
         moved("the rotation of the flow with the wrong sign", move |s| {
             let back = with_spin(s, -1.0);

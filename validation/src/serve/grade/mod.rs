@@ -96,6 +96,9 @@ pub struct Graded {
     pub suspects: Vec<String>,
     #[serde(skip)]
     answer: Option<answer::Answer>,
+    /// True if what all problems together show says the diagnosis.
+    #[serde(skip)]
+    is_said_over_all: bool,
     /// The place of the error, or the reason why there is none.
     pub note: Option<String>,
     /// The time that grading took, s.
@@ -134,6 +137,7 @@ impl Graded {
             diagnosis: None,
             suspects: Vec::new(),
             answer: None,
+            is_said_over_all: false,
             note: None,
             seconds: 0.0,
             steps: None,

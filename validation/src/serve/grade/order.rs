@@ -228,20 +228,33 @@ pub fn settle(problems: &[LoadedProblem], graded: &mut [Graded], claimed: Option
     }
 }
 
-/// A sentence that lists where a claimed order was seen and where it is unclear; none without a claim, or of formulas
-/// alone, which have no steps.
+/// An observed order above this one needs no claim to be believed.
+const LOW: f64 = 2.5;
+
+const LOW_ORDER: &str = "no order was claimed, so a lower one than the method's passes too; observed";
+
+/// A sentence that lists where a claimed order was seen and where it is unclear, or without a claim, where a low one
+/// passes; none of formulas alone, which have no steps.
 pub fn remark(graded: &[Graded], claimed: Option<f64>) -> Option<String> {
-    let claimed = claimed?;
+    let Some(claimed) = claimed else {
+        let passing = graded.iter().filter(|graded| graded.verdict == Verdict::Pass);
+        let low = passing.filter(|graded| graded.observed_order.is_some_and(|order| order < LOW));
+        let low: Vec<_> = low.map(|graded| format!("{} ({})", graded.name, graded.order_text())).collect();
+        return (!low.is_empty()).then(|| format!("{LOW_ORDER}: {}", low.join(", ")));
+    };
     let found =
         |order: Order| -> Vec<&Graded> { graded.iter().filter(|graded| graded.order_found == Some(order)).collect() };
     let seen = found(Order::Seen);
     // Of a wrong answer the verdict says why.
     let unclear = found(Order::Unclear).into_iter().filter(|graded| graded.verdict == Verdict::Pass);
     let unclear: Vec<&str> = unclear.map(|graded| graded.name.as_str()).collect();
-    let has_steps = |graded: &&Graded| graded.verdict != Verdict::Missing && graded.kind != Kind::Formula;
-    let answered = graded.iter().filter(has_steps).count();
+    let answered = |graded: &&Graded| graded.verdict != Verdict::Missing && graded.kind != Kind::Formula;
+    let (own, given): (Vec<_>, Vec<_>) =
+        graded.iter().filter(answered).partition(|graded| graded.asked_tolerance.is_some());
+    let answered = given.len();
     if answered == 0 {
-        return None;
+        let words = "no order is judged: the program chooses its own steps";
+        return (!own.is_empty()).then(|| words.to_owned());
     }
     let mut said = format!("order {claimed} is seen on {} of {answered} problems", seen.len());
     if !unclear.is_empty() {

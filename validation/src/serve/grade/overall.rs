@@ -4,7 +4,7 @@
 use super::diagnosis::shows;
 use super::estimate::{self, Wrong};
 use super::nearness::CURVE;
-use super::{Graded, Verdict};
+use super::{Graded, Verdict, tensors};
 use crate::serve::problems::{Kind, LoadedProblem};
 
 /// The largest number of names in a finding.
@@ -15,10 +15,13 @@ const MOST_NAMES: usize = 3;
 pub fn overall(problems: &[LoadedProblem], graded: &mut [Graded]) -> Vec<String> {
     let found = findings(problems, graded);
     for Finding { names, of, instead, .. } in &found {
-        let other =
-            |graded: &&mut Graded| of.contains(&graded.name) && names.iter().all(|name| !graded.is_called(name));
-        for graded in graded.iter_mut().filter(other) {
-            graded.diagnosis = graded.diagnosis.as_ref().map(|_| instead.clone());
+        let alone = format!(" of {}, to ", names.join(" or of "));
+        for graded in graded.iter_mut().filter(|graded| of.contains(&graded.name)) {
+            if names.iter().all(|name| !graded.is_called(name)) {
+                graded.diagnosis = graded.diagnosis.as_ref().map(|_| instead.clone());
+            }
+            graded.is_said_over_all =
+                graded.diagnosis.as_ref().is_some_and(|said| said == instead || said.contains(&alone));
         }
     }
     found.into_iter().map(|finding| finding.said).collect()
@@ -83,10 +86,15 @@ fn by_name(problems: &[LoadedProblem], graded: &[Graded], wrong: &[&Graded]) -> 
                 _ => format!("{} of {}", of.len(), wrong.len()),
             };
             let (all, fits) = (names.join(", or "), of.join(", "));
+            let advice = tensors::advice(&names[0]);
+            let shared = !advice.is_empty() && names.iter().all(|name| tensors::advice(name) == advice);
+            let advice = if shared { format!("; {advice}") } else { String::new() };
             said.push(Finding {
                 of: of.iter().map(|name| (*name).to_owned()).collect(),
                 instead: format!("{CURVE} of {}", names.join(" or of ")),
-                said: format!("one mistake explains {rest} that do not pass: {all}{either}; its curve fits {fits}"),
+                said: format!(
+                    "one mistake explains {rest} that do not pass: {all}{either}; its curve fits {fits}{advice}"
+                ),
                 names,
             });
         }
@@ -148,7 +156,7 @@ mod tests {
         assert_eq!(
             found,
             ["one mistake explains 3 of 4 that do not pass: half the shear rate; its curve fits mid-flip-2, \
-                mid-flip-11.6, spiral"]
+                mid-flip-11.6, spiral; L_ij = ∂u_i/∂x_j, W = (L − Lᵀ)/2, D = (L + Lᵀ)/2"]
         );
         // Curves that have come to rest name it in no problem.
         let mut resting = graded(&problems, &[(Fail, &[half]), (Fail, &[half])]);

@@ -155,7 +155,11 @@ pub(super) fn words(graded: &Graded) -> Vec<&str> {
 fn lines(report: &Report) -> Vec<String> {
     let mut said: Vec<(Verdict, String, Vec<&str>)> = Vec::new();
     for graded in report.problems.iter().filter(|graded| graded.verdict != Verdict::Missing) {
-        let text = words(graded).join("; ");
+        let mut text = words(graded);
+        if graded.is_said_over_all {
+            text.remove(0);
+        }
+        let text = text.join("; ");
         match said.iter_mut().find(|(verdict, same, _)| *verdict == graded.verdict && *same == text) {
             Some((.., names)) => names.push(&graded.name),
             None => said.push((graded.verdict, text, vec![&graded.name])),

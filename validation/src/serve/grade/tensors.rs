@@ -215,7 +215,7 @@ fn distance(
 
 /// Names the closure, the mistake or the layout whose curve the answer is, given its `error`; the diagnosis is empty
 /// if there is none.
-pub(super) fn diagnose(loaded: &LoadedProblem, answer: &Answer, error: f64) -> Diagnosis {
+pub(super) fn diagnose(loaded: &LoadedProblem, answer: &Answer, error: f64, steps: Option<u64>) -> Diagnosis {
     let problem = &loaded.problem;
     let most = NEARER * error;
     // Curves are no better known.
@@ -263,7 +263,8 @@ pub(super) fn diagnose(loaded: &LoadedProblem, answer: &Answer, error: f64) -> D
         }
     }
     if near.is_empty() && !problem.is_steady() {
-        near = estimate::of_curve(problem, answer, &known, most);
+        near = estimate::of_curve(problem, answer, &known, steps, most);
+        near.extend(steps.and_then(|steps| estimate::a_step_off(problem, answer, &known, steps, most)));
     }
     let cost = match problem.closed {
         Some(_) => String::new(),
@@ -288,6 +289,13 @@ pub(super) fn off(loaded: &LoadedProblem, name: &str) -> Option<f64> {
         distance(problem, &rows, &known.start, candidate, f64::INFINITY).or(Some(f64::INFINITY))
     };
     change.map_or_else(|| of_layout(&rows, name), of_change)
+}
+
+/// What is right in place of a mistake or a layout; empty if it is unknown.
+pub(super) fn advice(name: &str) -> &'static str {
+    let mistakes = MISTAKES.iter().map(|mistake| (mistake.name, mistake.advice));
+    let layouts = LAYOUTS.iter().map(|layout| (layout.name, layout.advice));
+    mistakes.chain(layouts).find(|(known, _)| *known == name).map_or("", |(_, advice)| advice)
 }
 
 /// How far rows are from themselves in the layout of this name.

@@ -199,21 +199,22 @@ fn climbed(
         graded.asked_tolerance = finest.setting.tolerance().ok();
         graded.set_answer(problem, &finest.answer, &finest.compared);
     }
+    let digits = || rungs.last().and_then(|finest| digits::remark(&finest.answer, finest.error()));
     graded.note = match end {
         _ if converging.is_some() => converging,
         End::Broke(words) | End::Jumps(words) | End::Refused(words) => Some(words),
         End::Lower => {
             graded.order_found = Some(Order::Lower);
-            claim.order.map(|claimed| other(&graded, claimed))
+            let said = claim.order.map(|claimed| other(&graded, claimed)).into_iter().chain(digits());
+            Some(said.collect::<Vec<_>>().join("; "))
         }
         End::Reached => not_finite(&rungs),
         End::Wrong(words) | End::OutOfTime(words) => {
-            let digits = rungs.last().and_then(|finest| digits::remark(&finest.answer, finest.error()));
             let finite = rungs.last().filter(|finest| finest.error().is_finite());
             // Of directions there is no worst component.
             let finite = finite.filter(|_| problem.problem.metric == Metric::Absolute);
             let worst = finite.map(|finest| place(problem, &finest.answer, finest.compared.row));
-            let all = std::iter::once(why(&graded, rungs.last(), words)).chain(worst).chain(digits);
+            let all = std::iter::once(why(&graded, rungs.last(), words)).chain(worst).chain(digits());
             Some(all.collect::<Vec<_>>().join("; "))
         }
     };

@@ -1,9 +1,10 @@
-//! A number that is off by an unknown factor: C_I, or Λ.
+//! A number that is off by an unknown factor: C_I, Λ, or time.
 
 use super::{Candidate, Known, Near, STEP, distance, near_of};
 use crate::methods::tensors::Parts;
-use crate::methods::tensors::wrong::{CLOSURES, shaped, spread};
+use crate::methods::tensors::wrong::{CLOSURES, scaled, shaped, spread};
 use crate::serve::grade::answer::Answer;
+use crate::serve::grade::diagnosis::{STEPS_OFF, step_off};
 use crate::serve::grade::estimate::digits;
 use crate::serve::problems::Problem;
 use rayon::prelude::*;
@@ -11,8 +12,13 @@ use rayon::prelude::*;
 /// A quantity and the parts in which it is `factor` times what is asked.
 pub(super) type Quantity = (&'static str, fn(Parts, f64) -> Option<Parts>);
 
-pub(super) const QUANTITIES: [Quantity; 2] =
-    [("C_I", spread), ("Λ", |parts, factor| Some(shaped(parts, factor * parts.of_strain)))];
+pub(super) const QUANTITIES: [Quantity; 3] = [
+    ("C_I", spread),
+    ("Λ", |parts, factor| Some(shaped(parts, factor * parts.of_strain))),
+    (TIME, |parts, factor| Some(scaled(parts, factor, factor, factor))),
+];
+
+const TIME: &str = "every rate (or time)";
 
 /// The step of the slope, and the number of steps of Newton's method.
 const SLOPE: f64 = 1e-6;
@@ -26,7 +32,7 @@ pub(super) fn words(quantity: &str, factor: f64) -> String {
 }
 
 /// The curves of equations with another C_I or Λ, found at the first time, that fit at all times.
-pub(super) fn of_curve(problem: &Problem, answer: &Answer, known: &Known, most: f64) -> Vec<Near> {
+pub(super) fn of_curve(problem: &Problem, answer: &Answer, known: &Known, steps: Option<u64>, most: f64) -> Vec<Near> {
     let all: Vec<_> = QUANTITIES.iter().flat_map(|q| (0..CLOSURES.len()).map(move |closure| (q, closure))).collect();
     let fit = |((name, change), closure): &(&Quantity, usize)| {
         let name = if problem.d_r_per_s.is_some() { name.replace("C_I", "D_r") } else { (*name).to_owned() };
@@ -34,9 +40,24 @@ pub(super) fn of_curve(problem: &Problem, answer: &Answer, known: &Known, most: 
         let row = |factor: f64| with(factor)?.curve(problem, &known.start, 1, STEP)?.pop();
         let factor = newton(&answer.rows[0], row)?;
         let distance = distance(problem, &answer.rows, &known.start, &with(factor)?, most)?;
-        Some(Near { distance, ..near_of(&words(&name, factor), "", *closure, known.own) })
+        let of_step = steps.filter(|_| name == TIME).and_then(|steps| step_off(factor, steps));
+        let words = of_step.map_or_else(|| words(&name, factor), str::to_owned);
+        Some(Near { distance, ..near_of(&words, "", *closure, known.own) })
     };
     all.par_iter().filter_map(fit).collect()
+}
+
+/// The right curve at the times one step before or after those asked for, where the answer is that: every time is
+/// late, as with a result that is written before its step.
+pub(super) fn a_step_off(problem: &Problem, answer: &Answer, known: &Known, steps: u64, most: f64) -> Option<Near> {
+    let step_s = problem.times_s.last()? / steps as f64;
+    let of = |(name, off_s): (&str, f64)| {
+        let own = Candidate::new(known.parts, CLOSURES[known.own?], Vec::new());
+        let times_s = problem.times_s.iter().map(|time_s| time_s + off_s).collect();
+        let distance = distance(&Problem { times_s, ..problem.clone() }, &answer.rows, &known.start, &own, most)?;
+        Some(Near::new(distance, name))
+    };
+    STEPS_OFF.into_iter().zip([-step_s, step_s]).find_map(of)
 }
 
 /// The factor at which `row` is nearest to `found` by least squares, from 1.
@@ -61,6 +82,32 @@ fn newton(found: &[f64], row: impl Fn(f64) -> Option<Vec<f64>>) -> Option<f64> {
         }
     }
     Some(factor)
+}
+
+/// A right code that is a step behind everywhere, one whose steps are too short by one in N, and one that has too many.
+#[test]
+fn a_step_too_few_or_too_many_is_named() {
+    use crate::serve::grade::diagnosis::diagnose;
+    use crate::serve::problems::loaded;
+    let whole = loaded("closed-ft-quadratic-0.01");
+    let known = super::known(&whole.problem).unwrap();
+    let curve = |of: &dyn Fn(f64) -> f64| {
+        let times_s = whole.problem.times_s.iter().map(|time_s| of(*time_s)).collect();
+        let problem = Problem { times_s, ..whole.problem.clone() };
+        let own = Candidate::new(known.parts, CLOSURES[known.own.unwrap()], Vec::new());
+        let rows = own.curve(&problem, &known.start, problem.times_s.len(), STEP).unwrap();
+        Answer { rows, ..Answer::certified(&whole) }
+    };
+    let end_s = whole.problem.times_s.last().unwrap();
+    let said = |answer| diagnose(&whole, &answer, 1e-3, Some(160)).said.unwrap_or_default();
+    let behind = said(curve(&|time_s| time_s - end_s / 160.0));
+    let few = [said(curve(&|time_s| time_s * 159.0 / 160.0)), said(curve(&|time_s| time_s * 160.0 / 161.0))];
+    let many = said(curve(&|time_s| time_s * 160.0 / 159.0));
+    assert!([&behind, &few[0], &few[1]].iter().all(|said| said.contains(STEPS_OFF[0])), "{behind} {few:?}");
+    assert!(many.contains(STEPS_OFF[1]), "{many}");
+    // Another share of a step is a rate and nothing else.
+    let half = said(curve(&|time_s| time_s * 159.5 / 160.0));
+    assert!(half.contains("every rate (or time) times 0.99687,"), "{half}");
 }
 
 #[test]

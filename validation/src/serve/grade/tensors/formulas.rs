@@ -107,15 +107,15 @@ fn of_rates(rows: &Rows, answer: &Answer, closure: Closure, model: Model, most: 
     if !near.is_empty() {
         return near;
     }
-    // The rate is linear in C_I and in Λ.
+    // The rate is linear in each.
     let of = |((name, change), k): (&Quantity, usize)| {
         let scaled = |factor: f64| parts.iter().map(|parts| change(*parts, factor)).collect::<Option<Vec<_>>>();
-        let [none, one] = [0.0, 1.0].map(|factor| Some(rates(&scaled(factor)?, k).concat()));
-        let (none, one, found) = (none?, one?, answer.rows.concat());
-        let pairs = || none.iter().zip(&one).zip(&found);
-        let along: f64 = pairs().map(|((none, one), found)| (one - none) * (found - none)).sum();
-        let square: f64 = pairs().map(|((none, one), _)| (one - none).powi(2)).sum();
-        let factor = along / square;
+        let [one, two] = [1.0, 2.0].map(|factor| Some(rates(&scaled(factor)?, k).concat()));
+        let (one, two, found) = (one?, two?, answer.rows.concat());
+        let pairs = || one.iter().zip(&two).zip(&found);
+        let along: f64 = pairs().map(|((one, two), found)| (two - one) * (found - one)).sum();
+        let square: f64 = pairs().map(|((one, two), _)| (two - one).powi(2)).sum();
+        let factor = 1.0 + along / square;
         within(near_of(&words(name, factor), "", k, own), answer, &rates(&scaled(factor)?, k), most)
     };
     QUANTITIES.iter().flat_map(|quantity| (0..CLOSURES.len()).map(move |k| (quantity, k))).filter_map(of).collect()
