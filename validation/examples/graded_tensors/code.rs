@@ -15,6 +15,8 @@ pub struct Code {
     pub gradient: fn(&M) -> M,
     /// The ½ of W and of D.
     pub half: [f64; 2],
+    /// Before D_12, D_13 and D_23.
+    pub shear: f64,
     pub shape: fn(f64) -> f64,
     /// γ̇ from L and D.
     pub speed: fn(&M, &M) -> f64,
@@ -127,6 +129,7 @@ impl Code {
         Self {
             gradient: |l| *l,
             half: [0.5, 0.5],
+            shear: 1.0,
             sides: [[1.0, -1.0], [1.0, 1.0]],
             pairs: 1.0,
             shape: |r| 1.0 - 2.0 / (r * r + 1.0),
@@ -153,7 +156,8 @@ impl Code {
     pub fn rate(&self, a: &M, l: &M, r: f64, [c_i, other]: [f64; 2]) -> M {
         let l = (self.gradient)(l);
         let w: M = from_fn(|i| from_fn(|j| self.half[0] * (l[i][j] - l[j][i])));
-        let d: M = from_fn(|i| from_fn(|j| self.half[1] * (l[i][j] + l[j][i])));
+        let side = |i, j| if i == j { 1.0 } else { self.shear };
+        let d: M = from_fn(|i| from_fn(|j| side(i, j) * self.half[1] * (l[i][j] + l[j][i])));
         let shape = (self.shape)(r);
         let [strain, fourth] = self.stretch.map(|of| of(shape));
         let [two, three, one] = self.spread;

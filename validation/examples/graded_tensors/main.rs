@@ -49,6 +49,10 @@ const WRONG: &[Wrong] = &[
     ("γ̇ = 2D:D", "2D:D for γ̇", |c| c.speed = |_, d| 2.0 * double(d, d)),
     ("γ̇ = |L|", "|L| = (L:L)^½ for γ̇", |c| c.speed = |l, _| double(l, l).sqrt()),
     ("γ̇ = L_21", "L_21 for γ̇", |c| c.speed = |l, _| l[1][0]),
+    ("γ̇ of six entries", "γ̇ with D_12, D_13 and D_23 counted once", |c| {
+        c.speed = |_, d| (2.0 * (0..3).map(|i| (0..=i).map(|j| d[i][j] * d[i][j]).sum::<f64>()).sum::<f64>()).sqrt();
+    }),
+    ("engineering shear in D", "D_12, D_13 and D_23 without their ½ (engineering shear)", |c| c.shear = 2.0),
     ("no γ̇", "γ̇ left out", |c| c.speed = |_, _| 1.0),
     ("C_I γ̇ (δ − 3a)", "half the C_I", |c| c.spread[0] = 1.0),
     ("4 C_I γ̇ (δ − 3a)", "twice the C_I", |c| c.spread[0] = 4.0),
@@ -63,6 +67,9 @@ const WRONG: &[Wrong] = &[
     ("Λ missing at Da + aD", "Λ missing before Da + aD", |c| c.stretch[0] = |_| 1.0),
     ("2 missing at 𝔸:D", "the 2 missing before 𝔸:D", |c| c.stretch[1] = |shape| shape),
     ("no 𝔸:D", "𝔸:D left out", |c| c.stretch[1] = |_| 0.0),
+    ("a·D·a", "a·D·a for 𝔸:D", |c| {
+        c.closure = |a, [i, j, k, l]| 0.5 * (a[i][k] * a[j][l] + a[i][l] * a[j][k]);
+    }),
     ("another closure", "the linear closure", |c| c.closure = linear),
     ("1/35's sign", "a linear closure with + 1/35 for − 1/35", |c| {
         c.closure = |a, at| linear_by(a, at, 1.0 / 7.0, 1.0 / 35.0);

@@ -18,12 +18,22 @@ pub fn diagnose(loaded: &LoadedProblem, answer: &Answer, error: f64, steps: Opti
     if error.is_nan() || error <= loaded.problem.tolerance {
         return Diagnosis::default();
     }
-    let (tolerance, nearer_than) = (loaded.problem.tolerance, NEARER * error);
+    let found = named(loaded, answer, error, steps);
     let in_time =
         matches!(loaded.problem.kind, Kind::Rods | Kind::Tensor) && loaded.problem.metric != Metric::StandardErrors;
-    if let Some(off) = in_time.then(|| row_off(loaded, answer, nearer_than)).flatten() {
-        return Diagnosis { said: Some(format!("this is the right answer {off}")), suspects: vec![off.to_owned()] };
+    // Many curves meet their own values of other times.
+    let off =
+        (in_time && found.suspects.is_empty() && found.said.is_none()).then(|| row_off(loaded, answer, NEARER * error));
+    match off.flatten() {
+        Some(off) => {
+            Diagnosis { said: Some(format!("this is the right answer {off}")), suspects: vec![off.to_owned()] }
+        }
+        None => found,
     }
+}
+
+fn named(loaded: &LoadedProblem, answer: &Answer, error: f64, steps: Option<u64>) -> Diagnosis {
+    let (tolerance, nearer_than) = (loaded.problem.tolerance, NEARER * error);
     match loaded.problem.kind {
         Kind::Contact => said(CURVE, contact::near(loaded, answer, nearer_than), tolerance, ""),
         Kind::Formula => tensors::formulas::diagnose(loaded, answer, error),
@@ -139,11 +149,12 @@ fn steps_off(wrong: &Wrong<'_>, steps: u64) -> Option<&'static str> {
     wrong.rates().into_iter().find_map(|rate| step_off(rate, steps))
 }
 
-/// The right rows at the times before or after their own, if the answer is that where there are such times.
+/// The right rows at the times before or after their own, if the answer is that where there are such times: at least
+/// two, with other right rows than their own.
 fn row_off(loaded: &LoadedProblem, answer: &Answer, nearer_than: f64) -> Option<&'static str> {
     let rods = answer.rows.len() / loaded.problem.times_s.len();
-    let right = Answer::certified(loaded).rows;
-    let (most, last) = (right.len(), 2 * rods);
+    let (found, right) = (&answer.rows, Answer::certified(loaded).rows);
+    let kept = right.len().checked_sub(rods).filter(|kept| *kept >= 2 * rods)?;
     let apart = |(found, due): (&Vec<f64>, &Vec<f64>)| match loaded.problem.kind {
         Kind::Rods => {
             let [found, due] = [found, due].map(|row| Vector3::from_row_slice(row));
@@ -151,15 +162,14 @@ fn row_off(loaded: &LoadedProblem, answer: &Answer, nearer_than: f64) -> Option<
         }
         _ => crate::oracle::apart(found, due),
     };
-    let near = |found: &[Vec<f64>], due: &[Vec<f64>]| {
-        found.len() >= last && found.iter().zip(due).all(|pair| apart(pair) <= nearer_than)
-    };
-    if most < last + rods {
+    let are = |found: &[Vec<f64>], due: &[Vec<f64>]| found.iter().zip(due).all(|pair| apart(pair) <= nearer_than);
+    let moves = |k: usize| !are(&right[k * rods..(k + 1) * rods], &right[(k + 1) * rods..(k + 2) * rods]);
+    if !(0..kept / rods).all(moves) {
         None
-    } else if near(&answer.rows[rods..], &right[..most - rods]) {
+    } else if are(&found[rods..], &right[..kept]) {
         Some("a row too late: each is that of the time before")
     } else {
-        near(&answer.rows[..most - rods], &right[rods..]).then_some("a row too early: each is that of the time after")
+        are(&found[..kept], &right[rods..]).then_some("a row too early: each is that of the time after")
     }
 }
 

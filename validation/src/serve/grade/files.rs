@@ -126,7 +126,7 @@ pub(super) fn judge(graded: &mut Graded, loaded: &LoadedProblem, answer: &Answer
     let off = graded.order_off(claim.order).or(outlier);
     graded.verdict = if within && off.is_none() { Verdict::Pass } else { Verdict::Fail };
     graded.set_answer(loaded, answer, &compared);
-    let digits = digits::remark(answer, compared.error).filter(|_| !compared.too_little_data);
+    let digits = digits::remark(answer, compared.error, graded.steps).filter(|_| !compared.too_little_data);
     graded.note = if within {
         off.map(|off| [Some(off), digits].into_iter().flatten().collect::<Vec<_>>().join("; "))
     } else {

@@ -162,11 +162,15 @@ fn asked(problem: &Problem) -> Option<(Closed, Option<usize>)> {
 
 fn candidates(changes: &[Change], own: Option<usize>) -> Vec<Candidate> {
     let with = |change: &Change| {
+        // Without 𝔸:D a closure has no part in a_ij.
+        let without = change.parts.of_fourth == 0.0 && matches!(change.parts.model, Model::FolgarTucker { .. });
+        let own = if without { Some(own.unwrap_or_default()) } else { own };
         let of = |(closure, stand): (usize, &Stand)| {
             let near: Vec<_> = change.names.iter().map(|(name, advice)| near_of(name, advice, closure, own)).collect();
             (near[0].changes > 0).then(|| Candidate::new(change.parts, *stand, near))
         };
-        CLOSURES.iter().enumerate().filter_map(of).collect::<Vec<_>>()
+        let all = CLOSURES.iter().enumerate().filter(|(closure, _)| !without || own == Some(*closure));
+        all.filter_map(of).collect::<Vec<_>>()
     };
     changes.iter().flat_map(with).collect()
 }

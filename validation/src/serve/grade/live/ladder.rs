@@ -194,12 +194,12 @@ fn climbed(
         Some(_) => Verdict::Pass,
         None => verdict(&end, mistaken),
     };
-    if let Some(finest) = rungs.last() {
+    if let Some(finest) = best(&rungs) {
         graded.steps = finest.setting.steps().ok();
         graded.asked_tolerance = finest.setting.tolerance().ok();
         graded.set_answer(problem, &finest.answer, &finest.compared);
     }
-    let digits = || rungs.last().and_then(|finest| digits::remark(&finest.answer, finest.error()));
+    let digits = || rungs.last().and_then(|rung| digits::remark(&rung.answer, rung.error(), rung.setting.steps().ok()));
     graded.note = match end {
         _ if converging.is_some() => converging,
         End::Broke(words) | End::Jumps(words) | End::Refused(words) => Some(words),
@@ -219,6 +219,13 @@ fn climbed(
         }
     };
     graded
+}
+
+/// The finest answer, or where its error is rounding that grows, the best one.
+fn best(rungs: &[Rung]) -> Option<&Rung> {
+    let grows = matches!(rungs, [.., before, _, last] if last.error() > 1.5 * before.error());
+    let all = rungs.iter().filter(|rung| grows && rung.error().is_finite());
+    all.min_by(|a, b| a.error().total_cmp(&b.error())).or(rungs.last())
 }
 
 /// The verdict of an end, at answers that lie on the curve of a known mistake or not.
