@@ -23,8 +23,9 @@ use std::io;
 use std::path::Path;
 use std::time::Duration;
 
-/// Pictures of the report with their numbers: error against steps, and error against run time.
-const PICTURES: [&str; 4] = ["steps.svg", "steps.csv", "work-precision.svg", "work-precision.csv"];
+/// Pictures of the report with their numbers: error against steps, against run time, and along the path.
+const PICTURES: [&str; 6] =
+    ["steps.svg", "steps.csv", "work-precision.svg", "work-precision.csv", "path.svg", "path.csv"];
 
 /// The report in four formats.
 const PAGES: [&str; 4] = ["grade.json", "grade.html", "grade.md", "junit.xml"];
@@ -88,7 +89,12 @@ fn folder(args: &Args, inputs: Value) -> ResultFolder {
 /// Pictures of the program in bold and of the project's own integrators, as SVG and CSV with file names.
 fn pictures(report: &Report, problems: &[LoadedProblem]) -> Result<Vec<output::Output>, String> {
     let bench = report.live.as_ref().and_then(|live| live.work_precision.as_ref());
-    let figures = [grade::figures::steps(problems, &report.problems), bench.map(live::Bench::figure)];
+    let path = report.live.as_ref().and_then(|live| live::path_figure(live.path.as_ref()?, bench?.program.theory));
+    let figures = [
+        grade::figures::steps(problems, &report.problems),
+        bench.map(live::Bench::figure),
+        path.or_else(|| grade::figures::path(&report.problems)),
+    ];
     let files = |(figure, names): (Option<Figure>, &[&str])| -> Result<Vec<_>, String> {
         let Some(figure) = figure else { return Ok(Vec::new()) };
         // On problems of tensors every curve is the program's.

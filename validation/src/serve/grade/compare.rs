@@ -30,26 +30,32 @@ pub struct Compared {
     pub too_little_data: bool,
 }
 
-/// Compares an answer with the problem's certified values.
-pub fn compare(loaded: &LoadedProblem, answer: &Answer) -> Compared {
+/// The error of each row; NaN if a value is not finite, or its square.
+pub(super) fn row_errors(loaded: &LoadedProblem, answer: &Answer) -> Vec<f64> {
     let keys = loaded.problem.kind.keys().len();
     let names = &loaded.problem.columns[keys..];
-    let certified = |row: usize| &loaded.certified.rows[row][keys..];
-    let distance = |row: usize| match loaded.problem.metric {
+    let distance = |(found, certified): (&Vec<f64>, &[f64])| match loaded.problem.metric {
         Metric::Angle => {
-            let [found, due] = [&answer.rows[row][..], certified(row)].map(Vector3::from_row_slice);
+            let [found, due] = [&found[..], certified].map(Vector3::from_row_slice);
             apart(&found, &due, false)
         }
-        Metric::Absolute => crate::oracle::apart(&answer.rows[row], certified(row)),
-        Metric::Relative => relative(names, &answer.rows[row], certified(row)),
-        Metric::StandardErrors => standard_errors(names, &answer.rows[row], certified(row)),
+        Metric::Absolute => crate::oracle::apart(found, certified),
+        Metric::Relative => relative(names, found, certified),
+        Metric::StandardErrors => standard_errors(names, found, certified),
     };
     // Of an infinite value, or one whose square is, no distance says anything.
-    let error_of = |row: usize| {
-        let finite = answer.rows[row].iter().all(|value| value.is_finite());
-        finite.then(|| distance(row)).filter(|error| error.is_finite()).unwrap_or(f64::NAN)
+    let error_of = |(row, found): (usize, &Vec<f64>)| {
+        let finite = found.iter().all(|value| value.is_finite());
+        let error = finite.then(|| distance((found, &loaded.certified.rows[row][keys..])));
+        error.filter(|error| error.is_finite()).unwrap_or(f64::NAN)
     };
-    let largest = (0..answer.rows.len()).map(|row| (row, error_of(row))).reduce(|a, b| {
+    answer.rows.iter().enumerate().map(error_of).collect()
+}
+
+/// Compares an answer with the problem's certified values.
+pub fn compare(loaded: &LoadedProblem, answer: &Answer) -> Compared {
+    let names = &loaded.problem.columns[loaded.problem.kind.keys().len()..];
+    let largest = row_errors(loaded, answer).into_iter().enumerate().reduce(|a, b| {
         let worse = b.1.is_nan() || b.1 > a.1;
         if worse && !a.1.is_nan() { b } else { a }
     });

@@ -1,9 +1,11 @@
 //! Pictures of the results.
 
 use super::Graded;
+use super::answer::Answer;
+use super::compare::row_errors;
 use crate::methods::integrators::{Integrator, RodProblem, Setting, Theory};
 use crate::present::plot::{Curve, Figure};
-use crate::serve::problems::{Kind, LoadedProblem};
+use crate::serve::problems::{Kind, LoadedProblem, Metric};
 use nalgebra::{UnitVector3, Vector3};
 use std::f64::consts::TAU;
 
@@ -16,7 +18,7 @@ pub(super) const LEAST: f64 = 1e-17;
 /// The program's label in a picture: its own name may be long, and _ would set the next letter as an index.
 pub const PROGRAM: &str = "the graded program";
 
-/// The largest number of problems of tensors in one picture.
+/// The largest number of problems in one picture.
 const MOST_CURVES: usize = 8;
 
 /// Error against the number of steps on one problem about rods in plane Couette flow, first for the program, then for
@@ -36,6 +38,36 @@ fn figure(title: String, y_name: &str, curves: Vec<Curve>) -> Figure {
         y_log: true,
         ..Figure::default()
     }
+}
+
+/// (time / last time, error) of an answer about rods or a tensor; empty at fewer than three times.
+pub(super) fn along(loaded: &LoadedProblem, answer: &Answer) -> Vec<(f64, f64)> {
+    let times_s = &loaded.problem.times_s;
+    let is_curve = matches!(loaded.problem.metric, Metric::Angle | Metric::Absolute) && times_s.len() > 2;
+    let errors = row_errors(loaded, answer);
+    let rows = errors.chunks((errors.len() / times_s.len().max(1)).max(1));
+    let share = |time_s: &f64| time_s / times_s[times_s.len() - 1];
+    let all = times_s.iter().map(share).zip(rows.map(|rows| crate::oracle::worst(rows.iter().copied())));
+    all.filter(|_| is_curve).collect()
+}
+
+/// Error along the path, a curve for each problem; `None` if no answer has three times.
+pub fn path(graded: &[Graded]) -> Option<Figure> {
+    let with_path =
+        graded.iter().filter(|graded| graded.path.iter().filter(|(_, error)| error.is_finite()).count() > 2);
+    let of = |graded: &Graded| {
+        let finite = graded.path.iter().filter(|(_, error)| error.is_finite());
+        Curve::of(graded.name.clone(), finite, |(share, error)| (*share, error.max(LEAST)))
+    };
+    let curves: Vec<_> = with_path.take(MOST_CURVES).map(of).collect();
+    (!curves.is_empty()).then(|| Figure {
+        title: "Error along the path".into(),
+        x_name: "time / last time".into(),
+        y_name: "error (rad, or of a component)".into(),
+        curves,
+        y_log: true,
+        ..Figure::default()
+    })
 }
 
 /// A curve for each problem of tensors.

@@ -110,6 +110,8 @@ pub struct Graded {
     pub asked_tolerance: Option<f64>,
     /// Errors (steps, error) from coarse to fine; empty without answers for several numbers of steps.
     pub errors: Vec<(u64, f64)>,
+    /// (time / last time, error) of a curve.
+    pub path: Vec<(f64, f64)>,
     /// The order between each two neighbours of `errors`.
     pub orders: Vec<Option<f64>>,
     /// The largest ||p| − 1|.
@@ -143,6 +145,7 @@ impl Graded {
             steps: None,
             asked_tolerance: None,
             errors: Vec::new(),
+            path: Vec::new(),
             orders: Vec::new(),
             length_drift: None,
             orbit_drift: None,
@@ -171,6 +174,7 @@ impl Graded {
     /// Sets an answer, its error and drifts, and the diagnosis.
     fn set_answer(&mut self, loaded: &LoadedProblem, answer: &answer::Answer, compared: &compare::Compared) {
         self.set_compared(compared);
+        self.path = figures::along(loaded, answer);
         let found = diagnosis::diagnose(loaded, answer, compared.error, self.steps);
         (self.diagnosis, self.suspects, self.answer) = (found.said, found.suspects, Some(answer.clone()));
     }

@@ -1,6 +1,7 @@
 //! Problems whose answer is the solution of a closed equation: they test whether a tensor code solves its own equation.
 
 use super::asked::{ASKEW, COUETTE, NEEDLE, SECOND, SHEAR_RATE_PER_S, UNIAXIAL, matrix};
+use super::formula::RATE;
 use super::table::twelve_decimals;
 use super::{Built, Closed, Kind, Problem, ProblemDef};
 use crate::files::csv::split;
@@ -145,7 +146,7 @@ fn built(def: &ProblemDef, problem: &ClosureProblem) -> Built {
             within some 17 units: 5e-11; twice that is left. Certified values are good to 1e-12: two writings of the \
             equation with two integrators agree to that. Closures differ from each other by 1e-4 to 1e-1."
             .into(),
-        equations: vec![model.source().into(), closure.source().into()],
+        equations: [model.source(), closure.source(), RATE].map(String::from).into(),
         ..Problem::new(def, Kind::Tensor, &SECOND)
     };
     Built::new(problem, certified)

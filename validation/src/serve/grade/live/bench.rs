@@ -17,6 +17,9 @@ use std::time::Duration;
 /// The aspect ratio of the benchmark: the paper's.
 pub const ASPECT_RATIO: f64 = 11.6;
 
+/// The direction from which a rod starts.
+pub(super) const START: [f64; 3] = [0.36, 0.48, 0.8];
+
 /// Number of requests that measure the pipe's cost, after some for warming up.
 const ECHOES: usize = 200;
 
@@ -70,7 +73,7 @@ pub fn echo(protocol: Protocol, mut input: impl BufRead, mut output: impl Write)
 /// The least time in s of a request for one rod to the program `echo`.
 fn pipe_s(echo: &str, protocol: Protocol, timeout: Duration) -> Option<f64> {
     let program = Program::start(echo, protocol, timeout).ok()?;
-    let question = Question::couette(ASPECT_RATIO, vec![[0.36, 0.48, 0.8]], 1.0);
+    let question = Question::couette(ASPECT_RATIO, vec![START], 1.0);
     let times: Option<Vec<_>> = (0..ECHOES).map(|_| Some(program.ask(&question, Setting::Steps(1)).ok()?.1)).collect();
     times?.into_iter().min().map(|least| least.as_secs_f64())
 }

@@ -3,6 +3,7 @@
 mod bench;
 mod kill;
 mod ladder;
+mod path;
 pub mod pipe;
 mod program;
 mod protocol;
@@ -16,6 +17,7 @@ pub use bench::{Bench, EchoError, echo, theory};
 pub use kill::end_all;
 pub(super) use ladder::converging;
 pub use ladder::{Mode, grade, prepared};
+pub use path::{Along, figure as path_figure};
 pub use program::{Asked, Program, Question};
 pub use protocol::Protocol;
 pub use several::{Several, several};

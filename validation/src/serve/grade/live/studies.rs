@@ -2,6 +2,7 @@
 //! map.
 
 use super::bench::{self, Bench};
+use super::path::{Along, path};
 use super::program::Program;
 use crate::methods::integrators::limits::{Ladder, Limit, Property, bisect, holds};
 use crate::methods::integrators::{Setting, Theory};
@@ -14,6 +15,8 @@ use serde::Serialize;
 pub struct Studies {
     /// Error against run time.
     pub work_precision: Option<Bench>,
+    /// The error along the path.
+    pub path: Option<Vec<Along>>,
     /// The longest steps.
     pub limits: Option<Vec<Longest>>,
     /// The fate of a rod by aspect ratio and step.
@@ -59,6 +62,7 @@ const LADDER: Ladder = Ladder { least: 0.01, most: 100.0, factor: 1.25 };
 pub fn studies(program: &Program, echo: &str) -> Studies {
     Studies {
         work_precision: program.within_time("work against precision", || bench::bench(program, echo)),
+        path: program.within_time("the error along the path", || path(program)),
         limits: match program.theory {
             Theory::Order(_) => program.within_time("longest steps", || limits(program)),
             _ => Some(Vec::new()),
@@ -107,6 +111,7 @@ impl Studies {
     pub fn left_out(&self) -> impl Iterator<Item = &'static str> {
         let parts = [
             ("work against precision", self.work_precision.is_none()),
+            ("the error along the path", self.path.is_none()),
             ("longest steps", self.limits.is_none()),
             ("the stability map", self.map.is_none()),
         ];
