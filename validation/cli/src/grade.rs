@@ -53,13 +53,15 @@ pub(super) fn grade(args: &Args) -> Result<(), Failure> {
     if args.command.len() > 1 {
         return several::compare(args);
     }
-    let (report, wanted, inputs) = match (args.command.first(), &args.reference, &args.mine) {
+    let (mut report, wanted, inputs) = match (args.command.first(), &args.reference, &args.mine) {
         (Some(command), reference, _) => program(args, command, reference.as_deref())?,
         (None, Some(reference), Some(mine)) => files(args, reference, mine)?,
         _ => {
             return Err(Failure::Input("give REF and MINE, or --command".to_owned()));
         }
     };
+    let axes = axes(args, &report);
+    report.remarks.extend(axes);
     let pictures = pictures(&report, &wanted).map_err(Failure::Failed)?;
     let svg = pictures.iter().filter(|(name, _)| name.ends_with(".svg"));
     let inside: Vec<_> = svg.map(|(_, svg)| svg.as_str()).collect();
@@ -79,6 +81,16 @@ pub(super) fn grade(args: &Args) -> Result<(), Failure> {
     } else {
         Err(Failure::Failed(format!("not every problem passed: {}", report.counts())))
     }
+}
+
+/// The flag for axes in another order, if a diagnosis names one and none is given.
+fn axes(args: &Args, report: &Report) -> Option<String> {
+    let of_problems = report.problems.iter().filter_map(|graded| graded.diagnosis.as_ref());
+    let all =
+        if report.diagnosis.is_empty() { of_problems.collect() } else { report.diagnosis.iter().collect::<Vec<_>>() };
+    let after = all.iter().find_map(|said| said.split_once(grade::LAID_OUT)).filter(|_| args.axes == Axes::default());
+    let axes = after?.1.split(|c: char| c != ',' && !c.is_ascii_lowercase()).next()?;
+    Some(format!("if these are your axes: --axes {axes}"))
 }
 
 /// The folder of the report. Who mends a code grades it again, so that an earlier grading is replaced.

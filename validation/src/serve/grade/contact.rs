@@ -3,26 +3,47 @@
 use super::answer::Answer;
 use super::nearness::Near;
 use crate::serve::problems::LoadedProblem;
-use crate::serve::problems::contact::{Variant, answers};
+use crate::serve::problems::contact::{LENGTH_MM, RIGHT, Variant, answers, within};
+use nalgebra::Matrix3;
 
-const RIGHT: Variant = Variant { kick: 1.0, printed: false, arms: Some };
-
-const MISTAKES: [(&str, Variant); 9] = [
-    ("a kick with the wrong sign", kicked(-1.0)),
-    ("no kick", kicked(0.0)),
-    ("a kick to the other rod's velocity, not to the mean", kicked(2.0)),
-    ("A.13 as in the text", Variant { printed: true, ..RIGHT }),
+const MISTAKES: [(&str, Variant); 28] = [
+    ("a kick with the wrong sign", kicked([-1.0; 2])),
+    ("no kick", kicked([0.0; 2])),
+    ("a kick to the other rod's velocity, not to the mean", kicked([2.0; 2])),
+    ("half the kick", kicked([0.5; 2])),
+    ("a kick of rod a alone", kicked([1.0, 0.0])),
+    ("a kick of rod b alone", kicked([0.0, 1.0])),
     ("arms clipped at the rods' ends, ±a/2", armed(|arms| Some(arms.map(|arm| arm.clamp(-0.5, 0.5))))),
     ("arms clipped at ±a", armed(|arms| Some(arms.map(|arm| arm.clamp(-1.0, 1.0))))),
     (
         "contact lines cut at the rods' ends: no contact beyond",
         armed(|arms| arms.iter().all(|arm| arm.abs() <= 0.5).then_some(arms)),
     ),
+    (
+        "contact lines cut at ±a: no contact beyond",
+        armed(|arms| arms.iter().all(|arm| arm.abs() <= 1.0).then_some(arms)),
+    ),
     ("|r| for the signed arm r", armed(|arms| Some(arms.map(f64::abs)))),
+    ("arms with the wrong sign", armed(|arms| Some(arms.map(|arm| -arm)))),
     ("the arms of both rods exchanged", armed(|[a, b]| Some([b, a]))),
+    ("arms counted from an end of the rod", armed(|arms| Some(arms.map(|arm| arm + 0.5)))),
+    ("arms of half the length", armed(|arms| Some(arms.map(|arm| 0.5 * arm)))),
+    ("arms of twice the length", armed(|arms| Some(arms.map(|arm| 2.0 * arm)))),
+    ("arms in rod lengths, not in mm", armed(|arms| Some(arms.map(|arm| arm / LENGTH_MM)))),
+    ("a transposed gradient", flowing(|l| parts(&l.transpose()))),
+    ("the flow reversed (L with the wrong sign, or time backwards)", flowing(|l| parts(&-l))),
+    ("half the shear rate", flowing(|l| parts(&(0.5 * l)))),
+    ("twice the shear rate", flowing(|l| parts(&(2.0 * l)))),
+    ("Λ with the wrong sign (1/r_e for r_e)", Variant { shape: |r| -(RIGHT.shape)(r), ..RIGHT }),
+    ("no 1/r_e (Λ = 1, an infinitely slender rod)", Variant { shape: |_| 1.0, ..RIGHT }),
+    ("(r_e − 1)/(r_e + 1) for Λ", Variant { shape: |r| (r - 1.0) / (r + 1.0), ..RIGHT }),
+    ("V_c without L x of the centre", Variant { centre: 0.0, ..RIGHT }),
+    ("the line between the centres for the contact line", Variant { line: |[_, _, apart]| apart, ..RIGHT }),
+    ("A.13 as in the text", Variant { turned: printed, ..RIGHT }),
+    ("φ̇′ without 1/sin θ", Variant { turned: |at, rate| [within(at, rate)[0], (RIGHT.turned)(at, rate)[1]], ..RIGHT }),
 ];
 
-const fn kicked(kick: f64) -> Variant {
+const fn kicked(kick: [f64; 2]) -> Variant {
     Variant { kick, ..RIGHT }
 }
 
@@ -30,29 +51,45 @@ const fn armed(arms: fn([f64; 2]) -> Option<[f64; 2]>) -> Variant {
     Variant { arms, ..RIGHT }
 }
 
+const fn flowing(parts: fn(&Matrix3<f64>) -> [Matrix3<f64>; 2]) -> Variant {
+    Variant { parts, ..RIGHT }
+}
+
+fn parts(l: &Matrix3<f64>) -> [Matrix3<f64>; 2] {
+    (RIGHT.parts)(l)
+}
+
+fn printed(at: [f64; 2], rate: &nalgebra::Vector3<f64>) -> [f64; 2] {
+    let ([around, across], theta) = (within(at, rate), at[1]);
+    [around, across * theta.sin() - rate.z * theta.cos()]
+}
+
+/// The names from which on a mistake is one of angles, not of ṗ′.
+const OF_ANGLES: usize = 26;
+
 /// The mistakes whose answers are nearer than `nearer_than`, each with its distance.
 pub(super) fn near(loaded: &LoadedProblem, answer: &Answer, nearer_than: f64) -> Vec<Near> {
     let Some(inputs) = &loaded.inputs else {
         return Vec::new();
     };
     let (gradient, step_s) = (loaded.problem.gradient(), loaded.problem.time_step_s);
-    let of_mistake = |(name, variant): &(&str, Variant)| {
+    let off = |variant: &Variant, order: [usize; 2]| {
         let mut largest: f64 = 0.0;
         for (values, pair) in answer.rows.iter().zip(&inputs.rows) {
             let half = values.len() / 2;
-            for (k, expected) in answers(&gradient, &pair[1..], step_s, *variant).iter().enumerate() {
+            for (k, expected) in order.into_iter().zip(answers(&gradient, &pair[1..], step_s, *variant)) {
                 let found = values.get(k * half..(k + 1) * half)?;
                 let square = |of: &dyn Fn(usize) -> f64| (0..half).map(|i| of(i).powi(2)).sum::<f64>();
                 let off = square(&|i| found[i] - expected[i]) / square(&|i| expected[i]);
                 largest = largest.max(if off.is_nan() { f64::INFINITY } else { off.sqrt() });
             }
         }
-        Some(Near::new(largest, name))
+        Some(largest)
     };
-    // A.13 concerns the angles only, not ṗ′.
-    let applies = |(_, variant): &&(&str, Variant)| !variant.printed || step_s.is_some();
-    let near = MISTAKES.iter().filter(applies).filter_map(of_mistake);
-    near.filter(|near| near.distance <= nearer_than).collect()
+    let known = if step_s.is_some() { &MISTAKES[..] } else { &MISTAKES[..OF_ANGLES] };
+    let near = known.iter().filter_map(|(name, variant)| Some(Near::new(off(variant, [0, 1])?, name)));
+    let exchanged = off(&RIGHT, [1, 0]).map(|distance| Near::new(distance, "the rods a and b exchanged in the answer"));
+    near.chain(exchanged).filter(|near| near.distance <= nearer_than).collect()
 }
 
 #[cfg(test)]
@@ -78,11 +115,9 @@ mod tests {
                 assert!(near.iter().all(|near| near.distance < 1e-14), "{near:?}");
                 near.into_iter().map(|near| near.name).collect::<Vec<_>>()
             };
-            for (mistake, variant) in MISTAKES {
-                // Without Δt there are no angles.
-                if !variant.printed || step_s.is_some() {
-                    assert_eq!(named(variant), [mistake], "{name}");
-                }
+            let known = if step_s.is_some() { MISTAKES.len() } else { OF_ANGLES };
+            for (mistake, variant) in &MISTAKES[..known] {
+                assert_eq!(named(*variant), [*mistake], "{name}");
             }
             assert_eq!(named(RIGHT), [""; 0], "{name}");
             assert!(compare(&loaded, &answer(RIGHT)).error <= loaded.problem.tolerance, "{name}");

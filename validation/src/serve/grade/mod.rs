@@ -30,6 +30,7 @@ pub use files::{Claim, Options, grade, grade_one};
 pub use html::html;
 pub use lammps::DumpOptions;
 pub use layout::{FileOptions, Foreign};
+pub use nearness::LAID_OUT;
 pub use order::{Order, remark, settle};
 pub use overall::overall;
 pub use report::{Report, json, junit, markdown, terminal};

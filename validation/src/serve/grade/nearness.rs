@@ -11,6 +11,9 @@ pub(super) const NEARER: f64 = 1e-3;
 /// What a wrong answer in time is.
 pub(super) const CURVE: &str = "this is the curve";
 
+/// How the names of other orders of axes begin.
+pub const LAID_OUT: &str = "axes in the order ";
+
 /// Above this number of names none is reported: most mistakes share a curve that has come to rest.
 const MOST_NAMES: usize = 5;
 
@@ -70,6 +73,8 @@ pub(super) fn said(what: &str, mut near: Vec<Near>, tolerance: f64, rest: &str) 
     // Plane Couette flow is its own mirror image in axis 3: reversals in the start and in the answer are the same.
     let found: Vec<_> = near.iter().map(|near| near.name.clone()).collect();
     near.retain(|near| !near.name.strip_suffix(IN_THE_START).is_some_and(|name| found.iter().any(|own| own == name)));
+    // A mistake is likelier than other axes.
+    near.sort_by_key(|near| near.name.starts_with(LAID_OUT));
     let names: Vec<_> = near.iter().map(|near| near.name.as_str()).collect();
     let advice = near[0].advice;
     let shared = !advice.is_empty() && near.iter().all(|near| near.advice == advice);

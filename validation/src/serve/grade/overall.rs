@@ -15,13 +15,13 @@ const MOST_NAMES: usize = 3;
 pub fn overall(problems: &[LoadedProblem], graded: &mut [Graded]) -> Vec<String> {
     let found = findings(problems, graded);
     for Finding { names, of, instead, .. } in &found {
-        let alone = format!(" of {}, to ", names.join(" or of "));
         for graded in graded.iter_mut().filter(|graded| of.contains(&graded.name)) {
             if names.iter().all(|name| !graded.is_called(name)) {
                 graded.diagnosis = graded.diagnosis.as_ref().map(|_| instead.clone());
             }
-            graded.is_said_over_all =
-                graded.diagnosis.as_ref().is_some_and(|said| said == instead || said.contains(&alone));
+            // Two changes are more than the one over all.
+            let has_two = |said: &String| [", with ", ", in "].iter().any(|second| said.contains(second));
+            graded.is_said_over_all = graded.diagnosis.as_ref().is_some_and(|said| !has_two(said));
         }
     }
     found.into_iter().map(|finding| finding.said).collect()

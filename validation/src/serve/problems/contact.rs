@@ -18,7 +18,7 @@ pub(crate) const LENGTH_MM: f64 = 0.72;
 const ASPECT_RATIO: f64 = 11.6;
 
 pub use certified::certify;
-pub(crate) use doubles::{Variant, answers};
+pub(crate) use doubles::{RIGHT, Variant, answers, within};
 
 /// The pair of a row of `inputs.csv`, without its number: centre, axis and r_e of a, then of b.
 type Pair = [f64; 14];
