@@ -89,7 +89,7 @@ fn axes(args: &Args, report: &Report) -> Option<String> {
     let all =
         if report.diagnosis.is_empty() { of_problems.collect() } else { report.diagnosis.iter().collect::<Vec<_>>() };
     let after = all.iter().find_map(|said| said.split_once(grade::LAID_OUT)).filter(|_| args.axes == Axes::default());
-    let axes = after?.1.split(|c: char| c != ',' && !c.is_ascii_lowercase()).next()?;
+    let axes = after?.1.split(|c: char| c != ',' && !c.is_ascii_lowercase()).next()?.trim_end_matches(',');
     Some(format!("if these are your axes: --axes {axes}"))
 }
 
