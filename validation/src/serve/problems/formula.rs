@@ -263,9 +263,9 @@ impl FormulaProblem {
 }
 
 /// The rate of every model.
-pub(super) const RATE: &str = "da/dt = Wa − aW + Λ(Da + aD − 2𝔸:D) + γ̇[2C − 2 tr(C) a − 5(Ca + aC) + 10𝔸:C], γ̇ = (2D:D)^½; with \
-    κ, 𝔸 becomes 𝔸 + (1 − κ)(𝕃 − 𝕄:𝔸), and the first two terms of diffusion become 2[C − (1 − κ)𝕄:C] − 2κ tr(C) a, 𝕃 = \
-    Σλ_i e_i e_i e_i e_i, 𝕄 = Σ e_i e_i e_i e_i over the axes of a: Phelps & Tucker 2009, J. \
+pub(super) const RATE: &str = "da/dt = Wa − aW + Λ(Da + aD − 2𝔸:D) + γ̇[2C − 2 tr(C) a − 5(Ca + aC) + 10𝔸:C], γ̇ = \
+    (2D:D)^½; with κ, 𝔸 becomes 𝔸 + (1 − κ)(𝕃 − 𝕄:𝔸), and the first two terms of diffusion become 2[C − (1 − κ)𝕄:C] − \
+    2κ tr(C) a, 𝕃 = Σλ_i e_i e_i e_i e_i, 𝕄 = Σ e_i e_i e_i e_i over the axes of a: Phelps & Tucker 2009, J. \
     Non-Newton. Fluid Mech. 156, 165";
 
 #[cfg(test)]
