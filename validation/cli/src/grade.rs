@@ -88,8 +88,11 @@ fn axes(args: &Args, report: &Report) -> Option<String> {
     let of_problems = report.problems.iter().filter_map(|graded| graded.diagnosis.as_ref());
     let all =
         if report.diagnosis.is_empty() { of_problems.collect() } else { report.diagnosis.iter().collect::<Vec<_>>() };
-    let after = all.iter().find_map(|said| said.split_once(grade::LAID_OUT)).filter(|_| args.axes == Axes::default());
-    let axes = after?.1.split(|c: char| c != ',' && !c.is_ascii_lowercase()).next()?.trim_end_matches(',');
+    let after = all.iter().find_map(|said| said.split_once(grade::LAID_OUT))?;
+    if args.axes != Axes::default() {
+        return Some("--axes was given: grade without it if the answers are in the problem's own axes".to_owned());
+    }
+    let axes = after.1.split(|c: char| c != ',' && !c.is_ascii_lowercase()).next()?.trim_end_matches(',');
     Some(format!("if these are your axes: --axes {axes}"))
 }
 
@@ -256,7 +259,6 @@ fn asked(args: &Args, reference: Option<&Path>) -> Result<Vec<LoadedProblem>, Fa
     all.retain(is_wanted);
     let wanted = chosen(args, all)?;
     let tables = wanted.iter().find(|loaded| loaded.problem.kind != Kind::Rods);
-    let formulas = wanted.iter().any(|loaded| loaded.problem.kind == Kind::Formula);
     let refused = match wanted.iter().find(|loaded| !live::can_be_asked(&loaded.problem)) {
         Some(loaded) => {
             Some((loaded, "a program that runs is not asked about it; answers go into files (grade REF MINE)"))
@@ -267,10 +269,6 @@ fn asked(args: &Args, reference: Option<&Path>) -> Result<Vec<LoadedProblem>, Fa
     };
     match refused {
         Some((loaded, why)) => Err(Failure::Input(format!("--problem {}: {why}", loaded.problem.name))),
-        None if formulas && args.axes != Axes::default() => Err(Failure::Input(
-            "--axes: with --command it is for rods and curves of tensors; formulas hold in any axes: grade them without it"
-                .to_owned(),
-        )),
         None => Ok(wanted),
     }
 }

@@ -37,7 +37,7 @@ const fn mistake(name: &'static str, advice: &'static str, change: fn(Parts) -> 
 }
 
 /// Every known mistake in the parts of the rate.
-pub const MISTAKES: [Mistake; 68] = [
+pub const MISTAKES: [Mistake; 71] = [
     mistake("a transposed gradient", L, |p| Some(Parts { spin: -p.spin, ..p })),
     mistake("the flow reversed (L with the wrong sign, or time backwards)", L, |p| {
         Some(Parts { spin: -p.spin, strain: -p.strain, ..p })
@@ -47,6 +47,9 @@ pub const MISTAKES: [Mistake; 68] = [
     mistake("D without its ½", L, |p| Some(scaled(p, 1.0, 2.0, 2.0))),
     mistake("D without its ½, with the right γ̇", L, |p| Some(scaled(p, 1.0, 2.0, 1.0))),
     mistake("D halved twice", L, |p| Some(scaled(p, 1.0, 0.5, 0.5))),
+    mistake("da/dγ for da/dt (every rate over γ̇)", L, |p| {
+        Some(scaled(p, 1.0 / p.speed, 1.0 / p.speed, 1.0 / p.speed))
+    }),
     mistake("D_12, D_13 and D_23 without their ½ (engineering shear)", L, |p| {
         Some(sheared(p, speed_of(&doubled(&p))))
     }),
@@ -89,6 +92,7 @@ pub const MISTAKES: [Mistake; 68] = [
         let square = 2.0 * p.strain.lower_triangle().norm_squared();
         Some(Parts { speed: square.sqrt(), ..p })
     }),
+    mistake("the largest |L_ij| for γ̇", SPEED, |p| Some(Parts { speed: gradient(&p).amax(), ..p })),
     mistake("γ̇ left out", SPEED, |p| Some(Parts { speed: 1.0, ..p })),
     mistake("half the C_I (C_I γ̇ (δ − 3a), without the 2)", SPREAD, |p| spread(p, 0.5)),
     mistake("twice the C_I", SPREAD, |p| spread(p, 2.0)),
@@ -102,6 +106,12 @@ pub const MISTAKES: [Mistake; 68] = [
     mistake("κ left out", RSC, |p| slowed(p, |_| 1.0)),
     mistake("κ missing at the diffusion", RSC, |p| match p.model {
         Model::Rsc { kappa, .. } => Some(Parts { speed: p.speed / kappa, ..p }),
+        _ => None,
+    }),
+    mistake("κ before every rate (SRF for RSC)", RSC, |p| match p.model {
+        Model::Rsc { c_i, kappa } => {
+            Some(Parts { model: Model::FolgarTucker { c_i }, ..scaled(p, kappa, kappa, kappa) })
+        }
         _ => None,
     }),
     mistake("C_M D²/γ̇² without its 4", IARD, |p| anisotropic(p, 0.25)),

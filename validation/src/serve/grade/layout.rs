@@ -98,7 +98,9 @@ impl Layout {
         if names.len() != header.len() {
             return Err((0, format!("{} fields where {} columns are named", header.len(), names.len())));
         }
-        Ok(Self { separator, fields: fields(&names, problem, options.axes)?, first_is_row })
+        // A formula holds in any axes, and its rows are asked for in these.
+        let axes = if problem.kind == Kind::Formula { Axes::default() } else { options.axes };
+        Ok(Self { separator, fields: fields(&names, problem, axes)?, first_is_row })
     }
 
     /// The fields of a row.

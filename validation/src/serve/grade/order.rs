@@ -23,7 +23,7 @@ const FOLLOWS: f64 = 0.1;
 
 /// The share of a problem's own tolerance below which differences of errors are round-off. Between that and the
 /// tolerance, a correct code may have reached its round-off.
-const ROUND_OFF: f64 = 0.01;
+pub(super) const ROUND_OFF: f64 = 0.01;
 
 /// Errors that fall with a higher order than this are the method's, not round-off.
 const NO_ROUND_OFF: f64 = 1.5;
@@ -267,7 +267,7 @@ pub fn remark(graded: &[Graded], claimed: Option<f64>) -> Option<String> {
 /// True if all rods lie in the shear plane: they have only a phase, whose error is of one order more for a linear
 /// method.
 fn in_the_shear_plane(loaded: &LoadedProblem) -> bool {
-    loaded.start.iter().all(|p| p[2] == 0.0)
+    loaded.problem.kind == Kind::Rods && loaded.start.iter().all(|p| p[2] == 0.0)
 }
 
 #[cfg(test)]

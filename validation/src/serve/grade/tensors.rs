@@ -268,6 +268,7 @@ pub(super) fn diagnose(loaded: &LoadedProblem, answer: &Answer, error: f64, step
     }
     if near.is_empty() && !problem.is_steady() {
         near = estimate::of_curve(problem, answer, &known, steps, most);
+        near.extend(from_isotropic(problem, answer, &known, most));
         near.extend(steps.and_then(|steps| estimate::a_step_off(problem, answer, &known, steps, most)));
     }
     let cost = match problem.closed {
@@ -275,6 +276,13 @@ pub(super) fn diagnose(loaded: &LoadedProblem, answer: &Answer, error: f64, step
         None => format!("; it costs {}", cost(loaded, answer)),
     };
     said(CURVE, near, problem.tolerance, &cost)
+}
+
+/// The right equation from random rods, where the start is another.
+fn from_isotropic(problem: &Problem, answer: &Answer, known: &Known, most: f64) -> Option<Near> {
+    let own = Candidate::new(known.parts, CLOSURES[known.own?], Vec::new());
+    let distance = distance(problem, &answer.rows, &isotropic(), &own, most)?;
+    Some(Near::new(distance, "a_ij(0) = δ_ij/3, the start left out"))
 }
 
 /// How far the certified answer is from that of a code with this mistake, or in this layout; `None` if the mistake is

@@ -15,7 +15,11 @@ pub(super) fn remark(loaded: &LoadedProblem, answer: &Answer, row: usize) -> Opt
     let begins = |with: &[&str]| with.iter().zip(names).filter(|(due, name)| *due == name).count() == with.len();
     let input = loaded.inputs.as_ref().map(|inputs| &inputs.rows[row][1..]);
     match input {
-        _ if begins(&["a11", "a22", "a33"]) => of_second(answer, row),
+        _ if begins(&["a11", "a22", "a33"]) => of_second(answer, row).or_else(|| {
+            // A program that has ended early writes on what it has.
+            let stays = row > 0 && answer.rows[row] == answer.rows[row - 1];
+            stays.then(|| "all numbers are those of the row before".to_owned())
+        }),
         _ if begins(&["dadt11_per_s", "dadt22_per_s", "dadt33_per_s"]) => of_rate(&answer.rows[row]),
         Some(a) if begins(&["a1111", "a1122", "a1133", "a1112"]) => of_fourth(&answer.rows[row], a),
         _ => None,

@@ -42,7 +42,7 @@ const fn mixed(name: &'static str, closure: Closure) -> ClosureProblem {
     ClosureProblem { name, gradient_per_s: ASKEW, aspect_ratio: 5.0, closed, times: TIMES }
 }
 
-const PROBLEMS: [ClosureProblem; 17] = [
+const PROBLEMS: [ClosureProblem; 18] = [
     ft("closed-ft-linear-0.1", Closure::Linear, 0.1),
     ft("closed-ft-quadratic-0.01", Closure::Quadratic, 0.01),
     ft("closed-ft-hybrid-0.01", Closure::Hybrid, 0.01),
@@ -61,6 +61,7 @@ const PROBLEMS: [ClosureProblem; 17] = [
     mixed("closed-ft-quadratic-mixed", Closure::Quadratic),
     mixed("closed-ft-hybrid-mixed", Closure::Hybrid),
     ClosureProblem { gradient_per_s: ASKEW, aspect_ratio: 3.0, ..ft("closed-ft-ibof-mixed", Closure::Ibof, 0.02) },
+    shear("closed-rsc-hybrid-0.02", Closure::Hybrid, Model::Rsc { c_i: 0.02, kappa: 0.2 }, APART),
     shear("closed-rsc-ore-0.01", Closure::Ore, Model::Rsc { c_i: 0.01, kappa: 0.1 }, APART),
     // The parameters of the other settings are published: see `published/README.md` and fiberoripy's comparison in
     // perfect shear.

@@ -121,10 +121,15 @@ static PROBLEMS: LazyLock<Vec<FormulaProblem>> = LazyLock::new(|| {
         inputs: inputs::of_tensors,
     });
     let c_i = 0.01;
-    let mut rates = Closure::ALL.map(|closure| ("ft", closure, Model::FolgarTucker { c_i })).to_vec();
+    // A code with numbers of its own must not pass.
+    let c_is = [0.02, 0.01, 0.005, 0.03, 0.04, 0.01, 0.002];
+    let mut rates: Vec<_> =
+        Closure::ALL.into_iter().zip(c_is).map(|(closure, c_i)| ("ft", closure, Model::FolgarTucker { c_i })).collect();
     rates.extend([
+        ("rsc", Closure::Quadratic, Model::Rsc { c_i: 0.02, kappa: 0.3 }),
+        ("rsc", Closure::Hybrid, Model::Rsc { c_i: 0.005, kappa: 0.1 }),
         ("rsc", Closure::Ibof, Model::Rsc { c_i, kappa: 0.2 }),
-        ("rsc", Closure::Orw, Model::Rsc { c_i, kappa: 0.2 }),
+        ("rsc", Closure::Orw, Model::Rsc { c_i: 0.03, kappa: 0.05 }),
         ("iard", Closure::Ibof, Model::Iard { c_i, c_m: 0.9 }),
         ("pard", Closure::Ibof, Model::Pard { c_i, omega: 0.75 }),
         ("mrd", Closure::Ibof, Model::Mrd { c_i, d: [1.0, 0.5, 0.25] }),

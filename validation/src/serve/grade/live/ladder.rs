@@ -214,7 +214,12 @@ fn climbed(
             // Of directions there is no worst component.
             let finite = finite.filter(|_| problem.problem.metric == Metric::Absolute);
             let worst = finite.map(|finest| place(problem, &finest.answer, finest.compared.row));
-            let all = std::iter::once(why(&graded, rungs.last(), words)).chain(worst).chain(digits());
+            // Few digits are the reason why errors end.
+            let few = digits();
+            let words = if few.is_some() { String::new() } else { words };
+            let remark = rungs.last().and_then(|finest| finest.compared.remark.clone());
+            let remark = remark.filter(|_| finite.is_some());
+            let all = std::iter::once(why(&graded, rungs.last(), words)).chain(remark).chain(worst).chain(few);
             Some(all.collect::<Vec<_>>().join("; "))
         }
     };
@@ -275,5 +280,6 @@ fn why(graded: &Graded, finest: Option<&Rung>, words: String) -> String {
         }
         _ => format!("with {setting} it is off by {error:.1e}"),
     };
-    [Some(said), graded.steps_needed(), Some(words)].into_iter().flatten().collect::<Vec<_>>().join("; ")
+    let words = Some(words).filter(|words| !words.is_empty());
+    [Some(said), graded.steps_needed(), words].into_iter().flatten().collect::<Vec<_>>().join("; ")
 }

@@ -1,8 +1,8 @@
 //! A number that is off by an unknown factor: C_I, Λ, or time.
 
 use super::{Candidate, Known, Near, STEP, distance, near_of};
-use crate::methods::tensors::Parts;
 use crate::methods::tensors::wrong::{CLOSURES, scaled, shaped, spread};
+use crate::methods::tensors::{Model, Parts};
 use crate::serve::grade::answer::Answer;
 use crate::serve::grade::diagnosis::{STEPS_OFF, step_off};
 use crate::serve::grade::estimate::digits;
@@ -18,17 +18,29 @@ pub(super) const QUANTITIES: [Quantity; 3] = [
     (TIME, |parts, factor| Some(scaled(parts, factor, factor, factor))),
 ];
 
-const TIME: &str = "every rate (or time)";
+const TIME: &str = "every rate (or time, or the sum of a method's weights)";
 
 /// The step of the slope, and the number of steps of Newton's method.
 const SLOPE: f64 = 1e-6;
 const STEPS: usize = 12;
 
 /// The words for a quantity that is `factor` times what is asked, with as many digits as tell the factor from 1.
-pub(super) fn words(quantity: &str, factor: f64) -> String {
+fn words(quantity: &str, factor: f64) -> String {
     let words = format!("{quantity} times {}", digits(factor, 4));
     // Rounding one number to single precision changes it by half of this.
     if (factor - 1.0).abs() <= f64::from(f32::EPSILON) { format!("{words} (single precision?)") } else { words }
+}
+
+/// A quantity that is `factor` times what is asked, with the value of C_I in the name: other problems share the factor.
+pub(super) fn near(quantity: &str, factor: f64, model: Model, closure: usize, own: Option<usize>) -> Near {
+    let words = words(quantity, factor);
+    let c_i = match model {
+        Model::PhelpsTucker { .. } => None,
+        model => model.parameters().first().copied().filter(|_| quantity == "C_I"),
+    };
+    let near = near_of(&words, "", closure, own);
+    let shown = c_i.map_or_else(|| words.clone(), |c_i| format!("{words} ({:.4} for {c_i})", factor * c_i));
+    Near { name: near.name.replacen(&words, &shown, 1), ..near }
 }
 
 /// The curves of equations with another C_I or Λ, found at the first time, that fit at all times.
@@ -41,8 +53,11 @@ pub(super) fn of_curve(problem: &Problem, answer: &Answer, known: &Known, steps:
         let factor = newton(&answer.rows[0], row)?;
         let distance = distance(problem, &answer.rows, &known.start, &with(factor)?, most)?;
         let of_step = steps.filter(|_| name == TIME).and_then(|steps| step_off(factor, steps));
-        let words = of_step.map_or_else(|| words(&name, factor), str::to_owned);
-        Some(Near { distance, ..near_of(&words, "", *closure, known.own) })
+        let near = match of_step {
+            Some(name) => near_of(name, "", *closure, known.own),
+            None => near(&name, factor, known.parts.model, *closure, known.own),
+        };
+        Some(Near { distance, ..near })
     };
     all.par_iter().filter_map(fit).collect()
 }
@@ -107,7 +122,7 @@ fn a_step_too_few_or_too_many_is_named() {
     assert!(many.contains(STEPS_OFF[1]), "{many}");
     // Another share of a step is a rate and nothing else.
     let half = said(curve(&|time_s| time_s * 159.5 / 160.0));
-    assert!(half.contains("every rate (or time) times 0.99687,"), "{half}");
+    assert!(half.contains("weights) times 0.99687,"), "{half}");
 }
 
 #[test]
@@ -115,4 +130,7 @@ fn a_factor_has_the_digits_that_tell_it_from_1() {
     assert_eq!(words("C_I", 0.73), "C_I times 0.7300");
     assert_eq!(words("Λ", 1.000_012), "Λ times 1.0000120");
     assert_eq!(words("C_I", f64::from(0.01f32) / 0.01), "C_I times 0.9999999776 (single precision?)");
+    let near = near("C_I", 0.73, Model::FolgarTucker { c_i: 0.1 }, 1, Some(0));
+    assert_eq!(near.name, "C_I times 0.7300 (0.0730 for 0.1), with the quadratic closure");
+    assert_eq!(near.suspect, "C_I times 0.7300");
 }

@@ -1,6 +1,6 @@
 //! Diagnosis of answers to formulas, row by row: the same mistakes as in curves, without an integration.
 
-use super::estimate::{QUANTITIES, Quantity, words};
+use super::estimate::{self, QUANTITIES, Quantity};
 use super::{CLOSURES, Near, Stand, apart, index, near_of};
 use crate::methods::tensors::fourth::PAIRS;
 use crate::methods::tensors::wrong::{MISTAKES, Mistake};
@@ -20,6 +20,11 @@ pub(in crate::serve::grade) fn diagnose(loaded: &LoadedProblem, answer: &Answer,
         return Diagnosis::default();
     };
     let mut near = super::in_other_layouts(&[super::certified(loaded)], answer, most);
+    // a_ij in another order is another question.
+    let voigt = |row: &Vec<f64>| [&[0, 1, 2, 5, 4, 3].map(|k| row[k])[..], &row[6..]].concat();
+    if let Some(found) = right(formula, &rows.iter().map(voigt).collect()) {
+        near.extend(within(Near::new(0.0, "a_ij read in Voigt's order 11, 22, 33, 23, 13, 12"), answer, &found, most));
+    }
     near.extend(match *formula {
         Formula::Pdot => of_rods(&rows, answer, most),
         Formula::Closure { closure } => of_closures(&rows, answer, closure, most),
@@ -47,6 +52,20 @@ pub(in crate::serve::grade) fn off(loaded: &LoadedProblem, name: &str) -> Option
 /// The rows that are asked about, without their numbers.
 fn inputs(loaded: &LoadedProblem) -> Option<Rows> {
     Some(loaded.inputs.as_ref()?.rows.iter().map(|row| row[1..].to_vec()).collect())
+}
+
+/// The right values of a formula of a_ij.
+fn right(formula: &Formula, rows: &Rows) -> Option<Rows> {
+    match *formula {
+        Formula::Pdot => None,
+        Formula::Closure { closure } => {
+            Some(rows.iter().map(|row| components(&closure.fourth(&tensor(row)))).collect())
+        }
+        Formula::Dadt { closure, model } => {
+            let parts = parts_of(rows, closure, model);
+            Some(rates(rows, &parts, &fourths(rows, &CLOSURES[index(closure)?])))
+        }
+    }
 }
 
 fn within(near: Near, answer: &Answer, rows: &Rows, most: f64) -> Option<Near> {
@@ -116,7 +135,7 @@ fn of_rates(rows: &Rows, answer: &Answer, closure: Closure, model: Model, most: 
         let along: f64 = pairs().map(|((one, two), found)| (two - one) * (found - one)).sum();
         let square: f64 = pairs().map(|((one, two), _)| (two - one).powi(2)).sum();
         let factor = 1.0 + along / square;
-        within(near_of(&words(name, factor), "", k, own), answer, &rates(&scaled(factor)?, k), most)
+        within(estimate::near(name, factor, model, k, own), answer, &rates(&scaled(factor)?, k), most)
     };
     QUANTITIES.iter().flat_map(|quantity| (0..CLOSURES.len()).map(move |k| (quantity, k))).filter_map(of).collect()
 }

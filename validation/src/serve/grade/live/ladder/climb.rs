@@ -6,7 +6,7 @@ use crate::methods::integrators::Setting;
 use crate::serve::grade::answer::Answer;
 use crate::serve::grade::compare::compare;
 use crate::serve::grade::live::program::Asked;
-use crate::serve::grade::order::{Order, orders};
+use crate::serve::grade::order::{Order, ROUND_OFF, orders};
 use crate::serve::problems::{Kind, LoadedProblem, Metric};
 use std::time::{Duration, Instant};
 
@@ -108,9 +108,14 @@ pub(super) fn climb(
         let confirms = !arrived && within(&rungs, tolerance);
         let starts = rungs.len() == 1 && !confirms;
         if !starts && !affordable(spent, took, timeout, confirms) {
-            let seconds = spent.as_secs_f64();
-            let why = if arrived { "the order is not clear yet, and finer ones" } else { "finer ones" };
-            let words = format!("{why} would take too long (--timeout): {seconds:.1} s so far");
+            if arrived {
+                return (rungs, End::Reached);
+            }
+            if let Some(words) = no_longer_falls(&rungs, smooth) {
+                return (rungs, End::Wrong(words.to_owned()));
+            }
+            let (seconds, limit) = (spent.as_secs_f64(), timeout.as_secs_f64());
+            let words = format!("finer ones would take longer than --timeout {limit}: {seconds:.1} s after the first");
             return (rungs, End::OutOfTime(words));
         }
     }
@@ -163,7 +168,8 @@ pub(super) fn hopeless(rungs: &[Rung], tolerance: f64, timeout: Duration, smooth
     let changes = changes.map(|(coarse, fine)| coarse.answer.largest_change(&fine.answer));
     // A method that follows the motion, with any order above 0.02, changes by more than a hundredth of its error.
     let still = if errors[3] < FOLLOWED || smooth { 0.01 * errors[3] } else { 0.01 * tolerance };
-    if changes == [0.0; 3] && matches!(last.setting, Setting::Steps(_)) && errors[3] > tolerance {
+    let same = |rung: &Rung| rung.answer.largest_change(&last.answer) == 0.0;
+    if matches!(last.setting, Setting::Steps(_)) && errors[3] > tolerance && rungs.iter().all(same) {
         let words = "the program ignores \"steps\": the answers are the same to the last digit. If it chooses its own, \
             let it answer \"error\" to \"steps\", and it is asked by \"tolerance\"";
         return Some(End::Wrong(words.to_owned()));
@@ -180,7 +186,19 @@ pub(super) fn hopeless(rungs: &[Rung], tolerance: f64, timeout: Duration, smooth
     let more = (errors[3] / tolerance).powf(1.0 / order);
     let needed_s = last.took.as_secs_f64() * more;
     (doubles && needed_s > 4.0 * timeout.as_secs_f64())
-        .then(|| End::OutOfTime(format!("those would take some {needed_s:.0e} s, which --timeout does not allow")))
+        .then(|| End::OutOfTime(format!("finer ones would take some {needed_s:.0e} s, which --timeout does not allow")))
+}
+
+/// A message if the errors of the last four settings do not fall any more, with steps that are short.
+fn no_longer_falls(rungs: &[Rung], smooth: bool) -> Option<&'static str> {
+    let coarse = if smooth { RESOLVING_TENSORS } else { RESOLVING };
+    let last = rungs.get(coarse..)?.last_chunk::<4>()?.each_ref().map(Rung::error);
+    let least = last[..3].iter().copied().fold(f64::INFINITY, f64::min);
+    if last[3] > 2.0 * last[0] && last[3] >= last[2] {
+        Some("the error grows with the steps, as rounding does")
+    } else {
+        (last[3] >= 0.9 * least).then_some("the error no longer falls with the steps")
+    }
 }
 
 /// True if the last five answers converge to another answer than the certified one: the changes between them shrink
@@ -223,8 +241,11 @@ pub(super) fn converges(problem: &LoadedProblem, rungs: &[Rung]) -> Option<Strin
     };
     let with = |rows: Vec<Vec<f64>>| Answer { rows, ..last[3].answer.clone() };
     let [before, best] = [with(extrapolated(&last[1], &last[2])), with(extrapolated(&last[2], &last[3]))];
-    let (error, uncertainty, left) = (compare(problem, &best).error, best.largest_change(&before), last[3].error());
-    (left < FOLLOWED && uncertainty <= SHARE * left && error <= uncertainty).then(|| {
+    let (error, left) = (compare(problem, &best).error, last[3].error());
+    // The next term of the error falls faster than the first.
+    let uncertainty = best.largest_change(&before) / (order.exp2() - 1.0);
+    let rounding = ROUND_OFF * problem.tolerances()[0];
+    (left < FOLLOWED && uncertainty <= SHARE * left && error <= uncertainty + rounding).then(|| {
         format!(
             "converges to the certified answer at order {order:.2}: with {} it is off by {left:.1e}, and extrapolated \
              by {error:.0e} (uncertainty {uncertainty:.0e})",

@@ -200,7 +200,8 @@ fn an_order_is_no_answer_and_one_that_is_unclear_is_asked_on_to_round_off() {
 #[test]
 fn what_would_take_too_long_is_not_asked_unless_it_confirms() {
     let end = |error: f64, seconds: f64| climbed_in(Mode::Steps, None, |_| (error, seconds)).2;
-    assert!(matches!(end(0.5, 16.0), End::OutOfTime(words) if words.contains("finer ones would take too long")));
+    let limit = "finer ones would take longer than --timeout 60: ";
+    assert!(matches!(end(0.5, 16.0), End::OutOfTime(words) if words.contains(limit)));
     // The first answer may hold the program's start.
     let starts = |k: i32| if k == 0 { (0.5, 59.0) } else { (0.5 * 16f64.powi(-k), 0.0) };
     assert_eq!(climbed_in(Mode::Steps, None, starts).2, End::Reached);
