@@ -249,12 +249,13 @@ pub fn remark(graded: &[Graded], claimed: Option<f64>) -> Option<String> {
     let unclear = found(Order::Unclear).into_iter().filter(|graded| graded.verdict == Verdict::Pass);
     let unclear: Vec<&str> = unclear.map(|graded| graded.name.as_str()).collect();
     let answered = |graded: &&Graded| graded.verdict != Verdict::Missing && graded.kind != Kind::Formula;
-    let (own, given): (Vec<_>, Vec<_>) =
-        graded.iter().filter(answered).partition(|graded| graded.asked_tolerance.is_some());
-    let answered = given.len();
+    let (of_steps, others): (Vec<_>, Vec<_>) =
+        graded.iter().filter(answered).partition(|graded| !graded.errors.is_empty());
+    let answered = of_steps.len();
     if answered == 0 {
-        let words = "no order is judged: the program chooses its own steps";
-        return (!own.is_empty()).then(|| words.to_owned());
+        let adaptive = others.first()?.asked_tolerance.is_some();
+        let why = if adaptive { "the program chooses its own steps" } else { "one answer shows none" };
+        return Some(format!("no order is judged: {why}"));
     }
     let mut said = format!("order {claimed} is seen on {} of {answered} problems", seen.len());
     if !unclear.is_empty() {

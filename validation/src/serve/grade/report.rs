@@ -179,6 +179,9 @@ fn lines(report: &Report) -> Vec<String> {
     lines
 }
 
+/// The largest number of problems without an answer that are named.
+const MOST_MISSING: usize = 12;
+
 /// The problems without an answer, in one line.
 pub(super) fn missing(report: &Report) -> Option<String> {
     let names: Vec<_> = (report.problems.iter())
@@ -190,7 +193,12 @@ pub(super) fn missing(report: &Report) -> Option<String> {
         (1, Some(note)) => format!("; {note}"),
         _ => String::new(),
     };
-    Some(format!("{} MISSING, no answer: {}{why}", names.len(), names.join(", ")))
+    let more = match names.len().checked_sub(MOST_MISSING) {
+        Some(more @ 1..) => format!(" and {more} more"),
+        _ => String::new(),
+    };
+    let shown = names[..names.len().min(MOST_MISSING)].join(", ");
+    Some(format!("{} MISSING, no answer: {shown}{more}{why}", names.len()))
 }
 
 /// The table of verdicts, then those of the studies.
