@@ -165,7 +165,7 @@ pub(super) fn fit(
     drawn: &[Coefficients],
 ) -> Result<Fit, String> {
     let measured = Measured { data, ranges: std::slice::from_ref(range), rods };
-    fitted(&measured, basis, &vec![(range.from, range.to)], drawn)
+    fitted(&measured, &vec![(range.from, range.to)], Emulator::new(basis, drawn))
 }
 
 struct Fitted {

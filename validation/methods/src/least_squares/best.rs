@@ -8,6 +8,9 @@ use super::scarce::{added, scatter_of_covariance};
 use nalgebra::DMatrix;
 use statrs::distribution::{ChiSquared, ContinuousCDF, FisherSnedecor};
 
+/// Index in [`Best::spread`] of the finite number of replicas behind V.
+pub const SCARCE: usize = CAUSES.len();
+
 /// The best-fitting place in a box, by generalised least squares. V is taken at the best place; the two are found by
 /// iteration.
 #[derive(Clone, Debug)]
@@ -49,7 +52,8 @@ impl Best {
         let share = |cause: usize| self.spread[cause].diagonal().component_div(&all);
         match cause {
             // Half of the last covariance corrects one that is too small.
-            REPLICAS => (share(REPLICAS) + share(CAUSES.len()) * 0.5).max(),
+            REPLICAS => (share(REPLICAS) + share(SCARCE) * 0.5).max(),
+            SCARCE => 0.5 * share(SCARCE).max(),
             cause => share(cause).max(),
         }
     }
@@ -160,7 +164,8 @@ pub fn best(data: &[Datum], emulator: &Emulator, rods: &Rods) -> Option<Best> {
     let influence = solver.solve(&weighted.transpose());
     let mut spread: Vec<_> = (causes.iter()).map(|cause| &influence * cause * influence.transpose()).collect();
     let of_replica = emulator.covariance_of_replica(&place);
-    let scatter = scatter_of_covariance(data, emulator.replicas(), &of_replica, &rods.over_measured, &projector);
+    let replicas = [emulator.replicas(), emulator.behind_covariance()];
+    let scatter = scatter_of_covariance(data, replicas, &of_replica, &rods.over_measured, &projector);
     let linear = sum(&spread);
     let hidden = added(&linear, &(&influence * &scatter * influence.transpose()));
     spread.push(hidden.unwrap_or_else(|| linear * UNKNOWN));

@@ -53,7 +53,7 @@ impl Direct {
     pub fn goodness(&self, data: &[Datum], rods: &Rods) -> Option<Goodness> {
         let [covariance, of_replica] = &self.covariance;
         let inverse = covariance.clone().cholesky()?.inverse();
-        let scatter = scatter_of_covariance(data, self.replicas, of_replica, &rods.over_measured, &inverse);
+        let scatter = scatter_of_covariance(data, [self.replicas; 2], of_replica, &rods.over_measured, &inverse);
         let excess = ((inverse * scatter).trace() / data.len() as f64).min(1.0);
         Some(Goodness { chi_square: self.chi_square, excess, freedom: data.len() })
     }

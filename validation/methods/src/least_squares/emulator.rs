@@ -89,6 +89,8 @@ pub struct Emulator {
     deviations: Vec<DMatrix<f64>>,
     /// Deviations of each replica itself at the inner nodes.
     inner: Vec<DMatrix<f64>>,
+    /// Deviations of replicas at one place alone, a row for each; empty if none ran.
+    alone: Vec<RowDVector<f64>>,
 }
 
 /// The coefficients of one replica: at a point's time, before and after; then its values at the inner nodes.
@@ -133,12 +135,29 @@ impl Emulator {
             let mean = mean(which);
             replicas.iter().map(|one| &one[which] - &mean).collect()
         };
-        Self { basis: basis.clone(), deviations: away(0), inner: away(3), mean: [mean(0), mean(1), mean(2)] }
+        let mean = [mean(0), mean(1), mean(2)];
+        Self { basis: basis.clone(), deviations: away(0), inner: away(3), mean, alone: Vec::new() }
+    }
+
+    /// The same with the covariance of a replica from these, which ran at one place alone: one run gives as much of it
+    /// as a run at every node.
+    #[must_use]
+    pub fn with_alone(self, replicas: &[Vec<Prediction>]) -> Self {
+        let row = |one: &Vec<Prediction>| RowDVector::from_iterator(one.len(), one.iter().map(|point| point[0]));
+        let rows: Vec<_> = replicas.iter().map(row).collect();
+        let zero = RowDVector::zeros(self.points());
+        let mean = rows.iter().fold(zero, |sum, row| sum + row) / rows.len().max(1) as f64;
+        Self { alone: rows.into_iter().map(|row| row - &mean).collect(), ..self }
     }
 
     /// Number of replicas.
     pub fn replicas(&self) -> usize {
         self.deviations.len()
+    }
+
+    /// Number of replicas behind the covariance of a replica.
+    pub fn behind_covariance(&self) -> usize {
+        if self.alone.is_empty() { self.replicas() } else { self.alone.len() }
     }
 
     /// Number of measured points.
@@ -205,9 +224,13 @@ impl Emulator {
         covariance(&rows.collect::<Vec<_>>()) / self.replicas() as f64
     }
 
-    /// The covariance of one replica's predictions, points × points, at the inner node nearest to `place`. A replica's
-    /// polynomial scatters less: it averages over nodes, between which collisions differ.
+    /// The covariance of one replica's predictions, points × points: of those that ran alone, else at the inner node
+    /// nearest to `place`. A replica's polynomial scatters less: it averages over nodes, between which collisions
+    /// differ.
     pub fn covariance_of_replica(&self, place: &[f64]) -> DMatrix<f64> {
+        if !self.alone.is_empty() {
+            return covariance(&self.alone);
+        }
         let far = |node: usize| -> f64 { self.basis.nodes[node].iter().zip(place).map(|(a, b)| (a - b).powi(2)).sum() };
         let inner = &self.basis.inner;
         let nearest = (0..inner.len()).min_by(|a, b| far(inner[*a]).total_cmp(&far(inner[*b]))).unwrap_or(0);

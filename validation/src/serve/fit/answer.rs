@@ -3,9 +3,8 @@
 use super::error::{FitError, ParameterError};
 use super::range::Range;
 use super::search::{FAR, Measured};
-use crate::methods::least_squares::basis::Basis;
 use crate::methods::least_squares::best::{Best, best};
-use crate::methods::least_squares::emulator::{Coefficients, Emulator, Sides};
+use crate::methods::least_squares::emulator::{Emulator, Sides};
 use crate::methods::least_squares::profile::{Interval, Profile, interval, profile, rise_of};
 use nalgebra::{DMatrix, DVector};
 
@@ -36,9 +35,8 @@ pub fn values(ranges: &[Range], sides: &Sides, place: &[f64]) -> Vec<f64> {
     ranges.iter().zip(sides).zip(place).map(one).collect()
 }
 
-/// The fit over the box `sides`, from the coefficients of its replicas.
-pub fn fitted(measured: &Measured<'_>, basis: &Basis, sides: &Sides, found: &[Coefficients]) -> Result<Fit, String> {
-    let emulator = Emulator::new(basis, found);
+/// The fit over the box `sides` with the model's emulator over it.
+pub fn fitted(measured: &Measured<'_>, sides: &Sides, emulator: Emulator) -> Result<Fit, String> {
     let best = best(measured.data, &emulator, measured.rods)
         .ok_or("the points say nothing about a parameter: no model value changes with it")?;
     Ok(Fit {

@@ -52,7 +52,7 @@ pub fn shift(
 ) -> Result<Shift, String> {
     let values = fit.values(&fit.best.place);
     let (own, changed) = (own(&values)?, changed(&values)?);
-    let replicas = (fit.emulator.replicas() as u64).min(MOST_REPLICAS);
+    let replicas = (fit.emulator.behind_covariance() as u64).min(MOST_REPLICAS);
     (watch.stage)(&format!("shift by {change}"));
     let moves: Vec<DVector<f64>> = watch.replicas(replicas, |replica| {
         let (before, after) = (own.run(replica)?, changed.run(replica)?);

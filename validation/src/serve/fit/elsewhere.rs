@@ -103,7 +103,7 @@ fn around_lowest(problem: &FitProblem<'_>, watch: &Watch<'_>) -> Result<Sides, F
 pub fn look_elsewhere(problem: &FitProblem<'_>, fit: &Fit, watch: &Watch<'_>) -> Result<Vec<Warning>, FitError> {
     let values = fit.values(&fit.best.place);
     (watch.stage)("best values");
-    let (own_rows, known) = at_best(problem, &values, fit.emulator.replicas() as u64, watch)?;
+    let (own_rows, known) = at_best(problem, &values, fit.emulator.behind_covariance() as u64, watch)?;
     let mut warnings = Vec::new();
     for (axis, range) in fit.ranges.iter().enumerate() {
         (watch.stage)(&format!("other minima along {}", range.label()));

@@ -52,7 +52,7 @@ pub fn best_curves(
     model: &Model<'_>,
     watch: &Watch<'_>,
 ) -> Result<Vec<(f64, f64)>, String> {
-    let replicas = (fit.emulator.replicas() as u64).min(MOST_REPLICAS);
+    let replicas = (fit.emulator.behind_covariance() as u64).min(MOST_REPLICAS);
     (watch.stage)("curves");
     let best = mean(model, &fit.values(&fit.best.place), replicas, watch)?;
     let mut variance: Vec<f64> = best.iter().map(|(_, square)| *square).collect();

@@ -8,7 +8,8 @@ use super::error::{FitError, ParameterError, Undescribed};
 use super::range::Range;
 use crate::methods::least_squares::Datum;
 use crate::methods::least_squares::basis::Basis;
-use crate::methods::least_squares::emulator::{Coefficients, Model, Sides, coefficients};
+use crate::methods::least_squares::best::SCARCE;
+use crate::methods::least_squares::emulator::{Coefficients, Emulator, Model, Prediction, Sides, coefficients};
 use crate::methods::least_squares::likelihood::{EMULATOR, REPLICAS, Rods};
 use crate::methods::least_squares::profile::{interval, rise_of};
 use rayon::prelude::*;
@@ -19,6 +20,10 @@ pub const FIRST_REPLICAS: u64 = 50;
 /// The largest share of a parameter's variance that may come from the model's own sampling error; above it replicas are
 /// added. At this share the interval is 5 % longer.
 pub const MOST_SHARE: f64 = 0.1;
+
+/// The part of that share which the covariance of few replicas may have: its replicas run at one place alone, the others
+/// at every node.
+const MOST_SCARCE: f64 = 0.03;
 
 /// The largest share of the points' apparent information that may be noise of the replicas before the box is reduced.
 const CLEAR: f64 = 0.2;
@@ -105,6 +110,8 @@ struct Search<'a> {
     /// The current box, and the coefficients of its replicas.
     sides: Sides,
     coefficients: Vec<Coefficients>,
+    /// Replicas at the best place alone, for the covariance of measured rods.
+    alone: Vec<Vec<Prediction>>,
     /// The number of replicas at each node that the next fit needs.
     replicas: u64,
     /// True once polynomials over a box that ends at [`FAR`] were too inaccurate.
@@ -116,6 +123,8 @@ struct Search<'a> {
 enum Next {
     /// More replicas, up to this number.
     Replicas(u64),
+    /// So many replicas at the best place alone.
+    Alone(u64),
     Box(Sides),
     Done,
 }
@@ -133,13 +142,15 @@ pub fn search(problem: &FitProblem<'_>, watch: &Watch<'_>) -> Result<Fit, FitErr
 pub(super) fn search_from(problem: &FitProblem<'_>, sides: Sides, watch: &Watch<'_>) -> Result<Fit, FitError> {
     let ranges = problem.measured.ranges;
     let whole = whole(ranges);
+    let first = FIRST_REPLICAS.min(problem.most_replicas);
     let mut search = Search {
         problem,
         basis: Basis::new(ranges.len()),
         sides,
         whole,
         coefficients: Vec::new(),
-        replicas: FIRST_REPLICAS.min(problem.most_replicas),
+        alone: Vec::new(),
+        replicas: first,
         near: false,
         runs: 0,
         rounds: 1,
@@ -148,9 +159,17 @@ pub(super) fn search_from(problem: &FitProblem<'_>, sides: Sides, watch: &Watch<
         let fit = search.run(watch)?;
         match search.next(&fit) {
             Next::Replicas(replicas) => search.replicas = replicas,
+            Next::Alone(replicas) => {
+                let model = (problem.model)(&fit.values(&fit.best.place))?;
+                search.alone = watch.replicas(replicas, |replica| model.run(replica))?;
+                search.runs += replicas;
+            }
             Next::Box(sides) => {
                 search.sides = sides;
                 search.coefficients.clear();
+                search.alone.clear();
+                // The replicas that the box before needed may be more than this one needs.
+                search.replicas = first;
                 search.rounds += 1;
             }
             Next::Done => {
@@ -172,7 +191,8 @@ impl Search<'_> {
         self.runs += planned;
         let value = |node: &[f64]| values(problem.measured.ranges, sides, node);
         self.coefficients.extend(coefficients(basis, problem.model, &value, new, watch.done)?);
-        let fit = fitted(&problem.measured, basis, sides, &self.coefficients)?;
+        let emulator = Emulator::new(basis, &self.coefficients).with_alone(&self.alone);
+        let fit = fitted(&problem.measured, sides, emulator)?;
         Ok(Fit { runs: self.runs, rounds: self.rounds, ..fit })
     }
 
@@ -181,19 +201,25 @@ impl Search<'_> {
         let more = self.replicas < most;
         let noise = fit.noise_share();
         let until = |share, allowed| Next::Replicas(enough(self.replicas, share, allowed).min(most));
+        let (scarce, behind) = (fit.best.share(SCARCE), fit.emulator.behind_covariance() as u64);
+        let share_rods = self.problem.measured.rods.over_measured.iter().any(|ratio| *ratio > 0.0);
         // The points, not the replicas' noise, must decide where to look closer.
         if more && noise > CLEAR {
             return until(noise, CLEAR);
         }
         let share = fit.best.share(REPLICAS).max(noise);
-        let enough = if share <= MOST_SHARE || !more { Next::Done } else { until(share, MOST_SHARE) };
+        let due = if share <= MOST_SHARE || !more { Next::Done } else { until(share, MOST_SHARE) };
         let (mut sides, mut gains) = other_sides(fit, &self.whole, if self.near { NEAR } else { FAR });
         if !gains && !self.near && fit.best.share(EMULATOR) > MOST_SHARE {
             self.near = true;
             sides = other_sides(fit, &self.whole, NEAR).0;
             gains = sides != self.sides;
         }
-        if gains && self.rounds < MOST_ROUNDS { Next::Box(sides) } else { enough }
+        match (gains && self.rounds < MOST_ROUNDS, share_rods && scarce > MOST_SCARCE && behind < most) {
+            (true, _) => Next::Box(sides),
+            (_, true) => Next::Alone(enough(behind, scarce, MOST_SCARCE).min(most)),
+            _ => due,
+        }
     }
 
     /// Refuses a fit that is no answer.
@@ -203,7 +229,7 @@ impl Search<'_> {
             return Err(FitError::Noise(fit.noise_share(), self.replicas));
         }
         if fit.best.goodness.excess > MOST_EXCESS {
-            return Err(FitError::FewReplicas { replicas: self.replicas, points });
+            return Err(FitError::FewReplicas { replicas: fit.emulator.behind_covariance() as u64, points });
         }
         if let Some(range) = fit.undetermined() {
             let error = ParameterError::Undetermined { from: range.from, to: range.to };

@@ -10,7 +10,7 @@ use super::search::{Fit, FitProblem, Measured, Watch, fitted, search, values};
 use crate::judge::accept::{Rule, Verdict, judge};
 use crate::methods::least_squares::Datum;
 use crate::methods::least_squares::basis::Basis;
-use crate::methods::least_squares::emulator::{Model, Prediction, Replica, Sides, coefficients};
+use crate::methods::least_squares::emulator::{Emulator, Model, Prediction, Replica, Sides, coefficients};
 use crate::methods::least_squares::likelihood::Rods;
 use crate::methods::least_squares::profile::{region, rise_of_several};
 use nalgebra::{DMatrix, DVector};
@@ -83,7 +83,7 @@ pub(super) fn over_box(
     let (ranges, basis) = (ranges(over), Basis::new(over.len()));
     let value = |node: &[f64]| values(&ranges, sides, node);
     let found = coefficients(&basis, model, &value, 0..replicas, &|| ()).unwrap();
-    fitted(&Measured { data, ranges: &ranges, rods }, &basis, sides, &found).unwrap()
+    fitted(&Measured { data, ranges: &ranges, rods }, sides, Emulator::new(&basis, &found)).unwrap()
 }
 
 /// Whether the intervals of 68 and 95 % of the first parameter contain a value.
