@@ -28,6 +28,9 @@ const SHARE: f64 = 0.25;
 /// A difference of χ² that the noise of the replicas can cause.
 const NOISE: f64 = 16.0;
 
+/// Replicas for each point that suffice for their covariance: χ² is then too large by an eighth.
+const OF_A_POINT: usize = 8;
+
 /// Steps of the golden section towards a minimum: each leaves 0.62 of the way.
 const STEPS: usize = 12;
 
@@ -103,7 +106,9 @@ fn around_lowest(problem: &FitProblem<'_>, watch: &Watch<'_>) -> Result<Sides, F
 pub fn look_elsewhere(problem: &FitProblem<'_>, fit: &Fit, watch: &Watch<'_>) -> Result<Vec<Warning>, FitError> {
     let values = fit.values(&fit.best.place);
     (watch.stage)("best values");
-    let (own_rows, known) = at_best(problem, &values, fit.emulator.behind_covariance() as u64, watch)?;
+    let of_points = fit.emulator.behind_covariance().min(OF_A_POINT * problem.measured.data.len());
+    let replicas = of_points.max(fit.emulator.replicas());
+    let (own_rows, known) = at_best(problem, &values, replicas as u64, watch)?;
     let mut warnings = Vec::new();
     for (axis, range) in fit.ranges.iter().enumerate() {
         (watch.stage)(&format!("other minima along {}", range.label()));

@@ -1,21 +1,24 @@
 //! Fits of points that scatter as replicas do, with a covariance from few replicas.
 
-use super::search::Fit;
+use super::range::Range;
+use super::search::{Fit, FitProblem, Measured, Watch, search};
 use super::tests::{enough, inside, judged_share, normal, over_box};
 use crate::judge::accept::Verdict;
 use crate::methods::least_squares::Datum;
-use crate::methods::least_squares::emulator::Replica;
+use crate::methods::least_squares::best::SCARCE;
+use crate::methods::least_squares::emulator::{Emulator, Replica};
 use crate::methods::least_squares::likelihood::{CAUSES, Rods};
 use crate::methods::least_squares::profile::profile;
 use nalgebra::DMatrix;
 use rand::SeedableRng;
 use rand_pcg::Pcg64Dxsm;
 use rayon::prelude::*;
-use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
 
 const POINTS: usize = 20;
 const REPLICAS: u64 = 100;
 const PLANTED: f64 = 0.1;
+const RANGE: &str = "a.a=-1:1";
 /// Standard deviations of the reading error, of each point's own scatter, and of each step of a random walk along the
 /// points.
 const NOISE: f64 = 0.002;
@@ -35,8 +38,8 @@ fn scatter(rng: &mut Pcg64Dxsm) -> Vec<f64> {
     (0..POINTS).map(&mut next).collect()
 }
 
-/// The fit of one replica with reading errors, with the covariance of [`REPLICAS`] other replicas.
-fn fit(seed: u64) -> Fit {
+/// One replica with reading errors.
+fn data(seed: u64) -> Vec<Datum> {
     let mut rng = Pcg64Dxsm::seed_from_u64(seed);
     let own = scatter(&mut rng);
     let point = |(k, mean): (usize, f64)| Datum {
@@ -44,20 +47,28 @@ fn fit(seed: u64) -> Fit {
         u: NOISE,
         ..Datum::place(0, "x1", k as f64)
     };
-    let data: Vec<Datum> = curve(PLANTED).enumerate().map(point).collect();
-    // A replica scatters alike at every value.
-    let of_replica =
-        |replica: u64| scatter(&mut Pcg64Dxsm::seed_from_u64(seed.wrapping_mul(1_000_003).wrapping_add(1 + replica)));
-    let scatters: Arc<Vec<_>> = Arc::new((0..REPLICAS).map(of_replica).collect());
-    let model = |values: &[f64]| -> Result<Replica, String> {
-        let (mean, scatters) = (curve(values[0]).collect::<Vec<f64>>(), scatters.clone());
+    curve(PLANTED).enumerate().map(point).collect()
+}
+
+/// Other replicas, each of which scatters alike at every value.
+fn model(seed: u64) -> impl Fn(&[f64]) -> Result<Replica, String> + Sync {
+    move |values| {
+        let mean: Vec<f64> = curve(values[0]).collect();
         Ok(Replica::whole(move |replica| {
-            let own = &scatters[replica as usize];
+            let seed = seed.wrapping_mul(1_000_003).wrapping_add(1 + replica);
+            let own = scatter(&mut Pcg64Dxsm::seed_from_u64(seed));
             Ok(mean.iter().zip(own).map(|(mean, own)| [mean + own; 3]).collect())
         }))
-    };
-    let rods = Rods { over_measured: vec![1.0], ..Rods::none(0) };
-    over_box(&data, &rods, &["a.a=-1:1"], &vec![(-1.0, 1.0)], &model, REPLICAS)
+    }
+}
+
+fn shared() -> Rods {
+    Rods { over_measured: vec![1.0], ..Rods::none(0) }
+}
+
+/// The fit with the covariance of [`REPLICAS`] replicas.
+fn fit(seed: u64) -> Fit {
+    over_box(&data(seed), &shared(), &[RANGE], &vec![(-1.0, 1.0)], &model(seed), REPLICAS)
 }
 
 /// The control: V counts as known.
@@ -99,4 +110,46 @@ fn a_covariance_of_few_replicas_makes_no_interval_short() {
     // A χ² that is too large makes p-values small.
     judged_share(Verdict::Pass, all.iter().map(|(own, ..)| own.1 > 0.5), 0.5, RULE);
     judged_share(Verdict::Fail, all.iter().map(|(_, believed, _)| believed.1 > 0.5), 0.5, RULE);
+}
+
+/// The excess of χ² with replicas alone behind the covariance is theirs, (1 + q)/(N − 1) less what the mean curve's
+/// fewer replicas add; the control: without them it is that of the curve's.
+#[test]
+fn replicas_alone_count_for_the_covariance_of_rods() {
+    const ALONE: u64 = 800;
+    let own = fit(7);
+    let replica = model(7)(&[PLANTED]).unwrap();
+    let rows: Vec<_> = (0..ALONE).map(|k| replica.run(k).unwrap()).collect();
+    let measured = Measured { data: &data(7), ranges: &own.ranges, rods: &shared() };
+    let of = |emulator: Emulator| super::search::fitted(&measured, &own.sides, emulator).unwrap().best.goodness.excess;
+    let (with, without) = (of(own.emulator.clone().with_alone(&rows)), of(own.emulator.clone()));
+    let due = |replicas: u64| POINTS as f64 / (replicas - 1) as f64;
+    // Reading, a few per cent of V, has no part in it: up to 12 % where an estimate of few replicas is small, squared.
+    assert!((0.6 * due(ALONE)..1.1 * due(ALONE)).contains(&with), "{with} {}", due(ALONE));
+    assert!((0.6 * due(REPLICAS)..1.1 * due(REPLICAS)).contains(&without), "{without} {}", due(REPLICAS));
+}
+
+/// Points that share rods need many replicas for their covariance, and those run at one place: the runs are counted.
+/// The control: as many at every one of the seven nodes would be more than twice the runs.
+#[test]
+fn a_covariance_is_bought_at_one_place() {
+    let (runs, model, ranges) = (AtomicU64::new(0), model(3), [Range::parse(RANGE).unwrap()]);
+    let count = || {
+        runs.fetch_add(1, Ordering::Relaxed);
+    };
+    let of = |rods: &Rods| {
+        runs.store(0, Ordering::Relaxed);
+        let counted = Watch { done: &count, ..Watch::SILENT };
+        let measured = Measured { data: &data(3), ranges: &ranges, rods };
+        let fit = search(&FitProblem { measured, model: &model, most_replicas: 1000 }, &counted).unwrap();
+        assert_eq!(runs.load(Ordering::Relaxed), fit.runs);
+        fit
+    };
+    let fit = of(&shared());
+    let behind = fit.emulator.behind_covariance();
+    assert!(behind > 2 * fit.emulator.replicas() && fit.best.share(SCARCE) < 0.04, "{behind}");
+    assert!(2 * fit.runs < 7 * behind as u64, "{} {behind}", fit.runs);
+    // Points that share no rods need none alone.
+    let independent = of(&Rods::none(1));
+    assert_eq!(independent.emulator.behind_covariance(), independent.emulator.replicas());
 }
