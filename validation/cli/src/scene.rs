@@ -11,6 +11,7 @@ use shearbed_validation::files::cluster;
 use shearbed_validation::files::text::{Shown, complain, line};
 use shearbed_validation::input::scenes;
 use shearbed_validation::input::start::Starts;
+use shearbed_validation::present::plot::names;
 use shearbed_validation::serve::sweep::{self, Axis, KeyValue};
 use std::ffi::{OsStr, OsString};
 use std::path::{Path, PathBuf};
@@ -122,6 +123,8 @@ pub(super) fn load(given: &OsStr, settings: Vec<KeyValue>) -> Result<Named, Fail
         document.set(key, value.clone()).map_err(at)?;
     }
     let mut scene = of_document(&document).map_err(at)?;
+    let set = |setting: &KeyValue| (setting.key.clone(), sweep::shown(&setting.value));
+    scene.title = names::title_with(&scene.title, &settings.iter().map(set).collect::<Vec<_>>());
     starts.fill(&mut scene).map_err(|error| refused(&source, &error))?;
     warn(&source, starts.warnings());
     Ok(Named { scene, text, document, settings, source, starts, stem })

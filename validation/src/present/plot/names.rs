@@ -64,6 +64,19 @@ pub fn title_without(title: &str, swept: &[&str]) -> String {
     title.split(", ").filter(stays).collect::<Vec<_>>().join(", ")
 }
 
+/// A scene's title with the keys that replace its own: a part with the value of one gives way to the new value, and a
+/// title set with them stays. Replicas, seed and outputs are no part of what is simulated, so that it leaves them out.
+pub fn title_with(title: &str, pairs: &[(String, String)]) -> String {
+    if pairs.iter().any(|(key, _)| key == "title") {
+        return title.to_owned();
+    }
+    let is_said = |(key, _): &&(String, String)| !["ensemble.", "output"].iter().any(|unsaid| key.contains(unsaid));
+    let said: Vec<_> = pairs.iter().filter(is_said).cloned().collect();
+    let keys: Vec<&str> = said.iter().map(|(key, _)| key.as_str()).collect();
+    let parts = [title_without(title, &keys), point(&said)];
+    parts.into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join(", ")
+}
+
 /// A number with more than seven characters in four significant digits; anything else as it is.
 pub fn short(value: &str) -> String {
     match value.parse::<f64>() {
@@ -89,10 +102,10 @@ mod tests {
         assert_eq!(["t_over_T", "t_s", "strain"].map(time), ["t/T", "t (s)", "strain Gt"]);
         let keys = ["interaction.concentration_per_cm3", "2:interaction.alpha", "time.periods"];
         assert_eq!(keys.map(key), ["n (cm⁻³)", "α of set 2", "periods"]);
-        let point = |pairs: &[(&str, &str)]| {
-            let owned = |(key, value): &(&str, &str)| ((*key).to_owned(), (*value).to_owned());
-            point(&pairs.iter().map(owned).collect::<Vec<_>>())
+        let owned = |pairs: &[(&str, &str)]| {
+            pairs.iter().map(|(key, value)| ((*key).to_owned(), (*value).to_owned())).collect::<Vec<_>>()
         };
+        let point = |pairs: &[(&str, &str)]| point(&owned(pairs));
         let [alpha, n] = ["interaction.alpha", "interaction.concentration_per_cm3"];
         let orientation = ("particles.orientation", "{ phi_deg = 0.0, theta_deg = 90.0 }");
         assert_eq!(
@@ -104,5 +117,11 @@ mod tests {
         assert_eq!(title(&[n, alpha]), "Fig. 7, σ = 0 %");
         assert_eq!(title(&["particles.aspect_ratio_sd_percent"]), "Fig. 7, n = 50 per cm³");
         assert_eq!([title(&[alpha]), title(&[])], ["Fig. 7, n = 50 per cm³, σ = 0 %"; 2]);
+        let with = |pairs: &[(&str, &str)]| title_with("Fig. 7, n = 50 per cm³, σ = 0 %", &owned(pairs));
+        assert_eq!(with(&[(n, "80"), (alpha, "0.9")]), "Fig. 7, σ = 0 %, n = 80 cm⁻³, α = 0.9");
+        assert_eq!(
+            with(&[("ensemble.replicas", "2"), ("time.outputs_per_period", "9")]),
+            "Fig. 7, n = 50 per cm³, σ = 0 %"
+        );
     }
 }
