@@ -1,6 +1,6 @@
 //! Reads pairs of files into curves in the model's units, sorted by time.
 
-use super::provenance::{Axis, Key, Layout, OBSERVABLES, Projection, Provenance};
+use super::provenance::{Axis, Key, Layout, OBSERVABLES, Provenance};
 use super::table::{self, DataRow, Dataset};
 use super::{Measured, MeasuredCurve, Source, provenance_file, read_text};
 use crate::files::FileError;
@@ -15,7 +15,7 @@ use std::path::Path;
 const MOST_UNCERTAIN: f64 = 0.25;
 
 /// Letters of a paper in a legend.
-const LEGEND: usize = 32;
+const LEGEND: usize = 80;
 
 const TIME_UNCERTAINTY: &str =
     "one standard deviation of at most a quarter of a period: ± that spans a whole oscillation";
@@ -79,11 +79,7 @@ pub(super) fn read(path: &Path, source: &Source) -> Result<Vec<MeasuredCurve>, F
 
 /// The name of the column of a curve in the project's layout.
 fn column(provenance: &Provenance, key: &Key) -> String {
-    let name = OBSERVABLES[key.channel];
-    match provenance.y.quantity {
-        Projection::Fraction => name.to_owned(),
-        Projection::Millimetres => format!("{name}_mm"),
-    }
+    OBSERVABLES[key.channel].to_owned() + provenance.y.quantity.suffix()
 }
 
 fn convert(file: &Path, key: &Key, dataset: &Dataset, provenance: &Provenance) -> Result<MeasuredCurve, FileError> {
@@ -115,10 +111,7 @@ fn convert(file: &Path, key: &Key, dataset: &Dataset, provenance: &Provenance) -
         let message = not_allowed(&format!("{name}_u"), &u.to_string(), &format!("{TIME_UNCERTAINTY}, here {most}"));
         return Err(FileError::line(file, row.line, message));
     }
-    let length = match provenance.y.quantity {
-        Projection::Fraction => 1.0,
-        Projection::Millimetres => length_mm,
-    };
+    let length = provenance.y.quantity.per_length(length_mm);
     let point = |row: &DataRow| Measured {
         label: provenance.stated.short(LEGEND),
         observable: OBSERVABLES[key.channel],

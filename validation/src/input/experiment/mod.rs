@@ -20,7 +20,7 @@ mod tests;
 pub use bias::{Bias, bias};
 pub use compare::{Runs, alpha, compare};
 pub use comparison::{AlphaFit, Comparison, Point};
-pub use provenance::{Axis, Key, Layout, OBSERVABLES, Projection, Provenance, Stated, Time};
+pub use provenance::{Axis, Key, Layout, OBSERVABLES, PERCENT, Projection, Provenance, Stated, Time};
 
 use crate::files::{FileError, bounded, entries};
 use std::collections::BTreeMap;

@@ -52,9 +52,34 @@ impl Time {
 pub enum Projection {
     /// A fraction of the rod's length.
     Fraction,
+    /// Per cent of the rod's length.
+    Percent,
     /// Millimetres.
     Millimetres,
 }
+
+impl Projection {
+    /// What the name of a column has after the observable's.
+    pub fn suffix(self) -> &'static str {
+        match self {
+            Self::Fraction => "",
+            Self::Percent => PERCENT,
+            Self::Millimetres => "_mm",
+        }
+    }
+
+    /// The length of a rod of `length_mm`, in this quantity.
+    pub fn per_length(self, length_mm: f64) -> f64 {
+        match self {
+            Self::Fraction => 1.0,
+            Self::Percent => 100.0,
+            Self::Millimetres => length_mm,
+        }
+    }
+}
+
+/// The end of the name of a column in per cent.
+pub const PERCENT: &str = "_percent";
 
 /// A calibrated axis.
 #[derive(Clone, Debug, PartialEq, Serialize)]

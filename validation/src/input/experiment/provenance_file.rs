@@ -11,7 +11,7 @@ use toml::value::Datetime;
 const CALIBRATION: &str = "the values of the axis's reference points, two different numbers at least";
 const UNCERTAINTY: &str = "one standard deviation of what was read off, a number > 0 in the unit of quantity";
 const QUANTITY_X: &str = "\"t_over_T\", \"t_s\" or \"strain\": the unit is in the name";
-const QUANTITY_Y: &str = "\"fraction\" (of the rod's length) or \"mm\": the unit is in the name";
+const QUANTITY_Y: &str = "\"fraction\" or \"percent\" (of the rod's length) or \"mm\": the unit is in the name";
 
 /// Reads a provenance file of a source.
 pub(super) fn parse(file: &str, text: &str, source: &Source) -> Result<Provenance, FileError> {
@@ -98,6 +98,7 @@ fn projection(table: &Keys<'_>) -> Result<Projection, FileError> {
     no_shear_rate(table)?;
     match table.text("quantity", QUANTITY_Y)?.as_str() {
         "fraction" => Ok(Projection::Fraction),
+        "percent" => Ok(Projection::Percent),
         "mm" => Ok(Projection::Millimetres),
         _ => Err(table.refused("quantity", QUANTITY_Y)),
     }

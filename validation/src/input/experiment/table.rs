@@ -44,7 +44,8 @@ pub(crate) fn columns(
         .flat_map(|name| [name.to_owned(), format!("{name}_u")])
         .collect();
     if let Some(name) = table.names().iter().find(|name| !left_out(name) && !known.contains(name)) {
-        let message = format!("column `{name}` is not in the provenance file: there are {}", known.join(", "));
+        let message =
+            format!("column `{name}` is not in the provenance file: by its quantities there are {}", known.join(", "));
         return Err(table.error(message));
     }
     let places = |name: &str| {

@@ -86,6 +86,9 @@ fn units_are_turned_into_the_models() {
     assert_relative_eq!(point.u_x, 0.01 * 0.25 / strain, max_relative = 1e-12);
     assert_relative_eq!(point.y, 0.5, max_relative = 1e-12);
     assert_relative_eq!(point.u_y, 0.005 / 0.72, max_relative = 1e-12);
+    let in_percent = PROVENANCE.replace("\"fraction\"", "\"percent\"").replace("[0.0, 0.6]", "[0, 60]");
+    let point = &curves(&in_percent, "t_over_T,x1_percent,x1_percent_u\n0.5,40,2\n")[0].points[0];
+    assert_eq!((point.y, point.u_y), (0.4, 0.02));
     let in_strain = with("quantity = \"strain\"", "[0, 150]");
     let point = &curves(&in_strain, "strain,x1_mm\n100,0.36\n")[0].points[0];
     assert_relative_eq!(point.x, 100.0 / strain, max_relative = 1e-12);

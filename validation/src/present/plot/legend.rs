@@ -36,8 +36,8 @@ struct Bar {
 
 pub(super) struct Legend {
     bar: Option<Bar>,
-    /// Samples and labels above the axes, with their left edges.
-    rows: Vec<Vec<((Mark, String), i32)>>,
+    /// Samples and the lines of their labels above the axes, with their left edges.
+    rows: Vec<Vec<((Mark, Vec<String>), i32)>>,
     /// Entries beside the axes: index of the series, its sample, and the lines of its label.
     beside: Vec<(usize, Mark, Vec<String>)>,
 }
@@ -66,9 +66,9 @@ impl Legend {
         let above = series.into_iter().map(|(_, mark, label)| (mark, label));
         let above = above.chain(band.then(|| (Mark::Band, "95 % band".to_string())));
         let sized = |(mark, label): (Mark, String)| {
-            let label = cut(&label, width - 2 * MARGIN - SAMPLE - GAP, TEXT);
-            let own = SAMPLE + GAP + text_width(&label, TEXT) + 2 * GAP;
-            ((mark, label), own)
+            let lines = wrap(&label, width - 2 * MARGIN - SAMPLE - GAP, TEXT);
+            let own = SAMPLE + GAP + widest(&lines, TEXT) + 2 * GAP;
+            ((mark, lines), own)
         };
         let mut rows = in_rows(above.map(sized), width);
         rows.retain(|row| !row.is_empty());
@@ -79,7 +79,11 @@ impl Legend {
     }
 
     pub(super) fn height(&self) -> i32 {
-        (self.rows.len() as i32 + if self.bar.is_some() { 2 } else { 0 }) * ROW
+        self.height_of_rows() + if self.bar.is_some() { 2 * ROW } else { 0 }
+    }
+
+    fn height_of_rows(&self) -> i32 {
+        self.rows.iter().map(|row| row_height(row)).sum()
     }
 
     pub(super) fn height_beside(&self) -> i32 {
@@ -93,23 +97,25 @@ impl Legend {
 
     /// The width needed right of the axes.
     pub(super) fn width(&self) -> i32 {
-        let lines = self.beside.iter().flat_map(|(_, _, lines)| lines);
-        let widths = lines.map(|line| text_width(line, SMALL));
+        let widths = self.beside.iter().map(|(_, _, lines)| widest(lines, SMALL));
         widths.max().map_or(0, |width| width + SHORT + 2 * GAP)
     }
 
     /// Draws the rows above the axes, with the top at `top`.
     pub(super) fn draw<DB: Backend>(&self, canvas: &DrawingArea<DB, Shift>, top: i32) -> Drawn {
         if let Some(bar) = &self.bar {
-            bar.draw(canvas, top + self.rows.len() as i32 * ROW)?;
+            bar.draw(canvas, top + self.height_of_rows())?;
         }
-        for (row, entries) in self.rows.iter().enumerate() {
-            let y = top + row as i32 * ROW;
-            for ((mark, label), x) in entries {
+        let mut y = top;
+        for row in &self.rows {
+            for ((mark, lines), x) in row {
                 sample(canvas, *mark, (*x, y + 9 * FINE), SAMPLE)?;
-                let place = (x + SAMPLE + GAP, y + 3 * FINE);
-                canvas.draw(&Text::new(label.as_str(), place, text(TEXT)))?;
+                for (k, line) in (0..).zip(lines) {
+                    let place = (x + SAMPLE + GAP, y + 3 * FINE + k * ROW);
+                    canvas.draw(&Text::new(line.as_str(), place, text(TEXT)))?;
+                }
             }
+            y += row_height(row);
         }
         Ok(())
     }
@@ -169,6 +175,15 @@ impl Bar {
         }
         Ok(())
     }
+}
+
+fn widest(lines: &[String], size: f64) -> i32 {
+    lines.iter().map(|line| text_width(line, size)).max().unwrap_or(0)
+}
+
+/// The height of a row of entries above the axes, as for the one with most lines.
+fn row_height(row: &[((Mark, Vec<String>), i32)]) -> i32 {
+    row.iter().map(|((_, lines), _)| lines.len() as i32).max().unwrap_or(0) * ROW
 }
 
 /// The places, moved such that they ascend, are at least `least` apart, and stay inside.

@@ -255,7 +255,7 @@ pub fn svg(figure: &Figure) -> Result<String, String> {
 }
 
 /// Smallest height of the axes, whatever size is requested.
-const LEAST_AXES: i32 = 140 * FINE;
+const LEAST_AXES: i32 = 180 * FINE;
 
 /// Pixels in an inch of a picture whose width in print is given: the axes' letters, 16 high, have 8 points.
 const IN_PRINT: f64 = 144.0;

@@ -227,6 +227,12 @@ fn no_text_leaves_its_picture_or_overlaps_another() {
             assert!(faults.is_empty(), "{x:?}: {faults:#?}");
         }
     }
+    // A long label goes on in further lines, also in a picture for a phone.
+    let mut figure = Figure { size: Some((310, 380)), ..synthetic() };
+    figure.points[0].label =
+        "n = 50 cm⁻³, points of “A Paper of Two Authors, J. Synthetic Data 1 (1900) 1”, Fig. 4".into();
+    let svg = svg(&figure).unwrap();
+    assert!(svg.contains("\nFig. 4\n") && boxes::faults(&svg).is_empty(), "{svg}");
     // Extreme input: endless words, and more runs than fit.
     let long = |name: &str| format!("{name}{}", "unendliches".repeat(20));
     for count in [3, 30] {
@@ -238,12 +244,11 @@ fn no_text_leaves_its_picture_or_overlaps_another() {
         };
         figure.points.clear();
         figure.curves = (0..count).map(|k| wave(&long(&k.to_string()), 0.1 * f64::from(k))).collect();
-        let svg = svg(&figure).unwrap();
-        let faults = boxes::faults(&svg);
+        let faults = boxes::faults(&super::svg(&figure).unwrap());
         assert!(faults.is_empty(), "{count}: {faults:#?}");
     }
     // Controls: a text moved outside, and one moved onto another.
-    let svg = svg(&many()).unwrap();
+    let svg = super::svg(&many()).unwrap();
     let place = svg.split("<text x=\"").nth(1).unwrap().split('"').next().unwrap();
     let moved = |to: &str| svg.replacen(&format!("<text x=\"{place}\""), &format!("<text x=\"{to}\""), 1);
     assert!(boxes::faults(&moved("2200")).iter().any(|fault| fault.starts_with("outside")));

@@ -2,7 +2,7 @@
 
 use crate::files::FileError;
 use crate::files::csv::{LEFT_OUT, Table, not_allowed};
-use crate::input::experiment::{read_text, table};
+use crate::input::experiment::{PERCENT, read_text, table};
 use crate::methods::least_squares::Datum;
 use serde::Serialize;
 use shearbed::observable::Channel;
@@ -88,8 +88,6 @@ fn channel<'a>(name: &'a str, known: &[String]) -> Option<(&'a str, f64)> {
     let of = in_percent.unwrap_or((name, 1.0));
     known.iter().any(|known| known == of.0).then_some(of)
 }
-
-const PERCENT: &str = "_percent";
 
 /// Why a column beside a known one's name is refused, and what to do; `None` if it may be anything.
 fn misnamed(name: &str, known: &[String]) -> Option<String> {

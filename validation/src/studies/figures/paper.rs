@@ -50,7 +50,7 @@ fn fig4(runs: &Runs, effort: &Effort) -> Result<ReportFigure, String> {
         let known = drawn.points.len();
         supplied.push(format!("{label}: {}", measured(&scene, effort, drawn)?));
         for points in &mut drawn.points[known..] {
-            points.label = format!("{}, {label}", points.label);
+            points.label = format!("{label}, {}", points.label);
         }
     }
     figure.caption = format!(
