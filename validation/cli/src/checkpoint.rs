@@ -24,8 +24,8 @@ impl Kept {
     }
 }
 
-/// Parses the time between checkpoints, in s.
-fn seconds(text: &str) -> Result<Duration, String> {
+/// Parses the time between two checkpoints or two lines of a log, in s.
+pub(super) fn seconds(text: &str) -> Result<Duration, String> {
     let seconds = number(text, |s| (0.01..=86_400.0).contains(&s), "a number of seconds from 0.01 to 86400")?;
     Ok(Duration::from_secs_f64(seconds))
 }

@@ -6,8 +6,8 @@ mod shifts;
 mod terminal;
 
 use super::{
-    Failure, Threads, Writing, checkpoint, number, on_threads, print, progress, restart, result_folder, scene,
-    spares_inputs, whole,
+    Failure, Threads, Writing, checkpoint, log_progress, number, on_threads, print, progress, restart, result_folder,
+    scene, spares_inputs, whole,
 };
 use advice::{of_fit, of_scene, of_warning};
 use input::{Input, input};
@@ -35,6 +35,7 @@ use shearbed_validation::serve::sweep::KeyValue;
 use shifts::{shifts, taken_as_known};
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
 /// The default of the largest number of replicas at each value of the parameters.
 pub(super) const MOST_REPLICAS: u64 = 1000;
@@ -95,6 +96,9 @@ pub(super) struct Args {
     /// would leave
     #[arg(long)]
     design: bool,
+    /// Without a terminal: seconds between two lines about progress; for Python's `progress`
+    #[arg(long, value_parser = checkpoint::seconds, default_value = "60", hide = true)]
+    log_every: Duration,
     #[command(flatten)]
     writing: Writing,
 }
@@ -129,6 +133,7 @@ pub(super) fn fit(args: &Args) -> Result<(), Failure> {
     }
     input.scenes = input.scenes.with_runs(runs.clone());
     let bar = progress(0, "runs", args.writing.quiet);
+    log_progress(&bar, "runs", args.log_every, args.writing.quiet);
     let watch =
         Watch { stage: &|name| restart(&bar, name), planned: &|runs| bar.inc_length(runs), done: &|| bar.inc(1) };
     let done = on_threads(args.threads.given, || work(args, &input, &watch))?;

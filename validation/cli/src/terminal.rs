@@ -7,6 +7,7 @@ use shearbed_validation::files::text::{complain, readable};
 use std::fmt;
 use std::io::{self, IsTerminal, Write};
 use std::sync::{Mutex, PoisonError};
+use std::thread;
 use std::time::Duration;
 
 /// The last progress bar.
@@ -69,6 +70,21 @@ pub(super) fn log(line: &str, quiet: bool) {
         return;
     }
     complain(&format!("{}\n", readable(line)));
+}
+
+/// Logs each `every` how far a bar of `what` is, as long as there is the bar.
+pub(super) fn log_progress(bar: &ProgressBar, what: &'static str, every: Duration, quiet: bool) {
+    let bar = bar.downgrade();
+    let follow = move || {
+        loop {
+            thread::sleep(every);
+            let Some(bar) = bar.upgrade().filter(|bar| !bar.is_finished()) else { break };
+            let (part, done, all) = (bar.message(), bar.position(), bar.length().unwrap_or_default());
+            log(&format!("progress: {part}: {done} of {all} {what}"), quiet);
+        }
+    };
+    // Without another thread the log has no such lines.
+    let _ = thread::Builder::new().spawn(follow);
 }
 
 /// Restarts a bar for the next part of the work, with 0 steps: `inc_length` adds some.

@@ -54,6 +54,12 @@ def test_the_result_is_that_of_the_program(points: dict[str, np.ndarray], tmp_pa
     assert abs(alpha.estimate - 0.8) < 4 * alpha.standard_uncertainty
     assert str(found).splitlines()[0] == ended.stdout.splitlines()[0] and "out:" not in str(found)
     assert found.covariance.shape == (1, 1) and found.degrees_of_freedom == 9
+    told: list[tuple[int, int]] = []
+    watched = shearbed.fit(
+        SCENE, points, OVER, replicas=60, seed=3, threads=1, progress=lambda done, of: told.append((done, of))
+    )
+    assert str(watched) == str(found) and told
+    assert all(0 <= done <= of for done, of in told) and max(told)[0] > 1
     for _ in range(2):
         kept = shearbed.fit(SCENE, points, OVER, replicas=60, seed=3, threads=2, checkpoint=tmp_path / "fit.ckpt")
         assert kept.record["parameters"] == record["parameters"] and str(kept) == str(found)

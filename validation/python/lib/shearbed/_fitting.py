@@ -5,8 +5,9 @@ from __future__ import annotations
 import csv
 import json
 import os
+import re
 import tempfile
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -15,7 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ._results import typeset
-from ._running import columns as columns_of, options, program
+from ._running import bar_of, columns as columns_of, complained, options, program
 from ._scene import Scene, scene_of
 
 Array = NDArray[np.float64]
@@ -140,6 +141,7 @@ def fit(
     test: Sequence[str] = (),
     threads: int | None = None,
     checkpoint: str | os.PathLike[str] | None = None,
+    progress: Callable[[int, int], object] | bool = False,
 ) -> Fit:
     """Fits keys of a scene to measured points, as ``shearbed fit`` does, with the same result.
 
@@ -154,7 +156,8 @@ def fit(
     ``rods`` how many each point is a mean over. ``design=True`` lists further points, with what each would leave of the
     uncertainties, in ``design``. ``test=["interaction.alpha=1"]`` tests values of fitted keys, and
     ``test=["1:interaction.alpha=2:interaction.alpha"]`` whether two scenes have the same: see ``tests``. ``checkpoint``
-    is a file that keeps the runs: the same call goes on with them.
+    is a file that keeps the runs: the same call goes on with them. ``progress(done, of)`` counts the runs of each part of
+    the work, a search or a table, one after the other; ``progress=True`` draws a bar with tqdm where it is installed.
 
     The work is done in a process of its own: other Python threads go on meanwhile, and Ctrl-C ends it. Raises ``ValueError``
     with the program's words for what is not allowed, ``RuntimeError`` for a fit that cannot go on.
@@ -176,7 +179,16 @@ def fit(
         words += ["--design"] if design else []
         words += [word for held in test for word in ("--test", held)]
         words += [] if checkpoint is None else ["--checkpoint", os.path.abspath(checkpoint)]
-        said = program(words, folder)
+        told = bar_of("run") if progress is True else progress or None
+        words += ["--log-every", "0.1"] if told else []
+
+        def watch() -> None:
+            found = [re.fullmatch(r"progress: .*: (\d+) of (\d+) runs", line) for line in complained(folder)]
+            counts = [(int(match[1]), int(match[2])) for match in found if match]
+            if told and counts:
+                told(*counts[-1])
+
+        said = program(words, folder, watch if told else None)
         if said.startswith("goes on from"):
             said = said.split("\n", 1)[1]
         # The last line names a folder that is no more.

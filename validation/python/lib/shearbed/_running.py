@@ -58,7 +58,7 @@ def run(
         return _apart(scene, words + options(replicas=replicas, seed=seed, threads=threads))
     if time_limit_s is not None:
         raise TypeError("time_limit_s: it goes with until_se")
-    told = _bar("replica") if progress is True else progress or None
+    told = bar_of("replica") if progress is True else progress or None
     found = _core.run(scene._name, scene._text, replicas, seed, threads, told)
     return Results(found | {name: table(found[name].splitlines()) for name in DERIVED})
 
@@ -105,7 +105,8 @@ def load(folder: str | os.PathLike[str]) -> Results:
     return Results(found | {"scene": _toml(record["scene"])})
 
 
-def _bar(unit: str) -> Callable[[int, int], object] | None:
+def bar_of(unit: str) -> Callable[[int, int], object] | None:
+    """A bar of tqdm, if there is tqdm, which begins again where less is done than before. It closes when it is dropped."""
     try:
         from tqdm.auto import tqdm
     except ImportError:
@@ -113,10 +114,10 @@ def _bar(unit: str) -> Callable[[int, int], object] | None:
     bar = tqdm(unit=unit)
 
     def told(done: int, of: int) -> None:
+        if done < bar.n:
+            bar.reset()
         bar.total = of
         bar.update(done - bar.n)
-        if done == of:
-            bar.close()
 
     return told
 
@@ -151,7 +152,7 @@ def sweep(
             words += ["--over", f"{key}=" + ",".join(_value(value) for value in values)]
         words += options(replicas=replicas, seed=seed, threads=threads, set=set)
         points = int(np.prod([len(values) for values in over.values()]))
-        told = _bar("point") if progress is True else progress or None
+        told = bar_of("point") if progress is True else progress or None
 
         def watch() -> None:
             if told:
@@ -221,17 +222,27 @@ def column(fields: list[str]) -> NDArray[Any]:
         return np.array(fields)
 
 
+COMPLAINED = ".complained"
+"""The file of what a program writes to standard error."""
+
+
+def complained(folder: Path) -> list[str]:
+    """The lines that the program in ``folder`` has written to standard error so far."""
+    return (folder / COMPLAINED).read_text(encoding="utf-8", errors="replace").splitlines()
+
+
 def program(words: Sequence[str], folder: Path, watch: Callable[[], object] | None = None) -> str:
     """Runs a command in a process of its own in ``folder``, which Ctrl-C ends too, and gives what it prints; raises its
     message, as ``ValueError`` for what is not allowed and ``RuntimeError`` for what went wrong. ``watch`` is called about
     ten times a second and at the end."""
     started = [sys.executable, "-m", "shearbed", *words]
-    pipe = subprocess.PIPE
-    running = subprocess.Popen(started, cwd=folder, stdout=pipe, stderr=pipe, text=True, encoding="utf-8")
+    # A file, which ``watch`` can read meanwhile.
+    with open(folder / COMPLAINED, "wb") as errors:
+        running = subprocess.Popen(started, cwd=folder, stdout=subprocess.PIPE, stderr=errors, text=True, encoding="utf-8")
     try:
         while True:
             try:
-                said, complained = running.communicate(timeout=None if watch is None else 0.1)
+                said, _ = running.communicate(timeout=None if watch is None else 0.1)
                 break
             except subprocess.TimeoutExpired:
                 if watch is not None:
@@ -244,6 +255,7 @@ def program(words: Sequence[str], folder: Path, watch: Callable[[], object] | No
         running.communicate()
         raise
     if running.returncode:
-        message = complained.strip().removeprefix("error: ") or f"the program ended with {running.returncode}"
+        lines = [line for line in complained(folder) if not line.startswith("progress: ")]
+        message = "\n".join(lines).strip().removeprefix("error: ") or f"the program ended with {running.returncode}"
         raise (ValueError if running.returncode == 2 else RuntimeError)(message)
     return said

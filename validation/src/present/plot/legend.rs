@@ -27,6 +27,9 @@ enum Mark {
     Band,
 }
 
+/// A sample and the lines of its label.
+type Entry = (Mark, Vec<String>);
+
 /// A bar of shades, from left to right: the quantity's name, and each shade with its value.
 struct Bar {
     name: String,
@@ -37,7 +40,7 @@ struct Bar {
 pub(super) struct Legend {
     bar: Option<Bar>,
     /// Samples and the lines of their labels above the axes, with their left edges.
-    rows: Vec<Vec<((Mark, Vec<String>), i32)>>,
+    rows: Vec<Vec<(Entry, i32)>>,
     /// Entries beside the axes: index of the series, its sample, and the lines of its label.
     beside: Vec<(usize, Mark, Vec<String>)>,
 }
@@ -182,7 +185,7 @@ fn widest(lines: &[String], size: f64) -> i32 {
 }
 
 /// The height of a row of entries above the axes, as for the one with most lines.
-fn row_height(row: &[((Mark, Vec<String>), i32)]) -> i32 {
+fn row_height(row: &[(Entry, i32)]) -> i32 {
     row.iter().map(|((_, lines), _)| lines.len() as i32).max().unwrap_or(0) * ROW
 }
 
