@@ -4,6 +4,7 @@
 /// the signal's number, and never in the middle of writing files.
 #[cfg(unix)]
 pub(super) fn watch() {
+    use clap::CommandFactory;
     use shearbed_validation::files::{checkpoint, cluster, output};
     use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
     use signal_hook::iterator::Signals;
@@ -25,7 +26,14 @@ pub(super) fn watch() {
         super::terminal::clear();
         let kept = checkpoint::last_words().unwrap_or_else(|| match super::words::command().as_str() {
             "sweep" => "finished points are saved, and the same command goes on from them".to_owned(),
-            command => format!("`shearbed {command}` saves nothing before it ends"),
+            command => {
+                let keeps = |command: &clap::Command| {
+                    command.get_arguments().any(|argument| argument.get_long() == Some("checkpoint"))
+                };
+                let keeps = super::Cli::command().find_subcommand(command).is_some_and(keeps);
+                let how = if keeps { ", but with --checkpoint FILE, from which the same command goes on" } else { "" };
+                format!("`shearbed {command}` saves nothing before it ends{how}")
+            }
         });
         let message = format!("stopped by {name}: files that were not complete were not written; {kept}");
         cluster::failed(&message, code as u8);

@@ -31,7 +31,8 @@ fn a_signal_ends_a_run_with_a_message_and_leaves_nothing() {
         let message = ended.stderr;
         assert_eq!(ended.code, Some(code), "{message}");
         assert!(message.starts_with(&format!("error: stopped by {name}:")), "{message}");
-        assert!(message.ends_with("`shearbed run` saves nothing before it ends\n"), "{message}");
+        let how = "saves nothing before it ends, but with --checkpoint FILE, from which the same command goes on\n";
+        assert!(message.ends_with(&format!("`shearbed run` {how}")), "{message}");
         let names: Vec<_> = fs::read_dir(dir.path()).unwrap().map(|entry| entry.unwrap().file_name()).collect();
         assert_eq!(names.len(), 2, "{names:?}");
     }
