@@ -3,8 +3,8 @@
 #[cfg(test)]
 mod tests;
 
-use super::document::{self, Document, shortened};
-use super::keys::{Field, Key, TABLES, TITLE, find};
+use super::document::{self, Document, as_toml, shortened};
+use super::keys::{Field, Holds, Key, TABLES, TITLE, find};
 use super::{Absent, Ensemble, Error, Flow, Interaction, Liquid, Output, Particles, Scene, Time, keys};
 
 /// A byte offset in the text, and a message.
@@ -84,12 +84,14 @@ impl Reader<'_> {
             None if self.means(path) => (),
             None => self.refuse(path, &key.expected()),
             Some(value) => {
+                let list = value.as_array().cloned();
                 // No key takes a date, which would otherwise be read as a text.
-                let value = Some(value).filter(|value| !value.is_datetime()).and_then(T::from_toml);
-                if let Some(value) = value.filter(|value| value.allowed(&key.holds)) {
+                let value = Some(value).filter(|value| !value.is_datetime());
+                if let Some(value) = value.and_then(|value| allowed(value, &key.holds)) {
                     return Some(value);
                 }
-                self.refuse(path, &key.expected());
+                let at_fault = list.map_or(String::new(), |list| at_fault::<T>(&list, &key.holds));
+                self.refuse(path, &(key.expected() + &at_fault));
             }
         }
         None
@@ -151,6 +153,22 @@ impl Reader<'_> {
     pub fn refuse(&mut self, path: &str, allowed: &str) {
         self.wrong.push((self.table.offset(last(path)), self.table.refusal(last(path), allowed)));
     }
+}
+
+fn allowed<T: Field>(value: toml::Value, holds: &Holds) -> Option<T> {
+    T::from_toml(value).filter(|value| value.allowed(holds))
+}
+
+/// Which value of a refused list is the first at fault, by its place from 1: with it, the list up to there is refused.
+/// Empty for an empty list, and for one of a fixed length.
+fn at_fault<T: Field>(list: &[toml::Value], holds: &Holds) -> String {
+    if !matches!(holds, Holds::Times | Holds::Observables) {
+        return String::new();
+    }
+    let ends: Vec<usize> = (1..=list.len()).collect();
+    let place = ends.partition_point(|end| allowed::<T>(list[..*end].to_vec().into(), holds).is_some());
+    let value = list.get(place).map(|value| shortened(&as_toml(value)));
+    value.map_or(String::new(), |value| format!("; the first wrong one is number {}: {value}", place + 1))
 }
 
 /// The largest number of unknown keys that are reported singly.

@@ -40,6 +40,21 @@ fn of_many_unknown_keys_the_first_have_a_line_each_and_the_rest_one() {
 }
 
 #[test]
+fn of_a_refused_list_the_first_value_at_fault_is_named() {
+    for (key, end) in [
+        ("times = [0, 2, 1, 1]", "numbers ≥ 0 that grow; the first wrong one is number 3: 1"),
+        ("times = [0, \"a\", -1]", "; the first wrong one is number 2: \"a\""),
+        ("rods_at = [-1, 0]", "; the first wrong one is number 1: -1"),
+        ("observables = [\"projections\", \"projections\"]", "; the first wrong one is number 2: \"projections\""),
+        ("times = 3", "numbers ≥ 0 that grow"),
+        ("observables = []", "each once"),
+    ] {
+        let (problems, ..) = refused(&format!("{SCENE}\n[output]\n{key}\n"));
+        assert!(problems.iter().any(|problem| problem.message.ends_with(end)), "{problems:?}");
+    }
+}
+
+#[test]
 fn of_a_long_line_or_value_the_start_is_shown() {
     let long = "x".repeat(5000);
     for spoilt in [
