@@ -9,7 +9,7 @@ use shearbed::model::shape::{ALLOWED, Correlation, FORMULAS, spread};
 #[command(after_help = "\
 Examples:
   shearbed shape --physical 20
-  shearbed shape --period-s 147 --period-u 2 --shear-rate-per-s 0.5")]
+  shearbed shape --period-s 147 --period-u 2 --shear-rate-per-s 0.5 --shear-rate-u 0.01")]
 pub(super) struct Args {
     /// Length over diameter of a cylinder, from 2 to 1000
     #[arg(
@@ -36,6 +36,9 @@ pub(super) struct Args {
     /// The shear rate G at which it turns
     #[arg(long, value_name = "G", value_parser = positive, allow_negative_numbers = true, requires = "period_s")]
     shear_rate_per_s: Option<f64>,
+    /// One standard uncertainty of G, independent of that of T
+    #[arg(long, value_name = "U", value_parser = positive, allow_negative_numbers = true, requires = "shear_rate_per_s")]
+    shear_rate_u: Option<f64>,
 }
 
 fn positive(text: &str) -> Result<f64, String> {
@@ -51,7 +54,7 @@ fn ratio(text: &str) -> Result<f64, String> {
 pub(super) fn shape(args: &Args) -> Result<(), Failure> {
     match (args.physical, args.period_s, args.shear_rate_per_s) {
         (Some(r), ..) => of_cylinder(r),
-        (None, Some(period_s), Some(g)) => of_period(period_s, args.period_u, g),
+        (None, Some(period_s), Some(g)) => of_period((period_s, args.period_u), (g, args.shear_rate_u)),
         // The parser refuses it.
         (None, ..) => Ok(()),
     }
@@ -60,8 +63,9 @@ pub(super) fn shape(args: &Args) -> Result<(), Failure> {
 /// The least period times shear rate.
 const OF_SPHERE: f64 = 4.0 * std::f64::consts::PI;
 
-/// Prints r_e of a rod, and of a disc, with this period.
-fn of_period(period_s: f64, period_u: Option<f64>, g: f64) -> Result<(), Failure> {
+/// Prints r_e of a rod, and of a disc, with this period at this shear rate, each with its standard uncertainty if given:
+/// relative ones add in squares to that of GT, on which alone r_e depends.
+fn of_period((period_s, period_u): (f64, Option<f64>), (g, g_u): (f64, Option<f64>)) -> Result<(), Failure> {
     let strain = g * period_s;
     let Some(r) = aspect_ratio_of_period(strain) else {
         return Err(Failure::Input(format!(
@@ -71,9 +75,11 @@ fn of_period(period_s: f64, period_u: Option<f64>, g: f64) -> Result<(), Failure
             rounded(OF_SPHERE / g, 6)
         )));
     };
-    let given = period_u.map_or(String::new(), |u| format!(" ± {u}"));
-    let mut text = format!("T = {period_s}{given} s at G = {g} 1/s: GT = {} = 2π(r_e + 1/r_e)\n\n", rounded(strain, 6));
-    let ends = period_u.map(|u| [period_s - u, period_s + u].map(|end| aspect_ratio_of_period(g * end)));
+    let with = |value: f64, u: Option<f64>| u.map_or(value.to_string(), |u| format!("{value} ± {u}"));
+    let (period, rate) = (with(period_s, period_u), with(g, g_u));
+    let mut text = format!("T = {period} s at G = {rate} 1/s: GT = {} = 2π(r_e + 1/r_e)\n\n", rounded(strain, 6));
+    let u = strain * (period_u.unwrap_or(0.0) / period_s).hypot(g_u.unwrap_or(0.0) / g);
+    let ends = (u > 0.0).then(|| [strain - u, strain + u].map(aspect_ratio_of_period));
     for (whose, of) in [("rod", (|r| r) as fn(f64) -> f64), ("disc of the same period", |r| 1.0 / r)] {
         let (value, ends) = (of(r), ends.map(|ends| ends.map(|end| end.map(of))));
         text += &format!("r_e = {}, of a {whose}\n", with_uncertainty(value, ends));
@@ -81,8 +87,8 @@ fn of_period(period_s: f64, period_u: Option<f64>, g: f64) -> Result<(), Failure
     print(&(text + &format!("\nIn a scene: aspect_ratio = {}\n", rounded(r, 6))))
 }
 
-/// A value with its uncertainty where the values at T ± U are as far on both sides to a twentieth, else with these; at
-/// a time less than a sphere's the end is that of a sphere.
+/// A value with its uncertainty where the values at GT ± U are as far on both sides to a twentieth, else with these;
+/// below GT of a sphere the end is that of a sphere.
 fn with_uncertainty(value: f64, ends: Option<[Option<f64>; 2]>) -> String {
     let Some(ends) = ends else { return rounded(value, 6) };
     if let [Some(a), Some(b)] = ends {
@@ -94,7 +100,7 @@ fn with_uncertainty(value: f64, ends: Option<[Option<f64>; 2]>) -> String {
         }
     }
     let [a, b] = ends.map(|end| rounded(end.unwrap_or(1.0), 4));
-    format!("{}, {a} at T - U and {b} at T + U", rounded(value, 6))
+    format!("{}, {a} at GT - U and {b} at GT + U", rounded(value, 6))
 }
 
 /// A number with `digits` digits at least.
