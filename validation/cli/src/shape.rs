@@ -9,7 +9,7 @@ use shearbed::model::shape::{ALLOWED, Correlation, FORMULAS, spread};
 #[command(after_help = "\
 Examples:
   shearbed shape --physical 20
-  shearbed shape --period-s 147 --period-u 2 --shear-rate-per-s 0.5 --shear-rate-u 0.01")]
+  shearbed shape --period-s 147 --period-u 2 --shear-rate-per-s 0.5")]
 pub(super) struct Args {
     /// Length over diameter of a cylinder, from 2 to 1000
     #[arg(
@@ -36,7 +36,7 @@ pub(super) struct Args {
     /// The shear rate G at which it turns
     #[arg(long, value_name = "G", value_parser = positive, allow_negative_numbers = true, requires = "period_s")]
     shear_rate_per_s: Option<f64>,
-    /// One standard uncertainty of G, independent of that of T
+    /// One standard uncertainty of G
     #[arg(long, value_name = "U", value_parser = positive, allow_negative_numbers = true, requires = "shear_rate_per_s")]
     shear_rate_u: Option<f64>,
 }
@@ -64,7 +64,7 @@ pub(super) fn shape(args: &Args) -> Result<(), Failure> {
 const OF_SPHERE: f64 = 4.0 * std::f64::consts::PI;
 
 /// Prints r_e of a rod, and of a disc, with this period at this shear rate, each with its standard uncertainty if given:
-/// relative ones add in squares to that of GT, on which alone r_e depends.
+/// relative ones, taken as independent, add in squares to that of GT, on which alone r_e depends.
 fn of_period((period_s, period_u): (f64, Option<f64>), (g, g_u): (f64, Option<f64>)) -> Result<(), Failure> {
     let strain = g * period_s;
     let Some(r) = aspect_ratio_of_period(strain) else {
