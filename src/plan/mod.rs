@@ -285,7 +285,8 @@ impl fmt::Display for Plan {
     }
 }
 
-fn counted(count: u64, what: &str) -> String {
+/// A number of things in words, as `1 rod` and `2 rods`.
+pub fn counted(count: u64, what: &str) -> String {
     let plural = if count == 1 { "" } else { "s" };
     format!("{count} {what}{plural}")
 }

@@ -1,6 +1,7 @@
 //! The choice of cases for `validate`: by name, by tag, or all.
 
 use super::Failure;
+use shearbed::plan::counted;
 use shearbed_validation::cases;
 use shearbed_validation::input::scenes::near;
 use shearbed_validation::judge::case::Case;
@@ -51,5 +52,8 @@ pub(super) fn list(cases: &[Case]) -> String {
         format!("{:<28} [{}]\n    {}\n", about.name, about.tags().join(" "), about.claim)
     };
     let cases_by_line: String = cases.iter().map(line).collect();
-    format!("{cases_by_line}\n{} cases. Tags: what a case judges, and the equations that it tests.\n", cases.len())
+    format!(
+        "{cases_by_line}\n{}. Tags: what a case judges, and the equations that it tests.\n",
+        counted(cases.len() as u64, "case")
+    )
 }

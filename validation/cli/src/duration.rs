@@ -2,7 +2,7 @@
 
 use super::fit::MOST_REPLICAS;
 use shearbed::Plan;
-use shearbed::plan::Stage;
+use shearbed::plan::{Stage, counted};
 use shearbed::run::ensemble;
 use shearbed_validation::methods::least_squares::basis::Basis;
 use shearbed_validation::serve::fit::search::FIRST_REPLICAS;
@@ -65,7 +65,7 @@ fn work(plan: &Plan) -> f64 {
 pub(super) fn of_sweep<'a>(plan: &Plan, each_s: f64, points: impl ExactSizeIterator<Item = &'a Plan>) -> String {
     let count = points.len();
     let all: f64 = points.map(|point| work(point) * point.scene().ensemble.replicas as f64).sum();
-    format!("sweep: {count} points, {} of one core\n", about(each_s * all / work(plan)))
+    format!("sweep: {}, {} of one core\n", counted(count as u64, "point"), about(each_s * all / work(plan)))
 }
 
 /// The cost of a fit of so many parameters, as text, if a replica of `plan` takes `each_s`: its first runs, and as many

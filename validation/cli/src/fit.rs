@@ -13,6 +13,7 @@ use advice::{of_fit, of_scene, of_warning};
 use input::{Input, input};
 use serde_json::{Value, json};
 use shearbed::Plan;
+use shearbed::plan::counted;
 use shearbed::scene::{MAX_REPLICAS, MAX_SEED};
 use shearbed_validation::files::build::BUILD;
 use shearbed_validation::files::output::{Output, ResultFolder};
@@ -129,7 +130,7 @@ pub(super) fn fit(args: &Args) -> Result<(), Failure> {
     let open = |path: PathBuf| Runs::open(&path, args.kept.every(), scenes);
     let runs = path.map(open).transpose()?;
     if let Some(runs) = runs.as_ref().filter(|runs| runs.count() > 0 && !args.writing.quiet) {
-        print(&format!("goes on from {} finished runs\n", runs.count()))?;
+        print(&format!("goes on from {}\n", counted(runs.count() as u64, "finished run")))?;
     }
     input.scenes = input.scenes.with_runs(runs.clone());
     let bar = progress(0, "runs", args.writing.quiet);

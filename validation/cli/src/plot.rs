@@ -14,6 +14,7 @@ use against::against;
 pub(super) use folders::FIGURES;
 use folders::{Run, kept, runs_in};
 use look::Look;
+use shearbed::plan::counted;
 use shearbed_validation::files::output;
 use shearbed_validation::files::text::Shown;
 use shearbed_validation::present::plot::{self, Figure, names};
@@ -90,7 +91,7 @@ fn of_runs(args: &Args) -> Result<(Figure, String), Failure> {
             let message = format!("--x {key}: {} folders are given; one sweep is allowed", args.dirs.len());
             return Err(Failure::Input(message));
         }
-        return Ok((against(drawn, key, args.at)?, format!("{channels} of {runs} points")));
+        return Ok((against(drawn, key, args.at)?, format!("{channels} of {}", counted(runs as u64, "point"))));
     }
     shades::colour(&mut drawn);
     if let Some(path) = &args.data {
@@ -99,7 +100,7 @@ fn of_runs(args: &Args) -> Result<(Figure, String), Failure> {
     if let Some(path) = &args.reference {
         drawn.figure.curves.extend(exact::curves(path, &drawn.time, &drawn.channels)?);
     }
-    Ok((drawn.figure, format!("{channels} of {runs} runs")))
+    Ok((drawn.figure, format!("{channels} of {}", counted(runs as u64, "run"))))
 }
 
 /// The requested picture of a fit or a report, by default the first.

@@ -8,6 +8,7 @@ use cap_std::fs::Dir;
 use std::fs::{File, FileType, OpenOptions};
 use std::io::{self, Read};
 use std::path::Path;
+use std::string::FromUtf8Error;
 
 /// Opens a regular file for reading, following links, without waiting for a writer of a pipe.
 ///
@@ -122,14 +123,24 @@ pub fn length_and_crc32_of(mut file: File, most: u64) -> io::Result<(u64, u32)> 
 ///
 /// # Errors
 ///
-/// Those of [`bytes`], and `InvalidData` with the line of the first byte that is not UTF-8.
+/// Those of [`bytes`], and `InvalidData` with the place of the first byte that is not UTF-8.
 pub fn text(path: &Path, most: u64) -> io::Result<String> {
     String::from_utf8(bytes(path, most)?).map_err(|error| {
         let valid = &error.as_bytes()[..error.utf8_error().valid_up_to()];
         let line = 1 + valid.iter().filter(|byte| **byte == b'\n').count();
-        let message = format!("it is not UTF-8 text (line {line})");
-        io::Error::new(io::ErrorKind::InvalidData, message)
+        io::Error::new(io::ErrorKind::InvalidData, format!("line {line}: {}", not_utf8(&error)))
     })
+}
+
+/// Which byte of a line is the first that is not UTF-8, counted from 1, and how to mend the file.
+pub fn not_utf8(error: &FromUtf8Error) -> String {
+    let (bytes, at) = (error.as_bytes(), error.utf8_error().valid_up_to());
+    let in_line = bytes[..at].iter().rev().take_while(|byte| **byte != b'\n').count() + 1;
+    format!(
+        "byte {in_line}, 0x{:02X}, is not UTF-8 text: save the file as UTF-8; from Latin-1: \
+         iconv -f LATIN1 -t UTF-8",
+        bytes[at]
+    )
 }
 
 /// Opening a pipe or a device returns at once.
@@ -170,6 +181,7 @@ mod tests {
             assert_eq!(error.to_string(), "it is longer than the 4 bytes that are allowed");
         }
         fs::write(&path, b"a\nb\xff").unwrap();
-        assert_eq!(text(&path, 9).unwrap_err().to_string(), "it is not UTF-8 text (line 2)");
+        let error = text(&path, 9).unwrap_err().to_string();
+        assert!(error.starts_with("line 2: byte 2, 0xFF, is not UTF-8 text: save the file as UTF-8"), "{error}");
     }
 }

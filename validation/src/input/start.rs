@@ -3,6 +3,7 @@
 mod table;
 
 use crate::files::text::Shown;
+use shearbed::plan::counted;
 use shearbed::scene::{COUNTED, OwnRods, RodsFile, Scene};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -92,7 +93,7 @@ impl Starts {
 fn fits(scene: &Scene, start: &Start) -> Result<(), String> {
     let (count, rows, own) = (scene.particles.count, start.lines.len(), &start.own);
     if rows != count {
-        return Err(format!(": has {rows} rows; as many as particles.count = {count} are allowed"));
+        return Err(format!(": has {}; as many as particles.count = {count} are allowed", counted(rows as u64, "row")));
     }
     match scene.misfit(own) {
         Some(misfit) => Err(format!(

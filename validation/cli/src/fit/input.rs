@@ -5,6 +5,7 @@ use super::advice::of_scene;
 use crate::owner::one_owner;
 use crate::{Failure, memory, scene};
 use shearbed::Plan;
+use shearbed::plan::counted;
 use shearbed::scene::TimeUnit;
 use shearbed_validation::files::text::Shown;
 use shearbed_validation::files::text::line;
@@ -61,9 +62,9 @@ pub(super) fn input(args: &Args) -> Result<Input, Failure> {
     for range in &args.over {
         if let Some(none) = range.set.filter(|set| *set > args.data.len()) {
             return Err(Failure::Input(format!(
-                "--over {}: there is no set {none}; --data is given {} times, and 1 to {} are allowed",
+                "--over {}: there is no set {none}; with {} of --data the first is 1 and the last {}",
                 range.label(),
-                args.data.len(),
+                counted(args.data.len() as u64, "set"),
                 args.data.len()
             )));
         }

@@ -78,7 +78,7 @@ impl<R: BufRead> Lines<R> {
                 Ok(_) => {}
                 Err(error) => return Err(self.error(0, format!("cannot be read: {error}"))),
             }
-            let text = String::from_utf8(bytes).map_err(|_| self.error(0, "no UTF-8 text"))?;
+            let text = String::from_utf8(bytes).map_err(|error| self.error(0, bounded::not_utf8(&error)))?;
             let text = self.plain(&text)?;
             if !text.trim().is_empty() {
                 return Ok(Some(text.to_owned()));

@@ -10,6 +10,7 @@ pub use lines::{LineEnds, Lines};
 
 use super::text::{line, start};
 use super::{FileError, bounded};
+use shearbed::plan::counted;
 use std::fs::File;
 use std::io::{BufRead, BufReader};
 use std::path::Path;
@@ -207,7 +208,7 @@ impl<R: BufRead> Table<R> {
                 let first = is_row(&cells).then_some((line, cells));
                 let table = Self { rows, line, names: given.to_vec(), first };
                 if found != due {
-                    return Err(table.error(format!("{found} cells where {due} columns are named")));
+                    return Err(table.error(format!("{} where {due} columns are named", counted(found as u64, "cell"))));
                 }
                 table
             }
@@ -255,7 +256,9 @@ impl<R: BufRead> Table<R> {
         };
         let row = Row { path: self.rows.lines.path(), names: &self.names, line, cells };
         match (row.cells.len(), row.names.len()) {
-            (found, due) if found != due => Err(row.error(format!("{found} cells; the header has {due}"))),
+            (found, due) if found != due => {
+                Err(row.error(format!("{}; the header has {due}", counted(found as u64, "cell"))))
+            }
             _ => Ok(Some(row)),
         }
     }

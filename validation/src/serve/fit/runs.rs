@@ -6,6 +6,7 @@ use crate::files::output::{OutputError, Refused};
 use crate::files::text::Shown;
 use crate::methods::least_squares::emulator::Predictions;
 use serde_json::Value;
+use shearbed::plan::counted;
 use std::collections::{BTreeMap, HashMap};
 use std::fmt;
 use std::hash::{DefaultHasher, Hash, Hasher};
@@ -94,7 +95,10 @@ impl Runs {
         let path = self.file.path().shown();
         let mut state = self.state();
         match self.write_state(&mut state) {
-            Ok(()) => format!("{} runs are saved in {path}, and the same command goes on from there", state.count()),
+            Ok(()) => {
+                let runs = counted(state.count() as u64, "run");
+                format!("saved in {path}: {runs}; the same command goes on from there")
+            }
             Err(error) => format!("{error}; earlier runs stay in {path}, and the same command goes on from there"),
         }
     }

@@ -5,6 +5,7 @@ use super::{CORRECTED, LoadedProblem, Origin, named};
 use crate::files::FileError;
 use crate::files::difference::difference;
 use crate::files::text::start;
+use shearbed::plan::counted;
 use std::path::Path;
 
 /// Distinguishes a built-in problem from a foreign one by its name.
@@ -64,7 +65,8 @@ fn same(path: &Path, name: &str, found: &Table, due: &Table) -> Result<(), FileE
         }
     }
     if found.rows.len() != due.rows.len() {
-        let message = format!("{} rows: {}", found.rows.len(), differs(name, &due.rows.len().to_string()));
+        let message =
+            format!("{}: {}", counted(found.rows.len() as u64, "row"), differs(name, &due.rows.len().to_string()));
         return Err(FileError::whole(path, message));
     }
     Ok(())

@@ -5,6 +5,7 @@ use super::origin::origin;
 use super::table::{self, LONGEST_EXCERPT, Table, line_of};
 use super::{FORMAT, Kind, LoadedProblem, Origin, Problem};
 use crate::files::{FileError, entries, text};
+use shearbed::plan::counted;
 use std::path::Path;
 
 /// The problems in the folders of `dir`, by name. Folders without `problem.json` are ignored.
@@ -98,7 +99,7 @@ fn check_keys(path: &Path, loaded: &LoadedProblem) -> Result<(), FileError> {
         }
     }
     if rows.len() != wanted.len() {
-        let message = format!("{} rows; there must be {}", rows.len(), wanted.len());
+        let message = format!("{}; there must be {}", counted(rows.len() as u64, "row"), wanted.len());
         return Err(FileError::whole(path, message));
     }
     Ok(())
