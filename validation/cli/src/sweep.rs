@@ -8,7 +8,7 @@ use super::{
 };
 use shearbed::run::ensemble;
 use shearbed_validation::files::cluster;
-use shearbed_validation::files::output::Output;
+use shearbed_validation::files::output::{Output, ResultFolder};
 use shearbed_validation::files::text;
 use shearbed_validation::files::text::Shown;
 use shearbed_validation::serve::sweep::{self, Axis, Folder, GridError, Point, Points};
@@ -87,7 +87,10 @@ pub(super) fn sweep(args: &Args) -> Result<(), Failure> {
         let bytes = (points.iter()).map(|point| tables::most_bytes(&point.plan)).sum();
         let origin = ("sweep", inputs.clone(), args.writing.force);
         spares_inputs(&out, &["sweep.csv", "sweep.json"], named.files())?;
-        let in_folder = result_folder(&out, origin, bytes, &[""; 0])?;
+        let in_folder = result_folder(&out, origin, bytes, &[""; 0]).map_err(|why| {
+            let earlier = ResultFolder::new(&out, "sweep", inputs.clone(), false).difference();
+            with_advice(why, earlier.as_deref())
+        })?;
         let points = Points {
             pairs: (points.iter()).map(|point| sweep::pairs(&args.over, &point.values)).collect(),
             beside: vec![EXTREMES.to_owned()],
@@ -160,6 +163,16 @@ pub(super) fn sweep(args: &Args) -> Result<(), Failure> {
         table(&rows, args.over.len()),
         out.shown(),
     ))
+}
+
+/// The refusal of a folder, and how to add values to an axis where the grid is its first difference from an earlier one.
+fn with_advice(why: Failure, difference: Option<&str>) -> Failure {
+    match why {
+        Failure::Input(why) if difference.is_some_and(|what| what.starts_with("over.")) => Failure::Input(
+            why + "; to add values, sweep these alone with another --out: `shearbed plot` draws the points of both",
+        ),
+        why => why,
+    }
 }
 
 /// The largest number of warnings of points on the terminal.
