@@ -21,8 +21,8 @@ pub const FIRST_REPLICAS: u64 = 50;
 /// added. At this share the interval is 5 % longer.
 pub const MOST_SHARE: f64 = 0.1;
 
-/// The part of that share which the covariance of few replicas may have: its replicas run at one place alone, the others
-/// at every node.
+/// The part of that share which the covariance of few replicas may have: its replicas run at one place alone, the
+/// others at every node.
 const MOST_SCARCE: f64 = 0.03;
 
 /// The largest share of the points' apparent information that may be noise of the replicas before the box is reduced.
