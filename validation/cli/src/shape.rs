@@ -37,7 +37,8 @@ pub(super) struct Args {
     #[arg(long, value_name = "G", value_parser = positive, allow_negative_numbers = true, requires = "period_s")]
     shear_rate_per_s: Option<f64>,
     /// One standard uncertainty of G
-    #[arg(long, value_name = "U", value_parser = positive, allow_negative_numbers = true, requires = "shear_rate_per_s")]
+    #[arg(long, value_name = "U", value_parser = positive, allow_negative_numbers = true)]
+    #[arg(requires = "shear_rate_per_s")]
     shear_rate_u: Option<f64>,
 }
 
@@ -63,7 +64,8 @@ pub(super) fn shape(args: &Args) -> Result<(), Failure> {
 /// The least period times shear rate.
 const OF_SPHERE: f64 = 4.0 * std::f64::consts::PI;
 
-/// Prints r_e of a rod, and of a disc, with this period at this shear rate, each with its standard uncertainty if given:
+/// Prints r_e of a rod, and of a disc, with this period at this shear rate, each with its standard uncertainty if
+/// given:
 /// relative ones, taken as independent, add in squares to that of GT, on which alone r_e depends.
 fn of_period((period_s, period_u): (f64, Option<f64>), (g, g_u): (f64, Option<f64>)) -> Result<(), Failure> {
     let strain = g * period_s;

@@ -165,7 +165,8 @@ pub(super) fn sweep(args: &Args) -> Result<(), Failure> {
     ))
 }
 
-/// The refusal of a folder, and how to add values to an axis where the grid is its first difference from an earlier one.
+/// The refusal of a folder, and how to add values to an axis where the grid is its first difference from an earlier
+/// one.
 fn with_advice(why: Failure, difference: Option<&str>) -> Failure {
     match why {
         Failure::Input(why) if difference.is_some_and(|what| what.starts_with("over.")) => Failure::Input(
