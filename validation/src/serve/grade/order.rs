@@ -250,7 +250,7 @@ pub fn remark(graded: &[Graded], claimed: Option<f64>) -> Option<String> {
     let unclear: Vec<&str> = unclear.map(|graded| graded.name.as_str()).collect();
     let answered = |graded: &&Graded| graded.verdict != Verdict::Missing && graded.kind != Kind::Formula;
     let (of_steps, others): (Vec<_>, Vec<_>) =
-        graded.iter().filter(answered).partition(|graded| !graded.errors.is_empty());
+        graded.iter().filter(answered).partition(|graded| graded.order_found.is_some());
     let answered = of_steps.len();
     if answered == 0 {
         let adaptive = others.first()?.asked_tolerance.is_some();

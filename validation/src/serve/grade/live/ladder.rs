@@ -188,8 +188,8 @@ fn climbed(
     let refuted = graded.order_found == Some(Order::Lower);
     // Whether a mistake is named must not depend on how fast the machine is; that of a step is of order 1.
     let mistaken = matches!(end, End::OutOfTime(_)) && claim.order != Some(1.0) && stays_on_a_mistake(problem, &rungs);
-    let late = matches!(end, End::OutOfTime(_)) && !mistaken;
-    let converging = late.then(|| converges(problem, &rungs)).flatten().filter(|_| !refuted);
+    let unfinished = matches!(end, End::OutOfTime(_) | End::NoFiner(_)) && !mistaken;
+    let converging = unfinished.then(|| converges(problem, &rungs)).flatten().filter(|_| !refuted);
     graded.verdict = match converging {
         Some(_) => Verdict::Pass,
         None => verdict(&end, mistaken),
@@ -209,7 +209,7 @@ fn climbed(
             Some(said.collect::<Vec<_>>().join("; "))
         }
         End::Reached => not_finite(&rungs),
-        End::Wrong(words) | End::OutOfTime(words) => {
+        End::Wrong(words) | End::NoFiner(words) | End::OutOfTime(words) => {
             let finite = rungs.last().filter(|finest| finest.error().is_finite());
             // Of directions there is no worst component.
             let finite = finite.filter(|_| problem.problem.metric == Metric::Absolute);

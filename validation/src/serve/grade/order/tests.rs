@@ -117,6 +117,35 @@ fn right_answers_alone_are_said_to_have_an_unclear_order() {
 }
 
 #[test]
+fn it_is_said_why_no_order_is_judged_and_which_low_ones_pass() {
+    let one = Graded { verdict: Verdict::Pass, ..Graded::without_answer(&loaded("spiral")) };
+    let adaptive = Graded { asked_tolerance: Some(1e-6), ..one.clone() };
+    let said = |graded: Graded| remark(&[graded], Some(4.0)).unwrap();
+    assert_eq!(said(one.clone()), "no order is judged: one answer shows none");
+    assert_eq!(said(adaptive), "no order is judged: the program chooses its own steps");
+    let of_order = |order| Graded { observed_order: Some(order), ..one.clone() };
+    let unclaimed = |order| remark(&[of_order(order)], None);
+    assert!(unclaimed(1.02).unwrap().ends_with("passes too; observed: spiral (+1.02)"));
+    assert_eq!(unclaimed(3.98), None);
+    let wrong = Graded { verdict: Verdict::Fail, ..of_order(1.0) };
+    assert_eq!(remark(&[wrong], None), None);
+}
+
+/// A claim that is too low is refuted for tensors too, which have no rods in a plane.
+#[test]
+fn a_claim_too_low_is_refuted_for_tensors() {
+    let problems = [loaded("closed-ft-linear-0.1")];
+    let mut graded = [Graded {
+        verdict: Verdict::Pass,
+        order_found: Some(Order::Higher),
+        observed_order: Some(4.0),
+        ..Graded::without_answer(&problems[0])
+    }];
+    settle(&problems, &mut graded, Some(2.0));
+    assert_eq!(graded[0].verdict, Verdict::Fail);
+}
+
+#[test]
 fn an_error_that_stays_is_not_blamed_on_the_order() {
     let loaded = loaded("spiral");
     let said = |order: f64| {

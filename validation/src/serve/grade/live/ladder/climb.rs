@@ -38,6 +38,8 @@ pub(super) enum End {
     Jumps(String),
     /// Finer settings would not come within the tolerance, or there are no finer settings.
     Wrong(String),
+    /// The program refuses finer settings.
+    NoFiner(String),
     /// The errors fall with an order lower than the claimed one.
     Lower,
     /// Time ran out first.
@@ -126,7 +128,9 @@ pub(super) fn climb(
     if within(&rungs, tolerance) {
         (rungs, End::Reached)
     } else {
-        (rungs, End::Wrong(says.unwrap_or_else(|| "there is no finer setting".to_owned())))
+        let none = || End::Wrong("there is no finer setting".to_owned());
+        let end = says.map_or_else(none, End::NoFiner);
+        (rungs, end)
     }
 }
 

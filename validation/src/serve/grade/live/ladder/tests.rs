@@ -210,6 +210,14 @@ fn what_would_take_too_long_is_not_asked_unless_it_confirms() {
     assert!(matches!(end(1e-15, 31.0), End::OutOfTime(_)));
 }
 
+/// Rounding that grows is no want of time.
+#[test]
+fn errors_that_grow_with_the_steps_are_wrong_where_time_ends() {
+    let end = |factor: f64| climbed_in(Mode::Steps, None, |k| (1e-4 * factor.powi(k), 1e-3 * 2f64.powi(k))).2;
+    assert!(matches!(end(1.5), End::Wrong(words) if words == "the error grows with the steps, as rounding does"));
+    assert!(matches!(end(0.85), End::OutOfTime(_)));
+}
+
 /// The judgement on a program with the error `error(steps, count)`, where `count` is the number of requests.
 fn judged(error: impl Fn(u64, u32) -> f64) -> End {
     let count = Cell::new(0);
