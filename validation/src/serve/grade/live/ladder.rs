@@ -125,6 +125,7 @@ fn timeless(program: &Program, problem: &LoadedProblem, mode: Mode, claim: Claim
             let graded = climbed(program, problem, mode, claim, ask);
             // A program that refuses every number of steps may choose its own.
             let by_tolerance = graded.verdict == Verdict::Refused
+                && graded.steps.is_none()
                 && mode == Mode::Steps
                 && !matches!(ask(Setting::Tolerance(1e-3)), Err(Asked::Says(_)));
             if by_tolerance { climbed(program, problem, Mode::Tolerance, claim, ask) } else { graded }
@@ -198,6 +199,10 @@ fn climbed(
         graded.steps = finest.setting.steps().ok();
         graded.asked_tolerance = finest.setting.tolerance().ok();
         graded.set_answer(problem, &finest.answer, &finest.compared);
+    }
+    // What converges as far as it goes is not wrong.
+    if matches!(end, End::NoFiner(_)) && graded.verdict == Verdict::Fail && graded.steps_needed().is_some() {
+        graded.verdict = Verdict::Refused;
     }
     let digits = || rungs.last().and_then(|rung| digits::remark(&rung.answer, rung.error(), rung.setting.steps().ok()));
     graded.note = match end {
