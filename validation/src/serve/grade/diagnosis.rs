@@ -129,7 +129,7 @@ fn not_unit(loaded: &LoadedProblem, answer: &Answer, nearer_than: f64) -> Option
     let angles = found.iter().zip(&right).map(|(found, right)| apart_rad(found, right));
     let lengths = || found.iter().map(|p| p.norm());
     let (least, most) = (lengths().fold(f64::INFINITY, f64::min), crate::oracle::worst(lengths()));
-    let right = crate::oracle::worst(angles) <= nearer_than;
+    let right = least > 0.0 && crate::oracle::worst(angles) <= nearer_than;
     right.then(|| format!("only the directions' length is wrong: |p| is {least:.6} to {most:.6}, where 1 is due"))
 }
 

@@ -27,10 +27,12 @@ pub(super) fn remark(answer: &Answer, error: f64, steps: Option<u64>) -> Option<
         single == x || digits.is_some_and(|digits| digits > 8 && printed(single, digits) == Ok(x))
     };
     let roundings = ROUNDINGS.max(steps.unwrap_or_default() as f64);
-    if error <= roundings * f64::from(f32::EPSILON) * size && all().all(is_single) {
+    let have_more_than = |few: usize| all().any(|x| printed(x, few) != Ok(x));
+    if have_more_than(8) && error <= roundings * f64::from(f32::EPSILON) * size && all().all(is_single) {
         return Some("your answer has single precision, whose errors of 1e-7 and more explain this one".to_owned());
     }
-    let digits = digits?;
+    // Zeros and ones are numbers of any precision.
+    let digits = digits.filter(|_| have_more_than(3))?;
     let last = 10f64.powi(1 - digits as i32) * size;
     (error <= PRINTINGS * last).then(|| {
         format!(
@@ -60,6 +62,8 @@ mod tests {
         assert!(remark(&printed, 1e-8, None).unwrap().contains("8 digits"));
         assert_eq!(remark(&printed, 1e-3, None), None);
         assert_eq!(remark(&of(vec![vec![0.1 + 0.2, 1.0 / 3.0]]), 1e-8, None), None);
+        // Labels, and other errors than rounding.
+        assert_eq!(remark(&of(vec![vec![0.0, 1.0, 0.5]]), 1e-6, None), None);
         assert_eq!(remark(&of(vec![vec![f64::NAN]]), f64::NAN, None), None);
     }
 }

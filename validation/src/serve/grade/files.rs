@@ -87,7 +87,9 @@ fn find(dir: &Path) -> Result<(Option<PathBuf>, BTreeMap<u64, PathBuf>), FileErr
 pub fn grade_one(loaded: &LoadedProblem, dir: &Path, options: &Options) -> Result<Graded, FileError> {
     let (single, ladder) = find(dir)?;
     let mut paths = single.iter().chain(ladder.values());
-    let scattered = loaded.problem.kind == Kind::Tensor && paths.any(|path| read::has_errors(path, &options.file));
+    // A closed equation has no random answer.
+    let may_scatter = loaded.problem.kind == Kind::Tensor && loaded.problem.closed.is_none();
+    let scattered = may_scatter && paths.any(|path| read::has_errors(path, &options.file));
     let scattered = scattered.then(|| loaded.with_standard_errors());
     let loaded = scattered.as_ref().unwrap_or(loaded);
     let read = |path: &PathBuf| read(path, loaded, &options.file, &options.dump);

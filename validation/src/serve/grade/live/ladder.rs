@@ -124,11 +124,16 @@ fn timeless(program: &Program, problem: &LoadedProblem, mode: Mode, claim: Claim
             };
             let graded = climbed(program, problem, mode, claim, ask);
             // A program that refuses every number of steps may choose its own.
-            let by_tolerance = graded.verdict == Verdict::Refused
-                && graded.steps.is_none()
-                && mode == Mode::Steps
-                && !matches!(ask(Setting::Tolerance(1e-3)), Err(Asked::Says(_)));
-            if by_tolerance { climbed(program, problem, Mode::Tolerance, claim, ask) } else { graded }
+            if graded.verdict != Verdict::Refused || graded.steps.is_some() || mode == Mode::Tolerance {
+                return graded;
+            }
+            match asked(Setting::Tolerance(1e-3)) {
+                Err(Asked::Says(_)) => graded,
+                Ok(((_, Some(_)), _)) if problem.problem.closed.is_none() => {
+                    random::graded(program, problem, Mode::Tolerance, asked)
+                }
+                _ => climbed(program, problem, Mode::Tolerance, claim, ask),
+            }
         }
     }
 }

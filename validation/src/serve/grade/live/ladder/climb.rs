@@ -233,7 +233,13 @@ pub(super) fn converges(problem: &LoadedProblem, rungs: &[Rung]) -> Option<Strin
     /// The largest uncertainty as a share of the last error: more proves nothing.
     const SHARE: f64 = 0.05;
     let last = rungs.last_chunk::<4>()?;
-    let order = steady_order(rungs)?;
+    steady_order(rungs)?;
+    // The order of the answers alone: that of the errors would hide a wrong limit.
+    let change = |k: usize| last[k].answer.largest_change(&last[k + 1].answer);
+    let [before, order] = [0, 1].map(|k| (change(k) / change(k + 1)).log2());
+    if !(order > 0.5 && (order - before).abs() < 0.1) {
+        return None;
+    }
     let extrapolated = |coarse: &Rung, fine: &Rung| -> Vec<Vec<f64>> {
         let weight = 1.0 / (order.exp2() - 1.0);
         let of = |(coarse, fine): (&Vec<f64>, &Vec<f64>)| {

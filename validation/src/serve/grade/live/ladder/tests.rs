@@ -210,6 +210,23 @@ fn what_would_take_too_long_is_not_asked_unless_it_confirms() {
     assert!(matches!(end(1e-15, 31.0), End::OutOfTime(_)));
 }
 
+/// Answers that converge to another limit do not pass by the order of their errors, which near it is lower.
+#[test]
+fn a_wrong_limit_is_seen_by_the_answers_alone() {
+    let problem = loaded("closed-ft-linear-0.1");
+    let converges = |limit: f64| {
+        let answer = |steps: u64| {
+            let mut answer = Answer::certified(&problem);
+            answer.lines = vec![0; answer.rows.len()];
+            answer.rows[1][0] += 1.0 / steps as f64 + limit;
+            (steps, answer)
+        };
+        converging(&problem, &[1000, 2000, 4000, 8000].map(answer)).is_some()
+    };
+    assert!(converges(0.0));
+    assert!(!converges(1e-7) && !converges(-1e-6));
+}
+
 /// Rounding that grows is no want of time.
 #[test]
 fn errors_that_grow_with_the_steps_are_wrong_where_time_ends() {
