@@ -30,23 +30,27 @@ pub struct Compared {
     pub too_little_data: bool,
 }
 
+/// How far the values of a row are from others, by the problem's metric.
+pub(super) fn distance(loaded: &LoadedProblem, found: &[f64], due: &[f64]) -> f64 {
+    let names = &loaded.problem.columns[loaded.problem.kind.keys().len()..];
+    match loaded.problem.metric {
+        Metric::Angle => {
+            let [found, due] = [found, due].map(Vector3::from_row_slice);
+            apart(&found, &due, false)
+        }
+        Metric::Absolute => crate::oracle::apart(found, due),
+        Metric::Relative => relative(names, found, due),
+        Metric::StandardErrors => standard_errors(names, found, due),
+    }
+}
+
 /// The error of each row; NaN if a value is not finite, or its square.
 pub(super) fn row_errors(loaded: &LoadedProblem, answer: &Answer) -> Vec<f64> {
     let keys = loaded.problem.kind.keys().len();
-    let names = &loaded.problem.columns[keys..];
-    let distance = |(found, certified): (&Vec<f64>, &[f64])| match loaded.problem.metric {
-        Metric::Angle => {
-            let [found, due] = [&found[..], certified].map(Vector3::from_row_slice);
-            apart(&found, &due, false)
-        }
-        Metric::Absolute => crate::oracle::apart(found, certified),
-        Metric::Relative => relative(names, found, certified),
-        Metric::StandardErrors => standard_errors(names, found, certified),
-    };
     // Of an infinite value, or one whose square is, no distance says anything.
     let error_of = |(row, found): (usize, &Vec<f64>)| {
         let finite = found.iter().all(|value| value.is_finite());
-        let error = finite.then(|| distance((found, &loaded.certified.rows[row][keys..])));
+        let error = finite.then(|| distance(loaded, found, &loaded.certified.rows[row][keys..]));
         error.filter(|error| error.is_finite()).unwrap_or(f64::NAN)
     };
     answer.rows.iter().enumerate().map(error_of).collect()

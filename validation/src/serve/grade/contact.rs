@@ -4,9 +4,10 @@ use super::answer::Answer;
 use super::nearness::Near;
 use crate::serve::problems::LoadedProblem;
 use crate::serve::problems::contact::{LENGTH_MM, RIGHT, Variant, answers, within};
-use nalgebra::Matrix3;
+use nalgebra::{Matrix3, Vector3};
 
-const MISTAKES: [(&str, Variant); 28] = [
+/// Mistakes in ṗ′.
+const MISTAKES: [(&str, Variant); 26] = [
     ("a kick with the wrong sign", kicked([-1.0; 2])),
     ("no kick", kicked([0.0; 2])),
     ("a kick to the other rod's velocity, not to the mean", kicked([2.0; 2])),
@@ -30,15 +31,19 @@ const MISTAKES: [(&str, Variant); 28] = [
     ("arms of half the length", armed(|arms| Some(arms.map(|arm| 0.5 * arm)))),
     ("arms of twice the length", armed(|arms| Some(arms.map(|arm| 2.0 * arm)))),
     ("arms in rod lengths, not in mm", armed(|arms| Some(arms.map(|arm| arm / LENGTH_MM)))),
-    ("a transposed gradient", flowing(|l| parts(&l.transpose()))),
-    ("the flow reversed (L with the wrong sign, or time backwards)", flowing(|l| parts(&-l))),
-    ("half the shear rate", flowing(|l| parts(&(0.5 * l)))),
-    ("twice the shear rate", flowing(|l| parts(&(2.0 * l)))),
+    ("a transposed gradient", flowing(|l| l.transpose())),
+    ("the flow reversed (L with the wrong sign, or time backwards)", flowing(|l| -l)),
+    ("half the shear rate", flowing(|l| 0.5 * l)),
+    ("twice the shear rate", flowing(|l| 2.0 * l)),
     ("Λ with the wrong sign (1/r_e for r_e)", Variant { shape: |r| -(RIGHT.shape)(r), ..RIGHT }),
     ("no 1/r_e (Λ = 1, an infinitely slender rod)", Variant { shape: |_| 1.0, ..RIGHT }),
     ("(r_e − 1)/(r_e + 1) for Λ", Variant { shape: |r| (r - 1.0) / (r + 1.0), ..RIGHT }),
     ("V_c without L x of the centre", Variant { centre: 0.0, ..RIGHT }),
     ("the line between the centres for the contact line", Variant { line: |[_, _, apart]| apart, ..RIGHT }),
+];
+
+/// Mistakes in the rates of the angles.
+const OF_ANGLES: [(&str, Variant); 2] = [
     ("A.13 as in the text", Variant { turned: printed, ..RIGHT }),
     ("φ̇′ without 1/sin θ", Variant { turned: |at, rate| [within(at, rate)[0], (RIGHT.turned)(at, rate)[1]], ..RIGHT }),
 ];
@@ -51,21 +56,19 @@ const fn armed(arms: fn([f64; 2]) -> Option<[f64; 2]>) -> Variant {
     Variant { arms, ..RIGHT }
 }
 
-const fn flowing(parts: fn(&Matrix3<f64>) -> [Matrix3<f64>; 2]) -> Variant {
-    Variant { parts, ..RIGHT }
+const fn flowing(gradient: fn(&Matrix3<f64>) -> Matrix3<f64>) -> Variant {
+    Variant { gradient, ..RIGHT }
 }
 
-fn parts(l: &Matrix3<f64>) -> [Matrix3<f64>; 2] {
-    (RIGHT.parts)(l)
-}
-
-fn printed(at: [f64; 2], rate: &nalgebra::Vector3<f64>) -> [f64; 2] {
+fn printed(at: [f64; 2], rate: &Vector3<f64>) -> [f64; 2] {
     let ([around, across], theta) = (within(at, rate), at[1]);
     [around, across * theta.sin() - rate.z * theta.cos()]
 }
 
-/// The names from which on a mistake is one of angles, not of ṗ′.
-const OF_ANGLES: usize = 26;
+/// The mistakes in what is asked for: angles with a step, ṗ′ without one.
+fn mistakes(step_s: Option<f64>) -> impl Iterator<Item = &'static (&'static str, Variant)> {
+    MISTAKES.iter().chain(OF_ANGLES.iter().filter(move |_| step_s.is_some()))
+}
 
 /// The mistakes whose answers are nearer than `nearer_than`, each with its distance.
 pub(super) fn near(loaded: &LoadedProblem, answer: &Answer, nearer_than: f64) -> Vec<Near> {
@@ -86,8 +89,7 @@ pub(super) fn near(loaded: &LoadedProblem, answer: &Answer, nearer_than: f64) ->
         }
         Some(largest)
     };
-    let known = if step_s.is_some() { &MISTAKES[..] } else { &MISTAKES[..OF_ANGLES] };
-    let near = known.iter().filter_map(|(name, variant)| Some(Near::new(off(variant, [0, 1])?, name)));
+    let near = mistakes(step_s).filter_map(|(name, variant)| Some(Near::new(off(variant, [0, 1])?, name)));
     let exchanged = off(&RIGHT, [1, 0]).map(|distance| Near::new(distance, "the rods a and b exchanged in the answer"));
     near.chain(exchanged).filter(|near| near.distance <= nearer_than).collect()
 }
@@ -115,8 +117,7 @@ mod tests {
                 assert!(near.iter().all(|near| near.distance < 1e-14), "{near:?}");
                 near.into_iter().map(|near| near.name).collect::<Vec<_>>()
             };
-            let known = if step_s.is_some() { MISTAKES.len() } else { OF_ANGLES };
-            for (mistake, variant) in &MISTAKES[..known] {
+            for (mistake, variant) in mistakes(step_s) {
                 assert_eq!(named(*variant), [*mistake], "{name}");
             }
             assert_eq!(named(RIGHT), [""; 0], "{name}");

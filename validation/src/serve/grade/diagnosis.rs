@@ -1,6 +1,7 @@
 //! Diagnosis of a wrong answer: the known mistake that produces the same curve.
 
 use super::answer::Answer;
+use super::compare;
 use super::contact;
 use super::estimate::Wrong;
 use super::means;
@@ -155,14 +156,8 @@ fn row_off(loaded: &LoadedProblem, answer: &Answer, nearer_than: f64) -> Option<
     let rods = answer.rows.len() / loaded.problem.times_s.len();
     let (found, right) = (&answer.rows, Answer::certified(loaded).rows);
     let kept = right.len().checked_sub(rods).filter(|kept| *kept >= 2 * rods)?;
-    let apart = |(found, due): (&Vec<f64>, &Vec<f64>)| match loaded.problem.kind {
-        Kind::Rods => {
-            let [found, due] = [found, due].map(|row| Vector3::from_row_slice(row));
-            self::apart(&found, &due, false)
-        }
-        _ => crate::oracle::apart(found, due),
-    };
-    let are = |found: &[Vec<f64>], due: &[Vec<f64>]| found.iter().zip(due).all(|pair| apart(pair) <= nearer_than);
+    let is_near = |(found, due): (&Vec<f64>, &Vec<f64>)| compare::distance(loaded, found, due) <= nearer_than;
+    let are = |found: &[Vec<f64>], due: &[Vec<f64>]| found.iter().zip(due).all(is_near);
     let moves = |k: usize| !are(&right[k * rods..(k + 1) * rods], &right[(k + 1) * rods..(k + 2) * rods]);
     if !(0..kept / rods).all(moves) {
         None

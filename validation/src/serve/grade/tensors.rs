@@ -113,6 +113,13 @@ struct Known {
     candidates: Vec<Candidate>,
 }
 
+impl Known {
+    /// The right equation, if a closure is the right one.
+    fn right(&self) -> Option<Candidate> {
+        Some(Candidate::new(self.parts, CLOSURES[self.own?], Vec::new()))
+    }
+}
+
 /// What is known of a problem, computed once for each; `None` if it has no closed equation that a code may solve.
 fn known(problem: &Problem) -> Option<Arc<Known>> {
     static ALL: Mutex<BTreeMap<String, Option<Arc<Known>>>> = Mutex::new(BTreeMap::new());
@@ -280,8 +287,7 @@ pub(super) fn diagnose(loaded: &LoadedProblem, answer: &Answer, error: f64, step
 
 /// The right equation from random rods, where the start is another.
 fn from_isotropic(problem: &Problem, answer: &Answer, known: &Known, most: f64) -> Option<Near> {
-    let own = Candidate::new(known.parts, CLOSURES[known.own?], Vec::new());
-    let distance = distance(problem, &answer.rows, &isotropic(), &own, most)?;
+    let distance = distance(problem, &answer.rows, &isotropic(), &known.right()?, most)?;
     Some(Near::new(distance, "a_ij(0) = δ_ij/3, the start left out"))
 }
 

@@ -67,10 +67,9 @@ pub(super) fn of_curve(problem: &Problem, answer: &Answer, known: &Known, steps:
 pub(super) fn a_step_off(problem: &Problem, answer: &Answer, known: &Known, steps: u64, most: f64) -> Option<Near> {
     let step_s = problem.times_s.last()? / steps as f64;
     let of = |(name, off_s): (&str, f64)| {
-        let own = Candidate::new(known.parts, CLOSURES[known.own?], Vec::new());
         let times_s = problem.times_s.iter().map(|time_s| time_s + off_s).collect();
-        let distance = distance(&Problem { times_s, ..problem.clone() }, &answer.rows, &known.start, &own, most)?;
-        Some(Near::new(distance, name))
+        let other = Problem { times_s, ..problem.clone() };
+        Some(Near::new(distance(&other, &answer.rows, &known.start, &known.right()?, most)?, name))
     };
     STEPS_OFF.into_iter().zip([-step_s, step_s]).find_map(of)
 }
@@ -109,8 +108,7 @@ fn a_step_too_few_or_too_many_is_named() {
     let curve = |of: &dyn Fn(f64) -> f64| {
         let times_s = whole.problem.times_s.iter().map(|time_s| of(*time_s)).collect();
         let problem = Problem { times_s, ..whole.problem.clone() };
-        let own = Candidate::new(known.parts, CLOSURES[known.own.unwrap()], Vec::new());
-        let rows = own.curve(&problem, &known.start, problem.times_s.len(), STEP).unwrap();
+        let rows = known.right().unwrap().curve(&problem, &known.start, problem.times_s.len(), STEP).unwrap();
         Answer { rows, ..Answer::certified(&whole) }
     };
     let end_s = whole.problem.times_s.last().unwrap();

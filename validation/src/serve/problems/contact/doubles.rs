@@ -14,8 +14,8 @@ pub(crate) struct Variant {
     pub(crate) kick: [f64; 2],
     /// The arms in rod lengths that stand for the right ones; `None` for no contact.
     pub(crate) arms: fn([f64; 2]) -> Option<[f64; 2]>,
-    /// W and D from L.
-    pub(crate) parts: fn(&Matrix3<f64>) -> [Matrix3<f64>; 2],
+    /// L for the right one.
+    pub(crate) gradient: fn(&Matrix3<f64>) -> Matrix3<f64>,
     /// Λ from r_e.
     pub(crate) shape: fn(f64) -> f64,
     /// The factor on L x of a rod's centre in V_c.
@@ -29,7 +29,7 @@ pub(crate) struct Variant {
 pub(crate) const RIGHT: Variant = Variant {
     kick: [1.0; 2],
     arms: Some,
-    parts: |l| [0.5 * (l - l.transpose()), 0.5 * (l + l.transpose())],
+    gradient: |l| *l,
     shape: |r| (r * r - 1.0) / (r * r + 1.0),
     centre: 1.0,
     line: |[a, b, _]| a.cross(&b),
@@ -83,7 +83,8 @@ pub(super) fn geometry(pair: &[f64]) -> Geometry {
 
 /// p and ṗ′ in 1/s of both rods; `pair` has centre, axis and r_e of each.
 fn rates(gradient: &Matrix3<f64>, pair: &[f64], variant: Variant) -> [(Vector3<f64>, Vector3<f64>); 2] {
-    let [w, d] = (variant.parts)(gradient);
+    let l = (variant.gradient)(gradient);
+    let (w, d) = (0.5 * (l - l.transpose()), 0.5 * (l + l.transpose()));
     let rod = |of: &[f64]| {
         let (x, p) = (Vector3::from_row_slice(&of[..3]), Vector3::from_row_slice(&of[3..6]).normalize());
         let free = w * p + (variant.shape)(of[6]) * (d * p - p * p.dot(&(d * p)));
@@ -96,7 +97,7 @@ fn rates(gradient: &Matrix3<f64>, pair: &[f64], variant: Variant) -> [(Vector3<f
     };
     let [arm_a, arm_b] = [arm_a, arm_b].map(|arm| arm * LENGTH_MM);
     let along = |(x, _, free): &(Vector3<f64>, Vector3<f64>, Vector3<f64>), arm: f64| {
-        line.dot(&((w + d) * x * variant.centre + free * arm))
+        line.dot(&(l * x * variant.centre + free * arm))
     };
     let (v_a, v_b) = (along(&a, arm_a), along(&b, arm_b));
     let mean = 0.5 * (v_a + v_b);

@@ -221,10 +221,14 @@ fn converge_elsewhere(rungs: &[Rung]) -> bool {
 
 /// The order with which the last four errors fall, if it is nearly the same for each pair.
 fn steady_order(rungs: &[Rung]) -> Option<f64> {
-    let last = rungs.last_chunk::<4>()?.each_ref().map(Rung::error);
-    let orders = [0, 1, 2].map(|k| (last[k] / last[k + 1]).log2());
-    let steady = |order: &f64| *order > 0.5 && (order - orders[2]).abs() < 0.1;
-    orders.iter().all(steady).then_some(orders[2])
+    steady(&rungs.last_chunk::<4>()?.each_ref().map(Rung::error))
+}
+
+/// The order with which numbers fall from one doubling of the steps to the next, if it is nearly the same for each pair.
+fn steady(all: &[f64]) -> Option<f64> {
+    let orders: Vec<_> = all.windows(2).map(|pair| (pair[0] / pair[1]).log2()).collect();
+    let last = *orders.last()?;
+    orders.iter().all(|order| *order > 0.5 && (order - last).abs() < 0.1).then_some(last)
 }
 
 /// A message on answers that converge to the certified one, though none is within the tolerance: their errors fall by a
@@ -235,11 +239,7 @@ pub(super) fn converges(problem: &LoadedProblem, rungs: &[Rung]) -> Option<Strin
     let last = rungs.last_chunk::<4>()?;
     steady_order(rungs)?;
     // The order of the answers alone: that of the errors would hide a wrong limit.
-    let change = |k: usize| last[k].answer.largest_change(&last[k + 1].answer);
-    let [before, order] = [0, 1].map(|k| (change(k) / change(k + 1)).log2());
-    if !(order > 0.5 && (order - before).abs() < 0.1) {
-        return None;
-    }
+    let order = steady(&[0, 1, 2].map(|k| last[k].answer.largest_change(&last[k + 1].answer)))?;
     // Methods have whole orders, which answers near the limit show to many digits, but not to all.
     let whole = order.round();
     let order = if (order - whole).abs() < 0.1 { whole } else { order };
