@@ -20,7 +20,7 @@ mod tests;
 pub use closures::Closure;
 pub use fourth::Fourth;
 pub use integrate::{at, at_rate, steady, steady_of};
-pub use models::{Equation, Model, Parts};
+pub use models::{Equation, Model, Parts, shear_rate};
 
 /// An initial a_ij with three distinct axes, which some models, and ORW, need.
 pub const APART: [[f64; 3]; 3] = [[0.1875, 0.125, 0.0], [0.125, 0.5, 0.0], [0.0, 0.0, 0.3125]];

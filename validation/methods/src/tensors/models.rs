@@ -167,7 +167,7 @@ impl Equation {
     pub fn parts(&self) -> Parts {
         let l = &self.gradient_per_s;
         let (spin, strain) = ((l - l.transpose()) * 0.5, (l + l.transpose()) * 0.5);
-        let speed = (2.0 * strain.dot(&strain)).sqrt();
+        let speed = shear_rate(&strain);
         let shape = self.shape_factor;
         Parts {
             spin,
@@ -184,6 +184,11 @@ impl Equation {
             model: self.model,
         }
     }
+}
+
+/// γ̇ = (2D:D)^½ of D.
+pub fn shear_rate(strain: &Matrix3<f64>) -> f64 {
+    (2.0 * strain.dot(strain)).sqrt()
 }
 
 /// The quantities that enter the rate of a_ij; a wrong implementation has a wrong one.

@@ -1,7 +1,7 @@
 //! Known mistakes in the rate of a_ij and in its closures: what a wrong code computes in place of each part.
 
 use super::closures::{linear, linear_by, mixed, quadratic};
-use super::{Closure, Fourth, Model, Parts, orthotropic};
+use super::{Closure, Fourth, Model, Parts, orthotropic, shear_rate};
 use nalgebra::Matrix3;
 
 /// A mistake in one part of the rate of a_ij.
@@ -51,7 +51,7 @@ pub const MISTAKES: [Mistake; 71] = [
         Some(scaled(p, 1.0 / p.speed, 1.0 / p.speed, 1.0 / p.speed))
     }),
     mistake("D_12, D_13 and D_23 without their ½ (engineering shear)", L, |p| {
-        Some(sheared(p, speed_of(&doubled(&p))))
+        Some(sheared(p, shear_rate(&doubled(&p))))
     }),
     mistake("D_12, D_13 and D_23 without their ½, with the right γ̇", L, |p| Some(sheared(p, p.speed))),
     mistake("W without its ½", L, |p| Some(scaled(p, 2.0, 1.0, 1.0))),
@@ -149,11 +149,6 @@ pub fn scaled(parts: Parts, spin: f64, strain: f64, speed: f64) -> Parts {
 /// D with its off-diagonal components doubled.
 fn doubled(parts: &Parts) -> Matrix3<f64> {
     Matrix3::from_fn(|i, j| if i == j { 1.0 } else { 2.0 } * parts.strain[(i, j)])
-}
-
-/// (2D:D)^½.
-fn speed_of(strain: &Matrix3<f64>) -> f64 {
-    (2.0 * strain.norm_squared()).sqrt()
 }
 
 /// The parts with that D, and with a γ̇.

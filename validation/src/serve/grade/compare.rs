@@ -15,6 +15,8 @@ pub struct Compared {
     /// The largest error of a row by the problem's metric; for directions at least ||p| − 1|. NaN if a value is
     /// not finite.
     pub error: f64,
+    /// The error of each row.
+    pub errors: Vec<f64>,
     /// The row with the largest error.
     pub row: usize,
     /// A fault other than the error.
@@ -45,7 +47,7 @@ pub(super) fn distance(loaded: &LoadedProblem, found: &[f64], due: &[f64]) -> f6
 }
 
 /// The error of each row; NaN if a value is not finite, or its square.
-pub(super) fn row_errors(loaded: &LoadedProblem, answer: &Answer) -> Vec<f64> {
+fn row_errors(loaded: &LoadedProblem, answer: &Answer) -> Vec<f64> {
     let keys = loaded.problem.kind.keys().len();
     // Of an infinite value, or one whose square is, no distance says anything.
     let error_of = |(row, found): (usize, &Vec<f64>)| {
@@ -59,7 +61,8 @@ pub(super) fn row_errors(loaded: &LoadedProblem, answer: &Answer) -> Vec<f64> {
 /// Compares an answer with the problem's certified values.
 pub fn compare(loaded: &LoadedProblem, answer: &Answer) -> Compared {
     let names = &loaded.problem.columns[loaded.problem.kind.keys().len()..];
-    let largest = row_errors(loaded, answer).into_iter().enumerate().reduce(|a, b| {
+    let errors = row_errors(loaded, answer);
+    let largest = errors.iter().copied().enumerate().reduce(|a, b| {
         let worse = b.1.is_nan() || b.1 > a.1;
         if worse && !a.1.is_nan() { b } else { a }
     });
@@ -70,6 +73,7 @@ pub fn compare(loaded: &LoadedProblem, answer: &Answer) -> Compared {
     let rate = loaded.problem.shear_rate_per_s().filter(|_| directions);
     Compared {
         error,
+        errors,
         row,
         remark: remark(loaded, answer, row, error, largest_se),
         length_drift: directions

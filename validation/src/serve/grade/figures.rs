@@ -1,8 +1,6 @@
 //! Pictures of the results.
 
 use super::Graded;
-use super::answer::Answer;
-use super::compare::row_errors;
 use crate::methods::integrators::{Integrator, RodProblem, Setting, Theory};
 use crate::present::plot::{Curve, Figure};
 use crate::serve::problems::{Kind, LoadedProblem, Metric};
@@ -40,11 +38,10 @@ fn figure(title: String, y_name: &str, curves: Vec<Curve>) -> Figure {
     }
 }
 
-/// (time / last time, error) of an answer about rods or a tensor; empty at fewer than three times.
-pub(super) fn along(loaded: &LoadedProblem, answer: &Answer) -> Vec<(f64, f64)> {
+/// (time / last time, error) of the errors of rows about rods or a tensor; empty at fewer than three times.
+pub(super) fn along(loaded: &LoadedProblem, errors: &[f64]) -> Vec<(f64, f64)> {
     let times_s = &loaded.problem.times_s;
     let is_curve = matches!(loaded.problem.metric, Metric::Angle | Metric::Absolute) && times_s.len() > 2;
-    let errors = row_errors(loaded, answer);
     let rows = errors.chunks((errors.len() / times_s.len().max(1)).max(1));
     let share = |time_s: &f64| time_s / times_s[times_s.len() - 1];
     let all = times_s.iter().map(share).zip(rows.map(|rows| crate::oracle::worst(rows.iter().copied())));

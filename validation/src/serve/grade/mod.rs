@@ -175,7 +175,7 @@ impl Graded {
     /// Sets an answer, its error and drifts, and the diagnosis.
     fn set_answer(&mut self, loaded: &LoadedProblem, answer: &answer::Answer, compared: &compare::Compared) {
         self.set_compared(compared);
-        self.path = figures::along(loaded, answer);
+        self.path = figures::along(loaded, &compared.errors);
         let found = diagnosis::diagnose(loaded, answer, compared.error, self.steps);
         (self.diagnosis, self.suspects, self.answer) = (found.said, found.suspects, Some(answer.clone()));
     }

@@ -238,9 +238,13 @@ fn climbed(
 
 /// The finest answer, or where its error is rounding that grows, the best one.
 fn best(rungs: &[Rung]) -> Option<&Rung> {
-    let grows = matches!(rungs, [.., before, _, last] if last.error() > 1.5 * before.error());
-    let all = rungs.iter().filter(|rung| grows && rung.error().is_finite());
-    all.min_by(|a, b| a.error().total_cmp(&b.error())).or(rungs.last())
+    match rungs {
+        [.., before, _, last] if last.error() > 1.5 * before.error() => {
+            let finite = rungs.iter().filter(|rung| rung.error().is_finite());
+            finite.min_by(|a, b| a.error().total_cmp(&b.error()))
+        }
+        _ => rungs.last(),
+    }
 }
 
 /// The verdict of an end, at answers that lie on the curve of a known mistake or not.

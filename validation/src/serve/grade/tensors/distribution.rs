@@ -2,7 +2,7 @@
 
 use super::{Near, apart};
 use crate::methods::tensors::fourth::PAIRS;
-use crate::methods::tensors::{Model, Parts};
+use crate::methods::tensors::{Model, Parts, shear_rate};
 use crate::oracle::diffusion::{Means, Motion, strain_rate_per_s};
 use crate::serve::grade::answer::Answer;
 use crate::serve::problems::Problem;
@@ -41,8 +41,7 @@ pub(super) fn of_wrong_distribution(problem: &Problem, answer: &Answer, most: f6
 pub(super) fn from_exact(problem: &Problem, rows: &[Vec<f64>], parts: &Parts, most: f64) -> Option<f64> {
     let Model::FolgarTucker { c_i } = parts.model else { return None };
     let gradient = parts.spin + parts.strain;
-    let speed = (2.0 * parts.strain.dot(&parts.strain)).sqrt();
-    let c_i = c_i * parts.speed / speed;
+    let c_i = c_i * parts.speed / shear_rate(&parts.strain);
     let of_rods = parts.of_fourth == 2.0 * parts.of_strain && parts.decay == 3.0 && parts.pairs == 1.0;
     if !of_rods
         || parts.spun != [1.0, -1.0]

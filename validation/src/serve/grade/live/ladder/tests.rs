@@ -24,6 +24,7 @@ fn rung(setting: Setting, error: f64, seconds: f64) -> Rung {
         answer: Answer { path: "a test".into(), rows: vec![vec![error.cos(), error.sin(), 0.0]], lines: vec![0] },
         compared: Compared {
             error,
+            errors: vec![error],
             row: 0,
             remark: None,
             length_drift: None,
