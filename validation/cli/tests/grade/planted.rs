@@ -61,7 +61,6 @@ fn each_planted_mistake_gets_its_own_name_and_the_unspoilt_code_none() {
         let spoilt = judge(&format!("spoilt-{k}"));
         assert_eq!((spoilt.code, spoilt.verdict(shows)), (Some(1), "FAIL"), "{mistake}: {}", spoilt.words);
         let diagnosis = spoilt.diagnosis(shows);
-        // Half of the printed A.13 is a mistake that nobody has named.
         assert!(
             diagnosis.contains(expected) && diagnosis.is_empty() == expected.is_empty(),
             "{mistake}: {diagnosis:?} for {expected}: {}",
