@@ -224,7 +224,7 @@ fn steady_order(rungs: &[Rung]) -> Option<f64> {
     steady(&rungs.last_chunk::<4>()?.each_ref().map(Rung::error))
 }
 
-/// The order with which numbers fall from one doubling of the steps to the next, if it is nearly the same for each pair.
+/// The order with which numbers fall from one doubling of the steps to the next, if nearly the same for each pair.
 fn steady(all: &[f64]) -> Option<f64> {
     let orders: Vec<_> = all.windows(2).map(|pair| (pair[0] / pair[1]).log2()).collect();
     let last = *orders.last()?;
