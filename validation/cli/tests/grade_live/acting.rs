@@ -7,6 +7,7 @@ use shearbed_validation::methods::textbook::extrapolated::{extrapolated, jeffery
 use std::fs;
 use std::io::{BufRead, Write};
 use std::process::{Command, ExitCode, Stdio};
+use std::sync::OnceLock;
 use std::time::Duration;
 
 /// Acts as a program that is to be graded. Where its name does not say when, it does what that says from its third
@@ -49,12 +50,20 @@ pub fn program(name: &str, pids: Option<&str>) -> ExitCode {
         _ => {}
     }
     let mut out = std::io::stdout();
+    let mut before = json!([]);
     for (k, line) in std::io::stdin().lock().lines().enumerate() {
         let request: Value = serde_json::from_str(&line.unwrap()).unwrap();
-        let answer = match request.get("tensor") {
+        let mut answer = match request.get("tensor") {
             Some(_) => tensors::answer(name, &request),
             None => answer(name, &request, k as u64 + 1),
         };
+        if name == "turns_one_question_late" {
+            let own = answer["p"].clone();
+            let before = std::mem::replace(&mut before, own);
+            if before.as_array().unwrap().len() == answer["p"].as_array().unwrap().len() {
+                answer["p"] = before;
+            }
+        }
         match (name, k) {
             ("is_right_on_one_line_of_stderr_each", _) => eprintln!("working"),
             ("floods_stderr", 2) => (0..20_000).for_each(|_| eprintln!("{}", "x".repeat(1000))),
@@ -129,9 +138,12 @@ fn answer(name: &str, request: &Value, count: u64) -> Value {
     let a = (square * l - l.transpose()) / (square + 1.0);
     let finer = if name == "ends_after_a_right_answer" { 1024 } else { 1 };
     let steps = finer * request["steps"].as_u64().unwrap();
-    let h = number(&request["end_s"]) / steps as f64;
+    let end_s = number(&request["end_s"]);
     let rotation = request.get("rotation_rad_per_s").filter(|_| name.starts_with("turns"));
     let rotation = rotation.map(|rotation| Vector3::from_fn(|i, _| number(&rotation[i])));
+    static FIRST_S: OnceLock<f64> = OnceLock::new();
+    let always = name == "turns_for_the_same_time" && rotation.is_some();
+    let h = if always { *FIRST_S.get_or_init(|| end_s) } else { end_s } / steps as f64;
     let moved = |p: Vector3<f64>| match method(name) {
         _ if let Some(rotation) = rotation => in_turning_flow(name, (l, rotation), square, p, h, steps),
         (Some(order), normalised) => extrapolated(order, normalised, &a, p, h, steps),

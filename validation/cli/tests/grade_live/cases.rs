@@ -9,6 +9,8 @@ pub const EXTRAPOLATED: &[&str] = &["converges to the certified answer at order"
 /// Programs on the problem of a flow that turns; the last does not know of such flows.
 pub const TURNING: &[Case] = &[
     ("turns", "PASS", &[]),
+    ("turns_for_the_same_time", "FAIL", &["up to t = "]),
+    ("turns_one_question_late", "FAIL", &["up to t = "]),
     ("turns_by_steps", "FAIL", &["L(t) taken at the start of each step, where any method is of order 1"]),
     ("turns_at_first", "FAIL", &["the curve of L(t) taken at t = 0 for ever"]),
     ("turns_without_spin", "FAIL", &["the curve of L(t) without the spin Q̇Qᵀ"]),

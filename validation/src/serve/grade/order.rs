@@ -31,6 +31,9 @@ const NO_ROUND_OFF: f64 = 1.5;
 /// The error in rad below which a method follows the motion closely.
 const CLOSE: f64 = 0.01;
 
+/// Number of consecutive pairs that refute an order though they do not agree.
+const WANDERING: usize = 4;
+
 /// The evidence of a ladder about a claimed order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
@@ -118,7 +121,8 @@ impl Orders {
         }
         // A last answer that is right by chance, or copied, does not take back what those before it show.
         let shown = |pairs: &[(f64, f64)]| Self::proves_lower(pairs, claimed);
-        if self.certain().windows(3).any(shown) {
+        let wander = |pairs: &[(f64, f64)]| pairs[0].1 < CLOSE && pairs.iter().all(|pair| pair.0 <= claimed - WHOLE);
+        if self.certain().windows(3).any(shown) || self.certain().windows(WANDERING).any(wander) {
             return Order::Lower;
         }
         if let [.., before, newest] = self.usable[..]

@@ -1,6 +1,7 @@
 //! A ladder: one problem with more and more steps, or with smaller and smaller tolerances; formulas have none.
 
 mod climb;
+mod earlier;
 mod jumps;
 mod random;
 #[cfg(test)]
@@ -20,6 +21,7 @@ use crate::serve::grade::order::other;
 use crate::serve::grade::{Graded, Order, Verdict};
 use crate::serve::problems::{Kind, LoadedProblem, Metric};
 use climb::{End, climb, converges, fewest};
+use earlier::earlier;
 use std::cell::Cell;
 use std::time::{Duration, Instant};
 
@@ -79,7 +81,8 @@ fn errors(rungs: &[Rung]) -> Vec<(u64, f64)> {
     rungs.iter().filter_map(|rung| Some((rung.setting.steps().ok()?, rung.error()))).collect()
 }
 
-/// Grades a program on a problem: about free rods at the last time, about tensors at all times.
+/// Grades a program on a problem: about free rods at the last time, about tensors at all times; and then up to an
+/// earlier time.
 pub fn grade(program: &Program, problem: &LoadedProblem, mode: Mode, claim: Claim) -> Graded {
     program.during(&problem.problem.name);
     let begun = Instant::now();
@@ -95,44 +98,43 @@ fn timeless(program: &Program, problem: &LoadedProblem, mode: Mode, claim: Claim
     }
     match problem.problem.kind {
         Kind::Rods => {
-            let last = last_time(problem);
-            let question = Question::of(&last);
-            climbed(program, &last, mode, claim, |setting| {
-                let (found, took) = program.ask(&question, setting)?;
+            let earlier = earlier(problem).map(|earlier| last_time(&earlier));
+            climbed(program, &last_time(problem), earlier, mode, claim, |of, setting| {
+                let (found, took) = program.ask(&Question::of(of), setting)?;
                 Ok((found.p.into_iter().map(Vec::from).collect(), took))
             })
         }
         Kind::Formula => formula(program, problem),
         _ => {
             let axes = program.axes;
-            let asked = |setting: Setting| {
-                let size = [problem.problem.times_s.len(), problem.problem.columns.len() - 1];
-                program.ask_table(&tables::of_tensor(&problem.problem, setting, axes), size)
+            let asked = |of: &LoadedProblem, setting: Setting| {
+                let size = [of.problem.times_s.len(), of.problem.columns.len() - 1];
+                program.ask_table(&tables::of_tensor(&of.problem, setting, axes), size)
             };
-            let first = asked(climb::settings(problem, mode)[0]);
+            let first = asked(problem, climb::settings(problem, mode)[0]);
             // A closed equation has no random answer.
             let is_random = problem.problem.closed.is_none() && matches!(first, Ok(((_, Some(_)), _)));
             let first = Cell::new(Some(first));
-            let table = |setting: Setting| first.take().unwrap_or_else(|| asked(setting));
+            let table = |of: &LoadedProblem, setting| first.take().unwrap_or_else(|| asked(of, setting));
             if is_random {
-                return random::graded(program, problem, mode, table);
+                return random::graded(program, problem, mode, |setting| table(problem, setting));
             }
             let columns = &problem.problem.columns[1..];
-            let ask = |setting: Setting| {
-                let ((rows, _), took) = table(setting)?;
+            let ask = |of: &LoadedProblem, setting: Setting| {
+                let ((rows, _), took) = table(of, setting)?;
                 Ok((rows.iter().map(|row| axes.row_to_ours(columns, row)).collect(), took))
             };
-            let graded = climbed(program, problem, mode, claim, ask);
+            let graded = climbed(program, problem, earlier(problem), mode, claim, ask);
             // A program that refuses every number of steps may choose its own.
             if graded.verdict != Verdict::Refused || graded.steps.is_some() || mode == Mode::Tolerance {
                 return graded;
             }
-            match asked(Setting::Tolerance(1e-3)) {
+            match asked(problem, Setting::Tolerance(1e-3)) {
                 Err(Asked::Says(_)) => graded,
                 Ok(((_, Some(_)), _)) if problem.problem.closed.is_none() => {
-                    random::graded(program, problem, Mode::Tolerance, asked)
+                    random::graded(program, problem, Mode::Tolerance, |setting| asked(problem, setting))
                 }
-                _ => climbed(program, problem, Mode::Tolerance, claim, ask),
+                _ => climbed(program, problem, earlier(problem), Mode::Tolerance, claim, ask),
             }
         }
     }
@@ -176,18 +178,23 @@ type Table = Result<(Vec<Vec<f64>>, Duration), Asked>;
 fn climbed(
     program: &Program,
     problem: &LoadedProblem,
+    earlier: Option<LoadedProblem>,
     mode: Mode,
     claim: Claim,
-    answer: impl Fn(Setting) -> Table,
+    answer: impl Fn(&LoadedProblem, Setting) -> Table,
 ) -> Graded {
     let of = &problem.problem;
-    let ask = |setting: Setting| {
-        let (rows, took) = answer(setting)?;
+    let ask_of = |problem: &LoadedProblem, setting: Setting| {
+        let (rows, took) = answer(problem, setting)?;
         Ok(Rung::of(problem, setting, rows, took))
     };
+    let ask = |setting: Setting| ask_of(problem, setting);
     let (rungs, mut end) = climb(problem, mode, program.timeout, claim.order, ask);
     if matches!(end, End::Reached) {
         end = jumps::judged(&rungs, of.tolerance, fewest(&of.times_s), ask);
+    }
+    if let (End::Reached, Some(passed), Some(earlier)) = (&end, rungs.last(), &earlier) {
+        end = earlier::judged(passed, [earlier, problem], program.timeout, |setting| ask_of(earlier, setting));
     }
     let mut graded = Graded::without_answer(problem);
     graded.set_orders(errors(&rungs), problem, claim.order);

@@ -23,7 +23,7 @@ const RESOLVING_TENSORS: usize = 3;
 const REFUSALS: [usize; 2] = [RESOLVING + 1, 2];
 
 /// An error in rad below which a method follows the motion, so that an answer that no longer changes is a result.
-const FOLLOWED: f64 = 0.01;
+pub(super) const FOLLOWED: f64 = 0.01;
 
 /// The end of a ladder. Running out of time is not a failure.
 #[derive(Clone, Debug, PartialEq)]
