@@ -189,6 +189,7 @@ fn files(args: &Args, reference: &Path, mine: &Path) -> Result<Done, Failure> {
     let mut report = report(args, [reference.shown(), mine.shown()], problems, not_read(mine, &names));
     report.diagnosis = grade::overall(&wanted, &mut report.problems);
     report.remarks.extend(on_order(&report.problems, args.order));
+    report.remarks.extend(grade::loose(&wanted, &report.problems));
     let inputs = inputs::of_files(args, reference, mine, &wanted)?;
     Ok((report, wanted, inputs))
 }
@@ -287,6 +288,11 @@ fn program(args: &Args, command: &str, reference: Option<&Path>) -> Result<Done,
     let (program, mode) = if rods { live::prepared(program, args.protocol.is_none()) } else { (program, Mode::Steps) };
     let claim = Claim { order: args.order };
     let mut problems: Vec<_> = wanted.iter().map(|problem| live::grade(&program, problem, mode, claim)).collect();
+    let last = |loaded: &LoadedProblem| match loaded.problem.kind {
+        Kind::Rods => live::last_time(loaded),
+        _ => loaded.clone(),
+    };
+    let asked: Vec<_> = wanted.iter().map(last).collect();
     grade::settle(&wanted, &mut problems, claim.order);
     let observed = problems.iter().filter(|graded| graded.verdict == grade::Verdict::Pass);
     let theory = live::theory(mode == Mode::Tolerance, observed.filter_map(|graded| graded.observed_order).next());
@@ -298,6 +304,7 @@ fn program(args: &Args, command: &str, reference: Option<&Path>) -> Result<Done,
         .map(|what| format!("{what}: not measured, as the program needs longer for it than --timeout, or broke off"))
         .collect();
     remarks.extend(on_order(&problems, claim.order));
+    remarks.extend(grade::loose(&asked, &problems));
     remarks.extend(program.breaches());
     remarks.extend(program.given_up().map(|reason| format!("the program was given up: {reason}")));
     if let Err(end) = program.close() {
@@ -306,11 +313,6 @@ fn program(args: &Args, command: &str, reference: Option<&Path>) -> Result<Done,
     let reference = reference.map_or("built-in problems".to_owned(), |dir| dir.shown());
     let mut report = report(args, [reference, command.to_owned()], problems, remarks);
     report.live = studies;
-    let last = |loaded: &LoadedProblem| match loaded.problem.kind {
-        Kind::Rods => live::last_time(loaded),
-        _ => loaded.clone(),
-    };
-    let asked: Vec<_> = wanted.iter().map(last).collect();
     report.diagnosis = grade::overall(&asked, &mut report.problems);
     Ok((report, wanted, inputs))
 }

@@ -9,6 +9,7 @@ use super::mistakes::{self, AXES, Mistake, Setting};
 pub use super::nearness::Diagnosis;
 use super::nearness::{CURVE, NEARER, Near, apart, said};
 use super::tensors;
+use super::{Graded, Verdict};
 use crate::methods::integrators::apart_rad;
 use crate::serve::problems::{Kind, LoadedProblem, Metric};
 use nalgebra::Vector3;
@@ -110,6 +111,22 @@ pub(super) fn shows(loaded: &LoadedProblem, name: &str) -> bool {
             .and_then(|mistake| distance(loaded, &certified, mistake)),
     };
     distance.is_some_and(|distance| distance > 2.0 * problem.tolerance)
+}
+
+/// A remark on problems that pass by a tolerance so large that rods which do not move would pass, though they should.
+pub fn loose(problems: &[LoadedProblem], graded: &[Graded]) -> Option<String> {
+    let at_rest = |loaded: &&LoadedProblem| {
+        let times = loaded.problem.times_s.iter();
+        let rows: Vec<_> = times.flat_map(|_| &loaded.start).map(|p| p.to_vec()).collect();
+        let error =
+            compare::compare(loaded, &Answer { lines: vec![0; rows.len()], rows, path: "rods at rest".into() }).error;
+        loaded.problem.kind == Kind::Rods && error > loaded.tolerances()[0] && error <= loaded.problem.tolerance
+    };
+    let passes = |name: &&str| graded.iter().any(|graded| graded.name == *name && graded.verdict == Verdict::Pass);
+    let names: Vec<_> =
+        (problems.iter().filter(at_rest).map(|loaded| loaded.problem.name.as_str())).filter(passes).collect();
+    (!names.is_empty())
+        .then(|| format!("with this tolerance rods that do not move would pass too: {}", names.join(", ")))
 }
 
 /// True if no rod has moved: then many curves are alike, and none is named.
@@ -279,6 +296,21 @@ mod tests {
             assert!((apart(&found, &long, false) - (aside.norm() - 1.0)).abs() < 1e-15);
             assert!((apart(&found.normalize(), &long, false) - 0.1f64.atan()).abs() < 1e-15);
         }
+    }
+
+    #[test]
+    fn a_tolerance_that_lets_rods_at_rest_pass_is_named() {
+        let said = |name: &str, tolerance: f64| {
+            let loaded = loaded(name).with_tolerance(tolerance, "");
+            let graded = Graded { verdict: Verdict::Pass, ..Graded::without_answer(&loaded) };
+            loose(&[loaded], &[graded])
+        };
+        // Rods beside the poles move by less than 1e-4 rad, and those along the vorticity axis not at all.
+        assert!(said("poles", 1e-4).is_some_and(|said| said.ends_with("too: poles")));
+        assert_eq!(
+            [("poles", 6e-6), ("log-rolling", 0.1), ("spiral", 0.1)].map(|(name, x)| said(name, x)),
+            [None, None, None]
+        );
     }
 
     #[test]

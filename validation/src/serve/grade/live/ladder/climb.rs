@@ -174,8 +174,13 @@ pub(super) fn hopeless(rungs: &[Rung], tolerance: f64, timeout: Duration, smooth
     let still = if errors[3] < FOLLOWED || smooth { 0.01 * errors[3] } else { 0.01 * tolerance };
     let same = |rung: &Rung| rung.answer.largest_change(&last.answer) == 0.0;
     if matches!(last.setting, Setting::Steps(_)) && errors[3] > tolerance && rungs.iter().all(same) {
-        let words = "the program ignores \"steps\": the answers are the same to the last digit. If it chooses its own, \
-            let it answer \"error\" to \"steps\", and it is asked by \"tolerance\"";
+        // A program that chooses its steps follows the motion.
+        let words = if errors[3] < FOLLOWED {
+            "the program ignores \"steps\": the answers are the same to the last digit. If it chooses its own, let it \
+             answer \"error\" to \"steps\", and it is asked by \"tolerance\""
+        } else {
+            "the answer is the same with any number of steps"
+        };
         return Some(End::Wrong(words.to_owned()));
     }
     if changes.iter().all(|change| *change <= still) && errors[3] > tolerance {
