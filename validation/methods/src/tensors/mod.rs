@@ -11,6 +11,7 @@ mod integrate;
 pub mod models;
 mod natural;
 pub mod orthotropic;
+mod polynomials;
 pub mod second;
 pub mod wrong;
 

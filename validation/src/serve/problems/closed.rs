@@ -147,7 +147,11 @@ fn built(def: &ProblemDef, problem: &ClosureProblem) -> Built {
             within some 17 units: 5e-11; twice that is left. Certified values are good to 1e-12: two writings of the \
             equation with two integrators agree to that. Closures differ from each other by 1e-4 to 1e-1."
             .into(),
-        equations: [model.source(), closure.source(), RATE].map(String::from).into(),
+        equations: [model.source(), closure.source(), RATE]
+            .map(String::from)
+            .into_iter()
+            .chain(closure.polynomials())
+            .collect(),
         ..Problem::new(def, Kind::Tensor, &SECOND)
     };
     Built::new(problem, certified)

@@ -244,6 +244,11 @@ impl FormulaProblem {
                 vec![model.source(), closure.source(), RATE],
             ),
         };
+        let closure = match self.formula {
+            Formula::Pdot => None,
+            Formula::Closure { closure } | Formula::Dadt { closure, .. } => Some(closure),
+        };
+        let polynomials = closure.map(Closure::polynomials).unwrap_or_default();
         let problem = Problem {
             summary: format!(
                 "A formula, without time: {asked}, for each of the {} rows of `inputs.csv` ({}). Each row has its own \
@@ -259,7 +264,7 @@ impl FormulaProblem {
                 10³ times their sum: a right code in double precision is off by less than 1e-12. Certified values are \
                 rounded to twelve decimals. Ten times that is allowed."
                 .into(),
-            equations: equations.into_iter().map(String::from).collect(),
+            equations: equations.into_iter().map(String::from).chain(polynomials).collect(),
             ..Problem::new(def, Kind::Formula, self.formula.answers())
         };
         let certified = self.certified(&inputs);

@@ -39,7 +39,9 @@ pub(super) fn page(built: &Built) -> String {
         Kind::Ensemble => "The means in `certified.csv` are a reference of this program, not certified; they come from",
         _ => "The certified values in `certified.csv` come from",
     };
-    page + &format!("{values}: {}.\n", problem.equations.join("; "))
+    // Polynomials of closures fill lines of their own.
+    let (before, between) = if problem.equations.len() > 3 { ("\n\n- ", "\n- ") } else { (" ", "; ") };
+    page + &format!("{values}:{before}{}.\n", problem.equations.join(between))
 }
 
 fn asked(built: &Built) -> String {

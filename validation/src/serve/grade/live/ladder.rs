@@ -11,6 +11,7 @@ use super::last_time;
 use super::program::{Asked, Program, Question};
 use super::protocol::Protocol;
 use super::tables;
+use super::text::AFTER_ID;
 use crate::methods::integrators::Setting;
 use crate::serve::grade::answer::Answer;
 use crate::serve::grade::compare::{Compared, compare};
@@ -42,7 +43,10 @@ pub fn prepared(program: Program, any_form: bool) -> (Program, Mode) {
         program.during("the first request");
         program.ask(&Question::couette(2.0, vec![[1.0, 0.0, 0.0]], 1.0), setting)
     };
-    let is_answer = |found: &Result<_, Asked>| matches!(found, Ok(_) | Err(Asked::Says(_)));
+    let is_answer = |found: &Result<_, Asked>| match found {
+        Ok(_) | Err(Asked::Says(_)) => true,
+        Err(asked) => asked.to_string().contains(AFTER_ID),
+    };
     let found = ask(&program, Setting::Steps(8));
     let text = (any_form && matches!(found, Err(Asked::Breach(_)))).then(|| program.restarted(Protocol::Text));
     let text = text.map(|text| (ask(&text, Setting::Steps(8)), text)).filter(|(found, _)| is_answer(found));

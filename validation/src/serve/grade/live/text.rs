@@ -4,6 +4,10 @@
 use super::pipe::excerpt;
 use super::request::{Answer, Request, Turned};
 use crate::files::csv;
+use shearbed::plan::counted;
+
+/// Begins what is wrong with a line that answers a request in numbers.
+pub const AFTER_ID: &str = "after the id";
 
 /// The request as one line: `id`, the nine ∂u_i/∂x_j row by row, r_e, the time in s, the number of steps or 0, the
 /// tolerance or 0, the number of rods, and three numbers for each rod. `Err` in a flow that turns, which has no place
@@ -35,9 +39,11 @@ pub fn read(line: &str, id: u64, rods: usize) -> Result<Answer, String> {
     }
     if rest.len() != 3 * rods {
         let found = rest.len();
-        return Err(format!("{found} numbers after the id where {} were asked ({rods} rods)", 3 * rods));
+        let [due, rods] = [(3 * rods, "number"), (rods, "rod")].map(|(count, what)| counted(count as u64, what));
+        return Err(format!("{AFTER_ID} there are {found} where {due} were asked for {rods}"));
     }
-    let numbers: Vec<f64> = rest.iter().map(|word| number(word)).collect::<Result<_, _>>()?;
+    let numbers: Result<Vec<_>, _> = rest.iter().map(|word| number(word)).collect();
+    let numbers = numbers.map_err(|why| format!("{AFTER_ID}: {why}"))?;
     Ok(Ok(Turned { p: numbers.chunks(3).map(|p| [p[0], p[1], p[2]]).collect(), evaluations: None }))
 }
 
@@ -92,8 +98,8 @@ mod tests {
             ("step 1 of 10", "does not begin with the request's id"),
             ("4 1 0 0", "answers id 4 where 3 was asked"),
             ("3.0 1 0 0", "does not begin with"),
-            ("3 1 0", "2 numbers after the id where 3 were asked (1 rods)"),
-            ("3 1 0 0 0", "4 numbers"),
+            ("3 1 0", "after the id there are 2 where 3 numbers were asked for 1 rod"),
+            ("3 1 0 0 0", "there are 4 where 3"),
             ("3 1 0 x", "`x` is not a number"),
             ("3 1 0 1e400", "too large"),
             ("3 1 0 ********", "not a number"),
