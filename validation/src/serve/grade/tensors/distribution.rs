@@ -28,10 +28,9 @@ pub(super) fn of_wrong_distribution(problem: &Problem, answer: &Answer, most: f6
         ]);
     }
     let of = |(rods, oscillation, name): &(Motion, Option<[f64; 2]>, &str)| {
-        let all = problem.distribution(rods, problem.times_s.len(), *oscillation).ok()?;
-        let distance = apart(&answer.rows, &all.iter().map(|means| means.second.to_vec()).collect::<Vec<_>>());
+        let distance = off(problem, rods, *oscillation, &answer.rows, most)?;
         let (name, suspect) = (format!("the distribution with {name}"), (*name).to_owned());
-        (distance <= most).then_some(Near { distance, name, suspect, advice: "", changes: 1 })
+        Some(Near { distance, name, suspect, advice: "", changes: 1 })
     };
     wrong.par_iter().filter_map(of).collect()
 }
@@ -54,17 +53,21 @@ pub(super) fn from_exact(problem: &Problem, rows: &[Vec<f64>], parts: &Parts, mo
     // Where Λ = 1 the square of any large aspect ratio will do.
     let ratio = ((1.0 + parts.of_strain) / (1.0 - parts.of_strain)).sqrt().clamp(1e-100, 1e100);
     let motion = Motion::new(std::array::from_fn(|i| std::array::from_fn(|j| gradient[(i, j)])), ratio, c_i);
+    off(problem, &motion, problem.oscillation(), rows, most)
+}
+
+/// The distance of an answer from the means of rods that move so; `None` if it is larger than `most`.
+fn off(problem: &Problem, motion: &Motion, oscillation: Option<[f64; 2]>, rows: &[Vec<f64>], most: f64) -> Option<f64> {
     let picked =
         |means: &Means| if rows[0].len() == PAIRS.len() { means.second.to_vec() } else { means.fourth.to_vec() };
-    let near = |all: Vec<Means>| {
-        let curve: Vec<_> = all.iter().map(picked).collect();
-        Some(apart(rows, &curve)).filter(|off| *off <= most)
+    let near = |count: usize| {
+        let all = problem.distribution(motion, count, oscillation).ok()?;
+        Some(apart(rows, &all.iter().map(picked).collect::<Vec<_>>())).filter(|off| *off <= most)
     };
-    let at = |count: usize| problem.distribution(&motion, count, problem.oscillation()).ok();
     let count = problem.times_s.len();
     if count > 1 {
         // Saves time: most are far already at the first time.
-        near(at(1)?)?;
+        near(1)?;
     }
-    near(at(count)?)
+    near(count)
 }
