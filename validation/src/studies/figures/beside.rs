@@ -2,21 +2,25 @@
 
 use super::*;
 
-/// A row for each point of the first series, or against time for each quarter of a period at which a series has a
-/// value: free rods return every half period, so that whole and half periods alone would show no motion. One column for
-/// each series.
+/// A row for each abscissa of a result with an error, or against time for each quarter of a period at which a series has
+/// a value: free rods return every half period, so that whole and half periods alone would show no motion. One column
+/// for each series.
 pub(super) fn table(figure: &ReportFigure) -> ReportTable {
     let picture = &figure.figure;
     let series = series(picture);
     let quarters = (0..=24).map(|k| 0.25 * f64::from(k));
-    let (rows, within): (Vec<f64>, f64) = match picture.points.first() {
-        Some(points) if picture.x_span.is_none() => (points.x.clone(), 0.0),
-        _ => {
-            let value = |t: &f64| series.iter().any(|curve| near(curve, *t, EIGHTH).is_some());
-            (quarters.filter(value).collect(), EIGHTH)
-        }
+    let (rows, within) = if picture.x_span.is_none() {
+        let results = series.iter().filter(|curve| curve.half_band.is_some());
+        let mut rows: Vec<f64> = results.flat_map(|curve| curve.x.iter().copied()).collect();
+        rows.sort_by(f64::total_cmp);
+        rows.dedup();
+        (rows, 0.0)
+    } else {
+        let value = |t: &f64| series.iter().any(|curve| near(curve, *t, EIGHTH).is_some());
+        (quarters.filter(value).collect(), EIGHTH)
     };
-    let mut columns: Vec<Column<f64>> = vec![field(&picture.x_name, |x: &f64| *x)];
+    let short = |x: f64| ((1e4 * x).round() / 1e4).to_string();
+    let mut columns: Vec<Column<f64>> = vec![number(&picture.x_name, short, |x: &f64| *x)];
     columns.extend(series.into_iter().map(|curve| column(curve, within)));
     let rule = if within > 0.0 { "; `–` where there is none within T/8" } else { "" };
     ReportTable::new(
@@ -40,22 +44,23 @@ fn series(figure: &Figure) -> Vec<Curve> {
 }
 
 /// An eighth of a period.
-const EIGHTH: f64 = 0.125;
+pub(super) const EIGHTH: f64 = 0.125;
 
-/// The point of a curve that is nearest to an abscissa, and at most `within` from it.
-fn near(curve: &Curve, wanted: f64, within: f64) -> Option<usize> {
+/// The point of a curve that is nearest to an abscissa, and at most `within` from it: its ordinate and ±.
+pub(super) fn near(curve: &Curve, wanted: f64, within: f64) -> Option<[f64; 2]> {
     let apart = |k: &usize| (curve.x[*k] - wanted).abs();
     let nearest = (0..curve.x.len()).min_by(|a, b| apart(a).total_cmp(&apart(b)));
-    nearest.filter(|k| apart(k) <= within)
+    let half = |k: usize| curve.half_band.as_ref().map_or(f64::NAN, |half| half[k]);
+    nearest.filter(|k| apart(k) <= within).map(|k| [curve.y[k], half(k)])
 }
 
 fn column<'a>(curve: Curve, within: f64) -> Column<'a, f64> {
-    let label = curve.label.clone();
-    let half_band = curve.half_band.clone();
-    let near = move |wanted: &f64| near(&curve, *wanted, within).map(|k| (curve.y[k], k));
-    match half_band {
-        Some(half) => estimate(label, move |wanted: &f64| near(wanted).map(|(y, k)| (y, half[k]))),
-        None => number(label, decimals(3), move |wanted: &f64| near(wanted).map(|found| found.0)),
+    let (label, has_error) = (curve.label.clone(), curve.half_band.is_some());
+    let near = move |wanted: &f64| near(&curve, *wanted, within);
+    if has_error {
+        estimate(label, move |wanted: &f64| near(wanted).map(<(f64, f64)>::from))
+    } else {
+        number(label, decimals(3), move |wanted: &f64| near(wanted).map(|[y, _]| y))
     }
 }
 

@@ -1,5 +1,6 @@
 //! The content of each figure, with its caption.
 
+use super::beside::{EIGHTH, near};
 use super::measured::measured;
 use super::run::{Run, Runs, amplitude};
 use super::*;
@@ -14,6 +15,7 @@ pub(super) fn figures(runs: &Runs, effort: &Effort) -> Result<Vec<ReportFigure>,
     let mut figures = vec![fig4_differences(runs)?, fig4(runs, effort)?, fig5(runs, effort)?, fig6_overlaid(runs)?];
     figures.extend(fig6(runs)?);
     figures.extend(amplitudes(runs)?);
+    figures.push(one_family(runs)?);
     figures.push(fig11(runs)?);
     figures.push(fig12(runs)?);
     Ok(figures)
@@ -192,6 +194,39 @@ fn amplitudes(runs: &Runs) -> Result<Vec<ReportFigure>, String> {
         Ok(against_time(words, &format!("Fig. {number}"), caption, (AMPLITUDE, 0.5), curves))
     };
     AMPLITUDES.into_iter().map(draw).collect()
+}
+
+/// A₁ of the first maxima of Figs 7 and 8 against α a n^(1/3) of their runs.
+fn one_family(runs: &Runs) -> Result<ReportFigure, String> {
+    let maxima = |(number, scenes, ..): &(u32, Compared, &str, &str), time: f64| {
+        let mut heights = Vec::new();
+        for (scene, _) in *scenes {
+            let run = runs.get(scene)?;
+            let height = near(&amplitude(run, ""), time, EIGHTH);
+            heights.extend(height.map(|[y, half]| (one_length(run.scene()), y, half)));
+        }
+        Ok::<_, String>(Points::with_bars(format!("Fig. {number}, t/T = {time}"), heights, |height| height))
+    };
+    let mut figure = ReportFigure::new(
+        ["fig7-fig8", "Figs 7 and 8 as one family"],
+        "At the same α a n^(1/3) the amplitude is the same, whether the concentration or the length differs: the points \
+         of Fig. 7 lie on the lines through those of Fig. 8. The run in the middle belongs to both. All runs have 100 \
+         rods in the cube of their concentration; with other numbers of rods the law would not be exact.",
+        ["α a n^(1/3) (–)", &format!("log {AMPLITUDE}")],
+    )
+    .judged("Figs 7, 8, eq. 7", &["one-length-scale"]);
+    for time in [0.5, 1.0, 1.5] {
+        figure.figure.points.push(maxima(&AMPLITUDES[0], time)?);
+        let Points { label, x, y, y_error, .. } = maxima(&AMPLITUDES[1], time)?;
+        figure.figure.curves.push(Curve { label, x, y, half_band: y_error });
+    }
+    Ok(figure)
+}
+
+/// α a n^(1/3), the only length of rods of one size in the cube of their concentration; NaN for others.
+fn one_length(scene: &Scene) -> f64 {
+    let given = scene.interaction.as_ref().and_then(|given| Some((given.alpha, given.concentration_per_cm3?)));
+    given.map_or(f64::NAN, |(alpha, per_cm3)| alpha * 0.1 * scene.particles.length_mm * per_cm3.cbrt())
 }
 
 /// φ̄ is averaged over the last periods of a run: whole periods, so that remaining oscillations average out.
