@@ -1,7 +1,9 @@
 //! `shearbed validate`.
 
 use super::finished::{CaseResult, Finished, measured};
-use super::{Failure, Threads, Writing, agree, checkpoint, choice, on_threads, print, progress, result_folder, whole};
+use super::{
+    Failure, Threads, Writing, agree, checkpoint, choice, on_threads, print, progress, result_folder, scene, whole,
+};
 use serde_json::json;
 use shearbed::scene::MAX_SEED;
 use shearbed_validation::cases::catalogue;
@@ -71,7 +73,7 @@ pub(super) fn validate(args: Args) -> Result<(), Failure> {
     }
     if let Some(data) = &args.data {
         // Invalid points are bad input, not a failed case.
-        experiment::check(data)?;
+        scene::warn("measured points", &experiment::check(data)?);
     }
     let names: Vec<_> = chosen.iter().map(|case| case.about.name).collect();
     let data = args.data.as_deref().map(experiment::digest).transpose()?;

@@ -9,6 +9,7 @@ use shearbed::plan::counted;
 use shearbed::scene::TimeUnit;
 use shearbed_validation::files::text::Shown;
 use shearbed_validation::files::text::line;
+use shearbed_validation::input::experiment::not_read;
 use shearbed_validation::methods::least_squares::Datum;
 use shearbed_validation::methods::least_squares::basis::MOST_PARAMETERS;
 use shearbed_validation::serve::fit::Range;
@@ -96,9 +97,7 @@ pub(super) fn input(args: &Args) -> Result<Input, Failure> {
                 path.shown()
             )));
         }
-        if !points.unread.is_empty() {
-            warnings.push(format!("{}: not read: {}", path.shown(), line(&points.unread.join(", "))));
-        }
+        warnings.extend(not_read(path, &points.unread));
         within_scene(&named, args, points.time, &points.points, path)?;
         if k == 0 {
             stem.clone_from(&named.stem);

@@ -4,7 +4,7 @@ use super::provenance::{Axis, Key, Layout, OBSERVABLES, Provenance};
 use super::table::{self, DataRow, Dataset};
 use super::{Measured, MeasuredCurve, Source, provenance_file, read_text};
 use crate::files::FileError;
-use crate::files::csv::not_allowed;
+use crate::files::csv::{Table, not_allowed};
 use crate::files::text::Shown;
 use crate::input::scenes;
 use std::collections::HashMap;
@@ -27,13 +27,16 @@ pub(super) fn read(path: &Path, source: &Source) -> Result<Vec<MeasuredCurve>, F
         let message = format!("it has no {} beside it", csv_path.shown());
         return Err(FileError::whole(path, message));
     }
-    let provenance = provenance_file::parse(&path.display().to_string(), &read_text(path)?, source)?;
+    let mut provenance = provenance_file::parse(&path.display().to_string(), &read_text(path)?, source)?;
     let text = read_text(&csv_path)?;
     let datasets = match provenance.csv {
         Layout::WebPlotDigitizer => table::webplotdigitizer(&csv_path, &text)?,
         Layout::Columns => {
             let ys: Vec<_> = provenance.curves.iter().map(|key| column(&provenance, key)).collect();
-            table::columns(&csv_path, &text, None, provenance.x.quantity.column(), &ys)?
+            let x = provenance.x.quantity.column();
+            let head = Table::new(&csv_path, text.as_bytes())?;
+            provenance.unread = table::unread(&head, |name| name == x || ys.iter().any(|y| y == name))?;
+            table::columns(&csv_path, &text, None, x, &ys)?
         }
     };
     let axis = &provenance.x;

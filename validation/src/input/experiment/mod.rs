@@ -22,6 +22,7 @@ pub use compare::{Runs, alpha, compare};
 pub use comparison::{AlphaFit, Comparison, Point};
 pub use provenance::{Axis, Key, Layout, OBSERVABLES, PERCENT, Projection, Provenance, Stated, Time};
 
+use crate::files::text::{Shown, line};
 use crate::files::{FileError, bounded, entries};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -119,11 +120,17 @@ pub fn read(data: &Path, source: &Source) -> Result<Vec<MeasuredCurve>, FileErro
     Ok(found)
 }
 
-/// Reads all measured points under `data`; fails if there are files in folders that no source reads.
-pub fn check(data: &Path) -> Result<(), FileError> {
+/// Reads all measured points under `data`, and returns warnings; fails if there are files in folders that no source
+/// reads.
+pub fn check(data: &Path) -> Result<Vec<String>, FileError> {
+    let mut warnings = Vec::new();
     for source in &SOURCES {
-        read(data, source)?;
+        for Provenance { stated, unread, .. } in read(data, source)?.into_iter().map(|curve| curve.provenance) {
+            warnings.extend(not_read(&data.join(source.folder).join(stated.file).with_extension("csv"), &unread));
+        }
     }
+    // Curves of one file have one provenance.
+    warnings.dedup();
     let folders = SOURCES.map(|source| source.folder);
     let strange = |path: &PathBuf| path.is_dir() && !folders.iter().any(|folder| path.ends_with(folder));
     let inside = entries(data)?;
@@ -136,8 +143,13 @@ pub fn check(data: &Path) -> Result<(), FileError> {
             let message = format!("the folder belongs to no source; allowed are {}", folders.join(", "));
             Err(FileError::whole(path, message))
         }
-        None => Ok(()),
+        None => Ok(warnings),
     }
+}
+
+/// The warning that a file has columns that are not read.
+pub fn not_read(file: &Path, columns: &[String]) -> Option<String> {
+    (!columns.is_empty()).then(|| format!("{}: not read: {}", file.shown(), line(&columns.join(", "))))
 }
 
 /// The checksums (CRC-32) of all files read under `data`, by their path relative to `data`.

@@ -179,4 +179,6 @@ pub struct Provenance {
     pub curves: Vec<Key>,
     /// One standard deviation of each stated condition, with its index in the list of inputs.
     pub inputs: Vec<(usize, f64)>,
+    /// Columns of the CSV file that are not read.
+    pub unread: Vec<String>,
 }

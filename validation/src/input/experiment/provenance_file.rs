@@ -49,6 +49,7 @@ pub(super) fn parse(file: &str, text: &str, source: &Source) -> Result<Provenanc
         y: axis(&all.table("y", "the table [y] of the axis of projections")?, projection)?,
         curves,
         inputs: inputs(&all)?,
+        unread: Vec::new(),
     })
 }
 

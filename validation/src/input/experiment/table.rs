@@ -2,6 +2,7 @@
 
 use crate::files::FileError;
 use crate::files::csv::{self, LEFT_OUT, Row, Rows, Table};
+use std::io::BufRead;
 use std::path::Path;
 
 /// Points of one column or dataset, in the units of the file.
@@ -26,8 +27,41 @@ pub(crate) struct DataRow {
 /// The largest number of lines of a file: more than the points of any figure; a comparison then takes half a minute.
 const MOST_LINES: u64 = 20_000;
 
+/// The columns that are neither `known` nor uncertainties `NAME_u` of these; they are not read.
+///
+/// # Errors
+///
+/// A column that looks like a misspelt one of them.
+pub(crate) fn unread<R: BufRead>(table: &Table<R>, known: impl Fn(&str) -> bool) -> Result<Vec<String>, FileError> {
+    let is_read = |name: &str| name == LEFT_OUT || known(name.strip_suffix("_u").unwrap_or(name));
+    let unread: Vec<String> = table.names().iter().filter(|name| !is_read(name)).cloned().collect();
+    match unread.iter().find_map(|name| Some((name, misnamed(name, &known)?))) {
+        Some((name, why)) => Err(table.error(format!("column `{name}`: {why}"))),
+        None => Ok(unread),
+    }
+}
+
+/// Why a column with a name like a known one's is refused, and what to do; `None` if it may be anything.
+fn misnamed(name: &str, known: impl Fn(&str) -> bool) -> Option<String> {
+    let lower = name.to_lowercase();
+    if lower != name && known(&lower) {
+        return Some(format!("columns have small letters: rename it `{lower}`"));
+    }
+    let (value, suffix) = name.rsplit_once('_').filter(|(value, _)| known(value))?;
+    match suffix {
+        "plus" | "minus" | "upper" | "lower" | "low" | "high" => Some(format!(
+            "errors that differ above and below are not fitted: give one standard deviation, {value}_u, the mean of \
+             both"
+        )),
+        "se" | "err" | "error" | "sd" | "std" | "sigma" | "uncertainty" => Some(format!(
+            "a measured value's standard uncertainty is named `{value}_u`; rename the column if that is what it has"
+        )),
+        _ => None,
+    }
+}
+
 /// Reads the project's columns: `x`, each of `ys`, and their uncertainties `NAME_u` if given. A `y` that is
-/// blank or NaN was not measured; for such an uncertainty that of the provenance file applies.
+/// blank or NaN was not measured; for such an uncertainty that of the provenance file applies. Other columns are not read.
 ///
 /// `given` are names in place of those in the file.
 pub(crate) fn columns(
@@ -38,16 +72,6 @@ pub(crate) fn columns(
     ys: &[String],
 ) -> Result<Vec<Dataset>, FileError> {
     let mut table = Table::named(path, text.as_bytes(), given)?;
-    let left_out = |name: &str| given.is_some() && name == LEFT_OUT;
-    let known: Vec<String> = std::iter::once(x)
-        .chain(ys.iter().map(String::as_str))
-        .flat_map(|name| [name.to_owned(), format!("{name}_u")])
-        .collect();
-    if let Some(name) = table.names().iter().find(|name| !left_out(name) && !known.contains(name)) {
-        let message =
-            format!("column `{name}` is not in the provenance file: by its quantities there are {}", known.join(", "));
-        return Err(table.error(message));
-    }
     let places = |name: &str| {
         let missing = || table.error(format!("column {name} is missing: the provenance file says that it is there"));
         Ok((table.place(name).ok_or_else(missing)?, table.place(&format!("{name}_u"))))

@@ -70,6 +70,19 @@ fn several_columns_may_have_blanks() {
 }
 
 #[test]
+fn other_columns_are_named_and_not_read() {
+    let with = folder(PROVENANCE, "t_over_T,x2,x1,note\n0.5,0.3,0.4,a\n");
+    assert_eq!(
+        read(with.path(), &OKAGAWA_MASON).unwrap()[0].points,
+        curves(PROVENANCE, "t_over_T,x1\n0.5,0.4\n")[0].points
+    );
+    let warnings = check(with.path()).unwrap();
+    assert!(warnings[0].ends_with("a.csv: not read: x2, note") && warnings.len() == 1, "{warnings:?}");
+    let error = check(folder(PROVENANCE, "t_over_T,x1,x1_se\n0.5,0.4,0.1\n").path()).unwrap_err();
+    assert!(error.to_string().contains("`x1_se`"), "{error}");
+}
+
+#[test]
 fn units_are_turned_into_the_models() {
     let scene = scenes::find("fig4-n50").unwrap().scene().unwrap();
     let r = scene.particles.aspect_ratio;

@@ -1,7 +1,7 @@
 //! Measured points from a CSV file, in the columns of `docs/src/reference/files.md`.
 
 use crate::files::FileError;
-use crate::files::csv::{LEFT_OUT, Table, not_allowed};
+use crate::files::csv::{Table, not_allowed};
 use crate::input::experiment::{PERCENT, read_text, table};
 use crate::methods::least_squares::Datum;
 use serde::Serialize;
@@ -89,25 +89,6 @@ fn channel<'a>(name: &'a str, known: &[String]) -> Option<(&'a str, f64)> {
     known.iter().any(|known| known == of.0).then_some(of)
 }
 
-/// Why a column beside a known one's name is refused, and what to do; `None` if it may be anything.
-fn misnamed(name: &str, known: &[String]) -> Option<String> {
-    let lower = name.to_lowercase();
-    if lower != name && known.contains(&lower) {
-        return Some(format!("columns have small letters: rename it `{lower}`"));
-    }
-    let (value, suffix) = name.rsplit_once('_').filter(|(value, _)| channel(value, known).is_some())?;
-    match suffix {
-        "plus" | "minus" | "upper" | "lower" | "low" | "high" => Some(format!(
-            "errors that differ above and below are not fitted: give one standard deviation, {value}_u, the mean of \
-             both"
-        )),
-        "se" | "err" | "error" | "sd" | "std" | "sigma" | "uncertainty" => Some(format!(
-            "a measured value's standard uncertainty is named `{value}_u`; rename the column if that is what it has"
-        )),
-        _ => None,
-    }
-}
-
 /// Reads the file `path` as data set number `set`. Every point needs an uncertainty, `NAME_u` or that of `reading`;
 /// blank points were not measured.
 pub fn read(path: &Path, set: usize, reading: &Reading) -> Result<Points, FileError> {
@@ -137,31 +118,14 @@ pub fn read(path: &Path, set: usize, reading: &Reading) -> Result<Points, FileEr
         return Err(refused(format!("{found}; one of {times} is allowed")));
     };
     let known = measurable();
-    let mut columns: Vec<String> = Vec::new();
-    let left_out = |name: &&&str| given.is_some() && **name == LEFT_OUT;
-    let (mut u_column, mut unread) = (None, Vec::new());
-    for name in header.iter().filter(|name| !left_out(name)) {
-        let of_uncertainty = name.strip_suffix("_u");
-        let value = of_uncertainty.unwrap_or(name);
-        if value == time.name() {
-            continue;
-        }
-        if let Some(why) = misnamed(name, &known) {
-            return Err(refused(format!("column `{name}`: {why}")));
-        }
-        if channel(value, &known).is_none() {
-            if given.is_some() {
-                return Err(refused(format!("column `{name}` is not allowed: {EXPECTED}")));
-            }
-            unread.push((*name).to_owned());
-            continue;
-        }
-        if of_uncertainty.is_some() {
-            u_column = u_column.or_else(|| Some((*name).to_owned()));
-        } else {
-            columns.push(value.to_owned());
-        }
+    let is_value = |name: &str| channel(name, &known).is_some();
+    let unread = table::unread(&head, |name| name == time.name() || is_value(name))?;
+    if let Some(name) = unread.first().filter(|_| given.is_some()) {
+        return Err(refused(format!("column `{name}` is not allowed: {EXPECTED}")));
     }
+    let columns: Vec<String> = header.iter().filter(|name| is_value(name)).map(|name| (*name).to_owned()).collect();
+    let u_column = header.iter().find(|name| name.strip_suffix("_u").is_some_and(is_value));
+    let u_column = u_column.map(|name| (*name).to_owned());
     if columns.is_empty() {
         return Err(refused(format!("no column of measured values among {}: {EXPECTED}", header.join(", "))));
     }
@@ -174,10 +138,7 @@ pub fn read(path: &Path, set: usize, reading: &Reading) -> Result<Points, FileEr
         )));
     }
     let mut points = Vec::new();
-    // Names as they are, but for those left out.
-    let read = |name: &&str| if unread.iter().any(|unread| unread == name) { LEFT_OUT } else { name }.to_owned();
-    let names: Vec<String> = header.iter().map(read).collect();
-    for dataset in table::columns(path, &text, Some(&names), time.name(), &columns)? {
+    for dataset in table::columns(path, &text, given, time.name(), &columns)? {
         let (name, factor) = channel(&dataset.name, &known).unwrap_or((&dataset.name, 1.0));
         for row in dataset.rows {
             let refused = |message: String| FileError::line(path, row.line, message);

@@ -24,6 +24,7 @@ fn synthetic(y: [f64; 3]) -> MeasuredCurve {
             y: axis_y,
             curves: Vec::new(),
             inputs: Vec::new(),
+            unread: Vec::new(),
         },
     }
 }
