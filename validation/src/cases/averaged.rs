@@ -72,10 +72,13 @@ fn averaged(limit: &Limit, effort: &Effort) -> Evidence {
     let falls = (coarse.iter().zip(&fine))
         .map(|(coarse, fine)| (0.6 * coarse.square - fine.square) / (coarse.square + fine.square));
     let [coarse, fine] = steps;
-    Evidence::on(format!(
-        "0.6 × the mean sin² between the two paths at {coarse} steps a period, less that at {fine}, over the sum \
+    Evidence::on(
+        format!(
+            "0.6 × the mean sin² between the two paths at {coarse} steps a period, less that at {fine}, over the sum \
          of both; half a period"
-    ))
+        ),
+        "–",
+    )
     .exceeds(Sample::of(falls), 0.0, design.effect)
     .because("∝ Δt in the limit, an eighth; paths that do not converge stay as far apart, −0.2")
 }
@@ -113,22 +116,24 @@ fn updates([rotation, angles]: &[Update; 2], _: &Effort) -> Vec<Evidence> {
     };
     let because = "the next term of the series is GΔt = 10⁻⁴ times derivatives of a rate, of order 1/sin³ θ < 20";
     vec![
-        Evidence::on("how much the two ends of a kick of 1 rad come nearer as Δt goes from 10⁻² to 10⁻⁸")
+        Evidence::on("how much the two ends of a kick of 1 rad come nearer as Δt goes from 10⁻² to 10⁻⁸", "–")
             .within(worst(kicked.map(|[long, short]| (long - short).abs())), 1e-14)
             .because("round-off: only rate × Δt counts"),
         Evidence::exact(
             "by how much less than 0.1 the sine of the angle between the two ends is on average",
+            "–",
             (0.1 - distance).max(0.0),
         ),
-        Evidence::on("order in Δt of the distance of both ends at a given rate, less 2")
+        Evidence::on("order in Δt of the distance of both ends at a given rate, less 2", "–")
             .within(order(&ends_apart), 2e-3)
             .because(because),
         Evidence::on(
             "order in Δt of what a colliding rod is off Jeffery's path where the kick is 0, less 2; by rotation",
+            "–",
         )
         .within(off_path(rotation), 2e-3)
         .because(because),
-        Evidence::on("the same by angles").within(off_path(angles), 2e-3).because(because),
+        Evidence::on("the same by angles", "–").within(off_path(angles), 2e-3).because(because),
     ]
 }
 
@@ -172,11 +177,12 @@ fn pushed(kick: &Kick, _: &Effort) -> Vec<Evidence> {
         opening += u32::from(line.x * line.y > 0.0);
     }
     vec![
-        Evidence::on("dr/dt while colliding over h² ℓ·D·ℓ/(2 r sin²χ), less 1")
+        Evidence::on("dr/dt while colliding over h² ℓ·D·ℓ/(2 r sin²χ), less 1", "–")
             .within(worst, 1e-5)
             .because("left out: terms in 1 − Λ = 2·10⁻⁸ over h ℓ·D·ℓ ≥ 0.02, and the square of the turn, 10⁻⁸"),
         Evidence::exact(
             format!("pairs, of which {opening} open, with an arm that moves the other way"),
+            "pairs",
             f64::from(wrong),
         ),
     ]

@@ -50,11 +50,11 @@ fn check(exact: &Exact, effort: &Effort) -> Vec<Evidence> {
         }
     }
     vec![
-        Evidence::on("a_ij, the farthest of twelve components, in standard errors").within(largest, 8.0).because(
+        Evidence::on("a_ij, the farthest of twelve components", "standard errors").within(largest, 8.0).because(
             "Student's t of 39 degrees of freedom is beyond 8 with a probability of 10⁻⁹; the controls are more than \
              40 off",
         ),
-        Evidence::on("largest standard error of them")
+        Evidence::on("largest standard error of them", "–")
             .within(widest, 1.5e-3)
             .because("1.7 times the value of a pilot: wider ones would hide a mistake"),
     ]

@@ -127,16 +127,19 @@ fn changing_flows(run: &Run, effort: &Effort) -> Vec<Evidence> {
     });
     let seconds: f64 = three.iter().map(|(gradient, strain)| strain / rate_per_s(gradient)).sum();
     vec![
-        Evidence::on("reversed shear, extension and a mixed flow: largest angle to the start over the plan's bound")
-            .within(worst(reversals), 1.0)
-            .because("what a bound is, with four roundings of a direction to double"),
-        Evidence::on("three flows: largest angle in rad to the oracle's direction")
+        Evidence::on(
+            "reversed shear, extension and a mixed flow: largest angle to the start over the plan's bound",
+            "–",
+        )
+        .within(worst(reversals), 1.0)
+        .because("what a bound is, with four roundings of a direction to double"),
+        Evidence::on("three flows: largest angle to the oracle's direction", "rad")
             .within(off.fold(f64::NEG_INFINITY, larger), 1e-12)
             .because(
                 "the oracle's direction is rounded to double between flows; they turn 10⁻¹⁶ rad into 10⁻¹³ at most, a \
                  rod's r_e of 13 times e^(½ of the strains)",
             ),
-        Evidence::on("three flows: relative error of the seconds")
+        Evidence::on("three flows: relative error of the seconds", "–")
             .within((moved.seconds / seconds - 1.0).abs(), 16.0 * f64::EPSILON)
             .because("roundings of three quotients and their sum"),
     ]

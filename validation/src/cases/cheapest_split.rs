@@ -64,14 +64,14 @@ fn realised(respell: &Respell, effort: &Effort) -> Vec<Evidence> {
     // ∛4 of the mistake scatters by ∛4 of what 1 does, and both errors' quantiles leave 0.049 for that; 200 have 0.041.
     let repeats = effort.pick(1, 4) * 200;
     let Ok(found) = run.realise(&scene, repeats, known.reference) else {
-        return vec![Evidence::exact("runs that stopped", 1.0)];
+        return vec![Evidence::exact("runs that stopped", "runs", 1.0)];
     };
     // The cube root of a ratio of variances is normal to a part in 10³ (Wilson & Hilferty 1931), the ratio itself is
     // not.
     let ratio = (found.scatter.value / said.scatter).powi(2);
     let [of_repeats, of_study] = [repeats, STUDY.1].map(|count| 2.0 / (9.0 * (count as f64 - 1.0)));
     vec![
-        Evidence::on("bias of the steps and replicas that the rule says for an error of 0.02, against 400 steps")
+        Evidence::on("bias of the steps and replicas that the rule says for an error of 0.02, against 400 steps", "–")
             .is(
                 Sample { mean: found.bias.value, se: found.bias.se, samples: repeats },
                 0.0,
@@ -79,7 +79,7 @@ fn realised(respell: &Respell, effort: &Effort) -> Vec<Evidence> {
                 0.05,
             )
             .because("the bias that the rule allows for, and that of the reference; two steps are off by more"),
-        Evidence::on("cube root of the variance of repeats over the one that the rule says")
+        Evidence::on("cube root of the variance of repeats over the one that the rule says", "–")
             .is(
                 Sample { mean: ratio.cbrt(), se: (of_repeats + of_study).sqrt(), samples: repeats },
                 1.0 - of_repeats + of_study,

@@ -97,7 +97,7 @@ fn phase_means(motion: &Motion, _: &Effort) -> Evidence {
         }))
     });
     let because = "four panels to the quadrature's tolerance of 10⁻¹³, times four for the quarter period";
-    Evidence::on("largest difference of a time mean").within(worst(off), 1.6e-12).because(because)
+    Evidence::on("largest difference of a time mean", "rod lengths").within(worst(off), 1.6e-12).because(because)
 }
 
 fn orbit_distribution(orbit: &Orbit, effort: &Effort) -> Vec<Evidence> {
@@ -122,9 +122,10 @@ fn orbit_distribution(orbit: &Orbit, effort: &Effort) -> Vec<Evidence> {
     vec![
         Evidence::new(
             "p of C_b having the closed distribution after 137 steps",
+            "–",
             lab::uniform(levels, distance, "Kolmogorov–Smirnov; half of what eq. 13 without r_e is off by"),
         ),
-        Evidence::on("largest change of a rod's C_b")
+        Evidence::on("largest change of a rod's C_b", "–")
             .within(if failed { f64::NAN } else { change }, 4.0 * r * f64::EPSILON)
             .because("four roundings of a direction, each grown by r_e in C"),
     ]
@@ -146,7 +147,7 @@ fn plateau(change: &Change, effort: &Effort) -> [Evidence; 3] {
     let (below, middle, above) = (node(-1.0), node(0.0), node(1.0));
     [0, 1, 2].map(|axis| {
         let sample = lab::at_output(&results, Channel::X[axis], 49, scene.particles.count as u64);
-        Evidence::on(format!("X̄_{} at t/T = 12¼, against the phase means", axis + 1))
+        Evidence::on(format!("X̄_{} at t/T = 12¼, against the phase means", axis + 1), "rod lengths")
             .is(sample, (below[axis] + 4.0 * middle[axis] + above[axis]) / 6.0, 0.0, design.effect)
             .because("the phase means over isotropic orbits and r_e, to 10⁻⁶; independent rods")
     })
@@ -179,10 +180,10 @@ fn spread_damping(factor: &f64, effort: &Effort) -> [[Evidence; 2]; 2] {
         let at = (middle as f64 - 0.5) / 40.0;
         let what = format!("first harmonic at t/T = {at:.4} over that at once, σ = {sd} %");
         [
-            Evidence::on(format!("{what}, against the quadrature"))
+            Evidence::on(format!("{what}, against the quadrature"), "–")
                 .is(Sample::of(&shares), expected, 0.0, design.effect)
                 .because("the quadrature is exact to 10⁻⁶; independent replicas"),
-            Evidence::on(format!("{what}, against the formula"))
+            Evidence::on(format!("{what}, against the formula"), "–")
                 .is(Sample::of(&shares), (-(at / end).powi(2)).exp(), sd / 100.0, design.effect)
                 .because("the formula is of first order in σ: off by less than σ of the first amplitude"),
         ]
@@ -203,10 +204,10 @@ fn in_plane_start(change: &Change, effort: &Effort) -> Vec<Evidence> {
         (mean(0, output) - phi.cos().abs()).hypot(mean(1, output) - phi.sin().abs())
     });
     vec![
-        Evidence::on("largest error of (X̄_1, X̄_2)")
+        Evidence::on("largest error of (X̄_1, X̄_2)", "rod lengths")
             .within(worst(errors), 4.0 * TAU * f64::EPSILON * r)
             .because("a phase of two turns, 4π, rounded once here and once in the oracle, grows by r_e at the flip"),
-        Evidence::on("largest X̄_3")
+        Evidence::on("largest X̄_3", "rod lengths")
             .within(worst((0..=100).map(|output| mean(2, output))), 1e-15)
             .because("cos 90° is 6·10⁻¹⁷, grown by the stretch of q at most r_e-fold"),
     ]

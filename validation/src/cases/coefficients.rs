@@ -99,11 +99,11 @@ fn fourth_moments(read: &Read, effort: &Effort) -> Vec<Evidence> {
     let components = channels.iter().enumerate().map(|(k, channel)| {
         let own = values.iter().map(|value| value[k]);
         let expected = moments::fourth(ASPECT_RATIO, 0.2, indices(*channel));
-        Evidence::on(format!("{} at t/T = 0.2", channel.name()))
+        Evidence::on(format!("{} at t/T = 0.2", channel.name()), "–")
             .is(Sample::of(own), expected, 0.0, design.effect)
             .because("exact; a third of what the mistakes change")
     });
-    let traces = Evidence::on("the largest |Σ_k a_ijkk − a_ij| of a suspension")
+    let traces = Evidence::on("the largest |Σ_k a_ijkk − a_ij| of a suspension", "–")
         .within(traces(read, effort), 1e-13)
         .because("sums of 50 rods' products, each rounded a few times by 1.1e-16 of itself");
     components.chain([traces]).collect()
@@ -170,7 +170,7 @@ fn particle_stress(stress: &Stress, effort: &Effort) -> [[Evidence; 3]; 2] {
         |(when, values, expected)| {
             [0, 1, 2].map(|k| {
                 let own = values.iter().map(|values| values[k]);
-                Evidence::on(format!("{} {when}", channels[k].name()))
+                Evidence::on(format!("{} {when}", channels[k].name()), "–")
                     .is(Sample::of(own), expected[k], 0.0, design.effect)
                     .because("exact; a third of what the mistakes change")
             })
@@ -217,7 +217,7 @@ fn stress_in_pascals(pascals: &Pascals, effort: &Effort) -> Vec<Evidence> {
                 )
             }))
         });
-        Evidence::on(format!("the largest difference over μ G n a³, {name}")).within(worst(off), 1e-13).because(
+        Evidence::on(format!("the largest difference over μ G n a³, {name}"), "–").within(worst(off), 1e-13).because(
             "sums of 50 rods' products with coefficients up to 1, each rounded a few times by 1.1e-16 of itself",
         )
     };

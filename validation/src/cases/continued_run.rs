@@ -39,7 +39,7 @@ fn continues(way: &Way, effort: &Effort) -> Evidence {
     let replicas = effort.samples(Design { effect: EFFECT, sd: SD });
     let differences = (0..replicas).into_par_iter().map(|replica| again_less_straight(&scene, *way, replica));
     let differences: Vec<f64> = differences.collect();
-    Evidence::on("X̄₁ at t/T = 1½, continued at t = T less straight on")
+    Evidence::on("X̄₁ at t/T = 1½, continued at t = T less straight on", "rod lengths")
         .is(Sample::of(&differences), 0.0, 0.0, EFFECT)
         .because("the same rods, with other collisions; with r_e drawn again they fall out of step more slowly")
 }

@@ -156,10 +156,10 @@ fn free_amplitude(change: &Change, effort: &Effort) -> Vec<Evidence> {
     let half = "\"approximately half\": 0.5 to one digit; r_e = 3 has 0.35 by the closed form";
     let change = Sample::of_differences(&amplitudes[1], &amplitudes[0]);
     vec![
-        Evidence::on("amplitude at t = 0, in rod lengths")
+        Evidence::on("amplitude at t = 0", "rod lengths")
             .is(Sample::of(&amplitudes[0]), 0.5, 0.05, design.effect)
             .because(half),
-        Evidence::on("its change by t/T = 4")
+        Evidence::on("its change by t/T = 4", "rod lengths")
             .is(change, 0.0, 1e-12, design.effect)
             .because("constant: the same phases come back to round-off"),
     ]
@@ -174,7 +174,7 @@ fn faster(order: &Order, effort: &Effort) -> [Evidence; 2] {
 
     [(0, 1, "first less second"), (1, 2, "second less third")].map(|(a, b, which)| {
         let fall = Sample::of_differences(&amplitudes[a], &amplitudes[b]);
-        Evidence::on(format!("fall of the amplitude at t/T = 1½, {which}"))
+        Evidence::on(format!("fall of the amplitude at t/T = 1½, {which}"), "rod lengths")
             .exceeds(fall, 0.0, order.design.effect)
             .because("an order without a number; the same seeds in all three")
     })
@@ -193,7 +193,7 @@ fn collisions_damp(change: &Change, effort: &Effort) -> [[Evidence; 2]; 2] {
         [(0, "1"), (1, "2")].map(|(k, when)| {
             let fall = Sample::of_differences(&without[k], &with[k]);
             let because = "\"much\" has no number in the paper: two curves as far apart as twice the width of a line";
-            Evidence::on(format!("amplitude without less with collisions at t/T = {when}, σ = {sd} %"))
+            Evidence::on(format!("amplitude without less with collisions at t/T = {when}, σ = {sd} %"), "rod lengths")
                 .exceeds(fall, 2.0 * LINE, design.effect)
                 .because(because)
         })
@@ -220,17 +220,20 @@ fn dies_out(change: &Change, effort: &Effort) -> Vec<Evidence> {
     let uniform = measured(&scene(0.0), alone);
     let falls = [(1, "0 and 1"), (2, "1 and 2"), (3, "2 and 4")].map(|(k, which)| {
         let fall = Sample::of_differences(&uniform[k - 1], &uniform[k]);
-        Evidence::on(format!("fall of the amplitude between t/T = {which}, n = 50 per cm³, σ = 0"))
+        Evidence::on(format!("fall of the amplitude between t/T = {which}, n = 50 per cm³, σ = 0"), "rod lengths")
             .exceeds(fall, 0.0, alone.effect)
             .because("an order without a number")
     });
     let of_spread = [
-        Evidence::on("1/e of the first amplitude less that at t/T = 4, n = 50 per cm³, σ = 3.6 %")
+        Evidence::on("1/e of the first amplitude less that at t/T = 4, n = 50 per cm³, σ = 3.6 %", "rod lengths")
             .exceeds(Sample::of(margin), 0.0, both.effect)
             .because("\"a few\" is read as four, \"die out\" as below 1/e, where a decay has its time"),
-        Evidence::on("amplitude at t/T = 4 without collisions less that with them, n = 50 per cm³, σ = 3.6 %")
-            .exceeds(Sample::of_differences(&without[3], &with[3]), 0.0, added.effect)
-            .because("an order without a number"),
+        Evidence::on(
+            "amplitude at t/T = 4 without collisions less that with them, n = 50 per cm³, σ = 3.6 %",
+            "rod lengths",
+        )
+        .exceeds(Sample::of_differences(&without[3], &with[3]), 0.0, added.effect)
+        .because("an order without a number"),
     ];
     of_spread.into_iter().chain(falls).collect()
 }
@@ -271,11 +274,10 @@ fn on_all_axes(axes: &Axes, effort: &Effort) -> [Evidence; 4] {
         // a − b² to first order in each replica's deviation, so that its mean is a − b² of the means.
         let difference = left[i].iter().zip(&left[j]).map(|(a, b)| a - 2.0 * mean * b + mean * mean);
         let because = "\"similar\" has no number in the paper: rates within a factor of two";
-        Evidence::on(format!(
-            "share of the amplitude left at t/T = 2, X̄_{} less the square of that of X̄_{}",
-            i + 1,
-            j + 1
-        ))
+        Evidence::on(
+            format!("share of the amplitude left at t/T = 2, X̄_{} less the square of that of X̄_{}", i + 1, j + 1),
+            "–",
+        )
         .exceeds(Sample::of(difference), 0.0, design.effect)
         .because(because)
     })

@@ -100,10 +100,10 @@ fn check(of: &Of, _: &Effort) -> Vec<Evidence> {
         equation.rate_with(&a, &of(closure, &a)).amax()
     });
     vec![
-        Evidence::on("rate of the published steady tensors, 1/G = 1")
+        Evidence::on("rate of the published steady tensors, 1/G = 1", "G")
             .within(worst(rest), 1e-9)
             .because("ten published decimals, times rates below 1, and what tolerances of 1e-12 there leave"),
-        Evidence::on("a_ijkl of free rods, off the elliptic integrals")
+        Evidence::on("a_ijkl of free rods, off the elliptic integrals", "–")
             .within(worst([0.5, 2.0, 5.0].map(|strain| free(*of, strain))), 1e-12)
             .because("trapezoid rules with 3e-17 of the integrand, some thousand roundings"),
     ]
@@ -152,10 +152,10 @@ fn orbits(orbits: &Orbits, effort: &Effort) -> Vec<Evidence> {
     let of_collisions = kicked(&suspension, watch, effort.samples(high));
     let less = |all: &[Shares], share: f64| Sample::of(above(all, Quantity::Orbit, 0.5).iter().map(|own| own - share));
     vec![
-        Evidence::on("share of diffusing rods with C_b above ½, less the closed form's")
+        Evidence::on("share of diffusing rods with C_b above ½, less the closed form's", "–")
             .is(less(&of_diffusion, 1.0 - (orbits.weak)(0.5, ASPECT_RATIO)), 0.0, 0.015, weak.effect)
             .because("a third of what isotropic directions differ by, 0.046"),
-        Evidence::on("share of colliding rods with C_b above ½, less that of isotropic directions")
+        Evidence::on("share of colliding rods with C_b above ½, less that of isotropic directions", "–")
             .exceeds(less(&of_collisions, 1.0 - orbit_constant_cdf(0.5, ASPECT_RATIO)), 0.0, high.effect)
             .because("\"far more\": the table of docs/src/theory/coefficients.md has 0.22"),
     ]
@@ -167,16 +167,16 @@ type Model = fn(Asked) -> Motion;
 fn distribution(model: &Model, effort: &Effort) -> Result<Vec<Evidence>, NoAnswer> {
     const ROUNDING: &str = "both solutions are refined to 4e-12";
     Ok(vec![
-        Evidence::on("a_33 and a_3333 in uniaxial extension, off the closed form")
+        Evidence::on("a_33 and a_3333 in uniaxial extension, off the closed form", "–")
             .within(extension(*model)?, 1e-11)
             .because(ROUNDING),
-        Evidence::on("rate of a_ij by its own equation, steady, in flows of all kinds")
+        Evidence::on("rate of a_ij by its own equation, steady, in flows of all kinds", "1/s")
             .within(standing(*model, effort)?, 1e-10)
             .because("a_ijkl and a_ij to 4e-12, times rates of up to 10"),
-        Evidence::on("a_ij and a_ijkl of C_I = 0, off the elliptic integrals")
+        Evidence::on("a_ij and a_ijkl of C_I = 0, off the elliptic integrals", "–")
             .within(without_diffusion(*model)?, 1e-11)
             .because(ROUNDING),
-        Evidence::on("a_ii as C_I → 0, off the mean over orbits")
+        Evidence::on("a_ii as C_I → 0, off the mean over orbits", "–")
             .within(weak(*model)?, 1e-7)
             .because("extrapolated from C_I = 2.5e-4 and 5e-4, where the fourth power is left"),
     ])

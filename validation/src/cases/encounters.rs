@@ -44,13 +44,14 @@ fn limits(reach: &Formula, _: &Effort) -> Vec<Evidence> {
     vec![
         Evidence::exact(
             "s* of R = 1, where P_c is certain",
+            "rod lengths",
             worst(scenes().map(|(alpha, m)| reach(1.0, alpha, m).abs())),
         ),
-        Evidence::exact("scenes in which R = 0 does not reach everyone", bounded as f64),
-        Evidence::on("P_c(s*(R)) over R, less 1, over 1 + m")
+        Evidence::exact("scenes in which R = 0 does not reach everyone", "scenes", bounded as f64),
+        Evidence::on("P_c(s*(R)) over R, less 1, over 1 + m", "–")
             .within(worst(errors), 8.0 * f64::EPSILON)
             .because("round-off of the two powers, m times that of their bases"),
-        Evidence::on("s* of R = 1/27 for α = ½, m = 3, less a rod length")
+        Evidence::on("s* of R = 1/27 for α = ½, m = 3, less a rod length", "rod lengths")
             .within(by_hand, 4.0 * f64::EPSILON)
             .because("roundings of 1/27, of its root, and of two operations on 3"),
     ]
@@ -87,9 +88,10 @@ fn frequency(change: &Change, effort: &Effort) -> Vec<Evidence> {
                 suspension.counters().candidates as f64 / expected
             })
             .collect();
-        Evidence::on(format!(
-            "candidates over the sum of P_c, {count} rods, α = {alpha}, m = {m}, n = {concentration} per cm³"
-        ))
+        Evidence::on(
+            format!("candidates over the sum of P_c, {count} rods, α = {alpha}, m = {m}, n = {concentration} per cm³"),
+            "–",
+        )
         .is(Sample::of(&ratios), 1.0, 0.0, design.effect)
         .because("unbiased; an α a tenth larger makes 13 % more at 300 rods, and 25 % at 25")
     });

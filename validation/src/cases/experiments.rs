@@ -73,8 +73,8 @@ fn not_fitted(theta_deg: &f64, effort: &Effort) -> Result<Vec<Evidence>, String>
         error.to_string().contains("disturb each other in this model only by the error of a time step")
     });
     Ok(vec![
-        Evidence::exact("the largest difference of X̄_i between α = 0.05 and 5", apart),
-        Evidence::exact("fits of α to it that are not refused", f64::from(u8::from(!refused))),
+        Evidence::exact("the largest difference of X̄_i between α = 0.05 and 5", "rod lengths", apart),
+        Evidence::exact("fits of α to it that are not refused", "fits", f64::from(u8::from(!refused))),
     ])
 }
 
@@ -90,7 +90,7 @@ const SUPPLY: &str = "put the digitised points (CSV) and their provenance (TOML)
                       and run `shearbed validate --data DIR`; docs/src/validation/points.md has the format";
 
 fn no_data(what: impl Into<String>) -> Evidence {
-    Evidence::new(what, Rule::NoData { supply: SUPPLY.into() })
+    Evidence::new(what, "–", Rule::NoData { supply: SUPPLY.into() })
 }
 
 /// The points of a source that are judged, and the number of those that are not.
@@ -126,7 +126,7 @@ fn agreement(source: &Source, change: Change, effort: &Effort) -> Result<Vec<Evi
         }
         match experiment::compare(scene, &here, change, runs(effort, stream)) {
             Ok(comparison) => fit(&comparison, &here, late, source),
-            Err(error) => Evidence::exact(format!("{scene}: {error}"), f64::NAN),
+            Err(error) => Evidence::exact(format!("{scene}: {error}"), "–", f64::NAN),
         }
     };
     Ok(source.scenes.iter().zip(0..).map(of_scene).collect())
@@ -164,7 +164,7 @@ fn fit(comparison: &Comparison, curves: &[MeasuredCurve], late: usize, source: &
                   controls show the power"
             .into(),
     };
-    Evidence::new(what, rule)
+    Evidence::new(what, "–", rule)
 }
 
 /// The difference of the two best α. The control doubles α in the model at r_e = 14.2, which the estimate does not
@@ -186,7 +186,7 @@ fn same_alpha(change: &Change, effort: &Effort) -> Result<Evidence, String> {
         se: short.se.hypot(long.se),
         samples: (short.points + long.points) as u64,
     };
-    Ok(Evidence::on(what)
+    Ok(Evidence::on(what, "–")
         .is(difference, 0.0, 0.0, 1.0)
         .because("points that would show α = 1.5 beside 0.5, a standard error of about 0.1; blunter ones say nothing"))
 }

@@ -83,16 +83,18 @@ fn extreme_suspensions(model: &Model, effort: &Effort) -> Vec<Evidence> {
     let (placed, unlike) = placed::ends(model.pair, effort);
     length = larger(length, worst(placed.iter().map(off_length)));
     vec![
-        Evidence::on("largest ||p| − 1|").within(length, LENGTH).because(LENGTH_BECAUSE),
-        Evidence::on("largest |tr⟨pp⟩ − 1| of whole runs").within(trace, TRACE).because(TRACE_BECAUSE),
+        Evidence::on("largest ||p| − 1|", "–").within(length, LENGTH).because(LENGTH_BECAUSE),
+        Evidence::on("largest |tr⟨pp⟩ − 1| of whole runs", "–").within(trace, TRACE).because(TRACE_BECAUSE),
         Evidence::exact(
             "rods that met although n = 10⁻³⁰ per cm³, or did not although α = 10³⁰⁰",
+            "rods",
             meetings(model, effort),
         ),
-        Evidence::exact("runs that stopped or had a mean that is not finite", stopped),
+        Evidence::exact("runs that stopped or had a mean that is not finite", "runs", stopped),
         Evidence::exact(
             "pairs put down by hand that did not turn, or did not stop with rod, step, seed and arm where the kick \
              overflows",
+            "pairs",
             unlike,
         ),
     ]

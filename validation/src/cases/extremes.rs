@@ -86,16 +86,16 @@ fn extreme_motion(motion: &Motion, _: &Effort) -> Vec<Evidence> {
     let most = |of: fn(&extremes::Worst) -> f64| worst(all.iter().map(of));
     let (stepped_length, stepped_orbit) = thousand_steps(motion);
     vec![
-        Evidence::on("largest ||p| − 1|")
+        Evidence::on("largest ||p| − 1|", "–")
             .within(larger(most(|found| found.length), stepped_length), LENGTH)
             .because(LENGTH_BECAUSE),
-        Evidence::on("largest change of C_b")
+        Evidence::on("largest change of C_b", "–")
             .within(most(|found| found.orbit), 8.0 * f64::EPSILON)
             .because("one evaluation's roundings; C_b ≤ 1 has slope ≤ 1 in ln C / 4"),
-        Evidence::on("largest change of C_b in 1000 steps of 10⁻⁹ T to 10³ T")
+        Evidence::on("largest change of C_b in 1000 steps of 10⁻⁹ T to 10³ T", "–")
             .within(stepped_orbit, 8000.0 * f64::EPSILON)
             .because("a thousand evaluations"),
-        Evidence::on("largest angle to the closed form over 16 ε(1 + 2π max(r_e, 1/r_e)|rest|)")
+        Evidence::on("largest angle to the closed form over 16 ε(1 + 2π max(r_e, 1/r_e)|rest|)", "–")
             .within(most(|found| found.angle), 1.0)
             .because(
                 "the phase without whole turns is rounded to ε, and φ moves by max(r_e, 1/r_e) times that; some \
@@ -140,14 +140,14 @@ fn extreme_flows(motion: &FlowMotion, _: &Effort) -> Vec<Evidence> {
         }
     }
     vec![
-        Evidence::exact("directions that are not finite", lost),
-        Evidence::on("largest ||p| − 1|").within(length, LENGTH).because(LENGTH_BECAUSE),
-        Evidence::on("distance from the flow's axis at a strain of 10⁶ or more, times |p_1| at first")
+        Evidence::exact("directions that are not finite", "directions", lost),
+        Evidence::on("largest ||p| − 1|", "–").within(length, LENGTH).because(LENGTH_BECAUSE),
+        Evidence::on("distance from the flow's axis at a strain of 10⁶ or more, times |p_1| at first", "–")
             .within(end, LENGTH)
             .because(
                 "e^{−Λ·10⁶} is 0; the map is known to some ε, which a start near the dividing plane grows by 1/|p_1|",
             ),
-        Evidence::on("largest angle to p_i e^{ΛL_ii t} where two rates nearly meet, at a strain of 10² or more")
+        Evidence::on("largest angle to p_i e^{ΛL_ii t} where two rates nearly meet, at a strain of 10² or more", "rad")
             .within(apart_where_rates_meet(motion), LENGTH)
             .because(
                 "the motion of uncoupled axes amplifies nothing: a component of the core's direction is rounded twice \

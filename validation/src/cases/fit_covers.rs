@@ -240,7 +240,7 @@ fn covers(way: &Way, effort: &Effort) -> Result<Vec<Evidence>, String> {
         let what = format!("share of {:.0} % intervals that hold the planted α", 100.0 * CONFIDENCES[k]);
         let because = "the level; the allowance is the error of a covariance estimated from 80 replicas; a curve \
                        taken for exact, or half the length, misses more than the effect";
-        Evidence::on(what)
+        Evidence::on(what, "–")
             .is(Sample::of(fits.iter().map(|fit| inside(fit, k))), CONFIDENCES[k], ALLOWANCE[k], EFFECT[k])
             .because(because)
     };
@@ -259,6 +259,7 @@ fn refuses(way: &Way, effort: &Effort) -> Result<Evidence, String> {
     let fits = fits.as_ref().as_ref().map_err(Clone::clone)?;
     Ok(Evidence::new(
         "p-values of χ² over repeats: uniform",
+        "–",
         lab::uniform(
             fits.iter().take(laws(effort) as usize).map(|fit| fit.p).collect(),
             DISTANCE,

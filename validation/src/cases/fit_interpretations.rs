@@ -135,6 +135,7 @@ fn accepted(change: &Change, effort: &Effort) -> Result<Evidence, String> {
     let fit = one_alpha(&points, NOISE, replicas, model)?;
     Ok(Evidence::new(
         "p-value of χ² of one α for both suspensions",
+        "–",
         Rule::PValue {
             p: fit.best.goodness.p_value(),
             samples: replicas,

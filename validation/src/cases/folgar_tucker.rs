@@ -81,13 +81,13 @@ fn seven(read: &fn(f64) -> f64, effort: &Effort) -> Vec<Evidence> {
     let least = y.iter().copied().fold(f64::INFINITY, f64::min);
     let below = edge.iter().map(|c| least / 3.0 - c);
     vec![
-        Evidence::on("1 − the correlation of the seven with φ r_p")
+        Evidence::on("1 − the correlation of the seven with φ r_p", "–")
             .within(1.0 - correlation(&x, &y), 0.33)
             .because("a correlation of 0.67 is the 5 % point of seven uncorrelated pairs, one-sided"),
-        Evidence::on("the model's C_I at n a³ = 1 less that at 0.02")
+        Evidence::on("the model's C_I at n a³ = 1 less that at 0.02", "–")
             .exceeds(Sample::of_differences(&edge, &thin), 0.0, rise.effect)
             .because("a rise, six sevenths of the pilot's"),
-        Evidence::on("a third of the least measured C_I less the model's at n a³ = 1")
+        Evidence::on("a third of the least measured C_I less the model's at n a³ = 1", "–")
             .exceeds(Sample::of(below), 0.0, gap.effect)
             .because("below, four fifths of the pilot's distance"),
     ]
@@ -129,13 +129,13 @@ fn effective(estimator: &Estimator, effort: &Effort) -> Vec<Evidence> {
     let largest =
         watched(&(estimator.alone)(strain), strain, start, 200, &mut next).map_or(f64::NAN, |means| means.gain.amax());
     vec![
-        Evidence::on("C_I of synthetic rods, 0.01 put in")
+        Evidence::on("C_I of synthetic rods, 0.01 put in", "–")
             .is(Sample::of(&estimates), PLANTED, 0.01 * PLANTED, design.effect)
             .because(
                 "1 %: making a step's length 1 again changes its variance by 3·2C_I·0.05 = 0.3 %, and the split steps \
                  by 0.05² = 0.25 %",
             ),
-        Evidence::on("the largest component of J of the core's free rods")
+        Evidence::on("the largest component of J of the core's free rods", "–")
             .within(largest, 32.0 * f64::EPSILON / strain)
             .because("two directions within 8 ε each, and their products, over the strain of a step"),
     ]
@@ -177,13 +177,13 @@ fn no_diffusion(turned: &Turned, effort: &Effort) -> Vec<Evidence> {
         Sample::of_differences(&signed(&turned), &signed(reference))
     };
     vec![
-        Evidence::on(format!("share of rods turned by more than 0.1 rad, more than with C_I = {c_i:.1e}"))
+        Evidence::on(format!("share of rods turned by more than 0.1 rad, more than with C_I = {c_i:.1e}"), "–")
             .exceeds(more(Quantity::Angle, 0.1, 1.0), 0.0, far.effect)
             .because("five sixths of the pilot's"),
-        Evidence::on("share of rods turned by more than 0.01 rad, fewer than with diffusion")
+        Evidence::on("share of rods turned by more than 0.01 rad, fewer than with diffusion", "–")
             .exceeds(more(Quantity::Angle, 0.01, -1.0), 0.0, near.effect)
             .because("three quarters of the pilot's"),
-        Evidence::on("share of rods with C_b above 0.5, more than with diffusion")
+        Evidence::on("share of rods with C_b above 0.5, more than with diffusion", "–")
             .exceeds(more(Quantity::Orbit, 0.5, 1.0), 0.0, orbits.effect)
             .because("four fifths of the pilot's"),
     ]

@@ -69,7 +69,7 @@ fn compare_one((r, sd, sevenths): Problem, change: Change, effort: &Effort, seed
     let results = ensemble::run(&lab::plan(&scene));
     let evidence = pairs(sevenths.iter().copied(), 0..3).map(|(output, axis)| {
         let sample = lab::at_output(&results, Channel::X[axis], output, scene.particles.count as u64);
-        Evidence::on(format!("X̄_{} at t/T = {output}/7, r_e = {r}, σ = {sd} %", axis + 1))
+        Evidence::on(format!("X̄_{} at t/T = {output}/7, r_e = {r}, σ = {sd} %", axis + 1), "rod lengths")
             .is(sample, expected(output as f64 / 7.0)[axis], 0.0, DESIGN.effect)
             .because("the closed form is exact to 10⁻⁹; independent rods")
     });
@@ -84,7 +84,7 @@ fn half_period(change: &Change, effort: &Effort) -> Result<Evidence, String> {
     let results = ensemble::run(&lab::plan(&scene)).map_err(|error| error.to_string())?;
     let means = results.series.iter().flat_map(|series| &series.columns).map(|column| &column.mean);
     let changes = means.flat_map(|mean| mean.iter().zip(&mean[10..]).map(|(before, later)| (later - before).abs()));
-    Ok(Evidence::on("largest |X̄_i(t + T/2) − X̄_i(t)|")
+    Ok(Evidence::on("largest |X̄_i(t + T/2) − X̄_i(t)|", "rod lengths")
         .within(worst(changes), 1e-14)
         .because("the phases are equal bits; the sums of 1000 terms are rounded alike up to signs of zero"))
 }

@@ -194,16 +194,19 @@ fn general_flows(motion: &Motion, effort: &Effort) -> Vec<Evidence> {
         decades.bound = decades.bound.max(bound);
     }
     let all = [
-        Evidence::exact("answers that are off by more than their bound", wrong),
-        Evidence::on("largest error over its bound").within(share, 1.0).because("what a bound is"),
-        Evidence::exact("refused, though 106 bits can answer", needless),
+        Evidence::exact("answers that are off by more than their bound", "answers", wrong),
+        Evidence::on("largest error over its bound", "–").within(share, 1.0).because("what a bound is"),
+        Evidence::exact("refused, though 106 bits can answer", "answers", needless),
     ];
     let by_decade = decades.into_iter().enumerate().filter(|(_, found)| found.answered + found.refused > 0);
     let by_decade = by_decade.map(|(k, Decades { answered, refused, worst, bound })| {
         let exponent = 2 * (k + 1);
-        Evidence::on(format!("worst of {answered} answers, condition number up to 10^{exponent}; {refused} refused"))
-            .within(worst, bound)
-            .because("the largest bound among them")
+        Evidence::on(
+            format!("worst of {answered} answers, condition number up to 10^{exponent}; {refused} refused"),
+            "rad",
+        )
+        .within(worst, bound)
+        .because("the largest bound among them")
     });
     all.into_iter().chain(by_decade).collect()
 }

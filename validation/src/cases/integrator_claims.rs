@@ -99,13 +99,16 @@ fn where_errors_show(scale: &f64, _: &Effort) -> Vec<Evidence> {
     };
     let ratios = [11.6, 100.0, 1e4, 1e8];
     vec![
-        Evidence::on("largest angle between two directions along the flow, a tenth of a period apart, times r_e")
-            .within(worst(ratios.map(|r| apart(r, [0.2, 0.3]) * r)), 1.0)
-            .because(
-                "A.4: π/2 − φ = cot(κ)/r_e, and cot κ changes by 2 cot 72° = 0.65 between the two, for the longest \
+        Evidence::on(
+            "largest angle between two directions along the flow, a tenth of a period apart, times r_e",
+            "rad",
+        )
+        .within(worst(ratios.map(|r| apart(r, [0.2, 0.3]) * r)), 1.0)
+        .because(
+            "A.4: π/2 − φ = cot(κ)/r_e, and cot κ changes by 2 cot 72° = 0.65 between the two, for the longest \
                  rods",
-            ),
-        Evidence::on("½ over the smallest angle between the flip and a tenth of a period before")
+        ),
+        Evidence::on("½ over the smallest angle between the flip and a tenth of a period before", "1/rad")
             .within(worst(ratios.map(|r| 0.5 / apart(r, [0.0, 0.1]))), 1.0)
             .because("from φ = 1 to a rod along the flow, π/2"),
     ]
@@ -128,7 +131,9 @@ fn digits(rate: &Rate, _: &Effort) -> [Evidence; 2] {
     });
     let because = "a square, a sum, a quotient, a root: a dozen roundings";
     [("r_e read off the right-hand side", ratio), ("the period read off it", period)].map(|(what, errors)| {
-        Evidence::on(format!("relative error of {what}")).within(worst(errors), 12.0 * f64::EPSILON).because(because)
+        Evidence::on(format!("relative error of {what}"), "–")
+            .within(worst(errors), 12.0 * f64::EPSILON)
+            .because(because)
     })
 }
 
@@ -162,10 +167,10 @@ fn eigenvalues(slope: &Slope, _: &Effort) -> Vec<Evidence> {
     });
     let because = "eigenvalues of a matrix near 1, whose two largest are apart by 1.1 or more where they are largest";
     vec![
-        Evidence::on("by how much the largest eigenvalue of ∂ṗ/∂p exceeds theory, over 1152 directions")
+        Evidence::on("by how much the largest eigenvalue of ∂ṗ/∂p exceeds theory, over 1152 directions", "G")
             .within(worst(above), 1e-13)
             .because(because),
-        Evidence::on("relative difference of the two where theory has it largest")
+        Evidence::on("relative difference of the two where theory has it largest", "–")
             .within(worst(apart), 1e-13)
             .because(because),
     ]
@@ -186,6 +191,7 @@ fn lose_length(integrators: &Integrators, _: &Effort) -> Evidence {
     let losing = all.iter().filter(|integrator| !integrator.keeps_length && integrator.theory != Theory::Exact);
     Evidence::exact(
         "integrators that keep |p| to round-off, though theirs is not said to be",
+        "integrators",
         losing.filter(|integrator| keeps(integrator)).count() as f64,
     )
 }
@@ -204,7 +210,7 @@ fn coarse(strain: &f64, _: &Effort) -> Evidence {
         };
         unlike += f64::from(!as_said);
     }
-    Evidence::exact("of the two, not as said", unlike)
+    Evidence::exact("of the two, not as said", "integrators", unlike)
 }
 
 fn index_bounds(integrators: &Integrators, _: &Effort) -> Evidence {
@@ -213,7 +219,7 @@ fn index_bounds(integrators: &Integrators, _: &Effort) -> Evidence {
         .filter_map(|integrator| order::study(integrator, &problem, &start, 8))
         .map(|study| study.richardson.map_or(f64::NAN, |richardson| richardson.true_error / richardson.index))
         .collect::<Vec<_>>();
-    Evidence::on("largest error over its index")
+    Evidence::on("largest error over its index", "–")
         .within(worst(shares), 1.0)
         .because("the index is 1.25 times the error where the error falls with the order of theory")
 }

@@ -90,7 +90,7 @@ fn orders(integrators: &Integrators, _: &Effort) -> Vec<Evidence> {
         });
         let because = "the next power of Δt is a tenth or less of the leading one on the last two pairs above \
                        round-off";
-        Evidence::on(format!("observed order against theory, {}", integrator.name))
+        Evidence::on(format!("observed order against theory, {}", integrator.name), "–")
             .within(worst(off), ORDER_TOLERANCE)
             .because(because)
     });
@@ -108,7 +108,7 @@ fn lengths(integrators: &Integrators, _: &Effort) -> Vec<Evidence> {
                 Theory::Adaptive => (Setting::Tolerance(1e-6), 1024),
             };
             let off = grade(&integrator, &problem, &start, setting).map_or(1.0, |e| e.length);
-            Evidence::on(format!("|p| − 1 at the end, {}", integrator.name))
+            Evidence::on(format!("|p| − 1 at the end, {}", integrator.name), "–")
                 .within(off, 4.0 * f64::from(steps) * f64::EPSILON)
                 .because("each step, of 1024 or of one, rounds |p| by four roundings at most")
         })
@@ -123,7 +123,7 @@ fn round_off(integrators: &Integrators, _: &Effort) -> Evidence {
         let later = RodProblem::new(r, problem.turns + whole);
         grade(integrator, &later, &start, Setting::Once).map_or(f64::NAN, |errors| errors.orientation_rad)
     });
-    Evidence::on("largest angle to the closed form").within(worst(errors), 32.0 * f64::EPSILON).because(
+    Evidence::on("largest angle to the closed form", "rad").within(worst(errors), 32.0 * f64::EPSILON).because(
         "near a whole turn the phase that is left is small, and its relative error ε moves φ by ε, \
          not by r_e ε; a few dozen roundings of the propagator and the closed form",
     )
@@ -143,7 +143,7 @@ fn adaptive(integrators: &Integrators, _: &Effort) -> Vec<Evidence> {
         let error = error.map_or(FRAC_PI_2, |errors| errors.orientation_rad);
         let because = "each step is off by the tolerance, in a direction of its own; their sum is a phase, which \
                        r_e magnifies";
-        Evidence::on(format!("angle to the closed form at a tolerance of 10⁻¹¹, r_e = {r}, {}", integrator.name))
+        Evidence::on(format!("angle to the closed form at a tolerance of 10⁻¹¹, r_e = {r}, {}", integrator.name), "rad")
             .within(error, steps * 1e-11 * r)
             .because(because)
     });

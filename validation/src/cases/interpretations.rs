@@ -103,7 +103,7 @@ pub fn cases() -> Vec<Case> {
 fn matters(alternative: &Alternative, effort: &Effort) -> Evidence {
     let changes = changes(alternative.model, effort, effort.samples(alternative.design));
     let changes = changes.iter().map(|change| alternative.sign * change);
-    Evidence::on("how much X̄₁ at t/T = ½ changes, in the direction expected")
+    Evidence::on("how much X̄₁ at t/T = ½ changes, in the direction expected", "rod lengths")
         .exceeds(Sample::of(changes), alternative.bound, alternative.design.effect)
         .because(
             "more than the width of a drawn line, 1 % of the amplitude ½ of free rods; for \"a little\" any change \
@@ -114,7 +114,7 @@ fn matters(alternative: &Alternative, effort: &Effort) -> Evidence {
 fn does_not_matter(model: &Model, effort: &Effort) -> Evidence {
     // The control's pilot is that of `interpretation-who-draws`; index order itself changed −0.0004 ± 0.0105.
     let design = Design::new(0.0214, 0.0395);
-    Evidence::on("change of X̄₁ at t/T = ½")
+    Evidence::on("change of X̄₁ at t/T = ½", "rod lengths")
         .is(Sample::of(changes(*model, effort, effort.samples(design))), 0.0, 0.5 * LINE, design.effect)
         .because("half the width of a drawn line; the control changes 0.027")
 }

@@ -76,7 +76,7 @@ fn body_frame(rate: &Rate, _: &Effort) -> Evidence {
         (found - printed::direction_rate_per_s(gradient, r, &p)).norm()
     });
     let because = "some dozens of roundings of numbers up to 1, in the frame of the particle and back";
-    Evidence::on("largest difference of ṗ/G").within(worst, 32.0 * f64::EPSILON).because(because)
+    Evidence::on("largest difference of ṗ/G", "–").within(worst, 32.0 * f64::EPSILON).because(because)
 }
 
 fn rates_of_angles(rate: &Rate, _: &Effort) -> [Evidence; 2] {
@@ -93,7 +93,7 @@ fn rates_of_angles(rate: &Rate, _: &Effort) -> [Evidence; 2] {
     });
     let because = "a dozen roundings of numbers up to 1, over sin θ ≥ 0.39";
     [("φ̇", phi_off), ("θ̇", theta_off)].map(|(rate, worst)| {
-        Evidence::on(format!("largest error of {rate}/G")).within(worst, 32.0 * f64::EPSILON).because(because)
+        Evidence::on(format!("largest error of {rate}/G"), "rad").within(worst, 32.0 * f64::EPSILON).because(because)
     })
 }
 
@@ -136,13 +136,13 @@ fn one_rod(change: &Change, effort: &Effort) -> Vec<Evidence> {
     }
     let because = "a rounding of the phase, πε, grows by dφ/d(phase) ≤ max(r_e, 1/r_e); so does one of the start";
     vec![
-        Evidence::on("largest angle between the two directions over max(r_e, 1/r_e)")
+        Evidence::on("largest angle between the two directions over max(r_e, 1/r_e)", "rad")
             .within(worst[0], 16.0 * f64::EPSILON)
             .because(because),
-        Evidence::on("largest error of φ times sin θ at the start over max(r_e, 1/r_e)")
+        Evidence::on("largest error of φ times sin θ at the start over max(r_e, 1/r_e)", "rad")
             .within(worst[1], 16.0 * f64::EPSILON)
             .because(because),
-        Evidence::on("largest error of C_b").within(worst[2], 16.0 * f64::EPSILON).because(
+        Evidence::on("largest error of C_b", "–").within(worst[2], 16.0 * f64::EPSILON).because(
             "C_b ≤ 1 has slope ≤ ¼ in ln C, which is a ratio of lengths and a tangent known to some sixteen roundings",
         ),
     ]

@@ -93,9 +93,10 @@ fn formula(expected: &Expected, effort: &Effort) -> Vec<Evidence> {
         let constant = 6.0 * PI * tail_of_isotropic(scene.particles.aspect_ratio);
         let chance = |factor: f64| constant * chance_of_threads(factor * scaled);
         let ratios = replicas.iter().map(|fresh| fresh.kicked / expected(fresh, &chance));
-        Evidence::on(format!(
-            "rods kicked by more than {threshold_rad} rad over those expected, {steps} steps a period"
-        ))
+        Evidence::on(
+            format!("rods kicked by more than {threshold_rad} rad over those expected, {steps} steps a period"),
+            "–",
+        )
         .is(Sample::of(ratios), 1.0, 0.003, design.effect)
         .because(
             "left out, 10⁻³ each: the next term in GΔt/κ, terms in (1 − Λ)/Y², the cube's corners, to \
@@ -148,25 +149,28 @@ fn memory(counted: &Counted, effort: &Effort) -> Vec<Evidence> {
         .iter()
         .zip(&fine)
         .map(|(coarse, fine)| (coarse.kicks[(OPENING, OVER)] - fine.kicks[(OPENING, OVER)]) / both);
-    let opening =
-        Evidence::on("kicks > 0.1 rad of opening pairs at 100 steps a period, less those at 800, over both; α = 4")
-            .exceeds(Sample::of(falls), 0.1, fall.effect)
-            .because("they would be equal if the rate did not depend on Δt, and are 1 : 3");
+    let opening = Evidence::on(
+        "kicks > 0.1 rad of opening pairs at 100 steps a period, less those at 800, over both; α = 4",
+        "–",
+    )
+    .exceeds(Sample::of(falls), 0.1, fall.effect)
+    .because("they would be equal if the rate did not depend on Δt, and are 1 : 3");
     // Pilot of 4,650 replicas at seeds 9001 to 9010: 0.35 for both.
     let off = Design::new(0.5, 0.39);
-    let closing = [(200, 2), (400, 3)].map(|(steps, stream)| {
-        let counts = run(0.5, steps, stream, effort.samples(off), 50);
-        let fresh = Sample::of(counts.iter().map(|c| c.fresh[(CLOSING, OVER)])).mean;
-        let offs = counts.iter().map(|c| (c.kicks[(CLOSING, OVER)] - c.fresh[(CLOSING, OVER)]) / fresh);
-        Evidence::on(format!(
+    let closing =
+        [(200, 2), (400, 3)].map(|(steps, stream)| {
+            let counts = run(0.5, steps, stream, effort.samples(off), 50);
+            let fresh = Sample::of(counts.iter().map(|c| c.fresh[(CLOSING, OVER)])).mean;
+            let offs = counts.iter().map(|c| (c.kicks[(CLOSING, OVER)] - c.fresh[(CLOSING, OVER)]) / fresh);
+            Evidence::on(format!(
             "kicks > 0.1 rad of closing pairs over the formula's number, less 1; {steps} steps a period, α = ½"
-        ))
+        ), "–")
         .is(Sample::of(offs), 0.0, 0.05, off.effect)
         .because(
             "the formula takes the separation to be independent of the directions; a pair that collides is no longer \
              so, by the share of P_c ≈ 0.05",
         )
-    });
+        });
     [opening].into_iter().chain(closing).collect()
 }
 
@@ -197,7 +201,7 @@ fn heavy((angles, min_arm): &(Angles, f64), effort: &Effort) -> [Evidence; 2] {
     ];
     hills.map(|(what, hill, because)| {
         let sample = Sample { mean: hill.alpha, se: hill.se, samples: hill.count };
-        Evidence::on(format!("Hill's exponent of {what}")).is(sample, 1.0, 0.01, design.effect).because(because)
+        Evidence::on(format!("Hill's exponent of {what}"), "–").is(sample, 1.0, 0.01, design.effect).because(because)
     })
 }
 
@@ -244,11 +248,15 @@ fn bounded((angles, share): &(Angles, f64), effort: &Effort) -> Vec<Evidence> {
         }
     }
     vec![
-        Evidence::exact("collisions that are missing to 2000", 2000usize.saturating_sub(collisions) as f64),
-        Evidence::on("largest difference of a kick from |g|Δt/(2|r|), over its conditioning")
+        Evidence::exact(
+            "collisions that are missing to 2000",
+            "collisions",
+            2000usize.saturating_sub(collisions) as f64,
+        ),
+        Evidence::on("largest difference of a kick from |g|Δt/(2|r|), over its conditioning", "–")
             .within(worst[0], 1e-13)
             .because("some hundred roundings, ε each"),
-        Evidence::on("the largest kick over its bound, less 1 where it is above")
+        Evidence::on("the largest kick over its bound, less 1 where it is above", "–")
             .within(worst[1], 1e-12)
             .because("round-off of kicks at the bound"),
     ]

@@ -73,7 +73,9 @@ fn gives_back_velocity(component: &Gradient, _: &Effort) -> [Evidence; 2] {
             let carried = (0..2000).fold(line, |x, _| rk4(u, x, TIME_S / 2000.0));
             end.cross(&carried.normalize()).norm()
         });
-        Evidence::on(format!("largest angle between rod and line, {name}")).within(worst(off), 1e-11).because(because)
+        Evidence::on(format!("largest angle between rod and line, {name}"), "rad")
+            .within(worst(off), 1e-11)
+            .because(because)
     })
 }
 
@@ -102,7 +104,7 @@ fn shadows(model: &Shadows, _: &Effort) -> Evidence {
         let expected = [2, 0, 1].map(|axis| p.cross(&Vector3::ith(axis, 1.0)).norm());
         worst(model(phi, theta).into_iter().zip(expected).map(|(shadow, expected)| (shadow - expected).abs()))
     });
-    Evidence::on("largest error of a shadow")
+    Evidence::on("largest error of a shadow", "rod lengths")
         .within(worst(errors), 4.0 * f64::EPSILON)
         .because("a few roundings of numbers up to 1")
 }
@@ -137,11 +139,12 @@ fn free_rods_keep_c(by_contact: &Moves, effort: &Effort) -> Vec<Evidence> {
         before = after;
     }
     vec![
-        Evidence::on("largest change of C_b of a free rod in one step")
+        Evidence::on("largest change of C_b of a free rod in one step", "–")
             .within(free_change, ROUND_OFF)
             .because("the exact motion keeps C to round-off"),
         Evidence::new(
             format!("of {colliding} colliding rods, those whose C_b stayed to round-off"),
+            "rods",
             // If no rod is said to collide, every rod counts as free, and the evidence above covers all rods.
             Rule::exact(f64::from(unchanged)),
         ),

@@ -119,7 +119,7 @@ fn period(motion: &Motion, _: &Effort) -> [Evidence; 2] {
     ]
     .map(|(name, flow, start, across)| {
         let ratios = [1.01, 1.1, 1.5, 2.0, 3.96, 11.6, 14.2, 50.0, 1e3, 1e4, 1e5, 1e6];
-        Evidence::on(format!("relative error of the period, {name}"))
+        Evidence::on(format!("relative error of the period, {name}"), "–")
             .within(worst(ratios.map(|r| error(r, &flow, &start, across))), 8.0 * f64::EPSILON)
             .because("the root is found to the last bit; eight roundings of the phase")
     })
@@ -139,10 +139,12 @@ fn orbit_constant(motion: &Motion, _: &Effort) -> Evidence {
         let c = |p: &UnitVector3<f64>| p.x.hypot(p.y / r) / p.z.abs();
         (c(&p) / c(&start) - 1.0).abs()
     });
-    Evidence::on("largest relative drift of C up to 10⁴ periods").within(worst(drift), 16.0 * f64::EPSILON).because(
-        "one evaluation, however many periods it spans: C is a ratio of lengths without cancellation, some sixteen \
+    Evidence::on("largest relative drift of C up to 10⁴ periods", "–")
+        .within(worst(drift), 16.0 * f64::EPSILON)
+        .because(
+            "one evaluation, however many periods it spans: C is a ratio of lengths without cancellation, some sixteen \
          roundings",
-    )
+        )
 }
 
 /// Directions in general position.
@@ -161,7 +163,7 @@ fn closed_form_motion(motion: &Motion, _: &Effort) -> Evidence {
         let moved = motion(&couette(0.5), r, &start, turns * closed_form::period_s(0.5, r));
         apart(&moved, &orientation::from_angles(phi, theta)) / (r.max(1.0 / r) * (1.0 + turns))
     });
-    Evidence::on("angle between the two, over max(r_e, 1/r_e)·(1 + t/T)")
+    Evidence::on("angle between the two, over max(r_e, 1/r_e)·(1 + t/T)", "rad")
         .within(worst(off), 32.0 * f64::EPSILON)
         .because("a rounding of the phase, 2π(t/T)ε, grows by dφ/d(phase) ≤ max(r_e, 1/r_e) at the flip")
 }
@@ -203,11 +205,12 @@ fn mean_angle(angle: &Angle, _: &Effort) -> Vec<Evidence> {
     }
     let because = "the quadrature asks for 10⁻¹⁴ on each panel of a quarter";
     vec![
-        Evidence::on("difference of ⟨φ⟩ over the quadrature's tolerance, r_e from 1 to 1000")
+        Evidence::on("difference of ⟨φ⟩ over the quadrature's tolerance, r_e from 1 to 1000", "–")
             .within(worst, 1.0)
             .because(because),
         Evidence::on(
             "difference of π/2 − ⟨φ⟩ and its first term, over that tolerance and the next term, r_e from 10⁵ to 10⁷",
+            "–",
         )
         .within(thread, 1.0)
         .because(because),

@@ -77,14 +77,18 @@ fn reductions(limits: &Limits, effort: &Effort) -> [Evidence; 6] {
     let at = |which: usize, scene: &Scene| lab::changed(scene.clone(), limits[which]);
     let apart = |which: usize, scene: &Scene, limit: &Scene| difference(&at(which, scene), limit);
     [
-        Evidence::exact("α = 10⁻³⁰⁰ against free rods", apart(0, &interacting, &free)),
-        Evidence::exact("n = 10⁻³⁰ per cm³ against free rods", apart(1, &interacting, &free)),
-        Evidence::exact("m = 10⁹ against free rods", apart(2, &interacting, &free)),
-        Evidence::exact("one interacting rod against one free rod", apart(3, &interacting, &at(3, &free))),
-        Evidence::on("σ = 10⁻¹² % against σ = 0")
+        Evidence::exact("α = 10⁻³⁰⁰ against free rods", "rod lengths", apart(0, &interacting, &free)),
+        Evidence::exact("n = 10⁻³⁰ per cm³ against free rods", "rod lengths", apart(1, &interacting, &free)),
+        Evidence::exact("m = 10⁹ against free rods", "rod lengths", apart(2, &interacting, &free)),
+        Evidence::exact(
+            "one interacting rod against one free rod",
+            "rod lengths",
+            apart(3, &interacting, &at(3, &free)),
+        ),
+        Evidence::on("σ = 10⁻¹² % against σ = 0", "rod lengths")
             .within(apart(4, &long, &long), 1e-11)
             .because("a phase of 6π shifted by σ, grown by r_e at the flip"),
-        Evidence::on("r_e = 1 + 10⁻¹² against a sphere")
+        Evidence::on("r_e = 1 + 10⁻¹² against a sphere", "rod lengths")
             .within(apart(5, &uniform, &sphere), 1e-11)
             .because("the map differs by r_e − 1"),
     ]
@@ -111,8 +115,8 @@ fn standard_errors(standard_error: &StandardError, effort: &Effort) -> Vec<Evide
     });
     let because = "two ways of summing sixteen squares";
     vec![
-        Evidence::on("relative error of the errors over replicas").within(over_replicas, 1e-12).because(because),
-        Evidence::on("relative error of the errors over rods").within(over_rods, 1e-12).because(because),
+        Evidence::on("relative error of the errors over replicas", "–").within(over_replicas, 1e-12).because(because),
+        Evidence::on("relative error of the errors over rods", "–").within(over_rods, 1e-12).because(because),
     ]
 }
 

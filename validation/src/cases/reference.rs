@@ -111,13 +111,15 @@ fn against_reference(mistake: &Option<Mistake>, effort: &Effort) -> Vec<Evidence
     vec![
         Evidence::exact(
             format!("problems in which other rods collided, in {} steps with {} collisions", off.steps, off.collisions),
+            "problems",
             off.pairs as f64,
         ),
-        Evidence::on("largest difference of places in rod lengths, after up to one period")
+        Evidence::on("largest difference of places after up to one period", "rod lengths")
             .within(off.places, 1e-11)
             .because("round-off of 200 sums of lengths up to 100"),
         Evidence::on(
             "largest difference of directions after one step from the same state, over the condition of its contacts",
+            "–",
         )
         .within(off.step, 256.0 * f64::EPSILON)
         .because(

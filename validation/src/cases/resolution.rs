@@ -78,7 +78,7 @@ fn coarser_step(size: &Size, coarse: bool, effort: &Effort) -> Evidence {
     // Cached, as it is by far the longest of the runs.
     static DEFAULT: Shared<u64, Vec<f64>> = Shared::new();
     let fine = DEFAULT.get(effort, default, || x1(&scene, default, replicas));
-    Evidence::on(format!("X̄₁ at r_e = {}: {steps} steps a period less {default}", size.aspect_ratio))
+    Evidence::on(format!("X̄₁ at r_e = {}: {steps} steps a period less {default}", size.aspect_ratio), "rod lengths")
         .is(Sample::of_differences(&x1(&scene, steps, replicas), &fine), 0.0, LINE, size.design.effect)
         .because("0.01: a drawn line of the paper's figures")
 }

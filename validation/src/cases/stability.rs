@@ -54,21 +54,25 @@ fn whole_map(integrators: &Integrators, effort: &Effort) -> Vec<Evidence> {
         }
     }
     vec![
-        Evidence::exact("cells in which an integrator without steps, other than in angles, is not at round-off", exact),
-        Evidence::on("largest angle to the closed form, A.4 and A.5 in angles").within(angles, 4e-5).because(
+        Evidence::exact(
+            "cells in which an integrator without steps, other than in angles, is not at round-off",
+            "cells",
+            exact,
+        ),
+        Evidence::on("largest angle to the closed form, A.4 and A.5 in angles", "rad").within(angles, 4e-5).because(
             "the starting phase is added to t/T before whole turns are taken out: rounded to half an ulp of 10³, \
              6·10⁻¹⁴, times 2π r_e = 6·10⁸",
         ),
-        Evidence::on("largest ||p| − 1| of who keeps it")
+        Evidence::on("largest ||p| − 1| of who keeps it", "–")
             .within(length, 4.0 * most_steps as f64 * f64::EPSILON)
             .because("each step rounds |p| by four roundings at most"),
-        Evidence::on("largest angle over (GΔt)² where 10⁻³ ≤ GΔt ≤ ½ and the order is 2 or 4, over one period")
+        Evidence::on("largest angle over (GΔt)² where 10⁻³ ≤ GΔt ≤ ½ and the order is 2 or 4, over one period", "rad")
             .within(accurate, 4.0)
             .because(
                 "a step of order 2 is off by (GΔt)³/6 times a third derivative, 3 at most by A.2, and a flip lasts \
                  some 8/G: 4 (GΔt)²; order 4 is nearer; below 10⁻³ round-off is more",
             ),
-        Evidence::exact("cells without a direction and without an error", silent),
+        Evidence::exact("cells without a direction and without an error", "cells", silent),
     ]
 }
 

@@ -67,7 +67,7 @@ fn period(change: &Change, effort: &Effort) -> [Evidence; 2] {
         });
         let because = "\"practically unaffected\": 2 %, a maximum at t/T = 2 that is 0.04 off on an axis of six \
                        periods; |p_1| has the period T/2";
-        Evidence::on(format!("frequency of X̄₁ in 1/T, {name}"))
+        Evidence::on(format!("frequency of X̄₁, {name}"), "1/T")
             .is(Sample::of(&frequencies), 2.0, 0.04, design.effect)
             .because(because)
     })
@@ -125,7 +125,7 @@ fn enough_rods(count: &usize, effort: &Effort) -> [Evidence; 2] {
         };
         let because = "\"not significantly\": less than what distinguishes two curves, twice the width of a \
                        line; rods near a face have fewer neighbours";
-        Evidence::on(format!("bias of X̄₁ at t/T = {}, {count} rods against {MANY}", k + 1))
+        Evidence::on(format!("bias of X̄₁ at t/T = {}, {count} rods against {MANY}", k + 1), "rod lengths")
             .is(Sample::of(few.chunks(share).zip(&many).map(difference)), 0.0, 2.0 * LINE, design.effect)
             .because(because)
     })
@@ -149,7 +149,7 @@ fn stays_put(from: &f64, effort: &Effort) -> [Evidence; 3] {
     });
     [0, 1, 2].map(|axis| {
         let drift = Sample::of(drifts.iter().map(|drifts| drifts[axis]));
-        Evidence::on(format!("drift of X̄_{} over a period", axis + 1))
+        Evidence::on(format!("drift of X̄_{} over a period", axis + 1), "rod lengths")
             .is(drift, 0.0, LINE, designs[axis].effect)
             .because("\"constant\": within the width of a drawn line over a period")
     })
@@ -197,13 +197,14 @@ fn in_plane(theta_deg: &f64, effort: &Effort) -> Vec<Evidence> {
     let round_off = "cos 90° is 6·10⁻¹⁷, which kicks ∝ 1/r grow: 60-fold at most in ten times these steps, and x \
                      times that with a probability ∝ 1/x";
     vec![
-        Evidence::on("largest |p_3| within one period").within(most, 1e-9).because(round_off),
-        Evidence::on("largest mean angle in rad between rods with and without interactions after one period by `kick`")
+        Evidence::on("largest |p_3| within one period", "–").within(most, 1e-9).because(round_off),
+        Evidence::on("largest mean angle between rods with and without interactions after one period by `kick`", "rad")
             .within(kicked, 1e-9)
             .because(round_off),
         Evidence::on(
-            "half the mean angle in rad between rods with and without interactions after one period by `rotation` at \
+            "half the mean angle between rods with and without interactions after one period by `rotation` at \
              200 steps, less that at 800 steps",
+            "rad",
         )
         .exceeds(Sample::of(fall), 0.0, design.effect)
         .because("an observed order above ½: nearer to 1, the straight turn's, than to 0"),

@@ -33,7 +33,7 @@ fn steady_angle(change: &Change, effort: &Effort) -> [Evidence; 3] {
         });
         let because = "\"agree closely\": 0.01 rad, the width of a line on an axis from 0 to π/2; collisions bias the \
                        phase a little";
-        Evidence::on(format!("steady φ̄ in rad, r_e = {r}"))
+        Evidence::on(format!("steady φ̄, r_e = {r}"), "rad")
             .is(Sample::of(&means), closed_form::mean_angle(r), 0.01, design.effect)
             .because(because)
     })

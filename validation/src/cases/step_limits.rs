@@ -193,7 +193,7 @@ fn agrees(claimed: &Claimed, _: &Effort) -> Vec<Evidence> {
                 Limit::Beyond(_) | Limit::Below(_) => f64::INFINITY,
             }
         });
-        Evidence::on(format!("relative difference of the longest step and theory, {}", integrator.name))
+        Evidence::on(format!("relative difference of the longest step and theory, {}", integrator.name), "–")
             .within(worst(off), claimed.found_late * (PI / 1024.0).powi(2))
             .because(
                 "δ² times what stretches δ: of 512 rods one is within δ = π/1024 of the extreme one, where what is \
@@ -227,7 +227,7 @@ fn rest(integrators: &Integrators, _: &Effort) -> Vec<Evidence> {
         }
     }
     vec![
-        Evidence::exact("rods still moving after 1000 steps of 1.02 times the limit", moving),
-        Evidence::exact("rods at rest after 1000 steps of 0.98 times the limit", resting),
+        Evidence::exact("rods still moving after 1000 steps of 1.02 times the limit", "rods", moving),
+        Evidence::exact("rods at rest after 1000 steps of 0.98 times the limit", "rods", resting),
     ]
 }

@@ -105,14 +105,19 @@ fn symmetries(mapping: &Mapping, effort: &Effort) -> Vec<Evidence> {
     vec![
         Evidence::exact(
             "the same rods in another order, every one of them a candidate",
+            "–",
             relabelled(mapping.directions_too, effort),
         ),
-        Evidence::exact("lengths 8 times larger, concentration 512 times less", difference(&lengths, &base)),
-        Evidence::exact("a shear rate of 5·10⁻³¹ 1/s", difference(&times, &base)),
-        Evidence::on("every rod turned head to tail, interacting")
+        Evidence::exact(
+            "lengths 8 times larger, concentration 512 times less",
+            "rod lengths",
+            difference(&lengths, &base),
+        ),
+        Evidence::exact("a shear rate of 5·10⁻³¹ 1/s", "rod lengths", difference(&times, &base)),
+        Evidence::on("every rod turned head to tail, interacting", "rod lengths")
             .within(difference(&tail, &head), 1e-10)
             .because("the turned angles are rounded to 10⁻¹⁶, which kicks ∝ 1/r grow"),
-        Evidence::on("free rods in the mirrored flow from mirrored angles")
+        Evidence::on("free rods in the mirrored flow from mirrored angles", "rod lengths")
             .within(difference(&mirror, &straight), 0.0)
             .because("every product has the same factors up to sign"),
     ]
@@ -164,8 +169,8 @@ fn one_length(given: &OneLength, effort: &Effort) -> Vec<Evidence> {
     let base = scene(0.5, 50.0, 1.0);
     let (dense, short) = (scene(given.alpha_of_dense, 400.0, 1.0), scene(given.alpha_of_short, 50.0, 0.5));
     vec![
-        Evidence::exact("400 rods per cm³ at α = 0.25", difference(&dense, &base)),
-        Evidence::exact("half the length at α = 1", difference(&short, &base)),
+        Evidence::exact("400 rods per cm³ at α = 0.25", "rod lengths", difference(&dense, &base)),
+        Evidence::exact("half the length at α = 1", "rod lengths", difference(&short, &base)),
     ]
 }
 
@@ -188,7 +193,7 @@ fn mirrored(concentration_per_cm3: &f64, effort: &Effort) -> [Evidence; 3] {
     let (here, there) = (changes(&straight), changes(&mirrored));
     [0, 1, 2].map(|axis| {
         let apart = here.iter().zip(&there).map(|(a, b)| a[axis] - b[axis]);
-        Evidence::on(format!("change of X̄_{} over a period, flow less mirrored flow", axis + 1))
+        Evidence::on(format!("change of X̄_{} over a period, flow less mirrored flow", axis + 1), "rod lengths")
             .is(Sample::of(apart), 0.0, 0.0, designs[axis].effect)
             .because("a symmetry of the model; independent seeds")
     })

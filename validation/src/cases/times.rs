@@ -56,7 +56,7 @@ fn units(unit: &UnitOf, effort: &Effort) -> Vec<Evidence> {
         worst(errors)
     };
     let because = "sums, products and a root, each rounded: eight roundings on both sides";
-    let within = |what, scenes| Evidence::on(what).within(worst(scenes), 8.0 * f64::EPSILON).because(because);
+    let within = |what, scenes| Evidence::on(what, "–").within(worst(scenes), 8.0 * f64::EPSILON).because(because);
     vec![
         within("relative error in plane Couette flow, both directions, r_e from 10⁻³ to 10⁶", couette(effort)),
         within("relative error in flows in a plane that turn rods along ellipses", elliptic(effort)),

@@ -74,7 +74,9 @@ fn check(wrong: &Wrong, effort: &Effort) -> Vec<Evidence> {
             Some((what, by)) if *what == one.what => double(&(first + BITS.of(*by) - second)).abs(),
             _ => double(&(first - second)).abs(),
         };
-        Evidence::on(one.what).within(worst(one.pairs.iter().map(off)), one.most).because(one.because)
+        Evidence::on(one.what, if one.what == CONTACT { "1/s" } else { "–" })
+            .within(worst(one.pairs.iter().map(off)), one.most)
+            .because(one.because)
     };
     all.iter().map(evidence).collect()
 }

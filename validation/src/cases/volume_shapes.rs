@@ -38,10 +38,10 @@ const FACES: f64 = 0.002;
 fn shapes([same, other]: &[Shape; 2], effort: &Effort) -> Vec<Evidence> {
     let [cube, same, other] = [CUBE, *same, *other].map(|shape| x1(shape, effort));
     vec![
-        Evidence::on("X̄₁ of rods in a volume with the cube's H₁/H₂, less that in the cube")
+        Evidence::on("X̄₁ of rods in a volume with the cube's H₁/H₂, less that in the cube", "rod lengths")
             .is(Sample::of_differences(&same, &cube), 0.0, FACES, DESIGN.effect)
             .because("faces: fewer neighbours; another H₁/H₂ changes it by 0.0095"),
-        Evidence::on("X̄₁ of rods in the cube, less that in a volume with eight times its H₁/H₂")
+        Evidence::on("X̄₁ of rods in the cube, less that in a volume with eight times its H₁/H₂", "rod lengths")
             .exceeds(Sample::of_differences(&cube, &other), FACES, DESIGN.effect)
             .because("0.0095 in a pilot, faces taken off"),
     ]

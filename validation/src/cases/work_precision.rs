@@ -96,7 +96,7 @@ fn rates(starts: &Starts, effort: &Effort) -> Vec<Evidence> {
     let exponent = |start: &Start| {
         let errors = |n| free.errors(start, n, TRIALS * groups, effort.seed(0));
         let tried = [1000, 20_000].map(errors);
-        Evidence::on(format!("exponent of N, {} starts", start.name))
+        Evidence::on(format!("exponent of N, {} starts", start.name), "–")
             .is(Sample::of(exponents(&tried, groups)), start.exponents[0], 0.05, design.effect)
             .because("0.05 for what is left of higher powers at 10³ rods; the controls' exponents are ½ off or more")
     };
@@ -122,7 +122,7 @@ fn replicas(number: &Number, effort: &Effort) -> Evidence {
     };
     let replicas = GROUP * effort.samples(design);
     let x1: Vec<_> = (0..replicas).into_par_iter().map(x1).collect();
-    Evidence::on("exponent of M in the standard deviation of block means")
+    Evidence::on("exponent of M in the standard deviation of block means", "–")
         .is(Sample::of(blocks::replicas_exponents(&x1, GROUP as usize)), -0.5, 0.0, design.effect)
         .because("independent replicas, in groups of 256; a deviation that is √2 as large from two on makes 0.07")
 }
@@ -172,7 +172,7 @@ fn faces(exponent: &f64, effort: &Effort) -> Evidence {
         .into_par_iter()
         .map(|replica| lost(RODS[0], replica) - ratio * lost(RODS[1], replica))
         .collect();
-    Evidence::on("share of collisions lost at 64 rods, less the loss at 512 times what the exponent asks for")
+    Evidence::on("share of collisions lost at 64 rods, less the loss at 512 times what the exponent asks for", "–")
         .is(Sample::of(&differences), 0.0, 0.02, design.effect)
         .because(
             "63 others are a density of n(1 − 1/64), 0.011 of the candidates; edges, where two faces take the same, ∝ \
@@ -209,8 +209,9 @@ fn paths(change: &Change, effort: &Effort) -> Evidence {
     let (coarse, fine) = (mean_squares(&scene, 100, replicas), mean_squares(&scene, 400, replicas));
     let excess = fine.iter().zip(&coarse).map(|(fine, coarse)| fine - 0.5 * coarse);
     Evidence::on(
-        "mean square angle (rad²) between 400 and 800 steps a period, less half of that between \
+        "mean square angle between 400 and 800 steps a period, less half of that between \
          100 and 200",
+        "rad²",
     )
     .exceeds(Sample::of(excess), 0.0, design.effect)
     .because(
@@ -269,13 +270,13 @@ fn shared(beside: &Beside, effort: &Effort) -> Vec<Evidence> {
     let correlations = correlations(own, &other);
     let fisher = correlations.iter().map(|value| rho.atanh() + (value - rho) / (1.0 - rho * rho));
     vec![
-        Evidence::on("share of the variance that free rods explain, less the share that half the step does")
+        Evidence::on("share of the variance that free rods explain, less the share that half the step does", "–")
             .exceeds(Sample::of_differences(&by_free, &by_finer), 0.0, more.effect)
             .because("the better control variate; the two differ by a fifth of the variance"),
-        Evidence::on("artanh of the correlation of X̄₁ between α and 0.8 α at T/4")
+        Evidence::on("artanh of the correlation of X̄₁ between α and 0.8 α at T/4", "–")
             .exceeds(Sample::of(fisher), 0.75f64.atanh(), common.effect)
             .because("1/(1 − ρ) independent runs for each that shares: four at ρ = ¾; there is 0.87"),
-        Evidence::on("X̄₁ of the free rods at T/4")
+        Evidence::on("X̄₁ of the free rods at T/4", "rod lengths")
             .is(Sample::of(&free), free_mean(&changed(beside.mean), 0.25), 0.0, mean.effect)
             .because("the control variate's mean is a closed form; a rod a tenth longer has 10 % less"),
     ]

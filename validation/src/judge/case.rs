@@ -20,29 +20,31 @@ use std::time::Instant;
 pub struct Evidence {
     /// The measured quantity, in a few words.
     pub what: String,
+    /// The unit of its error and of its tolerance; `–` for a number without one, as a ratio or a probability.
+    pub unit: Text,
     /// The rule.
     pub rule: Rule,
 }
 
 impl Evidence {
     /// Evidence on the quantity `what`, of which the rule and its reason follow.
-    pub fn on(what: impl Into<String>) -> Quantity {
-        Quantity(what.into())
+    pub fn on(what: impl Into<String>, unit: &'static str) -> Quantity {
+        Quantity(what.into(), unit)
     }
 
     /// The rule that `error` is 0.
-    pub fn exact(what: impl Into<String>, error: f64) -> Self {
-        Self::new(what, Rule::exact(error))
+    pub fn exact(what: impl Into<String>, unit: &'static str, error: f64) -> Self {
+        Self::new(what, unit, Rule::exact(error))
     }
 
     /// The rule `rule` for the quantity `what`.
-    pub fn new(what: impl Into<String>, rule: Rule) -> Self {
-        Self { what: what.into(), rule }
+    pub fn new(what: impl Into<String>, unit: &'static str, rule: Rule) -> Self {
+        Self { what: what.into(), unit: unit.into(), rule }
     }
 }
 
-/// A measured quantity, in a few words.
-pub struct Quantity(String);
+/// A measured quantity, in a few words, and its unit.
+pub struct Quantity(String, &'static str);
 
 impl Quantity {
     /// The rule that `error` is at most `tolerance`.
@@ -72,7 +74,7 @@ pub struct Bound(Quantity, Box<dyn FnOnce(Text) -> Rule>);
 impl Bound {
     /// Adds the reason for the tolerance, or for the allowance and the effect.
     pub fn because(self, reason: impl Into<Text>) -> Evidence {
-        Evidence { what: self.0.0, rule: (self.1)(reason.into()) }
+        Evidence::new(self.0.0, self.0.1, (self.1)(reason.into()))
     }
 }
 
@@ -102,7 +104,7 @@ impl<T: Findings, const N: usize> Findings for [T; N] {
 
 impl<T: Findings, E: fmt::Display> Findings for Result<T, E> {
     fn evidence(self) -> Vec<Evidence> {
-        self.map_or_else(|error| vec![Evidence::exact(error.to_string(), f64::NAN)], T::evidence)
+        self.map_or_else(|error| vec![Evidence::exact(error.to_string(), "–", f64::NAN)], T::evidence)
     }
 }
 
@@ -239,7 +241,7 @@ mod tests {
     fn is_three(value: &f64, _: &Effort) -> Result<Vec<Evidence>, &'static str> {
         match value {
             7.0 => Err("no seven"),
-            _ => Ok(vec![Evidence::exact("three", value - 3.0)]),
+            _ => Ok(vec![Evidence::exact("three", "–", value - 3.0)]),
         }
     }
 
@@ -276,8 +278,8 @@ mod tests {
     #[test]
     fn what_data_there_are_is_judged() {
         let check = |value: &f64, _: &Effort| {
-            let none = || Evidence::new("none", Rule::NoData { supply: "a file".into() });
-            let judged = (*value > 0.0).then(|| Evidence::exact("three", value - 3.0));
+            let none = || Evidence::new("none", "–", Rule::NoData { supply: "a file".into() });
+            let judged = (*value > 0.0).then(|| Evidence::exact("three", "–", value - 3.0));
             [none()].into_iter().chain(judged).chain([none()]).collect::<Vec<_>>()
         };
         let verdict = |value| {

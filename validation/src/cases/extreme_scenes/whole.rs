@@ -117,8 +117,10 @@ pub(super) fn extreme_scenes(program: &Program, effort: &Effort) -> Vec<Evidence
     let failed = ended.iter().filter(|ended| !ended.finite).count() as f64;
     let apart = worst(ended[free..].iter().map(|ended| (ended.last_x1 - 1.0).abs()));
     vec![
-        Evidence::exact("scenes that stopped or had a result that is not finite", failed),
-        Evidence::on("largest |tr⟨pp⟩ − 1|").within(trace, TRACE).because(TRACE_BECAUSE),
-        Evidence::on("largest |X̄₁ − 1| at the end of an extension").within(apart, LENGTH).because(LENGTH_BECAUSE),
+        Evidence::exact("scenes that stopped or had a result that is not finite", "scenes", failed),
+        Evidence::on("largest |tr⟨pp⟩ − 1|", "–").within(trace, TRACE).because(TRACE_BECAUSE),
+        Evidence::on("largest |X̄₁ − 1| at the end of an extension", "rod lengths")
+            .within(apart, LENGTH)
+            .because(LENGTH_BECAUSE),
     ]
 }

@@ -62,7 +62,7 @@ pub fn off(straight: bool, effort: &Effort) -> Result<Evidence, String> {
     let off = |(own, at_nodes): (&DVector<f64>, &Coefficients)| {
         (&simulated.influence * (own - at_nodes[0].tr_mul(&terms)))[0]
     };
-    Ok(Evidence::on("r_e of points simulated at that r_e itself, less it, in standard uncertainties")
+    Ok(Evidence::on("r_e of points simulated at that r_e itself, less it", "standard uncertainties")
         .is(Sample::of(simulated.at_own.iter().zip(&simulated.at_nodes).map(off)), 0.0, OFF, EFFECT)
         .because(
             "a tenth costs a 68 % interval 0.3 % of its share; straight lines between the nodes are off by more than \

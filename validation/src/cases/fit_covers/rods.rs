@@ -72,7 +72,7 @@ pub(super) fn hold(treatment: &Treatment, effort: &Effort) -> Result<Evidence, S
     let ratio = |k: u64| repeat((pool, &offset), *treatment, seed(k));
     let below: Result<Vec<f64>, String> =
         (0..count).into_par_iter().map(|k| ratio(k).map(|ratio| 1.0 - ratio)).collect();
-    Ok(Evidence::on("1 − χ² per degree of freedom")
+    Ok(Evidence::on("1 − χ² per degree of freedom", "–")
         .exceeds(Sample::of(&below?), -0.1, EXCESS)
         .because("with a tenth more a right model would be rejected twice as often as due"))
 }

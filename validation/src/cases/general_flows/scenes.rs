@@ -81,12 +81,13 @@ pub fn listed_scenes(run: &Run, _: &Effort) -> Vec<Evidence> {
         run(&scene).is_none()
     });
     vec![
-        Evidence::on("largest error of |p_i| at the end over the bound that the plan states")
+        Evidence::on("largest error of |p_i| at the end over the bound that the plan states", "–")
             .within(share, 1.0)
             .because("what a bound is: the start's rounding and the map's"),
-        Evidence::exact("scenes refused, or with an end that is no number", refused + unknown),
+        Evidence::exact("scenes refused, or with an end that is no number", "scenes", refused + unknown),
         Evidence::exact(
             "a flow of three real rates, on which an eigenvalue solver hung, that is given a period",
+            "flows",
             f64::from(!no_period),
         ),
     ]

@@ -21,14 +21,14 @@ pub(super) fn at_least(integrators: &Integrators, _: &Effort) -> Vec<Evidence> {
         let because = "a bound from below, and for explicit Euler the limit itself: too few rods find a step too \
                        long, which is no excuse; the bisection ends at 10⁻⁷";
         evidence.push(
-            Evidence::on(format!("{quantity}, {}", integrator.name))
+            Evidence::on(format!("{quantity}, {}", integrator.name), "–")
                 .within(worst(RATIOS.iter().zip(longest).map(above)), 1e-6)
                 .because(because),
         );
         if order == 4 {
             let off = classical.iter().zip(longest).map(|(first, longest)| (longest / first - 1.0).abs());
             evidence.push(
-                Evidence::on(format!("relative difference to the first of order 4, {}", integrator.name))
+                Evidence::on(format!("relative difference to the first of order 4, {}", integrator.name), "–")
                     .within(worst(off), 1e-6)
                     .because("the bisection ends at 10⁻⁷"),
             );
@@ -52,11 +52,11 @@ pub(super) fn near_a_sphere(integrators: &Integrators, _: &Effort) -> Vec<[Evide
         let turning = off(longest(Property::Turning, ONE_STEP), theory::rk4_turning_of_a_sphere());
         let length = off(longest(Property::Length, LENGTHS), theory::rk4_length_of_a_sphere());
         [
-            Evidence::on("relative difference of the longest step that turns and 2√6").within(turning, 2e-5).because(
+            Evidence::on("relative difference of the longest step that turns and 2√6", "–").within(turning, 2e-5).because(
                 "rates of rods of r_e = 1 + 10⁻⁵ differ by Λ = 10⁻⁵, and of 512 rods one is within δ = π/1024 of the \
                  fastest: δ² = 10⁻⁵",
             ),
-            Evidence::on("relative difference of the longest step with a bounded length and 4√2")
+            Evidence::on("relative difference of the longest step with a bounded length and 4√2", "–")
                 .within(length, 3e-3)
                 .because(
                     "|R|² = 1 + 0.89(y² − 8): in the 22 steps of ten periods |p| grows to 1.5 at y² = 8.04, which is \
@@ -76,7 +76,7 @@ pub(super) fn frozen(integrators: &Integrators, _: &Effort) -> Evidence {
             _ => f64::INFINITY,
         }
     });
-    Evidence::on("largest step with a bounded length over 2.785/(ΛG)")
+    Evidence::on("largest step with a bounded length over 2.785/(ΛG)", "–")
         .within(worst(shares), 0.99)
         .because("a hundredth below differs from equal: ten periods find a growth of 10⁻³ a step")
 }

@@ -108,6 +108,7 @@ fn line(line: &Line) -> Json {
     let (error, tolerance) = bounds(line);
     json!({
         "what": line.what,
+        "unit": line.unit,
         "class": line.verdict,
         "symbol": symbol,
         "word": word,

@@ -12,8 +12,9 @@ pub(super) fn write(report: &Report) -> String {
     let mut text = "# shearbed: verification report\n\n".to_owned();
     text.extend(sizes(report).iter().map(|line| format!("{}\n\n", markdown(line))));
     text += &format!("{}\n\n", report.headline());
-    text += "| verdict | case | judges | claim | source | error | tolerance | because | controls caught | time |\n";
-    text += "| --- | --- | --- | --- | --- | ---: | ---: | --- | ---: | ---: |\n";
+    text +=
+        "| verdict | case | judges | claim | source | error | tolerance | unit | because | controls caught | time |\n";
+    text += "| --- | --- | --- | --- | --- | ---: | ---: | --- | --- | ---: | ---: |\n";
     for case in &report.cases {
         text += &row(case);
     }
@@ -47,9 +48,9 @@ pub(super) fn write(report: &Report) -> String {
 fn row(case: &CaseRow) -> String {
     let (symbol, word) = verdict(case.verdict);
     let (error, tolerance) = case.worst().map_or(("–".into(), "–".into()), bounds);
-    let because = case.worst().map_or("no evidence", |line| &line.because);
+    let (unit, because) = case.worst().map_or(("–", "no evidence"), |line| (&line.unit, &line.because));
     format!(
-        "| {symbol} {word} | `{}` | {} | {} | {} | {error} | {tolerance} | {} | {} of {} | {} |\n",
+        "| {symbol} {word} | `{}` | {} | {} | {} | {error} | {tolerance} | {unit} | {} | {} of {} | {} |\n",
         case.name,
         case.judges.name(),
         markdown(&case.claim),

@@ -11,6 +11,8 @@ use serde::Serialize;
 pub struct Line {
     /// The measured quantity.
     pub what: String,
+    /// The unit of error and tolerance; `–` for a number without one.
+    pub unit: String,
     /// The verdict of the rule.
     pub verdict: Verdict,
     /// The error; for a goodness-of-fit test, its p-value.
@@ -39,6 +41,7 @@ impl Line {
         };
         Self {
             what: judged.evidence.what.clone(),
+            unit: judged.evidence.unit.to_string(),
             verdict: judged.verdict,
             error,
             tolerance,

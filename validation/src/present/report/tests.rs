@@ -16,9 +16,10 @@ use synthetic::synthetic;
 const EFFORT: Effort = Effort { full: false, seed: GATE_SEED, data: None };
 
 fn outcome(name: &'static str, verdict: Verdict, rules: Vec<Rule>, controls: &[(&'static str, bool)]) -> Outcome {
-    let judged = |(k, rule): (usize, Rule)| Judged {
-        verdict: judge(&rule),
-        evidence: Evidence::new(format!("synthetic number {k} with a < b & c"), rule),
+    let judged = |(k, rule): (usize, Rule)| {
+        let unit = if matches!(rule, Rule::PValue { .. } | Rule::NoData { .. }) { "–" } else { "rad" };
+        let verdict = judge(&rule);
+        Judged { verdict, evidence: Evidence::new(format!("synthetic number {k} with a < b & c"), unit, rule) }
     };
     Outcome {
         about: About {
