@@ -8,7 +8,7 @@ use super::{
 };
 use shearbed::run::ensemble;
 use shearbed_validation::files::cluster;
-use shearbed_validation::files::output::{Output, ResultFolder};
+use shearbed_validation::files::output::Output;
 use shearbed_validation::files::text;
 use shearbed_validation::files::text::Shown;
 use shearbed_validation::serve::sweep::{self, Axis, Folder, GridError, Point, Points};
@@ -17,7 +17,7 @@ use std::path::{Path, PathBuf};
 /// Arguments of `sweep`.
 #[derive(clap::Args)]
 #[command(after_help = "\
-An interrupted sweep goes on when the same command is given again. Every point has the same seed.
+The same command, also with more values, runs only missing points. Every point has the same seed.
 Examples:
   shearbed sweep fig4-n50 --over interaction.alpha=0.1:1:10 --replicas 100
   shearbed sweep mine.toml --over interaction.update=rotation,angles,kick")]
@@ -55,7 +55,7 @@ pub(super) fn points(named: &Named, over: &[Axis]) -> Result<Vec<Point>, Failure
         .map_err(|error| Failure::Input(format!("{}: {}{error}", named.source, flag(&error))))
 }
 
-/// Runs the unfinished points of a sweep, and writes one row per point.
+/// Runs the unfinished points of a sweep, which may have more values than an earlier one, and writes one row per point.
 pub(super) fn sweep(args: &Args) -> Result<(), Failure> {
     let named = args.chosen.load(&args.ensemble, &args.over)?;
     let points = points(&named, &args.over)?;
@@ -85,12 +85,7 @@ pub(super) fn sweep(args: &Args) -> Result<(), Failure> {
     let mut folder = None;
     let open = || {
         let bytes = (points.iter()).map(|point| tables::most_bytes(&point.plan)).sum();
-        let origin = ("sweep", inputs.clone(), args.writing.force);
         spares_inputs(&out, &["sweep.csv", "sweep.json"], named.files())?;
-        let in_folder = result_folder(&out, origin, bytes, &[""; 0]).map_err(|why| {
-            let earlier = ResultFolder::new(&out, "sweep", inputs.clone(), false).difference();
-            with_advice(why, earlier.as_deref())
-        })?;
         let points = Points {
             pairs: (points.iter()).map(|point| sweep::pairs(&args.over, &point.values)).collect(),
             beside: vec![EXTREMES.to_owned()],
@@ -99,7 +94,12 @@ pub(super) fn sweep(args: &Args) -> Result<(), Failure> {
                 .chain([EXTREMES.to_owned(), DERIVED.to_owned()])
                 .collect(),
         };
+        // Force starts over.
+        let kept = if args.writing.force { None } else { sweep::smaller(&out, &inputs, &points)? };
+        let origin = ("sweep", inputs.clone(), args.writing.force || kept.is_some());
+        let in_folder = result_folder(&out, origin, bytes, &[""; 0])?;
         let opened = folder.insert(Folder::open(in_folder, &inputs, points)?);
+        kept.into_iter().flatten().try_for_each(|(k, tables)| opened.write(k, &tables))?;
         Ok::<_, Failure>(self::jobs(&opened.finished(), total))
     };
     let (checked, jobs): (Option<usize>, Vec<usize>) = cluster::from_root(open)?;
@@ -163,17 +163,6 @@ pub(super) fn sweep(args: &Args) -> Result<(), Failure> {
         table(&rows, args.over.len()),
         out.shown(),
     ))
-}
-
-/// The refusal of a folder, and how to add values to an axis where the grid is its first difference from an earlier
-/// one.
-fn with_advice(why: Failure, difference: Option<&str>) -> Failure {
-    match why {
-        Failure::Input(why) if difference.is_some_and(|what| what.starts_with("over.")) => Failure::Input(
-            why + "; to add values, sweep these alone with another --out: `shearbed plot` draws the points of both",
-        ),
-        why => why,
-    }
 }
 
 /// The largest number of warnings of points on the terminal.

@@ -3,7 +3,7 @@
 //! whole or not at all.
 
 use super::axis::{Axis, shown};
-use super::{Pairs, Point};
+use super::{Pairs, Point, at, count, pairs};
 use crate::files::csv::{self, Table};
 use crate::files::difference::difference;
 use crate::files::output::{Claim, Origin, Output, OutputError, RECORD, Record, Refused, ResultFolder};
@@ -27,10 +27,13 @@ pub fn inputs(scene: &Scene, axes: &[Axis], points: &[Point], warnings: &[String
     let starts = points.iter().filter_map(|point| point.plan.scene().particles.rods.as_ref());
     let starts: BTreeMap<_, _> = starts.map(|rods| (&rods.file, &rods.crc32)).collect();
     if !starts.is_empty() {
-        inputs["starts_crc32"] = json!(starts);
+        inputs[STARTS] = json!(starts);
     }
     inputs
 }
+
+/// The name in a sweep's inputs of the checksums of files with initial directions.
+const STARTS: &str = "starts_crc32";
 
 /// The name of a point in the inputs of its record, where its keys and values are.
 pub const POINT: &str = "point";
@@ -45,6 +48,7 @@ pub fn point_name(k: usize, count: usize) -> String {
 const MOST_BYTES: u64 = 1 << 30;
 
 /// The points of a sweep with the names of their tables.
+#[derive(Clone)]
 pub struct Points {
     /// The keys and values of each point; no two are equal.
     pub pairs: Vec<Pairs>,
@@ -61,6 +65,39 @@ pub struct Folder {
     first: Vec<Output>,
     points: Points,
     claim: Claim,
+}
+
+/// Indices of points with their tables.
+pub type Finished = Vec<(usize, Vec<Output>)>;
+
+/// The tables of the finished points of an earlier sweep in `dir` with fewer values on its axes, each with the index of
+/// its point in this sweep; `None` if there is no such sweep.
+///
+/// # Errors
+///
+/// Those of [`Folder::open`], as where more than values of the axes differs.
+pub fn smaller(dir: &Path, inputs: &Value, points: &Points) -> Result<Option<Finished>, Refused> {
+    let Ok(Some(Record { origin: found, .. })) = Record::read(dir) else { return Ok(None) };
+    let over = found.inputs.get("over").filter(|_| found.command == "sweep");
+    let axes: Vec<Axis> = over.and_then(|over| serde_json::from_value(over.clone()).ok()).unwrap_or_default();
+    let here: BTreeMap<&Pairs, usize> = points.pairs.iter().zip(0..).collect();
+    let before: Vec<Pairs> = (0..count(&axes).unwrap_or(0)).map(|k| pairs(&axes, &at(&axes, k))).collect();
+    let places: Option<Vec<usize>> = before.iter().map(|pair| here.get(pair).copied()).collect();
+    let Some(places) = places.filter(|places| (1..points.pairs.len()).contains(&places.len())) else {
+        return Ok(None);
+    };
+    let mut inputs = inputs.clone();
+    for key in ["over", "warnings"] {
+        inputs[key] = found.inputs[key].clone();
+    }
+    let known = found.inputs.get(STARTS).and_then(Value::as_object);
+    match (known, inputs.get_mut(STARTS).and_then(Value::as_object_mut)) {
+        (Some(known), Some(files)) => files.retain(|file, _| known.contains_key(file)),
+        _ => drop(inputs.as_object_mut().and_then(|inputs| inputs.remove(STARTS))),
+    }
+    let folder = ResultFolder::new(dir, "sweep", inputs.clone(), false);
+    let earlier = Folder::open(folder, &inputs, Points { pairs: before, ..points.clone() })?;
+    earlier.finished().into_iter().map(|k| Ok((places[k], earlier.tables(k)?))).collect::<Result<_, _>>().map(Some)
 }
 
 impl Folder {

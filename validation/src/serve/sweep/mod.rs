@@ -5,7 +5,7 @@ mod folder;
 
 pub(crate) use axis::key_and_text;
 pub use axis::{Axis, KeyValue, MAX_POINTS, shown};
-pub use folder::{Folder, POINT, Points, inputs, point_name};
+pub use folder::{Folder, POINT, Points, inputs, point_name, smaller};
 
 use crate::input::start::Starts;
 use shearbed::scene::document::Document;
