@@ -52,7 +52,7 @@ pub(super) fn near_a_sphere(integrators: &Integrators, _: &Effort) -> Vec<[Evide
         let turning = off(longest(Property::Turning, ONE_STEP), theory::rk4_turning_of_a_sphere());
         let length = off(longest(Property::Length, LENGTHS), theory::rk4_length_of_a_sphere());
         [
-            Evidence::on("relative difference of the longest step that turns and 2√6", "–").within(turning, 2e-5).because(
+            Evidence::on("relative difference of the longest turning step and 2√6", "–").within(turning, 2e-5).because(
                 "rates of rods of r_e = 1 + 10⁻⁵ differ by Λ = 10⁻⁵, and of 512 rods one is within δ = π/1024 of the \
                  fastest: δ² = 10⁻⁵",
             ),

@@ -61,9 +61,9 @@ fn misnamed(name: &str, known: impl Fn(&str) -> bool) -> Option<String> {
 }
 
 /// Reads the project's columns: `x`, each of `ys`, and their uncertainties `NAME_u` if given. A `y` that is
-/// blank or NaN was not measured; for such an uncertainty that of the provenance file applies. Other columns are not read.
+/// blank or NaN was not measured; for such an uncertainty that of the provenance file applies.
 ///
-/// `given` are names in place of those in the file.
+/// Other columns are not read. `given` are names in place of those in the file.
 pub(crate) fn columns(
     path: &Path,
     text: &str,

@@ -2,9 +2,9 @@
 
 use super::*;
 
-/// A row for each abscissa of a result with an error, or against time for each quarter of a period at which a series has
-/// a value: free rods return every half period, so that whole and half periods alone would show no motion. One column
-/// for each series.
+/// A row for each abscissa of a result with an error, or against time for each quarter of a period at which a series
+/// has a value: free rods return every half period, so that whole and half periods alone would show no motion. One
+/// column for each series.
 pub(super) fn table(figure: &ReportFigure) -> ReportTable {
     let picture = &figure.figure;
     let series = series(picture);

@@ -209,9 +209,9 @@ fn one_family(runs: &Runs) -> Result<ReportFigure, String> {
     };
     let mut figure = ReportFigure::new(
         ["fig7-fig8", "Figs 7 and 8 as one family"],
-        "At the same α a n^(1/3) the amplitude is the same, whether the concentration or the length differs: the points \
-         of Fig. 7 lie on the lines through those of Fig. 8. The run in the middle belongs to both. All runs have 100 \
-         rods in the cube of their concentration; with other numbers of rods the law would not be exact.",
+        "At the same α a n^(1/3) the amplitude is the same, whether concentration or length differs: the points of \
+         Fig. 7 lie on the lines through those of Fig. 8. The run in the middle belongs to both. The law is exact, as \
+         all runs have equally many rods in the cube of their concentration.",
         ["α a n^(1/3) (–)", &format!("log {AMPLITUDE}")],
     )
     .judged("Figs 7, 8, eq. 7", &["one-length-scale"]);
