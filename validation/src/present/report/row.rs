@@ -54,9 +54,10 @@ impl Line {
     /// The error against its bound, with the numbers behind them, in words.
     pub fn numbers(&self) -> String {
         let (error, tolerance) = bounds(self);
+        let unit = if self.unit == "–" { String::new() } else { format!(" {}", self.unit) };
         match detail(&self.judged_by) {
-            detail if detail.is_empty() => format!("{error}, allowed {tolerance}"),
-            detail => format!("{error}, allowed {tolerance} ({detail})"),
+            detail if detail.is_empty() => format!("{error}, allowed {tolerance}{unit}"),
+            detail => format!("{error}, allowed {tolerance}{unit} ({detail})"),
         }
     }
 
