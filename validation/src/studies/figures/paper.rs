@@ -274,3 +274,19 @@ fn fig12(runs: &Runs) -> Result<ReportFigure, String> {
         curves.into(),
     ))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn eight_times_the_concentration_is_twice_the_length() {
+        let of = |name: &str| one_length(&crate::input::scenes::scene(name).unwrap());
+        // By hand: ½ · 0.072 cm · (50 cm⁻³)^(1/3).
+        assert!((of("fig7-n50") - 0.1326251).abs() < 1e-7);
+        assert_eq!(of("fig8-a1.44"), 2.0 * of("fig7-n50"));
+        let mut dense = crate::input::scenes::scene("fig7-n50").unwrap();
+        lab::interaction(&mut dense).concentration_per_cm3 = Some(400.0);
+        assert!((one_length(&dense) / of("fig8-a1.44") - 1.0).abs() < 1e-15);
+    }
+}
