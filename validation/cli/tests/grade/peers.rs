@@ -215,5 +215,5 @@ fn fiberoripy_is_right_until_rods_are_fibres_and_its_closure_is_no_solution() {
     assert_eq!(live.verdict("mid-flip-2"), "PASS", "{}", live.words);
     assert_eq!(live.verdict("mid-flip-10000"), "FAIL", "{}", live.words);
     let note = live.of("mid-flip-10000")["note"].as_str().unwrap();
-    assert!(note.starts_with("it claims success"), "{note}");
+    assert!(note.starts_with("asked for the tolerance"), "{note}");
 }

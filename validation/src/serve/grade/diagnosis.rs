@@ -148,7 +148,10 @@ fn not_unit(loaded: &LoadedProblem, answer: &Answer, nearer_than: f64) -> Option
     let lengths = || found.iter().map(|p| p.norm());
     let (least, most) = (lengths().fold(f64::INFINITY, f64::min), crate::oracle::worst(lengths()));
     let right = least > 0.0 && crate::oracle::worst(angles) <= nearer_than;
-    right.then(|| format!("only the directions' length is wrong: |p| is {least:.6} to {most:.6}, where 1 is due"))
+    let digits = (-(most - 1.0).abs().max((least - 1.0).abs()).log10()).clamp(4.0, 14.0).ceil() as usize + 2;
+    right.then(|| {
+        format!("only the directions' length is wrong: |p| is {least:.digits$} to {most:.digits$}, where 1 is due")
+    })
 }
 
 /// One step too few and one too many.

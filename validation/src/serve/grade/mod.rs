@@ -197,7 +197,7 @@ impl Graded {
         if self.diagnosis.is_some() {
             return None;
         }
-        let (order, steps, error) = (self.observed_order?, self.steps?, self.error?);
+        let (order, steps, error) = (self.observed_order?, self.steps?, self.error.filter(|x| *x > self.tolerance)?);
         let needed = steps as f64 * (error / self.tolerance).powf(1.0 / order);
         (order >= 0.5).then(|| {
             format!(

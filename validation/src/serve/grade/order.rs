@@ -5,7 +5,8 @@
 //! tolerance that no longer falls. In that range a correct method's order wanders (rods or error terms take turns as
 //! the largest) and approaches the claimed one from either side, or a higher one if a problem has no such error term. A
 //! wrong coefficient removes whole orders, and the remaining order settles. So an order is refuted by two consecutive
-//! pairs that agree and are nearly a whole order lower, and by nothing else. `examples/graded_integrators` tests this
+//! pairs that agree and are nearly a whole order lower, or by four that are far lower on average and each below the
+//! claim, and by nothing else. `examples/graded_integrators` tests this
 //! with several hundred integrators.
 
 use super::{Graded, Verdict};
@@ -31,8 +32,11 @@ const NO_ROUND_OFF: f64 = 1.5;
 /// The error in rad below which a method follows the motion closely.
 const CLOSE: f64 = 0.01;
 
-/// Number of consecutive pairs that refute an order though they do not agree.
+/// Number of consecutive pairs that may refute an order though they do not agree.
 const WANDERING: usize = 4;
+
+/// The orders that they must lack on average: more than a right method of order 7 does on its way.
+const LOST: f64 = 1.5;
 
 /// The evidence of a ladder about a claimed order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -121,7 +125,11 @@ impl Orders {
         }
         // A last answer that is right by chance, or copied, does not take back what those before it show.
         let shown = |pairs: &[(f64, f64)]| Self::proves_lower(pairs, claimed);
-        let wander = |pairs: &[(f64, f64)]| pairs[0].1 < CLOSE && pairs.iter().all(|pair| pair.0 <= claimed - WHOLE);
+        let wander = |pairs: &[(f64, f64)]| {
+            let mean = pairs.iter().map(|pair| pair.0).sum::<f64>() / WANDERING as f64;
+            let none = pairs.iter().all(|pair| pair.0 < claimed - ORDER_TOLERANCE);
+            pairs[0].1 < CLOSE && mean <= claimed - LOST && none
+        };
         if self.certain().windows(3).any(shown) || self.certain().windows(WANDERING).any(wander) {
             return Order::Lower;
         }
@@ -261,7 +269,10 @@ pub fn remark(graded: &[Graded], claimed: Option<f64>) -> Option<String> {
         let why = if adaptive { "the program chooses its own steps" } else { "one answer shows none" };
         return Some(format!("no order is judged: {why}"));
     }
-    let mut said = format!("order {claimed} is seen on {} of {answered} problems", seen.len());
+    let mut said = match seen.len() {
+        0 => format!("order {claimed} is not confirmed: seen on none of {answered} problems"),
+        some => format!("order {claimed} is seen on {some} of {answered} problems"),
+    };
     if !unclear.is_empty() {
         let names = unclear.join(", ");
         said += &format!("; too few errors above round-off, or orders that still wander, on {names}");

@@ -61,7 +61,10 @@ fn by_name(problems: &[LoadedProblem], graded: &[Graded], wrong: &[&Graded]) -> 
     let mut all: Vec<&String> = wrong.iter().flat_map(|graded| &graded.suspects).collect();
     all.sort();
     all.dedup();
-    all.retain(|name| !passing.iter().any(|loaded| shows(loaded, name)));
+    // A mistake in one of a program's formulas need not be in the others.
+    let formulas = wrong.iter().all(|graded| graded.kind == Kind::Formula);
+    let explains_all = |name: &String| formulas && wrong.iter().all(|graded| graded.suspects.contains(name));
+    all.retain(|name| explains_all(name) || !passing.iter().any(|loaded| shows(loaded, name)));
     let mut left: Vec<&Graded> = wrong.to_vec();
     let mut said = Vec::new();
     loop {

@@ -1,7 +1,7 @@
 //! A ladder: one problem with more and more steps, or with smaller and smaller tolerances; formulas have none.
 
 mod climb;
-mod earlier;
+mod elsewhere;
 mod jumps;
 mod random;
 #[cfg(test)]
@@ -22,7 +22,7 @@ use crate::serve::grade::order::other;
 use crate::serve::grade::{Graded, Order, Verdict};
 use crate::serve::problems::{Kind, LoadedProblem, Metric};
 use climb::{End, climb, converges, fewest};
-use earlier::earlier;
+use elsewhere::others;
 use std::cell::Cell;
 use std::time::{Duration, Instant};
 
@@ -85,8 +85,8 @@ fn errors(rungs: &[Rung]) -> Vec<(u64, f64)> {
     rungs.iter().filter_map(|rung| Some((rung.setting.steps().ok()?, rung.error()))).collect()
 }
 
-/// Grades a program on a problem: about free rods at the last time, about tensors at all times; and then up to an
-/// earlier time.
+/// Grades a program on a problem: about free rods at the last time, about tensors at all times; and at other
+/// times, once each.
 pub fn grade(program: &Program, problem: &LoadedProblem, mode: Mode, claim: Claim) -> Graded {
     program.during(&problem.problem.name);
     let begun = Instant::now();
@@ -102,8 +102,8 @@ fn timeless(program: &Program, problem: &LoadedProblem, mode: Mode, claim: Claim
     }
     match problem.problem.kind {
         Kind::Rods => {
-            let earlier = earlier(problem).map(|earlier| last_time(&earlier));
-            climbed(program, &last_time(problem), earlier, mode, claim, |of, setting| {
+            let others = others(problem).iter().map(last_time).collect();
+            climbed(program, &last_time(problem), others, mode, claim, |of, setting| {
                 let (found, took) = program.ask(&Question::of(of), setting)?;
                 Ok((found.p.into_iter().map(Vec::from).collect(), took))
             })
@@ -128,7 +128,7 @@ fn timeless(program: &Program, problem: &LoadedProblem, mode: Mode, claim: Claim
                 let ((rows, _), took) = table(of, setting)?;
                 Ok((rows.iter().map(|row| axes.row_to_ours(columns, row)).collect(), took))
             };
-            let graded = climbed(program, problem, earlier(problem), mode, claim, ask);
+            let graded = climbed(program, problem, others(problem), mode, claim, ask);
             // A program that refuses every number of steps may choose its own.
             if graded.verdict != Verdict::Refused || graded.steps.is_some() || mode == Mode::Tolerance {
                 return graded;
@@ -138,7 +138,7 @@ fn timeless(program: &Program, problem: &LoadedProblem, mode: Mode, claim: Claim
                 Ok(((_, Some(_)), _)) if problem.problem.closed.is_none() => {
                     random::graded(program, problem, Mode::Tolerance, |setting| asked(problem, setting))
                 }
-                _ => climbed(program, problem, earlier(problem), Mode::Tolerance, claim, ask),
+                _ => climbed(program, problem, others(problem), Mode::Tolerance, claim, ask),
             }
         }
     }
@@ -182,7 +182,7 @@ type Table = Result<(Vec<Vec<f64>>, Duration), Asked>;
 fn climbed(
     program: &Program,
     problem: &LoadedProblem,
-    earlier: Option<LoadedProblem>,
+    others: Vec<LoadedProblem>,
     mode: Mode,
     claim: Claim,
     answer: impl Fn(&LoadedProblem, Setting) -> Table,
@@ -197,15 +197,20 @@ fn climbed(
     if matches!(end, End::Reached) {
         end = jumps::judged(&rungs, of.tolerance, fewest(&of.times_s), ask);
     }
-    if let (End::Reached, Some(passed), Some(earlier)) = (&end, rungs.last(), &earlier) {
-        end = earlier::judged(passed, [earlier, problem], program.timeout, |setting| ask_of(earlier, setting));
+    if let (End::Reached, Some(passed)) = (&end, rungs.last()) {
+        end = elsewhere::repeated(passed, of.tolerance, program.timeout, ask);
+    }
+    for other in &others {
+        if let (End::Reached, Some(passed)) = (&end, rungs.last()) {
+            end = elsewhere::judged(passed, [other, problem], program.timeout, |setting| ask_of(other, setting));
+        }
     }
     let mut graded = Graded::without_answer(problem);
     graded.set_orders(errors(&rungs), problem, claim.order);
     let refuted = graded.order_found == Some(Order::Lower);
     // Whether a mistake is named must not depend on how fast the machine is; that of a step is of order 1.
     let mistaken = matches!(end, End::OutOfTime(_)) && claim.order != Some(1.0) && stays_on_a_mistake(problem, &rungs);
-    let unfinished = matches!(end, End::OutOfTime(_) | End::NoFiner(_)) && !mistaken;
+    let unfinished = matches!(end, End::OutOfTime(_) | End::NoFiner(_) | End::Stays(_)) && !mistaken;
     let converging = unfinished.then(|| converges(problem, &rungs)).flatten().filter(|_| !refuted);
     graded.verdict = match converging {
         Some(_) => Verdict::Pass,
@@ -221,6 +226,7 @@ fn climbed(
         graded.verdict = Verdict::Refused;
     }
     let digits = || rungs.last().and_then(|rung| digits::remark(&rung.answer, rung.error(), rung.setting.steps().ok()));
+    let may_be_reached = !matches!(end, End::Wrong(_) | End::Stays(_));
     graded.note = match end {
         _ if converging.is_some() => converging,
         End::Broke(words) | End::Jumps(words) | End::Refused(words) => Some(words),
@@ -230,7 +236,7 @@ fn climbed(
             Some(said.collect::<Vec<_>>().join("; "))
         }
         End::Reached => not_finite(&rungs),
-        End::Wrong(words) | End::NoFiner(words) | End::OutOfTime(words) => {
+        End::Stays(words) | End::Wrong(words) | End::NoFiner(words) | End::OutOfTime(words) => {
             let finite = rungs.last().filter(|finest| finest.error().is_finite());
             // Of directions there is no worst component.
             let finite = finite.filter(|_| problem.problem.metric == Metric::Absolute);
@@ -240,7 +246,10 @@ fn climbed(
             let words = if few.is_some() { String::new() } else { words };
             let remark = rungs.last().and_then(|finest| finest.compared.remark.clone());
             let remark = remark.filter(|_| finite.is_some());
-            let all = std::iter::once(why(&graded, rungs.last(), words)).chain(remark).chain(worst).chain(few);
+            let all = std::iter::once(why(&graded, best(&rungs), words, may_be_reached))
+                .chain(remark)
+                .chain(worst)
+                .chain(few);
             Some(all.collect::<Vec<_>>().join("; "))
         }
     };
@@ -290,8 +299,8 @@ fn not_finite(rungs: &[Rung]) -> Option<String> {
     (!names.is_empty()).then(|| format!("with {} the answer is not finite", names.join(", ")))
 }
 
-/// The reason why an answer is not within the tolerance.
-fn why(graded: &Graded, finest: Option<&Rung>, words: String) -> String {
+/// The reason why an answer is not within the tolerance, which more steps may reach or not.
+fn why(graded: &Graded, finest: Option<&Rung>, words: String, may_be_reached: bool) -> String {
     let Some(finest) = finest else {
         return words;
     };
@@ -301,10 +310,14 @@ fn why(graded: &Graded, finest: Option<&Rung>, words: String) -> String {
     }
     let said = match setting {
         Setting::Tolerance(asked) => {
-            format!("it claims success at the tolerance {asked:.0e} and is off by {error:.1e}")
+            format!("asked for the tolerance {asked:.0e} it is off by {error:.1e}")
         }
         _ => format!("with {setting} it is off by {error:.1e}"),
     };
     let words = Some(words).filter(|words| !words.is_empty());
-    [Some(said), graded.steps_needed(), words].into_iter().flatten().collect::<Vec<_>>().join("; ")
+    [Some(said), graded.steps_needed().filter(|_| may_be_reached), words]
+        .into_iter()
+        .flatten()
+        .collect::<Vec<_>>()
+        .join("; ")
 }

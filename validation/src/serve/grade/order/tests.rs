@@ -51,7 +51,8 @@ fn what_right_methods_show_is_not_refuted_and_lost_orders_are() {
         (&[5.9, 5.8, 5.6], 5.0, Order::Unclear),
         (&[3.25, 3.1], 4.0, Order::Unclear),
         (&[1.7, 2.3, 1.6, 2.4], 4.0, Order::Lower),
-        (&[1.7, 2.3, 1.6, 3.4], 4.0, Order::Unclear),
+        (&[3.58, 0.42, 3.58, 0.42], 4.0, Order::Lower),
+        (&[1.7, 2.3, 1.6, 3.9], 4.0, Order::Seen),
         // Down to 1e-10, a hundredth of the tolerance: round-off, and a method of order 7.
         (&[5.0, 5.0, 5.0, 5.0, 5.0, 1.0, 0.9], 5.0, Order::Seen),
         (&[7.0, 7.1, 7.0], 8.0, Order::Lower),

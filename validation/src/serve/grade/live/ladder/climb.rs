@@ -36,6 +36,8 @@ pub(super) enum End {
     Broke(String),
     /// The error jumps from one number of steps to the next.
     Jumps(String),
+    /// The errors stay or grow, as rounding does.
+    Stays(String),
     /// Finer settings would not come within the tolerance, or there are no finer settings.
     Wrong(String),
     /// The program refuses finer settings.
@@ -114,10 +116,11 @@ pub(super) fn climb(
                 return (rungs, End::Reached);
             }
             if let Some(words) = no_longer_falls(&rungs, smooth) {
-                return (rungs, End::Wrong(words.to_owned()));
+                return (rungs, End::Stays(words.to_owned()));
             }
             let (seconds, limit) = (spent.as_secs_f64(), timeout.as_secs_f64());
-            let words = format!("finer ones would take longer than --timeout {limit}: {seconds:.1} s after the first");
+            let one = if within(&rungs, tolerance) { "one answer alone is within the tolerance; " } else { "" };
+            let words = format!("{one}finer ones would take longer than --timeout {limit} ({seconds:.1} s so far)");
             return (rungs, End::OutOfTime(words));
         }
     }
@@ -237,8 +240,16 @@ fn steady(all: &[f64]) -> Option<f64> {
 }
 
 /// A message on answers that converge to the certified one, though none is within the tolerance: their errors fall by a
-/// steady order, and what they extrapolate to (Richardson) is right to within the uncertainty of the extrapolation.
+/// steady order, up to where rounding may begin, and what they extrapolate to (Richardson) is right to within the
+/// uncertainty of the extrapolation.
 pub(super) fn converges(problem: &LoadedProblem, rungs: &[Rung]) -> Option<String> {
+    (4..=rungs.len()).rev().take(ROUNDED).find_map(|count| last_converge(problem, &rungs[..count]))
+}
+
+/// The number of doublings of the steps by which rounding may have spoilt answers that converge.
+const ROUNDED: usize = 8;
+
+fn last_converge(problem: &LoadedProblem, rungs: &[Rung]) -> Option<String> {
     /// The largest uncertainty as a share of the last error: more proves nothing.
     const SHARE: f64 = 0.05;
     let last = rungs.last_chunk::<4>()?;

@@ -1,0 +1,111 @@
+//! Asks a program whose answers pass at other times too: one that is right at the end alone, or answers another
+//! question than it is asked, is seen there.
+
+use super::Rung;
+use super::climb::{End, FOLLOWED};
+use crate::judge::statistics::worst;
+use crate::methods::integrators::Setting;
+use crate::serve::grade::compare::distance;
+use crate::serve::grade::live::program::Asked;
+use crate::serve::grade::order::FAR;
+use crate::serve::problems::{Kind, LoadedProblem};
+use std::time::Duration;
+
+/// The largest ratio of errors by which one still falls with half the step, or a tenth of the tolerance.
+const FALLS: f64 = 0.7;
+
+/// The share of a tolerance by which two answers to one question may differ.
+const SAME: f64 = 0.1;
+
+/// The problem at other times: about rods up to its first time after the start, and to that whose certified rows are
+/// farthest from those at the end; about tensors, which are asked for at all times, without the first.
+pub(super) fn others(problem: &LoadedProblem) -> Vec<LoadedProblem> {
+    let (times_s, rows, keys) = (&problem.problem.times_s, &problem.certified.rows, problem.problem.kind.keys().len());
+    let (times, each) = (times_s.len(), rows.len() / times_s.len().max(1));
+    let at = |from: usize, to: usize| {
+        let mut other = problem.clone();
+        other.problem.times_s = times_s[from..to].to_vec();
+        other.certified.rows = rows[each * from..each * to].to_vec();
+        other
+    };
+    if problem.problem.kind != Kind::Rods {
+        return (times > 1).then(|| at(1, times)).into_iter().collect();
+    }
+    let off = |time: &usize| {
+        let of = |(row, last): (&Vec<f64>, &Vec<f64>)| distance(problem, &row[keys..], &last[keys..]);
+        worst(rows[each * time..].iter().zip(&rows[rows.len() - each..]).map(of))
+    };
+    let moving = || (0..times.saturating_sub(1)).filter(|time| times_s[*time] > 0.0);
+    let farthest = moving().max_by(|a, b| off(a).total_cmp(&off(b)));
+    let mut chosen: Vec<_> = moving().next().into_iter().chain(farthest).collect();
+    chosen.dedup();
+    chosen.into_iter().map(|time| at(0, time + 1)).collect()
+}
+
+/// The end of a program that passes with `passed` and is asked the same again, if it has time to: a right one gives the
+/// same answer but for rounding.
+pub(super) fn repeated(
+    passed: &Rung,
+    tolerance: f64,
+    timeout: Duration,
+    ask: impl Fn(Setting) -> Result<Rung, Asked>,
+) -> End {
+    if 2 * passed.took > timeout {
+        return End::Reached;
+    }
+    match ask(passed.setting) {
+        Ok(again) => {
+            let change = passed.answer.largest_change(&again.answer);
+            let setting = passed.setting;
+            let words =
+                || format!("asked the same twice, with {setting}, it gives answers that differ by {change:.1e}");
+            if change > SAME * tolerance { End::Jumps(words()) } else { End::Reached }
+        }
+        Err(Asked::Says(_)) => End::Reached,
+        Err(Asked::Late(words)) => End::OutOfTime(words),
+        Err(Asked::Breach(words)) => End::Broke(words),
+    }
+}
+
+/// The end of a program that passes with `passed`, asked once more at the times of the first of the two problems. Where
+/// a rod flips then, a right program is off by more than at the end, but by less with each finer setting.
+pub(super) fn judged(
+    passed: &Rung,
+    problems: [&LoadedProblem; 2],
+    timeout: Duration,
+    ask: impl Fn(Setting) -> Result<Rung, Asked>,
+) -> End {
+    let [other_s, end_s] = problems.map(|of| of.problem.times_s.last().copied().unwrap_or_default());
+    let due = FAR * passed.error().max(problems[1].problem.tolerance);
+    let finer = |k: i32| match passed.setting {
+        Setting::Steps(steps) => Setting::Steps((steps as f64 * other_s / end_s).ceil() as u64 * (1 << k)),
+        Setting::Tolerance(asked) => Setting::Tolerance((asked * 0.1f64.powi(k)).max(1e-14)),
+        Setting::Once => Setting::Once,
+    };
+    let mut most = FOLLOWED.max(due);
+    for setting in (0..3).map(finer) {
+        let rung = match ask(setting) {
+            Ok(rung) => rung,
+            Err(Asked::Says(_)) => break,
+            Err(Asked::Late(words)) => return End::OutOfTime(words),
+            Err(Asked::Breach(words)) => return End::Broke(words),
+        };
+        let error = rung.error();
+        if error <= due {
+            break;
+        }
+        if error.is_nan() || error > most {
+            let asked =
+                if other_s < end_s { format!("up to t = {other_s} s") } else { "without the first time".into() };
+            let before = passed.error();
+            return End::Jumps(format!(
+                "asked {asked}, with {setting}, it is off by {error:.1e}, before by {before:.1e}"
+            ));
+        }
+        if 4 * rung.took > timeout {
+            break;
+        }
+        most = FALLS * error;
+    }
+    End::Reached
+}
