@@ -62,13 +62,6 @@ fn text(bytes: &[u8]) -> String {
     String::from_utf8_lossy(bytes).into_owned()
 }
 
-/// Runs a command on several ranks; what it prints, and its files.
-fn shared(dir: &Path, ranks: usize, arguments: &str) -> (Output, BTreeMap<String, Vec<u8>>) {
-    let job = mpirun(dir, &format!("-n {ranks} shearbed {arguments} --out shared --threads 1")).ended();
-    assert!(job.status.success(), "{}", text(&job.stderr));
-    (job, files(&dir.join("shared")))
-}
-
 /// Runs a command in one process, and on several ranks, each with `--out`; the folders' files.
 fn both(dir: &Path, ranks: usize, arguments: &str) -> [BTreeMap<String, Vec<u8>>; 2] {
     let alone = Command::new(PROGRAM)
@@ -77,7 +70,8 @@ fn both(dir: &Path, ranks: usize, arguments: &str) -> [BTreeMap<String, Vec<u8>>
         .current_dir(dir)
         .ended();
     assert!(alone.status.success(), "{}", text(&alone.stderr));
-    let (job, shared) = shared(dir, ranks, arguments);
+    let shared = mpirun(dir, &format!("-n {ranks} shearbed {arguments} --out shared --threads 1")).ended();
+    assert!(shared.status.success(), "{}", text(&shared.stderr));
     // Only the root prints. Cases are printed as they end.
     let lines = |output: &Output| {
         let printed = text(&output.stdout).replace("shared", "alone");
@@ -85,8 +79,8 @@ fn both(dir: &Path, ranks: usize, arguments: &str) -> [BTreeMap<String, Vec<u8>>
         lines.sort();
         lines
     };
-    assert_eq!(lines(&job), lines(&alone));
-    [files(&dir.join("alone")), shared]
+    assert_eq!(lines(&shared), lines(&alone));
+    ["alone", "shared"].map(|name| files(&dir.join(name)))
 }
 
 /// A record without what tells one run from another: times, threads and ranks.
@@ -203,11 +197,7 @@ fn validate_has_the_numbers_of_one_process() {
 
     // Everything: cases, figures, readings. What error against run time shows is a matter of times.
     let dir = folder();
-    // A report of one process that has been made already: an older one has other numbers.
-    let [mut alone, mut shared] = match std::env::var_os("SHEARBED_REPORT") {
-        Some(report) => [files(report.as_ref()), shared(dir.path(), 4, "validate").1],
-        None => both(dir.path(), 4, "validate"),
-    };
+    let [mut alone, mut shared] = both(dir.path(), 4, "validate");
     let timed = |record: &mut Value| {
         for study in record["studies"].as_array_mut().unwrap() {
             // What error costs in seconds is in some answers.
