@@ -45,12 +45,17 @@ fn power(name: &str, exponent: i32) -> String {
 }
 
 fn polynomial(coefficients: &[f64], terms: &[impl AsRef<str>]) -> String {
-    let term = |(c, term): (&f64, &_)| {
-        let sign = if *c < 0.0 { "- " } else { "+ " };
-        format!("{sign}{} {}", c.abs(), AsRef::<str>::as_ref(term).trim_end()).trim_end().to_owned()
-    };
-    let all: Vec<_> = coefficients.iter().zip(terms).map(term).collect();
-    all.join(" ").trim_start_matches("+ ").to_owned()
+    let mut text = String::new();
+    for (c, term) in coefficients.iter().zip(terms) {
+        let sign = match (text.is_empty(), *c < 0.0) {
+            (true, false) => "",
+            (true, true) => "-",
+            (false, false) => " + ",
+            (false, true) => " - ",
+        };
+        text += format!("{sign}{} {}", c.abs(), term.as_ref()).trim_end();
+    }
+    text
 }
 
 /// What is printed gives the closure's own components, and another coefficient does not.

@@ -121,7 +121,8 @@ pub fn loose(problems: &[LoadedProblem], graded: &[Graded]) -> Option<String> {
         let error = compare::compare(loaded, &answer).error;
         error > loaded.tolerances()[0] && error <= loaded.problem.tolerance
     };
-    let rods = problems.iter().filter(|loaded| loaded.problem.kind == Kind::Rods);
+    let is_raised = |loaded: &&LoadedProblem| loaded.problem.tolerance > loaded.own_tolerance;
+    let rods = problems.iter().filter(|loaded| loaded.problem.kind == Kind::Rods).filter(is_raised);
     let passes = |name: &&str| graded.iter().any(|graded| graded.name == *name && graded.verdict == Verdict::Pass);
     let names = rods.filter(at_rest).map(|loaded| loaded.problem.name.as_str());
     let names: Vec<_> = names.filter(passes).collect();

@@ -6,8 +6,7 @@
 //! the largest) and approaches the claimed one from either side, or a higher one if a problem has no such error term. A
 //! wrong coefficient removes whole orders, and the remaining order settles. So an order is refuted by two consecutive
 //! pairs that agree and are nearly a whole order lower, or by four that are far lower on average and each below the
-//! claim, and by nothing else. `examples/graded_integrators` tests this
-//! with several hundred integrators.
+//! claim, and by nothing else. `examples/graded_integrators` tests this with several hundred integrators.
 
 use super::{Graded, Verdict};
 use crate::serve::problems::{Kind, LoadedProblem};

@@ -48,6 +48,17 @@ pub(super) enum End {
     OutOfTime(String),
 }
 
+impl End {
+    /// The end where a program that passes gives no answer to a further question; it may refuse one.
+    pub(super) fn without_answer(asked: Asked) -> Self {
+        match asked {
+            Asked::Says(_) => Self::Reached,
+            Asked::Late(words) => Self::OutOfTime(words),
+            Asked::Breach(words) => Self::Broke(words),
+        }
+    }
+}
+
 /// Climbs, and returns the rungs and the end. If an order is claimed, it goes on until that is confirmed, refuted, or
 /// below round-off.
 pub(super) fn climb(

@@ -61,9 +61,7 @@ pub(super) fn repeated(
                 || format!("asked the same twice, with {setting}, it gives answers that differ by {change:.1e}");
             if change > SAME * tolerance { End::Jumps(words()) } else { End::Reached }
         }
-        Err(Asked::Says(_)) => End::Reached,
-        Err(Asked::Late(words)) => End::OutOfTime(words),
-        Err(Asked::Breach(words)) => End::Broke(words),
+        Err(asked) => End::without_answer(asked),
     }
 }
 
@@ -86,9 +84,7 @@ pub(super) fn judged(
     for setting in (0..3).map(finer) {
         let rung = match ask(setting) {
             Ok(rung) => rung,
-            Err(Asked::Says(_)) => break,
-            Err(Asked::Late(words)) => return End::OutOfTime(words),
-            Err(Asked::Breach(words)) => return End::Broke(words),
+            Err(asked) => return End::without_answer(asked),
         };
         let error = rung.error();
         if error <= due {

@@ -26,11 +26,9 @@ const SHARP: f64 = 1e-6;
 /// Judges every rung of a ladder whose last ones are within the tolerance; `unit` divides every number of steps.
 pub(super) fn judged(rungs: &[Rung], tolerance: f64, unit: u64, ask: impl Fn(Setting) -> Result<Rung, Asked>) -> End {
     let order = falling_order(rungs, tolerance);
-    let end = |found: Result<Option<String>, Asked>| match found {
-        Ok(None) | Err(Asked::Says(_)) => None,
-        Ok(Some(words)) => Some(End::Jumps(words)),
-        Err(Asked::Late(words)) => Some(End::OutOfTime(words)),
-        Err(Asked::Breach(words)) => Some(End::Broke(words)),
+    let end = |found: Result<Option<String>, Asked>| {
+        let end = found.map_or_else(End::without_answer, |words| words.map_or(End::Reached, End::Jumps));
+        (end != End::Reached).then_some(end)
     };
     if let Some(end) = end(beside(rungs, tolerance, order, unit, &ask)) {
         return end;
