@@ -297,12 +297,12 @@ fn program(args: &Args, command: &str, reference: Option<&Path>) -> Result<Done,
     let observed = problems.iter().filter(|graded| graded.verdict == grade::Verdict::Pass);
     let theory = live::theory(mode == Mode::Tolerance, observed.filter_map(|graded| graded.observed_order).next());
     let program = program.with_theory(theory);
-    let studies =
-        (!args.brief && rods && program.given_up().is_none()).then(|| live::studies(&program, &echo(program.protocol)));
-    let left_out = studies.iter().flat_map(live::Studies::left_out);
-    let mut remarks: Vec<_> = left_out
-        .map(|what| format!("{what}: not measured, as the program needs longer for it than --timeout, or broke off"))
-        .collect();
+    let answers = problems.iter().any(|graded| graded.error.is_some()) && program.given_up().is_none();
+    let studies = (!args.brief && rods && answers).then(|| live::studies(&program, &echo(program.protocol)));
+    let left_out: Vec<_> = studies.iter().flat_map(live::Studies::left_out).collect();
+    const LEFT_OUT: &str = "not measured, as the program needs longer for it than --timeout, or broke off";
+    let mut remarks: Vec<_> =
+        (!left_out.is_empty()).then(|| format!("{}: {LEFT_OUT}", left_out.join(", "))).into_iter().collect();
     remarks.extend(on_order(&problems, claim.order));
     remarks.extend(grade::loose(&asked, &problems));
     remarks.extend(program.breaches());

@@ -166,6 +166,7 @@ fn for_tensors() -> Result<(), Failed> {
         ("tensors_random_slow", &[], 1),
         ("tensors_random_few", &[], 1),
         ("tensors_by_equal_steps", &[], 0),
+        ("tensors_lose_an_odd_step", &[], 1),
         ("tensors_by_tolerance", &[], 0),
         ("tensors_by_tolerance", &theirs, 1),
         ("tensors_flow_along_1", &theirs, 0),

@@ -95,6 +95,9 @@ impl<R: BufRead> Lines<R> {
             Some(line) => line,
             None => line,
         };
+        if line.trim_end_matches('\r').contains('\r') {
+            return Err(self.error(0, ALONE));
+        }
         match line.strip_suffix('\r') {
             Some(_) if !windows => Err(self.error(line.split([',', ';', '\t']).count(), CARRIED)),
             Some(line) => Ok(line),
@@ -105,5 +108,6 @@ impl<R: BufRead> Lines<R> {
 
 const MARKED: &str =
     "begins with a byte order mark: write UTF-8 without it (in Python encoding=\"utf-8\"), or give --windows-text";
+const ALONE: &str = "its lines end in CR alone, or one is in a line: write LF at the end of a line and nowhere else";
 const CARRIED: &str =
     "ends in CR LF: write LF alone (csv.writer of Python has lineterminator=\"\\n\"), or give --windows-text";

@@ -10,7 +10,7 @@ use nalgebra::{Matrix3, Vector3};
 use std::f64::consts::PI;
 
 /// The highest rate that is tried.
-const MOST: f64 = 4.0;
+pub(super) const MOST: f64 = 4.0;
 
 /// Above this number of possible half turns, some rate fits any answer.
 const HALF_TURNS: f64 = 50.0;

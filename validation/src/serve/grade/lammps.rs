@@ -164,6 +164,9 @@ fn ordered(atoms: &[Atom], time_s: f64, problem: &LoadedProblem, axes: Axes) -> 
     }
 }
 
+/// The largest difference of a quaternion's norm from 1: that of three digits.
+const UNIT: f64 = 1e-3;
+
 fn snapshot(lines: &mut Lines, columns: &Columns, atoms: usize, options: &DumpOptions) -> Result<Vec<Atom>, FileError> {
     // LAMMPS writes atoms in any order: the id identifies the rod.
     let mut found = Vec::new();
@@ -190,7 +193,15 @@ fn snapshot(lines: &mut Lines, columns: &Columns, atoms: usize, options: &DumpOp
         let axis = options.rod_axis.or(by_shape).ok_or_else(|| {
             lines.error(0, "which axis of the body is the rod's? --rod-axis x, y or z, or columns shapex shapey shapez")
         })?;
-        let of = |[w, i, j, k]: &[usize; 4]| Ok(direction([at(*w)?, at(*i)?, at(*j)?, at(*k)?], axis));
+        let of = |[w, i, j, k]: &[usize; 4]| {
+            let quaternion = [at(*w)?, at(*i)?, at(*j)?, at(*k)?];
+            let norm = quaternion.iter().map(|x| x * x).sum::<f64>().sqrt();
+            if (norm - 1.0).abs() > UNIT {
+                let message = format!("the quaternion has the norm {norm:.4}; that of a rotation is 1");
+                return Err(lines.error(*w + 1, message));
+            }
+            Ok(direction(quaternion, axis))
+        };
         let all = columns.quaternion.iter().map(of).collect::<Result<_, FileError>>()?;
         found.push((at(columns.id)?, lines.number(), all));
     }

@@ -37,6 +37,9 @@ const WANDERING: usize = 4;
 /// The orders that they must lack on average: more than a right method of order 7 does on its way.
 const LOST: f64 = 1.5;
 
+/// Errors that wander and fall by less than this on average are rounding: no wrong method has half an order.
+const ROUNDING: f64 = 0.5;
+
 /// The evidence of a ladder about a claimed order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
@@ -127,7 +130,7 @@ impl Orders {
         let wander = |pairs: &[(f64, f64)]| {
             let mean = pairs.iter().map(|pair| pair.0).sum::<f64>() / WANDERING as f64;
             let none = pairs.iter().all(|pair| pair.0 < claimed - ORDER_TOLERANCE);
-            pairs[0].1 < CLOSE && mean <= claimed - LOST && none
+            pairs[0].1 < CLOSE && (ROUNDING..=claimed - LOST).contains(&mean) && none
         };
         if self.certain().windows(3).any(shown) || self.certain().windows(WANDERING).any(wander) {
             return Order::Lower;
@@ -142,8 +145,12 @@ impl Orders {
         let last: Vec<f64> = self.usable.iter().rev().take(4).map(|(order, _)| *order).collect();
         let falling = last.iter().take_while(|order| **order > 0.0).count();
         let means = (1..=falling).map(|few| last[..few].iter().sum::<f64>() / few as f64);
-        let seen = means.chain(last.get(1).copied()).any(|order| (order - claimed).abs() < ORDER_TOLERANCE);
-        if seen { Order::Seen } else { Order::Unclear }
+        let claimed_one = |order: f64| (order - claimed).abs() < ORDER_TOLERANCE;
+        let seen = means.chain(last.get(1).copied()).any(claimed_one);
+        // Above rounding that the last errors show.
+        let rounding = last.iter().sum::<f64>() < ROUNDING * WANDERING as f64;
+        let before = || self.usable.windows(WANDERING).any(|pairs| pairs.iter().all(|pair| claimed_one(pair.0)));
+        if seen || rounding && before() { Order::Seen } else { Order::Unclear }
     }
 
     /// The pairs that are certainly above round-off: above the problem's own tolerance, or falling fast.

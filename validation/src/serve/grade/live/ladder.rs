@@ -21,7 +21,7 @@ use crate::serve::grade::files::{Claim, judge, place};
 use crate::serve::grade::order::other;
 use crate::serve::grade::{Graded, Order, Verdict};
 use crate::serve::problems::{Kind, LoadedProblem, Metric};
-use climb::{End, climb, converges, fewest};
+use climb::{End, climb, converges, fall_with_tolerances, fewest};
 use elsewhere::others;
 use std::cell::Cell;
 use std::time::{Duration, Instant};
@@ -209,8 +209,8 @@ fn climbed(
     graded.set_orders(errors(&rungs), problem, claim.order);
     let refuted = graded.order_found == Some(Order::Lower);
     // Whether a mistake is named must not depend on how fast the machine is; that of a step is of order 1.
-    let mistaken = matches!(end, End::OutOfTime(_)) && claim.order != Some(1.0) && stays_on_a_mistake(problem, &rungs);
-    let unfinished = matches!(end, End::OutOfTime(_) | End::NoFiner(_) | End::Stays(_)) && !mistaken;
+    let mistaken = matches!(end, End::NotReached(_)) && claim.order != Some(1.0) && stays_on_a_mistake(problem, &rungs);
+    let unfinished = matches!(end, End::NotReached(_) | End::NoFiner(_) | End::Stays(_)) && !mistaken;
     let converging = unfinished.then(|| converges(problem, &rungs)).flatten().filter(|_| !refuted);
     graded.verdict = match converging {
         Some(_) => Verdict::Pass,
@@ -222,7 +222,8 @@ fn climbed(
         graded.set_answer(problem, &finest.answer, &finest.compared);
     }
     // What converges as far as it goes is not wrong.
-    if matches!(end, End::NoFiner(_)) && graded.verdict == Verdict::Fail && graded.steps_needed().is_some() {
+    let falls = || graded.steps_needed().is_some() || fall_with_tolerances(&rungs).is_some();
+    if matches!(end, End::NoFiner(_)) && graded.verdict == Verdict::Fail && falls() {
         graded.verdict = Verdict::Refused;
     }
     let digits = || rungs.last().and_then(|rung| digits::remark(&rung.answer, rung.error(), rung.setting.steps().ok()));
@@ -236,7 +237,7 @@ fn climbed(
             Some(said.collect::<Vec<_>>().join("; "))
         }
         End::Reached => not_finite(&rungs),
-        End::Stays(words) | End::Wrong(words) | End::NoFiner(words) | End::OutOfTime(words) => {
+        End::Stays(words) | End::Wrong(words) | End::NoFiner(words) | End::NotReached(words) => {
             let finite = rungs.last().filter(|finest| finest.error().is_finite());
             // Of directions there is no worst component.
             let finite = finite.filter(|_| problem.problem.metric == Metric::Absolute);
@@ -271,8 +272,8 @@ fn best(rungs: &[Rung]) -> Option<&Rung> {
 fn verdict(end: &End, mistaken: bool) -> Verdict {
     match end {
         // Whether a mistake is named must not depend on how fast the machine is.
-        End::OutOfTime(_) if mistaken => Verdict::Fail,
-        End::OutOfTime(_) => Verdict::NotReached,
+        End::NotReached(_) if mistaken => Verdict::Fail,
+        End::NotReached(_) => Verdict::NotReached,
         End::Reached => Verdict::Pass,
         End::Refused(_) => Verdict::Refused,
         _ => Verdict::Fail,

@@ -53,6 +53,9 @@ fn what_right_methods_show_is_not_refuted_and_lost_orders_are() {
         (&[1.7, 2.3, 1.6, 2.4], 4.0, Order::Lower),
         (&[3.58, 0.42, 3.58, 0.42], 4.0, Order::Lower),
         (&[1.7, 2.3, 1.6, 3.9], 4.0, Order::Seen),
+        // Rounding above the tolerance, after the order was seen: a rotation by angles without |p| = 1.
+        (&[2.0, 2.0, 2.0, 2.0, 2.8, -1.2, -0.2, -0.6, 0.8], 2.0, Order::Seen),
+        (&[3.0, 1.6, 0.4, 1.6, 0.4], 3.0, Order::Lower),
         // Down to 1e-10, a hundredth of the tolerance: round-off, and a method of order 7.
         (&[5.0, 5.0, 5.0, 5.0, 5.0, 1.0, 0.9], 5.0, Order::Seen),
         (&[7.0, 7.1, 7.0], 8.0, Order::Lower),

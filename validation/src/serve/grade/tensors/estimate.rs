@@ -5,7 +5,7 @@ use crate::methods::tensors::wrong::{CLOSURES, scaled, shaped, spread};
 use crate::methods::tensors::{Model, Parts};
 use crate::serve::grade::answer::Answer;
 use crate::serve::grade::diagnosis::{STEPS_OFF, step_off};
-use crate::serve::grade::estimate::digits;
+use crate::serve::grade::estimate::{MOST, digits};
 use crate::serve::problems::Problem;
 use rayon::prelude::*;
 
@@ -50,7 +50,8 @@ pub(super) fn of_curve(problem: &Problem, answer: &Answer, known: &Known, steps:
         let name = if problem.d_r_per_s.is_some() { name.replace("C_I", "D_r") } else { (*name).to_owned() };
         let with = |factor: f64| Some(Candidate::new(change(known.parts, factor)?, CLOSURES[*closure], Vec::new()));
         let row = |factor: f64| with(factor)?.curve(problem, &known.start, 1, STEP)?.pop();
-        let factor = newton(&answer.rows[0], row)?;
+        // At a rate higher than that of rods that is tried, any steady state is reached.
+        let factor = newton(&answer.rows[0], row).filter(|factor| *name != *TIME || *factor <= MOST)?;
         let distance = distance(problem, &answer.rows, &known.start, &with(factor)?, most)?;
         let of_step = steps.filter(|_| name == TIME).and_then(|steps| step_off(factor, steps));
         let near = match of_step {

@@ -44,8 +44,8 @@ pub(super) enum End {
     NoFiner(String),
     /// The errors fall with an order lower than the claimed one.
     Lower,
-    /// Time ran out first.
-    OutOfTime(String),
+    /// Time ran out first, or the smallest tolerance was asked for while errors still fell.
+    NotReached(String),
 }
 
 impl End {
@@ -53,7 +53,7 @@ impl End {
     pub(super) fn without_answer(asked: Asked) -> Self {
         match asked {
             Asked::Says(_) => Self::Reached,
-            Asked::Late(words) => Self::OutOfTime(words),
+            Asked::Late(words) => Self::NotReached(words),
             Asked::Breach(words) => Self::Broke(words),
         }
     }
@@ -99,7 +99,7 @@ pub(super) fn climb(
             }
             Err(Asked::Breach(words)) => return (rungs, End::Broke(format!("asked for {setting}: {words}"))),
             Err(Asked::Late(words)) => {
-                return (rungs, End::OutOfTime(format!("asked for {setting}: {words}")));
+                return (rungs, End::NotReached(format!("asked for {setting}: {words}")));
             }
         };
         let orders = claimed.map(|claimed| (claimed, orders(&errors(&rungs), problem.tolerances())));
@@ -132,7 +132,7 @@ pub(super) fn climb(
             let (seconds, limit) = (spent.as_secs_f64(), timeout.as_secs_f64());
             let one = if within(&rungs, tolerance) { "one answer alone is within the tolerance; " } else { "" };
             let words = format!("{one}finer ones would take longer than --timeout {limit} ({seconds:.1} s so far)");
-            return (rungs, End::OutOfTime(words));
+            return (rungs, End::NotReached(words));
         }
     }
     if let (true, Some(words)) = (rungs.is_empty(), &says) {
@@ -142,8 +142,13 @@ pub(super) fn climb(
     if within(&rungs, tolerance) {
         (rungs, End::Reached)
     } else {
-        let none = || End::Wrong("there is no finer setting".to_owned());
-        let end = says.map_or_else(none, End::NoFiner);
+        let end = match says {
+            Some(words) => End::NoFiner(words),
+            None if fall_with_tolerances(&rungs).is_some() => {
+                End::NotReached("no smaller tolerance is asked for".into())
+            }
+            None => End::Wrong("there is no finer setting".to_owned()),
+        };
         (rungs, end)
     }
 }
@@ -208,8 +213,9 @@ pub(super) fn hopeless(rungs: &[Rung], tolerance: f64, timeout: Duration, smooth
     let doubles = first.took > Duration::from_millis(200) && last.took < 3 * first.took;
     let more = (errors[3] / tolerance).powf(1.0 / order);
     let needed_s = last.took.as_secs_f64() * more;
-    (doubles && needed_s > 4.0 * timeout.as_secs_f64())
-        .then(|| End::OutOfTime(format!("finer ones would take some {needed_s:.0e} s, which --timeout does not allow")))
+    (doubles && needed_s > 4.0 * timeout.as_secs_f64()).then(|| {
+        End::NotReached(format!("finer ones would take some {needed_s:.0e} s, which --timeout does not allow"))
+    })
 }
 
 /// A message if the errors of the last four settings do not fall any more, with steps that are short.
@@ -238,24 +244,44 @@ fn converge_elsewhere(rungs: &[Rung]) -> bool {
     shrinks(0) && [1, 2].into_iter().all(|k| shrinks(k) || settled(k)) && 2.0 * changes[3] <= 0.01 * error
 }
 
-/// The order with which the last four errors fall, if it is nearly the same for each pair.
-fn steady_order(rungs: &[Rung]) -> Option<f64> {
-    steady(&rungs.last_chunk::<4>()?.each_ref().map(Rung::error))
+/// The last error of a program that chooses its steps, if the last four fall with the tolerances, by 100 at least.
+pub(super) fn fall_with_tolerances(rungs: &[Rung]) -> Option<f64> {
+    let last = rungs.last_chunk::<4>()?;
+    let chooses = last.iter().all(|rung| matches!(rung.setting, Setting::Tolerance(_)));
+    let falls = last.windows(2).all(|pair| pair[1].error() < pair[0].error());
+    let error = last[3].error();
+    (chooses && falls && error < FOLLOWED && 100.0 * error <= last[0].error()).then_some(error)
 }
 
-/// The order with which numbers fall from one doubling of the steps to the next, if nearly the same for each pair.
-fn steady(all: &[f64]) -> Option<f64> {
+/// The order with which the last four errors fall, if it is nearly the same for each pair.
+fn steady_order(rungs: &[Rung]) -> Option<f64> {
+    steady(&rungs.last_chunk::<4>()?.each_ref().map(Rung::error), 0.1)
+}
+
+/// The order with which numbers fall from one doubling of the steps to the next, if the same for each pair but for
+/// `most`.
+fn steady(all: &[f64], most: f64) -> Option<f64> {
     let orders: Vec<_> = all.windows(2).map(|pair| (pair[0] / pair[1]).log2()).collect();
     let last = *orders.last()?;
-    orders.iter().all(|order| *order > 0.5 && (order - last).abs() < 0.1).then_some(last)
+    orders.iter().all(|order| *order > 0.5 && (order - last).abs() < most).then_some(last)
 }
 
 /// A message on answers that converge to the certified one, though none is within the tolerance: their errors fall by a
 /// steady order, up to where rounding may begin, and what they extrapolate to (Richardson) is right to within the
-/// uncertainty of the extrapolation.
+/// uncertainty of the extrapolation; or they fall with the tolerances, and two smaller ones would be enough.
 pub(super) fn converges(problem: &LoadedProblem, rungs: &[Rung]) -> Option<String> {
+    if let Some(error) = fall_with_tolerances(rungs).filter(|error| *error <= NEARLY * problem.problem.tolerance) {
+        let setting = rungs.last()?.setting;
+        return Some(format!(
+            "converges to the certified answer: its errors fall with the tolerances, to {error:.1e} with {setting}"
+        ));
+    }
     (4..=rungs.len()).rev().take(ROUNDED).find_map(|count| last_converge(problem, &rungs[..count]))
 }
+
+/// The largest last error, in tolerances of a problem, of errors that fall with the tolerances asked for: two smaller
+/// ones would bring it within, which a double does not have.
+const NEARLY: f64 = 100.0;
 
 /// The number of doublings of the steps by which rounding may have spoilt answers that converge.
 const ROUNDED: usize = 8;
@@ -263,10 +289,12 @@ const ROUNDED: usize = 8;
 fn last_converge(problem: &LoadedProblem, rungs: &[Rung]) -> Option<String> {
     /// The largest uncertainty as a share of the last error: more proves nothing.
     const SHARE: f64 = 0.05;
+    /// The largest difference of orders that settle.
+    const SETTLES: f64 = 0.25;
     let last = rungs.last_chunk::<4>()?;
-    steady_order(rungs)?;
+    steady(&last.each_ref().map(Rung::error), SETTLES)?;
     // The order of the answers alone: that of the errors would hide a wrong limit.
-    let order = steady(&[0, 1, 2].map(|k| last[k].answer.largest_change(&last[k + 1].answer)))?;
+    let order = steady(&[0, 1, 2].map(|k| last[k].answer.largest_change(&last[k + 1].answer)), SETTLES)?;
     // Methods have whole orders, which answers near the limit show to many digits, but not to all.
     let whole = order.round();
     let order = if (order - whole).abs() < 0.1 { whole } else { order };

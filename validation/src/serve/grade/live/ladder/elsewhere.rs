@@ -18,7 +18,8 @@ const FALLS: f64 = 0.7;
 const SAME: f64 = 0.1;
 
 /// The problem at other times: about rods up to its first time after the start, and to that whose certified rows are
-/// farthest from those at the end; about tensors, which are asked for at all times, without the first.
+/// farthest from those at the end; about tensors, which are asked for at all times, without the first, and at the last
+/// alone, with an odd number of steps.
 pub(super) fn others(problem: &LoadedProblem) -> Vec<LoadedProblem> {
     let (times_s, rows, keys) = (&problem.problem.times_s, &problem.certified.rows, problem.problem.kind.keys().len());
     let (times, each) = (times_s.len(), rows.len() / times_s.len().max(1));
@@ -29,7 +30,8 @@ pub(super) fn others(problem: &LoadedProblem) -> Vec<LoadedProblem> {
         other
     };
     if problem.problem.kind != Kind::Rods {
-        return (times > 1).then(|| at(1, times)).into_iter().collect();
+        let first = (1..times).take(1);
+        return first.chain((times > 2).then(|| times - 1)).map(|from| at(from, times)).collect();
     }
     let off = |time: &usize| {
         let of = |(row, last): (&Vec<f64>, &Vec<f64>)| distance(problem, &row[keys..], &last[keys..]);
@@ -75,12 +77,15 @@ pub(super) fn judged(
 ) -> End {
     let [other_s, end_s] = problems.map(|of| of.problem.times_s.last().copied().unwrap_or_default());
     let due = FAR * passed.error().max(problems[1].problem.tolerance);
+    // Steps of equal length end at every time: with several, not every number will do.
+    let odd = u64::from(problems[0].problem.times_s.len() == 1);
     let finer = |k: i32| match passed.setting {
-        Setting::Steps(steps) => Setting::Steps((steps as f64 * other_s / end_s).ceil() as u64 * (1 << k)),
+        Setting::Steps(steps) => Setting::Steps(((steps as f64 * other_s / end_s).ceil() as u64 * (1 << k)) | odd),
         Setting::Tolerance(asked) => Setting::Tolerance((asked * 0.1f64.powi(k)).max(1e-14)),
         Setting::Once => Setting::Once,
     };
-    let mut most = FOLLOWED.max(due);
+    // Tensors do not flip.
+    let mut most = if problems[1].problem.kind == Kind::Rods { FOLLOWED.max(due) } else { due };
     for setting in (0..3).map(finer) {
         let rung = match ask(setting) {
             Ok(rung) => rung,
@@ -91,8 +96,11 @@ pub(super) fn judged(
             break;
         }
         if error.is_nan() || error > most {
-            let asked =
-                if other_s < end_s { format!("up to t = {other_s} s") } else { "without the first time".into() };
+            let asked = match odd {
+                _ if other_s < end_s => format!("up to t = {other_s} s"),
+                0 => "without the first time".to_owned(),
+                _ => "at the last time alone".to_owned(),
+            };
             let before = passed.error();
             return End::Jumps(format!(
                 "asked {asked}, with {setting}, it is off by {error:.1e}, before by {before:.1e}"

@@ -37,14 +37,14 @@ pub(super) fn graded(
         graded.asked_tolerance = finest.setting.tolerance().ok();
         judge(&mut graded, problem, &finest.answer, Claim::default());
         // Out of time it is no failure, unless it is on the curve of a mistake.
-        let late = matches!(end, End::OutOfTime(_)) && graded.diagnosis.is_none();
+        let late = matches!(end, End::NotReached(_)) && graded.diagnosis.is_none();
         if matches!(end, End::Broke(_)) {
             graded.verdict = Verdict::Fail;
         } else if late && graded.verdict == Verdict::Fail {
             graded.verdict = Verdict::NotReached;
         }
     }
-    if let End::Broke(words) | End::Refused(words) | End::OutOfTime(words) = end {
+    if let End::Broke(words) | End::Refused(words) | End::NotReached(words) = end {
         graded.note = Some(graded.note.into_iter().chain([words]).collect::<Vec<_>>().join("; "));
     }
     graded

@@ -41,7 +41,7 @@ fn climbed(rungs: impl Fn(i32) -> (f64, f64)) -> Option<String> {
     let end = (1..=rungs.len()).find_map(|k| hopeless(&rungs[..k], TOLERANCE, Duration::from_secs(60), false))?;
     match end {
         End::Wrong(words) => Some(words),
-        End::OutOfTime(words) => Some(format!("out of time: {words}")),
+        End::NotReached(words) => Some(format!("out of time: {words}")),
         other => panic!("{other:?}"),
     }
 }
@@ -202,13 +202,13 @@ fn an_order_is_no_answer_and_one_that_is_unclear_is_asked_on_to_round_off() {
 fn what_would_take_too_long_is_not_asked_unless_it_confirms() {
     let end = |error: f64, seconds: f64| climbed_in(Mode::Steps, None, |_| (error, seconds)).2;
     let limit = "finer ones would take longer than --timeout 60 (";
-    assert!(matches!(end(0.5, 16.0), End::OutOfTime(words) if words.contains(limit)));
+    assert!(matches!(end(0.5, 16.0), End::NotReached(words) if words.contains(limit)));
     // The first answer may hold the program's start.
     let starts = |k: i32| if k == 0 { (0.5, 59.0) } else { (0.5 * 16f64.powi(-k), 0.0) };
     assert_eq!(climbed_in(Mode::Steps, None, starts).2, End::Reached);
     // An answer within the tolerance is confirmed in twice its time.
     assert_eq!(end(1e-15, 29.0), End::Reached);
-    assert!(matches!(end(1e-15, 31.0), End::OutOfTime(words) if words.starts_with("one answer alone is within")));
+    assert!(matches!(end(1e-15, 31.0), End::NotReached(words) if words.starts_with("one answer alone is within")));
 }
 
 /// Answers that converge to another limit do not pass by the order of their errors, which near it is lower.
@@ -233,7 +233,28 @@ fn a_wrong_limit_is_seen_by_the_answers_alone() {
 fn errors_that_grow_with_the_steps_are_wrong_where_time_ends() {
     let end = |factor: f64| climbed_in(Mode::Steps, None, |k| (1e-4 * factor.powi(k), 1e-3 * 2f64.powi(k))).2;
     assert!(matches!(end(1.5), End::Stays(words) if words == "the error grows with the steps, as rounding does"));
-    assert!(matches!(end(0.85), End::OutOfTime(_)));
+    assert!(matches!(end(0.85), End::NotReached(_)));
+}
+
+/// BDF and LSODA: the tolerance of a step is far smaller than the error at the end.
+#[test]
+fn errors_that_fall_with_the_smallest_tolerances_are_no_failure() {
+    let ladder = |error: &dyn Fn(i32) -> f64| {
+        let problem = loaded("mid-flip-2");
+        let asked = Cell::new(0);
+        let ask = |setting: Setting| Ok(rung(setting, error(asked.replace(asked.get() + 1)), 0.0));
+        let (rungs, end) = climb(&problem, Mode::Tolerance, Duration::from_secs(60), None, ask);
+        (converges(&problem, &rungs).is_some(), end)
+    };
+    let tolerance = loaded("mid-flip-2").problem.tolerance;
+    let falls = |times: f64| move |k: i32| 0.9 * times * tolerance * 6f64.powi(12 - k);
+    assert!(matches!(ladder(&falls(100.0)), (true, End::NotReached(_))));
+    assert!(matches!(ladder(&falls(150.0)), (false, End::NotReached(_))));
+    // A wrong model, and a solver that has no such tolerance.
+    let wrong = |k: i32| 50.0 * tolerance + falls(1.0)(k);
+    assert!(matches!(ladder(&wrong), (false, End::Wrong(_))));
+    let ends = |k: i32| falls(50.0)(k.min(10));
+    assert!(matches!(ladder(&ends), (false, End::Wrong(_))));
 }
 
 /// The judgement on a program with the error `error(steps, count)`, where `count` is the number of requests.
@@ -357,7 +378,7 @@ fn steps_of_tensors_end_at_every_time_of_the_problem() {
 
 #[test]
 fn a_ladder_out_of_time_is_not_reached_and_fails_on_the_curve_of_a_mistake() {
-    let late = || End::OutOfTime(String::new());
+    let late = || End::NotReached(String::new());
     assert_eq!([false, true].map(|mistaken| verdict(&late(), mistaken)), [Verdict::NotReached, Verdict::Fail]);
     assert_eq!([End::Reached, End::Lower].map(|end| verdict(&end, false)), [Verdict::Pass, Verdict::Fail]);
 }
