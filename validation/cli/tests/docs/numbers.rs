@@ -131,3 +131,47 @@ fn commands_print_the_numbers_of_the_table() {
     }
     assert!(number > 5);
 }
+
+/// A tolerance as the pages print it: 2·10⁻¹¹, 0.002.
+fn tolerance(value: f64) -> String {
+    const RAISED: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
+    if value >= 1e-3 {
+        return format!("{value}");
+    }
+    let text = format!("{value:e}");
+    let (first, exponent) = text.split_once("e-").unwrap();
+    let raised: String = exponent.chars().map(|digit| RAISED[digit.to_digit(10).unwrap() as usize]).collect();
+    if first == "1" { format!("10⁻{raised}") } else { format!("{first}·10⁻{raised}") }
+}
+
+/// Each problem is in one row of the page's table, with its tolerance.
+#[test]
+fn the_table_of_problems_has_each_once_with_its_tolerance() {
+    let page = fs::read_to_string(root().join("docs/src/verification/problems.md")).unwrap();
+    let table = page.split_once("| problems | asked |").unwrap().1.split("\n\n").next().unwrap();
+    let rows: Vec<Vec<&str>> = table.lines().skip(2).map(|row| row.split(" | ").collect()).collect();
+    let is_named = |cell: &str, name: &str| {
+        let patterns = cell.split('`').skip(1).step_by(2);
+        patterns
+            .map(|pattern| pattern.split_once('*').map_or(pattern == name, |(begin, _)| name.starts_with(begin)))
+            .any(|is| is)
+    };
+    const COMMAND: &str = "shearbed problems export r --quiet; grep -m1 '\"tolerance\"' r/*/problem.json";
+    let exported = printed(COMMAND);
+    let problem = |line| {
+        let (path, tolerance) = str::split_once(line, "/problem.json:")?;
+        let value = tolerance.split_once(": ")?.1.trim_end_matches(',');
+        Some((path.strip_prefix("r/")?, value.parse::<f64>().ok()?))
+    };
+    let problems: Vec<_> = exported.lines().map(|line| problem(line).unwrap()).collect();
+    for (name, _) in &problems {
+        assert_eq!(rows.iter().filter(|row| is_named(row[0], name)).count(), 1, "{name}");
+    }
+    for row in rows {
+        let own = problems.iter().filter(|(name, _)| is_named(row[0], name));
+        let mut of_row: Vec<f64> = own.map(|(_, tolerance)| *tolerance).collect();
+        of_row.sort_by(f64::total_cmp);
+        let [least, most] = [of_row[0], of_row[of_row.len() - 1]].map(tolerance);
+        assert_eq!(row[3], if least == most { least } else { format!("{least}–{most}") }, "{}", row[0]);
+    }
+}

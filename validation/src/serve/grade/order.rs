@@ -281,7 +281,7 @@ pub fn remark(graded: &[Graded], claimed: Option<f64>) -> Option<String> {
     };
     if !unclear.is_empty() {
         let names = unclear.join(", ");
-        said += &format!("; too few errors above round-off, or orders that still wander, on {names}");
+        said += &format!("; errors too few or too small to tell, or orders that still wander, on {names}");
     }
     Some(said)
 }
