@@ -1,9 +1,10 @@
 //! Measured points over the curves of runs.
 
 use super::folders::Run;
-use crate::Failure;
+use crate::{Failure, scene};
 use shearbed::Plan;
 use shearbed_validation::files::text::Shown;
+use shearbed_validation::input::experiment::not_read;
 use shearbed_validation::methods::least_squares::Datum;
 use shearbed_validation::present::plot::{MEASURED, Points, WITHOUT_BARS, names};
 use shearbed_validation::serve::fit::data::{self, Reading};
@@ -19,6 +20,7 @@ pub(super) fn points(
 ) -> Result<Vec<Points>, Failure> {
     let at = |what: String| Failure::Input(format!("--data {}: {what}", path.shown()));
     let read = data::read(path, 0, &Reading { columns: columns.cloned(), u: None, without_u: true })?;
+    scene::warn("--data", &not_read(path, &read.unread).into_iter().collect::<Vec<_>>());
     let unit = |run: &Run| {
         let plan = Plan::new(&run.scene).map_err(|error| at(error.to_string()))?;
         read.time.per_unit(&plan).ok_or_else(|| {
