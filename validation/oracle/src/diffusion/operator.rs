@@ -125,29 +125,35 @@ impl Operator {
         let factors = motion.factors();
         let mut operator = Self { basis, ends: vec![0], columns: Vec::new(), entries: Vec::new() };
         let mut row: Vec<(u32, f64)> = Vec::new();
+        let mut couplings = Vec::new();
         let offsets: Vec<_> = (0..=basis.degree).step_by(2).map(|l| basis.offset(l)).collect();
         for (l_to, m_to, imaginary) in basis.unknowns() {
             let weight = if m_to == 0 { 1.0 } else { SQRT_2 };
-            for l in [l_to.wrapping_sub(2), l_to, l_to + 2].into_iter().filter(|l| *l <= basis.degree) {
-                let offset = offsets[l / 2];
-                let most = l.min(basis.order) as i64;
-                for m in (m_to as i64 - 2).max(-most)..=(m_to as i64 + 2).min(most) {
-                    let z = motion.element(&factors, (l_to as i64, m_to as i64), (l as i64, m));
-                    // b_l,−m = (−1)^m b̄_lm.
-                    let sign = if m < 0 && m % 2 != 0 { -1.0 } else { 1.0 };
-                    let turn = if m < 0 { -1.0 } else { 1.0 };
-                    let scale = sign * weight / if m == 0 { 1.0 } else { SQRT_2 };
-                    let [real, unreal] = if imaginary { [z.im, z.re * turn] } else { [z.re, -z.im * turn] };
-                    let mut add = |imaginary: bool, entry: f64| {
-                        if entry != 0.0 {
-                            let at = offset + basis.place(m.unsigned_abs() as usize, imaginary);
-                            row.push((at as u32, entry * scale));
-                        }
-                    };
-                    add(false, real);
-                    if !basis.even && m != 0 {
-                        add(true, unreal);
+            // The imaginary part comes right after the real one, and has the same couplings.
+            if !imaginary {
+                couplings.clear();
+                for l in [l_to.wrapping_sub(2), l_to, l_to + 2].into_iter().filter(|l| *l <= basis.degree) {
+                    let most = l.min(basis.order) as i64;
+                    let orders = (m_to as i64 - 2).max(-most)..=(m_to as i64 + 2).min(most);
+                    let element = |m| motion.element(&factors, (l_to as i64, m_to as i64), (l as i64, m));
+                    couplings.extend(orders.map(|m| (offsets[l / 2], m, element(m))));
+                }
+            }
+            for (offset, m, z) in &couplings {
+                // b_l,−m = (−1)^m b̄_lm.
+                let sign = if *m < 0 && m % 2 != 0 { -1.0 } else { 1.0 };
+                let turn = if *m < 0 { -1.0 } else { 1.0 };
+                let scale = sign * weight / if *m == 0 { 1.0 } else { SQRT_2 };
+                let [real, unreal] = if imaginary { [z.im, z.re * turn] } else { [z.re, -z.im * turn] };
+                let mut add = |imaginary: bool, entry: f64| {
+                    if entry != 0.0 {
+                        let at = offset + basis.place(m.unsigned_abs() as usize, imaginary);
+                        row.push((at as u32, entry * scale));
                     }
+                };
+                add(false, real);
+                if !basis.even && *m != 0 {
+                    add(true, unreal);
                 }
             }
             row.sort_by_key(|(at, _)| *at);
