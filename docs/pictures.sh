@@ -45,9 +45,9 @@ shearbed bench --case re11.6 --out rk --quiet
 cp rk/orders.svg "$out/orders.svg"
 
 scene fitting
-shearbed run cell.toml --set interaction.alpha=0.8 --replicas 10 --seed 2024 --out truth --quiet
-awk -F, 'NR == 1 { print "t_s,x1,x1_u" }
-         NR > 2 && (NR - 2) % 5 == 0 { printf "%.2f,%.2f,0.003\n", $2, $4 }' truth/projections.csv >points.csv
+# The page's own points.
+awk '/^shearbed run cell.toml --set/ { on = 1 } /^head/ { exit } on' "$ROOT/docs/src/user/fitting.md" >points.sh
+bash -euo pipefail points.sh
 shearbed fit cell.toml --data points.csv --rods 1000 --over interaction.alpha=0.05:5 --out fit --quiet 2>/dev/null
 cp fit/points.svg "$out/fit-points.svg"
 

@@ -85,7 +85,12 @@ pub(super) fn grade(args: &Args) -> Result<(), Failure> {
 
 /// The flag for axes in another order, if a diagnosis names one and none is given.
 fn axes(args: &Args, report: &Report) -> Option<String> {
-    let of_problems = report.problems.iter().filter_map(|graded| graded.diagnosis.as_ref());
+    // A formula holds in any axes, and its rows are asked for in these.
+    let in_time: Vec<_> = report.problems.iter().filter(|graded| graded.kind != Kind::Formula).collect();
+    if in_time.iter().all(|graded| graded.verdict == grade::Verdict::Pass) {
+        return None;
+    }
+    let of_problems = in_time.iter().filter_map(|graded| graded.diagnosis.as_ref());
     let all =
         if report.diagnosis.is_empty() { of_problems.collect() } else { report.diagnosis.iter().collect::<Vec<_>>() };
     let after = all.iter().find_map(|said| said.split_once(grade::LAID_OUT))?;
@@ -235,16 +240,19 @@ fn report(args: &Args, [reference, answers]: [String; 2], problems: Vec<Graded>,
     }
 }
 
-/// Asked for by its name alone: any integrator needs minutes for it.
-const LONG: &str = "ten-thousand-periods";
+/// Asked for by their names alone: methods of low order, or in a slow language, need minutes for them.
+const LONG: [&str; 2] = ["mid-flip-10000", "ten-thousand-periods"];
 
 /// The problems to ask a program: those about single rods, and others that are asked for by name or kind.
 fn asked(args: &Args, reference: Option<&Path>) -> Result<Vec<LoadedProblem>, Failure> {
     let own = args.kind.is_none() && args.problems.is_empty();
     let by_name = |name: &String| args.problems.contains(name);
     let is_wanted = |LoadedProblem { problem, .. }: &LoadedProblem| {
-        let default =
-            if own { problem.kind == Kind::Rods && problem.name != LONG } else { live::can_be_asked(problem) };
+        let default = if own {
+            problem.kind == Kind::Rods && !LONG.contains(&problem.name.as_str())
+        } else {
+            live::can_be_asked(problem)
+        };
         // A code that does not know of flows that turn would answer another question.
         by_name(&problem.name) || default && problem.rotation_rad_per_s.is_none()
     };

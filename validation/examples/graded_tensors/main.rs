@@ -77,6 +77,25 @@ const WRONG: &[Wrong] = &[
     ("the bracket of 1/7", "a linear closure with its 1/7 before both brackets", |c| {
         c.closure = |a, at| linear_by(a, at, 1.0 / 7.0, -1.0 / 245.0);
     }),
+    ("no 1/7", "a linear closure without its term of 1/7", |c| c.closure = |a, at| linear_by(a, at, 0.0, -1.0 / 35.0)),
+    ("1/35 for 1/7", "a linear closure with 1/35 for 1/7", |c| {
+        c.closure = |a, at| linear_by(a, at, 1.0 / 35.0, -1.0 / 35.0);
+    }),
+    ("1/7 for 1/35", "a linear closure with 1/7 for 1/35", |c| {
+        c.closure = |a, at| linear_by(a, at, 1.0 / 7.0, -1.0 / 7.0);
+    }),
+    ("f (quadratic + (1 − f) linear)", "a hybrid closure f (quadratic + (1 − f) linear)", |c| {
+        c.closure = |a, at| {
+            let f = 1.0 - 27.0 * code::determinant(a);
+            f * (quadratic(a, at) + (1.0 - f) * linear(a, at))
+        };
+    }),
+    ("f = 1 + 27 det", "a hybrid closure with f = 1 + 27 det a", |c| {
+        c.closure = |a, at| hybrid_by(a, at, 1.0 + 27.0 * code::determinant(a));
+    }),
+    ("f² for f", "a hybrid closure with f² for f", |c| {
+        c.closure = |a, at| hybrid_by(a, at, (1.0 - 27.0 * code::determinant(a)).powi(2));
+    }),
     ("f and 1 − f", "a hybrid closure with f and 1 − f exchanged", |c| {
         c.closure = |a, at| hybrid_by(a, at, 27.0 * code::determinant(a));
     }),

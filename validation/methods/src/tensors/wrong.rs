@@ -217,8 +217,11 @@ pub struct Stand {
     pub fourth: fn(&Matrix3<f64>) -> Fourth,
 }
 
+/// The number of closures that are met with a second mistake too; those after them are tried alone.
+pub const WITH_OTHERS: usize = 24;
+
 /// Every closure, right and wrong ones.
-pub const CLOSURES: [Stand; 24] = [
+pub const CLOSURES: [Stand; 30] = [
     Stand { name: "the linear closure", fourth: linear },
     Stand { name: "the quadratic closure", fourth: quadratic },
     Stand { name: "the hybrid closure", fourth: |a| Closure::Hybrid.fourth(a) },
@@ -235,26 +238,19 @@ pub const CLOSURES: [Stand; 24] = [
     Stand { name: "a linear closure with + 1/35 for − 1/35", fourth: |a| linear_by(a, 7.0, -35.0) },
     Stand { name: "a linear closure without its term of 1/35", fourth: |a| linear_by(a, 7.0, f64::INFINITY) },
     Stand { name: "a linear closure with its 1/7 before both brackets", fourth: |a| linear_by(a, 7.0, 245.0) },
-    Stand {
-        name: "a hybrid closure with f and 1 − f exchanged", fourth: |a| mixed(a, 27.0 * a.determinant(), linear)
-    },
+    Stand { name: "a hybrid closure with f and 1 − f exchanged", fourth: |a| mixed(a, 1.0 - hybrid(a), linear) },
     Stand { name: "a hybrid closure with f = (3 a:a − 1)/2", fourth: |a| mixed(a, 1.5 * a.dot(a) - 0.5, linear) },
     Stand {
         name: "a hybrid closure with + 1/35 for − 1/35",
-        fourth: |a| mixed(a, 1.0 - 27.0 * a.determinant(), |a| linear_by(a, 7.0, -35.0)),
+        fourth: |a| mixed(a, hybrid(a), |a| linear_by(a, 7.0, -35.0)),
     },
-    Stand {
-        name: "a hybrid closure with (1 + f) linear − f quadratic",
-        fourth: |a| mixed(a, 27.0 * a.determinant() - 1.0, linear),
-    },
+    Stand { name: "a hybrid closure with (1 + f) linear − f quadratic", fourth: |a| mixed(a, -hybrid(a), linear) },
     Stand { name: "the linear closure of rods in a plane (1/6, − 1/24)", fourth: planar },
     Stand {
         name: "the hybrid closure of rods in a plane (1/6, − 1/24, f = 1 − 4(a_11 a_22 − a_12²))",
         fourth: |a| mixed(a, 1.0 - 4.0 * in_plane(a), planar),
     },
-    Stand {
-        name: "a hybrid closure with 1/6 and − 1/24", fourth: |a| mixed(a, 1.0 - 27.0 * a.determinant(), planar)
-    },
+    Stand { name: "a hybrid closure with 1/6 and − 1/24", fourth: |a| mixed(a, hybrid(a), planar) },
     Stand {
         name: "a hybrid closure with f = 1 − 4(a_11 a_22 − a_12²)",
         fourth: |a| mixed(a, 1.0 - 4.0 * in_plane(a), linear),
@@ -266,7 +262,21 @@ pub const CLOSURES: [Stand; 24] = [
         name: "a hybrid closure with f = 1 − 9 det a", fourth: |a| mixed(a, 1.0 - 9.0 * a.determinant(), linear)
     },
     Stand { name: "a hybrid closure with f = 2 a:a − 1", fourth: |a| mixed(a, 2.0 * a.dot(a) - 1.0, linear) },
+    Stand { name: "a linear closure without its term of 1/7", fourth: |a| linear_by(a, f64::INFINITY, 35.0) },
+    Stand { name: "a linear closure with 1/35 for 1/7", fourth: |a| linear_by(a, 35.0, 35.0) },
+    Stand { name: "a linear closure with 1/7 for 1/35", fourth: |a| linear_by(a, 7.0, 7.0) },
+    Stand {
+        name: "a hybrid closure f (quadratic + (1 − f) linear)",
+        fourth: |a| Fourth((quadratic(a).0 + linear(a).0 * (1.0 - hybrid(a))) * hybrid(a)),
+    },
+    Stand { name: "a hybrid closure with f = 1 + 27 det a", fourth: |a| mixed(a, 2.0 - hybrid(a), linear) },
+    Stand { name: "a hybrid closure with f² for f", fourth: |a| mixed(a, hybrid(a).powi(2), linear) },
 ];
+
+/// f of the hybrid closure.
+fn hybrid(a: &Matrix3<f64>) -> f64 {
+    1.0 - 27.0 * a.determinant()
+}
 
 /// The linear closure with the numbers of rods in a plane.
 fn planar(a: &Matrix3<f64>) -> Fourth {

@@ -80,7 +80,7 @@ impl Layout {
     pub fn find(first: &str, problem: &Problem, options: &FileOptions) -> Result<Self, (usize, String)> {
         let separator = [',', ';', '\t'].into_iter().find(|letter| first.contains(*letter)).unwrap_or(' ');
         let header: Vec<_> = split(first.trim_start_matches('#').trim(), separator).collect();
-        let first_is_row = header.iter().all(|field| csv::number(field).is_some());
+        let first_is_row = header.iter().all(|field| number(field).is_ok());
         let of_tensor = problem.kind == Kind::Tensor && header.len() == 10;
         let foreign = options.foreign.or((first_is_row && of_tensor).then_some(Foreign::Fiberoripy));
         let names: Vec<&str> = match (&options.columns, foreign) {
@@ -190,7 +190,8 @@ fn fields(names: &[&str], problem: &Problem, axes: Axes) -> Result<Vec<Field>, (
 /// Parses a field as a number. NaN and infinities written as such are valid; a number too large for a double is an
 /// error.
 pub(super) fn number(field: &str) -> Result<f64, String> {
-    match csv::number(field) {
+    // Where commas separate no fields, one is a decimal comma.
+    match csv::number(field).or_else(|| csv::number(&field.replacen(',', ".", 1))) {
         Some(value) if value.is_infinite() && field.contains(|c: char| c.is_ascii_digit()) => {
             Err(format!("{field} is too large for a double"))
         }

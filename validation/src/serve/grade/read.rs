@@ -53,6 +53,11 @@ pub fn read(
     let mut collector = Collector::new(problem);
     let mut last = lines.number();
     let mut row = if layout.first_is_row { Some(first) } else { lines.next_line()?.map(plain) };
+    // A row of units below the header.
+    let is_of_units = |line: &String| layout.split(line).all(|field| number(field.trim_matches('"')).is_err());
+    if !layout.first_is_row && row.as_ref().is_some_and(is_of_units) {
+        row = lines.next_line()?.map(plain);
+    }
     while let Some(line) = row {
         last = lines.number();
         let (keys, values) = fields(&line, &layout, problem).map_err(|(at, message)| lines.error(at, message))?;

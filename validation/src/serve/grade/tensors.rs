@@ -10,7 +10,7 @@ use super::answer::Answer;
 use super::nearness::{CURVE, Diagnosis, NEARER, Near, said};
 use crate::judge::statistics::worst;
 use crate::methods::tensors::fourth::PAIRS;
-use crate::methods::tensors::wrong::{CLOSURES, MISTAKES, Stand, scaled};
+use crate::methods::tensors::wrong::{CLOSURES, MISTAKES, Stand, WITH_OTHERS, scaled};
 use crate::methods::tensors::{Closure, Model, Parts, at_rate, isotropic, steady_of};
 use crate::oracle::diffusion::strain_rate_per_s;
 use crate::serve::problems::formula::tensor;
@@ -174,7 +174,8 @@ fn candidates(changes: &[Change], own: Option<usize>) -> Vec<Candidate> {
         let own = if without { Some(own.unwrap_or_default()) } else { own };
         let of = |(closure, stand): (usize, &Stand)| {
             let near: Vec<_> = change.names.iter().map(|(name, advice)| near_of(name, advice, closure, own)).collect();
-            (near[0].changes > 0).then(|| Candidate::new(change.parts, *stand, near))
+            let tried = near[0].changes == 1 || near[0].changes > 1 && closure < WITH_OTHERS;
+            tried.then(|| Candidate::new(change.parts, *stand, near))
         };
         let all = CLOSURES.iter().enumerate().filter(|(closure, _)| !without || own == Some(*closure));
         all.filter_map(of).collect::<Vec<_>>()

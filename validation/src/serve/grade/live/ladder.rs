@@ -194,6 +194,12 @@ fn climbed(
     };
     let ask = |setting: Setting| ask_of(problem, setting);
     let (rungs, mut end) = climb(problem, mode, program.timeout, claim.order, ask);
+    // Answers that do not settle may be random.
+    if let (End::Stays(_) | End::Wrong(_), Some(last)) = (&end, rungs.last())
+        && let random @ End::Jumps(_) = elsewhere::repeated(last, of.tolerance, program.timeout, ask)
+    {
+        end = random;
+    }
     if matches!(end, End::Reached) {
         end = jumps::judged(&rungs, of.tolerance, fewest(&of.times_s), ask);
     }
@@ -247,7 +253,10 @@ fn climbed(
             let words = if few.is_some() { String::new() } else { words };
             let remark = rungs.last().and_then(|finest| finest.compared.remark.clone());
             let remark = remark.filter(|_| finite.is_some());
+            let long = graded.length_drift.filter(|drift| *drift > 0.1 && graded.diagnosis.is_none());
+            let long = long.map(|drift| format!("the length of p is off 1 by up to {drift:.1}: are these components?"));
             let all = std::iter::once(why(&graded, best(&rungs), words, may_be_reached))
+                .chain(long)
                 .chain(remark)
                 .chain(worst)
                 .chain(few);

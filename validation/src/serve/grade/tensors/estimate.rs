@@ -1,7 +1,7 @@
 //! A number that is off by an unknown factor: C_I, Λ, or time.
 
 use super::{Candidate, Known, Near, STEP, distance, near_of};
-use crate::methods::tensors::wrong::{CLOSURES, scaled, shaped, spread};
+use crate::methods::tensors::wrong::{CLOSURES, WITH_OTHERS, scaled, shaped, spread};
 use crate::methods::tensors::{Model, Parts};
 use crate::serve::grade::answer::Answer;
 use crate::serve::grade::diagnosis::{STEPS_OFF, step_off};
@@ -45,13 +45,13 @@ pub(super) fn near(quantity: &str, factor: f64, model: Model, closure: usize, ow
 
 /// The curves of equations with another C_I or Λ, found at the first time, that fit at all times.
 pub(super) fn of_curve(problem: &Problem, answer: &Answer, known: &Known, steps: Option<u64>, most: f64) -> Vec<Near> {
-    let all: Vec<_> = QUANTITIES.iter().flat_map(|q| (0..CLOSURES.len()).map(move |closure| (q, closure))).collect();
+    let all: Vec<_> = QUANTITIES.iter().flat_map(|q| (0..WITH_OTHERS).map(move |closure| (q, closure))).collect();
     let fit = |((name, change), closure): &(&Quantity, usize)| {
         let name = if problem.d_r_per_s.is_some() { name.replace("C_I", "D_r") } else { (*name).to_owned() };
         let with = |factor: f64| Some(Candidate::new(change(known.parts, factor)?, CLOSURES[*closure], Vec::new()));
         let row = |factor: f64| with(factor)?.curve(problem, &known.start, 1, STEP)?.pop();
-        // At a rate higher than that of rods that is tried, any steady state is reached.
-        let factor = newton(&answer.rows[0], row).filter(|factor| *name != *TIME || *factor <= MOST)?;
+        // At higher rates any steady state is reached, and no code has a larger Λ by mistake.
+        let factor = newton(&answer.rows[0], row).filter(|factor| name == "C_I" || factor.abs() <= MOST)?;
         let distance = distance(problem, &answer.rows, &known.start, &with(factor)?, most)?;
         let of_step = steps.filter(|_| name == TIME).and_then(|steps| step_off(factor, steps));
         let near = match of_step {

@@ -3,7 +3,7 @@
 use super::estimate::{self, QUANTITIES, Quantity};
 use super::{CLOSURES, Near, Stand, apart, index, near_of};
 use crate::methods::tensors::fourth::PAIRS;
-use crate::methods::tensors::wrong::{MISTAKES, Mistake};
+use crate::methods::tensors::wrong::{MISTAKES, Mistake, WITH_OTHERS};
 use crate::methods::tensors::{Closure, Equation, Fourth, Model, Parts};
 use crate::serve::grade::answer::Answer;
 use crate::serve::grade::nearness::{Diagnosis, NEARER, said};
@@ -121,7 +121,8 @@ fn of_rates(rows: &Rows, answer: &Answer, closure: Closure, model: Model, most: 
             apart(&answer.rows[..1], &first) <= most
         };
         let of = |k: usize| within(near_of(name, advice, k, own), answer, &rates(&parts, k), most);
-        near.extend((0..CLOSURES.len()).filter(begins).filter_map(of));
+        let closures = 0..if mistake.is_none() { CLOSURES.len() } else { WITH_OTHERS };
+        near.extend(closures.filter(begins).filter_map(of));
     }
     if !near.is_empty() {
         return near;
@@ -137,7 +138,7 @@ fn of_rates(rows: &Rows, answer: &Answer, closure: Closure, model: Model, most: 
         let factor = 1.0 + along / square;
         within(estimate::near(name, factor, model, k, own), answer, &rates(&scaled(factor)?, k), most)
     };
-    QUANTITIES.iter().flat_map(|quantity| (0..CLOSURES.len()).map(move |k| (quantity, k))).filter_map(of).collect()
+    QUANTITIES.iter().flat_map(|quantity| (0..WITH_OTHERS).map(move |k| (quantity, k))).filter_map(of).collect()
 }
 
 /// The order of components, for ṗ.

@@ -126,6 +126,9 @@ pub(super) fn climb(
             if arrived {
                 return (rungs, End::Reached);
             }
+            if rungs.len() >= RESOLVING && !rungs.iter().any(|rung| rung.error().is_finite()) {
+                return (rungs, End::Wrong("nor is it with fewer steps".to_owned()));
+            }
             if let Some(words) = no_longer_falls(&rungs, smooth) {
                 return (rungs, End::Stays(words.to_owned()));
             }
@@ -201,6 +204,11 @@ pub(super) fn hopeless(rungs: &[Rung], tolerance: f64, timeout: Duration, smooth
             "the answer is the same with any number of steps"
         };
         return Some(End::Wrong(words.to_owned()));
+    }
+    if matches!(last.setting, Setting::Tolerance(_)) && errors[3] > tolerance && rungs.iter().all(same) {
+        return Some(End::Wrong(
+            "the answer is the same with any tolerance: the program ignores \"tolerance\"".to_owned(),
+        ));
     }
     if changes.iter().all(|change| *change <= still) && errors[3] > tolerance {
         return Some(End::Wrong("finer ones no longer change the answer".to_owned()));
