@@ -78,6 +78,7 @@ const WRONG: &[Wrong] = &[
         c.closure = |a, at| linear_by(a, at, 1.0 / 7.0, -1.0 / 245.0);
     }),
     ("no 1/7", "a linear closure without its term of 1/7", |c| c.closure = |a, at| linear_by(a, at, 0.0, -1.0 / 35.0)),
+    ("1 for 1/7", "a linear closure with 1 for 1/7", |c| c.closure = |a, at| linear_by(a, at, 1.0, -1.0 / 35.0)),
     ("1/35 for 1/7", "a linear closure with 1/35 for 1/7", |c| {
         c.closure = |a, at| linear_by(a, at, 1.0 / 35.0, -1.0 / 35.0);
     }),

@@ -152,9 +152,7 @@ fn the_table_of_problems_has_each_once_with_its_tolerance() {
     let rows: Vec<Vec<&str>> = table.lines().skip(2).map(|row| row.split(" | ").collect()).collect();
     let is_named = |cell: &str, name: &str| {
         let patterns = cell.split('`').skip(1).step_by(2);
-        patterns
-            .map(|pattern| pattern.split_once('*').map_or(pattern == name, |(begin, _)| name.starts_with(begin)))
-            .any(|is| is)
+        patterns.any(|pattern| pattern.split_once('*').map_or(pattern == name, |(begin, _)| name.starts_with(begin)))
     };
     const COMMAND: &str = "shearbed problems export r --quiet; grep -m1 '\"tolerance\"' r/*/problem.json";
     let exported = printed(COMMAND);

@@ -221,7 +221,7 @@ pub struct Stand {
 pub const WITH_OTHERS: usize = 24;
 
 /// Every closure, right and wrong ones.
-pub const CLOSURES: [Stand; 30] = [
+pub const CLOSURES: [Stand; 34] = [
     Stand { name: "the linear closure", fourth: linear },
     Stand { name: "the quadratic closure", fourth: quadratic },
     Stand { name: "the hybrid closure", fourth: |a| Closure::Hybrid.fourth(a) },
@@ -263,8 +263,12 @@ pub const CLOSURES: [Stand; 30] = [
     },
     Stand { name: "a hybrid closure with f = 2 a:a − 1", fourth: |a| mixed(a, 2.0 * a.dot(a) - 1.0, linear) },
     Stand { name: "a linear closure without its term of 1/7", fourth: |a| linear_by(a, f64::INFINITY, 35.0) },
+    Stand { name: "a linear closure with 1 for 1/7", fourth: |a| linear_by(a, 1.0, 35.0) },
     Stand { name: "a linear closure with 1/35 for 1/7", fourth: |a| linear_by(a, 35.0, 35.0) },
     Stand { name: "a linear closure with 1/7 for 1/35", fourth: |a| linear_by(a, 7.0, 7.0) },
+    Stand { name: "a hybrid closure with 1 for 1/7", fourth: |a| mixed(a, hybrid(a), |a| linear_by(a, 1.0, 35.0)) },
+    Stand { name: "a hybrid closure with 1/35 for 1/7", fourth: |a| mixed(a, hybrid(a), |a| linear_by(a, 35.0, 35.0)) },
+    Stand { name: "a hybrid closure with 1/7 for 1/35", fourth: |a| mixed(a, hybrid(a), |a| linear_by(a, 7.0, 7.0)) },
     Stand {
         name: "a hybrid closure f (quadratic + (1 − f) linear)",
         fourth: |a| Fourth((quadratic(a).0 + linear(a).0 * (1.0 - hybrid(a))) * hybrid(a)),

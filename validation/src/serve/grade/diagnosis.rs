@@ -57,7 +57,7 @@ fn named(loaded: &LoadedProblem, answer: &Answer, error: f64, steps: Option<u64>
                 .collect();
             // In plane Couette flow alone, other axes are a transposed gradient; all problems together tell.
             let (axes, others): (Vec<_>, Vec<_>) = near.into_iter().partition(|near| near.name.starts_with(AXES));
-            let also: Vec<_> = axes.iter().map(|near| near.suspect.clone()).collect();
+            let also: Vec<_> = axes.iter().flat_map(|near| near.suspects.clone()).collect();
             let mut found = said(CURVE, if others.is_empty() { axes } else { others }, tolerance, "");
             found.suspects.extend(also);
             if found.suspects.is_empty() && loaded.problem.kind == Kind::Rods {

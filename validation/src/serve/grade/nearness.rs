@@ -49,8 +49,8 @@ pub(super) struct Near {
     pub(super) distance: f64,
     /// The name, to stand after "this is the curve of".
     pub(super) name: String,
-    /// The name of the mistake alone, which other problems may share.
-    pub(super) suspect: String,
+    /// Names of the mistake alone, which other problems may share.
+    pub(super) suspects: Vec<String>,
     pub(super) advice: &'static str,
     /// The number of differences from what is asked.
     pub(super) changes: u8,
@@ -58,7 +58,7 @@ pub(super) struct Near {
 
 impl Near {
     pub(super) fn new(distance: f64, name: &str) -> Self {
-        Self { distance, name: name.to_owned(), suspect: name.to_owned(), advice: "", changes: 1 }
+        Self { distance, name: name.to_owned(), suspects: vec![name.to_owned()], advice: "", changes: 1 }
     }
 }
 
@@ -81,7 +81,7 @@ pub(super) fn said(what: &str, mut near: Vec<Near>, tolerance: f64, rest: &str) 
     let advice = if shared { format!("; {advice}") } else { String::new() };
     let said = format!("{what} of {}, to {nearest:.0e}{rest}{advice}", names.join(" or of "));
     let said = (names.len() <= MOST_NAMES).then_some(said);
-    let mut suspects: Vec<_> = near.into_iter().map(|near| near.suspect).collect();
+    let mut suspects: Vec<_> = near.into_iter().flat_map(|near| near.suspects).collect();
     suspects.sort();
     suspects.dedup();
     Diagnosis { said, suspects }

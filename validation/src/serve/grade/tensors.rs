@@ -144,7 +144,7 @@ fn near_of(name: &str, advice: &'static str, closure: usize, own: Option<usize>)
         (_, false) => (name.to_owned(), name),
     };
     let changes = u8::from(other) + u8::from(suspect != of_closure);
-    Near { distance: 0.0, suspect: suspect.to_owned(), name, advice, changes }
+    Near { distance: 0.0, suspects: vec![suspect.to_owned()], name, advice, changes }
 }
 
 /// The index in [`CLOSURES`], which begins with all right ones.
@@ -335,8 +335,8 @@ fn in_other_layouts(curves: &[(Near, Vec<Vec<f64>>)], answer: &Answer, most: f64
             } else {
                 format!("{}, in {}", near.name, layout.name)
             };
-            let (suspect, advice) = (layout.name.to_owned(), layout.advice);
-            (distance <= most).then(|| Near { distance, name, suspect, advice, changes: near.changes + 1 })
+            let (suspects, advice) = (vec![layout.name.to_owned()], layout.advice);
+            (distance <= most).then(|| Near { distance, name, suspects, advice, changes: near.changes + 1 })
         });
         Some(near.collect::<Vec<_>>())
     };
@@ -346,7 +346,7 @@ fn in_other_layouts(curves: &[(Near, Vec<Vec<f64>>)], answer: &Answer, most: f64
 /// The certified values, as a curve without a name.
 fn certified(loaded: &LoadedProblem) -> (Near, Vec<Vec<f64>>) {
     let keys = loaded.problem.kind.keys().len();
-    let none = Near { distance: 0.0, name: String::new(), suspect: String::new(), advice: "", changes: 0 };
+    let none = Near { distance: 0.0, name: String::new(), suspects: Vec::new(), advice: "", changes: 0 };
     (none, loaded.certified.rows.iter().map(|row| row[keys..].to_vec()).collect())
 }
 

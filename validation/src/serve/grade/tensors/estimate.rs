@@ -38,9 +38,14 @@ pub(super) fn near(quantity: &str, factor: f64, model: Model, closure: usize, ow
         Model::PhelpsTucker { .. } => None,
         model => model.parameters().first().copied().filter(|_| quantity == "C_I"),
     };
-    let near = near_of(&words, "", closure, own);
-    let shown = c_i.map_or_else(|| words.clone(), |c_i| format!("{words} ({:.4} for {c_i})", factor * c_i));
-    Near { name: near.name.replacen(&words, &shown, 1), ..near }
+    let mut near = near_of(&words, "", closure, own);
+    if let Some(c_i) = c_i {
+        let value = factor * c_i;
+        near.name = near.name.replacen(&words, &format!("{words} ({value:.4} for {c_i})"), 1);
+        // One number in every problem, to the digits that a code has it with.
+        near.suspects.push(format!("C_I = {} in every problem", format!("{value:.6e}").parse().unwrap_or(value)));
+    }
+    near
 }
 
 /// The curves of equations with another C_I or Λ, found at the first time, that fit at all times.
@@ -131,5 +136,5 @@ fn a_factor_has_the_digits_that_tell_it_from_1() {
     assert_eq!(words("C_I", f64::from(0.01f32) / 0.01), "C_I times 0.9999999776 (single precision?)");
     let near = near("C_I", 0.73, Model::FolgarTucker { c_i: 0.1 }, 1, Some(0));
     assert_eq!(near.name, "C_I times 0.7300 (0.0730 for 0.1), with the quadratic closure");
-    assert_eq!(near.suspect, "C_I times 0.7300");
+    assert_eq!(near.suspects, ["C_I times 0.7300", "C_I = 0.073 in every problem"]);
 }
