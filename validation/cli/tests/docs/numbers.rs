@@ -151,7 +151,7 @@ fn the_table_of_problems_has_each_once_with_its_tolerance() {
     let table = page.split_once("| problems | asked |").unwrap().1.split("\n\n").next().unwrap();
     let rows: Vec<Vec<&str>> = table.lines().skip(2).map(|row| row.split(" | ").collect()).collect();
     let is_named = |cell: &str, name: &str| {
-        let patterns = cell.split('`').skip(1).step_by(2);
+        let mut patterns = cell.split('`').skip(1).step_by(2);
         patterns.any(|pattern| pattern.split_once('*').map_or(pattern == name, |(begin, _)| name.starts_with(begin)))
     };
     const COMMAND: &str = "shearbed problems export r --quiet; grep -m1 '\"tolerance\"' r/*/problem.json";
