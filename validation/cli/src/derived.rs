@@ -115,7 +115,12 @@ pub(super) fn summary(time_name: &str, all: &[OfChannel]) -> String {
     for (column, derived) in all.iter().filter(|(column, _)| tables::is_bounded(&column.name)) {
         let decays = |rate: &Estimate| rate.value.abs() > 3.0 * rate.se.unwrap_or(0.0) && rate.value.abs() > 1e-3;
         let rate = derived.damping_rate.filter(decays);
-        let rate = rate.map(|rate| format!("amplitude ∝ exp(−λt), λ = {} per {unit}", number(rate, 3)));
+        let law = if derived.is_exponential {
+            "amplitude ∝ exp(−λt)"
+        } else {
+            "amplitude not ∝ exp(−λt), on average"
+        };
+        let rate = rate.map(|rate| format!("{law}, λ = {} per {unit}", number(rate, 3)));
         let steady = derived.steady.filter(|_| column.se.iter().any(|se| *se > 0.0)).map(|steady| {
             let from = (steady.from * 1e3).round() / 1e3;
             format!("steady from {from} on at {}", number(steady.value, 4))

@@ -3,7 +3,7 @@
 use super::facts::Facts;
 use super::scene::{Chosen, Ensemble, Named};
 use super::until::{LEAST, Until};
-use super::{Failure, Threads, duration, memory, print, sweep};
+use super::{Failure, Threads, duration, memory, print, scene, sweep};
 use shearbed::Plan;
 use shearbed_validation::files::text::{left_aligned, line};
 use shearbed_validation::input::{scene_keys, scenes};
@@ -92,16 +92,17 @@ pub(super) fn plan(args: &PlanArgs) -> Result<(), Failure> {
         let (replicas, text) = piloted.unwrap_or_else(|| (LEAST, args.until.planned()));
         (plan.with_replicas(replicas), text)
     };
-    // The plan's text ends with its warnings, which are printed last here.
+    // The plan's text ends with its warnings, which go where those of `run` go.
     let warnings: String = plan.warnings().iter().map(|warning| format!("warning: {warning}\n")).collect();
     let text = plan.to_string();
     let stages = text.strip_suffix(&warnings).unwrap_or(&text);
     print(&format!(
-        "{stages}{}{}{}{of_keys}{warnings}",
+        "{stages}{}{}{}{of_keys}",
         Facts::of(&plan).text(),
         duration::of_scene(&plan, each_s, args.threads.given),
         replicas
     ))?;
+    scene::warn(&named.source, &plan.warnings());
     fits
 }
 

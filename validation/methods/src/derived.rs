@@ -5,7 +5,7 @@
 mod tests;
 
 use shearbed::run::ensemble::{Column, group_sizes};
-use statrs::distribution::{ContinuousCDF, Normal, StudentsT};
+use statrs::distribution::{ChiSquared, ContinuousCDF, Normal, StudentsT};
 use std::ops::RangeInclusive;
 
 /// A value and its standard error: `None` for a single replica, or if the value is undefined without one of the groups.
@@ -49,6 +49,8 @@ pub struct Derived {
     /// The rate λ of A ∝ e^(−λt) for the amplitudes A, in 1 over the unit of time: the slope of ln A, weighted by the
     /// relative errors. `None` for fewer than three maxima between two minima.
     pub damping_rate: Option<Estimate>,
+    /// False if ln A is off a straight line by more than the errors of A explain (χ², with the probability 0.01).
+    pub is_exponential: bool,
     /// `None` if the mean still changes in the last quarter of the run, and for two to seven replicas.
     pub steady: Option<Steady>,
 }
@@ -60,7 +62,8 @@ impl Derived {
         let turns = mean.turns();
         let extremes: Vec<_> = (0..turns.len()).filter_map(|k| mean.extreme(&turns, k)).collect();
         let damping_rate = mean.damping_rate(&turns, &extremes);
-        Self { extremes, damping_rate, steady: mean.steady() }
+        let is_exponential = damping_rate.is_none_or(|rate| is_exponential(rate.value, &extremes));
+        Self { extremes, damping_rate, is_exponential, steady: mean.steady() }
     }
 }
 
@@ -173,9 +176,7 @@ impl Mean<'_> {
     }
 
     fn damping_rate(&self, turns: &[Turn], extremes: &[Extreme]) -> Option<Estimate> {
-        // The first and the last may have one minimum, which is not half-way between two.
-        let inner = 1..extremes.len().saturating_sub(1);
-        let maxima: Vec<_> = inner.filter(|k| extremes[*k].amplitude.is_some()).collect();
+        let maxima: Vec<_> = between_minima(extremes).collect();
         // A relative error of 0, as of one rod, would have all the weight.
         let weight = |amplitude: Estimate| amplitude.se.map_or(1.0, |se| (amplitude.value / se).powi(2)).min(1e12);
         let weights: Vec<f64> = maxima.iter().filter_map(|k| extremes[*k].amplitude).map(weight).collect();
@@ -222,6 +223,28 @@ impl Mean<'_> {
         let area = |k: usize| (times[k + 1] - times[k]) * (mean[k + 1] + mean[k]) / 2.0;
         if times.len() < 2 { mean[0] } else { (0..times.len() - 1).map(area).sum::<f64>() / (last - first) }
     }
+}
+
+/// The indices of the maxima between two minima: the first and the last may have one, which is not half-way.
+fn between_minima(extremes: &[Extreme]) -> impl Iterator<Item = usize> {
+    (1..extremes.len().saturating_sub(1)).filter(|k| extremes[*k].amplitude.is_some())
+}
+
+/// The relative error of an amplitude that peaks between outputs may cause.
+const PEAK: f64 = 0.01;
+
+/// True if the amplitudes fall by e^(−λt) to within their errors, so far as these are known.
+fn is_exponential(rate: f64, extremes: &[Extreme]) -> bool {
+    let point = |k: usize| {
+        let Estimate { value, se } = extremes[k].amplitude?;
+        Some((value.ln() + rate * extremes[k].time.value, 1.0 / ((se? / value).powi(2) + PEAK * PEAK)))
+    };
+    let Some(points) = between_minima(extremes).map(point).collect::<Option<Vec<_>>>() else { return true };
+    let all: f64 = points.iter().map(|(_, weight)| weight).sum();
+    let level = points.iter().map(|(log, weight)| weight * log).sum::<f64>() / all;
+    let square: f64 = points.iter().map(|(log, weight)| weight * (log - level).powi(2)).sum();
+    let freedom = points.len().saturating_sub(2).max(1) as f64;
+    ChiSquared::new(freedom).is_ok_and(|law| !square.is_finite() || law.sf(square) >= BY_CHANCE)
 }
 
 /// The standard error of a value from its values without one group of replicas each, for groups of unequal sizes

@@ -43,10 +43,27 @@ fn damped(replicas: usize, seed: u64, scatter: f64) -> Vec<Vec<f64>> {
     (0..replicas).map(|_| curve()).collect()
 }
 
+/// A rate of replicas that differ is one of amplitudes that fall by e^(−0.4t), and none of such as fall by e^(−0.1t²).
+#[test]
+fn amplitudes_that_fall_otherwise_have_no_single_rate() {
+    let exponential = |bends: bool| {
+        let curves = (1..=20).map(|seed| {
+            let mut curves = damped(32, seed, 0.05);
+            let bend = |(value, t): (&mut f64, f64)| *value = 0.3 + (*value - 0.3) * (0.4 * t - 0.1 * t * t).exp();
+            curves.iter_mut().filter(|_| bends).for_each(|curve| curve.iter_mut().zip(times()).for_each(bend));
+            Derived::new(&times(), &column(&curves), 32).is_exponential
+        });
+        curves.filter(|is| *is).count()
+    };
+    assert_eq!([false, true].map(exponential), [20, 0]);
+}
+
 /// The extremes of 0.3 + 0.2 e^(−0.4t) cos 4πt lie where tan 4πt = −0.4/4π.
 #[test]
 fn a_damped_oscillation_has_its_extremes_amplitudes_and_rate() {
-    let Derived { extremes, damping_rate, steady } = Derived::new(&times(), &column(&damped(1, 1, 0.0)), 1);
+    let Derived { extremes, damping_rate, is_exponential, steady } =
+        Derived::new(&times(), &column(&damped(1, 1, 0.0)), 1);
+    assert!(is_exponential);
     let late = (0.4 / (2.0 * TAU)).atan() / (2.0 * TAU);
     assert_eq!(extremes.len(), 17);
     for (k, extreme) in extremes.iter().enumerate() {

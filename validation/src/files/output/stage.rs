@@ -141,17 +141,15 @@ pub(super) fn report(dir: &Dir, path: &Path) {
         let random = name
             .strip_prefix(PREFIX)
             .is_some_and(|random| random.len() == 16 && random.bytes().all(|digit| digit.is_ascii_hexdigit()));
-        let left = || {
-            dir.symlink_metadata(&name).is_ok_and(|found| found.is_dir())
-                && dir.open_dir(&name).is_ok_and(|left| lock(&left, Duration::ZERO).is_ok())
+        // A process at work locks its folder before it writes to it: an empty one may be about to be locked.
+        let is_left = || {
+            let left = dir.open_dir(&name)?;
+            let _lock = lock(&left, Duration::ZERO)?;
+            Ok::<_, io::Error>(left.entries()?.next().is_some())
         };
+        let is_dir = random && dir.symlink_metadata(&name).is_ok_and(|found| found.is_dir());
         let left_over = path.join(&name);
-        // Twice: a process at work may be about to lock it.
-        let is_left = random && left() && {
-            sleep(Duration::from_millis(20));
-            left()
-        };
-        if is_left && held(&SAID).insert(left_over.clone()) {
+        if is_dir && is_left().unwrap_or(false) && held(&SAID).insert(left_over.clone()) {
             complain(&format!(
                 "warning: {}: a shearbed that was killed left this folder of unfinished files; remove it\n",
                 left_over.shown()
