@@ -118,7 +118,7 @@ pub(super) fn summary(time_name: &str, all: &[OfChannel]) -> String {
         let law = if derived.is_exponential {
             "amplitude ∝ exp(−λt)"
         } else {
-            "amplitude not ∝ exp(−λt), on average"
+            "amplitude falls at no one rate, on average by exp(−λt)"
         };
         let rate = rate.map(|rate| format!("{law}, λ = {} per {unit}", number(rate, 3)));
         let steady = derived.steady.filter(|_| column.se.iter().any(|se| *se > 0.0)).map(|steady| {
