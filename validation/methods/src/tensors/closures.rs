@@ -68,7 +68,7 @@ impl Closure {
         match self {
             Self::Linear => linear(a),
             Self::Quadratic => quadratic(a),
-            Self::Hybrid => mixed(a, 1.0 - 27.0 * a.determinant(), linear),
+            Self::Hybrid => mixed(a, aligned(a), linear),
             Self::Natural => natural::fourth(a),
             Self::Ore => orthotropic::ore(a),
             Self::Orw => orthotropic::orw(a),
@@ -97,6 +97,11 @@ pub(super) fn linear_by(a: &Matrix3<f64>, seven: f64, thirty_five: f64) -> Fourt
             + a[(j, k)] * delta(i, l);
         mixed / seven - ones / thirty_five
     })
+}
+
+/// The f of the hybrid closure: 0 for random rods, 1 for aligned ones.
+pub(super) fn aligned(a: &Matrix3<f64>) -> f64 {
+    1.0 - 27.0 * a.determinant()
 }
 
 /// f times the quadratic closure and 1 − f times another one.

@@ -1,6 +1,6 @@
 //! Known mistakes in the rate of a_ij and in its closures: what a wrong code computes in place of each part.
 
-use super::closures::{linear, linear_by, mixed, quadratic};
+use super::closures::{aligned, linear, linear_by, mixed, quadratic};
 use super::{Closure, Fourth, Model, Parts, orthotropic, shear_rate};
 use nalgebra::Matrix3;
 
@@ -238,19 +238,19 @@ pub const CLOSURES: [Stand; 34] = [
     Stand { name: "a linear closure with + 1/35 for − 1/35", fourth: |a| linear_by(a, 7.0, -35.0) },
     Stand { name: "a linear closure without its term of 1/35", fourth: |a| linear_by(a, 7.0, f64::INFINITY) },
     Stand { name: "a linear closure with its 1/7 before both brackets", fourth: |a| linear_by(a, 7.0, 245.0) },
-    Stand { name: "a hybrid closure with f and 1 − f exchanged", fourth: |a| mixed(a, 1.0 - hybrid(a), linear) },
+    Stand { name: "a hybrid closure with f and 1 − f exchanged", fourth: |a| mixed(a, 1.0 - aligned(a), linear) },
     Stand { name: "a hybrid closure with f = (3 a:a − 1)/2", fourth: |a| mixed(a, 1.5 * a.dot(a) - 0.5, linear) },
     Stand {
         name: "a hybrid closure with + 1/35 for − 1/35",
-        fourth: |a| mixed(a, hybrid(a), |a| linear_by(a, 7.0, -35.0)),
+        fourth: |a| mixed(a, aligned(a), |a| linear_by(a, 7.0, -35.0)),
     },
-    Stand { name: "a hybrid closure with (1 + f) linear − f quadratic", fourth: |a| mixed(a, -hybrid(a), linear) },
+    Stand { name: "a hybrid closure with (1 + f) linear − f quadratic", fourth: |a| mixed(a, -aligned(a), linear) },
     Stand { name: "the linear closure of rods in a plane (1/6, − 1/24)", fourth: planar },
     Stand {
         name: "the hybrid closure of rods in a plane (1/6, − 1/24, f = 1 − 4(a_11 a_22 − a_12²))",
         fourth: |a| mixed(a, 1.0 - 4.0 * in_plane(a), planar),
     },
-    Stand { name: "a hybrid closure with 1/6 and − 1/24", fourth: |a| mixed(a, hybrid(a), planar) },
+    Stand { name: "a hybrid closure with 1/6 and − 1/24", fourth: |a| mixed(a, aligned(a), planar) },
     Stand {
         name: "a hybrid closure with f = 1 − 4(a_11 a_22 − a_12²)",
         fourth: |a| mixed(a, 1.0 - 4.0 * in_plane(a), linear),
@@ -266,21 +266,19 @@ pub const CLOSURES: [Stand; 34] = [
     Stand { name: "a linear closure with 1 for 1/7", fourth: |a| linear_by(a, 1.0, 35.0) },
     Stand { name: "a linear closure with 1/35 for 1/7", fourth: |a| linear_by(a, 35.0, 35.0) },
     Stand { name: "a linear closure with 1/7 for 1/35", fourth: |a| linear_by(a, 7.0, 7.0) },
-    Stand { name: "a hybrid closure with 1 for 1/7", fourth: |a| mixed(a, hybrid(a), |a| linear_by(a, 1.0, 35.0)) },
-    Stand { name: "a hybrid closure with 1/35 for 1/7", fourth: |a| mixed(a, hybrid(a), |a| linear_by(a, 35.0, 35.0)) },
-    Stand { name: "a hybrid closure with 1/7 for 1/35", fourth: |a| mixed(a, hybrid(a), |a| linear_by(a, 7.0, 7.0)) },
+    Stand { name: "a hybrid closure with 1 for 1/7", fourth: |a| mixed(a, aligned(a), |a| linear_by(a, 1.0, 35.0)) },
+    Stand {
+        name: "a hybrid closure with 1/35 for 1/7",
+        fourth: |a| mixed(a, aligned(a), |a| linear_by(a, 35.0, 35.0)),
+    },
+    Stand { name: "a hybrid closure with 1/7 for 1/35", fourth: |a| mixed(a, aligned(a), |a| linear_by(a, 7.0, 7.0)) },
     Stand {
         name: "a hybrid closure f (quadratic + (1 − f) linear)",
-        fourth: |a| Fourth((quadratic(a).0 + linear(a).0 * (1.0 - hybrid(a))) * hybrid(a)),
+        fourth: |a| Fourth((quadratic(a).0 + linear(a).0 * (1.0 - aligned(a))) * aligned(a)),
     },
-    Stand { name: "a hybrid closure with f = 1 + 27 det a", fourth: |a| mixed(a, 2.0 - hybrid(a), linear) },
-    Stand { name: "a hybrid closure with f² for f", fourth: |a| mixed(a, hybrid(a).powi(2), linear) },
+    Stand { name: "a hybrid closure with f = 1 + 27 det a", fourth: |a| mixed(a, 2.0 - aligned(a), linear) },
+    Stand { name: "a hybrid closure with f² for f", fourth: |a| mixed(a, aligned(a).powi(2), linear) },
 ];
-
-/// f of the hybrid closure.
-fn hybrid(a: &Matrix3<f64>) -> f64 {
-    1.0 - 27.0 * a.determinant()
-}
 
 /// The linear closure with the numbers of rods in a plane.
 fn planar(a: &Matrix3<f64>) -> Fourth {

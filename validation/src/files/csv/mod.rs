@@ -20,6 +20,11 @@ pub fn number(text: &str) -> Option<f64> {
     text.parse().ok().or_else(|| text.replace(['D', 'd'], "e").parse().ok())
 }
 
+/// The same, with a decimal point or a decimal comma.
+pub fn number_with_comma(text: &str) -> Option<f64> {
+    number(text).or_else(|| number(&text.replace(',', ".")))
+}
+
 /// The message that a cell is not allowed.
 pub fn not_allowed(column: &str, cell: &str, expected: &str) -> String {
     const MOST: usize = 40;
@@ -138,7 +143,7 @@ const EMPTY: &str = "the file is empty";
 /// What separates the cells of a file with this first line: commas in it beside semicolons or tabs are those of
 /// numbers.
 fn separator(first: &str) -> char {
-    let is_number = |cell: &str| number(&cell.trim().replace(',', ".")).is_some();
+    let is_number = |cell: &str| number_with_comma(cell.trim()).is_some();
     let other = |separator: &char| {
         first.contains(*separator) && (!first.contains(',') || first.split(*separator).all(is_number))
     };

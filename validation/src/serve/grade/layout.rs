@@ -191,7 +191,7 @@ fn fields(names: &[&str], problem: &Problem, axes: Axes) -> Result<Vec<Field>, (
 /// error.
 pub(super) fn number(field: &str) -> Result<f64, String> {
     // Where commas separate no fields, one is a decimal comma.
-    match csv::number(field).or_else(|| csv::number(&field.replacen(',', ".", 1))) {
+    match csv::number_with_comma(field) {
         Some(value) if value.is_infinite() && field.contains(|c: char| c.is_ascii_digit()) => {
             Err(format!("{field} is too large for a double"))
         }

@@ -194,17 +194,15 @@ fn climbed(
     };
     let ask = |setting: Setting| ask_of(problem, setting);
     let (rungs, mut end) = climb(problem, mode, program.timeout, claim.order, ask);
-    // Answers that do not settle may be random.
-    if let (End::Stays(_) | End::Wrong(_), Some(last)) = (&end, rungs.last())
-        && let random @ End::Jumps(_) = elsewhere::repeated(last, of.tolerance, program.timeout, ask)
-    {
-        end = random;
-    }
     if matches!(end, End::Reached) {
         end = jumps::judged(&rungs, of.tolerance, fewest(&of.times_s), ask);
     }
-    if let (End::Reached, Some(passed)) = (&end, rungs.last()) {
-        end = elsewhere::repeated(passed, of.tolerance, program.timeout, ask);
+    // Answers that do not settle may be random.
+    if let (End::Reached | End::Stays(_) | End::Wrong(_), Some(last)) = (&end, rungs.last()) {
+        let again = elsewhere::repeated(last, of.tolerance, program.timeout, ask);
+        if matches!((&end, &again), (End::Reached, _) | (_, End::Jumps(_))) {
+            end = again;
+        }
     }
     for other in &others {
         if let (End::Reached, Some(passed)) = (&end, rungs.last()) {

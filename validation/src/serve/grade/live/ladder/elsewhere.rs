@@ -44,7 +44,7 @@ pub(super) fn others(problem: &LoadedProblem) -> Vec<LoadedProblem> {
     chosen.into_iter().map(|time| at(0, time + 1)).collect()
 }
 
-/// The end of a program that passes with `passed` and is asked the same again, if it has time to: a right one gives the
+/// The end of a program that has given `passed` and is asked the same again, if it has time to: a right one gives the
 /// same answer but for rounding.
 pub(super) fn repeated(
     passed: &Rung,
