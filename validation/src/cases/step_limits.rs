@@ -6,7 +6,7 @@ use self::in_p::{at_least, frozen, near_a_sphere};
 use super::integrators::Integrators;
 use super::integrators::{in_angles, in_p};
 use super::*;
-use crate::methods::integrators::limits::{LENGTHS, Limit, ONE_STEP, Property, bisect, holds};
+use crate::methods::integrators::limits::{Limit, Property, longest};
 use crate::methods::integrators::*;
 use crate::studies::stability::theory;
 
@@ -157,14 +157,20 @@ pub fn cases() -> Vec<Case> {
             .under_test((|| named("RK4 in p")) as Integrators)
             .mistake("projected", || named("projected RK4 in p"))
             .mistake("in angles", RK4_IN_ANGLES)
-            .mistake("steps of half the length", || {
-                in_p(4, false, |problem, p, h| {
-                    let f = |y| problem.rate(&y);
-                    rk4(f, rk4(f, p, 0.5 * h), 0.5 * h)
-                })
-            })
+            .mistake("steps of a third of the length", thirds)
             .check(frozen),
     ]
+}
+
+/// RK4 in p by three steps for each.
+fn thirds() -> Vec<Integrator> {
+    let third = |rk4: Integrator| {
+        let order = rk4.theory;
+        Integrator::new("in p", order, |_, _, _| Err(Failure::NotFinite)).with_many(move |problem, starts, setting| {
+            rk4.advance_all(problem, starts, Setting::Steps(3 * setting.steps()?))
+        })
+    };
+    named("RK4 in p").into_iter().map(third).collect()
 }
 
 /// The implicit midpoint rule, stopped after two iterations.
@@ -187,7 +193,7 @@ fn agrees(claimed: &Claimed, _: &Effort) -> Vec<Evidence> {
     let judged = |integrator: Integrator| {
         let off = RATIOS.map(|r| {
             let expected = (claimed.theory)(r);
-            match bisect(ONE_STEP, |h| holds(&integrator, claimed.property, r, h)) {
+            match longest(&integrator, claimed.property, r) {
                 Limit::At(strain) => (strain / expected - 1.0).abs(),
                 Limit::Beyond(strain) if expected > strain => 0.0,
                 Limit::Beyond(_) | Limit::Below(_) => f64::INFINITY,

@@ -16,10 +16,10 @@ pub enum Property {
     Turning,
     /// No rod crosses the plane of shear within a step: p_3 keeps its sign.
     Side,
-    /// |p| < 1.5 after ten periods, from 45 directions in the plane of shear: the limit found is an upper bound.
+    /// |p| < 1.5 after ten periods, from directions in the plane of shear: the limit found is an upper bound.
     Length,
-    /// C_b is within 0.1 of its start after ten periods, from eight directions 1 rad off the vorticity axis; the limit
-    /// found is an upper bound too.
+    /// C_b is within 0.1 of its start after ten periods, from directions 1 rad off the vorticity axis; the limit found
+    /// is an upper bound too.
     Orbit,
     /// The step can be taken at all, from every direction.
     Solvable,
@@ -49,14 +49,16 @@ pub struct Ladder {
 }
 
 /// The steps GΔt for properties of a single step.
-pub const ONE_STEP: Ladder = Ladder { least: 0.1, most: 1e3, factor: 1.1 };
+const ONE_STEP: Ladder = Ladder { least: 0.1, most: 1e3, factor: 1.1 };
 
-/// The steps GΔt for properties of ten periods.
-pub const TEN_PERIODS: Ladder = Ladder { least: 0.02, most: 20.0, factor: 1.25 };
+/// The steps GΔt for the orbit after ten periods, and from how many directions: first few, then many from half the step
+/// that is lost with the few, as some rods lose it before others, in narrow bands of steps.
+const ORBITS: [(Ladder, u32); 2] =
+    [(Ladder { least: 0.02, most: 20.0, factor: 1.25 }, 8), (Ladder { factor: 1.02, ..ONE_STEP }, 16)];
 
-/// The steps GΔt for the length after ten periods, which some rods lose long before others, in bands of steps narrower
-/// than its gaps: without them the search would take minutes.
-pub const LENGTHS: Ladder = Ladder { least: 0.5, most: 20.0, factor: 1.05 };
+/// The same for the length. A method that keeps |p| is searched with the few alone.
+const LENGTHS: [(Ladder, u32); 2] =
+    [(Ladder { least: 0.5, most: 20.0, factor: 1.05 }, 45), (Ladder { factor: 1.002, ..ONE_STEP }, 180)];
 
 /// The number of periods after which length and orbit are judged.
 pub const PERIODS: f64 = 10.0;
@@ -69,9 +71,38 @@ const RODS: u32 = 512;
 /// Number of rods that are stepped at once.
 const PART: u32 = 64;
 
+/// The longest step GΔt with which an integrator keeps a property at this aspect ratio.
+pub fn longest(integrator: &Integrator, property: Property, aspect_ratio: f64) -> Limit {
+    let search = |ladder, count| bisect(ladder, |strain| holds(integrator, property, aspect_ratio, strain, count));
+    let [(ladder, few), (finer, many)] = match property {
+        Property::Length => LENGTHS,
+        Property::Orbit => ORBITS,
+        _ => return search(ONE_STEP, RODS),
+    };
+    match search(ladder, few) {
+        Limit::At(strain) if property == Property::Orbit || !integrator.keeps_length => {
+            match search(Ladder { least: 0.5 * strain, most: strain, ..finer }, many) {
+                Limit::Beyond(_) => Limit::At(strain),
+                earlier => earlier,
+            }
+        }
+        limit => limit,
+    }
+}
+
+/// The same on a ladder of one's own, from few directions: for programs that are slow to ask.
+pub fn longest_on(ladder: Ladder, integrator: &Integrator, property: Property, aspect_ratio: f64) -> Limit {
+    let count = match property {
+        Property::Length => LENGTHS[0].1,
+        Property::Orbit => ORBITS[0].1,
+        _ => RODS,
+    };
+    bisect(ladder, |strain| holds(integrator, property, aspect_ratio, strain, count))
+}
+
 /// The longest step up to which `holds` is true on the ladder, refined by bisection between the last rung where it is
 /// true and the first where it is false.
-pub fn bisect(ladder: Ladder, holds: impl Fn(f64) -> bool) -> Limit {
+fn bisect(ladder: Ladder, holds: impl Fn(f64) -> bool) -> Limit {
     let mut good = ladder.least;
     if !holds(good) {
         return Limit::Below(good);
@@ -93,10 +124,10 @@ pub fn bisect(ladder: Ladder, holds: impl Fn(f64) -> bool) -> Limit {
     }
 }
 
-/// True if an integrator keeps a property with steps of GΔt = `strain` at this aspect ratio.
-pub fn holds(integrator: &Integrator, property: Property, aspect_ratio: f64, strain: f64) -> bool {
+/// True if an integrator keeps a property with steps of GΔt = `strain` at this aspect ratio, from `count` directions.
+fn holds(integrator: &Integrator, property: Property, aspect_ratio: f64, strain: f64, count: u32) -> bool {
     let stepped = |p3: f64, more: u32| {
-        let parts = (0..RODS).step_by(PART as usize);
+        let parts = (0..count).step_by(PART as usize);
         parts.map(move |first| near_plane(integrator, aspect_ratio, strain, p3, first..first + PART + more))
     };
     match property {
@@ -107,12 +138,12 @@ pub fn holds(integrator: &Integrator, property: Property, aspect_ratio: f64, str
         Property::Turning => stepped(0.0, 0).all(|rods| rods.iter().all(|(before, after)| forward(before, after))),
         Property::Side => stepped(NEAR_PLANE, 0).all(|rods| rods.iter().all(|(_, after)| after.z > 0.0)),
         Property::Length => {
-            let starts: Vec<_> = directions(45, 0.5 * PI).collect();
+            let starts: Vec<_> = directions(count, 0.5 * PI).collect();
             ten_periods(integrator, aspect_ratio, strain, &starts)
                 .is_ok_and(|(_, ends)| ends.iter().all(|end| end.norm() < 1.5))
         }
         Property::Orbit => {
-            let starts: Vec<_> = directions(8, 1.0).collect();
+            let starts: Vec<_> = directions(count, 1.0).collect();
             ten_periods(integrator, aspect_ratio, strain, &starts).is_ok_and(|(problem, ends)| {
                 let mut rods = starts.iter().zip(&ends);
                 rods.all(|(start, end)| Errors::of(end, &problem, start).orbit_constant < 0.1)
@@ -187,19 +218,33 @@ fn ten_periods(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::integrators::own;
+    use crate::integrators::{own, rk4};
 
     #[test]
-    fn more_directions_lose_the_length_at_shorter_steps() {
+    fn few_directions_find_the_length_lost_late() {
         let all = own();
-        let rk4 = all.iter().find(|integrator| integrator.name == "RK4 in p").unwrap();
-        let keeps = |count: u32, strain: f64| {
-            let starts: Vec<_> = directions(count, 0.5 * PI).collect();
-            ten_periods(rk4, 11.6, strain, &starts).is_ok_and(|(_, ends)| ends.iter().all(|end| end.norm() < 1.5))
+        let rk4_in_p = all.iter().find(|integrator| integrator.name == "RK4 in p").unwrap();
+        let keeps = |strain, count| holds(rk4_in_p, Property::Length, 11.6, strain, count);
+        assert!(keeps(1.184, 45) && !keeps(1.184, 720) && keeps(0.592, 720));
+        let (Limit::At(few), Limit::At(many)) =
+            (longest_on(LENGTHS[0].0, rk4_in_p, Property::Length, 11.6), longest(rk4_in_p, Property::Length, 11.6))
+        else {
+            panic!("no limit");
         };
-        // What the caption of the report's table says.
-        assert!(keeps(45, 1.184) && !keeps(720, 1.184));
-        // Control: half the step keeps it from all of them.
-        assert!(keeps(720, 0.592));
+        assert!(many < 0.85 * few, "{many} {few}");
+    }
+
+    #[test]
+    fn rods_abreast_take_the_steps_of_one() {
+        let step = |problem: &RodProblem, p, h| rk4(|y| problem.rate(&y), p, h);
+        let integrator = Integrator::in_p("RK4", 4, step);
+        let starts: Vec<_> = directions(11, 1.0).collect();
+        let problem = RodProblem::new(5.0, 1.3);
+        let together = integrator.advance_all(&problem, &starts, Setting::Steps(100)).unwrap();
+        for (start, end) in starts.iter().zip(together) {
+            assert_eq!(integrator.advance(&problem, start, Setting::Steps(100)).unwrap(), end);
+        }
+        let too_long = RodProblem::new(1.5, 1e3);
+        assert!(integrator.advance_all(&too_long, &starts, Setting::Steps(100)).is_err());
     }
 }

@@ -9,7 +9,7 @@ pub(super) fn at_least(integrators: &Integrators, _: &Effort) -> Vec<Evidence> {
         let Theory::Order(order) = integrator.theory else {
             continue;
         };
-        let longest = RATIOS.map(|r| match bisect(ONE_STEP, |h| holds(&integrator, Property::Order, r, h)) {
+        let longest = RATIOS.map(|r| match longest(&integrator, Property::Order, r) {
             Limit::At(strain) => strain,
             _ => f64::NAN,
         });
@@ -48,9 +48,8 @@ pub(super) fn near_a_sphere(integrators: &Integrators, _: &Effort) -> Vec<[Evide
         _ => 1.0,
     };
     let judged = |integrator: Integrator| {
-        let longest = |property, ladder| bisect(ladder, |h| holds(&integrator, property, r, h));
-        let turning = off(longest(Property::Turning, ONE_STEP), theory::rk4_turning_of_a_sphere());
-        let length = off(longest(Property::Length, LENGTHS), theory::rk4_length_of_a_sphere());
+        let turning = off(longest(&integrator, Property::Turning, r), theory::rk4_turning_of_a_sphere());
+        let length = off(longest(&integrator, Property::Length, r), theory::rk4_length_of_a_sphere());
         [
             Evidence::on("relative difference of the longest turning step and 2√6", "–").within(turning, 2e-5).because(
                 "rates of rods of r_e = 1 + 10⁻⁵ differ by Λ = 10⁻⁵, and of 512 rods one is within δ = π/1024 of the \
@@ -68,10 +67,9 @@ pub(super) fn near_a_sphere(integrators: &Integrators, _: &Effort) -> Vec<[Evide
 }
 
 pub(super) fn frozen(integrators: &Integrators, _: &Effort) -> Evidence {
-    let ladder = crate::methods::integrators::limits::Ladder { least: 1.0, ..LENGTHS };
     let all = integrators();
     let shares = pairs(&all, [1.5, 2.0, 3.0, 11.6, 100.0]).map(|(integrator, r)| {
-        match bisect(ladder, |h| holds(integrator, Property::Length, r, h)) {
+        match longest(integrator, Property::Length, r) {
             Limit::At(strain) => strain / (2.785 * theory::euler_order(r)),
             _ => f64::INFINITY,
         }

@@ -4,7 +4,7 @@
 use super::bench::{self, Bench};
 use super::path::{Along, path};
 use super::program::Program;
-use crate::methods::integrators::limits::{Ladder, Limit, Property, bisect, holds};
+use crate::methods::integrators::limits::{Ladder, Limit, Property, longest_on};
 use crate::methods::integrators::{Setting, Theory};
 use crate::present::table::{ReportTable, of_words};
 use crate::studies::stability::map;
@@ -76,7 +76,7 @@ fn limits(program: &Program) -> Vec<Longest> {
     let of = |property: Property, aspect_ratio: f64| Longest {
         property,
         aspect_ratio,
-        strain: bisect(LADDER, |strain| holds(&subject, property, aspect_ratio, strain)),
+        strain: longest_on(LADDER, &subject, property, aspect_ratio),
     };
     [Property::Turning, Property::Length, Property::Orbit]
         .into_iter()
