@@ -1,7 +1,7 @@
 //! The report as one HTML file: the data for its template.
 
 use super::first::{cards, closest, sizes, thumbnails};
-use super::formats::{bounds, detail, number, seconds, share, verdict};
+use super::formats::{bounds, detail, number, seconds, share, size, verdict};
 use super::prose::Anchors;
 use super::{CaseRow, Line, Report, ReportFigure, ReportTable};
 use crate::files::text::readable;
@@ -76,7 +76,7 @@ fn case(report: &Report, row: &CaseRow) -> Json {
         .filter(|equation| equation.cases.contains(&row.name))
         .map(|equation| format!(" eq-{}", equation.number));
     let figures = report.sections.figures().filter(|f| f.cases.contains(&row.name));
-    let used = row.worst().filter(|_| row.verdict != Verdict::NoData).map(|line| line.used);
+    let worst = row.worst().filter(|_| row.verdict != Verdict::NoData);
     json!({
         "name": row.name,
         "claim": row.claim,
@@ -85,8 +85,9 @@ fn case(report: &Report, row: &CaseRow) -> Json {
         "class": row.verdict,
         "symbol": symbol,
         "word": word,
-        "used": used.map_or("–".into(), share),
-        "bar": used.map(bar),
+        "used": worst.map(|line| share(line.used)),
+        "size": worst.map_or("–".into(), size),
+        "bar": worst.map(|line| bar(line.used)),
         "evidence": row.evidence.iter().map(line).collect::<Vec<_>>(),
         "caught": row.caught,
         "controls": row.controls,
