@@ -43,6 +43,7 @@ const WRONG: &[Wrong] = &[
     ("(r − 1)/(r + 1)", "(r_e − 1)/(r_e + 1) for Λ", |c| c.shape = |r| 1.0 - 2.0 / (r + 1.0)),
     ("Λ = 0", "Λ = 0", |c| c.shape = |_| 0.0),
     ("1/Λ", "1/Λ for Λ", |c| c.shape = |r| (r * r + 1.0) / (r * r - 1.0)),
+    ("eccentricity", "the eccentricity", |c| c.shape = |r| (1.0 - 1.0 / (r * r)).abs().sqrt()),
     ("r_e of the half length", "half the r_e", |c| c.shape = |r| 1.0 - 2.0 / (0.25 * r * r + 1.0)),
     ("γ̇ = √(D:D)", "γ̇ = (D:D)^½", |c| c.speed = |_, d| double(d, d).sqrt()),
     ("γ̇ = D:D", "D:D for γ̇", |c| c.speed = |_, d| double(d, d)),
@@ -89,6 +90,12 @@ const WRONG: &[Wrong] = &[
         c.closure = |a, at| {
             let f = 1.0 - 27.0 * code::determinant(a);
             f * (quadratic(a, at) + (1.0 - f) * linear(a, at))
+        };
+    }),
+    ("f quadratic + 1 − f linear", "a hybrid closure f quadratic + 1 − f linear", |c| {
+        c.closure = |a, at| {
+            let f = 1.0 - 27.0 * code::determinant(a);
+            f * quadratic(a, at) + 1.0 - f * linear(a, at)
         };
     }),
     ("f = 1 + 27 det", "a hybrid closure with f = 1 + 27 det a", |c| {
@@ -180,6 +187,9 @@ const WRONG_MODELS: &[(&str, Wrong)] = &[
     ("iard-ibof", ("+ C_M", "+ C_M for − C_M", |c| {
         c.anisotropic = Some(|_, d, _, speed, c_m| iard(d, speed, c_m, -4.0));
     })),
+    ("iard-ibof", ("2 C_M", "twice the C_M", |c| {
+        c.anisotropic = Some(|_, d, _, speed, c_m| iard(d, speed, c_m, 8.0));
+    })),
     ("iard-ibof", ("LᵀL", "LᵀL for D²", |c| {
         c.anisotropic = Some(|_, _, l, speed, c_m| iard_of(&product(&transposed(l), l), c_m, 4.0 / (speed * speed)));
     })),
@@ -196,6 +206,9 @@ const WRONG_MODELS: &[(&str, Wrong)] = &[
     ("iard-ibof", ("no 10𝔸:C", "10𝔸:C left out", |c| c.drift[1] = 0.0)),
     ("pard-ibof", ("ascending eigenvalues", "the eigenvalues of a in ascending order", |c| {
         c.anisotropic = Some(|a, _, _, _, omega| along(a, [1.0 - omega, omega, 1.0]));
+    })),
+    ("pard-ibof", ("eigenvalues 2 and 3", "the second and third eigenvalues of a exchanged", |c| {
+        c.anisotropic = Some(|a, _, _, _, omega| along(a, [1.0, 1.0 - omega, omega]));
     })),
 ];
 

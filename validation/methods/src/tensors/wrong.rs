@@ -37,7 +37,7 @@ const fn mistake(name: &'static str, advice: &'static str, change: fn(Parts) -> 
 }
 
 /// Every known mistake in the parts of the rate.
-pub const MISTAKES: [Mistake; 71] = [
+pub const MISTAKES: [Mistake; 74] = [
     mistake("a transposed gradient", L, |p| Some(Parts { spin: -p.spin, ..p })),
     mistake("the flow reversed (L with the wrong sign, or time backwards)", L, |p| {
         Some(Parts { spin: -p.spin, strain: -p.strain, ..p })
@@ -63,6 +63,9 @@ pub const MISTAKES: [Mistake; 71] = [
     mistake("(r_e − 1)/(r_e + 1) for Λ", SHAPE, |p| of_ratio(p, f64::sqrt)),
     mistake("Λ = 0, D left out", SHAPE, |p| Some(shaped(p, 0.0))),
     mistake("1/Λ for Λ", SHAPE, |p| Some(shaped(p, 1.0 / p.of_strain))),
+    mistake("the eccentricity |1 − 1/r_e²|^½ for Λ", SHAPE, |p| {
+        Some(shaped(p, (2.0 * p.of_strain / (1.0 + p.of_strain)).abs().sqrt()))
+    }),
     mistake("twice the r_e", SHAPE, |p| of_ratio(p, |r| 2.0 * r)),
     mistake("half the r_e", SHAPE, |p| of_ratio(p, |r| 0.5 * r)),
     mistake("r_e² for r_e", SHAPE, |p| of_ratio(p, |r| r * r)),
@@ -115,6 +118,7 @@ pub const MISTAKES: [Mistake; 71] = [
         _ => None,
     }),
     mistake("C_M D²/γ̇² without its 4", IARD, |p| anisotropic(p, 0.25)),
+    mistake("twice the C_M", IARD, |p| anisotropic(p, 2.0)),
     mistake("(D²:D²)^½ for the norm (D²:D²/2)^½", IARD, |p| anisotropic(p, std::f64::consts::FRAC_1_SQRT_2)),
     mistake("+ C_M for − C_M", IARD, |p| anisotropic(p, -1.0)),
     mistake("LᵀL for D²", IARD, |p| squared(p, gradient(&p).transpose() * gradient(&p))),
@@ -131,6 +135,11 @@ pub const MISTAKES: [Mistake; 71] = [
     mistake("the eigenvalues of a in ascending order", ANISOTROPIC, |p| match p.model {
         Model::Pard { c_i, omega } => Some(Parts { model: Model::Mrd { c_i, d: [1.0 - omega, omega, 1.0] }, ..p }),
         Model::Mrd { c_i, d: [x, y, z] } => Some(Parts { model: Model::Mrd { c_i, d: [z, y, x] }, ..p }),
+        _ => None,
+    }),
+    mistake("the second and third eigenvalues of a exchanged", ANISOTROPIC, |p| match p.model {
+        Model::Pard { c_i, omega } => Some(Parts { model: Model::Pard { c_i, omega: 1.0 - omega }, ..p }),
+        Model::Mrd { c_i, d: [x, y, z] } => Some(Parts { model: Model::Mrd { c_i, d: [x, z, y] }, ..p }),
         _ => None,
     }),
 ];
@@ -221,7 +230,7 @@ pub struct Stand {
 pub const WITH_OTHERS: usize = 24;
 
 /// Every closure, right and wrong ones.
-pub const CLOSURES: [Stand; 34] = [
+pub const CLOSURES: [Stand; 35] = [
     Stand { name: "the linear closure", fourth: linear },
     Stand { name: "the quadratic closure", fourth: quadratic },
     Stand { name: "the hybrid closure", fourth: |a| Closure::Hybrid.fourth(a) },
@@ -275,6 +284,10 @@ pub const CLOSURES: [Stand; 34] = [
     Stand {
         name: "a hybrid closure f (quadratic + (1 − f) linear)",
         fourth: |a| Fourth((quadratic(a).0 + linear(a).0 * (1.0 - aligned(a))) * aligned(a)),
+    },
+    Stand {
+        name: "a hybrid closure f quadratic + 1 − f linear",
+        fourth: |a| Fourth(((quadratic(a).0 - linear(a).0) * aligned(a)).add_scalar(1.0)),
     },
     Stand { name: "a hybrid closure with f = 1 + 27 det a", fourth: |a| mixed(a, 2.0 - aligned(a), linear) },
     Stand { name: "a hybrid closure with f² for f", fourth: |a| mixed(a, aligned(a).powi(2), linear) },

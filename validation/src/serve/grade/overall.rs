@@ -89,15 +89,18 @@ fn by_name(problems: &[LoadedProblem], graded: &[Graded], wrong: &[&Graded]) -> 
                 _ => format!("{} of {}", of.len(), wrong.len()),
             };
             let (all, fits) = (names.join(", or "), of.join(", "));
+            let its = if left.iter().all(|graded| !of.contains(&graded.name.as_str()) || graded.kind == Kind::Formula) {
+                "its values fit"
+            } else {
+                "its curve fits"
+            };
             let advice = tensors::advice(&names[0]);
             let shared = !advice.is_empty() && names.iter().all(|name| tensors::advice(name) == advice);
             let advice = if shared { format!("; {advice}") } else { String::new() };
             said.push(Finding {
                 of: of.iter().map(|name| (*name).to_owned()).collect(),
                 instead: format!("{CURVE} of {}", names.join(" or of ")),
-                said: format!(
-                    "one mistake explains {rest} that do not pass: {all}{either}; its curve fits {fits}{advice}"
-                ),
+                said: format!("one mistake explains {rest} that do not pass: {all}{either}; {its} {fits}{advice}"),
                 names,
             });
         }
