@@ -31,6 +31,14 @@ pub(super) fn files(plan: &Plan, results: &Results, all: &[OfChannel]) -> Result
     Ok([(EXTREMES.to_owned(), extremes(plan, results, all)?), (DERIVED.to_owned(), scalars(plan, results, all)?)])
 }
 
+/// The endings of the columns of [`EXTREMES`].
+const OF_EXTREMES: [&str; 3] = ["maximum", "minimum", "amplitude"];
+
+/// True for a column of [`EXTREMES`], such as `x1_amplitude`.
+pub(super) fn is_extreme(column: &str) -> bool {
+    column.rsplit_once('_').is_some_and(|(_, kind)| OF_EXTREMES.contains(&kind))
+}
+
 type Cells = Vec<Option<f64>>;
 
 fn cells(estimate: Option<Estimate>) -> [Option<f64>; 2] {
@@ -51,8 +59,8 @@ fn head(results: &Results, kinds: &[&str], all: &[OfChannel]) -> Vec<String> {
 }
 
 fn extremes(plan: &Plan, results: &Results, all: &[OfChannel]) -> Result<String, String> {
-    let kinds = ["maximum", "maximum_se", "minimum", "minimum_se", "amplitude", "amplitude_se"];
-    let mut header = head(results, &kinds, all);
+    let kinds = OF_EXTREMES.map(|kind| [kind.to_owned(), format!("{kind}_se")]).concat();
+    let mut header = head(results, &kinds.iter().map(String::as_str).collect::<Vec<_>>(), all);
     let times = tables::time_names(results).len();
     header.insert(times, format!("{}_se", results.time_name));
     let mut rows: Vec<(f64, Cells)> = Vec::new();

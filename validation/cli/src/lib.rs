@@ -186,8 +186,7 @@ pub fn call(arguments: Vec<OsString>) -> Result<(), (String, u8)> {
 /// The picture that `shearbed plot` draws for these folders; the error says why there is none.
 pub fn figure(dirs: &[PathBuf], channel: Option<&str>) -> Result<Figure, String> {
     let channels: Vec<String> = channel.iter().map(|channel| (*channel).to_owned()).collect();
-    let drawn = plot::figure(dirs, &channels);
-    drawn.map(|drawn| drawn.figure).map_err(|failure| failure.message_and_code().0)
+    plot::figure(dirs, &channels).map_err(|failure| failure.message_and_code().0)
 }
 
 fn with_name(arguments: Vec<OsString>) -> Vec<OsString> {

@@ -34,10 +34,11 @@ pub(super) struct Args {
     /// picture's name
     #[arg(long = "y", value_name = "CHANNELS", value_delimiter = ',')]
     channels: Vec<String>,
-    /// A key of a sweep to draw its channel against, at the last output
+    /// A key of a sweep to draw its channel against, or a product of powers: KEY*KEY^(1/3)
     #[arg(long = "x", value_name = "KEY", conflicts_with = "data")]
     key: Option<String>,
-    /// With --x: the time of another output
+    /// With --x: the time [default: the last output's]; of extremes, within a quarter period [default: the first that
+    /// most points have]
     #[arg(long, value_name = "TIME", requires = "key", value_parser = time, allow_negative_numbers = true)]
     at: Option<f64>,
     /// Measured points to draw over the curves, in the columns that `shearbed fit` takes, or without uncertainties
@@ -84,15 +85,18 @@ pub(super) fn plot(args: &Args) -> Result<(), Failure> {
 }
 
 fn of_runs(args: &Args) -> Result<(Figure, String), Failure> {
-    let mut drawn = figure(&args.dirs, &args.channels)?;
+    let mut drawn = drawn_of(&args.dirs, &args.channels)?;
     let (channels, runs) = (drawn.channels.join(", "), drawn.runs.len());
     if let Some(key) = &args.key {
         if args.dirs.len() > 1 {
             let message = format!("--x {key}: {} folders are given; one sweep is allowed", args.dirs.len());
             return Err(Failure::Input(message));
         }
-        return Ok((against(drawn, key, args.at)?, format!("{channels} of {}", counted(runs as u64, "point"))));
+        let (figure, left_out) = against(drawn, key, args.at)?;
+        scene::warn(&args.out.shown(), &left_out);
+        return Ok((figure, format!("{channels} of {}", counted(runs as u64, "point"))));
     }
+    drawn.is_defined()?;
     shades::colour(&mut drawn);
     if let Some(path) = &args.data {
         drawn.figure.points = measured::points(path, args.columns.as_ref(), &drawn.runs, &drawn.channels)?;
@@ -134,9 +138,9 @@ fn named(args: &Args, dir: &Path, kept: Vec<(String, Figure)>) -> Result<(Figure
 }
 
 /// A picture of channels for several runs.
-pub(super) struct Drawn {
+struct Drawn {
     /// Its curves are those of the first run, channel by channel, then of the next.
-    pub(super) figure: Figure,
+    figure: Figure,
     channels: Vec<String>,
     /// The column of times.
     time: String,
@@ -144,8 +148,24 @@ pub(super) struct Drawn {
     runs: Vec<Run>,
 }
 
-/// Channels of every folder; by default the first channel of the first folder.
-pub(super) fn figure(dirs: &[PathBuf], channels: &[String]) -> Result<Drawn, Failure> {
+impl Drawn {
+    /// Refuses a channel that is undefined in a run.
+    fn is_defined(&self) -> Result<(), Failure> {
+        let Some(k) = self.figure.curves.iter().position(|curve| curve.x.is_empty()) else { return Ok(()) };
+        let (run, channel) = (&self.runs[k / self.channels.len()], &self.channels[k % self.channels.len()]);
+        Err(Failure::Input(format!("{}: has no {channel}: it is undefined in this run", run.dir.shown())))
+    }
+}
+
+/// Channels of every folder against time; by default the first channel of the first folder.
+pub(super) fn figure(dirs: &[PathBuf], channels: &[String]) -> Result<Figure, Failure> {
+    let drawn = drawn_of(dirs, channels)?;
+    drawn.is_defined()?;
+    Ok(drawn.figure)
+}
+
+/// The same, also where a channel is undefined in some runs.
+fn drawn_of(dirs: &[PathBuf], channels: &[String]) -> Result<Drawn, Failure> {
     let mut runs = Vec::new();
     for dir in dirs {
         runs.extend(runs_in(dir)?);

@@ -41,7 +41,7 @@ fn the_page_of_equations_is_fresh() {
 fn pictures_are_those_of_their_script() {
     let dir = tempfile::tempdir().unwrap();
     let drawn = if bash(dir.path(), "command -v python3").ended().status.success() { 4 } else { 0 };
-    let (slow, count) = if std::env::var_os("DOCS_SLOW").is_some() { ("slow", 10) } else { ("", 3) };
+    let (slow, count) = if std::env::var_os("DOCS_SLOW").is_some() { ("slow", 11) } else { ("", 4) };
     let ended = bash(dir.path(), &format!("bash '{}/docs/pictures.sh' made {slow}", root().display())).ended();
     assert!(ended.status.success(), "{}", String::from_utf8_lossy(&ended.stderr));
     let pictures: Vec<_> = fs::read_dir(dir.path().join("made")).unwrap().map(|entry| entry.unwrap()).collect();

@@ -34,13 +34,19 @@ fn letter(key: &str) -> (&str, &'static str) {
     }
 }
 
-/// The label of a key on an axis, with its unit: `n (cm⁻³)`. `2:KEY` is the key of the second set.
+/// The label of a key on an axis, with its unit: `n (cm⁻³)`. `2:KEY` is the key of the second set; `KEY*KEY^(1/3)` is a
+/// product.
 pub fn key(label: &str) -> String {
     let (set, key) = label.split_once(':').map_or((None, label), |(set, key)| (Some(set), key));
-    let (letter, unit) = letter(key);
+    let factor = |factor: &str| {
+        let (key, power) = factor.split_at(factor.find('^').unwrap_or(factor.len()));
+        format!("{}{power}", letter(key).0)
+    };
+    let letters: Vec<_> = key.split('*').map(factor).collect();
+    let units: Vec<_> = key.split(['*', '^']).map(|key| letter(key).1).filter(|unit| !unit.is_empty()).collect();
     let of = set.map_or(String::new(), |set| format!(" of set {set}"));
-    let unit = if unit.is_empty() { String::new() } else { format!(" ({unit})") };
-    format!("{letter}{of}{unit}")
+    let unit = if units.is_empty() { String::new() } else { format!(" ({})", units.join(", ")) };
+    format!("{}{of}{unit}", letters.join(" "))
 }
 
 /// A point of a sweep as `α = 0.5, n = 20 cm⁻³`.
@@ -102,6 +108,8 @@ mod tests {
         assert_eq!(["t_over_T", "t_s", "strain"].map(time), ["t/T", "t (s)", "strain Gt"]);
         let keys = ["interaction.concentration_per_cm3", "2:interaction.alpha", "time.periods"];
         assert_eq!(keys.map(key), ["n (cm⁻³)", "α of set 2", "periods"]);
+        let product = "interaction.alpha*particles.length_mm*interaction.concentration_per_cm3^(1/3)";
+        assert_eq!(key(product), "α a n^(1/3) (mm, cm⁻³)");
         let owned = |pairs: &[(&str, &str)]| {
             pairs.iter().map(|(key, value)| ((*key).to_owned(), (*value).to_owned())).collect::<Vec<_>>()
         };
