@@ -34,6 +34,11 @@ lengths "half 0.36, half 1.08 mm" --set 'particles.rods={file="mix.csv"}'
 lengths "all of 1.08 mm" --set particles.length_mm=1.08
 shearbed plot "all of 0.36 mm" "all of 0.72 mm" "30 % scatter" "half 0.36, half 1.08 mm" "all of 1.08 mm" --y x1 \
   --out "$out/lengths.svg" >/dev/null
+
+shearbed sweep fig8-a0.72 --set time.periods=1 --set 'title="Rods of Figs 7 and 8"' --replicas 100 --out collapse --quiet \
+  --over interaction.alpha=0.1,0.2,0.4,0.8,1.6,3.2 --over interaction.concentration_per_cm3=20,100 --over particles.length_mm=0.36,1.44
+shearbed plot collapse --y x1_amplitude --x 'interaction.alpha*particles.length_mm*interaction.concentration_per_cm3^(1/3)' --log-x \
+  --out "$out/collapse.svg" >/dev/null
 [ -n "${2:-}" ] || exit 0
 
 moving() { shearbed run fig4-n50 --set time.periods=2 --out "$1" "${@:2}" --quiet; }
