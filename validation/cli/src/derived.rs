@@ -6,6 +6,7 @@ use shearbed::{Plan, Results};
 use shearbed_validation::files::csv;
 use shearbed_validation::files::output::Output;
 use shearbed_validation::methods::derived::{Derived, Estimate, Extreme};
+use std::collections::BTreeMap;
 
 /// Maxima, minima and amplitudes, a row each.
 pub(super) const EXTREMES: &str = "extremes.csv";
@@ -37,6 +38,15 @@ const OF_EXTREMES: [&str; 3] = ["maximum", "minimum", "amplitude"];
 /// True for a column of [`EXTREMES`], such as `x1_amplitude`.
 pub(super) fn is_extreme(column: &str) -> bool {
     column.rsplit_once('_').is_some_and(|(_, kind)| OF_EXTREMES.contains(&kind))
+}
+
+/// What a run without the value `channel` lacks, in words.
+pub(super) fn lacks(channel: &str) -> &'static str {
+    match channel.rsplit_once('_') {
+        _ if is_extreme(channel) => "none is beyond noise: more replicas or periods are needed",
+        Some((_, "rate")) => "it needs three maxima between minima, all beyond noise",
+        _ => "the mean still changes in the last quarter of the run, or replicas are fewer than 8",
+    }
 }
 
 type Cells = Vec<Option<f64>>;
@@ -108,8 +118,10 @@ pub(super) fn most_bytes(plan: &Plan) -> u64 {
     ((rows + 1) * (6 * channels + 10 * tables::NUMBER) + 11 * channels * tables::NUMBER) as u64
 }
 
-/// A line for the terminal on each channel whose oscillation decays or that is steady.
-pub(super) fn summary(time_name: &str, all: &[OfChannel]) -> String {
+/// A line for the terminal on each channel whose oscillation decays or that is steady, and on each reason why others
+/// have no rate.
+pub(super) fn summary(plan: &Plan, time_name: &str, all: &[OfChannel]) -> String {
+    let replicas = plan.scene().ensemble.replicas;
     let unit = match time_name {
         "t_over_T" => "T",
         "time_s" => "s",
@@ -120,7 +132,14 @@ pub(super) fn summary(time_name: &str, all: &[OfChannel]) -> String {
         None => format!("{:.decimals$}", estimate.value),
     };
     let mut text = String::new();
+    let mut without: BTreeMap<&str, Vec<&str>> = BTreeMap::new();
     for (column, derived) in all.iter().filter(|(column, _)| tables::is_bounded(&column.name)) {
+        let varies = column.se.iter().any(|se| *se > 0.0);
+        derived
+            .no_rate(replicas)
+            .filter(|_| varies)
+            .into_iter()
+            .for_each(|why| without.entry(why).or_default().push(&column.name));
         let decays = |rate: &Estimate| rate.value.abs() > 3.0 * rate.se.unwrap_or(0.0) && rate.value.abs() > 1e-3;
         let rate = derived.damping_rate.filter(decays);
         let law = if derived.is_exponential {
@@ -129,7 +148,7 @@ pub(super) fn summary(time_name: &str, all: &[OfChannel]) -> String {
             "amplitude falls at no one rate, on average by exp(−λt)"
         };
         let rate = rate.map(|rate| format!("{law}, λ = {} per {unit}", number(rate, 3)));
-        let steady = derived.steady.filter(|_| column.se.iter().any(|se| *se > 0.0)).map(|steady| {
+        let steady = derived.steady.filter(|_| varies).map(|steady| {
             let from = (steady.from * 1e3).round() / 1e3;
             format!("steady from {from} on at {}", number(steady.value, 4))
         });
@@ -138,5 +157,5 @@ pub(super) fn summary(time_name: &str, all: &[OfChannel]) -> String {
             text += &format!("{}: {}\n", column.name, said.join("; "));
         }
     }
-    text
+    without.into_iter().fold(text, |text, (why, names)| text + &format!("{}: {why}\n", names.join(", ")))
 }

@@ -9,7 +9,7 @@ mod measured;
 mod shades;
 mod table;
 
-use super::{Failure, ending_in, number, print, scene, spares};
+use super::{Failure, derived, ending_in, number, print, scene, spares};
 use against::against;
 pub(super) use folders::FIGURES;
 use folders::{Run, kept, runs_in};
@@ -153,7 +153,7 @@ impl Drawn {
     fn is_defined(&self) -> Result<(), Failure> {
         let Some(k) = self.figure.curves.iter().position(|curve| curve.x.is_empty()) else { return Ok(()) };
         let (run, channel) = (&self.runs[k / self.channels.len()], &self.channels[k % self.channels.len()]);
-        Err(Failure::Input(format!("{}: has no {channel}: it is undefined in this run", run.dir.shown())))
+        Err(Failure::Input(format!("{}: has no {channel}: {}", run.dir.shown(), derived::lacks(channel))))
     }
 }
 

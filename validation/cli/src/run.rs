@@ -156,7 +156,7 @@ impl<'a> Run<'a> {
                 line(&self.named.scene.title),
                 self.named.scene.particles.count,
                 plan.scene().ensemble.replicas,
-                tables::summary(&results) + &derived::summary(results.time_name, &derived),
+                tables::summary(&results) + &derived::summary(&plan, results.time_name, &derived),
                 names.join(", "),
                 self.replaced
             ))?;

@@ -65,6 +65,16 @@ impl Derived {
         let is_exponential = damping_rate.is_none_or(|rate| is_exponential(rate.value, &extremes));
         Self { extremes, damping_rate, is_exponential, steady: mean.steady() }
     }
+
+    /// Why a mean of `replicas` replicas has no damping rate; `None` if it has one, or does not oscillate.
+    pub fn no_rate(&self, replicas: u64) -> Option<&'static str> {
+        match self.extremes[..] {
+            _ if self.damping_rate.is_some() => None,
+            [] | [_] if replicas < FEWEST => Some("no amplitudes: no turn is beyond the noise of so few replicas"),
+            [] | [_] => None,
+            _ => Some("no damping rate: it needs three maxima between minima, all beyond noise"),
+        }
+    }
 }
 
 /// The probability that noise alone makes a mean turn, or be unsteady, anywhere in a run.

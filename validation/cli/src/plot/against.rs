@@ -2,7 +2,7 @@
 
 use super::{Drawn, Run};
 use crate::Failure;
-use crate::derived::is_extreme;
+use crate::derived::{is_extreme, lacks};
 use shearbed_validation::files::text::Shown;
 use shearbed_validation::oracle::reference::big::finite;
 use shearbed_validation::present::plot::{Curve, Figure, names};
@@ -45,7 +45,7 @@ pub(super) fn against(drawn: Drawn, key: &str, at: Option<f64>) -> Result<(Figur
         let near =
             at.filter(|_| is_extreme(channel)).map_or(String::new(), |at| format!(" near {} = {at}", figure.x_name));
         if times.is_empty() {
-            return Err(Failure::Input(format!("--y {channel}: no point has one{near}")));
+            return Err(Failure::Input(format!("--y {channel}: no point has one{near}: {}", lacks(channel))));
         }
         if !without.is_empty() {
             left_out.push(format!("{channel}: points without one{near}: {}", without.join("; ")));

@@ -128,13 +128,28 @@ fn the_jackknife_of_a_mean_is_its_standard_error() {
     assert_eq!(jackknife(1.0, &[], 1), None);
 }
 
+/// A rate that is missing has a reason: few replicas, or a short run. One that is there, or a mean that only falls, has
+/// none.
+#[test]
+fn a_missing_rate_has_a_reason() {
+    let why = |replicas: usize, scatter: f64, until: usize| {
+        let mut column = column(&damped(replicas, 1, scatter));
+        column.mean.truncate(until);
+        column.without.iter_mut().for_each(|mean| mean.truncate(until));
+        let derived = Derived::new(&times()[..until], &column, replicas as u64);
+        derived.no_rate(replicas as u64).map_or("", |why| &why[..10])
+    };
+    assert_eq!([why(20, 0.05, 801), why(20, 0.05, 40), why(2, 0.05, 40)], ["", "", "no amplitu"]);
+    assert_eq!([why(2, 0.05, 801), why(20, 0.05, 250)], ["no amplitu", "no damping"]);
+}
+
 #[test]
 fn noise_neither_turns_nor_is_unsteady() {
     let mut random = Pcg64Dxsm::seed_from_u64(3);
     let mut noise = || times().iter().map(|_| 0.3 + 0.1 * (random.random::<f64>() - 0.5)).collect();
     let curves: Vec<Vec<f64>> = (0..20).map(|_| noise()).collect();
     let found = Derived::new(&times(), &column(&curves), 20);
-    assert_eq!((found.extremes, found.damping_rate), (vec![], None));
+    assert_eq!((&found.extremes, found.damping_rate, found.no_rate(20)), (&vec![], None, None));
     let steady = found.steady.unwrap();
     assert_eq!(steady.from, 0.0);
     // 800 outputs of 20 replicas.
