@@ -118,15 +118,19 @@ pub(super) fn most_bytes(plan: &Plan) -> u64 {
     ((rows + 1) * (6 * channels + 10 * tables::NUMBER) + 11 * channels * tables::NUMBER) as u64
 }
 
+/// The unit of a rate of decay in a column of times.
+pub(super) fn per(time_name: &str) -> &'static str {
+    match time_name {
+        "t_over_T" => "per T",
+        "time_s" => "per s",
+        _ => "per unit of strain",
+    }
+}
+
 /// A line for the terminal on each channel whose oscillation decays or that is steady, and on each reason why others
 /// have no rate.
 pub(super) fn summary(plan: &Plan, time_name: &str, all: &[OfChannel]) -> String {
     let replicas = plan.scene().ensemble.replicas;
-    let unit = match time_name {
-        "t_over_T" => "T",
-        "time_s" => "s",
-        _ => "unit of strain",
-    };
     let number = |estimate: Estimate, decimals: usize| match estimate.se {
         Some(se) => format!("{:.decimals$} ± {se:.decimals$}", estimate.value),
         None => format!("{:.decimals$}", estimate.value),
@@ -147,7 +151,7 @@ pub(super) fn summary(plan: &Plan, time_name: &str, all: &[OfChannel]) -> String
         } else {
             "amplitude falls at no one rate, on average by exp(−λt)"
         };
-        let rate = rate.map(|rate| format!("{law}, λ = {} per {unit}", number(rate, 3)));
+        let rate = rate.map(|rate| format!("{law}, λ = {} {}", number(rate, 3), per(time_name)));
         let steady = derived.steady.filter(|_| varies).map(|steady| {
             let from = (steady.from * 1e3).round() / 1e3;
             format!("steady from {from} on at {}", number(steady.value, 4))

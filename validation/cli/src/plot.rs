@@ -206,8 +206,10 @@ fn drawn_of(dirs: &[PathBuf], channels: &[String]) -> Result<Drawn, Failure> {
         }
     }
     let swept = first.point.iter().flatten().map(|(key, _)| key.as_str()).collect::<Vec<_>>();
-    let y_name = symbols.join(", ");
     let time = time.unwrap_or_default();
+    let per = derived::per(&time);
+    let unit = |symbol: &String| if symbol.contains('λ') { format!("{symbol} ({per})") } else { symbol.clone() };
+    let y_name = symbols.iter().map(unit).collect::<Vec<_>>().join(", ");
     let figure = Figure {
         title: match titles.len() {
             1 => names::title_without(&first.scene.title, &swept),

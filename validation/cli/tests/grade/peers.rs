@@ -132,11 +132,11 @@ fn c_compiled_with_cc_passes_with_order_4() {
 
 /// The limit of the project's own RK4 in p, by the same steps.
 fn own_turning_limit() -> f64 {
-    use shearbed_validation::methods::integrators::limits::{Ladder, Limit, Property, bisect, holds};
+    use shearbed_validation::methods::integrators::limits::{Ladder, Limit, Property, longest_on};
     let all = shearbed_validation::studies::integrators::all();
     let rk4 = all.iter().find(|integrator| integrator.name == "RK4 in p").unwrap();
     let ladder = Ladder { least: 0.01, most: 100.0, factor: 1.25 };
-    match bisect(ladder, |strain| holds(rk4, Property::Turning, 11.6, strain)) {
+    match longest_on(ladder, rk4, Property::Turning, 11.6) {
         Limit::At(strain) => strain,
         other => panic!("{other:?}"),
     }

@@ -2,9 +2,18 @@
 
 use shearbed::observable::Channel;
 
-/// The symbol of a column of `shearbed run`, such as `X̄₁` for `x1`; the name of any other column.
+/// The symbol of a column of `shearbed run`, such as `X̄₁` for `x1`, also of what is derived from it; the name of any
+/// other column.
 pub fn channel(column: &str) -> String {
-    Channel::named(column).map_or_else(|| column.to_owned(), Channel::symbol)
+    let symbol = |column| Channel::named(column).map(Channel::symbol);
+    let derived = || {
+        let ends = |kind: &str| symbol(column.strip_suffix(kind)?);
+        let word = |kind| Some(format!("{kind} of {}", ends(&format!("_{kind}"))?));
+        let rate = ends("_damping_rate").map(|symbol| format!("damping rate λ of {symbol}"));
+        let steady = ends("_steady").map(|symbol| format!("steady {symbol}"));
+        ["amplitude", "maximum", "minimum"].into_iter().find_map(word).or(rate).or(steady)
+    };
+    symbol(column).or_else(derived).unwrap_or_else(|| column.to_owned())
 }
 
 /// The label of a column of times.
@@ -104,6 +113,10 @@ mod tests {
         assert_eq!(
             ["cos_2phi", "s12_pa", "n1_per_mu_fiber_g", "n1_mm", "n9_pa"].map(channel),
             ["⟨cos 2φ⟩", "σ_12 (Pa)", "N_1/(μ_fiber G)", "n1_mm", "n9_pa"]
+        );
+        assert_eq!(
+            ["x1_amplitude", "phi_minimum", "x1_damping_rate", "x1_steady", "x9_amplitude"].map(channel),
+            ["amplitude of X̄₁", "minimum of φ̄ (rad)", "damping rate λ of X̄₁", "steady X̄₁", "x9_amplitude"]
         );
         assert_eq!(["t_over_T", "t_s", "strain"].map(time), ["t/T", "t (s)", "strain Gt"]);
         let keys = ["interaction.concentration_per_cm3", "2:interaction.alpha", "time.periods"];
