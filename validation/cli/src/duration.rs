@@ -1,9 +1,11 @@
 //! A rough estimate of the run time of suspensions before they start.
 
 use super::fit::MOST_REPLICAS;
+use super::{Failure, threads};
 use shearbed::Plan;
 use shearbed::plan::{Stage, counted};
 use shearbed::run::ensemble;
+use shearbed_validation::files::cluster;
 use shearbed_validation::methods::least_squares::basis::Basis;
 use shearbed_validation::serve::fit::search::FIRST_REPLICAS;
 use shearbed_validation::studies::speed::{SECONDS_PER_DRAW, SECONDS_PER_OUTPUT, SECONDS_PER_ROD_AND_STEP};
@@ -12,6 +14,45 @@ use shearbed_validation::studies::suspensions::law::{self, Replicas};
 
 /// The longest pilot, in s.
 const PILOT_S: f64 = 3.0;
+
+/// The longest work that begins unasked, in hours.
+const UNASKED_H: f64 = 2.0;
+
+/// The option of commands that may work for hours.
+#[derive(clap::Args)]
+pub(super) struct Long {
+    /// Begin work of more than 2 hours, by a rough estimate
+    #[arg(long)]
+    yes: bool,
+}
+
+impl Long {
+    /// Refuses plans, each with its number of replicas, that would take more than [`UNASKED_H`] hours. A replica runs
+    /// on one thread.
+    pub(super) fn check(&self, source: &str, given: Option<u64>, plans: &[(&Plan, u64)]) -> Result<(), Failure> {
+        let threads = threads::count(given)? * cluster::size() as u64;
+        let guess = |(plan, replicas): &(&Plan, u64)| {
+            let rounds = (*replicas as f64 / threads as f64).max(1.0);
+            of_replica(plan, false) * rounds
+        };
+        let guessed_s: f64 = plans.iter().map(guess).sum();
+        if self.yes || plans.is_empty() || guessed_s < 360.0 * UNASKED_H {
+            return Ok(());
+        }
+        // A tenth of the limit is worth a pilot.
+        let first = plans[0].0;
+        let seconds = guessed_s * of_replica(first, true) / of_replica(first, false);
+        if seconds < 3600.0 * UNASKED_H {
+            return Ok(());
+        }
+        let threads = counted(threads, "thread");
+        Err(Failure::Input(format!(
+            "{source}: takes {} on {threads}, by a rough estimate; more than {UNASKED_H} h begin with --yes alone; \
+             fewer rods, steps or replicas are allowed",
+            about(seconds)
+        )))
+    }
+}
 
 /// Seconds of a replica on one core: the time of the first replica, with its collisions; a guess by rods and steps
 /// where that takes long, where `may_run` is false, or where the replica fails.
@@ -68,6 +109,11 @@ pub(super) fn of_sweep<'a>(plan: &Plan, each_s: f64, points: impl ExactSizeItera
     format!("sweep: {}, {} of one core\n", counted(count as u64, "point"), about(each_s * all / work(plan)))
 }
 
+/// The number of values at which a fit of so many parameters runs replicas, in each range.
+pub(super) fn nodes(parameters: usize) -> u64 {
+    if parameters == 0 { 1 } else { Basis::new(parameters).nodes.len() as u64 }
+}
+
 /// The cost of a fit of so many parameters, as text, if a replica of `plan` takes `each_s`: its first runs, and as many
 /// as are allowed; `corners` are the ends of the ranges.
 pub(super) fn of_fit<'a>(
@@ -76,7 +122,7 @@ pub(super) fn of_fit<'a>(
     parameters: usize,
     corners: impl ExactSizeIterator<Item = &'a Plan>,
 ) -> String {
-    let nodes = Basis::new(parameters).nodes.len() as u64;
+    let nodes = nodes(parameters);
     let count = corners.len() as f64;
     let each_s = each_s * corners.map(work).sum::<f64>() / (count * work(plan));
     let of = |replicas: u64| {

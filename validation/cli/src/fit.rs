@@ -5,9 +5,10 @@ mod input;
 mod shifts;
 mod terminal;
 
+use super::duration::{Long, nodes};
 use super::{
-    Failure, Threads, Writing, checkpoint, log_progress, number, on_threads, print, progress, restart, result_folder,
-    scene, spares_inputs, whole,
+    Failure, Threads, Writing, checkpoint, log_progress, number, on_threads, print, progress, result_folder, scene,
+    spares_inputs, whole,
 };
 use advice::{of_fit, of_scene, of_warning};
 use input::{Input, input};
@@ -30,7 +31,7 @@ use shearbed_validation::serve::fit::report::{self, Report};
 use shearbed_validation::serve::fit::runs::Runs;
 use shearbed_validation::serve::fit::samples::samples_csv;
 use shearbed_validation::serve::fit::scenes::{AS_WRITTEN, Scenes};
-use shearbed_validation::serve::fit::search::{Fit, FitProblem, Measured, Watch};
+use shearbed_validation::serve::fit::search::{FIRST_REPLICAS, Fit, FitProblem, Measured, Watch};
 use shearbed_validation::serve::fit::{Hypothesis, Range, pictures};
 use shearbed_validation::serve::sweep::KeyValue;
 use shifts::{shifts, taken_as_known};
@@ -101,6 +102,8 @@ pub(super) struct Args {
     #[arg(long, value_parser = checkpoint::seconds, default_value = "60", hide = true)]
     log_every: Duration,
     #[command(flatten)]
+    long: Long,
+    #[command(flatten)]
     writing: Writing,
 }
 
@@ -122,6 +125,7 @@ pub(super) fn fit(args: &Args) -> Result<(), Failure> {
         |test: &Hypothesis| test.check(&args.over).map_err(|error| Failure::Input(advice::of_test(test, &error)));
     args.test.iter().try_for_each(check)?;
     let mut input = input(args)?;
+    check_duration(args, &input)?;
     let asked = asked(args, &input)?;
     let folder = folder(args, &input, &asked)?;
     let path = checkpoint::check(args.kept.file.as_deref(), folder.dir())?;
@@ -135,12 +139,30 @@ pub(super) fn fit(args: &Args) -> Result<(), Failure> {
     input.scenes = input.scenes.with_runs(runs.clone());
     let bar = progress(0, "runs", args.writing.quiet);
     log_progress(&bar, "runs", args.log_every, args.writing.quiet);
-    let watch =
-        Watch { stage: &|name| restart(&bar, name), planned: &|runs| bar.inc_length(runs), done: &|| bar.inc(1) };
+    let watch = Watch {
+        stage: &|name| bar.set_message(name.to_owned()),
+        planned: &|runs| bar.inc_length(runs),
+        done: &|| bar.inc(1),
+    };
     let done = on_threads(args.threads.given, || work(args, &input, &watch))?;
     bar.finish_and_clear();
     runs.as_ref().map_or(Ok(()), |runs| runs.write())?;
     write(args, &input, &folder, &asked, &done?)
+}
+
+/// Refuses a fit that may take hours: as many replicas as are asked for at each value, at the ends of the ranges. The
+/// default is a limit that few fits reach: with it the first replicas count.
+fn check_duration(args: &Args, input: &Input) -> Result<(), Failure> {
+    let ends = [|range: &Range| range.from, |range: &Range| range.to];
+    let plans = |end: &fn(&Range) -> f64| {
+        let values: Vec<f64> = args.over.iter().map(end).collect();
+        input.scenes.plans(&values, &input.data, AS_WRITTEN).map_err(|error| Failure::Input(of_scene(&error)))
+    };
+    let plans: Vec<_> = ends.iter().map(plans).collect::<Result<Vec<_>, _>>()?.concat();
+    let replicas = if args.replicas == MOST_REPLICAS { FIRST_REPLICAS } else { args.replicas };
+    let runs = nodes(args.over.len()) * replicas / ends.len() as u64;
+    let cost: Vec<_> = plans.iter().map(|plan| (plan, runs)).collect();
+    args.long.check(&input.stem, args.threads.given, &cost)
 }
 
 /// The folder for the results, which may replace none of the files that are read.

@@ -3,9 +3,10 @@
 mod work;
 
 use super::derived::{DERIVED, EXTREMES};
+use super::duration::Long;
 use super::record::Seconds;
 use super::scene::{Chosen, Ensemble, Named};
-use super::until::{self, Until};
+use super::until::{self, LEAST, Until};
 use super::{
     Failure, Threads, Writing, agree, checkpoint, derived, memory, pictures, print, probe, record, replaced, rods,
     scene, spares_inputs, tables, threads,
@@ -51,6 +52,8 @@ pub(super) struct Args {
     time_limit: Option<Duration>,
     #[command(flatten)]
     kept: checkpoint::Kept,
+    #[command(flatten)]
+    long: Long,
     #[command(flatten)]
     writing: Writing,
 }
@@ -114,6 +117,13 @@ impl<'a> Run<'a> {
         let plan = planned(args, &named)?;
         let beside = args.kept.file.as_ref().map_or(0, |_| Halfway::bytes(&plan));
         memory::check_each([(&plan, named.source.clone())], args.threads.given, args.vtk, beside)?;
+        // Rules for standard errors may end any time after these, and a time limit after two.
+        let replicas = match (args.until.is_empty(), args.time_limit) {
+            (true, _) => plan.scene().ensemble.replicas,
+            (false, None) => LEAST,
+            (false, Some(_)) => 2,
+        };
+        args.long.check(&named.source, args.threads.given, &[(&plan, replicas)])?;
         let out = args.out.clone().unwrap_or_else(|| Path::new("out").join(&named.stem));
         let inputs = inputs(args, &plan);
         agree("run", inputs.clone())?;

@@ -1,6 +1,7 @@
 //! `shearbed sweep`.
 
 use super::derived::{self, DERIVED, EXTREMES};
+use super::duration::Long;
 use super::scene::{Chosen, Ensemble, Named};
 use super::{
     Failure, Threads, Writing, agree, log, memory, on_threads, print, progress, result_folder, scene, spares_inputs,
@@ -35,6 +36,8 @@ pub(super) struct Args {
     out: Option<PathBuf>,
     #[command(flatten)]
     threads: Threads,
+    #[command(flatten)]
+    long: Long,
     #[command(flatten)]
     writing: Writing,
 }
@@ -75,6 +78,8 @@ pub(super) fn sweep(args: &Args) -> Result<(), Failure> {
     }
     let at = |point: &Point| format!("{}: --over {}", named.source, sweep::described(&args.over, &point.values));
     memory::check_each(points.iter().map(|point| (&point.plan, at(point))), args.threads.given, false, 0)?;
+    let cost: Vec<_> = points.iter().map(|point| (&point.plan, point.plan.scene().ensemble.replicas)).collect();
+    args.long.check(&named.source, args.threads.given, &cost)?;
     let out = (args.out.clone()).unwrap_or_else(|| Path::new("out").join(format!("sweep-{}", named.stem)));
     let total = points.len();
     let warned = warnings(&points, &args.over);

@@ -87,33 +87,27 @@ pub(super) fn log_progress(bar: &ProgressBar, what: &'static str, every: Duratio
     let _ = thread::Builder::new().spawn(follow);
 }
 
-/// Restarts a bar for the next part of the work, with 0 steps: `inc_length` adds some.
-pub(super) fn restart(bar: &ProgressBar, part: &str) {
-    bar.set_message(part.to_owned());
-    bar.set_length(0);
-    bar.set_position(0);
-    bar.reset_elapsed();
-}
-
 /// A bar for slow work on a terminal, hidden elsewhere. It shows the time left once a step is done, from the mean rate;
-/// for a single step it shows the elapsed time. With 0 steps it is prepared for [`restart`].
+/// for a single step it shows the elapsed time. With 0 steps it is for work of which more becomes known as it goes on.
 pub(super) fn progress(steps: u64, what: &str, quiet: bool) -> ProgressBar {
     if quiet || !cluster::is_root() || !io::stderr().is_terminal() {
-        return ProgressBar::hidden();
+        let bar = ProgressBar::hidden();
+        bar.set_length(steps);
+        return bar;
     }
     let template = match steps {
         1 => "{spinner} running for {elapsed} {msg}".to_owned(),
         0 => format!("{{msg}} {{wide_bar}} {{pos}}/{{len}} {what}, {{left}}"),
         _ => format!("{{wide_bar}} {{pos}}/{{len}} {what}, {{left}} {{msg}}"),
     };
-    let of_what = if steps == 0 { " in this part" } else { "" };
+    let least = if steps == 0 { "at least " } else { "" };
     let left = move |state: &ProgressState, text: &mut dyn fmt::Write| {
         let elapsed = state.elapsed().as_secs_f64();
         let words = match (state.pos(), state.len()) {
             (0, _) | (_, None) => format!("{elapsed:.0} s so far"),
             (done, Some(all)) => {
                 let rate = done as f64 / elapsed.max(1e-9);
-                format!("{rate:.2} a second, {:.0} s left{of_what}", all.saturating_sub(done) as f64 / rate)
+                format!("{rate:.2} a second, {least}{:.0} s left", all.saturating_sub(done) as f64 / rate)
             }
         };
         // If even this cannot be written, there is no bar.

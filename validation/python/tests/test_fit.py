@@ -58,7 +58,7 @@ def test_the_result_is_that_of_the_program(points: dict[str, np.ndarray], tmp_pa
     watched = shearbed.fit(
         SCENE, points, OVER, replicas=60, seed=3, threads=1, progress=lambda done, of: told.append((done, of))
     )
-    assert str(watched) == str(found) and told
+    assert str(watched) == str(found) and told and told == sorted(told)
     assert all(0 <= done <= of for done, of in told) and max(told)[0] > 1
     for _ in range(2):
         kept = shearbed.fit(SCENE, points, OVER, replicas=60, seed=3, threads=2, checkpoint=tmp_path / "fit.ckpt")

@@ -31,12 +31,14 @@ const SYMMETRIC: Mapping = Mapping {
 struct OneLength {
     alpha_of_dense: f64,
     alpha_of_short: f64,
+    /// The same in a box of 12 by 12 by 14 mm.
+    alpha_in_box: f64,
     min_contact_arm: f64,
     box_mm: Option<[f64; 3]>,
 }
 
 const ONE_LENGTH: OneLength =
-    OneLength { alpha_of_dense: 0.25, alpha_of_short: 1.0, min_contact_arm: 0.0, box_mm: None };
+    OneLength { alpha_of_dense: 0.25, alpha_of_short: 1.0, alpha_in_box: 1.0, min_contact_arm: 0.0, box_mm: None };
 
 pub fn cases() -> Vec<Case> {
     vec![
@@ -55,13 +57,15 @@ pub fn cases() -> Vec<Case> {
             .check(symmetries),
         Case::of(Judges::Core, "one-length-scale")
             .claim(
-                "Rods of one length, in the cube of their concentration and with contacts at any arm, know one length: \
-                 α a n^(1/3). 8 times the concentration at half of α, or half the length at twice α, change no bit.",
+                "Rods with contacts at any arm know one length, whatever the relative scatter of their lengths: in the \
+                 cube of their concentration α a n^(1/3), in a box α a. 8 times the concentration at half of α, or \
+                 half the length at twice α, change no bit.",
             )
             .source("eq. 7")
             .under_test(ONE_LENGTH)
             .mistake("α scaled by n, not by its cube root", OneLength { alpha_of_dense: 0.0625, ..ONE_LENGTH })
             .mistake("α not scaled with the length", OneLength { alpha_of_short: 0.5, ..ONE_LENGTH })
+            .mistake("α not scaled with the length in a box", OneLength { alpha_in_box: 0.5, ..ONE_LENGTH })
             .mistake("contacts end at a tenth of a rod's length", OneLength { min_contact_arm: 0.1, ..ONE_LENGTH })
             .mistake("a box that keeps its size", OneLength { box_mm: Some([12.0; 3]), ..ONE_LENGTH })
             .check(one_length),
@@ -155,22 +159,27 @@ fn relabelled(directions_too: bool, effort: &Effort) -> f64 {
 }
 
 fn one_length(given: &OneLength, effort: &Effort) -> Vec<Evidence> {
-    let scene = |alpha, per_cm3, share: f64| {
+    let scene = |alpha, per_cm3, share: f64, box_mm: Option<[f64; 3]>| {
         let mut scene = lab::interacting_scene(effort);
         scene.particles.length_mm *= share;
+        scene.particles.length_sd_percent = 20.0;
         let interaction = lab::interaction(&mut scene);
         (interaction.alpha, interaction.min_contact_arm) = (alpha, given.min_contact_arm);
         interaction.concentration_per_cm3 = Some(per_cm3);
-        if let Some(sides) = given.box_mm {
+        if let Some(sides) = box_mm {
             lab::set_box_mm(&mut scene, sides);
         }
         scene
     };
-    let base = scene(0.5, 50.0, 1.0);
-    let (dense, short) = (scene(given.alpha_of_dense, 400.0, 1.0), scene(given.alpha_of_short, 50.0, 0.5));
+    let base = scene(0.5, 50.0, 1.0, given.box_mm);
+    let dense = scene(given.alpha_of_dense, 400.0, 1.0, given.box_mm);
+    let short = scene(given.alpha_of_short, 50.0, 0.5, given.box_mm);
+    let [long_in_box, short_in_box] = [(0.5, 1.0), (given.alpha_in_box, 0.5)]
+        .map(|(alpha, share)| scene(alpha, 50.0, share, Some([12.0, 12.0, 14.0])));
     vec![
         Evidence::exact("400 rods per cm³ at α = 0.25", "rod lengths", difference(&dense, &base)),
         Evidence::exact("half the length at α = 1", "rod lengths", difference(&short, &base)),
+        Evidence::exact("the same in a box", "rod lengths", difference(&short_in_box, &long_in_box)),
     ]
 }
 

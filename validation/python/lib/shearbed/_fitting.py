@@ -156,15 +156,15 @@ def fit(
     ``rods`` how many each point is a mean over. ``design=True`` lists further points, with what each would leave of the
     uncertainties, in ``design``. ``test=["interaction.alpha=1"]`` tests values of fitted keys, and
     ``test=["1:interaction.alpha=2:interaction.alpha"]`` whether two scenes have the same: see ``tests``. ``checkpoint``
-    is a file that keeps the runs: the same call goes on with them. ``progress(done, of)`` counts the runs of each part of
-    the work, a search or a table, one after the other; ``progress=True`` draws a bar with tqdm where it is installed.
+    is a file that keeps the runs: the same call goes on with them. ``progress(done, of)`` counts the runs, of those
+    that are known to be needed by then; ``progress=True`` draws a bar with tqdm where it is installed.
 
     The work is done in a process of its own: other Python threads go on meanwhile, and Ctrl-C ends it. Raises ``ValueError``
     with the program's words for what is not allowed, ``RuntimeError`` for a fit that cannot go on.
     """
     with tempfile.TemporaryDirectory(prefix="shearbed-") as made:
         folder = Path(made)
-        words = ["fit", "scene.toml", "--out", "out"]
+        words = ["fit", "scene.toml", "--out", "out", "--yes"]
         for k, (of, points) in enumerate([(scene, data), *also]):
             name = "scene.toml" if k == 0 else f"scene-{k + 1}.toml"
             scene_of(of)._written(folder, name)

@@ -360,18 +360,22 @@ mod tests {
             (&n, 2, &[alpha, of_first, of_second]),
             (&fraction, 1, &[alpha, part]),
             (&fraction, 1, &[length]),
+            (&box_mm, 1, &[alpha, length]),
         ] {
-            let told = refused(text, sets, &[], over, "x1");
-            assert!(told.contains("by α·a·n^(1/3) alone; fix "), "{over:?}: {told}");
+            // The scatter of lengths is relative: it is no length of its own.
+            for scatter in [&[][..], &["particles.length_sd_percent=10"]] {
+                let told = refused(text, sets, scatter, over, "x1");
+                assert!(told.contains("by α·a·n^(1/3) alone; fix "), "{over:?}: {told}");
+            }
         }
         for (text, sets, settings, over, column) in [
             (&n, 1, &[][..], &[alpha, m][..], "x1"),
             (&n, 1, &[], &[length], "x1"),
             (&n, 2, &[], &[alpha, of_second], "x1"),
             (&n, 1, &["interaction.min_contact_arm=0.1"], &[alpha, per_cm3], "x1"),
-            (&n, 1, &["particles.length_sd_percent=10"], &[alpha, per_cm3], "x1"),
             (&n, 1, &["liquid.viscosity_pa_s=1"], &[alpha, per_cm3], "s12_pa"),
-            (&box_mm, 1, &[], &[alpha, length], "x1"),
+            (&box_mm, 1, &[], &[alpha, m], "x1"),
+            (&box_mm, 1, &["interaction.min_contact_arm=0.1"], &[alpha, length], "x1"),
             (&fraction, 1, &[], &[alpha, "particles.aspect_ratio=10:20"], "x1"),
         ] {
             assert_eq!(refused(text, sets, settings, over, column), "", "{settings:?} {over:?}");
