@@ -28,7 +28,7 @@ use keys::{Absent::Default as Otherwise, Absent::Other, Absent::Required, table,
 pub(crate) use keys::{find, refused};
 pub(crate) use particles::equivalent;
 pub use particles::{COUNTED, Isotropic, Orientation, OwnRods, Particles, RodsFile};
-pub use read::{of_document, parse};
+pub use read::{likeness, of_document, parse};
 pub use rods::Misfit;
 pub use steps::resolved_strain;
 pub(crate) use steps::{nearest, step_maps};

@@ -222,13 +222,15 @@ fn unknown_key(path: &str) -> String {
     format!("unknown key `{}`, expected {expected}{meant}", shortened(last(path)))
 }
 
+/// How similar a word is to a known name, from 0 to 1 (Jaro–Winkler).
+pub fn likeness(word: &str, name: &str) -> f64 {
+    // Comparing megabytes takes seconds, and a word ten times as long as any name is similar to none.
+    if word.len() > 200 { 0.0 } else { strsim::jaro_winkler(word, name) }
+}
+
 /// The key or table whose last part is most similar to that of an unknown one; `None` if none is similar.
 fn nearest(path: &str) -> Option<&'static str> {
-    // Comparing megabytes takes seconds, and a name ten times as long as any key is similar to none.
-    if last(path).len() > 200 {
-        return None;
-    }
-    let likeness = |key| strsim::jaro_winkler(last(path), last(key));
+    let likeness = |key| likeness(last(path), last(key));
     let is_key = |key: &&str| keys().any(|known| known.path == *key);
     let all = all_paths().filter(|key| above(path).is_empty() || is_key(key));
     let (best, key) = all.map(|key| (likeness(key), key)).reduce(|a, b| if b.0 > a.0 { b } else { a })?;

@@ -54,11 +54,7 @@ pub fn scene(name: &str) -> Option<Scene> {
 
 /// Up to three of these names of which `word` may be a misspelling, the closest first.
 pub fn near<'a>(word: &str, names: impl Iterator<Item = &'a str>) -> Vec<&'a str> {
-    // Comparing megabytes takes seconds, and a word ten times as long as any name is similar to none.
-    if word.len() > 200 {
-        return Vec::new();
-    }
-    let likeness = |name: &&str| strsim::jaro_winkler(word, name);
+    let likeness = |name: &&str| shearbed::scene::likeness(word, name);
     let mut close: Vec<_> = names.filter(|name| likeness(name) > 0.85).collect();
     close.sort_by(|a, b| likeness(b).total_cmp(&likeness(a)));
     close.truncate(3);
