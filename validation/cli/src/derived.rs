@@ -5,7 +5,7 @@ use shearbed::run::ensemble::Column;
 use shearbed::{Plan, Results};
 use shearbed_validation::files::csv;
 use shearbed_validation::files::output::Output;
-use shearbed_validation::methods::derived::{Derived, Estimate, Extreme};
+use shearbed_validation::methods::derived::{Derived, Estimate, Extreme, FEWEST, NO_RATE};
 use std::collections::BTreeMap;
 
 /// Maxima, minima and amplitudes, a row each.
@@ -40,12 +40,19 @@ pub(super) fn is_extreme(column: &str) -> bool {
     column.rsplit_once('_').is_some_and(|(_, kind)| OF_EXTREMES.contains(&kind))
 }
 
+/// True for a rate of decay, such as `x1_damping_rate`.
+pub(super) fn is_rate(column: &str) -> bool {
+    column.ends_with("_damping_rate")
+}
+
 /// What a run without the value `channel` lacks, in words.
-pub(super) fn lacks(channel: &str) -> &'static str {
-    match channel.rsplit_once('_') {
-        _ if is_extreme(channel) => "none is beyond noise: more replicas or periods are needed",
-        Some((_, "rate")) => "it needs three maxima between minima, all beyond noise",
-        _ => "the mean still changes in the last quarter of the run, or replicas are fewer than 8",
+pub(super) fn lacks(channel: &str) -> String {
+    if is_extreme(channel) {
+        "none is beyond noise: more replicas or periods are needed".into()
+    } else if is_rate(channel) {
+        NO_RATE.into()
+    } else {
+        format!("the mean still changes in the last quarter of the run, or replicas are fewer than {FEWEST}")
     }
 }
 
@@ -136,14 +143,12 @@ pub(super) fn summary(plan: &Plan, time_name: &str, all: &[OfChannel]) -> String
         None => format!("{:.decimals$}", estimate.value),
     };
     let mut text = String::new();
-    let mut without: BTreeMap<&str, Vec<&str>> = BTreeMap::new();
+    let mut without: BTreeMap<String, Vec<&str>> = BTreeMap::new();
     for (column, derived) in all.iter().filter(|(column, _)| tables::is_bounded(&column.name)) {
         let varies = column.se.iter().any(|se| *se > 0.0);
-        derived
-            .no_rate(replicas)
-            .filter(|_| varies)
-            .into_iter()
-            .for_each(|why| without.entry(why).or_default().push(&column.name));
+        if let Some(why) = derived.no_rate(replicas).filter(|_| varies) {
+            without.entry(why).or_default().push(&column.name);
+        }
         let decays = |rate: &Estimate| rate.value.abs() > 3.0 * rate.se.unwrap_or(0.0) && rate.value.abs() > 1e-3;
         let rate = derived.damping_rate.filter(decays);
         let law = if derived.is_exponential {

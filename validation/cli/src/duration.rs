@@ -18,7 +18,7 @@ const PILOT_S: f64 = 3.0;
 /// The longest work that begins unasked, in hours: longer work is more often a slip in a count than meant.
 const UNASKED_H: f64 = 24.0;
 
-/// The option of commands that may work for hours.
+/// The option of commands that may work for days.
 #[derive(clap::Args)]
 pub(super) struct Long {
     /// Begin work of over a day

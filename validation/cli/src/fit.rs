@@ -150,7 +150,7 @@ pub(super) fn fit(args: &Args) -> Result<(), Failure> {
     write(args, &input, &folder, &asked, &done?)
 }
 
-/// Refuses a fit that may take hours: as many replicas as are asked for at each value, at the ends of the ranges. The
+/// Refuses a fit that may take days: as many replicas as are asked for at each value, at the ends of the ranges. The
 /// default is a limit that few fits reach: with it the first replicas count.
 fn check_duration(args: &Args, input: &Input) -> Result<(), Failure> {
     let ends = [|range: &Range| range.from, |range: &Range| range.to];

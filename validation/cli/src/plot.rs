@@ -37,8 +37,8 @@ pub(super) struct Args {
     /// A key of a sweep to draw its channel against, or a product of powers: KEY*KEY^(1/3)
     #[arg(long = "x", value_name = "KEY", conflicts_with = "data")]
     key: Option<String>,
-    /// With --x: the time [default: the last output's]; of extremes, within a quarter period [default: the first that
-    /// most points have]
+    /// With --x: the time [default: the last output's]; of extremes, to a quarter period [default: the first of most
+    /// points]
     #[arg(long, value_name = "TIME", requires = "key", value_parser = time, allow_negative_numbers = true)]
     at: Option<f64>,
     /// Measured points to draw over the curves, in the columns that `shearbed fit` takes, or without uncertainties
@@ -207,9 +207,10 @@ fn drawn_of(dirs: &[PathBuf], channels: &[String]) -> Result<Drawn, Failure> {
     }
     let swept = first.point.iter().flatten().map(|(key, _)| key.as_str()).collect::<Vec<_>>();
     let time = time.unwrap_or_default();
-    let per = derived::per(&time);
-    let unit = |symbol: &String| if symbol.contains('λ') { format!("{symbol} ({per})") } else { symbol.clone() };
-    let y_name = symbols.iter().map(unit).collect::<Vec<_>>().join(", ");
+    let with_unit = |(channel, symbol): (&String, &String)| {
+        if derived::is_rate(channel) { format!("{symbol} ({})", derived::per(&time)) } else { symbol.clone() }
+    };
+    let y_name = channels.iter().zip(&symbols).map(with_unit).collect::<Vec<_>>().join(", ");
     let figure = Figure {
         title: match titles.len() {
             1 => names::title_without(&first.scene.title, &swept),

@@ -67,12 +67,14 @@ impl Derived {
     }
 
     /// Why a mean of `replicas` replicas has no damping rate; `None` if it has one, or does not oscillate.
-    pub fn no_rate(&self, replicas: u64) -> Option<&'static str> {
+    pub fn no_rate(&self, replicas: u64) -> Option<String> {
         match self.extremes[..] {
             _ if self.damping_rate.is_some() => None,
-            [] | [_] if replicas < FEWEST => Some("no amplitudes: no turn is beyond the noise of so few replicas"),
+            [] | [_] if replicas < FEWEST => {
+                Some("no amplitudes: no turn is beyond the noise of so few replicas".into())
+            }
             [] | [_] => None,
-            _ => Some("no damping rate: it needs three maxima between minima, all beyond noise"),
+            _ => Some(format!("no damping rate: {NO_RATE}")),
         }
     }
 }
@@ -80,8 +82,11 @@ impl Derived {
 /// The probability that noise alone makes a mean turn, or be unsteady, anywhere in a run.
 const BY_CHANCE: f64 = 0.01;
 
+/// What a mean without a damping rate lacks.
+pub const NO_RATE: &str = "it needs three maxima between minima, all beyond noise";
+
 /// The fewest replicas that can show a mean to be steady: with larger errors every mean seems so.
-const FEWEST: u64 = 8;
+pub const FEWEST: u64 = 8;
 
 /// The fewest outputs over which a mean can be steady.
 const FEWEST_OUTPUTS: usize = 10;

@@ -9,6 +9,7 @@ use super::*;
 use crate::methods::integrators::limits::{Limit, Property, longest};
 use crate::methods::integrators::*;
 use crate::studies::stability::theory;
+use std::sync::Arc;
 
 /// Integrators that should lose a property at a step given by theory.
 struct Claimed {
@@ -164,11 +165,14 @@ pub fn cases() -> Vec<Case> {
 
 /// RK4 in p by three steps for each.
 fn thirds() -> Vec<Integrator> {
+    let thrice = |setting: Setting| setting.steps().map(|steps| Setting::Steps(3 * steps));
     let third = |rk4: Integrator| {
-        let order = rk4.theory;
-        Integrator::new("in p", order, |_, _, _| Err(Failure::NotFinite)).with_many(move |problem, starts, setting| {
-            rk4.advance_all(problem, starts, Setting::Steps(3 * setting.steps()?))
+        let rk4 = Arc::new(rk4);
+        let one = Arc::clone(&rk4);
+        Integrator::new("in p", rk4.theory, move |problem, start, setting| {
+            one.advance(problem, start, thrice(setting)?)
         })
+        .with_many(move |problem, starts, setting| rk4.advance_all(problem, starts, thrice(setting)?))
     };
     named("RK4 in p").into_iter().map(third).collect()
 }

@@ -16,13 +16,12 @@ type Of<'a> = (&'a String, Pairs);
 /// are those nearest to `at`. There is one curve for each combination of the other keys.
 pub(super) fn against(drawn: Drawn, key: &str, at: Option<f64>) -> Result<(Figure, Vec<String>), Failure> {
     let refused = |what: String| Failure::Input(format!("--x {key}: {what}"));
-    let Drawn { figure, runs, channels, .. } = drawn;
+    let Drawn { figure, runs, channels, time, .. } = drawn;
     let mut curves: Vec<(Of<'_>, Vec<[f64; 3]>)> = Vec::new();
     let (mut when, mut left_out) = (Vec::new(), Vec::new());
     for (k, channel) in channels.iter().enumerate() {
         let own: Vec<&Curve> = figure.curves.iter().skip(k).step_by(channels.len()).collect();
-        let places =
-            if is_extreme(channel) { extremes(&own, &figure.x_name, at) } else { outputs(&runs, &own, &figure, at)? };
+        let places = if is_extreme(channel) { extremes(&own, &time, at) } else { outputs(&runs, &own, &figure, at)? };
         let mut times = Vec::new();
         let mut without = Vec::new();
         for ((run, curve), place) in runs.iter().zip(own).zip(places) {
@@ -115,10 +114,10 @@ fn outputs(runs: &[Run], own: &[&Curve], figure: &Figure, at: Option<f64>) -> Re
 }
 
 /// The extreme within a quarter period of the time `at`; by default of the first after the start that most points have.
-fn extremes(own: &[&Curve], x_name: &str, at: Option<f64>) -> Vec<Option<usize>> {
+fn extremes(own: &[&Curve], time: &str, at: Option<f64>) -> Vec<Option<usize>> {
     // Maxima are half a period apart; in other units than periods they tell how long that is.
     let gaps = own.iter().flat_map(|curve| curve.x.windows(2)).map(|pair| pair[1] - pair[0]);
-    let quarter = if x_name == names::time("t_over_T") { 0.25 } else { gaps.fold(f64::INFINITY, f64::min) / 2.0 };
+    let quarter = if time == "t_over_T" { 0.25 } else { gaps.fold(f64::INFINITY, f64::min) / 2.0 };
     let near = |at: f64| {
         let place = |curve: &&Curve| nearest(curve, at).filter(|k| (curve.x[*k] - at).abs() <= quarter);
         own.iter().map(place).collect::<Vec<_>>()
@@ -160,8 +159,8 @@ mod tests {
     fn extremes_of_one_half_period_are_drawn_together() {
         let curves = [&[0.0, 0.49, 1.0, 1.5][..], &[0.0, 0.52, 0.98], &[0.51], &[]];
         let curves = curves.map(|x| Curve { x: x.to_vec(), ..Curve::default() });
-        let of = |x_name: &str, at| extremes(&curves.iter().collect::<Vec<_>>(), x_name, at);
-        for unit in ["t/T", "strain Gt"] {
+        let of = |time: &str, at| extremes(&curves.iter().collect::<Vec<_>>(), time, at);
+        for unit in ["t_over_T", "strain"] {
             assert_eq!(of(unit, None), [Some(1), Some(1), Some(0), None]);
             assert_eq!(of(unit, Some(1.1)), [Some(2), Some(2), None, None]);
             assert_eq!(of(unit, Some(9.0)), [None; 4]);

@@ -137,7 +137,7 @@ fn a_missing_rate_has_a_reason() {
         column.mean.truncate(until);
         column.without.iter_mut().for_each(|mean| mean.truncate(until));
         let derived = Derived::new(&times()[..until], &column, replicas as u64);
-        derived.no_rate(replicas as u64).map_or("", |why| &why[..10])
+        derived.no_rate(replicas as u64).map_or(String::new(), |why| why[..10].to_owned())
     };
     assert_eq!([why(20, 0.05, 801), why(20, 0.05, 40), why(2, 0.05, 40)], ["", "", "no amplitu"]);
     assert_eq!([why(2, 0.05, 801), why(20, 0.05, 250)], ["no amplitu", "no damping"]);

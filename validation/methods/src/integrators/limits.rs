@@ -51,14 +51,21 @@ pub struct Ladder {
 /// The steps GΔt for properties of a single step.
 const ONE_STEP: Ladder = Ladder { least: 0.1, most: 1e3, factor: 1.1 };
 
-/// The steps GΔt for the orbit after ten periods, and from how many directions: first few, then many from half the step
-/// that is lost with the few, as some rods lose it before others, in narrow bands of steps.
-const ORBITS: [(Ladder, u32); 2] =
-    [(Ladder { least: 0.02, most: 20.0, factor: 1.25 }, 8), (Ladder { factor: 1.02, ..ONE_STEP }, 16)];
+/// A search over ten periods: from a few directions, then from many on a finer ladder, from half of the step that is
+/// lost with the few on, as some rods lose the property before others, in narrow bands of steps.
+struct TwoSearches {
+    ladder: Ladder,
+    few: u32,
+    finer_factor: f64,
+    many: u32,
+}
 
-/// The same for the length. A method that keeps |p| is searched with the few alone.
-const LENGTHS: [(Ladder, u32); 2] =
-    [(Ladder { least: 0.5, most: 20.0, factor: 1.05 }, 45), (Ladder { factor: 1.002, ..ONE_STEP }, 180)];
+const ORBITS: TwoSearches =
+    TwoSearches { ladder: Ladder { least: 0.02, most: 20.0, factor: 1.25 }, few: 8, finer_factor: 1.02, many: 16 };
+
+/// A method that keeps |p| is searched with the few alone.
+const LENGTHS: TwoSearches =
+    TwoSearches { ladder: Ladder { least: 0.5, most: 20.0, factor: 1.05 }, few: 45, finer_factor: 1.002, many: 180 };
 
 /// The number of periods after which length and orbit are judged.
 pub const PERIODS: f64 = 10.0;
@@ -74,14 +81,14 @@ const PART: u32 = 64;
 /// The longest step GΔt with which an integrator keeps a property at this aspect ratio.
 pub fn longest(integrator: &Integrator, property: Property, aspect_ratio: f64) -> Limit {
     let search = |ladder, count| bisect(ladder, |strain| holds(integrator, property, aspect_ratio, strain, count));
-    let [(ladder, few), (finer, many)] = match property {
+    let TwoSearches { ladder, few, finer_factor, many } = match property {
         Property::Length => LENGTHS,
         Property::Orbit => ORBITS,
         _ => return search(ONE_STEP, RODS),
     };
     match search(ladder, few) {
         Limit::At(strain) if property == Property::Orbit || !integrator.keeps_length => {
-            match search(Ladder { least: 0.5 * strain, most: strain, ..finer }, many) {
+            match search(Ladder { least: 0.5 * strain, most: strain, factor: finer_factor }, many) {
                 Limit::Beyond(_) => Limit::At(strain),
                 earlier => earlier,
             }
@@ -93,8 +100,8 @@ pub fn longest(integrator: &Integrator, property: Property, aspect_ratio: f64) -
 /// The same on a ladder of one's own, from few directions: for programs that are slow to ask.
 pub fn longest_on(ladder: Ladder, integrator: &Integrator, property: Property, aspect_ratio: f64) -> Limit {
     let count = match property {
-        Property::Length => LENGTHS[0].1,
-        Property::Orbit => ORBITS[0].1,
+        Property::Length => LENGTHS.few,
+        Property::Orbit => ORBITS.few,
         _ => RODS,
     };
     bisect(ladder, |strain| holds(integrator, property, aspect_ratio, strain, count))
@@ -226,12 +233,15 @@ mod tests {
         let rk4_in_p = all.iter().find(|integrator| integrator.name == "RK4 in p").unwrap();
         let keeps = |strain, count| holds(rk4_in_p, Property::Length, 11.6, strain, count);
         assert!(keeps(1.184, 45) && !keeps(1.184, 720) && keeps(0.592, 720));
-        let (Limit::At(few), Limit::At(many)) =
-            (longest_on(LENGTHS[0].0, rk4_in_p, Property::Length, 11.6), longest(rk4_in_p, Property::Length, 11.6))
-        else {
-            panic!("no limit");
+        let at = |limit: Limit| match limit {
+            Limit::At(strain) => strain,
+            other => panic!("{other:?}"),
         };
-        assert!(many < 0.85 * few, "{many} {few}");
+        let few = at(longest_on(LENGTHS.ladder, rk4_in_p, Property::Length, 11.6));
+        // As docs/src/developer/step-limits.md has them.
+        let many = [3.0, 11.6, 100.0].map(|r| at(longest(rk4_in_p, Property::Length, r)));
+        assert_eq!(many.map(|strain| format!("{strain:.2}")), ["1.30", "1.18", "1.13"]);
+        assert!(many[1] < 0.85 * few, "{many:?} {few}");
     }
 
     #[test]

@@ -46,16 +46,6 @@ pub(super) fn bounds(line: &Line) -> (String, String) {
     }
 }
 
-/// The error of a line beside its tolerance, with their unit.
-pub(super) fn size(line: &Line) -> String {
-    let (error, tolerance) = bounds(line);
-    let size = match line.judged_by {
-        Rule::PValue { .. } | Rule::Above { .. } => format!("{error} ({tolerance})"),
-        _ => format!("{error} of {tolerance}"),
-    };
-    if line.unit == "–" { size } else { format!("{size} {}", line.unit) }
-}
-
 pub(super) fn share(used: f64) -> String {
     match used {
         used if used.is_nan() => "not a number".into(),

@@ -1,7 +1,7 @@
 //! The report as one HTML file: the data for its template.
 
 use super::first::{cards, closest, sizes, thumbnails};
-use super::formats::{bounds, detail, number, seconds, share, size, verdict};
+use super::formats::{bounds, detail, number, seconds, share, verdict};
 use super::prose::Anchors;
 use super::{CaseRow, Line, Report, ReportFigure, ReportTable};
 use crate::files::text::readable;
@@ -86,7 +86,7 @@ fn case(report: &Report, row: &CaseRow) -> Json {
         "symbol": symbol,
         "word": word,
         "used": worst.map(|line| share(line.used)),
-        "size": worst.map_or("–".into(), size),
+        "size": worst.map_or("–".into(), Line::size),
         "bar": worst.map(|line| bar(line.used)),
         "evidence": row.evidence.iter().map(line).collect::<Vec<_>>(),
         "caught": row.caught,

@@ -54,11 +54,26 @@ impl Line {
     /// The error against its bound, with the numbers behind them, in words.
     pub fn numbers(&self) -> String {
         let (error, tolerance) = bounds(self);
-        let unit = if self.unit == "–" { String::new() } else { format!(" {}", self.unit) };
+        let unit = self.spaced_unit();
         match detail(&self.judged_by) {
             detail if detail.is_empty() => format!("{error}, allowed {tolerance}{unit}"),
             detail => format!("{error}, allowed {tolerance}{unit} ({detail})"),
         }
+    }
+
+    /// The error beside its bound, for a row of the report.
+    pub(super) fn size(&self) -> String {
+        let (error, tolerance) = bounds(self);
+        let unit = self.spaced_unit();
+        match self.judged_by {
+            Rule::PValue { .. } | Rule::Above { .. } => format!("{error} ({tolerance}){unit}"),
+            _ => format!("{error} of {tolerance}{unit}"),
+        }
+    }
+
+    /// The unit behind a space; nothing for a number without one.
+    fn spaced_unit(&self) -> String {
+        if self.unit == "–" { String::new() } else { format!(" {}", self.unit) }
     }
 
     /// Sorts worse verdicts first, then cases nearer to their bounds; NaN is worst.

@@ -126,7 +126,7 @@ fn a_one_sided_rule_uses_less_of_its_bound_the_farther_it_is() {
     let used = |mean| {
         let rule = Rule::Above { mean, se: 0.0, samples: 100, bound: 0.1, effect: 0.2, because: "synthetic".into() };
         let row = CaseRow::new(outcome("synthetic", Verdict::Pass, vec![rule], &[]), &EFFORT);
-        (row.evidence[0].used, super::formats::size(&row.evidence[0]))
+        (row.evidence[0].used, row.evidence[0].size())
     };
     assert_eq!(used(0.4).0, 0.25);
     assert_eq!(used(0.05).0, 2.0);

@@ -78,7 +78,8 @@ fn by_name(problems: &[LoadedProblem], graded: &[Graded], wrong: &[&Graded]) -> 
         let best: Vec<_> = all.iter().copied().filter(|name| explained(name).len() == most).collect();
         let of = explained(best[0]);
         // Where a curve has come to rest, many share its end: some problem must tell the mistake by itself.
-        let alone = left.iter().any(|graded| of.contains(&graded.name.as_str()) && graded.diagnosis.is_some());
+        let theirs: Vec<_> = left.iter().filter(|graded| of.contains(&graded.name.as_str())).collect();
+        let alone = theirs.iter().any(|graded| graded.diagnosis.is_some());
         // If others explain as many problems, but not the same ones, no mistake is certain.
         let alike = best.iter().all(|name| explained(name) == of);
         if alike && alone && best.len() <= MOST_NAMES {
@@ -89,11 +90,8 @@ fn by_name(problems: &[LoadedProblem], graded: &[Graded], wrong: &[&Graded]) -> 
                 _ => format!("{} of {}", of.len(), wrong.len()),
             };
             let (all, fits) = (names.join(", or "), of.join(", "));
-            let its = if left.iter().all(|graded| !of.contains(&graded.name.as_str()) || graded.kind == Kind::Formula) {
-                "its values fit"
-            } else {
-                "its curve fits"
-            };
+            let of_formulas = theirs.iter().all(|graded| graded.kind == Kind::Formula);
+            let its = if of_formulas { "its values fit" } else { "its curve fits" };
             let advice = tensors::advice(&names[0]);
             let shared = !advice.is_empty() && names.iter().all(|name| tensors::advice(name) == advice);
             let advice = if shared { format!("; {advice}") } else { String::new() };
