@@ -1,7 +1,7 @@
 //! `shearbed bench`: runs the studies that have named parts, alone and with longer measurements.
 
 use super::finished::{Finished, measured};
-use super::{Failure, Writing, checkpoint, on_threads, print, progress, result_folder};
+use super::{Failure, Writing, checkpoint, on_threads, print, progress, result_folder, write};
 use serde_json::json;
 use shearbed_validation::files::text::Shown;
 use shearbed_validation::judge::case::Effort;
@@ -59,11 +59,11 @@ pub(super) fn bench(args: &Args) -> Result<(), Failure> {
     }
     bar.finish_and_clear();
     let names: Vec<_> = files.iter().map(|(name, _)| name.clone()).collect();
-    folder.write(files)?;
+    let replaced = write(&folder, files)?;
     if args.writing.quiet {
         return Ok(());
     }
-    print(&format!("{tables}in {}: {}\n", args.out.shown(), names.join(", ")))
+    print(&format!("{tables}in {}: {}\n{replaced}", args.out.shown(), names.join(", ")))
 }
 
 /// Refuses names that no bench has; `names` are the arguments of `--case`.

@@ -3,7 +3,7 @@
 use super::scene::{Chosen, Ensemble};
 use super::{
     Failure, Threads, Writing, agree, duration, memory, on_threads, print, progress, result_folder, scene,
-    spares_inputs, whole,
+    spares_inputs, whole, write,
 };
 use serde::Serialize;
 use serde_json::json;
@@ -85,10 +85,10 @@ pub(super) fn converge(args: &Args) -> Result<(), Failure> {
         return Ok(());
     };
     let names: Vec<_> = done.files.iter().map(|(name, _)| name.clone()).collect();
-    folder.write(done.files)?;
+    let replaced = write(&folder, done.files)?;
     if !args.writing.quiet {
         let text: String = done.tables.iter().map(ReportTable::for_terminal).collect();
-        print(&format!("{text}in {}: {}\n", out.shown(), names.join(", ")))?;
+        print(&format!("{text}in {}: {}\n{replaced}", out.shown(), names.join(", ")))?;
     }
     match done.wrong {
         None => Ok(()),

@@ -182,7 +182,7 @@ fn write(args: &Args, input: &Input, folder: &ResultFolder, asked: &Value, done:
     let names: Vec<&str> = std::iter::once(FIT).chain(files.iter().map(|(name, _)| name.as_str())).collect();
     let record = record(asked, input, done, &names)?;
     let names = names.join(", ");
-    folder.write(files.into_iter().chain([(FIT.into(), record)]).collect())?;
+    let replaced = crate::write(folder, files.into_iter().chain([(FIT.into(), record)]).collect())?;
     scene::warn(&input.stem, input.warnings.iter().chain(&done.warnings));
     if args.writing.quiet {
         return Ok(());
@@ -192,7 +192,7 @@ fn write(args: &Args, input: &Input, folder: &ResultFolder, asked: &Value, done:
         done.fit.as_ref().zip(design).map_or(String::new(), |(fit, steps)| terminal::design(fit, steps, &times) + "\n");
     let table = done.fit.as_ref().map_or(String::new(), |fit| terminal::table(fit, &done.report) + "\n");
     let (sentence, tests) = (terminal::sentence(done.fit.as_ref(), &done.report), terminal::tests(&done.report));
-    print(&format!("{sentence}\n{tests}\n{table}{design}in {}: {names}\n", folder.dir().shown()))
+    print(&format!("{sentence}\n{tests}\n{table}{design}in {}: {names}\n{replaced}", folder.dir().shown()))
 }
 
 /// Tables and pictures.

@@ -8,7 +8,7 @@ mod tolerances;
 pub(super) use args::Args;
 
 use super::choice::unknown as unknown_name;
-use super::{Failure, print, replaced, spares_inputs};
+use super::{Failure, print, spares_inputs, write};
 use serde_json::Value;
 use shearbed_validation::files::output::{self, RECORD, Record, ResultFolder};
 use shearbed_validation::files::text::Shown;
@@ -70,8 +70,7 @@ pub(super) fn grade(args: &Args) -> Result<(), Failure> {
     let mut files: Vec<_> = PAGES.map(str::to_owned).into_iter().zip(pages).collect();
     files.extend(pictures);
     let folder = folder(args, inputs);
-    let replaced = replaced(&folder, "grading");
-    folder.write(files)?;
+    let replaced = write(&folder, files)?;
     if !args.writing.quiet {
         let place = args.out.join("grade.html");
         print(&format!("{}\nreport: {}\n{replaced}", grade::terminal(&report), place.shown()))?;
@@ -101,9 +100,9 @@ fn axes(args: &Args, report: &Report) -> Option<String> {
     Some(format!("if these are your axes: --axes {axes}"))
 }
 
-/// The folder of the report. Who mends a code grades it again, so that an earlier grading is replaced.
+/// The folder of the report.
 fn folder(args: &Args, inputs: Value) -> ResultFolder {
-    ResultFolder::new(&args.out, "grade", inputs, args.writing.force).from_any_input()
+    ResultFolder::new(&args.out, "grade", inputs, args.writing.force)
 }
 
 /// Pictures of the program in bold and of the project's own integrators, as SVG and CSV with file names.

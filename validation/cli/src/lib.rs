@@ -48,7 +48,7 @@ pub use threads::code_of_panic;
 use clap::error::{ContextKind, ContextValue};
 use clap::{Parser, Subcommand};
 use serde_json::{Value, json};
-use shearbed_validation::files::output::{self, RECORD, Record, ResultFolder};
+use shearbed_validation::files::output::{self, Output, RECORD, Record, ResultFolder};
 use shearbed_validation::files::text::{Shown, complain};
 use shearbed_validation::files::{cluster, text};
 use shearbed_validation::oracle::reference::big::finite;
@@ -311,10 +311,11 @@ fn result_folder<N: AsRef<str>>(
     Ok(folder)
 }
 
-/// A line for the terminal on earlier results, as a run, that are replaced, if their input was another.
-fn replaced(folder: &ResultFolder, what: &str) -> String {
-    let line = |difference: String| format!("(replaced an earlier {what}: {difference})\n");
-    folder.difference().map(line).unwrap_or_default()
+/// Writes the results of a command. A line for the terminal on those that they replaced, if these had other input.
+fn write(folder: &ResultFolder, files: Vec<Output>) -> Result<String, Failure> {
+    let line =
+        |difference: String| format!("(replaced earlier results of {}: {difference})\n", folder.origin().command);
+    Ok(folder.write(files)?.map(line).unwrap_or_default())
 }
 
 /// Refuses a folder in which the results would replace or remove a file that the command reads, also with --force: one

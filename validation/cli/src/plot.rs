@@ -55,7 +55,7 @@ pub(super) struct Args {
     /// The picture, whose name ends in .svg, .png or .pdf
     #[arg(long, value_name = "FILE", default_value = "out/plot.svg", value_parser = picture)]
     out: PathBuf,
-    /// Overwrite an existing picture
+    /// Overwrite a file that is no unedited picture of `plot`
     #[arg(long)]
     force: bool,
 }
@@ -80,8 +80,8 @@ pub(super) fn plot(args: &Args) -> Result<(), Failure> {
     };
     args.look.apply(&mut figure)?;
     scene::warn(&args.out.shown(), &args.look.warnings(&figure));
-    write(&args.out, &figure, args.force)?;
-    print(&format!("{said} in {}\n", args.out.shown()))
+    let replaced = if write(&args.out, &figure, args.force)? { " (replaced an earlier picture)" } else { "" };
+    print(&format!("{said} in {}{replaced}\n", args.out.shown()))
 }
 
 fn of_runs(args: &Args) -> Result<(Figure, String), Failure> {
@@ -224,7 +224,8 @@ fn drawn_of(dirs: &[PathBuf], channels: &[String]) -> Result<Drawn, Failure> {
     Ok(Drawn { figure, channels, time, runs })
 }
 
-fn write(out: &Path, figure: &Figure, force: bool) -> Result<(), Failure> {
+/// True if the picture replaced an unedited one.
+fn write(out: &Path, figure: &Figure, force: bool) -> Result<bool, Failure> {
     let target = output::followed(out);
     if picture(&target.to_string_lossy()).is_err() {
         let why = format!("{}: is a link to {}, which is no picture", out.shown(), target.shown());
@@ -233,7 +234,7 @@ fn write(out: &Path, figure: &Figure, force: bool) -> Result<(), Failure> {
     Ok(output::write_one(out, &drawn(out, figure)?, force)?)
 }
 
-/// The bytes of a picture in the format of its file's ending.
+/// The bytes of a picture in the format of its file's ending, with the mark of an unedited one.
 pub(super) fn drawn(out: &Path, figure: &Figure) -> Result<Vec<u8>, Failure> {
     let drawn = match out.extension().and_then(|extension| extension.to_str()) {
         Some("png") => plot::png(figure),
@@ -247,5 +248,5 @@ pub(super) fn drawn(out: &Path, figure: &Figure) -> Result<Vec<u8>, Failure> {
             format!("PNG and PDF pictures have no letters for {missing:?}; boxes stand for them, SVG has them");
         scene::warn(&out.shown(), &[lacking]);
     }
-    Ok(bytes)
+    Ok(output::sealed(bytes))
 }

@@ -8,8 +8,8 @@ use super::record::Seconds;
 use super::scene::{Chosen, Ensemble, Named};
 use super::until::{self, LEAST, Until};
 use super::{
-    Failure, Threads, Writing, agree, checkpoint, derived, memory, pictures, print, probe, record, replaced, rods,
-    scene, spares_inputs, tables, threads,
+    Failure, Threads, Writing, agree, checkpoint, derived, memory, pictures, print, probe, record, rods, scene,
+    spares_inputs, tables, threads, write,
 };
 use serde_json::{Value, json};
 use shearbed::run::resume::Halfway;
@@ -91,7 +91,6 @@ struct Run<'a> {
     threads: usize,
     folder: ResultFolder,
     /// A line on an earlier run in that folder.
-    replaced: String,
     checkpoint: Option<Arc<Replicas>>,
 }
 
@@ -134,14 +133,13 @@ impl<'a> Run<'a> {
         }
         probe(&out, tables::most_bytes(&plan).saturating_add(rods::most_bytes(&plan, args.vtk)))?;
         let checkpoint = path.map(|path| Replicas::open(&plan, &path, args.kept.every())).transpose()?;
-        let folder = ResultFolder::new(&out, "run", inputs, args.writing.force).from_any_input();
+        let folder = ResultFolder::new(&out, "run", inputs, args.writing.force);
         if cluster::is_root() {
             folder.check(&names)?;
         }
-        let replaced = replaced(&folder, "run");
         scene::warn(&named.source, &plan.warnings());
         let threads = threads::count(args.threads.given)? as usize;
-        Ok(Self { args, named, plan, threads, folder, replaced, checkpoint })
+        Ok(Self { args, named, plan, threads, folder, checkpoint })
     }
 
     /// Writes the results and prints their summary.
@@ -158,7 +156,7 @@ impl<'a> Run<'a> {
         files.push((RUN.to_owned(), record.map_err(Failure::Failed)?));
         let names: Vec<_> = files.iter().map(|(name, _)| name.clone()).collect();
         let out = self.folder.dir().shown();
-        self.folder.write(files)?;
+        let replaced = write(&self.folder, files)?;
         if !self.args.writing.quiet {
             let until = until.as_ref().map(|until| format!("{}\n\n", until.text())).unwrap_or_default();
             print(&format!(
@@ -168,7 +166,7 @@ impl<'a> Run<'a> {
                 plan.scene().ensemble.replicas,
                 tables::summary(&results) + &derived::summary(&plan, results.time_name, &derived),
                 names.join(", "),
-                self.replaced
+                replaced
             ))?;
         }
         until.map_or(Ok(()), |until| until.failure())

@@ -249,5 +249,9 @@ fn table(rows: &[Vec<String>], swept: usize) -> String {
         _ => text.clone(),
     };
     let cells: Vec<Vec<_>> = (rows.iter()).map(|row| (0..columns).map(|c| short(c, &row[c])).collect()).collect();
-    text::right_aligned(&cells)
+    let more = match rows[0].len() {
+        all if all > columns => format!("({columns} of the {all} columns of sweep.csv)\n"),
+        _ => String::new(),
+    };
+    text::right_aligned(&cells) + &more
 }

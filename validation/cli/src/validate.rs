@@ -3,6 +3,7 @@
 use super::finished::{CaseResult, Finished, measured};
 use super::{
     Failure, Threads, Writing, agree, checkpoint, choice, on_threads, print, progress, result_folder, scene, whole,
+    write,
 };
 use serde_json::json;
 use shearbed::scene::MAX_SEED;
@@ -100,7 +101,7 @@ pub(super) fn validate(args: Args) -> Result<(), Failure> {
     let mut files = report.data().map_err(Failure::Failed)?;
     let pages = [report.html().map_err(Failure::Failed)?, report.json(), report.markdown(), report.junit()];
     files.extend(PAGES.map(str::to_owned).into_iter().zip(pages));
-    folder.write(files)?;
+    let replaced = write(&folder, files)?;
     let red: String = report.cases.iter().map(CaseRow::reasons).collect();
     if !red.is_empty() && cluster::is_root() {
         // Printed even with --quiet: a failed case is an error.
@@ -108,7 +109,7 @@ pub(super) fn validate(args: Args) -> Result<(), Failure> {
     }
     if !args.writing.quiet {
         let page = args.out.join("report.html");
-        print(&format!("\n{}\nreport: {}\n", report.headline(), page.shown()))?;
+        print(&format!("\n{}\nreport: {}\n{replaced}", report.headline(), page.shown()))?;
     }
     match report.exit_code() {
         0 => Ok(()),

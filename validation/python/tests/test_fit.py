@@ -53,6 +53,9 @@ def test_the_result_is_that_of_the_program(points: dict[str, np.ndarray], tmp_pa
     # Correct code is outside four standard uncertainties at one seed in 16 000.
     assert abs(alpha.estimate - 0.8) < 4 * alpha.standard_uncertainty
     assert str(found).splitlines()[0] == ended.stdout.splitlines()[0] and "out:" not in str(found)
+    assert repr(found).startswith(f"<Fit interaction.alpha = {alpha.estimate:.4g} ± ")
+    loaded = shearbed.load(tmp_path / "out")
+    assert loaded.parameters == found.parameters and repr(loaded) == repr(found) == str(loaded)
     assert found.covariance.shape == (1, 1) and found.degrees_of_freedom == 9
     told: list[tuple[int, int]] = []
     watched = shearbed.fit(

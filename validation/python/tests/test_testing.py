@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import inspect
 import re
 from typing import Any
 
@@ -101,6 +102,8 @@ def test_help_lists_the_keys() -> None:
     told = shearbed.Scene.__doc__ or ""
     for _, name, meaning, *_ in shearbed._core.keys():
         assert f"\n    {name}\n        {meaning}" in told, name
+        assert name in inspect.signature(shearbed.Scene).parameters, name
+    assert all(len(repr(problem)) < 200 for problem in shearbed.problems())
 
 
 def test_reference_takes_any_times() -> None:

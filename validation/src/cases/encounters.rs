@@ -9,7 +9,7 @@ pub fn cases() -> Vec<Case> {
         Case::of(Judges::Core, "collision-probability")
             .claim(
                 "The reach of a draw R, which runs compare distances with, is the s at which P_c of eq. 7 is R, for \
-                 any α, m > 0.",
+                 any α, m > 0. As m → ∞ at fixed α/m, P_c tends to e^(−ms/(aα)).",
             )
             .source("eqs 7, 10")
             .under_test(reach as Formula)
@@ -39,6 +39,12 @@ fn limits(reach: &Formula, _: &Effort) -> Vec<Evidence> {
         ((back - r) / r / (1.0 + m)).abs()
     });
     let bounded = scenes().filter(|(alpha, m)| reach(0.0, *alpha, *m) != f64::INFINITY).count();
+    // s* = (α/m) ln(1/R) times 1 + ln(1/R)/(2m) + …: at m = 10⁴ and R ≥ 0.05, by 1.5·10⁻⁴.
+    let many = 1e4;
+    let exponential = pairs([1e-3, 0.5, 7.0], 1..20).map(|(scale, k): (f64, i32)| {
+        let r = f64::from(k) / 20.0;
+        (reach(r, scale * many, many) / (scale * -r.ln()) - 1.0).abs()
+    });
     // By hand: α = 0.5 and m = 3 give (1/3)³ at s = a.
     let by_hand = reach(1.0 / 27.0, 0.5, 3.0) - 1.0;
     vec![
@@ -54,6 +60,9 @@ fn limits(reach: &Formula, _: &Effort) -> Vec<Evidence> {
         Evidence::on("s* of R = 1/27 for α = ½, m = 3, less a rod length", "rod lengths")
             .within(by_hand, 4.0 * f64::EPSILON)
             .because("roundings of 1/27, of its root, and of two operations on 3"),
+        Evidence::on("s* over its limit (α/m) ln(1/R), less 1, at m = 10⁴", "–")
+            .within(worst(exponential), 20f64.ln() / many)
+            .because("the limit is reached as ln(1/R)/(2m), which is at most half of this"),
     ]
 }
 

@@ -6,6 +6,7 @@ mod claim;
 mod folder;
 mod record;
 mod replaced;
+mod seal;
 mod stage;
 #[cfg(test)]
 mod tests;
@@ -14,6 +15,7 @@ pub use claim::Claim;
 pub use folder::ResultFolder;
 pub use record::{Origin, RECORD, Record, Sum};
 pub use replaced::{Part, Replaced};
+pub use seal::sealed;
 pub use stage::stop;
 use stage::{PATIENCE, Stage};
 
@@ -96,12 +98,13 @@ fn has_room(dir: &Path, bytes: u64) -> io::Result<()> {
 }
 
 /// Writes one file, as a whole or not at all, following links of this name. An existing file with other contents is
-/// replaced only with `force`; a file with the same contents is left.
+/// replaced only with `force`, or if it is an unedited picture of this program; a file with the same contents is left.
+/// True if it replaced such a picture.
 ///
 /// # Errors
 ///
 /// If there is a file with other contents, or no regular file (its kind is named), or if the file cannot be written.
-pub fn write_one(path: &Path, contents: &[u8], force: bool) -> Result<(), Refused> {
+pub fn write_one(path: &Path, contents: &[u8], force: bool) -> Result<bool, Refused> {
     let target = followed(path);
     let name = target.file_name().and_then(|name| name.to_str());
     let name = name.ok_or_else(|| at(path)(io::ErrorKind::InvalidFilename.into()))?;
@@ -112,14 +115,15 @@ pub fn write_one(path: &Path, contents: &[u8], force: bool) -> Result<(), Refuse
     may_write(path, contents, force)?;
     loop {
         if let Some(claim) = Claim::open(folder, PATIENCE).map_err(at_file)? {
-            return if may_write(path, contents, force)? {
-                Ok(claim.write_file(name, contents).map_err(at_file)?)
-            } else {
-                Ok(())
-            };
+            let other = may_write(path, contents, force)?;
+            let replaces = other && is_own_picture(path);
+            if other {
+                claim.write_file(name, contents).map_err(at_file)?;
+            }
+            return Ok(replaces);
         }
         if Claim::appear(folder, &[(name.to_owned(), contents)]).map_err(at_file)?.is_some() {
-            return Ok(());
+            return Ok(false);
         }
     }
 }
@@ -128,15 +132,21 @@ pub fn write_one(path: &Path, contents: &[u8], force: bool) -> Result<(), Refuse
 ///
 /// # Errors
 ///
-/// If it has others and there is no `force`, or if it is no regular file.
+/// If it has others, is no unedited picture of this program and there is no `force`, or if it is no regular file.
 pub fn may_write(path: &Path, contents: &[u8], force: bool) -> Result<bool, Refused> {
     match holds(path, contents).map_err(at(path))? {
         Some(true) => Ok(false),
-        Some(false) if !force => {
+        Some(false) if !force && !is_own_picture(path) => {
             Err(folder::in_the_way(path, "is here already, with other contents", folder::OTHER_OUT))
         }
         _ => Ok(true),
     }
+}
+
+/// True if there is an unedited picture of this program at `path`.
+fn is_own_picture(path: &Path) -> bool {
+    const MOST_BYTES: u64 = 64 << 20;
+    bounded::bytes(path, MOST_BYTES).is_ok_and(|picture| seal::is_unedited(&picture))
 }
 
 /// True if the regular file at `path` has these contents; `None` if there is no file.

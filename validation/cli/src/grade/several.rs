@@ -1,7 +1,7 @@
 //! Several programs on one problem: compared, not judged.
 
 use super::{Args, asked, folder, inputs};
-use crate::{Failure, print, replaced};
+use crate::{Failure, print, write};
 use shearbed_validation::files::output;
 use shearbed_validation::files::text::{Shown, complain, line};
 use shearbed_validation::present::{plot, report};
@@ -26,7 +26,6 @@ pub(super) fn compare(args: &Args) -> Result<(), Failure> {
     output::probe(&args.out, 0)?;
     let folder = folder(args, inputs);
     folder.check(&names)?;
-    let replaced = replaced(&folder, "grading");
     let mut programs: Vec<(String, Program, live::Mode)> = Vec::new();
     for (name, command) in args.command.iter().map(|command| named(command)) {
         if programs.iter().any(|(known, ..)| *known == name) {
@@ -54,7 +53,7 @@ pub(super) fn compare(args: &Args) -> Result<(), Failure> {
         }
         Ok(files)
     };
-    folder.write(files().map_err(Failure::Failed)?)?;
+    let replaced = write(&folder, files().map_err(Failure::Failed)?)?;
     if !args.writing.quiet {
         let picture = args.out.join("work-precision.svg");
         print(&format!("{}picture: {}\n{replaced}", table.for_terminal(), picture.shown()))?;

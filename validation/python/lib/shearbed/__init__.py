@@ -8,10 +8,11 @@ from __future__ import annotations
 from ._core import SceneError, __version__
 from ._fitting import Estimate, Fit, fit
 from ._grading import Problem, Report, grade, problems
+from ._loading import load
 from ._reference import reference
 from ._results import Results
 from ._scene import Scene, scenes
-from ._running import load, run, sweep
+from ._running import converge, run, sweep
 
 __all__ = [
     "Estimate",
@@ -22,6 +23,7 @@ __all__ = [
     "Scene",
     "SceneError",
     "__version__",
+    "converge",
     "fit",
     "grade",
     "load",

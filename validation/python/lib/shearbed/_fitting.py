@@ -43,7 +43,7 @@ class Estimate:
 class Fit:
     """What a fit found: ``fit.json``, ``residuals.csv``, ``profiles.csv`` and ``samples.csv`` of ``shearbed fit``."""
 
-    def __init__(self, folder: Path, words: str) -> None:
+    def __init__(self, folder: Path, words: str | None = None) -> None:
         self.record: dict[str, Any] = json.loads((folder / "fit.json").read_text(encoding="utf-8"))
         """All of ``fit.json``."""
         self.parameters: dict[str, Estimate] = {
@@ -79,13 +79,17 @@ class Fit:
         """What to know before trusting it."""
         self.design: dict[str, NDArray[Any]] | None = columns_of(folder / "design.csv") if (folder / "design.csv").exists() else None
         """With ``design=True``: further points, and the uncertainties that each would leave."""
-        self._words = words
+        self._words = repr(self) if words is None else words
 
     def __getitem__(self, key: str) -> Estimate:
         return self.parameters[key]
 
     def __str__(self) -> str:
         return self._words
+
+    def __repr__(self) -> str:
+        found = [f"{key} = {at.estimate:.4g} ± {at.standard_uncertainty:.2g}" for key, at in self.parameters.items()]
+        return f"<Fit {', '.join([*found, f'χ² = {self.chi2:.4g}, {self.degrees_of_freedom} degrees of freedom'])}>"
 
     def plot(self, ax: Any = None) -> Any:
         """Draws points with their uncertainties, the best model with its 95 % band, and on axes below their residuals; without

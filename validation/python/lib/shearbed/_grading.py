@@ -40,7 +40,7 @@ OF_METHODS = ("ten-thousand-periods",)
 _DOUBLINGS = 24
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class Problem:
     """A reference problem with its certified answer."""
 
@@ -68,6 +68,9 @@ class Problem:
 
     def __str__(self) -> str:
         return self.name
+
+    def __repr__(self) -> str:
+        return f"<Problem {self.name!r}: {self.title}>"
 
     def check(self, function: Callable[..., Any], **options: Any) -> None:
         """Grades the function on this problem; ``options`` are those of :func:`grade`.

@@ -5,6 +5,8 @@ from __future__ import annotations
 import csv
 import json
 import os
+import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -35,6 +37,7 @@ def run(
     until_se: Mapping[str, float] | None = None,
     time_limit_s: float | None = None,
     checkpoint: str | os.PathLike[str] | None = None,
+    vtk: str | os.PathLike[str] | None = None,
 ) -> Results:
     """Runs a scene: the same bits as the program, on any number of threads.
 
@@ -44,18 +47,20 @@ def run(
 
     ``until_se={"x1": 0.001}`` adds replicas until the standard error of each of these channels is at most that; with
     ``time_limit_s`` none begins after that time, and a Python warning says what was reached. ``checkpoint`` is a file that keeps
-    the run, and from which the same call goes on. Both work in a process of its own, without ``progress``.
+    the run, and from which the same call goes on. ``vtk`` is a folder for ParaView's files of the rods at the times of
+    ``rods_at``. All three work in a process of its own, without ``progress``.
 
     Raises :class:`SceneError` for a scene that cannot be run, ``RuntimeError`` for a run that cannot go on.
     """
     scene = scene_of(scene).replace(**set) if set else scene_of(scene)
-    if until_se or checkpoint is not None:
+    if until_se or checkpoint is not None or vtk is not None:
         if progress:
-            raise TypeError("progress: runs with until_se or checkpoint do not tell how far they are")
+            raise TypeError("progress: runs with until_se, checkpoint or vtk do not tell how far they are")
         words = [word for channel, se in (until_se or {}).items() for word in ("--until-se", f"{channel}={float(se)!r}")]
         words += [] if time_limit_s is None else ["--time-limit", f"{time_limit_s}s"]
         words += [] if checkpoint is None else ["--checkpoint", os.path.abspath(checkpoint)]
-        return _apart(scene, words + options(replicas=replicas, seed=seed, threads=threads))
+        words += [] if vtk is None else ["--vtk"]
+        return _apart(scene, words + options(replicas=replicas, seed=seed, threads=threads), vtk)
     if time_limit_s is not None:
         raise TypeError("time_limit_s: it goes with until_se")
     told = bar_of("replica") if progress is True else progress or None
@@ -63,26 +68,26 @@ def run(
     return Results(found | {name: table(found[name].splitlines()) for name in DERIVED})
 
 
-def _apart(scene: Scene, words: Sequence[str]) -> Results:
+def _apart(scene: Scene, words: Sequence[str], vtk: str | os.PathLike[str] | None) -> Results:
     """Runs a scene in a process of its own."""
     with tempfile.TemporaryDirectory(prefix="shearbed-") as made:
         folder = Path(made)
         try:
-            program(["run", scene._written(folder).name, "--out", "out", "--quiet", *words], folder)
+            program(["run", scene._written(folder).name, "--out", "out", "--quiet", "--yes", *words], folder)
         except RuntimeError as error:
             # Less than was asked for, if there are results.
             if not (folder / "out" / "run.json").exists():
                 raise
             warnings.warn(str(error), stacklevel=3)
-        return load(folder / "out")
+        if vtk is not None:
+            os.makedirs(vtk, exist_ok=True)
+            for file in (folder / "out").glob("rods*.[pv][vt][dp]"):
+                shutil.copyfile(file, Path(vtk) / file.name)
+        return results(folder / "out")
 
 
-def load(folder: str | os.PathLike[str]) -> Results:
-    """The results in a folder that ``shearbed run`` wrote, or a point of a sweep's ``points``: the same as :func:`run` gives.
-
-    Raises ``FileNotFoundError`` if there is no ``run.json`` in it.
-    """
-    folder = Path(folder)
+def results(folder: Path) -> Results:
+    """The results in a folder of ``shearbed run``."""
     record = json.loads((folder / "run.json").read_text(encoding="utf-8"))
     known = {name: (label, symbols) for name, label, symbols in _core.observables()}
     found: dict[str, Any] = {"channels": {}, "observables": {}, "labels": {}, "symbols": {}, "rods": None}
@@ -147,7 +152,7 @@ def sweep(
     scene = scene_of(scene)
     with tempfile.TemporaryDirectory(prefix="shearbed-") as made:
         folder = Path(made)
-        words = ["sweep", scene._written(folder).name, "--out", "out", "--quiet"]
+        words = ["sweep", scene._written(folder).name, "--out", "out", "--quiet", "--yes"]
         for key, values in over.items():
             words += ["--over", f"{key}=" + ",".join(_value(value) for value in values)]
         words += options(replicas=replicas, seed=seed, threads=threads, set=set)
@@ -162,11 +167,30 @@ def sweep(
         swept = columns(folder / "out" / "sweep.csv")
         if times == "last":
             return _dataset(swept, over) if xarray else swept
-        of_points = [_tables(point) for point in sorted((folder / "out" / "points").iterdir())]
+        of_points = [tables(point) for point in sorted((folder / "out" / "points").iterdir())]
     rows = [len(next(iter(table.values()))) for table in of_points]
     keys = {name: np.repeat(values, rows) for name, values in swept.items() if name in over}
     found = keys | {name: np.concatenate([table[name] for table in of_points]) for name in of_points[0]}
     return _dataset(found, over) if xarray else found
+
+
+def converge(
+    scene: Scene | Mapping[str, Any] | str | os.PathLike[str],
+    *,
+    replicas: int | None = None,
+    set: Mapping[str, Any] | None = None,
+    threads: int | None = None,
+) -> dict[str, NDArray[Any]]:
+    """How the means depend on the time step: the columns of ``converge.csv``, as ``shearbed converge`` writes them. Of free
+    rods a row for each integrator and step; of interacting ones ``x1`` against steps, then against rods.
+
+    ``replicas`` is the number of runs of each row. Raises ``RuntimeError`` if an integrator has another order than theory says.
+    """
+    with tempfile.TemporaryDirectory(prefix="shearbed-") as made:
+        folder = Path(made)
+        words = ["converge", scene_of(scene)._written(folder).name, "--out", "out", "--quiet"]
+        program(words + options(replicas=replicas, threads=threads, set=set), folder)
+        return columns(folder / "out" / "converge.csv")
 
 
 def _dataset(table: Mapping[str, NDArray[Any]], over: Mapping[str, Sequence[Any]]) -> Any:
@@ -184,7 +208,7 @@ def _dataset(table: Mapping[str, NDArray[Any]], over: Mapping[str, Sequence[Any]
     return xarray.Dataset(variables, {key: list(values) for key, values in over.items()})
 
 
-def _tables(point: Path) -> dict[str, NDArray[Any]]:
+def tables(point: Path) -> dict[str, NDArray[Any]]:
     """The columns of a point's tables of means, side by side, in the order of the columns of ``sweep.csv``."""
     tables: dict[str, NDArray[Any]] = {}
     for file in sorted(point.glob("*.csv")):
@@ -257,5 +281,7 @@ def program(words: Sequence[str], folder: Path, watch: Callable[[], object] | No
     if running.returncode:
         lines = [line for line in complained(folder) if not line.startswith("progress: ")]
         message = "\n".join(lines).strip().removeprefix("error: ") or f"the program ended with {running.returncode}"
+        # Keywords are called as the flags.
+        message = re.sub(r"--([a-z]+(?:-[a-z]+)*)", lambda flag: flag[1].replace("-", "_"), message)
         raise (ValueError if running.returncode == 2 else RuntimeError)(message)
     return said

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import difflib
 import html
+import inspect
 import json
 import os
 import shutil
@@ -179,6 +180,11 @@ class Scene:
 
 if Scene.__doc__ is not None:  # not under python -OO
     Scene.__doc__ += _keywords() + "\n"
+
+# So that editors complete the keys.
+_own = [given for given in inspect.signature(Scene).parameters.values() if given.kind is not inspect.Parameter.VAR_KEYWORD]
+_keys = [inspect.Parameter(key, inspect.Parameter.KEYWORD_ONLY, default=None) for key in ("title", *_TABLE_OF)]
+Scene.__signature__ = inspect.Signature(_own + _keys)  # type: ignore[attr-defined]
 
 
 def _unknown(name: str) -> str:

@@ -1,5 +1,5 @@
-//! The rule for overwriting, for all commands: without `--force`, files that a command did not write itself, or wrote
-//! from other inputs, are left unchanged.
+//! The rule for overwriting, for all commands: without `--force`, files that a command did not write itself, or that
+//! were changed since, are left as they are.
 
 use super::beneath::beneath;
 use super::record::{Origin, RECORD, Record, State, Sum};
@@ -27,8 +27,8 @@ pub struct ResultFolder {
     dir: PathBuf,
     origin: Origin,
     force: bool,
-    /// True if results of the same command from other inputs may be replaced too.
-    from_any_input: bool,
+    /// True if results of the same command from other inputs stay too.
+    from_same_input: bool,
     /// How to give the command another folder, for messages.
     other: &'static str,
 }
@@ -41,7 +41,7 @@ impl ResultFolder {
             dir: dir.to_owned(),
             origin: Origin::new(command, inputs),
             force,
-            from_any_input: false,
+            from_same_input: false,
             other: OTHER_OUT,
         }
     }
@@ -51,9 +51,9 @@ impl ResultFolder {
         Self { other: "another folder", ..self }
     }
 
-    /// Allows results of the same command from other inputs to be replaced too.
-    pub fn from_any_input(self) -> Self {
-        Self { from_any_input: true, ..self }
+    /// Keeps results of the same command from other inputs too.
+    pub fn from_same_input(self) -> Self {
+        Self { from_same_input: true, ..self }
     }
 
     /// The path of the folder.
@@ -66,26 +66,19 @@ impl ResultFolder {
         &self.origin
     }
 
-    /// True if files may be overwritten that this command did not write, or wrote from other inputs.
+    /// True if files may be overwritten whoever wrote them.
     pub fn has_force(&self) -> bool {
         self.force
     }
 
     /// True if this command wrote the folder from the same inputs.
     pub fn is_own(&self) -> bool {
-        let own = |record: Record| record.origin == self.origin;
-        Record::read(&self.dir).is_ok_and(|record| record.is_some_and(own))
-    }
-
-    /// The first difference from the inputs of earlier results of this command in the folder.
-    pub fn difference(&self) -> Option<String> {
-        let found = Record::read(&self.dir).ok()??;
-        found.origin.difference(&self.origin).filter(|_| found.origin.command == self.origin.command)
+        self.own().is_some_and(|record| record.origin == self.origin)
     }
 
     /// Fails if files with these names must not be written. They may be written if none exists, or if this command
-    /// wrote the folder before from the same inputs (or any, with [`Self::from_any_input`]) and the files have not been
-    /// changed since.
+    /// wrote the folder before and the files have not been changed since; with [`Self::from_same_input`], from the same
+    /// inputs.
     ///
     /// # Errors
     ///
@@ -119,7 +112,7 @@ impl ResultFolder {
             let what = format!("results of `shearbed {}` are here", found.origin.command);
             return Err(in_the_way(&record, &what));
         }
-        if let Some(difference) = found.origin.difference(&self.origin).filter(|_| !self.from_any_input) {
+        if let Some(difference) = found.origin.difference(&self.origin).filter(|_| self.from_same_input) {
             let what = format!("results of `shearbed {command}` from other input are here: {difference}");
             return Err(in_the_way(&record, &what));
         }
@@ -135,12 +128,13 @@ impl ResultFolder {
     }
 
     /// Writes files and their record, if the command may. They appear together; files that it wrote there before under
-    /// other names are removed, unless they have been changed.
+    /// other names are removed, unless they have been changed. The first difference from the inputs of earlier results
+    /// of this command that were replaced, if these had others.
     ///
     /// # Errors
     ///
     /// Those of [`Self::check`], or if writing fails; then nothing has changed.
-    pub fn write(&self, files: Vec<Output>) -> Result<(), Refused> {
+    pub fn write(&self, files: Vec<Output>) -> Result<Option<String>, Refused> {
         let record = Record::new(&self.origin, &files);
         let names: Vec<String> = files.iter().map(|(name, _)| name.clone()).collect();
         loop {
@@ -148,20 +142,25 @@ impl ResultFolder {
                 self.check(&names)?;
                 let earlier = self.earlier(&claim);
                 let left_over: Vec<_> = earlier.keys().filter(|name| !names.contains(name)).cloned().collect();
-                return Ok(claim.write(&record, &files, earlier, &left_over)?);
+                let replaced = self.own().and_then(|record| record.origin.difference(&self.origin));
+                claim.write(&record, &files, earlier, &left_over)?;
+                return Ok(replaced);
             }
             let all = [&files[..], &[record.file()]].concat();
             if Claim::appear(&self.dir, &all)?.is_some() {
-                return Ok(());
+                return Ok(None);
             }
         }
+    }
+
+    /// The record of earlier results of this command in the folder.
+    fn own(&self) -> Option<Record> {
+        Record::read(&self.dir).ok().flatten().filter(|record| record.origin.command == self.origin.command)
     }
 
     /// The unchanged files that the folder's record lists, if this command wrote them: left beside new results, they
     /// would be mistaken for them. Those of another command stay, also with `--force`.
     pub(crate) fn earlier(&self, claim: &Claim) -> BTreeMap<String, Sum> {
-        let record = Record::read(&self.dir).ok().flatten();
-        let own = record.filter(|record| record.origin.command == self.origin.command);
-        own.map(|record| record.unchanged(&claim.dir)).unwrap_or_default()
+        self.own().map(|record| record.unchanged(&claim.dir)).unwrap_or_default()
     }
 }

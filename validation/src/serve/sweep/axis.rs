@@ -123,6 +123,8 @@ fn value(text: &str) -> Result<Value, String> {
     let is_of_word = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
     let is_word = text.starts_with(char::is_alphabetic) && text.chars().all(is_of_word);
     let value = document::value(text).or_else(|| is_word.then(|| Value::String(text.to_owned())));
+    // TOML has no `.3` and no `1.`.
+    let value = value.or_else(|| text.parse().ok().filter(|x: &f64| x.is_finite()).map(Value::Float));
     value.ok_or_else(|| format!("{text:?} is no value; expected a number, a word, or what a scene file has behind `=`"))
 }
 
@@ -258,6 +260,7 @@ mod tests {
     fn lists_hold_numbers_words_and_tables() {
         assert_eq!(shown_values("interaction.update=rotation, angles"), ["rotation", "angles"]);
         assert_eq!(shown_values("a=1,2.50,\"x,y:z\""), ["1", "2.5", "x,y:z"]);
+        assert_eq!(shown_values("a=.3,1.,+.5,infinity"), ["0.3", "1", "0.5", "infinity"]);
         let values = Axis::parse("particles.orientation=isotropic,{ phi_deg = 0, theta_deg = 90 }").unwrap();
         assert_eq!(values.values.len(), 2);
         assert!(values.values[1].is_table());

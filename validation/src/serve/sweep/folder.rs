@@ -109,6 +109,8 @@ impl Folder {
     /// all are left as they are, unless `folder` has force, which empties the folder of sweeps. Another process at work
     /// in the folder.
     pub fn open(folder: ResultFolder, inputs: &Value, points: Points) -> Result<Self, Refused> {
+        // The points may be days of work.
+        let folder = folder.from_same_input();
         let text = text::json(inputs).map_err(|error| Refused(error.to_string()))?;
         let first = vec![("sweep.json".to_owned(), text)];
         let begun = Record::new(folder.origin(), &first);

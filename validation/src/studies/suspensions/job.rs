@@ -41,9 +41,16 @@ pub struct Trace {
     pub directions: Vec<[f64; 3]>,
 }
 
-/// X̄₁ of each replica at the first mark.
+/// X̄₁ of each replica at the last mark.
 pub fn x1(traces: &[Trace]) -> Vec<f64> {
-    traces.iter().map(|trace| trace.looks[0].x1).collect()
+    traces.iter().map(|trace| trace.last().x1).collect()
+}
+
+impl Trace {
+    /// The rods at the last mark.
+    pub fn last(&self) -> &Look {
+        &self.looks[self.looks.len() - 1]
+    }
 }
 
 impl Job {

@@ -18,6 +18,9 @@ pub const RODS: [usize; 6] = [25, 50, 100, 200, 400, 1000];
 /// a rod length of a face is ∝ 1/H ∝ N^(−1/3).
 pub const FACES: f64 = -1.0 / 3.0;
 
+/// The times t/T at which X̄₁ is compared between steps.
+pub const QUARTERS: [f64; 4] = [0.25, 0.5, 0.75, 1.0];
+
 /// Number of replicas whose rods are compared one by one between two steps.
 const FOLLOWED: u64 = 16;
 
@@ -80,6 +83,17 @@ pub struct Change {
     pub unrelated_rad: f64,
 }
 
+/// X̄₁ at [`QUARTERS`] of the period at one number of steps, which they divide.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Quarters {
+    /// Steps per period.
+    pub steps_per_period: u64,
+    /// X̄₁ at each quarter.
+    pub x1: [Estimate; 4],
+    /// X̄₁ less that at the finest step, at the same seeds; `None` for the finest itself.
+    pub less_finest: Option<[Estimate; 4]>,
+}
+
 /// The results of the study.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Law {
@@ -87,6 +101,8 @@ pub struct Law {
     pub steps: Vec<JobMean>,
     /// Each level less the next finer one.
     pub changes: Vec<Change>,
+    /// Results within the period against the steps per period, coarse to fine.
+    pub quarters: Vec<Quarters>,
     /// The first of the levels with GΔt ≤ 1, which resolve a flip: from it on an order may be determined.
     pub resolved_from: usize,
     /// The weak order over those levels, if the noise allows it and two differences are distinct from 0.
@@ -123,7 +139,12 @@ pub fn jobs(scene: &Scene, replicas: Replicas) -> Vec<Job> {
     let job = |steps, rods| Job::new(scene, steps, rods, replicas.of_job(steps, rods), 1);
     let every_steps: BTreeSet<_> = STEPS_PER_PERIOD.into_iter().chain([own_steps]).collect();
     let mut jobs: Vec<_> = (every_steps.into_iter())
-        .map(|steps| Job { followed: FOLLOWED.min(replicas.of_job(steps, own_rods)), ..job(steps, own_rods) })
+        .map(|steps| {
+            let followed = FOLLOWED.min(replicas.of_job(steps, own_rods));
+            let job = job(steps, own_rods);
+            let marks = if steps % 4 == 0 { [1, 2, 3, 4].map(|k| k * steps / 4).to_vec() } else { job.marks };
+            Job { followed, marks, ..job }
+        })
         .collect();
     let rods = RODS.iter().filter(|rods| **rods != own_rods);
     jobs.extend(rods.map(|rods| job(own_steps, *rods)));
@@ -153,6 +174,7 @@ pub fn read(scene: &Scene, jobs: &[Job], traces: &[Vec<Trace>]) -> Law {
     let h: Vec<f64> = h.collect();
     let changes: Vec<_> =
         (steps.windows(2).enumerate()).map(|(k, pair)| change(&means, k, &traces[pair[0]], &traces[pair[1]])).collect();
+    let by_steps: Vec<_> = steps.iter().map(|k| (jobs[*k].scene.steps_per_unit(), &traces[*k][..])).collect();
     let strain = strain_per_period(scene.particles.aspect_ratio);
     let resolved_from = h.iter().position(|h| strain * h <= 1.0).unwrap_or(h.len().saturating_sub(1));
     let known = changes[resolved_from.min(changes.len())..].iter().filter(|change| change.x1.readable());
@@ -173,6 +195,7 @@ pub fn read(scene: &Scene, jobs: &[Job], traces: &[Vec<Trace>]) -> Law {
     Law {
         steps: samples(&steps),
         changes,
+        quarters: quarters(&by_steps),
         resolved_from,
         order,
         steps_line,
@@ -197,6 +220,26 @@ fn sample(job: &Job, x1: &[f64]) -> JobMean {
     }
 }
 
+/// X̄₁ within the period at the levels that were looked at there.
+fn quarters(levels: &[(u64, &[Trace])]) -> Vec<Quarters> {
+    let seen: Vec<_> = levels.iter().filter(|(_, traces)| traces[0].looks.len() == QUARTERS.len()).collect();
+    let of = |traces: &[Trace], k: usize| traces.iter().map(|trace| trace.looks[k].x1).collect::<Vec<_>>();
+    let means = [0, 1, 2, 3].map(|k| Means::of(&seen.iter().map(|(_, traces)| of(traces, k)).collect::<Vec<_>>()));
+    let finest = seen.len().saturating_sub(1);
+    let row = |(level, (steps_per_period, traces)): (usize, &&(u64, &[Trace]))| {
+        let less = |means: &Means| {
+            let (value, se) = means.difference(level, finest);
+            Estimate { value, se }
+        };
+        Quarters {
+            steps_per_period: *steps_per_period,
+            x1: [0, 1, 2, 3].map(|k| Estimate::mean_of(&of(traces, k))),
+            less_finest: (level != finest).then(|| means.each_ref().map(less)),
+        }
+    };
+    seen.iter().enumerate().map(row).collect()
+}
+
 /// The line a + b/S over the resolved levels, or from a finer level if the line is refuted (p < 0.001), with its first
 /// level.
 fn first_order(means: &Means, h: &[f64], resolved_from: usize) -> (usize, Option<Line>) {
@@ -214,8 +257,8 @@ fn change(means: &Means, level: usize, coarse: &[Trace], fine: &[Trace]) -> Chan
     Change {
         x1: Estimate { value, se },
         correlation: Estimate { value: correlation, se: (1.0 - correlation * correlation) / (count as f64).sqrt() },
-        p1_distribution: furthest(coarse, fine, |trace, k| trace.looks[0].p1_below[k]),
-        orbit_distribution: furthest(coarse, fine, |trace, k| trace.looks[0].orbit_below[k]),
+        p1_distribution: furthest(coarse, fine, |trace, k| trace.last().p1_below[k]),
+        orbit_distribution: furthest(coarse, fine, |trace, k| trace.last().orbit_below[k]),
         apart_rad,
         unrelated_rad,
     }

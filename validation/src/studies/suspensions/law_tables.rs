@@ -1,12 +1,12 @@
 //! Convergence in law as tables, rows of CSV and a picture.
 
 use super::blocks::Block;
-use super::law::{Change, JobMean, Law};
+use super::law::{Change, JobMean, Law, QUARTERS, Quarters};
 use super::*;
 
 /// Tables against steps, rods and replicas; `strain` is that of a period.
-pub fn law(law: &Law, strain: f64) -> [ReportTable; 4] {
-    [steps(law, strain), paths(law), rods(law), replicas(law)]
+pub fn law(law: &Law, strain: f64) -> [ReportTable; 5] {
+    [steps(law, strain), quarters(law), paths(law), rods(law), replicas(law)]
 }
 
 /// A sentence on the weak order, or on why there is none.
@@ -61,6 +61,24 @@ fn steps(law: &Law, strain: f64) -> ReportTable {
             difference("share below |p_1|", change(|c| c.p1_distribution)),
             difference("share below C_b", change(|c| c.orbit_distribution)),
         ],
+    )
+}
+
+fn quarters(law: &Law) -> ReportTable {
+    let less = |k: usize| move |r: &Quarters| r.less_finest.map(|less| less[k].into());
+    let mut columns = vec![field("steps per period", |r: &Quarters| r.steps_per_period)];
+    columns.extend((0..4).map(|k| difference(format!("at t/T = {}", QUARTERS[k]), less(k))));
+    let finest = law.quarters.last().map_or(String::new(), |finest| {
+        let means = finest.x1.map(|x1| format!("{:.4}", x1.value));
+        format!(", where X̄₁ is {}", means.join(", "))
+    });
+    ReportTable::new(
+        ["quarters", "Differences of X̄₁ from the finest step, within the period"],
+        format!(
+            "At the same seeds; the last row is the finest step{finest}. The time that matters may not be t/T = 1."
+        ),
+        &law.quarters,
+        columns,
     )
 }
 

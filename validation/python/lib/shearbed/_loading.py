@@ -1,0 +1,31 @@
+"""What the program wrote, read again."""
+
+from __future__ import annotations
+
+import json
+import os
+from pathlib import Path
+from typing import Any
+
+from ._fitting import Fit
+from ._running import columns, results, tables
+
+
+def load(folder: str | os.PathLike[str]) -> Any:
+    """What the program wrote in a folder, as the function of the same name gives it: :class:`Results` of a run, a :class:`Fit`,
+    the columns of a sweep or of a study of convergence; of one of a sweep's ``points``, its columns at all times.
+
+    Raises ``FileNotFoundError`` where there is no ``shearbed.json``, and ``ValueError`` for results of other commands.
+    """
+    folder = Path(folder)
+    origin = json.loads((folder / "shearbed.json").read_text(encoding="utf-8"))
+    command = origin["command"]
+    if command == "run":
+        return results(folder)
+    if command == "fit":
+        return Fit(folder)
+    if command == "sweep" and "point" in origin["inputs"]:
+        return tables(folder)
+    if command in ("sweep", "converge"):
+        return columns(folder / f"{command}.csv")
+    raise ValueError(f"{folder}: results of {command}; those of run, sweep, converge and fit are allowed")
