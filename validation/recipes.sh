@@ -12,6 +12,11 @@ cd "$root"
 git ls-files -z | xargs -0 cp --parents -t "$copy"
 # A folder of its own: cargo would take the copy's program for that of the sources.
 export CARGO_TARGET_DIR=$root/target/recipes
+# Other people's crates as they are built already: links, which take no room.
+if [ -d "$root/target/debug/deps" ] && [ ! -e "$CARGO_TARGET_DIR" ]; then
+  mkdir -p "$CARGO_TARGET_DIR/debug"
+  cp -al "$root"/target/debug/{deps,build,.fingerprint} "$CARGO_TARGET_DIR/debug/"
+fi
 cd "$copy"
 git init --quiet
 git apply --verbose validation/recipes/*.diff

@@ -3,7 +3,7 @@
 //! ```sh
 //! cargo new my_method && cd my_method
 //! cargo add --path ../shearbed/validation/methods
-//! cp ../shearbed/validation/recipes/own_method.rs src/main.rs && cargo run --release
+//! cp ../shearbed/validation/recipes/own_method.rs src/main.rs && cargo run
 //! ```
 use shearbed_methods::integrators::{Integrator, RodProblem, Setting, grade};
 
