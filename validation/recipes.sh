@@ -12,10 +12,10 @@ cd "$root"
 git ls-files -z | xargs -0 cp --parents -t "$copy"
 # A folder of its own: cargo would take the copy's program for that of the sources.
 export CARGO_TARGET_DIR=$root/target/recipes
-# Other people's crates as they are built already: links, which take no room.
+# Other people's crates as they are built already: links, which take no room; none if another build changes them meanwhile.
 if [ -d "$root/target/debug/deps" ] && [ ! -e "$CARGO_TARGET_DIR" ]; then
   mkdir -p "$CARGO_TARGET_DIR/debug"
-  cp -al "$root"/target/debug/{deps,build,.fingerprint} "$CARGO_TARGET_DIR/debug/"
+  cp -al "$root"/target/debug/{deps,build,.fingerprint} "$CARGO_TARGET_DIR/debug/" || rm -rf "$CARGO_TARGET_DIR"
 fi
 cd "$copy"
 git init --quiet
