@@ -281,7 +281,7 @@ def program(words: Sequence[str], folder: Path, watch: Callable[[], object] | No
     if running.returncode:
         lines = [line for line in complained(folder) if not line.startswith("progress: ")]
         message = "\n".join(lines).strip().removeprefix("error: ") or f"the program ended with {running.returncode}"
-        # Keywords are called as the flags.
-        message = re.sub(r"--([a-z]+(?:-[a-z]+)*)", lambda flag: flag[1].replace("-", "_"), message)
+        # Keywords are called as the flags; a name of a file may hold two dashes too.
+        message = re.sub(r"(?<![\w.-])--([a-z]+(?:-[a-z]+)*)", lambda flag: flag[1].replace("-", "_"), message)
         raise (ValueError if running.returncode == 2 else RuntimeError)(message)
     return said

@@ -122,11 +122,11 @@ impl Means {
         }
     }
 
-    /// The mean of level `one` less that of level `other`, and its standard error.
-    pub fn difference(&self, one: usize, other: usize) -> (f64, f64) {
+    /// The mean of level `one` less that of level `other`.
+    pub fn difference(&self, one: usize, other: usize) -> Estimate {
         let c = &self.covariance;
         let variance = c[(one, one)] + c[(other, other)] - 2.0 * c[(one, other)];
-        (self.values[one] - self.values[other], variance.max(0.0).sqrt())
+        Estimate { value: self.values[one] - self.values[other], se: variance.max(0.0).sqrt() }
     }
 }
 
@@ -178,7 +178,7 @@ mod tests {
     #[test]
     fn a_difference_knows_what_is_shared() {
         let samples = vec![vec![1.0, 2.0, 3.0, 4.0], vec![1.5, 2.5, 3.5, 4.5]];
-        let (difference, se) = Means::of(&samples).difference(1, 0);
+        let Estimate { value: difference, se } = Means::of(&samples).difference(1, 0);
         assert!((difference - 0.5).abs() < 1e-15 && se < 1e-8);
     }
 }

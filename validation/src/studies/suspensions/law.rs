@@ -226,16 +226,10 @@ fn quarters(levels: &[(u64, &[Trace])]) -> Vec<Quarters> {
     let of = |traces: &[Trace], k: usize| traces.iter().map(|trace| trace.looks[k].x1).collect::<Vec<_>>();
     let means = [0, 1, 2, 3].map(|k| Means::of(&seen.iter().map(|(_, traces)| of(traces, k)).collect::<Vec<_>>()));
     let finest = seen.len().saturating_sub(1);
-    let row = |(level, (steps_per_period, traces)): (usize, &&(u64, &[Trace]))| {
-        let less = |means: &Means| {
-            let (value, se) = means.difference(level, finest);
-            Estimate { value, se }
-        };
-        Quarters {
-            steps_per_period: *steps_per_period,
-            x1: [0, 1, 2, 3].map(|k| Estimate::mean_of(&of(traces, k))),
-            less_finest: (level != finest).then(|| means.each_ref().map(less)),
-        }
+    let row = |(level, (steps_per_period, traces)): (usize, &&(u64, &[Trace]))| Quarters {
+        steps_per_period: *steps_per_period,
+        x1: [0, 1, 2, 3].map(|k| Estimate::mean_of(&of(traces, k))),
+        less_finest: (level != finest).then(|| means.each_ref().map(|means| means.difference(level, finest))),
     };
     seen.iter().enumerate().map(row).collect()
 }
@@ -250,12 +244,11 @@ fn first_order(means: &Means, h: &[f64], resolved_from: usize) -> (usize, Option
 }
 
 fn change(means: &Means, level: usize, coarse: &[Trace], fine: &[Trace]) -> Change {
-    let (value, se) = means.difference(level, level + 1);
     let count = coarse.len().min(fine.len());
     let correlation = correlation(&x1(&coarse[..count]), &x1(&fine[..count]));
     let [apart_rad, unrelated_rad] = [0, 1].map(|shift| apart(coarse, fine, shift));
     Change {
-        x1: Estimate { value, se },
+        x1: means.difference(level, level + 1),
         correlation: Estimate { value: correlation, se: (1.0 - correlation * correlation) / (count as f64).sqrt() },
         p1_distribution: furthest(coarse, fine, |trace, k| trace.last().p1_below[k]),
         orbit_distribution: furthest(coarse, fine, |trace, k| trace.last().orbit_below[k]),
@@ -268,8 +261,7 @@ fn change(means: &Means, level: usize, coarse: &[Trace], fine: &[Trace]) -> Chan
 fn furthest(coarse: &[Trace], fine: &[Trace], share: impl Fn(&Trace, usize) -> f64) -> Estimate {
     let at = |k: usize| {
         let shares = [coarse, fine].map(|traces| traces.iter().map(|trace| share(trace, k)).collect());
-        let (value, se) = Means::of(&shares).difference(0, 1);
-        Estimate { value, se }
+        Means::of(&shares).difference(0, 1)
     };
     let apart = |e: &Estimate| {
         if e.se > 0.0 { e.value.abs() / e.se } else { 0.0 }
