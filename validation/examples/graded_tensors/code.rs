@@ -1,8 +1,9 @@
 //! A code for orientation tensors in plain arrays, each part of which can be made wrong. Its models
-//! share nothing with the project's own.
+//! share nothing with the project's own but coefficients.
 
 use shearbed::nalgebra::Matrix3;
-use shearbed_validation::methods::tensors::Closure as Closure4;
+use shearbed_validation::methods::tensors::ibof::{COEFFICIENTS, POWERS};
+use shearbed_validation::methods::tensors::orthotropic::ORE;
 use std::array::from_fn;
 
 pub type M = [[f64; 3]; 3];
@@ -119,9 +120,97 @@ fn axes_of(a: &M) -> ([f64; 3], M) {
     (order.map(|k| eigen.eigenvalues[k]), order.map(|k| eigen.eigenvectors.column(k).into_owned().into()))
 }
 
-/// IBOF, the project's own: the models that are tried with it are not.
-pub fn ibof(a: &M, [i, j, k, l]: [usize; 4]) -> f64 {
-    Closure4::Ibof.fourth(&Matrix3::from_fn(|i, j| a[i][j])).at(i, j, k, l)
+pub fn ibof(a: &M, at: [usize; 4]) -> f64 {
+    ibof_by(a, at, invariants, |_, _, c| c, true)
+}
+
+/// Eigenvalues and their axes.
+pub type Axes = ([f64; 3], M);
+
+/// ORE from polynomials of the first two eigenvalues, which are sorted by `sort` from the largest; R is `axes`.
+pub fn ore_by(a: &M, at: [usize; 4], sort: fn(Axes) -> Axes, change: fn(usize, usize, f64) -> f64) -> f64 {
+    let (values, axes) = sort(axes_of(a));
+    let [x, y, _] = values;
+    let terms = [
+        1.0,
+        x,
+        y,
+        x * y,
+        x * x,
+        y * y,
+        x * x * y,
+        x * y * y,
+        x * x * x,
+        y * y * y,
+        x * x * y * y,
+        x * x * x * y,
+        x * y * y * y,
+        x * x * x * x,
+        y * y * y * y,
+    ];
+    let own: [f64; 3] = from_fn(|k| (0..15).map(|n| change(n, k, ORE[n][k]) * terms[n]).sum());
+    // Three equations a_iikk = a_ii for the three others.
+    let half = 0.5 * sum(|k| values[k] - own[k]);
+    let mixed = |i: usize, j: usize| half - (values[3 - i - j] - own[3 - i - j]);
+    let inner = |[i, j, k, l]: [usize; 4]| match (i == j && k == l, (i == k && j == l) || (i == l && j == k)) {
+        (true, true) => own[i],
+        (true, false) => mixed(i, k),
+        (false, true) => mixed(i, j),
+        (false, false) => 0.0,
+    };
+    let [i, j, k, l] = at;
+    let each = |m, n, p, q| match inner([m, n, p, q]) {
+        0.0 => 0.0,
+        value => axes[m][i] * axes[n][j] * axes[p][k] * axes[q][l] * value,
+    };
+    sum(|m| sum(|n| sum(|p| sum(|q| each(m, n, p, q)))))
+}
+
+pub fn ore(a: &M, at: [usize; 4]) -> f64 {
+    ore_by(a, at, |axes| axes, |_, _, c| c)
+}
+
+/// IBOF with other invariants and coefficients, without `S`'s symmetry if `whole` is false.
+pub fn ibof_by(
+    a: &M,
+    at: [usize; 4],
+    invariants: fn(&M) -> [f64; 2],
+    change: fn(usize, usize, f64) -> f64,
+    whole: bool,
+) -> f64 {
+    let [second, third] = invariants(a);
+    let beta = |k: usize| -> f64 {
+        let term = |n: usize| change(n, k, COEFFICIENTS[n][k]) * second.powi(POWERS[n].0) * third.powi(POWERS[n].1);
+        (0..21).map(term).sum()
+    };
+    let [b3, b4, b6] = [beta(0), beta(1), beta(2)];
+    let b1 = 0.6
+        * (-1.0 / 7.0 + 0.2 * b3 * (1.0 / 7.0 + 4.0 / 7.0 * second + 8.0 / 3.0 * third)
+            - b4 * (0.2 - 8.0 / 15.0 * second - 14.0 / 15.0 * third)
+            - b6 * (1.0 / 35.0 - 24.0 / 105.0 * third - 4.0 / 35.0 * second
+                + 16.0 / 15.0 * second * third
+                + 8.0 / 35.0 * second * second));
+    let b2 = 6.0 / 7.0
+        * (1.0 - 0.2 * b3 * (1.0 + 4.0 * second) + 1.4 * b4 * (1.0 / 6.0 - second)
+            - b6 * (-0.2 + 2.0 / 3.0 * third + 0.8 * second - 1.6 * second * second));
+    let b5 = -0.8 * b3 - 1.4 * b4 - 1.2 * b6 * (1.0 - 4.0 / 3.0 * second);
+    let one: M = from_fn(|i| from_fn(|j| delta(i, j)));
+    let square = product(a, a);
+    let parts =
+        [(b1, one, one), (b2, one, *a), (b3, *a, *a), (b4, one, square), (b5, *a, square), (b6, square, square)];
+    let [i, j, k, l] = at;
+    let pairs = [[i, j, k, l], [i, k, j, l], [i, l, j, k]];
+    let used = &pairs[..if whole { 3 } else { 1 }];
+    let mean = |(beta, p, q): &(f64, M, M)| {
+        let sum: f64 = used.iter().map(|[i, j, k, l]| p[*i][*j] * q[*k][*l] + q[*i][*j] * p[*k][*l]).sum();
+        beta * sum / (2 * used.len()) as f64
+    };
+    parts.iter().map(mean).sum()
+}
+
+/// II and III of IBOF.
+pub fn invariants(a: &M) -> [f64; 2] {
+    [0.5 * (1.0 - double(a, a)), determinant(a)]
 }
 
 impl Code {

@@ -87,14 +87,33 @@ pub(super) fn linear(a: &Matrix3<f64>) -> Fourth {
 
 /// The linear closure with other divisors than 7 of the terms aδ and 35 of δδ.
 pub(super) fn linear_by(a: &Matrix3<f64>, seven: f64, thirty_five: f64) -> Fourth {
+    weighted(a, &[1.0; 9], seven, thirty_five)
+}
+
+/// The terms of the linear closure, over 7 and over 35.
+pub(super) const TERMS: [&str; 9] = [
+    "a_ij δ_kl",
+    "a_ik δ_jl",
+    "a_il δ_jk",
+    "a_kl δ_ij",
+    "a_jl δ_ik",
+    "a_jk δ_il",
+    "δ_ij δ_kl",
+    "δ_ik δ_jl",
+    "δ_il δ_jk",
+];
+
+/// The same with numbers before [`TERMS`].
+pub(super) fn weighted(a: &Matrix3<f64>, w: &[f64; 9], seven: f64, thirty_five: f64) -> Fourth {
     Fourth::from_fn(|i, j, k, l| {
-        let ones = delta(i, j) * delta(k, l) + delta(i, k) * delta(j, l) + delta(i, l) * delta(j, k);
-        let mixed = a[(i, j)] * delta(k, l)
-            + a[(i, k)] * delta(j, l)
-            + a[(i, l)] * delta(j, k)
-            + a[(k, l)] * delta(i, j)
-            + a[(j, l)] * delta(i, k)
-            + a[(j, k)] * delta(i, l);
+        let mixed = w[0] * a[(i, j)] * delta(k, l)
+            + w[1] * a[(i, k)] * delta(j, l)
+            + w[2] * a[(i, l)] * delta(j, k)
+            + w[3] * a[(k, l)] * delta(i, j)
+            + w[4] * a[(j, l)] * delta(i, k)
+            + w[5] * a[(j, k)] * delta(i, l);
+        let ones =
+            w[6] * delta(i, j) * delta(k, l) + w[7] * delta(i, k) * delta(j, l) + w[8] * delta(i, l) * delta(j, k);
         mixed / seven - ones / thirty_five
     })
 }

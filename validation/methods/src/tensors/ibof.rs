@@ -7,6 +7,7 @@
 
 use super::fourth::Fourth;
 use nalgebra::Matrix3;
+use std::sync::LazyLock;
 
 /// The exponents (of II, of III) of each row of `COEFFICIENTS`.
 #[rustfmt::skip]
@@ -41,33 +42,91 @@ pub const COEFFICIENTS: [[f64; 3]; 21] = [
     [-0.395769398304473e10, -0.160162178614234e10, -0.128050778279459e11],
 ];
 
+/// The terms of β₁, β₂, β₅: the place of 1, β₃, β₄ or β₆, the exponents (of II, of III), and the number before them.
+type Terms = Vec<(usize, (i32, i32), f64)>;
+
+/// β₁, β₂, β₅ by a_ijkk = a_ij.
+#[rustfmt::skip]
+fn relations() -> [Terms; 3] {
+    const ONE: (i32, i32) = (0, 0);
+    const II: (i32, i32) = (1, 0);
+    const III: (i32, i32) = (0, 1);
+    [
+        vec![
+            (0, ONE, -0.6 / 7.0),
+            (1, ONE, 0.12 / 7.0), (1, II, 0.48 / 7.0), (1, III, 0.32),
+            (2, ONE, -0.12), (2, II, 0.32), (2, III, 0.56),
+            (3, ONE, -0.6 / 35.0), (3, III, 4.8 / 35.0), (3, II, 2.4 / 35.0), (3, (1, 1), -0.64),
+            (3, (2, 0), -4.8 / 35.0),
+        ],
+        vec![
+            (0, ONE, 6.0 / 7.0),
+            (1, ONE, -1.2 / 7.0), (1, II, -4.8 / 7.0),
+            (2, ONE, 0.2), (2, II, -1.2),
+            (3, ONE, 1.2 / 7.0), (3, III, -4.0 / 7.0), (3, II, -4.8 / 7.0), (3, (2, 0), 9.6 / 7.0),
+        ],
+        vec![(1, ONE, -0.8), (2, ONE, -1.4), (3, ONE, -1.2), (3, II, 1.6)],
+    ]
+}
+
+/// How this closure is formed.
+#[derive(Clone)]
+pub(super) struct Fit {
+    /// The coefficients of β₃, β₄, β₆, one after the other, and the exponents of all.
+    pub(super) coefficients: Vec<f64>,
+    pub(super) powers: [(i32, i32); 21],
+    pub(super) relations: [Terms; 3],
+    /// II and III.
+    pub(super) invariants: fn(&Matrix3<f64>) -> [f64; 2],
+    /// A number before β₁ to β₆, 1, and the β that stands in each place.
+    pub(super) weights: [f64; 6],
+    pub(super) places: [usize; 6],
+    /// The number of pairings of i, j, k, l that are averaged.
+    pub(super) pairings: usize,
+}
+
+impl Fit {
+    pub(super) fn new() -> Self {
+        Self {
+            coefficients: (0..3).flat_map(|k| COEFFICIENTS.map(|row| row[k])).collect(),
+            powers: POWERS,
+            relations: relations(),
+            invariants: |a| [0.5 * (a.trace().powi(2) - (a * a).trace()), a.determinant()],
+            weights: [1.0; 6],
+            places: [0, 1, 2, 3, 4, 5],
+            pairings: 3,
+        }
+    }
+
+    /// a_ijkl of a.
+    pub(super) fn fourth(&self, a: &Matrix3<f64>) -> Fourth {
+        let square = a * a;
+        let [second, third] = (self.invariants)(a);
+        let power = |(m, n): (i32, i32)| second.powi(m) * third.powi(n);
+        let powers = self.powers.map(power);
+        let rows: Vec<_> = self.coefficients.chunks(powers.len()).collect();
+        let [b3, b4, b6] = [0, 1, 2].map(|k| rows[k].iter().zip(&powers).map(|(c, x)| c * x).sum());
+        let fitted: [f64; 4] = [1.0, b3, b4, b6];
+        let related = |terms: &Terms| terms.iter().map(|(k, powers, c)| c * fitted[*k] * power(*powers)).sum();
+        let [b1, b2, b5] = self.relations.each_ref().map(related);
+        let betas = [b1, b2, b3, b4, b5, b6];
+        let one = Matrix3::identity();
+        let tensors = [(one, one), (one, *a), (*a, *a), (one, square), (*a, square), (square, square)];
+        let parts: Vec<_> = (0..6)
+            .map(|k| (self.weights[k] * betas[self.places[k]] / (2 * self.pairings) as f64, tensors[k]))
+            .collect();
+        Fourth::from_fn(|i, j, k, l| {
+            let pairings = [[(i, j), (k, l)], [(i, k), (j, l)], [(i, l), (j, k)]];
+            let part = |(beta, (p, q)): &(f64, (Matrix3<f64>, Matrix3<f64>))| {
+                beta * pairings[..self.pairings].iter().map(|[m, n]| p[*m] * q[*n] + p[*n] * q[*m]).sum::<f64>()
+            };
+            parts.iter().map(part).sum()
+        })
+    }
+}
+
+static RIGHT: LazyLock<Fit> = LazyLock::new(Fit::new);
+
 pub(super) fn fourth(a: &Matrix3<f64>) -> Fourth {
-    let square = a * a;
-    let second = 0.5 * (a.trace().powi(2) - square.trace());
-    let third = a.determinant();
-    let beta = |k: usize| -> f64 {
-        let terms = COEFFICIENTS.iter().zip(POWERS);
-        terms.map(|(row, (m, n))| row[k] * second.powi(m) * third.powi(n)).sum()
-    };
-    let (b3, b4, b6) = (beta(0), beta(1), beta(2));
-    let b1 = 0.6
-        * (-1.0 / 7.0 + 0.2 * b3 * (1.0 / 7.0 + 4.0 / 7.0 * second + 8.0 / 3.0 * third)
-            - b4 * (0.2 - 8.0 / 15.0 * second - 14.0 / 15.0 * third)
-            - b6 * (1.0 / 35.0 - 24.0 / 105.0 * third - 4.0 / 35.0 * second
-                + 16.0 / 15.0 * second * third
-                + 8.0 / 35.0 * second * second));
-    let b2 = 6.0 / 7.0
-        * (1.0 - 0.2 * b3 * (1.0 + 4.0 * second) + 1.4 * b4 * (1.0 / 6.0 - second)
-            - b6 * (-0.2 + 2.0 / 3.0 * third + 0.8 * second - 1.6 * second * second));
-    let b5 = -0.8 * b3 - 1.4 * b4 - 1.2 * b6 * (1.0 - 4.0 / 3.0 * second);
-    let one = Matrix3::identity();
-    let parts =
-        [(b1, one, one), (b2, one, *a), (b3, *a, *a), (b4, one, square), (b5, *a, square), (b6, square, square)];
-    Fourth::from_fn(|i, j, k, l| {
-        let part = |(beta, p, q): &(f64, Matrix3<f64>, Matrix3<f64>)| {
-            let pairs = [[(i, j), (k, l)], [(i, k), (j, l)], [(i, l), (j, k)]];
-            beta / 6.0 * pairs.map(|[m, n]| p[m] * q[n] + p[n] * q[m]).iter().sum::<f64>()
-        };
-        parts.iter().map(part).sum()
-    })
+    RIGHT.fourth(a)
 }

@@ -55,6 +55,9 @@ pub enum Model {
     },
 }
 
+/// The names of MRD's parameters and of Phelps & Tucker's.
+const NAMED: [(&str, &str); 5] = [("D1", "b1"), ("D2", "b2"), ("D3", "b3"), ("", "b4"), ("", "b5")];
+
 impl Model {
     /// The usual name of the model.
     pub fn name(self) -> &'static str {
@@ -97,11 +100,12 @@ impl Model {
         }
     }
 
-    /// The diffusivity C; `d` is D, `square` D², and `rate` is γ̇ in 1/s.
-    fn diffusivity(self, a: &Matrix3<f64>, d: &Matrix3<f64>, square: &Matrix3<f64>, rate: f64) -> Matrix3<f64> {
+    /// The diffusivity C.
+    fn diffusivity(self, a: &Matrix3<f64>, parts: &Parts) -> Matrix3<f64> {
+        let Parts { strain: d, square, speed: rate, .. } = *parts;
         let one = Matrix3::identity();
         let along = |c_i: f64, d: [f64; 3]| {
-            let (_, axes) = principal(a);
+            let axes = if parts.in_laboratory { one } else { principal(a).1 };
             axes * Matrix3::from_diagonal(&(Vector3::from(d) * c_i)) * axes.transpose()
         };
         match self {
@@ -113,6 +117,19 @@ impl Model {
             Self::Pard { c_i, omega } => along(c_i, [1.0, omega, 1.0 - omega]),
             Self::Mrd { c_i, d } => along(c_i, d),
         }
+    }
+
+    /// The model with another value of one parameter, C_M, Ω, D1 to D3 or b1 to b5; `None` if it has none.
+    pub fn with(mut self, name: &str, of: impl Fn(f64) -> f64) -> Option<Self> {
+        let value = match (&mut self, name) {
+            (Self::Iard { c_m, .. }, "C_M") => c_m,
+            (Self::Pard { omega, .. }, "Ω") => omega,
+            (Self::Mrd { d, .. }, _) => d.get_mut(NAMED.iter().position(|(own, _)| *own == name)?)?,
+            (Self::PhelpsTucker { b, .. }, _) => b.get_mut(NAMED.iter().position(|(_, own)| *own == name)?)?,
+            _ => return None,
+        };
+        *value = of(*value);
+        Some(self)
     }
 
     /// All parameters of the model.
@@ -181,6 +198,8 @@ impl Equation {
             speed,
             decay: 3.0,
             drift: RIGHT,
+            kappas: [self.model.slowness(); 2],
+            in_laboratory: false,
             model: self.model,
         }
     }
@@ -216,6 +235,10 @@ pub struct Parts {
     pub decay: f64,
     /// The 5 before Ca + aC and the 10 before 𝔸:C.
     pub drift: [f64; 2],
+    /// κ at 𝔸, and at the diffusion.
+    pub kappas: [f64; 2],
+    /// Whether C with numbers along the axes of a has them along those of the laboratory.
+    pub in_laboratory: bool,
     /// The model.
     pub model: Model,
 }
@@ -223,15 +246,15 @@ pub struct Parts {
 impl Parts {
     /// The rate da_ij/dt in 1/s of the equation with these parts, as it stands: the trace is not corrected.
     pub fn rate(&self, a: &Matrix3<f64>, fourth: &Fourth) -> Matrix3<f64> {
-        let Self { spin: w, strain: d, square, spun, stretched, of_strain, of_fourth, speed, decay, .. } = self;
+        let Self { spin: w, strain: d, spun, stretched, of_strain, of_fourth, speed, decay, .. } = self;
         let sides = |x: &Matrix3<f64>, [left, right]: &[f64; 2]| x * a * *left + a * x * *right;
         let turned = sides(w, spun);
         if *d == Matrix3::zeros() {
             return turned;
         }
-        let kappa = self.model.slowness();
-        let c = self.model.diffusivity(a, d, square, *speed);
-        let (fourth, source) = if kappa == 1.0 { (*fourth, c) } else { slowed(kappa, a, fourth, &c) };
+        let kappa = self.kappas[1];
+        let c = self.model.diffusivity(a, self);
+        let (fourth, source) = if self.kappas == [1.0; 2] { (*fourth, c) } else { slowed(self.kappas, a, fourth, &c) };
         let by_fourth = |x: &Matrix3<f64>| {
             fourth.contract(&Matrix3::from_fn(|k, l| if k == l { x[(k, l)] } else { self.pairs * x[(k, l)] }))
         };
@@ -261,8 +284,8 @@ fn drifted(a: &Matrix3<f64>, c: &Matrix3<f64>, by_fourth: &Matrix3<f64>, [five, 
     c * 2.0 - a * (2.0 * c.trace()) - (c * a + a * c) * five + by_fourth * ten
 }
 
-/// 𝔸 + (1 − κ)(𝕃 − 𝕄:𝔸) and C − (1 − κ)𝕄:C, with 𝕃 = Σλ_i eeee and 𝕄 = Σ eeee over the axes of a.
-fn slowed(kappa: f64, a: &Matrix3<f64>, fourth: &Fourth, c: &Matrix3<f64>) -> (Fourth, Matrix3<f64>) {
+/// 𝔸 + (1 − κ)(𝕃 − 𝕄:𝔸) and C − (1 − κ)𝕄:C, each with its κ, with 𝕃 = Σλ_i eeee and 𝕄 = Σ eeee over the axes of a.
+fn slowed([kappa, at_c]: [f64; 2], a: &Matrix3<f64>, fourth: &Fourth, c: &Matrix3<f64>) -> (Fourth, Matrix3<f64>) {
     let (values, axes) = principal(a);
     let own = fourth.turned(&axes.transpose());
     // In the axes of a, 𝕄 selects the rows of eeee.
@@ -276,5 +299,5 @@ fn slowed(kappa: f64, a: &Matrix3<f64>, fourth: &Fourth, c: &Matrix3<f64>) -> (F
     });
     let inner = axes.transpose() * c * axes;
     let kept = axes * Matrix3::from_diagonal(&inner.diagonal()) * axes.transpose();
-    (slow.turned(&axes), c - kept * (1.0 - kappa))
+    (slow.turned(&axes), c - kept * (1.0 - at_c))
 }

@@ -6,6 +6,7 @@
 
 use super::fourth::{Fourth, principal};
 use nalgebra::{Matrix3, Vector3};
+use std::sync::LazyLock;
 
 /// Rows: a_1111, a_2222, a_3333. Columns: 1, x, x², y, y², xy (Chung & Kwon 2001, Polym. Compos. 22, 636).
 pub const ORW: [[f64; 6]; 3] = [
@@ -42,50 +43,71 @@ pub const ORE: [[f64; 3]; 15] = [
     [4.88366597771489, 3.59772251134254, 10.6117418066060],
 ];
 
+/// The exponents (of x, of y) of each row of [`ORE`] and of each column of [`ORW`].
+#[rustfmt::skip]
+pub(super) const ORE_POWERS: [(i32, i32); 15] = [
+    (0, 0), (1, 0), (0, 1), (1, 1), (2, 0), (0, 2), (2, 1), (1, 2), (3, 0), (0, 3), (2, 2), (3, 1), (1, 3), (4, 0),
+    (0, 4),
+];
+pub(super) const ORW_POWERS: [(i32, i32); 6] = [(0, 0), (1, 0), (2, 0), (0, 1), (0, 2), (1, 1)];
+
+/// How a closure of this kind is formed: the polynomials and which eigenvalue, axis and polynomial stands where.
+#[derive(Clone)]
+pub(super) struct Fit {
+    pub(super) powers: &'static [(i32, i32)],
+    /// The coefficients of a_1111, a_2222, a_3333, one after the other.
+    pub(super) coefficients: Vec<f64>,
+    /// The places of the eigenvalues and of their axes, from the largest.
+    pub(super) values: [usize; 3],
+    pub(super) axes: [usize; 3],
+    /// The polynomial of each axis, and the eigenvalues that are x and y.
+    pub(super) polynomials: [usize; 3],
+    pub(super) arguments: [usize; 2],
+    /// R of a = R diag(x, y, z) Rᵀ as it is used.
+    pub(super) turn: fn(Matrix3<f64>) -> Matrix3<f64>,
+}
+
+impl Fit {
+    pub(super) fn ore() -> Self {
+        Self::new(&ORE_POWERS, (0..3).flat_map(|k| ORE.map(|row| row[k])).collect())
+    }
+
+    pub(super) fn orw() -> Self {
+        Self::new(&ORW_POWERS, ORW.concat())
+    }
+
+    fn new(powers: &'static [(i32, i32)], coefficients: Vec<f64>) -> Self {
+        let right = [0, 1, 2];
+        let (polynomials, arguments) = (right, [0, 1]);
+        Self { powers, coefficients, values: right, axes: right, polynomials, arguments, turn: |axes| axes }
+    }
+
+    /// a_ijkl of a.
+    pub(super) fn fourth(&self, a: &Matrix3<f64>) -> Fourth {
+        let (values, axes) = principal(a);
+        let values = Vector3::from(self.values.map(|k| values[k]));
+        let axes = (self.turn)(Matrix3::from_columns(&self.axes.map(|k| axes.column(k).into_owned())));
+        let [x, y] = self.arguments.map(|k| values[k]);
+        let powers: Vec<_> = self.powers.iter().map(|(m, n)| x.powi(*m) * y.powi(*n)).collect();
+        let rows: Vec<_> = self.coefficients.chunks(powers.len()).collect();
+        let fourth = Vector3::from(self.polynomials.map(|k| rows[k].iter().zip(&powers).map(|(c, x)| c * x).sum()));
+        // a_jjkk = ½(a_jj + a_kk − a_ii − a_jjjj − a_kkkk + a_iiii) by the three equations a_iikk = a_ii.
+        let left = values - fourth;
+        let mixed = Vector3::from_fn(|i, _| 0.5 * (left.sum() - 2.0 * left[i]));
+        Fourth::orthotropic(&axes, &values, &mixed)
+    }
+}
+
+static RIGHT: LazyLock<[Fit; 3]> = LazyLock::new(|| [Fit::ore(), Fit::orw(), Fit::new(&ORW_POWERS, ORF.concat())]);
+
 pub(super) fn ore(a: &Matrix3<f64>) -> Fourth {
-    fitted(a, |x, y| {
-        let powers = [
-            1.0,
-            x,
-            y,
-            x * y,
-            x * x,
-            y * y,
-            x * x * y,
-            x * y * y,
-            x.powi(3),
-            y.powi(3),
-            (x * y).powi(2),
-            x.powi(3) * y,
-            x * y.powi(3),
-            x.powi(4),
-            y.powi(4),
-        ];
-        Vector3::from_fn(|m, _| ORE.iter().zip(powers).map(|(row, power)| row[m] * power).sum())
-    })
+    RIGHT[0].fourth(a)
 }
 
 pub(super) fn orw(a: &Matrix3<f64>) -> Fourth {
-    quadratics(a, &ORW)
+    RIGHT[1].fourth(a)
 }
 
 pub(super) fn orf(a: &Matrix3<f64>) -> Fourth {
-    quadratics(a, &ORF)
-}
-
-fn quadratics(a: &Matrix3<f64>, coefficients: &[[f64; 6]; 3]) -> Fourth {
-    fitted(a, |x, y| {
-        let powers = [1.0, x, x * x, y, y * y, x * y];
-        Vector3::from_fn(|m, _| coefficients[m].iter().zip(powers).map(|(c, power)| c * power).sum())
-    })
-}
-
-/// The closure in which `of` gives a_1111, a_2222, a_3333 from the two largest eigenvalues.
-fn fitted(a: &Matrix3<f64>, of: impl Fn(f64, f64) -> Vector3<f64>) -> Fourth {
-    let (values, axes) = principal(a);
-    let fourth = of(values.x, values.y);
-    // a_jjkk = ½(a_jj + a_kk − a_ii − a_jjjj − a_kkkk + a_iiii) by the three equations a_iikk = a_ii.
-    let left = values - fourth;
-    let mixed = Vector3::from_fn(|i, _| 0.5 * (left.sum() - 2.0 * left[i]));
-    Fourth::orthotropic(&axes, &values, &mixed)
+    RIGHT[2].fourth(a)
 }

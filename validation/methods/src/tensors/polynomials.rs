@@ -1,14 +1,7 @@
 //! The polynomials of fitted closures as text, to compare coefficients.
 
-use super::Closure;
-use super::ibof;
-use super::orthotropic::{ORE, ORW};
-
-#[rustfmt::skip]
-const ORE_TERMS: [&str; 15] = [
-    "", "x", "y", "x y", "x^2", "y^2", "x^2 y", "x y^2", "x^3", "y^3", "x^2 y^2", "x^3 y", "x y^3", "x^4", "y^4",
-];
-const ORW_TERMS: [&str; 6] = ["", "x", "x^2", "y", "y^2", "x y"];
+use super::orthotropic::{self, ORE_POWERS, ORW_POWERS};
+use super::{Closure, ibof};
 
 const EIGENVALUES: &str = "in the axes of a, with its eigenvalues x ≥ y ≥ z, three components are polynomials, and the \
     others follow from a_iikk = a_ii";
@@ -19,21 +12,27 @@ const INVARIANTS: &str = "a_ijkl = β1 S(δ δ) + β2 S(δ a) + β3 S(a a) + β4
 impl Closure {
     /// How a fitted closure is formed, and its three polynomials with all digits of the coefficients; empty of others.
     pub fn polynomials(self) -> Vec<String> {
-        let column = |table: &[[f64; 3]], k: usize| table.iter().map(|row| row[k]).collect::<Vec<_>>();
         let [eigenvalues, invariants] = [["a_1111", "a_2222", "a_3333"], ["β3", "β4", "β6"]];
-        let (words, names, of) = match self {
-            Self::Ore => (EIGENVALUES, eigenvalues, [0, 1, 2].map(|k| polynomial(&column(&ORE, k), &ORE_TERMS))),
-            Self::Orw => (EIGENVALUES, eigenvalues, ORW.map(|row| polynomial(&row, &ORW_TERMS))),
-            Self::Ibof => {
-                let terms = ibof::POWERS.map(|(m, n)| format!("{}{}", power("II", m), power("III", n)));
-                let of = |k: usize| polynomial(&column(&ibof::COEFFICIENTS, k), &terms);
-                (INVARIANTS, invariants, [0, 1, 2].map(of))
-            }
+        let (words, names, coefficients, terms) = match self {
+            Self::Ore => (EIGENVALUES, eigenvalues, orthotropic::Fit::ore().coefficients, terms(&ORE_POWERS, XY)),
+            Self::Orw => (EIGENVALUES, eigenvalues, orthotropic::Fit::orw().coefficients, terms(&ORW_POWERS, XY)),
+            Self::Ibof => (INVARIANTS, invariants, ibof::Fit::new().coefficients, terms(&ibof::POWERS, INVARIANT)),
             _ => return Vec::new(),
         };
-        let lines = names.into_iter().zip(of).map(|(name, of)| format!("{name} = {of}"));
+        let rows = names.into_iter().zip(coefficients.chunks(terms.len()));
+        let lines = rows.map(|(name, row)| format!("{name} = {}", polynomial(row, &terms)));
         std::iter::once(words.to_owned()).chain(lines).collect()
     }
+}
+
+/// The arguments of ORE and ORW.
+pub(super) const XY: [&str; 2] = ["x", "y"];
+/// The arguments of IBOF.
+pub(super) const INVARIANT: [&str; 2] = ["II", "III"];
+
+/// The products of powers of two arguments as text; the first is empty.
+pub(super) fn terms(powers: &[(i32, i32)], [x, y]: [&str; 2]) -> Vec<String> {
+    powers.iter().map(|(m, n)| format!("{}{}", power(x, *m), power(y, *n)).trim_end().to_owned()).collect()
 }
 
 fn power(name: &str, exponent: i32) -> String {
@@ -44,7 +43,7 @@ fn power(name: &str, exponent: i32) -> String {
     }
 }
 
-fn polynomial(coefficients: &[f64], terms: &[impl AsRef<str>]) -> String {
+fn polynomial(coefficients: &[f64], terms: &[String]) -> String {
     let mut text = String::new();
     for (c, term) in coefficients.iter().zip(terms) {
         let sign = match (text.is_empty(), *c < 0.0) {
@@ -53,7 +52,7 @@ fn polynomial(coefficients: &[f64], terms: &[impl AsRef<str>]) -> String {
             (false, false) => " + ",
             (false, true) => " - ",
         };
-        text += format!("{sign}{} {}", c.abs(), term.as_ref()).trim_end();
+        text += format!("{sign}{} {}", c.abs(), term).trim_end();
     }
     text
 }

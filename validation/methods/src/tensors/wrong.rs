@@ -1,7 +1,8 @@
-//! Known mistakes in the rate of a_ij and in its closures: what a wrong code computes in place of each part.
+//! Known mistakes in the rate of a_ij: what a wrong code computes in place of each part.
 
-use super::closures::{aligned, linear, linear_by, mixed, quadratic};
-use super::{Closure, Fourth, Model, Parts, orthotropic, shear_rate};
+pub mod closures;
+
+use super::{Model, Parts, shear_rate};
 use nalgebra::Matrix3;
 
 /// A mistake in one part of the rate of a_ij.
@@ -30,6 +31,7 @@ const STRETCH: &str = "the rate by strain is Λ(Da + aD − 2𝔸:D)";
 const RSC: &str = "RSC is Λ(Da + aD − 2[𝔸 + (1 − κ)(𝕃 − 𝕄:𝔸)]:D) + 2κC_I γ̇(δ − 3a)";
 const DRIFT: &str = "diffusion is γ̇[2C − 2 tr(C) a − 5(Ca + aC) + 10𝔸:C]";
 const IARD: &str = "iARD is C = C_I(δ − 4 C_M D²/γ̇²)";
+const PT: &str = "C = b1 δ + b2 a + b3 a² + b4 D/γ̇ + b5 D²/γ̇²";
 const ANISOTROPIC: &str = "C is given in problem.json, with the axes of a from the largest eigenvalue";
 
 const fn mistake(name: &'static str, advice: &'static str, change: fn(Parts) -> Option<Parts>) -> Mistake {
@@ -37,7 +39,7 @@ const fn mistake(name: &'static str, advice: &'static str, change: fn(Parts) -> 
 }
 
 /// Every known mistake in the parts of the rate.
-pub const MISTAKES: [Mistake; 74] = [
+pub const MISTAKES: [Mistake; 93] = [
     mistake("a transposed gradient", L, |p| Some(Parts { spin: -p.spin, ..p })),
     mistake("the flow reversed (L with the wrong sign, or time backwards)", L, |p| {
         Some(Parts { spin: -p.spin, strain: -p.strain, ..p })
@@ -104,17 +106,17 @@ pub const MISTAKES: [Mistake; 74] = [
     mistake("2 C_I γ̇ (δ − 2a) for diffusion", SPREAD, |p| Some(Parts { decay: 2.0, ..p })),
     mistake("diffusion left out", SPREAD, |p| spread(p, 0.0)),
     mistake("diffusion with the wrong sign", SPREAD, |p| spread(p, -1.0)),
-    mistake("1 − κ for κ", RSC, |p| slowed(p, |kappa| 1.0 - kappa)),
-    mistake("1/κ for κ", RSC, |p| slowed(p, |kappa| 1.0 / kappa)),
-    mistake("κ left out", RSC, |p| slowed(p, |_| 1.0)),
-    mistake("κ missing at the diffusion", RSC, |p| match p.model {
-        Model::Rsc { kappa, .. } => Some(Parts { speed: p.speed / kappa, ..p }),
-        _ => None,
+    mistake("1 − κ for κ", RSC, |p| slowed(p, |kappas| kappas.map(|kappa| 1.0 - kappa))),
+    mistake("1/κ for κ", RSC, |p| slowed(p, |kappas| kappas.map(|kappa| 1.0 / kappa))),
+    mistake("κ² for κ", RSC, |p| slowed(p, |kappas| kappas.map(|kappa| kappa * kappa))),
+    mistake("κ left out", RSC, |p| slowed(p, |_| [1.0; 2])),
+    mistake("κ missing at the diffusion", RSC, |p| slowed(p, |[kappa, _]| [kappa, 1.0])),
+    mistake("κ² for κ at the diffusion", RSC, |p| slowed(p, |[kappa, other]| [kappa, other * other])),
+    mistake("κ at the diffusion alone, 𝔸 for 𝔸 + (1 − κ)(𝕃 − 𝕄:𝔸)", RSC, |p| {
+        slowed(p, |[_, kappa]| [1.0, kappa])
     }),
     mistake("κ before every rate (SRF for RSC)", RSC, |p| match p.model {
-        Model::Rsc { c_i, kappa } => {
-            Some(Parts { model: Model::FolgarTucker { c_i }, ..scaled(p, kappa, kappa, kappa) })
-        }
+        Model::Rsc { kappa, .. } => Some(Parts { kappas: [1.0; 2], ..scaled(p, kappa, kappa, kappa) }),
         _ => None,
     }),
     mistake("C_M D²/γ̇² without its 4", IARD, |p| anisotropic(p, 0.25)),
@@ -127,19 +129,40 @@ pub const MISTAKES: [Mistake; 74] = [
         let l = gradient(&p);
         squared(p, l.transpose() * l * (p.speed * p.speed / (4.0 * l.dot(&l))))
     }),
+    mistake("D/γ̇ for D²/γ̇²", IARD, |p| squared(p, p.strain * p.speed)),
+    mistake("D²/γ̇ for D²/γ̇²", IARD, |p| squared(p, p.strain * p.strain * p.speed)),
+    mistake("D² for D²/γ̇²", IARD, |p| squared(p, p.strain * p.strain * (p.speed * p.speed))),
+    mistake("L² for D²", IARD, |p| squared(p, gradient(&p) * gradient(&p))),
+    mistake("b1 to b5 in the reverse order", PT, |p| coefficients(p, |[b1, b2, b3, b4, b5], _| [b5, b4, b3, b2, b1])),
+    mistake("b4 and b5 exchanged", PT, |p| coefficients(p, |[b1, b2, b3, b4, b5], _| [b1, b2, b3, b5, b4])),
+    mistake("b2 and b4, b3 and b5 exchanged", PT, |p| coefficients(p, |[b1, b2, b3, b4, b5], _| [b1, b4, b5, b2, b3])),
+    mistake("D and D² for D/γ̇ and D²/γ̇²", PT, |p| {
+        coefficients(p, |[b1, b2, b3, b4, b5], speed| [b1, b2, b3, b4 * speed, b5 * speed * speed])
+    }),
+    mistake("D² for D²/γ̇²", PT, |p| {
+        coefficients(p, |[b1, b2, b3, b4, b5], speed| [b1, b2, b3, b4, b5 * speed * speed])
+    }),
+    mistake("D²/γ̇ for D²/γ̇²", PT, |p| {
+        coefficients(p, |[b1, b2, b3, b4, b5], speed| [b1, b2, b3, b4, b5 * speed])
+    }),
+    mistake("2D/γ̇ and 4D²/γ̇² for D/γ̇ and D²/γ̇²", PT, |p| {
+        coefficients(p, |[b1, b2, b3, b4, b5], _| [b1, b2, b3, 2.0 * b4, 4.0 * b5])
+    }),
     mistake("2.5(Ca + aC) for 5(Ca + aC)", DRIFT, |p| drifting(p, [2.5, 10.0])),
     mistake("5𝔸:C for 10𝔸:C", DRIFT, |p| drifting(p, [5.0, 5.0])),
     mistake("2.5(Ca + aC) and 5𝔸:C for twice as much", DRIFT, |p| drifting(p, [2.5, 5.0])),
     mistake("5(Ca + aC) and 10𝔸:C left out", DRIFT, |p| drifting(p, [0.0, 0.0])),
     mistake("10𝔸:C left out", DRIFT, |p| drifting(p, [5.0, 0.0])),
-    mistake("the eigenvalues of a in ascending order", ANISOTROPIC, |p| match p.model {
-        Model::Pard { c_i, omega } => Some(Parts { model: Model::Mrd { c_i, d: [1.0 - omega, omega, 1.0] }, ..p }),
-        Model::Mrd { c_i, d: [x, y, z] } => Some(Parts { model: Model::Mrd { c_i, d: [z, y, x] }, ..p }),
-        _ => None,
+    mistake("the eigenvalues of a in ascending order", ANISOTROPIC, |p| along(p, |[x, y, z]| [z, y, x])),
+    mistake("the second and third eigenvalues of a exchanged", ANISOTROPIC, |p| along(p, |[x, y, z]| [x, z, y])),
+    mistake("the first and second eigenvalues of a exchanged", ANISOTROPIC, |p| along(p, |[x, y, z]| [y, x, z])),
+    mistake("the eigenvalues of a in the order 2, 3, 1", ANISOTROPIC, |p| along(p, |[x, y, z]| [z, x, y])),
+    mistake("the eigenvalues of a in the order 3, 1, 2", ANISOTROPIC, |p| along(p, |[x, y, z]| [y, z, x])),
+    mistake("C along the axes 1, 2, 3, not along those of a", ANISOTROPIC, |p| {
+        Some(Parts { in_laboratory: true, ..along(p, |d| d)? })
     }),
-    mistake("the second and third eigenvalues of a exchanged", ANISOTROPIC, |p| match p.model {
-        Model::Pard { c_i, omega } => Some(Parts { model: Model::Pard { c_i, omega: 1.0 - omega }, ..p }),
-        Model::Mrd { c_i, d: [x, y, z] } => Some(Parts { model: Model::Mrd { c_i, d: [x, z, y] }, ..p }),
+    mistake("1 + Ω for 1 − Ω", ANISOTROPIC, |p| match p.model {
+        Model::Pard { omega, .. } => along(p, |[x, y, _]| [x, y, x + omega]),
         _ => None,
     }),
 ];
@@ -190,18 +213,36 @@ pub fn spread(parts: Parts, factor: f64) -> Option<Parts> {
     Some(Parts { model, ..parts })
 }
 
-fn slowed(parts: Parts, of: fn(f64) -> f64) -> Option<Parts> {
-    let model = match parts.model {
-        Model::Rsc { c_i, kappa } => Model::Rsc { c_i, kappa: of(kappa) },
-        Model::PhelpsTucker { b, kappa } => Model::PhelpsTucker { b, kappa: of(kappa) },
-        _ => return None,
-    };
-    Some(Parts { model, ..parts })
+/// The parts with other κ, where the model has one.
+pub fn slowed(parts: Parts, of: impl Fn([f64; 2]) -> [f64; 2]) -> Option<Parts> {
+    (parts.kappas != [1.0; 2]).then_some(Parts { kappas: of(parts.kappas), ..parts })
 }
 
 fn anisotropic(parts: Parts, factor: f64) -> Option<Parts> {
+    with(parts, "C_M", |c_m| factor * c_m)
+}
+
+/// The parts with another value of one parameter of the model.
+pub fn with(parts: Parts, name: &str, of: impl Fn(f64) -> f64) -> Option<Parts> {
+    Some(Parts { model: parts.model.with(name, of)?, ..parts })
+}
+
+/// The parts with other numbers of C along the axes of a, where it has such.
+fn along(parts: Parts, of: impl Fn([f64; 3]) -> [f64; 3]) -> Option<Parts> {
+    let (c_i, d) = match parts.model {
+        Model::Pard { c_i, omega } => (c_i, [1.0, omega, 1.0 - omega]),
+        Model::Mrd { c_i, d } => (c_i, d),
+        _ => return None,
+    };
+    Some(Parts { model: Model::Mrd { c_i, d: of(d) }, ..parts })
+}
+
+/// The parts with other b1 to b5, which may depend on γ̇.
+fn coefficients(parts: Parts, of: impl Fn([f64; 5], f64) -> [f64; 5]) -> Option<Parts> {
     match parts.model {
-        Model::Iard { c_i, c_m } => Some(Parts { model: Model::Iard { c_i, c_m: factor * c_m }, ..parts }),
+        Model::PhelpsTucker { b, kappa } => {
+            Some(Parts { model: Model::PhelpsTucker { b: of(b, parts.speed), kappa }, ..parts })
+        }
         _ => None,
     }
 }
@@ -211,98 +252,12 @@ fn squared(parts: Parts, square: Matrix3<f64>) -> Option<Parts> {
     matches!(parts.model, Model::Iard { .. }).then_some(Parts { square, ..parts })
 }
 
+/// Whether C is C_I δ.
+pub fn is_isotropic(parts: &Parts) -> bool {
+    matches!(parts.model, Model::FolgarTucker { .. } | Model::Rsc { .. })
+}
+
 /// The parts with other numbers for the 5 and the 10 of diffusion, where C is not C_I δ.
-fn drifting(parts: Parts, drift: [f64; 2]) -> Option<Parts> {
-    let isotropic = matches!(parts.model, Model::FolgarTucker { .. } | Model::Rsc { .. });
-    (!isotropic).then_some(Parts { drift, ..parts })
-}
-
-/// What stands for a_ijkl in a code.
-#[derive(Clone, Copy)]
-pub struct Stand {
-    /// Its name, to stand after "this is the curve of".
-    pub name: &'static str,
-    /// a_ijkl from a_ij.
-    pub fourth: fn(&Matrix3<f64>) -> Fourth,
-}
-
-/// The number of closures that are met with a second mistake too; those after them are tried alone.
-pub const WITH_OTHERS: usize = 24;
-
-/// Every closure, right and wrong ones.
-pub const CLOSURES: [Stand; 35] = [
-    Stand { name: "the linear closure", fourth: linear },
-    Stand { name: "the quadratic closure", fourth: quadratic },
-    Stand { name: "the hybrid closure", fourth: |a| Closure::Hybrid.fourth(a) },
-    Stand { name: "the natural closure", fourth: |a| Closure::Natural.fourth(a) },
-    Stand { name: "the ORE closure", fourth: |a| Closure::Ore.fourth(a) },
-    Stand { name: "the ORW closure", fourth: |a| Closure::Orw.fourth(a) },
-    Stand { name: "the IBOF closure", fourth: |a| Closure::Ibof.fourth(a) },
-    Stand { name: "the ORF closure (Cintra & Tucker 1995)", fourth: orthotropic::orf },
-    Stand { name: "the quadratic closure made symmetric in all indices", fourth: symmetric },
-    Stand {
-        name: "a·D·a for 𝔸:D (a_ik a_jl for a_ij a_kl)",
-        fourth: |a| Fourth::from_fn(|i, j, k, l| 0.5 * (a[(i, k)] * a[(j, l)] + a[(i, l)] * a[(j, k)])),
-    },
-    Stand { name: "a linear closure with + 1/35 for − 1/35", fourth: |a| linear_by(a, 7.0, -35.0) },
-    Stand { name: "a linear closure without its term of 1/35", fourth: |a| linear_by(a, 7.0, f64::INFINITY) },
-    Stand { name: "a linear closure with its 1/7 before both brackets", fourth: |a| linear_by(a, 7.0, 245.0) },
-    Stand { name: "a hybrid closure with f and 1 − f exchanged", fourth: |a| mixed(a, 1.0 - aligned(a), linear) },
-    Stand { name: "a hybrid closure with f = (3 a:a − 1)/2", fourth: |a| mixed(a, 1.5 * a.dot(a) - 0.5, linear) },
-    Stand {
-        name: "a hybrid closure with + 1/35 for − 1/35",
-        fourth: |a| mixed(a, aligned(a), |a| linear_by(a, 7.0, -35.0)),
-    },
-    Stand { name: "a hybrid closure with (1 + f) linear − f quadratic", fourth: |a| mixed(a, -aligned(a), linear) },
-    Stand { name: "the linear closure of rods in a plane (1/6, − 1/24)", fourth: planar },
-    Stand {
-        name: "the hybrid closure of rods in a plane (1/6, − 1/24, f = 1 − 4(a_11 a_22 − a_12²))",
-        fourth: |a| mixed(a, 1.0 - 4.0 * in_plane(a), planar),
-    },
-    Stand { name: "a hybrid closure with 1/6 and − 1/24", fourth: |a| mixed(a, aligned(a), planar) },
-    Stand {
-        name: "a hybrid closure with f = 1 − 4(a_11 a_22 − a_12²)",
-        fourth: |a| mixed(a, 1.0 - 4.0 * in_plane(a), linear),
-    },
-    Stand {
-        name: "a hybrid closure with f = 1 − 4 det a", fourth: |a| mixed(a, 1.0 - 4.0 * a.determinant(), linear)
-    },
-    Stand {
-        name: "a hybrid closure with f = 1 − 9 det a", fourth: |a| mixed(a, 1.0 - 9.0 * a.determinant(), linear)
-    },
-    Stand { name: "a hybrid closure with f = 2 a:a − 1", fourth: |a| mixed(a, 2.0 * a.dot(a) - 1.0, linear) },
-    Stand { name: "a linear closure without its term of 1/7", fourth: |a| linear_by(a, f64::INFINITY, 35.0) },
-    Stand { name: "a linear closure with 1 for 1/7", fourth: |a| linear_by(a, 1.0, 35.0) },
-    Stand { name: "a linear closure with 1/35 for 1/7", fourth: |a| linear_by(a, 35.0, 35.0) },
-    Stand { name: "a linear closure with 1/7 for 1/35", fourth: |a| linear_by(a, 7.0, 7.0) },
-    Stand { name: "a hybrid closure with 1 for 1/7", fourth: |a| mixed(a, aligned(a), |a| linear_by(a, 1.0, 35.0)) },
-    Stand {
-        name: "a hybrid closure with 1/35 for 1/7",
-        fourth: |a| mixed(a, aligned(a), |a| linear_by(a, 35.0, 35.0)),
-    },
-    Stand { name: "a hybrid closure with 1/7 for 1/35", fourth: |a| mixed(a, aligned(a), |a| linear_by(a, 7.0, 7.0)) },
-    Stand {
-        name: "a hybrid closure f (quadratic + (1 − f) linear)",
-        fourth: |a| Fourth((quadratic(a).0 + linear(a).0 * (1.0 - aligned(a))) * aligned(a)),
-    },
-    Stand {
-        name: "a hybrid closure f quadratic + 1 − f linear",
-        fourth: |a| Fourth(((quadratic(a).0 - linear(a).0) * aligned(a)).add_scalar(1.0)),
-    },
-    Stand { name: "a hybrid closure with f = 1 + 27 det a", fourth: |a| mixed(a, 2.0 - aligned(a), linear) },
-    Stand { name: "a hybrid closure with f² for f", fourth: |a| mixed(a, aligned(a).powi(2), linear) },
-];
-
-/// The linear closure with the numbers of rods in a plane.
-fn planar(a: &Matrix3<f64>) -> Fourth {
-    linear_by(a, 6.0, 24.0)
-}
-
-/// The determinant of a in the plane 12.
-fn in_plane(a: &Matrix3<f64>) -> f64 {
-    a[(0, 0)] * a[(1, 1)] - a[(0, 1)] * a[(0, 1)]
-}
-
-fn symmetric(a: &Matrix3<f64>) -> Fourth {
-    Fourth::from_fn(|i, j, k, l| (a[(i, j)] * a[(k, l)] + a[(i, k)] * a[(j, l)] + a[(i, l)] * a[(j, k)]) / 3.0)
+pub fn drifting(parts: Parts, drift: [f64; 2]) -> Option<Parts> {
+    (!is_isotropic(&parts)).then_some(Parts { drift, ..parts })
 }

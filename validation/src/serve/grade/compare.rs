@@ -136,7 +136,11 @@ fn without_error(loaded: &LoadedProblem, answer: &Answer) -> Option<String> {
 fn remark(loaded: &LoadedProblem, answer: &Answer, row: usize, error: f64, largest_se: f64) -> Option<String> {
     let place = || answer.place(row);
     if error.is_nan() {
-        return Some(format!("{}: a value is not finite", place()));
+        let names = &loaded.problem.columns[loaded.problem.kind.keys().len()..];
+        // Of a value whose square is infinite, no distance says anything.
+        let (name, value) = names.iter().zip(&answer.rows[row]).max_by(|a, b| size(*a.1).total_cmp(&size(*b.1)))?;
+        let why = if value.is_finite() { "too large to judge" } else { "not finite" };
+        return Some(format!("{}: {name} = {value:?} is {why}", place()));
     }
     if let Some(none) = without_error(loaded, answer) {
         return Some(none);
@@ -150,19 +154,31 @@ fn remark(loaded: &LoadedProblem, answer: &Answer, row: usize, error: f64, large
     trace::remark(loaded, answer, row).map(|words| format!("{}: {words}", place()))
 }
 
-/// The component of a row that is farthest from what is due, with both values; `None` of directions and of relative
-/// errors, which have one value for several components.
+/// The size of a value; NaN is the largest.
+fn size(value: f64) -> f64 {
+    if value.is_nan() { f64::NAN } else { value.abs() }
+}
+
+/// The component of a row that is farthest from what is due, with both values; `None` of directions, which have one
+/// error for all components.
 pub(super) fn worst_entry(loaded: &LoadedProblem, answer: &Answer, row: usize) -> Option<String> {
     let keys = loaded.problem.kind.keys().len();
     let (names, values) = (&loaded.problem.columns[keys..], &answer.rows[row]);
     let certified = &loaded.certified.rows[row][keys..];
     let off = |k: usize| values[k] - certified[k];
+    let of_rod = |name: &str| {
+        let rod = name.split('_').next().unwrap_or_default();
+        let own = names.iter().zip(certified).filter(|(name, _)| name.split('_').next() == Some(rod));
+        own.map(|(_, value)| value * value).sum::<f64>().sqrt().max(f64::MIN_POSITIVE)
+    };
     let errors: Vec<_> = match loaded.problem.metric {
         Metric::Absolute => (0..names.len()).map(|k| (k, off(k).abs())).collect(),
         Metric::StandardErrors => {
             with_errors(names).map(|(k, se)| (k, off(k).abs() / values[se].hypot(certified[se]))).collect()
         }
-        Metric::Angle | Metric::Relative => return None,
+        // Each rod has an error of its own.
+        Metric::Relative => (0..names.len()).map(|k| (k, off(k).abs() / of_rod(&names[k]))).collect(),
+        Metric::Angle => return None,
     };
     let (k, _) = errors.into_iter().max_by(|a, b| a.1.total_cmp(&b.1))?;
     // Three digits of the difference, where a double has them.

@@ -10,7 +10,8 @@ use super::answer::Answer;
 use super::nearness::{CURVE, Diagnosis, NEARER, Near, said};
 use crate::judge::statistics::worst;
 use crate::methods::tensors::fourth::PAIRS;
-use crate::methods::tensors::wrong::{CLOSURES, MISTAKES, Stand, WITH_OTHERS, scaled};
+use crate::methods::tensors::wrong::closures::{CLOSURES, Stand, WITH_OTHERS};
+use crate::methods::tensors::wrong::{MISTAKES, scaled};
 use crate::methods::tensors::{Closure, Model, Parts, at_rate, isotropic, steady_of};
 use crate::oracle::diffusion::strain_rate_per_s;
 use crate::serve::problems::formula::tensor;
@@ -31,7 +32,7 @@ const OFF: f64 = 1e-4;
 /// A closed equation that a code may solve, with its curve, which is computed once for all answers.
 struct Candidate {
     parts: Parts,
-    closure: Stand,
+    closure: &'static Stand,
     /// Its names: mistakes may have the same parts.
     near: Vec<Near>,
     /// Rough values at the first time; all values.
@@ -40,7 +41,7 @@ struct Candidate {
 }
 
 impl Candidate {
-    fn new(parts: Parts, closure: Stand, near: Vec<Near>) -> Self {
+    fn new(parts: Parts, closure: &'static Stand, near: Vec<Near>) -> Self {
         Self { parts, closure, near, first: OnceLock::new(), whole: OnceLock::new() }
     }
 
@@ -50,7 +51,7 @@ impl Candidate {
 
     /// The rate in `factor` times the flow, with the same diffusion.
     fn rate_in(&self, factor: f64, a: &Matrix3<f64>) -> Matrix3<f64> {
-        scaled(self.parts, factor, factor, 1.0).rate(a, &(self.closure.fourth)(a))
+        scaled(self.parts, factor, factor, 1.0).rate(a, &self.closure.fourth(a))
     }
 
     /// The norm of the flow in 1/s.
@@ -67,7 +68,7 @@ impl Candidate {
             let rate = |time_s: f64, a: &Matrix3<f64>| self.rate_in(problem.flow_at(time_s), a);
             at_rate(&rate, start, &problem.times_s[..count], tolerance)?
         };
-        all.iter().map(|a| values(problem, &self.closure, a)).collect()
+        all.iter().map(|a| values(problem, self.closure, a)).collect()
     }
 
     fn first(&self, problem: &Problem, start: &Matrix3<f64>) -> Option<&Vec<f64>> {
@@ -116,7 +117,7 @@ struct Known {
 impl Known {
     /// The right equation, if a closure is the right one.
     fn right(&self) -> Option<Candidate> {
-        Some(Candidate::new(self.parts, CLOSURES[self.own?], Vec::new()))
+        Some(Candidate::new(self.parts, &CLOSURES[self.own?], Vec::new()))
     }
 }
 
@@ -137,9 +138,9 @@ fn known(problem: &Problem) -> Option<Arc<Known>> {
 /// The words for a change with a closure; `own` is the index of the one that is asked for, if one is.
 fn near_of(name: &str, advice: &'static str, closure: usize, own: Option<usize>) -> Near {
     let other = own != Some(closure);
-    let of_closure = CLOSURES[closure].name;
+    let of_closure = &CLOSURES[closure].name;
     let (name, suspect) = match (name, other) {
-        ("", _) => (of_closure.to_owned(), of_closure),
+        ("", _) => (of_closure.clone(), of_closure.as_str()),
         (_, true) => (format!("{name}, with {of_closure}"), name),
         (_, false) => (name.to_owned(), name),
     };
@@ -172,12 +173,15 @@ fn candidates(changes: &[Change], own: Option<usize>) -> Vec<Candidate> {
         // Without 𝔸:D a closure has no part in a_ij.
         let without = change.parts.of_fourth == 0.0 && matches!(change.parts.model, Model::FolgarTucker { .. });
         let own = if without { Some(own.unwrap_or_default()) } else { own };
-        let of = |(closure, stand): (usize, &Stand)| {
+        let of = |(closure, stand): (usize, &'static Stand)| {
             let near: Vec<_> = change.names.iter().map(|(name, advice)| near_of(name, advice, closure, own)).collect();
             let tried = near[0].changes == 1 || near[0].changes > 1 && closure < WITH_OTHERS;
-            tried.then(|| Candidate::new(change.parts, *stand, near))
+            tried.then(|| Candidate::new(change.parts, stand, near))
         };
-        let all = CLOSURES.iter().enumerate().filter(|(closure, _)| !without || own == Some(*closure));
+        let all = CLOSURES.iter().enumerate().filter(|(closure, stand)| {
+            let meant = stand.of.is_none_or(|of| own.is_some() && own == index(of));
+            if without { own == Some(*closure) } else { meant }
+        });
         all.filter_map(of).collect::<Vec<_>>()
     };
     changes.iter().flat_map(with).collect()
@@ -185,7 +189,7 @@ fn candidates(changes: &[Change], own: Option<usize>) -> Vec<Candidate> {
 
 /// The values of the problem's columns for a, with the fourth moments by the closure; `None` for other columns.
 fn values(problem: &Problem, closure: &Stand, a: &Matrix3<f64>) -> Option<Vec<f64>> {
-    let fourth = (closure.fourth)(a);
+    let fourth = closure.fourth(a);
     let value = |name: &String| {
         let digits: Vec<_> = name.strip_prefix('a')?.bytes().map(|digit| usize::from(digit - b'1')).collect();
         match digits[..] {

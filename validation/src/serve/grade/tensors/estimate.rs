@@ -1,7 +1,8 @@
 //! A number that is off by an unknown factor: C_I, Λ, or time.
 
 use super::{Candidate, Known, Near, STEP, distance, near_of};
-use crate::methods::tensors::wrong::{CLOSURES, WITH_OTHERS, scaled, shaped, spread};
+use crate::methods::tensors::wrong::closures::{CLOSURES, WITH_OTHERS};
+use crate::methods::tensors::wrong::{drifting, is_isotropic, scaled, shaped, slowed, spread, with};
 use crate::methods::tensors::{Model, Parts};
 use crate::serve::grade::answer::Answer;
 use crate::serve::grade::diagnosis::{STEPS_OFF, step_off};
@@ -12,11 +13,43 @@ use rayon::prelude::*;
 /// A quantity and the parts in which it is `factor` times what is asked.
 pub(super) type Quantity = (&'static str, fn(Parts, f64) -> Option<Parts>);
 
-pub(super) const QUANTITIES: [Quantity; 3] = [
+const QUANTITIES: [Quantity; 25] = [
     ("C_I", spread),
     ("Λ", |parts, factor| Some(shaped(parts, factor * parts.of_strain))),
     (TIME, |parts, factor| Some(scaled(parts, factor, factor, factor))),
+    ("W", |parts, factor| Some(scaled(parts, factor, 1.0, 1.0))),
+    ("D", |parts, factor| Some(scaled(parts, 1.0, factor, 1.0))),
+    ("Wa", |parts, factor| Some(Parts { spun: [factor, -1.0], ..parts })),
+    ("aW", |parts, factor| Some(Parts { spun: [1.0, -factor], ..parts })),
+    ("Da", |parts, factor| Some(Parts { stretched: [factor, 1.0], ..parts })),
+    ("aD", |parts, factor| Some(Parts { stretched: [1.0, factor], ..parts })),
+    ("Da + aD", |parts, factor| Some(Parts { of_strain: factor * parts.of_strain, ..parts })),
+    ("𝔸:D", |parts, factor| Some(Parts { of_fourth: factor * parts.of_fourth, ..parts })),
+    ("the 3 of δ − 3a", |parts, factor| is_isotropic(&parts).then_some(Parts { decay: 3.0 * factor, ..parts })),
+    ("5(Ca + aC)", |parts, factor| drifting(parts, [5.0 * factor, 10.0])),
+    ("10𝔸:C", |parts, factor| drifting(parts, [5.0, 10.0 * factor])),
+    ("κ", |parts, factor| slowed(parts, |kappas| kappas.map(|kappa| factor * kappa))),
+    ("C_M", |parts, factor| with(parts, "C_M", |x| factor * x)),
+    ("Ω", |parts, factor| with(parts, "Ω", |x| factor * x)),
+    ("D1", |parts, factor| with(parts, "D1", |x| factor * x)),
+    ("D2", |parts, factor| with(parts, "D2", |x| factor * x)),
+    ("D3", |parts, factor| with(parts, "D3", |x| factor * x)),
+    ("b1", |parts, factor| with(parts, "b1", |x| factor * x)),
+    ("b2", |parts, factor| with(parts, "b2", |x| factor * x)),
+    ("b3", |parts, factor| with(parts, "b3", |x| factor * x)),
+    ("b4", |parts, factor| with(parts, "b4", |x| factor * x)),
+    ("b5", |parts, factor| with(parts, "b5", |x| factor * x)),
 ];
+
+/// The number of quantities that are sought with every closure; those after them only with the right one.
+const WITH_CLOSURES: usize = 3;
+
+/// Each quantity with the closures with which it is sought.
+pub(super) fn tried(own: Option<usize>) -> impl Iterator<Item = (&'static Quantity, usize)> {
+    QUANTITIES.iter().enumerate().flat_map(move |(n, quantity)| {
+        (0..WITH_OTHERS).filter(move |k| n < WITH_CLOSURES || own == Some(*k)).map(move |k| (quantity, k))
+    })
+}
 
 const TIME: &str = "every rate (or time, or the sum of a method's weights)";
 
@@ -50,10 +83,10 @@ pub(super) fn near(quantity: &str, factor: f64, model: Model, closure: usize, ow
 
 /// The curves of equations with another C_I or Λ, found at the first time, that fit at all times.
 pub(super) fn of_curve(problem: &Problem, answer: &Answer, known: &Known, steps: Option<u64>, most: f64) -> Vec<Near> {
-    let all: Vec<_> = QUANTITIES.iter().flat_map(|q| (0..WITH_OTHERS).map(move |closure| (q, closure))).collect();
+    let all: Vec<_> = tried(known.own).collect();
     let fit = |((name, change), closure): &(&Quantity, usize)| {
         let name = if problem.d_r_per_s.is_some() { name.replace("C_I", "D_r") } else { (*name).to_owned() };
-        let with = |factor: f64| Some(Candidate::new(change(known.parts, factor)?, CLOSURES[*closure], Vec::new()));
+        let with = |factor: f64| Some(Candidate::new(change(known.parts, factor)?, &CLOSURES[*closure], Vec::new()));
         let row = |factor: f64| with(factor)?.curve(problem, &known.start, 1, STEP)?.pop();
         // At higher rates any steady state is reached, and no code has a larger Λ by mistake.
         let factor = newton(&answer.rows[0], row).filter(|factor| name == "C_I" || factor.abs() <= MOST)?;

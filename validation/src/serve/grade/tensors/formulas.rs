@@ -1,15 +1,17 @@
 //! Diagnosis of answers to formulas, row by row: the same mistakes as in curves, without an integration.
 
-use super::estimate::{self, QUANTITIES, Quantity};
+use super::estimate::{self, Quantity};
 use super::{CLOSURES, Near, Stand, apart, index, near_of};
 use crate::methods::tensors::fourth::PAIRS;
-use crate::methods::tensors::wrong::{MISTAKES, Mistake, WITH_OTHERS};
+use crate::methods::tensors::wrong::closures::{WITH_OTHERS, numbered};
+use crate::methods::tensors::wrong::{MISTAKES, Mistake, shaped};
 use crate::methods::tensors::{Closure, Equation, Fourth, Model, Parts};
 use crate::serve::grade::answer::Answer;
 use crate::serve::grade::nearness::{Diagnosis, NEARER, said};
 use crate::serve::problems::formula::{components, equation, tensor};
 use crate::serve::problems::{Formula, LoadedProblem};
 use nalgebra::Vector3;
+use std::collections::BTreeMap;
 
 type Rows = Vec<Vec<f64>>;
 
@@ -75,10 +77,55 @@ fn within(near: Near, answer: &Answer, rows: &Rows, most: f64) -> Option<Near> {
 
 fn of_closures(rows: &Rows, answer: &Answer, closure: Closure, most: f64) -> Vec<Near> {
     let of = |(k, stand): (usize, &Stand)| {
-        let found = rows.iter().map(|row| components(&(stand.fourth)(&tensor(row)))).collect();
+        let found = rows.iter().map(|row| components(&stand.fourth(&tensor(row)))).collect();
         within(near_of("", "", k, index(closure)), answer, &found, most)
     };
-    CLOSURES.iter().enumerate().filter_map(of).collect()
+    let near: Vec<_> = tried(closure).filter_map(of).collect();
+    if near.is_empty() { of_numbers(closure, rows, answer, most, |_, fourth| components(fourth)) } else { near }
+}
+
+/// The closures that may stand for this one.
+fn tried(closure: Closure) -> impl Iterator<Item = (usize, &'static Stand)> {
+    CLOSURES.iter().enumerate().filter(move |(_, stand)| stand.of.is_none_or(|of| of == closure))
+}
+
+/// Another value of one number in the closure, given the answer of a row, by its place, from a_ijkl.
+fn of_numbers(
+    closure: Closure,
+    rows: &Rows,
+    answer: &Answer,
+    most: f64,
+    answered: impl Fn(usize, &Fourth) -> Vec<f64>,
+) -> Vec<Near> {
+    let numbered = numbered(closure);
+    let all = |k: usize, value: f64| -> Rows {
+        let of = |(at, row): (usize, &Vec<f64>)| answered(at, &numbered.fourth(k, value, &tensor(row)));
+        rows.iter().enumerate().map(of).collect()
+    };
+    let of = |(k, (before, right)): (usize, &(String, f64))| {
+        let value = right + along(&all(k, *right).concat(), &all(k, right + 1.0).concat(), &answer.rows.concat())?;
+        let [value_text, right_text] = apart_in_digits(value, *right);
+        let name = format!("the {} closure with {value_text} for {right_text} {before}", closure.name());
+        within(Near::new(0.0, &name), answer, &all(k, value), most)
+    };
+    numbered.numbers.iter().enumerate().filter_map(of).collect()
+}
+
+/// The x at which one + x (two − one) is nearest to what is found by least squares; `None` if it is the same for all.
+fn along(one: &[f64], two: &[f64], found: &[f64]) -> Option<f64> {
+    let pairs = || one.iter().zip(two).zip(found);
+    let along: f64 = pairs().map(|((one, two), found)| (two - one) * (found - one)).sum();
+    let square: f64 = pairs().map(|((one, two), _)| (two - one).powi(2)).sum();
+    (square > 0.0).then(|| along / square)
+}
+
+/// A value and the right one in as many decimals as tell them apart.
+fn apart_in_digits(value: f64, right: f64) -> [String; 2] {
+    let decimals = (2.0 - (value - right).abs().max(1e-15).log10().floor()).max(0.0) as usize;
+    [value, right].map(|x| {
+        let text = format!("{x:.decimals$}");
+        if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
+    })
 }
 
 /// The parts of each row with a mistake, or without one; `None` if it makes no difference in any row.
@@ -94,51 +141,105 @@ fn parts_of(rows: &Rows, closure: Closure, model: Model) -> Vec<Parts> {
 
 /// a_ijkl of each row by a closure.
 fn fourths(rows: &Rows, closure: &Stand) -> Vec<Fourth> {
-    rows.iter().map(|row| (closure.fourth)(&tensor(row))).collect()
+    rows.iter().map(|row| closure.fourth(&tensor(row))).collect()
 }
 
 /// da_ij/dt of each row with these parts and these a_ijkl.
 fn rates(rows: &[Vec<f64>], parts: &[Parts], fourths: &[Fourth]) -> Rows {
-    let of = |(row, (parts, fourth)): (&Vec<f64>, (&Parts, &Fourth))| {
-        let rate = parts.rate(&tensor(row), fourth);
-        PAIRS.map(|place| rate[place]).to_vec()
-    };
-    rows.iter().zip(parts.iter().zip(fourths)).map(of).collect()
+    rows.iter().zip(parts.iter().zip(fourths)).map(|(row, (parts, fourth))| rate(row, parts, fourth)).collect()
+}
+
+fn rate(row: &[f64], parts: &Parts, fourth: &Fourth) -> Vec<f64> {
+    let rate = parts.rate(&tensor(row), fourth);
+    PAIRS.map(|place| rate[place]).to_vec()
 }
 
 fn of_rates(rows: &Rows, answer: &Answer, closure: Closure, model: Model, most: f64) -> Vec<Near> {
     let own = index(closure);
     let parts = parts_of(rows, closure, model);
-    let fourths: Vec<_> = CLOSURES.iter().map(|closure| fourths(rows, closure)).collect();
-    let rates = |parts: &[Parts], k: usize| rates(rows, parts, &fourths[k]);
+    let fourths: BTreeMap<_, _> = tried(closure).map(|(k, stand)| (k, fourths(rows, stand))).collect();
+    let rates = |parts: &[Parts], k: usize| rates(rows, parts, &fourths[&k]);
     let mut near = Vec::new();
     for mistake in std::iter::once(None).chain(MISTAKES.iter().map(Some)) {
         let Some(parts) = spoilt(&parts, mistake) else { continue };
         let (name, advice) = mistake.map_or(("", ""), |mistake| (mistake.name, mistake.advice));
         // Saves time: most are far already in the first row.
         let begins = |k: &usize| {
-            let first = self::rates(&rows[..1], &parts[..1], &fourths[*k][..1]);
+            let first = self::rates(&rows[..1], &parts[..1], &fourths[k][..1]);
             apart(&answer.rows[..1], &first) <= most
         };
         let of = |k: usize| within(near_of(name, advice, k, own), answer, &rates(&parts, k), most);
-        let closures = 0..if mistake.is_none() { CLOSURES.len() } else { WITH_OTHERS };
+        let closures = fourths.keys().copied().filter(|k| mistake.is_none() || *k < WITH_OTHERS);
         near.extend(closures.filter(begins).filter_map(of));
     }
-    if !near.is_empty() {
-        return near;
+    if near.is_empty() {
+        near = of_numbers(closure, rows, answer, most, |at, fourth| rate(&rows[at], &parts[at], fourth));
     }
-    // The rate is linear in each.
+    if near.is_empty() {
+        near = of_quantities(&parts, answer, most, |parts, k| rates(parts, k), model, own);
+    }
+    if let (true, Some(own)) = (near.is_empty(), own) {
+        let of = |at: usize, parts: &Parts| rate(&rows[at], parts, &fourths[&own][at]);
+        near.extend(of_each_row(rows, &parts, answer, most, of));
+    }
+    near
+}
+
+/// One quantity times a factor, in every row; the rate is linear in each.
+fn of_quantities(
+    parts: &[Parts],
+    answer: &Answer,
+    most: f64,
+    rates: impl Fn(&[Parts], usize) -> Rows,
+    model: Model,
+    own: Option<usize>,
+) -> Vec<Near> {
     let of = |((name, change), k): (&Quantity, usize)| {
         let scaled = |factor: f64| parts.iter().map(|parts| change(*parts, factor)).collect::<Option<Vec<_>>>();
         let [one, two] = [1.0, 2.0].map(|factor| Some(rates(&scaled(factor)?, k).concat()));
-        let (one, two, found) = (one?, two?, answer.rows.concat());
-        let pairs = || one.iter().zip(&two).zip(&found);
-        let along: f64 = pairs().map(|((one, two), found)| (two - one) * (found - one)).sum();
-        let square: f64 = pairs().map(|((one, two), _)| (two - one).powi(2)).sum();
-        let factor = 1.0 + along / square;
+        let factor = 1.0 + along(&one?, &two?, &answer.rows.concat())?;
         within(estimate::near(name, factor, model, k, own), answer, &rates(&scaled(factor)?, k), most)
     };
-    QUANTITIES.iter().flat_map(|quantity| (0..WITH_OTHERS).map(move |k| (quantity, k))).filter_map(of).collect()
+    estimate::tried(own).filter_map(of).collect()
+}
+
+/// A quantity that a code takes from the row by another formula: its name, where it is, and the parts with a value.
+type OfRow = (&'static str, fn(&Parts) -> f64, fn(Parts, f64) -> Option<Parts>);
+
+const OF_ROW: [OfRow; 2] = [
+    ("Λ", |parts| parts.of_strain, |parts, value| Some(shaped(parts, value))),
+    ("γ̇", |parts| parts.speed, |parts, value| Some(Parts { speed: value, ..parts })),
+];
+
+/// Λ or γ̇ by another formula: each row has a value with which it is right.
+fn of_each_row(
+    rows: &Rows,
+    parts: &[Parts],
+    answer: &Answer,
+    most: f64,
+    rate: impl Fn(usize, &Parts) -> Vec<f64>,
+) -> Option<Near> {
+    OF_ROW.iter().find_map(|(name, right, change)| {
+        let of = |(at, own): (usize, &Parts)| {
+            let with = |value: f64| Some(rate(at, &change(*own, value)?));
+            let value = along(&with(0.0)?, &with(1.0)?, &answer.rows[at]).unwrap_or(right(own));
+            Some((value, with(value)?))
+        };
+        let (values, found): (Vec<_>, Rows) =
+            parts.iter().enumerate().map(of).collect::<Option<Vec<_>>>()?.into_iter().unzip();
+        let words = |(at, (value, own)): (usize, (&f64, &Parts))| {
+            let right = right(own);
+            let r = rows[at].last()?;
+            let differs = (value - right).abs() > most.max(1e-9) * (1.0 + right.abs());
+            let [value, right] = apart_in_digits(*value, right);
+            differs.then(|| format!("{value} for {right} at r_e = {r} (row {at})"))
+        };
+        let words: Vec<_> = values.iter().zip(parts).enumerate().filter_map(words).take(3).collect();
+        let suspect = format!("another formula for {name}");
+        let name = format!("{suspect}: {}", words.join(", "));
+        let near = Near { suspects: vec![suspect], ..Near::new(0.0, &name) };
+        within(near, answer, &found, most)
+    })
 }
 
 /// The order of components, for ṗ.
@@ -153,16 +254,7 @@ const ORDERS: [([usize; 3], &str); 5] = [
 fn of_rods(rows: &Rows, answer: &Answer, most: f64) -> Vec<Near> {
     let model = Model::FolgarTucker { c_i: 0.0 };
     let parts = parts_of(rows, Closure::Linear, model);
-    let rates = |parts: &[Parts]| -> Rows {
-        let of = |(row, Parts { spin, strain, of_strain, of_fourth, .. }): (&Vec<f64>, &Parts)| {
-            let p = Vector3::from_row_slice(&row[..3]);
-            let pull = strain * p;
-            // pp stands for a and pppp for 𝔸: the same terms.
-            let rate = spin * p + pull * *of_strain - p * (p.dot(&pull) * 0.5 * of_fourth);
-            rate.as_slice().to_vec()
-        };
-        rows.iter().zip(parts).map(of).collect()
-    };
+    let rates = |parts: &[Parts]| -> Rows { rows.iter().zip(parts).map(|(row, parts)| pdot(row, parts)).collect() };
     let near = |name: &str, advice| Near { advice, ..Near::new(0.0, name) };
     let mut all = Vec::new();
     for mistake in &MISTAKES {
@@ -177,5 +269,20 @@ fn of_rods(rows: &Rows, answer: &Answer, most: f64) -> Vec<Near> {
         let turned = right.iter().map(|rate| order.map(|k| rate[k]).to_vec()).collect();
         within(near(name, ""), answer, &turned, most)
     }));
+    if all.is_empty() {
+        all = of_quantities(&parts, answer, most, |parts, _| rates(parts), model, Some(0));
+        all.retain(|near| near.changes == 1);
+    }
+    if all.is_empty() {
+        all.extend(of_each_row(rows, &parts, answer, most, |at, parts| pdot(&rows[at], parts)));
+    }
     all
+}
+
+/// ṗ with these parts: pp stands for a and pppp for 𝔸, the same terms.
+fn pdot(row: &[f64], Parts { spin, strain, of_strain, of_fourth, .. }: &Parts) -> Vec<f64> {
+    let p = Vector3::from_row_slice(&row[..3]);
+    let pull = strain * p;
+    let rate = spin * p + pull * *of_strain - p * (p.dot(&pull) * 0.5 * of_fourth);
+    rate.as_slice().to_vec()
 }

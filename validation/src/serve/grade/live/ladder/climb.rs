@@ -19,6 +19,9 @@ const RESOLVING: usize = 7;
 /// The same for tensors, which do not flip: after them a step is some sixteenth of a unit of strain.
 const RESOLVING_TENSORS: usize = 3;
 
+/// The number of equal answers that show that a setting is ignored.
+const SAME: usize = 4;
+
 /// Number of settings in a row that a program may refuse before any answer, by which a step is short, and after one.
 const REFUSALS: [usize; 2] = [RESOLVING + 1, 2];
 
@@ -104,7 +107,8 @@ pub(super) fn climb(
         };
         let orders = claimed.map(|claimed| (claimed, orders(&errors(&rungs), problem.tolerances())));
         if orders.as_ref().is_some_and(|(claimed, orders)| orders.refuted_early(*claimed)) {
-            return (rungs, End::Lower);
+            let end = ignores(&rungs, tolerance).map_or(End::Lower, |words| End::Wrong(words.to_owned()));
+            return (rungs, end);
         }
         let arrived = reached(&rungs, tolerance);
         match orders {
@@ -194,21 +198,8 @@ pub(super) fn hopeless(rungs: &[Rung], tolerance: f64, timeout: Duration, smooth
     let changes = changes.map(|(coarse, fine)| coarse.answer.largest_change(&fine.answer));
     // A method that follows the motion, with any order above 0.02, changes by more than a hundredth of its error.
     let still = if errors[3] < FOLLOWED || smooth { 0.01 * errors[3] } else { 0.01 * tolerance };
-    let same = |rung: &Rung| rung.answer.largest_change(&last.answer) == 0.0;
-    if matches!(last.setting, Setting::Steps(_)) && errors[3] > tolerance && rungs.iter().all(same) {
-        // A program that chooses its steps follows the motion.
-        let words = if errors[3] < FOLLOWED {
-            "the program ignores \"steps\": the answers are the same to the last digit. If it chooses its own, let it \
-             answer \"error\" to \"steps\", and it is asked by \"tolerance\""
-        } else {
-            "the answer is the same with any number of steps"
-        };
+    if let Some(words) = ignores(rungs, tolerance) {
         return Some(End::Wrong(words.to_owned()));
-    }
-    if matches!(last.setting, Setting::Tolerance(_)) && errors[3] > tolerance && rungs.iter().all(same) {
-        return Some(End::Wrong(
-            "the answer is the same with any tolerance: the program ignores \"tolerance\"".to_owned(),
-        ));
     }
     if changes.iter().all(|change| *change <= still) && errors[3] > tolerance {
         return Some(End::Wrong("finer ones no longer change the answer".to_owned()));
@@ -224,6 +215,23 @@ pub(super) fn hopeless(rungs: &[Rung], tolerance: f64, timeout: Duration, smooth
     (doubles && needed_s > 4.0 * timeout.as_secs_f64()).then(|| {
         End::NotReached(format!("finer ones would take some {needed_s:.0e} s, which --timeout does not allow"))
     })
+}
+
+/// A message on answers that are the same to the last digit with every setting, and wrong.
+fn ignores(rungs: &[Rung], tolerance: f64) -> Option<&'static str> {
+    let last = rungs.last().filter(|last| rungs.len() >= SAME && last.error() > tolerance)?;
+    let same = |rung: &Rung| rung.answer.largest_change(&last.answer) == 0.0;
+    match last.setting {
+        _ if !rungs.iter().all(same) => None,
+        Setting::Tolerance(_) => Some("the answer is the same with any tolerance: the program ignores \"tolerance\""),
+        // A program that chooses its steps follows the motion.
+        Setting::Steps(_) if last.error() < FOLLOWED => Some(
+            "the program ignores \"steps\": the answers are the same to the last digit. If it chooses its own, let it \
+             answer \"error\" to \"steps\", and it is asked by \"tolerance\"",
+        ),
+        Setting::Steps(_) => Some("the answer is the same with any number of steps"),
+        _ => None,
+    }
 }
 
 /// A message if the errors of the last four settings do not fall any more, with steps that are short.
