@@ -3,7 +3,7 @@
 use super::{Plan, Stage};
 use crate::model::collision::reach;
 use crate::observable::Observable;
-use crate::scene::{Interaction, Orientation, Update};
+use crate::scene::{DENSE, Interaction, Orientation, Update};
 
 /// The aspect ratio below which the slender limit of the rods' stress triggers a warning. A rule of thumb: the terms
 /// that the limit leaves out fall slowly with r_e, and vanish at no r_e.
@@ -13,9 +13,6 @@ const SLENDER: f64 = 30.0;
 /// contact rule joins the rods' axes, so it ignores their diameter, which is more than a tenth of the length here; and
 /// the paper compares no rods below r_e = 11.6 with measurements.
 const RULE_OF_LINES: f64 = 10.0;
-
-/// Rods in the cube of a rod's length from which on neighbours may be more than one. The paper's densest has 0.037.
-const DENSE: f64 = 0.1;
 
 /// Largest relative difference between the mean r_e of a file and the scene's without a warning: three standard errors
 /// of a few rods.
@@ -231,7 +228,7 @@ impl Plan {
         let n_a3 = scene.rods_per_cubed_length().filter(|n_a3| *n_a3 >= DENSE)?;
         let shown = if n_a3 < 1e4 { format!("{n_a3:.3}") } else { format!("{n_a3:.3e}") };
         let lengths = if scene.particles.rods.is_some() { "rods" } else { "length_mm" };
-        let regime = if n_a3 < 1.0 { "not far below 1" } else { scene.regime()? };
+        let regime = scene.regime()?;
         Some(format!(
             "{} and particles.{lengths} give n a³ = {shown}: {regime}. The model is for dilute suspensions, n a³ far \
              below 1, in which two rods meet at a time",

@@ -101,6 +101,20 @@ impl Document {
         Ok(())
     }
 
+    /// Takes a dotted key of the text out; one that was set stays.
+    pub(super) fn drop_written(&mut self, key: &str) {
+        let path: Vec<_> = key.split('.').map(str::to_owned).collect();
+        if self.places.remove(&path).is_none() {
+            return;
+        }
+        let mut entries = &mut self.root;
+        for table in &path[..path.len() - 1] {
+            let Some(Value::Table(inner)) = entries.get_mut(table) else { return };
+            entries = inner;
+        }
+        entries.remove(&path[path.len() - 1]);
+    }
+
     /// Adds the line of each key to an error of the scene that was read from this document; returns other errors
     /// unchanged.
     pub fn located(&self, error: Error) -> Error {

@@ -35,6 +35,27 @@ pub(crate) use steps::{nearest, step_maps};
 use time::TimeKeys;
 pub use time::{Time, TimeUnit};
 
+/// Rods in the cube of a rod's length from which on neighbours may be more than one. The paper's densest has 0.037.
+pub const DENSE: f64 = 0.1;
+
+/// Keys that stand for the concentration.
+const CONCENTRATIONS: [&str; 3] =
+    ["interaction.concentration_per_cm3", "interaction.box_mm", "particles.volume_fraction"];
+
+/// Sets a key of a scene's document in place of the text's own; a concentration replaces that of the text whatever the
+/// key of that.
+///
+/// # Errors
+///
+/// If a part of the key before the last is not a table.
+pub fn set(document: &mut document::Document, key: &str, value: toml::Value) -> Result<(), Error> {
+    document.set(key, value)?;
+    if CONCENTRATIONS.contains(&key) {
+        CONCENTRATIONS.iter().filter(|other| **other != key).for_each(|other| document.drop_written(other));
+    }
+    Ok(())
+}
+
 /// A whole scene. Tables and keys are those of the scene file ([`keys()`]). In code, start from the default and change
 /// what differs; [`crate::Plan::new`] checks the scene.
 ///
@@ -225,10 +246,12 @@ impl Scene {
 
     /// `dilute`, `semi-dilute` or `concentrated` by Doi & Edwards: rods turn freely below one rod in the cube of a
     /// rod's length; above, they hinder each other, and from a volume fraction of about 1/r_e, which is n a³ = r_e,
-    /// they do so everywhere. `None` for free rods.
+    /// they do so everywhere. The model is for n a³ far below 1: from [`DENSE`] to 1 it says `not far below 1`. `None`
+    /// for free rods.
     pub fn regime(&self) -> Option<&'static str> {
         Some(match self.rods_per_cubed_length()? {
-            n_a3 if n_a3 < 1.0 => "dilute",
+            n_a3 if n_a3 < DENSE => "dilute",
+            n_a3 if n_a3 < 1.0 => "not far below 1",
             n_a3 if n_a3 < self.particles.aspect_ratio => "semi-dilute",
             _ => "concentrated",
         })

@@ -76,3 +76,24 @@ fn of_a_long_line_or_value_the_start_is_shown() {
     let (_, error, _) = refused(&SCENE.replace("count = 10", "count = \"x\""));
     assert!(error.contains("particles.count = \"x\" is not allowed"), "{error}");
 }
+
+/// A concentration that is set replaces that of the text, whatever the key; of two that are set none gives way.
+#[test]
+fn a_concentration_that_is_set_replaces_the_texts() {
+    use crate::scene::{document::Document, of_document, set};
+    let text = "title = 't'\n[flow]\nshear_rate_per_s = 1\n[particles]\ncount = 5\nlength_mm = 1\naspect_ratio = 10\n\
+                orientation = 'isotropic'\n[interaction]\nconcentration_per_cm3 = 20\nalpha = 0.5\n\
+                [time]\nperiods = 1\n";
+    let with = |settings: &[(&str, toml::Value)]| {
+        let mut document = Document::parse("t.toml", text)?;
+        settings.iter().try_for_each(|(key, value)| set(&mut document, key, value.clone()))?;
+        of_document(&document)
+    };
+    let fraction = ("particles.volume_fraction", 1e-4.into());
+    let scene = with(std::slice::from_ref(&fraction)).unwrap();
+    assert_eq!(scene.concentration_key(), "particles.volume_fraction");
+    let sides = vec![toml::Value::Float(6.0); 3].into();
+    assert_eq!(with(&[("interaction.box_mm", sides)]).unwrap().concentration_key(), "interaction.box_mm");
+    let both = with(&[fraction, ("interaction.concentration_per_cm3", 30.into())]);
+    assert!(both.is_err() || crate::Plan::new(&both.unwrap()).is_err());
+}

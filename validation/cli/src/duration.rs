@@ -23,7 +23,7 @@ const UNASKED_H: f64 = 24.0;
 pub(super) struct Long {
     /// Begin work of over a day
     #[arg(long)]
-    yes: bool,
+    pub(super) yes: bool,
 }
 
 impl Long {

@@ -198,9 +198,13 @@ pub fn derived(plan: &shearbed::Plan, results: &shearbed::Results) -> Result<[St
     derived::files(plan, results, &derived::of(plan, results)).map(|files| files.map(|(_, text)| text))
 }
 
-/// Checks that a plan fits into memory with a replica on each thread; the error says why it does not.
-pub fn fits(plan: &shearbed::Plan, threads: Option<u64>, source: &str) -> Result<(), String> {
-    memory::check(plan, threads, source).map_err(|failure| failure.message_and_code().0)
+/// Checks that a plan fits into memory with a replica on each thread, and that it takes less than a day unless `yes`;
+/// the error says why it may not run.
+pub fn may_run(plan: &shearbed::Plan, threads: Option<u64>, source: &str, yes: bool) -> Result<(), String> {
+    let replicas = plan.scene().ensemble.replicas;
+    memory::check(plan, threads, source)
+        .and_then(|()| duration::Long { yes }.check(source, threads, &[(plan, replicas)]))
+        .map_err(|failure| failure.message_and_code().0)
 }
 
 /// The message with the value that it is about on one line.

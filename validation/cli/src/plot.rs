@@ -102,7 +102,7 @@ fn of_runs(args: &Args) -> Result<(Figure, String), Failure> {
         drawn.figure.points = measured::points(path, args.columns.as_ref(), &drawn.runs, &drawn.channels)?;
     }
     if let Some(path) = &args.reference {
-        drawn.figure.curves.extend(exact::curves(path, &drawn.time, &drawn.channels)?);
+        drawn.figure.curves.extend(exact::curves(path, &drawn.time, &drawn.channels, &drawn.runs[0])?);
     }
     Ok((drawn.figure, format!("{channels} of {}", counted(runs as u64, "run"))))
 }

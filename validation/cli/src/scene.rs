@@ -4,7 +4,7 @@ use super::owner::one_owner;
 use super::{Failure, whole};
 use shearbed::scene::document::Document;
 use shearbed::scene::{MAX_REPLICAS, MAX_SEED};
-use shearbed::scene::{SceneProblem, of_document};
+use shearbed::scene::{SceneProblem, of_document, set};
 use shearbed::{Error, Plan, Scene};
 use shearbed_validation::files::bounded;
 use shearbed_validation::files::cluster;
@@ -120,11 +120,11 @@ pub(super) fn load(given: &OsStr, settings: Vec<KeyValue>) -> Result<Named, Fail
     let at = |error: Error| wrong(&source, &settings, &error);
     let mut document = Document::parse(&source, &text).map_err(at)?;
     for KeyValue { key, value } in &settings {
-        document.set(key, value.clone()).map_err(at)?;
+        set(&mut document, key, value.clone()).map_err(at)?;
     }
     let mut scene = of_document(&document).map_err(at)?;
-    let set = |setting: &KeyValue| (setting.key.clone(), sweep::shown(&setting.value));
-    scene.title = names::title_with(&scene.title, &settings.iter().map(set).collect::<Vec<_>>());
+    let pair = |setting: &KeyValue| (setting.key.clone(), sweep::shown(&setting.value));
+    scene.title = names::title_with(&scene.title, &settings.iter().map(pair).collect::<Vec<_>>());
     starts.fill(&mut scene).map_err(|error| refused(&source, &error))?;
     warn(&source, starts.warnings());
     Ok(Named { scene, text, document, settings, source, starts, stem })

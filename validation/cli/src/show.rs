@@ -47,11 +47,11 @@ impl Over {
 }
 
 /// The cost of a sweep or a fit over these keys, as text.
-fn of_keys(named: &Named, plan: &Plan, each_s: f64, over: &[Over]) -> Result<String, Failure> {
+fn of_keys(named: &Named, plan: &Plan, each_s: f64, over: &[Over]) -> Result<(String, Vec<String>), Failure> {
     let refused = |why: String| Err(Failure::Input(format!("--over: {why}")));
     let ranges = over.iter().filter(|over| over.is_range).count();
     if over.is_empty() {
-        return Ok(String::new());
+        return Ok((String::new(), plan.warnings()));
     } else if ranges > 0 && ranges < over.len() {
         return refused("KEY=FROM:TO of a fit beside values of a sweep; one kind is allowed".to_owned());
     } else if ranges > MOST_PARAMETERS {
@@ -60,7 +60,13 @@ fn of_keys(named: &Named, plan: &Plan, each_s: f64, over: &[Over]) -> Result<Str
     let axes: Vec<_> = over.iter().map(|over| over.axis.clone()).collect();
     let points = sweep::points(named, &axes)?;
     let plans = points.iter().map(|point| &point.plan);
-    Ok(if ranges > 0 { duration::of_fit(plan, each_s, ranges, plans) } else { duration::of_sweep(plan, each_s, plans) })
+    let cost = if ranges > 0 {
+        duration::of_fit(plan, each_s, ranges, plans)
+    } else {
+        duration::of_sweep(plan, each_s, plans)
+    };
+    // Those of the scene are the points', where they are not of the key.
+    Ok((cost, sweep::warnings(&points, &axes)))
 }
 
 /// Arguments of `scenes`.
@@ -83,7 +89,7 @@ pub(super) fn plan(args: &PlanArgs) -> Result<(), Failure> {
     // A plan that `run` would refuse here is still shown: it may fit on another machine.
     let fits = memory::check(&plan, args.threads.given, &named.source);
     let each_s = duration::of_replica(&plan, fits.is_ok());
-    let of_keys = of_keys(&named, &plan, each_s, &args.over)?;
+    let (of_keys, warned) = of_keys(&named, &plan, each_s, &args.over)?;
     let (plan, replicas) = if args.until.is_empty() {
         (plan, String::new())
     } else {
@@ -102,7 +108,7 @@ pub(super) fn plan(args: &PlanArgs) -> Result<(), Failure> {
         duration::of_scene(&plan, each_s, args.threads.given),
         replicas
     ))?;
-    scene::warn(&named.source, &plan.warnings());
+    scene::warn(&named.source, &warned);
     fits
 }
 

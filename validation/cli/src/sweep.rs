@@ -12,6 +12,7 @@ use shearbed_validation::files::cluster;
 use shearbed_validation::files::output::Output;
 use shearbed_validation::files::text;
 use shearbed_validation::files::text::Shown;
+use shearbed_validation::present::plot::names;
 use shearbed_validation::serve::sweep::{self, Axis, Folder, GridError, Point, Points};
 use std::path::{Path, PathBuf};
 
@@ -162,9 +163,10 @@ pub(super) fn sweep(args: &Args) -> Result<(), Failure> {
     if args.writing.quiet {
         return Ok(());
     }
+    let swept: Vec<_> = args.over.iter().map(|axis| axis.key.as_str()).collect();
     print(&format!(
         "{}\npoints: {total}, of which {finished} were finished before\n\n{}\nin {}: sweep.csv, sweep.json, points\n",
-        text::line(&named.scene.title),
+        text::line(&names::title_without(&named.scene.title, &swept)),
         table(&rows, args.over.len()),
         out.shown(),
     ))
@@ -174,7 +176,7 @@ pub(super) fn sweep(args: &Args) -> Result<(), Failure> {
 const MOST_WARNINGS: usize = 10;
 
 /// Reasons to doubt results, each once, with the first of its points and the number of the others.
-fn warnings(points: &[Point], over: &[Axis]) -> Vec<String> {
+pub(super) fn warnings(points: &[Point], over: &[Axis]) -> Vec<String> {
     let mut found: Vec<(String, &Point, usize)> = Vec::new();
     for point in points {
         for warning in point.plan.warnings() {

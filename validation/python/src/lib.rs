@@ -118,7 +118,8 @@ enum Stopped {
 ///
 /// `progress(done, of)` is called now and then, from the thread that called this.
 #[pyfunction]
-#[pyo3(signature = (name, text, replicas=None, seed=None, threads=None, progress=None))]
+#[pyo3(signature = (name, text, replicas=None, seed=None, threads=None, progress=None, yes=false))]
+#[allow(clippy::too_many_arguments, reason = "they are keywords")]
 fn run<'py>(
     py: Python<'py>,
     name: &str,
@@ -127,9 +128,11 @@ fn run<'py>(
     seed: Option<i128>,
     threads: Option<usize>,
     progress: Option<Py<PyAny>>,
+    yes: bool,
 ) -> PyResult<Bound<'py, PyDict>> {
     let plan = plan(name, text, replicas, seed)?;
-    shearbed_cli::fits(&plan, threads.map(|count| count as u64), name).map_err(SceneError::new_err)?;
+    shearbed_cli::may_run(&plan, threads.map(|count| count as u64), name, yes)
+        .map_err(|why| SceneError::new_err(why.replace("--yes", "yes=True")))?;
     let pool = threads
         .map(|count| rayon::ThreadPoolBuilder::new().num_threads(count).build())
         .transpose()

@@ -189,6 +189,26 @@ def test_a_scene_with_other_values() -> None:
         scene.replace(**{"title.x": 1})
 
 
+def test_runs_and_sweeps_warn_as_the_program_does() -> None:
+    dense = shearbed.Scene(**SMALL).replace(concentration_per_cm3=50_000, periods=0.01)
+    with pytest.warns(UserWarning, match="concentrated"):
+        shearbed.run(dense)
+    with pytest.warns(UserWarning, match="over interaction.concentration_per_cm3=60000: .*concentrated"):
+        shearbed.sweep(dense, {"interaction.concentration_per_cm3": [50, 60_000]})
+
+
+def test_work_of_days_is_asked_for() -> None:
+    long = shearbed.Scene(**SMALL).replace(count=100_000, periods=6, replicas=1_000_000)
+    for run in (lambda: shearbed.run(long), lambda: shearbed.sweep(long, {"interaction.alpha": [0.1, 0.2]})):
+        with pytest.raises(ValueError, match="begin with yes(=True)? alone"):
+            run()
+
+
+def test_what_a_sweep_is_over_is_a_list() -> None:
+    with pytest.raises(ValueError, match=r"over: interaction.alpha = 0.5: a list of values is allowed"):
+        shearbed.sweep(SMALL, {"interaction.alpha": 0.5})
+
+
 def test_a_dense_scene_warns_here_too() -> None:
     [warning] = shearbed.Scene(**SMALL).replace(concentration_per_cm3=50_000).warnings
     assert "n a³ = 18.662: concentrated" in warning

@@ -7,6 +7,7 @@ use crate::{Failure, memory, scene};
 use shearbed::Plan;
 use shearbed::plan::counted;
 use shearbed::scene::TimeUnit;
+use shearbed_validation::files::FileError;
 use shearbed_validation::files::text::Shown;
 use shearbed_validation::files::text::line;
 use shearbed_validation::input::experiment::not_read;
@@ -90,7 +91,7 @@ pub(super) fn input(args: &Args) -> Result<Input, Failure> {
                 path.shown()
             )));
         }
-        let points = data::read(path, k, &reading)?;
+        let points = data::read(path, k, &reading).map_err(in_flags)?;
         if let (Some(u), Some(column)) = (args.u, &points.u_column) {
             return Err(Failure::Input(format!(
                 "--u {u}: {} has uncertainties of its own, in the column {column}; either these or --u are allowed",
@@ -180,6 +181,15 @@ fn scene_and_file<'a>(scene: &'a OsStr, given: &'a OsStr) -> (&'a OsStr, &'a Pat
         Some((other, file)) if !Path::new(given).exists() => (OsStr::new(other), Path::new(file)),
         _ => (scene, Path::new(given)),
     }
+}
+
+/// The message in the words of the command line.
+fn in_flags(error: FileError) -> FileError {
+    let mut message = error.message.replace(", or u = ", ", or --u=");
+    if message.starts_with("no column of measured values") {
+        message += "; --columns=t_s,x1,x1_u or the like names columns that have other names, in their order";
+    }
+    FileError { message, ..error }
 }
 
 /// Refuses points later than the scene's end: they would make it run for long, and usually have another unit.

@@ -26,7 +26,9 @@ pub(super) fn against(drawn: Drawn, key: &str, at: Option<f64>) -> Result<(Figur
         let mut without = Vec::new();
         for ((run, curve), place) in runs.iter().zip(own).zip(places) {
             let point = run.point.as_ref().ok_or_else(|| {
-                refused(format!("{} is no sweep; a folder of `shearbed sweep` is allowed", run.dir.shown()))
+                let as_is = ["time_s", "strain", "t_over_T", "t_s"].contains(&key);
+                let hint = if as_is { "; a run is drawn against its own time, time.unit of its scene" } else { "" };
+                refused(format!("{} is no sweep; a folder of `shearbed sweep` is allowed{hint}", run.dir.shown()))
             })?;
             let (value, others) = value(point, key).map_err(refused)?;
             let Some(place) = place else {

@@ -1,6 +1,8 @@
 //! Exact curves over those of runs.
 
-use crate::Failure;
+use crate::{Failure, scene};
+use shearbed::Plan;
+use shearbed::motion::Propagator;
 use shearbed_validation::files::bounded;
 use shearbed_validation::files::csv::Table;
 use shearbed_validation::files::text::Shown;
@@ -8,10 +10,12 @@ use shearbed_validation::present::plot::{Curve, REFERENCE, names};
 use std::io::BufReader;
 use std::path::Path;
 
+use super::folders::Run;
 use super::table::MOST_ROWS;
 
-/// The channels in a table of `shearbed reference` that has the column `time`, each against it.
-pub(super) fn curves(path: &Path, time: &str, channels: &[String]) -> Result<Vec<Curve>, Failure> {
+/// The channels in a table of `shearbed reference` that has the column `time`, each against it; warns if the table is
+/// of another shear rate or period than the run.
+pub(super) fn curves(path: &Path, time: &str, channels: &[String], run: &Run) -> Result<Vec<Curve>, Failure> {
     let at = |what: String| Failure::Input(format!("--reference {}: {what}", path.shown()));
     let file = bounded::open(path).map_err(|error| at(format!("cannot be read: {error}")))?;
     let mut table = Table::new(path, BufReader::new(file))?;
@@ -24,16 +28,41 @@ pub(super) fn curves(path: &Path, time: &str, channels: &[String]) -> Result<Vec
     let mut curves: Vec<Curve> = (channels.iter())
         .map(|channel| Curve { label: names::channel(channel) + REFERENCE, ..Curve::default() })
         .collect();
-    let mut rows = 0;
+    let of_time = ["time_s", "t_over_T", "strain"].map(|name| table.place(name));
+    let (mut rows, mut last) = (0, None);
     while let Some(row) = table.next_row()? {
         rows += 1;
         if rows > MOST_ROWS {
             return Err(row.error(format!("more than {MOST_ROWS} rows for one picture; fewer are allowed")).into());
+        }
+        if let [Some(time_s), Some(t_over_t), Some(strain)] = of_time {
+            last = Some([row.finite(time_s)?, row.finite(t_over_t)?, row.finite(strain)?]);
         }
         for (curve, y) in curves.iter_mut().zip(&y) {
             curve.x.push(row.finite(x)?);
             curve.y.push(row.finite(*y)?);
         }
     }
+    let differs = last.map(|last| differences(last, run)).unwrap_or_default();
+    scene::warn(&format!("--reference {}", path.shown()), &differs);
     Ok(curves)
+}
+
+/// How the flow and the rods of a table differ from those of the run; `last` is its last t in s, t/T and strain.
+fn differences([time_s, t_over_t, strain]: [f64; 3], run: &Run) -> Vec<String> {
+    let Ok(plan) = Plan::new(&run.scene) else { return Vec::new() };
+    let (one, r) = (plan.elapsed(1.0), run.scene.particles.aspect_ratio);
+    let rate_per_s = one.strain / one.seconds;
+    let period = Propagator::new(plan.flow(), r).period_s().map(|period_s| period_s * rate_per_s);
+    let other = |own: f64, of_run: f64| own.is_finite() && (own / of_run - 1.0).abs() > 1e-9;
+    let named = run.dir.shown();
+    let rate = Some(strain / time_s).filter(|own| other(*own, rate_per_s)).map(|own| {
+        let rates = format!("is of the shear rate {own} per s, the run in {named} of {rate_per_s} per s");
+        format!("{rates}: times in s are not the same strain")
+    });
+    let turn = period.filter(|period| other(strain / t_over_t, *period)).map(|period| {
+        let own = strain / t_over_t;
+        format!("is of rods that turn once in a strain of {own:.3}, the run in {named} of {period:.3}: r_e is another")
+    });
+    rate.into_iter().chain(turn).collect()
 }

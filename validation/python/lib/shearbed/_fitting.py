@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ._results import typeset
-from ._running import bar_of, columns as columns_of, complained, options, program
+from ._running import bar_of, columns as columns_of, complained, keywords, options, program
 from ._scene import Scene, scene_of
 
 Array = NDArray[np.float64]
@@ -75,7 +75,7 @@ class Fit:
         ]
         self.tests: list[dict[str, Any]] = self.record.get("tests", [])
         """What was asked by ``test=``: hypothesis, rise_of_chi2, p_value (at most that where beyond_the_box, and not below 1e-6), and of two keys their difference."""
-        self.warnings: list[str] = self.record["warnings"]
+        self.warnings: list[str] = [keywords(warning) for warning in self.record["warnings"]]
         """What to know before trusting it."""
         self.design: dict[str, NDArray[Any]] | None = columns_of(folder / "design.csv") if (folder / "design.csv").exists() else None
         """With ``design=True``: further points, and the uncertainties that each would leave."""
@@ -146,6 +146,7 @@ def fit(
     threads: int | None = None,
     checkpoint: str | os.PathLike[str] | None = None,
     progress: Callable[[int, int], object] | bool = False,
+    yes: bool = False,
 ) -> Fit:
     """Fits keys of a scene to measured points, as ``shearbed fit`` does, with the same result.
 
@@ -161,21 +162,24 @@ def fit(
     uncertainties, in ``design``. ``test=["interaction.alpha=1"]`` tests values of fitted keys, and
     ``test=["1:interaction.alpha=2:interaction.alpha"]`` whether two scenes have the same: see ``tests``. ``checkpoint``
     is a file that keeps the runs: the same call goes on with them. ``progress(done, of)`` counts the runs, of those
-    that are known to be needed by then; ``progress=True`` draws a bar with tqdm where it is installed.
+    that are known to be needed by then; ``progress=True`` draws a bar with tqdm where it is installed. Work of over a day
+    begins with ``yes=True`` alone.
 
     The work is done in a process of its own: other Python threads go on meanwhile, and Ctrl-C ends it. Raises ``ValueError``
     with the program's words for what is not allowed, ``RuntimeError`` for a fit that cannot go on.
     """
     with tempfile.TemporaryDirectory(prefix="shearbed-") as made:
         folder = Path(made)
-        words = ["fit", "scene.toml", "--out", "out", "--yes"]
+        words = ["fit", "scene.toml", "--out", "out"] + ["--yes"] * yes
         for k, (of, points) in enumerate([(scene, data), *also]):
             name = "scene.toml" if k == 0 else f"scene-{k + 1}.toml"
             scene_of(of)._written(folder, name)
             file = _file(points, folder / f"points-{k + 1}.csv")
             words += ["--data", file if k == 0 else f"{name}={file}"]
-        for key, (low, high) in (over or {}).items():
-            words += ["--over", f"{key}={float(low)!r}:{float(high)!r}"]
+        for key, ends in (over or {}).items():
+            if not isinstance(ends, Sequence) or len(ends) != 2:
+                raise ValueError(f"over: {key} = {ends!r}: a range (from, to) is allowed")
+            words += ["--over", f"{key}={float(ends[0])!r}:{float(ends[1])!r}"]
         words += options(replicas=replicas, seed=seed, rods=rods, threads=threads, set=set)
         words += [] if u_contains is None else ["--u-contains", u_contains]
         words += [] if u is None else ["--u", repr(float(u))]

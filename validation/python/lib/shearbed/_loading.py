@@ -18,6 +18,8 @@ def load(folder: str | os.PathLike[str]) -> Any:
     Raises ``FileNotFoundError`` where there is no ``shearbed.json``, and ``ValueError`` for results of other commands.
     """
     folder = Path(folder)
+    if not (folder / "shearbed.json").is_file():
+        raise FileNotFoundError(f"{folder}: holds no results: there is no shearbed.json; a folder that the program wrote is allowed")
     origin = json.loads((folder / "shearbed.json").read_text(encoding="utf-8"))
     command = origin["command"]
     if command == "run":

@@ -38,6 +38,7 @@ def run(
     time_limit_s: float | None = None,
     checkpoint: str | os.PathLike[str] | None = None,
     vtk: str | os.PathLike[str] | None = None,
+    yes: bool = False,
 ) -> Results:
     """Runs a scene: the same bits as the program, on any number of threads.
 
@@ -48,7 +49,9 @@ def run(
     ``until_se={"x1": 0.001}`` adds replicas until the standard error of each of these channels is at most that; with
     ``time_limit_s`` none begins after that time, and a Python warning says what was reached. ``checkpoint`` is a file that keeps
     the run, and from which the same call goes on. ``vtk`` is a folder for ParaView's files of the rods at the times of
-    ``rods_at``. All three work in a process of its own, without ``progress``.
+    ``rods_at``. All three work in a process of its own, without ``progress``. Work of over a day begins with ``yes=True`` alone.
+
+    What the reader of the results should know, ``scene.warnings``, comes as Python warnings too.
 
     Raises :class:`SceneError` for a scene that cannot be run, ``RuntimeError`` for a run that cannot go on.
     """
@@ -60,11 +63,14 @@ def run(
         words += [] if time_limit_s is None else ["--time-limit", f"{time_limit_s}s"]
         words += [] if checkpoint is None else ["--checkpoint", os.path.abspath(checkpoint)]
         words += [] if vtk is None else ["--vtk"]
+        words += ["--yes"] if yes else []
         return _apart(scene, words + options(replicas=replicas, seed=seed, threads=threads), vtk)
     if time_limit_s is not None:
         raise TypeError("time_limit_s: it goes with until_se")
     told = bar_of("replica") if progress is True else progress or None
-    found = _core.run(scene._name, scene._text, replicas, seed, threads, told)
+    found = _core.run(scene._name, scene._text, replicas, seed, threads, told, yes)
+    for warning in scene.warnings:
+        warnings.warn(warning, stacklevel=2)
     return Results(found | {name: table(found[name].splitlines()) for name in DERIVED})
 
 
@@ -73,7 +79,7 @@ def _apart(scene: Scene, words: Sequence[str], vtk: str | os.PathLike[str] | Non
     with tempfile.TemporaryDirectory(prefix="shearbed-") as made:
         folder = Path(made)
         try:
-            program(["run", scene._written(folder).name, "--out", "out", "--quiet", "--yes", *words], folder)
+            program(["run", scene._written(folder).name, "--out", "out", "--quiet", *words], folder)
         except RuntimeError as error:
             # Less than was asked for, if there are results.
             if not (folder / "out" / "run.json").exists():
@@ -138,6 +144,7 @@ def sweep(
     threads: int | None = None,
     progress: Callable[[int, int], object] | bool = False,
     xarray: bool = False,
+    yes: bool = False,
 ) -> Any:
     """Runs a scene at every combination of its keys' values, as ``shearbed sweep`` does.
 
@@ -145,14 +152,18 @@ def sweep(
     keys, then time, means and standard errors at the last output; with ``times="all"`` one row for each output of each
     point. All points have the same seed. ``set={"particles.count": 50}`` gives keys of the scene another value.
     ``progress(done, of)`` counts points; ``progress=True`` draws a bar with tqdm where it is installed. ``xarray=True`` gives an
-    ``xarray.Dataset`` in place of the columns: one dimension for each swept key, and ``output`` with ``times="all"``.
+    ``xarray.Dataset`` in place of the columns: one dimension for each swept key, and with ``times="all"`` ``output``, with the
+    times as its coordinate where all points have the same. Work of over a day begins with ``yes=True`` alone.
     """
     if times not in ("last", "all"):
         raise ValueError(f"times = {times!r}: 'last' and 'all' are allowed")
+    for key, values in over.items():
+        if isinstance(values, str) or not isinstance(values, Iterable):
+            raise ValueError(f"over: {key} = {values!r}: a list of values is allowed, as [{values!r}]")
     scene = scene_of(scene)
     with tempfile.TemporaryDirectory(prefix="shearbed-") as made:
         folder = Path(made)
-        words = ["sweep", scene._written(folder).name, "--out", "out", "--quiet", "--yes"]
+        words = ["sweep", scene._written(folder).name, "--out", "out", "--quiet"] + ["--yes"] * yes
         for key, values in over.items():
             words += ["--over", f"{key}=" + ",".join(_value(value) for value in values)]
         words += options(replicas=replicas, seed=seed, threads=threads, set=set)
@@ -205,7 +216,12 @@ def _dataset(table: Mapping[str, NDArray[Any]], over: Mapping[str, Sequence[Any]
     dims = [*over, "output"] if outputs > 1 else list(over)
     shape += [outputs] if outputs > 1 else []
     variables = {name: (dims, values.reshape(shape)) for name, values in table.items() if name not in over}
-    return xarray.Dataset(variables, {key: list(values) for key, values in over.items()})
+    coordinates: dict[str, Any] = {key: list(values) for key, values in over.items()}
+    # The first column after the keys is a time.
+    times = next(iter(variables.values()))[1].reshape(-1, outputs)
+    if outputs > 1 and (times == times[0]).all():
+        coordinates["output"] = times[0]
+    return xarray.Dataset(variables, coordinates)
 
 
 def tables(point: Path) -> dict[str, NDArray[Any]]:
@@ -281,7 +297,13 @@ def program(words: Sequence[str], folder: Path, watch: Callable[[], object] | No
     if running.returncode:
         lines = [line for line in complained(folder) if not line.startswith("progress: ")]
         message = "\n".join(lines).strip().removeprefix("error: ") or f"the program ended with {running.returncode}"
-        # Keywords are called as the flags; a name of a file may hold two dashes too.
-        message = re.sub(r"(?<![\w.-])--([a-z]+(?:-[a-z]+)*)", lambda flag: flag[1].replace("-", "_"), message)
-        raise (ValueError if running.returncode == 2 else RuntimeError)(message)
+        raise (ValueError if running.returncode == 2 else RuntimeError)(keywords(message))
+    for line in complained(folder):
+        if line.startswith("warning: "):
+            warnings.warn(keywords(line.removeprefix("warning: ")), stacklevel=3)
     return said
+
+
+def keywords(message: str) -> str:
+    """The program's words with keywords for flags, which are called alike; a name of a file may hold two dashes too."""
+    return re.sub(r"(?<![\w.-])--([a-z]+(?:-[a-z]+)*)", lambda flag: flag[1].replace("-", "_"), message)

@@ -52,10 +52,21 @@ pub fn key(label: &str) -> String {
         format!("{}{power}", letter(key).0)
     };
     let letters: Vec<_> = key.split('*').map(factor).collect();
-    let units: Vec<_> = key.split(['*', '^']).map(|key| letter(key).1).filter(|unit| !unit.is_empty()).collect();
+    let units: Vec<_> = key.split('*').map(unit).filter(|unit| !unit.is_empty()).collect();
     let of = set.map_or(String::new(), |set| format!(" of set {set}"));
-    let unit = if units.is_empty() { String::new() } else { format!(" ({})", units.join(", ")) };
+    let unit = if units.is_empty() { String::new() } else { format!(" ({})", units.join(" ")) };
     format!("{}{of}{unit}", letters.join(" "))
+}
+
+/// The unit of a key, or of a power of one as `KEY^(1/3)`.
+fn unit(factor: &str) -> String {
+    let Some((key, power)) = factor.split_once('^') else { return letter(factor).1.to_owned() };
+    let of_key = letter(key).1;
+    match of_key.strip_suffix("⁻³") {
+        Some(length) if power == "(1/3)" => format!("{length}⁻¹"),
+        _ if of_key.is_empty() => String::new(),
+        _ => format!("({of_key})^{power}"),
+    }
 }
 
 /// A point of a sweep as `α = 0.5, n = 20 cm⁻³`.
@@ -71,8 +82,13 @@ pub fn point(pairs: &[(String, String)]) -> String {
 pub fn title_without(title: &str, swept: &[&str]) -> String {
     let is_of = |part: &str, key: &str| {
         // The paper's letter for the spread, in its captions.
-        let letters =
-            if key == "particles.aspect_ratio_sd_percent" { ["σ", letter(key).0] } else { [letter(key).0; 2] };
+        let own = letter(key).0;
+        let letters = match key {
+            "particles.aspect_ratio_sd_percent" => ["σ", own],
+            // Each gives n.
+            "particles.volume_fraction" | "interaction.box_mm" => ["n", own],
+            _ => [own; 2],
+        };
         part.split_once('=').is_some_and(|(name, _)| letters.contains(&name.trim()))
     };
     let stays = |part: &&str| !swept.iter().any(|key| is_of(part, key));
@@ -122,7 +138,7 @@ mod tests {
         let keys = ["interaction.concentration_per_cm3", "2:interaction.alpha", "time.periods"];
         assert_eq!(keys.map(key), ["n (cm⁻³)", "α of set 2", "periods"]);
         let product = "interaction.alpha*particles.length_mm*interaction.concentration_per_cm3^(1/3)";
-        assert_eq!(key(product), "α a n^(1/3) (mm, cm⁻³)");
+        assert_eq!(key(product), "α a n^(1/3) (mm cm⁻¹)");
         let owned = |pairs: &[(&str, &str)]| {
             pairs.iter().map(|(key, value)| ((*key).to_owned(), (*value).to_owned())).collect::<Vec<_>>()
         };

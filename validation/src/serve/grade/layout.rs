@@ -83,10 +83,12 @@ impl Layout {
         let first_is_row = header.iter().all(|field| number(field).is_ok());
         let of_tensor = problem.kind == Kind::Tensor && header.len() == 10;
         let foreign = options.foreign.or((first_is_row && of_tensor).then_some(Foreign::Fiberoripy));
+        // Names differ by more than capitals.
+        let lower: Vec<_> = header.iter().map(|name| known(name.trim_matches('"')).to_lowercase()).collect();
         let names: Vec<&str> = match (&options.columns, foreign) {
             (Some(columns), _) => columns.iter().map(String::as_str).collect(),
             (None, Some(foreign)) => foreign.columns().to_vec(),
-            (None, None) if !first_is_row => header.iter().map(|name| known(name.trim_matches('"'))).collect(),
+            (None, None) if !first_is_row => lower.iter().map(String::as_str).collect(),
             (None, None) => {
                 let message = format!(
                     "there is no header; it must be {:?}, or --columns or --layout must say what the columns are",

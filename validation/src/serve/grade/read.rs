@@ -35,8 +35,15 @@ pub fn read(
     let probes = first.strip_prefix('#').is_some_and(|rest| rest.trim_start().starts_with("Probe"));
     let plain = |line: String| if probes { line.replace(['(', ')'], " ") } else { line };
     let mut first = Some(first);
-    while probes && first.as_ref().is_some_and(|line| line.starts_with('#')) {
-        first = lines.next_line()?;
+    let mut below = None;
+    // A header may be a comment too: it has a row of numbers below it.
+    while let Some(comment) = first.take_if(|line| line.starts_with('#')) {
+        let next = lines.next_line()?;
+        if !probes && next.as_ref().is_none_or(|line| is_row(line)) {
+            (first, below) = (Some(comment), next);
+            break;
+        }
+        first = next;
     }
     let first = plain(first.ok_or_else(|| lines.error(1, "there is no row below the comments"))?);
     let places = (first.split_whitespace().count() - 1) / 6;
@@ -52,13 +59,21 @@ pub fn read(
         .map_err(|(at, message)| lines.error(at, message))?;
     let mut collector = Collector::new(problem);
     let mut last = lines.number();
-    let mut row = if layout.first_is_row { Some(first) } else { lines.next_line()?.map(plain) };
+    let mut row = match below {
+        _ if layout.first_is_row => Some(first),
+        None => lines.next_line()?.map(plain),
+        below => below,
+    };
     // A row of units below the header.
     let is_of_units = |line: &String| layout.split(line).all(|field| number(field.trim_matches('"')).is_err());
     if !layout.first_is_row && row.as_ref().is_some_and(is_of_units) {
         row = lines.next_line()?.map(plain);
     }
     while let Some(line) = row {
+        if line.starts_with('#') {
+            row = lines.next_line()?.map(plain);
+            continue;
+        }
         last = lines.number();
         let (keys, values) = fields(&line, &layout, problem).map_err(|(at, message)| lines.error(at, message))?;
         let place =
@@ -67,6 +82,11 @@ pub fn read(
         row = lines.next_line()?.map(plain);
     }
     collector.finish(path, last)
+}
+
+/// True if all fields of a line are numbers.
+fn is_row(line: &str) -> bool {
+    line.split([',', ';', '\t', ' ']).filter(|field| !field.is_empty()).all(|field| number(field.trim()).is_ok())
 }
 
 /// The keys and values of a row. `Err` has the field from 1, or 0, and what is wrong.

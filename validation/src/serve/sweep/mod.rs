@@ -9,7 +9,7 @@ pub use folder::{Folder, POINT, Points, inputs, point_name, smaller};
 
 use crate::input::start::Starts;
 use shearbed::scene::document::Document;
-use shearbed::scene::of_document;
+use shearbed::scene::{self, of_document};
 use shearbed::{Error, Plan, Scene};
 use toml::Value;
 
@@ -117,7 +117,7 @@ pub fn scene_with(text: &str, settings: &[KeyValue]) -> Result<Scene, String> {
 
 fn with<'a>(base: &Document, settings: impl Iterator<Item = (&'a str, Value)>) -> Result<Scene, String> {
     let mut document = base.clone();
-    let set = |(key, value)| document.set(key, value);
+    let set = |(key, value)| scene::set(&mut document, key, value);
     settings.into_iter().try_for_each(set).and_then(|()| of_document(&document)).map_err(messages)
 }
 
