@@ -63,6 +63,8 @@ pub(super) struct Fit {
     /// The polynomial of each axis, and the eigenvalues that are x and y.
     pub(super) polynomials: [usize; 3],
     pub(super) arguments: [usize; 2],
+    /// a_2233, a_3311, a_1122 as they are used.
+    pub(super) mixed: fn([f64; 3]) -> [f64; 3],
     /// R of a = R diag(x, y, z) Rᵀ as it is used.
     pub(super) turn: fn(Matrix3<f64>) -> Matrix3<f64>,
 }
@@ -79,7 +81,16 @@ impl Fit {
     fn new(powers: &'static [(i32, i32)], coefficients: Vec<f64>) -> Self {
         let right = [0, 1, 2];
         let (polynomials, arguments) = (right, [0, 1]);
-        Self { powers, coefficients, values: right, axes: right, polynomials, arguments, turn: |axes| axes }
+        Self {
+            powers,
+            coefficients,
+            values: right,
+            axes: right,
+            polynomials,
+            arguments,
+            mixed: |mixed| mixed,
+            turn: |axes| axes,
+        }
     }
 
     /// a_ijkl of a.
@@ -93,8 +104,8 @@ impl Fit {
         let fourth = Vector3::from(self.polynomials.map(|k| rows[k].iter().zip(&powers).map(|(c, x)| c * x).sum()));
         // a_jjkk = ½(a_jj + a_kk − a_ii − a_jjjj − a_kkkk + a_iiii) by the three equations a_iikk = a_ii.
         let left = values - fourth;
-        let mixed = Vector3::from_fn(|i, _| 0.5 * (left.sum() - 2.0 * left[i]));
-        Fourth::orthotropic(&axes, &values, &mixed)
+        let mixed = (self.mixed)([0, 1, 2].map(|i| 0.5 * (left.sum() - 2.0 * left[i])));
+        Fourth::in_axes(&axes, |i, j| if i == j { fourth[i] } else { mixed[3 - i - j] })
     }
 }
 

@@ -331,7 +331,7 @@ fn a_closure_is_linear_in_each_of_its_numbers() {
     for closure in Closure::ALL {
         let numbered = wrong::closures::numbered(closure);
         for (k, (name, right)) in numbered.numbers.iter().enumerate() {
-            let [zero, one, two] = [0.0, 1.0, 2.0].map(|more| numbered.fourth(k, right + more, &a).0);
+            let [zero, one, two] = [0.0, 1.0, 2.0].map(|more| numbered.fourth(&[(k, right + more)], &a).0);
             assert!((zero - closure.fourth(&a).0).amax() < 1e-12, "{closure:?} {name}");
             assert!((two - one * 2.0 + zero).amax() < 1e-9, "{closure:?} {name}");
             assert!((one - zero).amax() > 1e-12, "{closure:?}: {name} is used nowhere");

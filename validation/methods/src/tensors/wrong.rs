@@ -31,6 +31,7 @@ const STRETCH: &str = "the rate by strain is Λ(Da + aD − 2𝔸:D)";
 const RSC: &str = "RSC is Λ(Da + aD − 2[𝔸 + (1 − κ)(𝕃 − 𝕄:𝔸)]:D) + 2κC_I γ̇(δ − 3a)";
 const DRIFT: &str = "diffusion is γ̇[2C − 2 tr(C) a − 5(Ca + aC) + 10𝔸:C]";
 const IARD: &str = "iARD is C = C_I(δ − 4 C_M D²/γ̇²)";
+const SQUARE: &str = "D² is the product of matrices, D_ik D_kj";
 const PT: &str = "C = b1 δ + b2 a + b3 a² + b4 D/γ̇ + b5 D²/γ̇²";
 const ANISOTROPIC: &str = "C is given in problem.json, with the axes of a from the largest eigenvalue";
 
@@ -39,7 +40,7 @@ const fn mistake(name: &'static str, advice: &'static str, change: fn(Parts) -> 
 }
 
 /// Every known mistake in the parts of the rate.
-pub const MISTAKES: [Mistake; 93] = [
+pub const MISTAKES: [Mistake; 94] = [
     mistake("a transposed gradient", L, |p| Some(Parts { spin: -p.spin, ..p })),
     mistake("the flow reversed (L with the wrong sign, or time backwards)", L, |p| {
         Some(Parts { spin: -p.spin, strain: -p.strain, ..p })
@@ -132,6 +133,7 @@ pub const MISTAKES: [Mistake; 93] = [
     mistake("D/γ̇ for D²/γ̇²", IARD, |p| squared(p, p.strain * p.speed)),
     mistake("D²/γ̇ for D²/γ̇²", IARD, |p| squared(p, p.strain * p.strain * p.speed)),
     mistake("D² for D²/γ̇²", IARD, |p| squared(p, p.strain * p.strain * (p.speed * p.speed))),
+    mistake("squares of each D_ij for D²", SQUARE, |p| squared(p, p.strain.component_mul(&p.strain))),
     mistake("L² for D²", IARD, |p| squared(p, gradient(&p) * gradient(&p))),
     mistake("b1 to b5 in the reverse order", PT, |p| coefficients(p, |[b1, b2, b3, b4, b5], _| [b5, b4, b3, b2, b1])),
     mistake("b4 and b5 exchanged", PT, |p| coefficients(p, |[b1, b2, b3, b4, b5], _| [b1, b2, b3, b5, b4])),
@@ -249,7 +251,8 @@ fn coefficients(parts: Parts, of: impl Fn([f64; 5], f64) -> [f64; 5]) -> Option<
 
 /// The parts with another tensor for D², where a diffusivity has one.
 fn squared(parts: Parts, square: Matrix3<f64>) -> Option<Parts> {
-    matches!(parts.model, Model::Iard { .. }).then_some(Parts { square, ..parts })
+    let has_one = matches!(parts.model, Model::Iard { .. } | Model::PhelpsTucker { .. });
+    has_one.then_some(Parts { square, ..parts })
 }
 
 /// Whether C is C_I δ.

@@ -112,11 +112,11 @@ fn inside(closure: Closure) -> Vec<Stand> {
             change(&mut fit);
             stand((*what).to_owned(), Arc::new(move |a| fit.fourth(a)))
         };
-        let rounded = rounded(&fit.coefficients, &terms(fit.powers, XY)).into_iter().map(|(what, coefficients)| {
+        let changes = in_coefficients(&fit.coefficients, fit.powers, XY).into_iter().map(|(what, coefficients)| {
             let fit = orthotropic::Fit { coefficients, ..fit.clone() };
             stand(what, Arc::new(move |a| fit.fourth(a)))
         });
-        IN_AXES.iter().map(changed).chain(rounded).collect()
+        IN_AXES.iter().map(changed).chain(changes).collect()
     };
     match closure {
         Closure::Ore => axes(orthotropic::Fit::ore()),
@@ -128,25 +128,41 @@ fn inside(closure: Closure) -> Vec<Stand> {
                 change(&mut fit);
                 stand((*what).to_owned(), Arc::new(move |a| fit.fourth(a)))
             };
-            let rounded = rounded(&right.coefficients, &terms(&right.powers, INVARIANT));
-            let rounded = rounded.into_iter().map(|(what, coefficients)| {
+            let changes = in_coefficients(&right.coefficients, &right.powers, INVARIANT);
+            let changes = changes.into_iter().map(|(what, coefficients)| {
                 let fit = ibof::Fit { coefficients, ..right.clone() };
                 stand(what, Arc::new(move |a| fit.fourth(a)))
             });
-            IN_INVARIANTS.iter().map(changed).chain(rounded).collect()
+            IN_INVARIANTS.iter().map(changed).chain(changes).collect()
         }
         _ => Vec::new(),
     }
 }
 
+/// One name of four changes: an eigenvector has no sign, and here the four pairs of signs differ.
+const TRANSPOSED: &str = "with Rᵀ for R (rows of the eigenvectors for columns)";
+
+/// Rᵀ with these signs of the first two eigenvectors; that of the third changes nothing more.
+fn turned_back(axes: Matrix3<f64>, [x, y]: [f64; 2]) -> Matrix3<f64> {
+    Matrix3::from_diagonal(&[x, y, 1.0].into()) * axes.transpose()
+}
+
 /// Mistakes in the axes of ORE and ORW.
-const IN_AXES: [Named<orthotropic::Fit>; 16] = [
+const IN_AXES: [Named<orthotropic::Fit>; 24] = [
     ("with x ≤ y ≤ z, the eigenvalues in ascending order", |fit| (fit.values, fit.axes) = ([2, 1, 0], [2, 1, 0])),
     ("with the eigenvalues in ascending order, and their axes in descending order", |fit| fit.values = [2, 1, 0]),
     ("with the axes of the eigenvalues in the reverse order", |fit| fit.axes = [2, 1, 0]),
     ("with the first and the second axis exchanged", |fit| fit.axes = [1, 0, 2]),
     ("with the second and the third axis exchanged", |fit| fit.axes = [0, 2, 1]),
-    ("with Rᵀ for R (rows of the eigenvectors for columns)", |fit| fit.turn = |axes| axes.transpose()),
+    (TRANSPOSED, |fit| fit.turn = |axes| turned_back(axes, [1.0, 1.0])),
+    (TRANSPOSED, |fit| fit.turn = |axes| turned_back(axes, [-1.0, 1.0])),
+    (TRANSPOSED, |fit| fit.turn = |axes| turned_back(axes, [1.0, -1.0])),
+    (TRANSPOSED, |fit| fit.turn = |axes| turned_back(axes, [-1.0, -1.0])),
+    ("with twice a_1122, a_1133 and a_2233 in the axes of a", |fit| fit.mixed = |mixed| mixed.map(|x| 2.0 * x)),
+    ("with half of a_1122, a_1133 and a_2233 in the axes of a", |fit| fit.mixed = |mixed| mixed.map(|x| 0.5 * x)),
+    ("with a_1122 and a_1133 exchanged in the axes of a", |fit| fit.mixed = |[x, y, z]| [x, z, y]),
+    ("with a_1122 and a_2233 exchanged in the axes of a", |fit| fit.mixed = |[x, y, z]| [z, y, x]),
+    ("with a_1133 and a_2233 exchanged in the axes of a", |fit| fit.mixed = |[x, y, z]| [y, x, z]),
     ("left in the axes of a", |fit| fit.turn = |_| Matrix3::identity()),
     ("with the polynomials of a_1111 and a_2222 exchanged", |fit| fit.polynomials = [1, 0, 2]),
     ("with the polynomials of a_1111 and a_3333 exchanged", |fit| fit.polynomials = [2, 1, 0]),
@@ -191,9 +207,11 @@ fn exchange(fit: &mut ibof::Fit, one: usize, other: usize) {
     }
 }
 
-/// Coefficients of three polynomials in fewer digits, and without one term, with words for each.
-fn rounded(right: &[f64], terms: &[String]) -> Vec<(String, Vec<f64>)> {
-    let digits = (2..8).map(|digits| {
+/// Coefficients of three polynomials in fewer digits, without one term, and with two terms exchanged, with words for
+/// each.
+fn in_coefficients(right: &[f64], powers: &[(i32, i32)], letters: [&str; 2]) -> Vec<(String, Vec<f64>)> {
+    let terms = &terms(powers, letters);
+    let digits = (2..11).map(|digits| {
         let round = |c: &f64| format!("{c:.*e}", digits - 1).parse().unwrap_or(*c);
         (format!("with coefficients of {digits} digits"), right.iter().map(round).collect())
     });
@@ -208,8 +226,14 @@ fn rounded(right: &[f64], terms: &[String]) -> Vec<(String, Vec<f64>)> {
         let term = if term.is_empty() { "constant" } else { term };
         (format!("without the terms {term} of its three polynomials"), others.collect())
     });
+    let mirrored = |&(m, n): &(i32, i32)| powers.iter().position(|other| m > n && *other == (n, m));
+    let exchanged = powers.iter().enumerate().filter_map(|(k, power)| Some((k, mirrored(power)?))).map(|(k, other)| {
+        let mut coefficients = right.to_vec();
+        coefficients.chunks_mut(powers.len()).for_each(|row| row.swap(k, other));
+        (format!("with its terms {} and {} exchanged", terms[k], terms[other]), coefficients)
+    });
     let mut all: Vec<(_, Vec<f64>)> = Vec::new();
-    for (words, coefficients) in digits.chain(decimals).chain([single]).chain(without) {
+    for (words, coefficients) in digits.chain(decimals).chain([single]).chain(without).chain(exchanged) {
         if coefficients != right && all.iter().all(|(_, known)| *known != coefficients) {
             all.push((words, coefficients));
         }
@@ -225,10 +249,12 @@ pub struct Numbered {
 }
 
 impl Numbered {
-    /// a_ijkl with another value of number `k`.
-    pub fn fourth(&self, k: usize, value: f64, a: &Matrix3<f64>) -> Fourth {
+    /// a_ijkl with other values of some numbers.
+    pub fn fourth(&self, others: &[(usize, f64)], a: &Matrix3<f64>) -> Fourth {
         let mut numbers: Vec<_> = self.numbers.iter().map(|(_, number)| *number).collect();
-        numbers[k] = value;
+        for (k, value) in others {
+            numbers[*k] = *value;
+        }
         (self.form)(&numbers, a)
     }
 

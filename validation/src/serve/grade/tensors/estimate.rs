@@ -59,6 +59,8 @@ const STEPS: usize = 12;
 
 /// The words for a quantity that is `factor` times what is asked, with as many digits as tell the factor from 1.
 fn words(quantity: &str, factor: f64) -> String {
+    // What is left of a term that is left out is rounding.
+    let factor = if factor.abs() < 1e-12 { 0.0 } else { factor };
     let words = format!("{quantity} times {}", digits(factor, 4));
     // Rounding one number to single precision changes it by half of this.
     if (factor - 1.0).abs() <= f64::from(f32::EPSILON) { format!("{words} (single precision?)") } else { words }
@@ -83,7 +85,10 @@ pub(super) fn near(quantity: &str, factor: f64, model: Model, closure: usize, ow
 
 /// The curves of equations with another C_I or Λ, found at the first time, that fit at all times.
 pub(super) fn of_curve(problem: &Problem, answer: &Answer, known: &Known, steps: Option<u64>, most: f64) -> Vec<Near> {
-    let all: Vec<_> = tried(known.own).collect();
+    let [first, others]: [Vec<_>; 2] = {
+        let (own, other) = tried(known.own).partition(|(_, closure)| known.own == Some(*closure));
+        [own, other]
+    };
     let fit = |((name, change), closure): &(&Quantity, usize)| {
         let name = if problem.d_r_per_s.is_some() { name.replace("C_I", "D_r") } else { (*name).to_owned() };
         let with = |factor: f64| Some(Candidate::new(change(known.parts, factor)?, &CLOSURES[*closure], Vec::new()));
@@ -98,7 +103,9 @@ pub(super) fn of_curve(problem: &Problem, answer: &Answer, known: &Known, steps:
         };
         Some(Near { distance, ..near })
     };
-    all.par_iter().filter_map(fit).collect()
+    // Another closure is sought only where a number of the right equation explains nothing, which saves time.
+    let near: Vec<_> = first.par_iter().filter_map(fit).collect();
+    if near.is_empty() { others.par_iter().filter_map(fit).collect() } else { near }
 }
 
 /// The right curve at the times one step before or after those asked for, where the answer is that: every time is

@@ -10,7 +10,7 @@ use crate::serve::grade::answer::Answer;
 use crate::serve::grade::nearness::{Diagnosis, NEARER, said};
 use crate::serve::problems::formula::{components, equation, tensor};
 use crate::serve::problems::{Formula, LoadedProblem};
-use nalgebra::Vector3;
+use nalgebra::{DMatrix, DVector, Vector3};
 use std::collections::BTreeMap;
 
 type Rows = Vec<Vec<f64>>;
@@ -76,12 +76,29 @@ fn within(near: Near, answer: &Answer, rows: &Rows, most: f64) -> Option<Near> {
 }
 
 fn of_closures(rows: &Rows, answer: &Answer, closure: Closure, most: f64) -> Vec<Near> {
-    let of = |(k, stand): (usize, &Stand)| {
-        let found = rows.iter().map(|row| components(&stand.fourth(&tensor(row)))).collect();
-        within(near_of("", "", k, index(closure)), answer, &found, most)
+    let of = |(_, stand): &(usize, &Stand)| -> Rows {
+        rows.iter().map(|row| components(&stand.fourth(&tensor(row)))).collect()
     };
-    let near: Vec<_> = tried(closure).filter_map(of).collect();
+    let tried: Vec<_> = tried(closure).collect();
+    let of_name = |alike: &[(usize, &Stand)]| {
+        let found = nearest(alike.iter().map(of).collect(), answer);
+        within(near_of("", "", alike[0].0, index(closure)), answer, &found, most)
+    };
+    let near: Vec<_> = tried.chunk_by(|a, b| a.1.name == b.1.name).filter_map(of_name).collect();
     if near.is_empty() { of_numbers(closure, rows, answer, most, |_, fourth| components(fourth)) } else { near }
+}
+
+/// Of values that a code may have instead of each other, in every row those nearest to the answer.
+fn nearest(mut all: Vec<Rows>, answer: &Answer) -> Rows {
+    let Some(mut best) = all.pop() else { return Rows::new() };
+    for other in all {
+        for ((best, other), found) in best.iter_mut().zip(other).zip(&answer.rows) {
+            if crate::oracle::apart(&other, found) < crate::oracle::apart(best, found) {
+                *best = other;
+            }
+        }
+    }
+    best
 }
 
 /// The closures that may stand for this one.
@@ -89,7 +106,7 @@ fn tried(closure: Closure) -> impl Iterator<Item = (usize, &'static Stand)> {
     CLOSURES.iter().enumerate().filter(move |(_, stand)| stand.of.is_none_or(|of| of == closure))
 }
 
-/// Another value of one number in the closure, given the answer of a row, by its place, from a_ijkl.
+/// Other values of up to three numbers in the closure, given the answer of a row, by its place, from a_ijkl.
 fn of_numbers(
     closure: Closure,
     rows: &Rows,
@@ -97,18 +114,48 @@ fn of_numbers(
     most: f64,
     answered: impl Fn(usize, &Fourth) -> Vec<f64>,
 ) -> Vec<Near> {
+    const MOST_NUMBERS: usize = 3;
     let numbered = numbered(closure);
-    let all = |k: usize, value: f64| -> Rows {
-        let of = |(at, row): (usize, &Vec<f64>)| answered(at, &numbered.fourth(k, value, &tensor(row)));
+    let all = |others: &[(usize, f64)]| -> Rows {
+        let of = |(at, row): (usize, &Vec<f64>)| answered(at, &numbered.fourth(others, &tensor(row)));
         rows.iter().enumerate().map(of).collect()
     };
-    let of = |(k, (before, right)): (usize, &(String, f64))| {
-        let value = right + along(&all(k, *right).concat(), &all(k, right + 1.0).concat(), &answer.rows.concat())?;
-        let [value_text, right_text] = apart_in_digits(value, *right);
-        let name = format!("the {} closure with {value_text} for {right_text} {before}", closure.name());
-        within(Near::new(0.0, &name), answer, &all(k, value), most)
+    let right = all(&[]).concat();
+    let right = DVector::from_vec(right);
+    let found = DVector::from_vec(answer.rows.concat()) - &right;
+    let slope =
+        |(k, (_, value)): (usize, &(String, f64))| DVector::from_vec(all(&[(k, value + 1.0)]).concat()) - &right;
+    let slopes: Vec<_> = numbered.numbers.iter().enumerate().map(slope).collect();
+    let name = |others: &[(usize, f64)]| {
+        let of = |(k, value): &(usize, f64)| {
+            let (before, right) = &numbered.numbers[*k];
+            let [value, right] = apart_in_digits(*value, *right);
+            format!("{value} for {right} {before}")
+        };
+        format!("the {} closure with {}", closure.name(), others.iter().map(of).collect::<Vec<_>>().join(" and "))
     };
-    numbered.numbers.iter().enumerate().filter_map(of).collect()
+    let tried = |chosen: &[usize]| {
+        let columns = DMatrix::from_columns(&chosen.iter().map(|k| slopes[*k].clone()).collect::<Vec<_>>());
+        let off = columns.svd(true, true).solve(&found, 0.0).ok()?;
+        let others: Vec<_> = chosen.iter().zip(&off).map(|(k, off)| (*k, numbered.numbers[*k].1 + off)).collect();
+        within(Near::new(0.0, &name(&others)), answer, &all(&others), most)
+    };
+    // A number that explains all, then the best beside those that explain most.
+    let mut chosen = Vec::new();
+    let mut near: Vec<_> = (0..slopes.len()).filter_map(|k| tried(&[k])).collect();
+    while near.is_empty() && chosen.len() < MOST_NUMBERS {
+        let left = |k: &usize| {
+            let with: Vec<_> = chosen.iter().chain([k]).map(|k: &usize| slopes[*k].clone()).collect();
+            let columns = DMatrix::from_columns(&with);
+            let off = columns.clone().svd(true, true).solve(&found, 0.0).unwrap_or_else(|_| DVector::zeros(with.len()));
+            (&found - columns * off).norm()
+        };
+        let others = (0..slopes.len()).filter(|k| !chosen.contains(k) && slopes[*k].norm() > 0.0);
+        let Some(best) = others.map(|k| (k, left(&k))).min_by(|a, b| a.1.total_cmp(&b.1)) else { break };
+        chosen.push(best.0);
+        near.extend(tried(&chosen));
+    }
+    near
 }
 
 /// The x at which one + x (two − one) is nearest to what is found by least squares; `None` if it is the same for all.
@@ -119,13 +166,23 @@ fn along(one: &[f64], two: &[f64], found: &[f64]) -> Option<f64> {
     (square > 0.0).then(|| along / square)
 }
 
-/// A value and the right one in as many decimals as tell them apart.
+/// A value and the right one in as many decimals as tell them apart, and four digits at least.
 fn apart_in_digits(value: f64, right: f64) -> [String; 2] {
-    let decimals = (2.0 - (value - right).abs().max(1e-15).log10().floor()).max(0.0) as usize;
+    let place = |x: f64| x.abs().max(1e-15).log10().floor();
+    let decimals = (2.0 - place(value - right)).max(3.0 - place(right.abs().max(value.abs()))).max(0.0) as usize;
     [value, right].map(|x| {
         let text = format!("{x:.decimals$}");
-        if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
+        let text = if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { &text };
+        if text == "-0" { "0".to_owned() } else { text.to_owned() }
     })
+}
+
+#[test]
+fn a_value_and_the_right_one_have_the_digits_that_tell_them_apart() {
+    assert_eq!(apart_in_digits(50.27561, -50.27564), ["50.28", "-50.28"]);
+    assert_eq!(apart_in_digits(-1.874_663, -1.872_663), ["-1.87466", "-1.87266"]);
+    assert_eq!(apart_in_digits(-1e-15, 1.0), ["0", "1"]);
+    assert_eq!(apart_in_digits(-485_213.0, -48_521.0), ["-485213", "-48521"]);
 }
 
 /// The parts of each row with a mistake, or without one; `None` if it makes no difference in any row.
@@ -169,8 +226,15 @@ fn of_rates(rows: &Rows, answer: &Answer, closure: Closure, model: Model, most: 
             apart(&answer.rows[..1], &first) <= most
         };
         let of = |k: usize| within(near_of(name, advice, k, own), answer, &rates(&parts, k), most);
-        let closures = fourths.keys().copied().filter(|k| mistake.is_none() || *k < WITH_OTHERS);
-        near.extend(closures.filter(begins).filter_map(of));
+        if mistake.is_none() {
+            let all: Vec<_> = tried(closure).collect();
+            near.extend(all.chunk_by(|a, b| a.1.name == b.1.name).filter_map(|alike| {
+                let found = nearest(alike.iter().map(|(k, _)| rates(&parts, *k)).collect(), answer);
+                within(near_of("", "", alike[0].0, own), answer, &found, most)
+            }));
+        } else {
+            near.extend((0..WITH_OTHERS).filter(begins).filter_map(of));
+        }
     }
     if near.is_empty() {
         near = of_numbers(closure, rows, answer, most, |at, fourth| rate(&rows[at], &parts[at], fourth));
@@ -268,6 +332,11 @@ fn of_rods(rows: &Rows, answer: &Answer, most: f64) -> Vec<Near> {
     all.extend(ORDERS.iter().filter_map(|(order, name)| {
         let turned = right.iter().map(|rate| order.map(|k| rate[k]).to_vec()).collect();
         within(near(name, ""), answer, &turned, most)
+    }));
+    all.extend((0..3).filter_map(|k| {
+        let mut mirrored = right.clone();
+        mirrored.iter_mut().for_each(|rate| rate[k] = -rate[k]);
+        within(near(&format!("ṗ_{} with the wrong sign", k + 1), ""), answer, &mirrored, most)
     }));
     if all.is_empty() {
         all = of_quantities(&parts, answer, most, |parts, _| rates(parts), model, Some(0));
