@@ -24,7 +24,30 @@ pub fn overall(problems: &[LoadedProblem], graded: &mut [Graded]) -> Vec<String>
             graded.is_said_over_all = graded.diagnosis.as_ref().is_some_and(|said| !has_two(said));
         }
     }
+    contradict(problems, graded);
     found.into_iter().map(|finding| finding.said).collect()
+}
+
+/// Says of a formula's mistake which other answers of the same kind do not have it, though it would show there.
+fn contradict(problems: &[LoadedProblem], graded: &mut [Graded]) {
+    let loaded = |name: &str| problems.iter().find(|loaded| loaded.problem.name == name);
+    let alike = |a: &LoadedProblem, b: &LoadedProblem| a.problem.columns == b.problem.columns;
+    let without = |own: &Graded| -> Option<Vec<String>> {
+        let own_loaded = loaded(&own.name).filter(|_| own.kind == Kind::Formula && own.diagnosis.is_some())?;
+        let others = graded.iter().filter(|other| other.name != own.name && other.error.is_some());
+        let lacks = |other: &&Graded| {
+            let lacks = |name: &String| !other.suspects.contains(name);
+            let shown = |of: &LoadedProblem| own.suspects.iter().any(|name| lacks(name) && shows(of, name));
+            own.suspects.iter().all(lacks) && loaded(&other.name).is_some_and(|of| alike(of, own_loaded) && shown(of))
+        };
+        Some(others.filter(lacks).map(|other| other.name.clone()).collect())
+    };
+    let all: Vec<_> = graded.iter().map(without).collect();
+    for (graded, without) in graded.iter_mut().zip(all) {
+        if let (Some(said), Some(names)) = (&mut graded.diagnosis, without.filter(|names| !names.is_empty())) {
+            *said += &format!(" (not in {}, where it would show)", names.join(", "));
+        }
+    }
 }
 
 struct Finding {
@@ -180,6 +203,24 @@ mod tests {
         assert!(found[0].contains(period), "{found:?}");
         // One problem is not enough, nor are two with different mistakes.
         assert_eq!(said(&[(Fail, &[half]), (Fail, &[twice])]), [""; 0]);
+    }
+
+    #[test]
+    fn a_formulas_mistake_is_not_said_to_be_where_it_is_not() {
+        use Verdict::{Fail, Pass};
+        let problems = ["dadt-ft-quadratic", "dadt-ft-linear", "closure-ore"].map(loaded);
+        let name = "a transposed gradient";
+        let said = |other: &[&str], verdict: Verdict| {
+            let mut found = graded(&problems, &[(Fail, &[name]), (verdict, other), (Fail, &[])]);
+            found.iter_mut().for_each(|graded| graded.error = Some(1.0));
+            overall(&problems, &mut found);
+            found[0].diagnosis.clone().unwrap()
+        };
+        // Of a closure it says nothing.
+        assert!(said(&[], Fail).ends_with("gradient (not in dadt-ft-linear, where it would show)"));
+        assert!(said(&["half the shear rate"], Fail).contains("(not in dadt-ft-linear"));
+        assert!(said(&[], Pass).contains("(not in dadt-ft-linear"));
+        assert!(said(&[name], Fail).ends_with("gradient"));
     }
 
     /// Problems with their answers and verdicts, of a program that turns a rod as `other` does in each.

@@ -135,9 +135,14 @@ fn of_numbers(
         format!("the {} closure with {}", closure.name(), others.iter().map(of).collect::<Vec<_>>().join(" and "))
     };
     let tried = |chosen: &[usize]| {
+        let mut chosen = chosen.to_vec();
+        chosen.sort_unstable();
         let columns = DMatrix::from_columns(&chosen.iter().map(|k| slopes[*k].clone()).collect::<Vec<_>>());
         let off = columns.svd(true, true).solve(&found, 0.0).ok()?;
-        let others: Vec<_> = chosen.iter().zip(&off).map(|(k, off)| (*k, numbered.numbers[*k].1 + off)).collect();
+        // One that was chosen on the way may turn out to be right.
+        let wrong = |(k, off): &(&usize, &f64)| off.abs() > 1e-9 * (1.0 + numbered.numbers[**k].1.abs());
+        let others: Vec<_> =
+            (chosen.iter().zip(&off).filter(wrong)).map(|(k, off)| (*k, numbered.numbers[*k].1 + off)).collect();
         within(Near::new(0.0, &name(&others)), answer, &all(&others), most)
     };
     // A number that explains all, then the best beside those that explain most.
