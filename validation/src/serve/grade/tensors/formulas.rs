@@ -176,8 +176,12 @@ fn apart_in_digits(value: f64, right: f64) -> [String; 2] {
     let place = |x: f64| x.abs().max(1e-15).log10().floor();
     let decimals = (2.0 - place(value - right)).max(3.0 - place(right.abs().max(value.abs()))).max(0.0) as usize;
     [value, right].map(|x| {
-        let text = format!("{x:.decimals$}");
-        let text = if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { &text };
+        let text = if x.abs() < 1e12 { format!("{x:.decimals$}") } else { format!("{x:.3e}") };
+        let text = if text.contains('.') && !text.contains('e') {
+            text.trim_end_matches('0').trim_end_matches('.')
+        } else {
+            &text
+        };
         if text == "-0" { "0".to_owned() } else { text.to_owned() }
     })
 }
@@ -187,6 +191,7 @@ fn a_value_and_the_right_one_have_the_digits_that_tell_them_apart() {
     assert_eq!(apart_in_digits(50.27561, -50.27564), ["50.28", "-50.28"]);
     assert_eq!(apart_in_digits(-1.874_663, -1.872_663), ["-1.87466", "-1.87266"]);
     assert_eq!(apart_in_digits(-1e-15, 1.0), ["0", "1"]);
+    assert_eq!(apart_in_digits(1e100, 1.0), ["1.000e100", "1"]);
     assert_eq!(apart_in_digits(-485_213.0, -48_521.0), ["-485213", "-48521"]);
 }
 
@@ -266,7 +271,7 @@ fn of_quantities(
     let of = |((name, change), k): (&Quantity, usize)| {
         let scaled = |factor: f64| parts.iter().map(|parts| change(*parts, factor)).collect::<Option<Vec<_>>>();
         let [one, two] = [1.0, 2.0].map(|factor| Some(rates(&scaled(factor)?, k).concat()));
-        let factor = 1.0 + along(&one?, &two?, &answer.rows.concat())?;
+        let factor = Some(1.0 + along(&one?, &two?, &answer.rows.concat())?).filter(|factor| factor.abs() < 1e6)?;
         within(estimate::near(name, factor, model, k, own), answer, &rates(&scaled(factor)?, k), most)
     };
     estimate::tried(own).filter_map(of).collect()
