@@ -97,3 +97,18 @@ fn a_concentration_that_is_set_replaces_the_texts() {
     let both = with(&[fraction, ("interaction.concentration_per_cm3", 30.into())]);
     assert!(both.is_err() || crate::Plan::new(&both.unwrap()).is_err());
 }
+
+/// Each regime begins where it says, here with rods of 1 cm.
+#[test]
+fn a_regime_begins_at_its_border() {
+    let regime = |n: f64| {
+        let text = format!(
+            "title = 't'\n[flow]\nshear_rate_per_s = 1\n[particles]\ncount = 5\nlength_mm = 10\naspect_ratio = 10\n\
+             orientation = 'isotropic'\n[interaction]\nconcentration_per_cm3 = {n:?}\nalpha = 0.5\n\
+             [time]\nperiods = 1\n"
+        );
+        crate::scene::parse("t.toml", &text).unwrap().regime().unwrap()
+    };
+    assert_eq!([0.099, 0.1, 0.999].map(regime), ["dilute", "not far below 1", "not far below 1"]);
+    assert_eq!([1.0, 9.9, 10.0].map(regime), ["semi-dilute", "semi-dilute", "concentrated"]);
+}
