@@ -51,7 +51,8 @@ const CONCENTRATIONS: [&str; 3] =
 pub fn set(document: &mut document::Document, key: &str, value: toml::Value) -> Result<(), Error> {
     document.set(key, value)?;
     if CONCENTRATIONS.contains(&key) {
-        CONCENTRATIONS.iter().filter(|other| **other != key).for_each(|other| document.drop_written(other));
+        // The one that was set is not the text's any more.
+        CONCENTRATIONS.iter().for_each(|written| document.drop_written(written));
     }
     Ok(())
 }

@@ -92,6 +92,7 @@ fn a_concentration_that_is_set_replaces_the_texts() {
     let fraction = ("particles.volume_fraction", 1e-4.into());
     let scene = with(std::slice::from_ref(&fraction)).unwrap();
     assert_eq!(scene.concentration_key(), "particles.volume_fraction");
+    assert!(crate::Plan::new(&scene).is_ok());
     let sides = vec![toml::Value::Float(6.0); 3].into();
     assert_eq!(with(&[("interaction.box_mm", sides)]).unwrap().concentration_key(), "interaction.box_mm");
     let both = with(&[fraction, ("interaction.concentration_per_cm3", 30.into())]);
