@@ -28,41 +28,43 @@ pub(super) fn curves(path: &Path, time: &str, channels: &[String], run: &Run) ->
     let mut curves: Vec<Curve> = (channels.iter())
         .map(|channel| Curve { label: names::channel(channel) + REFERENCE, ..Curve::default() })
         .collect();
-    let of_time = ["time_s", "t_over_T", "strain"].map(|name| table.place(name));
+    let of_time = ["t_over_T", "strain"].map(|name| table.place(name));
     let (mut rows, mut last) = (0, None);
     while let Some(row) = table.next_row()? {
         rows += 1;
         if rows > MOST_ROWS {
             return Err(row.error(format!("more than {MOST_ROWS} rows for one picture; fewer are allowed")).into());
         }
-        if let [Some(time_s), Some(t_over_t), Some(strain)] = of_time {
-            last = Some([row.finite(time_s)?, row.finite(t_over_t)?, row.finite(strain)?]);
+        if let [Some(t_over_t), Some(strain)] = of_time {
+            // Not every motion has a period.
+            let t_over_t = if row.is_blank(t_over_t) { f64::NAN } else { row.finite(t_over_t)? };
+            last = Some([row.finite(x)?, t_over_t, row.finite(strain)?]);
         }
         for (curve, y) in curves.iter_mut().zip(&y) {
             curve.x.push(row.finite(x)?);
             curve.y.push(row.finite(*y)?);
         }
     }
-    let differs = last.map(|last| differences(last, run)).unwrap_or_default();
+    let differs = last.map(|last| differences(time, last, run)).unwrap_or_default();
     scene::warn(&format!("--reference {}", path.shown()), &differs);
     Ok(curves)
 }
 
-/// How the flow and the rods of a table differ from those of the run; `last` is its last t in s, t/T and strain.
-fn differences([time_s, t_over_t, strain]: [f64; 3], run: &Run) -> Vec<String> {
+/// How the flow and the rods of a table differ from those of the run; `time` is the column of times, then come that
+/// time, t/T and the strain of the last row.
+fn differences(time: &str, [at, t_over_t, strain]: [f64; 3], run: &Run) -> Vec<String> {
     let Ok(plan) = Plan::new(&run.scene) else { return Vec::new() };
-    let (one, r) = (plan.elapsed(1.0), run.scene.particles.aspect_ratio);
-    let rate_per_s = one.strain / one.seconds;
-    let period = Propagator::new(plan.flow(), r).period_s().map(|period_s| period_s * rate_per_s);
     let other = |own: f64, of_run: f64| own.is_finite() && (own / of_run - 1.0).abs() > 1e-9;
-    let named = run.dir.shown();
-    let rate = Some(strain / time_s).filter(|own| other(*own, rate_per_s)).map(|own| {
-        let rates = format!("is of the shear rate {own} per s, the run in {named} of {rate_per_s} per s");
-        format!("{rates}: times in s are not the same strain")
+    let (named, of_run) = (run.dir.shown(), plan.elapsed(at).strain);
+    let rate = (time == "time_s" && other(strain, of_run)).then(|| {
+        format!("at {at} s its strain is {strain:.3}, in the run {named} it is {of_run:.3}: the shear rate is another")
     });
+    let one = plan.elapsed(1.0);
+    let period_s = Propagator::new(plan.flow(), run.scene.particles.aspect_ratio).period_s();
+    let period = period_s.map(|period_s| period_s * one.strain / one.seconds);
     let turn = period.filter(|period| other(strain / t_over_t, *period)).map(|period| {
         let own = strain / t_over_t;
-        format!("is of rods that turn once in a strain of {own:.3}, the run in {named} of {period:.3}: r_e is another")
+        format!("its rods turn once in a strain of {own:.3}, those of the run {named} in {period:.3}: r_e is another")
     });
     rate.into_iter().chain(turn).collect()
 }
