@@ -65,7 +65,7 @@ fn of_keys(named: &Named, plan: &Plan, each_s: f64, over: &[Over]) -> Result<(St
     } else {
         duration::of_sweep(plan, each_s, plans)
     };
-    // Those of the scene are the points', where they are not of the key.
+    // A point has the scene's warnings too, unless its own value takes them away.
     Ok((cost, sweep::warnings(&points, &axes)))
 }
 

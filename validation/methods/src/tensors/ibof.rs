@@ -104,17 +104,16 @@ impl Fit {
         let [second, third] = (self.invariants)(a);
         let power = |(m, n): (i32, i32)| second.powi(m) * third.powi(n);
         let powers = self.powers.map(power);
-        let rows: Vec<_> = self.coefficients.chunks(powers.len()).collect();
-        let [b3, b4, b6] = [0, 1, 2].map(|k| rows[k].iter().zip(&powers).map(|(c, x)| c * x).sum());
+        let row = |k: usize| &self.coefficients[k * powers.len()..][..powers.len()];
+        let [b3, b4, b6] = [0, 1, 2].map(|k| row(k).iter().zip(&powers).map(|(c, x)| c * x).sum());
         let fitted: [f64; 4] = [1.0, b3, b4, b6];
         let related = |terms: &Terms| terms.iter().map(|(k, powers, c)| c * fitted[*k] * power(*powers)).sum();
         let [b1, b2, b5] = self.relations.each_ref().map(related);
         let betas = [b1, b2, b3, b4, b5, b6];
         let one = Matrix3::identity();
         let tensors = [(one, one), (one, *a), (*a, *a), (one, square), (*a, square), (square, square)];
-        let parts: Vec<_> = (0..6)
-            .map(|k| (self.weights[k] * betas[self.places[k]] / (2 * self.pairings) as f64, tensors[k]))
-            .collect();
+        let parts = [0, 1, 2, 3, 4, 5]
+            .map(|k| (self.weights[k] * betas[self.places[k]] / (2 * self.pairings) as f64, tensors[k]));
         Fourth::from_fn(|i, j, k, l| {
             let pairings = [[(i, j), (k, l)], [(i, k), (j, l)], [(i, l), (j, k)]];
             let part = |(beta, (p, q)): &(f64, (Matrix3<f64>, Matrix3<f64>))| {

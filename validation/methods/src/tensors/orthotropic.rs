@@ -99,9 +99,11 @@ impl Fit {
         let values = Vector3::from(self.values.map(|k| values[k]));
         let axes = (self.turn)(Matrix3::from_columns(&self.axes.map(|k| axes.column(k).into_owned())));
         let [x, y] = self.arguments.map(|k| values[k]);
-        let powers: Vec<_> = self.powers.iter().map(|(m, n)| x.powi(*m) * y.powi(*n)).collect();
-        let rows: Vec<_> = self.coefficients.chunks(powers.len()).collect();
-        let fourth = Vector3::from(self.polynomials.map(|k| rows[k].iter().zip(&powers).map(|(c, x)| c * x).sum()));
+        let mut most = [0.0; ORE_POWERS.len()];
+        let powers = &mut most[..self.powers.len()];
+        powers.iter_mut().zip(self.powers).for_each(|(value, (m, n))| *value = x.powi(*m) * y.powi(*n));
+        let row = |k: usize| &self.coefficients[k * powers.len()..][..powers.len()];
+        let fourth = Vector3::from(self.polynomials.map(|k| row(k).iter().zip(&*powers).map(|(c, x)| c * x).sum()));
         // a_jjkk = ½(a_jj + a_kk − a_ii − a_jjjj − a_kkkk + a_iiii) by the three equations a_iikk = a_ii.
         let left = values - fourth;
         let mixed = (self.mixed)([0, 1, 2].map(|i| 0.5 * (left.sum() - 2.0 * left[i])));

@@ -81,9 +81,9 @@ pub fn point(pairs: &[(String, String)]) -> String {
 /// A scene's title without the parts between commas that give the value of a swept key, as `n = 50 per cm³`.
 pub fn title_without(title: &str, swept: &[&str]) -> String {
     let is_of = |part: &str, key: &str| {
-        // The paper's letter for the spread, in its captions.
         let own = letter(key).0;
         let letters = match key {
+            // The paper's letter for the spread, in its captions.
             "particles.aspect_ratio_sd_percent" => ["σ", own],
             // Each gives n.
             "particles.volume_fraction" | "interaction.box_mm" => ["n", own],

@@ -87,15 +87,16 @@ pub fn compare(loaded: &LoadedProblem, answer: &Answer) -> Compared {
 /// The larger relative error of the rods a and b: the length of the difference over that of the certified columns.
 fn relative(names: &[String], values: &[f64], certified: &[f64]) -> f64 {
     let of_rod = |rod: &str| {
-        let columns: Vec<_> = (0..names.len()).filter(|k| names[*k].starts_with(rod)).collect();
-        let sum = |of: &dyn Fn(usize) -> f64| columns.iter().map(|k| of(*k).powi(2)).sum::<f64>().sqrt();
-        if columns.is_empty() {
-            0.0
-        } else {
-            sum(&|k| values[k] - certified[k]) / sum(&|k| certified[k]).max(f64::MIN_POSITIVE)
-        }
+        let due = length(names, rod, |k| certified[k]).max(f64::MIN_POSITIVE);
+        length(names, rod, |k| values[k] - certified[k]) / due
     };
     worst(["a_", "b_"].into_iter().map(of_rod))
+}
+
+/// The length of what `of` gives for each column of a rod, whose names begin with `rod`.
+fn length(names: &[String], rod: &str, of: impl Fn(usize) -> f64) -> f64 {
+    let own = (0..names.len()).filter(|k| names[*k].starts_with(rod));
+    own.map(|k| of(k).powi(2)).sum::<f64>().sqrt()
 }
 
 /// Indices of the pairs of columns x and `x_se`.
@@ -137,8 +138,8 @@ fn remark(loaded: &LoadedProblem, answer: &Answer, row: usize, error: f64, large
     let place = || answer.place(row);
     if error.is_nan() {
         let names = &loaded.problem.columns[loaded.problem.kind.keys().len()..];
-        // Of a value whose square is infinite, no distance says anything.
-        let (name, value) = names.iter().zip(&answer.rows[row]).max_by(|a, b| size(*a.1).total_cmp(&size(*b.1)))?;
+        // Of a value whose square is infinite, no distance says anything; NaN comes last.
+        let (name, value) = names.iter().zip(&answer.rows[row]).max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()))?;
         let why = if value.is_finite() { "too large to judge" } else { "not finite" };
         return Some(format!("{}: {name} = {value:?} is {why}", place()));
     }
@@ -154,11 +155,6 @@ fn remark(loaded: &LoadedProblem, answer: &Answer, row: usize, error: f64, large
     trace::remark(loaded, answer, row).map(|words| format!("{}: {words}", place()))
 }
 
-/// The size of a value; NaN is the largest.
-fn size(value: f64) -> f64 {
-    if value.is_nan() { f64::NAN } else { value.abs() }
-}
-
 /// The component of a row that is farthest from what is due, with both values; `None` of directions, which have one
 /// error for all components.
 pub(super) fn worst_entry(loaded: &LoadedProblem, answer: &Answer, row: usize) -> Option<String> {
@@ -166,18 +162,17 @@ pub(super) fn worst_entry(loaded: &LoadedProblem, answer: &Answer, row: usize) -
     let (names, values) = (&loaded.problem.columns[keys..], &answer.rows[row]);
     let certified = &loaded.certified.rows[row][keys..];
     let off = |k: usize| values[k] - certified[k];
-    let of_rod = |name: &str| {
-        let rod = name.split('_').next().unwrap_or_default();
-        let own = names.iter().zip(certified).filter(|(name, _)| name.split('_').next() == Some(rod));
-        own.map(|(_, value)| value * value).sum::<f64>().sqrt().max(f64::MIN_POSITIVE)
-    };
     let errors: Vec<_> = match loaded.problem.metric {
         Metric::Absolute => (0..names.len()).map(|k| (k, off(k).abs())).collect(),
         Metric::StandardErrors => {
             with_errors(names).map(|(k, se)| (k, off(k).abs() / values[se].hypot(certified[se]))).collect()
         }
         // Each rod has an error of its own.
-        Metric::Relative => (0..names.len()).map(|k| (k, off(k).abs() / of_rod(&names[k]))).collect(),
+        Metric::Relative => {
+            let due = |k: usize| length(names, &names[k][..2], |k| certified[k]).max(f64::MIN_POSITIVE);
+            let relative = |k: usize| off(k).abs() / due(k);
+            (0..names.len()).map(|k| (k, relative(k))).collect()
+        }
         Metric::Angle => return None,
     };
     let (k, _) = errors.into_iter().max_by(|a, b| a.1.total_cmp(&b.1))?;

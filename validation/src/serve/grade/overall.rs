@@ -36,9 +36,9 @@ fn contradict(problems: &[LoadedProblem], graded: &mut [Graded]) {
         let own_loaded = loaded(&own.name).filter(|_| own.kind == Kind::Formula && own.diagnosis.is_some())?;
         let others = graded.iter().filter(|other| other.name != own.name && other.error.is_some());
         let lacks = |other: &&Graded| {
-            let lacks = |name: &String| !other.suspects.contains(name);
-            let shown = |of: &LoadedProblem| own.suspects.iter().any(|name| lacks(name) && shows(of, name));
-            own.suspects.iter().all(lacks) && loaded(&other.name).is_some_and(|of| alike(of, own_loaded) && shown(of))
+            let shown = |of: &LoadedProblem| own.suspects.iter().any(|name| shows(of, name));
+            let differ = own.suspects.iter().all(|name| !other.suspects.contains(name));
+            differ && loaded(&other.name).is_some_and(|of| alike(of, own_loaded) && shown(of))
         };
         Some(others.filter(lacks).map(|other| other.name.clone()).collect())
     };

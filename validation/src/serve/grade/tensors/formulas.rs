@@ -76,16 +76,20 @@ fn within(near: Near, answer: &Answer, rows: &Rows, most: f64) -> Option<Near> {
 }
 
 fn of_closures(rows: &Rows, answer: &Answer, closure: Closure, most: f64) -> Vec<Near> {
-    let of = |(_, stand): &(usize, &Stand)| -> Rows {
-        rows.iter().map(|row| components(&stand.fourth(&tensor(row)))).collect()
-    };
+    let values = |_, stand: &Stand| rows.iter().map(|row| components(&stand.fourth(&tensor(row)))).collect();
+    let near = of_stands(closure, answer, most, values);
+    if near.is_empty() { of_numbers(closure, rows, answer, most, |_, fourth| components(fourth)) } else { near }
+}
+
+/// Other closures, and mistakes inside this one, given the answers of each, which has an index; those of one name stand
+/// for each other.
+fn of_stands(closure: Closure, answer: &Answer, most: f64, values: impl Fn(usize, &Stand) -> Rows) -> Vec<Near> {
     let tried: Vec<_> = tried(closure).collect();
     let of_name = |alike: &[(usize, &Stand)]| {
-        let found = nearest(alike.iter().map(of).collect(), answer);
+        let found = nearest(alike.iter().map(|(k, stand)| values(*k, stand)).collect(), answer);
         within(near_of("", "", alike[0].0, index(closure)), answer, &found, most)
     };
-    let near: Vec<_> = tried.chunk_by(|a, b| a.1.name == b.1.name).filter_map(of_name).collect();
-    if near.is_empty() { of_numbers(closure, rows, answer, most, |_, fourth| components(fourth)) } else { near }
+    tried.chunk_by(|a, b| a.1.name == b.1.name).filter_map(of_name).collect()
 }
 
 /// Of values that a code may have instead of each other, in every row those nearest to the answer.
@@ -120,12 +124,18 @@ fn of_numbers(
         let of = |(at, row): (usize, &Vec<f64>)| answered(at, &numbered.fourth(others, &tensor(row)));
         rows.iter().enumerate().map(of).collect()
     };
-    let right = all(&[]).concat();
-    let right = DVector::from_vec(right);
+    let right = DVector::from_vec(all(&[]).concat());
     let found = DVector::from_vec(answer.rows.concat()) - &right;
     let slope =
         |(k, (_, value)): (usize, &(String, f64))| DVector::from_vec(all(&[(k, value + 1.0)]).concat()) - &right;
     let slopes: Vec<_> = numbered.numbers.iter().enumerate().map(slope).collect();
+    // By how much these numbers are off by least squares, and what that leaves.
+    let solved = |chosen: &[usize]| {
+        let columns = DMatrix::from_columns(&chosen.iter().map(|k| slopes[*k].clone()).collect::<Vec<_>>());
+        let off = columns.clone().svd(true, true).solve(&found, 0.0).ok()?;
+        let left = (&found - columns * &off).norm();
+        Some((off, left))
+    };
     let name = |others: &[(usize, f64)]| {
         let of = |(k, value): &(usize, f64)| {
             let (before, right) = &numbered.numbers[*k];
@@ -137,8 +147,7 @@ fn of_numbers(
     let tried = |chosen: &[usize]| {
         let mut chosen = chosen.to_vec();
         chosen.sort_unstable();
-        let columns = DMatrix::from_columns(&chosen.iter().map(|k| slopes[*k].clone()).collect::<Vec<_>>());
-        let off = columns.svd(true, true).solve(&found, 0.0).ok()?;
+        let (off, _) = solved(&chosen)?;
         // One that was chosen on the way may turn out to be right.
         let wrong = |(k, off): &(&usize, &f64)| off.abs() > 1e-9 * (1.0 + numbered.numbers[**k].1.abs());
         let others: Vec<_> =
@@ -146,17 +155,12 @@ fn of_numbers(
         within(Near::new(0.0, &name(&others)), answer, &all(&others), most)
     };
     // A number that explains all, then the best beside those that explain most.
-    let mut chosen = Vec::new();
+    let mut chosen: Vec<usize> = Vec::new();
     let mut near: Vec<_> = (0..slopes.len()).filter_map(|k| tried(&[k])).collect();
     while near.is_empty() && chosen.len() < MOST_NUMBERS {
-        let left = |k: &usize| {
-            let with: Vec<_> = chosen.iter().chain([k]).map(|k: &usize| slopes[*k].clone()).collect();
-            let columns = DMatrix::from_columns(&with);
-            let off = columns.clone().svd(true, true).solve(&found, 0.0).unwrap_or_else(|_| DVector::zeros(with.len()));
-            (&found - columns * off).norm()
-        };
+        let left = |k: usize| Some((k, solved(&[&chosen[..], &[k]].concat())?.1));
         let others = (0..slopes.len()).filter(|k| !chosen.contains(k) && slopes[*k].norm() > 0.0);
-        let Some(best) = others.map(|k| (k, left(&k))).min_by(|a, b| a.1.total_cmp(&b.1)) else { break };
+        let Some(best) = others.filter_map(left).min_by(|a, b| a.1.total_cmp(&b.1)) else { break };
         chosen.push(best.0);
         near.extend(tried(&chosen));
     }
@@ -237,11 +241,7 @@ fn of_rates(rows: &Rows, answer: &Answer, closure: Closure, model: Model, most: 
         };
         let of = |k: usize| within(near_of(name, advice, k, own), answer, &rates(&parts, k), most);
         if mistake.is_none() {
-            let all: Vec<_> = tried(closure).collect();
-            near.extend(all.chunk_by(|a, b| a.1.name == b.1.name).filter_map(|alike| {
-                let found = nearest(alike.iter().map(|(k, _)| rates(&parts, *k)).collect(), answer);
-                within(near_of("", "", alike[0].0, own), answer, &found, most)
-            }));
+            near.extend(of_stands(closure, answer, most, |k, _| rates(&parts, k)));
         } else {
             near.extend((0..WITH_OTHERS).filter(begins).filter_map(of));
         }
