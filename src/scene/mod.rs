@@ -42,8 +42,7 @@ pub const DENSE: f64 = 0.1;
 const CONCENTRATIONS: [&str; 3] =
     ["interaction.concentration_per_cm3", "interaction.box_mm", "particles.volume_fraction"];
 
-/// Sets a key of a scene's document in place of the text's own; a concentration replaces that of the text whatever the
-/// key of that.
+/// Sets a key of a scene's document. A concentration replaces that of the text, under whichever key that stands.
 ///
 /// # Errors
 ///

@@ -28,7 +28,7 @@ pub fn overall(problems: &[LoadedProblem], graded: &mut [Graded]) -> Vec<String>
     found.into_iter().map(|finding| finding.said).collect()
 }
 
-/// Says of a formula's mistake which other answers of the same kind do not have it, though it would show there.
+/// Adds to a formula's diagnosis the other answers of the same kind in which the mistake would show, but does not.
 fn contradict(problems: &[LoadedProblem], graded: &mut [Graded]) {
     let loaded = |name: &str| problems.iter().find(|loaded| loaded.problem.name == name);
     let alike = |a: &LoadedProblem, b: &LoadedProblem| a.problem.columns == b.problem.columns;

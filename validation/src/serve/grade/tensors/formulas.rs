@@ -81,8 +81,8 @@ fn of_closures(rows: &Rows, answer: &Answer, closure: Closure, most: f64) -> Vec
     if near.is_empty() { of_numbers(closure, rows, answer, most, |_, fourth| components(fourth)) } else { near }
 }
 
-/// Other closures, and mistakes inside this one, given the answers of each, which has an index; those of one name stand
-/// for each other.
+/// The closures, and mistakes inside this one, whose values the answer has; `values` gives those of each, by its index.
+/// Those of one name are interchangeable.
 fn of_stands(closure: Closure, answer: &Answer, most: f64, values: impl Fn(usize, &Stand) -> Rows) -> Vec<Near> {
     let tried: Vec<_> = tried(closure).collect();
     let of_name = |alike: &[(usize, &Stand)]| {
@@ -92,7 +92,7 @@ fn of_stands(closure: Closure, answer: &Answer, most: f64, values: impl Fn(usize
     tried.chunk_by(|a, b| a.1.name == b.1.name).filter_map(of_name).collect()
 }
 
-/// Of values that a code may have instead of each other, in every row those nearest to the answer.
+/// The nearest to the answer of interchangeable values, row by row.
 fn nearest(mut all: Vec<Rows>, answer: &Answer) -> Rows {
     let Some(mut best) = all.pop() else { return Rows::new() };
     for other in all {
@@ -110,7 +110,8 @@ fn tried(closure: Closure) -> impl Iterator<Item = (usize, &'static Stand)> {
     CLOSURES.iter().enumerate().filter(move |(_, stand)| stand.of.is_none_or(|of| of == closure))
 }
 
-/// Other values of up to three numbers in the closure, given the answer of a row, by its place, from a_ijkl.
+/// Up to three wrong numbers in the closure that explain the answer; `answered` gives that of a row, by its place, from
+/// a_ijkl.
 fn of_numbers(
     closure: Closure,
     rows: &Rows,
