@@ -84,11 +84,16 @@ pub fn compare(loaded: &LoadedProblem, answer: &Answer) -> Compared {
     }
 }
 
-/// The larger relative error of the rods a and b: the length of the difference over that of the certified columns.
+/// The larger relative error of the rods a and b: the length of the difference over that of the certified columns. φ
+/// is taken modulo 2π.
 fn relative(names: &[String], values: &[f64], certified: &[f64]) -> f64 {
     let of_rod = |rod: &str| {
         let due = length(names, rod, |k| certified[k]).max(f64::MIN_POSITIVE);
-        length(names, rod, |k| values[k] - certified[k]) / due
+        let off = |k: usize| {
+            let off = values[k] - certified[k];
+            if names[k].ends_with("phi_rad") { off - TAU * (off / TAU).round() } else { off }
+        };
+        length(names, rod, off) / due
     };
     worst(["a_", "b_"].into_iter().map(of_rod))
 }

@@ -7,7 +7,7 @@ use super::estimate::Wrong;
 use super::means;
 use super::mistakes::{self, AXES, Mistake, Setting};
 pub use super::nearness::Diagnosis;
-use super::nearness::{CURVE, NEARER, Near, apart, said};
+use super::nearness::{CURVE, NEARER, Near, VALUES, apart, said};
 use super::tensors;
 use super::{Graded, Verdict};
 use crate::methods::integrators::apart_rad;
@@ -37,7 +37,7 @@ pub fn diagnose(loaded: &LoadedProblem, answer: &Answer, error: f64, steps: Opti
 fn named(loaded: &LoadedProblem, answer: &Answer, error: f64, steps: Option<u64>) -> Diagnosis {
     let (tolerance, nearer_than) = (loaded.problem.tolerance, NEARER * error);
     match loaded.problem.kind {
-        Kind::Contact => said(CURVE, contact::near(loaded, answer, nearer_than), tolerance, ""),
+        Kind::Contact => said(VALUES, contact::near(loaded, answer, nearer_than), tolerance, ""),
         Kind::Formula => tensors::formulas::diagnose(loaded, answer, error),
         // By its standard errors an answer of random numbers fits too many curves.
         Kind::Tensor if loaded.problem.metric == Metric::StandardErrors => Diagnosis::default(),

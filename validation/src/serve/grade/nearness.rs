@@ -11,6 +11,9 @@ pub(super) const NEARER: f64 = 1e-3;
 /// What a wrong answer in time is.
 pub(super) const CURVE: &str = "this is the curve";
 
+/// What a wrong answer without time is.
+pub(super) const VALUES: &str = "these are the values";
+
 /// How the names of other orders of axes begin.
 pub const LAID_OUT: &str = "axes in the order ";
 

@@ -3,7 +3,7 @@
 
 use super::diagnosis::shows;
 use super::estimate::{self, Wrong};
-use super::nearness::CURVE;
+use super::nearness::{CURVE, VALUES};
 use super::{Graded, Verdict, tensors};
 use crate::serve::problems::{Kind, LoadedProblem};
 
@@ -113,14 +113,14 @@ fn by_name(problems: &[LoadedProblem], graded: &[Graded], wrong: &[&Graded]) -> 
                 _ => format!("{} of {}", of.len(), wrong.len()),
             };
             let (all, fits) = (names.join(", or "), of.join(", "));
-            let of_formulas = theirs.iter().all(|graded| graded.kind == Kind::Formula);
-            let its = if of_formulas { "its values fit" } else { "its curve fits" };
+            let without_time = theirs.iter().all(|graded| matches!(graded.kind, Kind::Formula | Kind::Contact));
+            let (what, its) = if without_time { (VALUES, "its values fit") } else { (CURVE, "its curve fits") };
             let advice = tensors::advice(&names[0]);
             let shared = !advice.is_empty() && names.iter().all(|name| tensors::advice(name) == advice);
             let advice = if shared { format!("; {advice}") } else { String::new() };
             said.push(Finding {
                 of: of.iter().map(|name| (*name).to_owned()).collect(),
-                instead: format!("{CURVE} of {}", names.join(" or of ")),
+                instead: format!("{what} of {}", names.join(" or of ")),
                 said: format!("one mistake explains {rest} that do not pass: {all}{either}; {its} {fits}{advice}"),
                 names,
             });

@@ -15,10 +15,10 @@ pub(crate) const SNAPSHOTS: usize = 1000;
 const LONGEST_ARM: f64 = 2.0;
 /// Length and aspect ratio of the paper's rods.
 pub(crate) const LENGTH_MM: f64 = 0.72;
-const ASPECT_RATIO: f64 = 11.6;
+pub(crate) const ASPECT_RATIO: f64 = 11.6;
 
 pub use certified::certify;
-pub(crate) use doubles::{RIGHT, Variant, answers, within};
+pub(crate) use doubles::{RIGHT, Step, Variant, answers, within};
 
 /// The pair of a row of `inputs.csv`, without its number: centre, axis and r_e of a, then of b.
 type Pair = [f64; 14];
@@ -97,7 +97,7 @@ fn summary(step_s: Option<f64>) -> String {
         Some(step) => format!(
             "Asked for are the rates of A.13 in its corrected form, φ̇′ = (-v_1 sin φ + v_2 cos φ)/(r sin θ) and θ̇′ = \
              (v_1 cos θ cos φ + v_2 cos θ sin φ - v_3 sin θ)/r with v = V′_r, and the angles of A.14, φ + φ̇′Δt and θ \
-             + θ̇′Δt with Δt = {step} s, φ in (-π, π] before the step and not folded after it."
+             + θ̇′Δt with Δt = {step} s, φ taken modulo 2π."
         ),
     };
     format!(

@@ -7,7 +7,7 @@ use crate::methods::tensors::wrong::closures::{WITH_OTHERS, numbered};
 use crate::methods::tensors::wrong::{MISTAKES, Mistake, shaped};
 use crate::methods::tensors::{Closure, Equation, Fourth, Model, Parts};
 use crate::serve::grade::answer::Answer;
-use crate::serve::grade::nearness::{Diagnosis, NEARER, said};
+use crate::serve::grade::nearness::{Diagnosis, NEARER, VALUES, said};
 use crate::serve::problems::formula::{components, equation, tensor};
 use crate::serve::problems::{Formula, LoadedProblem};
 use nalgebra::{DMatrix, DVector, Vector3};
@@ -32,7 +32,7 @@ pub(in crate::serve::grade) fn diagnose(loaded: &LoadedProblem, answer: &Answer,
         Formula::Closure { closure } => of_closures(&rows, answer, closure, most),
         Formula::Dadt { closure, model } => of_rates(&rows, answer, closure, model, most),
     });
-    said("these are the values", near, loaded.problem.tolerance, "")
+    said(VALUES, near, loaded.problem.tolerance, "")
 }
 
 /// How far the certified values are from those of a code with this mistake, or in this layout; `None` if the mistake

@@ -12,32 +12,82 @@ use nalgebra::{Matrix3, Vector3};
 pub(crate) struct Variant {
     /// The factors on the change of ṗ of a and of b.
     pub(crate) kick: [f64; 2],
-    /// The arms in rod lengths that stand for the right ones; `None` for no contact.
+    /// The arms in rod lengths from those of the right rule; `None` for no contact.
     pub(crate) arms: fn([f64; 2]) -> Option<[f64; 2]>,
+    /// The arms in mm from d·p_a, d·p_b and p_a·p_b, d = x_b − x_a in mm.
+    pub(crate) feet: fn([f64; 3]) -> [f64; 2],
+    /// By what the changes of velocity are divided, mm, from the arms in mm.
+    pub(crate) divisors: fn([f64; 2]) -> [f64; 2],
+    /// True if ṗ′ is V′_r, not divided by r.
+    pub(crate) undivided: bool,
     /// L for the right one.
     pub(crate) gradient: fn(&Matrix3<f64>) -> Matrix3<f64>,
-    /// Λ from r_e.
-    pub(crate) shape: fn(f64) -> f64,
-    /// The factor on L x of a rod's centre in V_c.
-    pub(crate) centre: f64,
-    /// The direction of the contact line from p_a, p_b and x_b − x_a.
+    /// L for the right one in L x alone.
+    pub(crate) carrying: fn(&Matrix3<f64>) -> Matrix3<f64>,
+    /// The factors on W p, Λ D p and Λ p (p·D p) in ṗ.
+    pub(crate) parts: [f64; 3],
+    /// Λ of both rods from their r_e.
+    pub(crate) shapes: fn([f64; 2]) -> [f64; 2],
+    /// The place, mm, at which L x counts in V_c, from a rod's centre and its arm, a vector.
+    pub(crate) place: fn([Vector3<f64>; 2]) -> Vector3<f64>,
+    /// The factor on ṗ r in V_c.
+    pub(crate) turning: f64,
+    /// The factors on L x, ṗ and the change of velocity in ṗ′.
+    pub(crate) terms: [f64; 3],
+    /// The contact line from p_a, p_b and x_b − x_a.
     pub(crate) line: fn([Vector3<f64>; 3]) -> Vector3<f64>,
+    /// The shares of V_c of a and of b in the velocity that both take.
+    pub(crate) mean: [f64; 2],
+    /// How much of the velocities along and across the contact line becomes the mean.
+    pub(crate) shared: [f64; 2],
+    /// True if ṗ′ is made normal to p.
+    pub(crate) normal: bool,
     /// φ̇′ and θ̇′ from φ, θ and ṗ′.
     pub(crate) turned: fn([f64; 2], &Vector3<f64>) -> [f64; 2],
+    /// The factor on Δt.
+    pub(crate) step: f64,
+    /// φ and θ after the step.
+    pub(crate) stepped: fn(&Step) -> [f64; 2],
 }
 
 pub(crate) const RIGHT: Variant = Variant {
     kick: [1.0; 2],
     arms: Some,
+    feet: |[along_a, along_b, cosine]| {
+        [along_a - cosine * along_b, cosine * along_a - along_b].map(|foot| foot / (1.0 - cosine * cosine))
+    },
+    divisors: |arms| arms,
+    undivided: false,
     gradient: |l| *l,
-    shape: |r| (r * r - 1.0) / (r * r + 1.0),
-    centre: 1.0,
-    line: |[a, b, _]| a.cross(&b),
+    carrying: |l| *l,
+    parts: [1.0; 3],
+    shapes: |r| r.map(|r| (r * r - 1.0) / (r * r + 1.0)),
+    place: |[centre, _]| centre,
+    turning: 1.0,
+    terms: [0.0, 1.0, 1.0],
+    line: |[a, b, _]| a.cross(&b).normalize(),
+    mean: [0.5; 2],
+    shared: [1.0, 0.0],
+    normal: false,
     turned: |[phi, theta], rate| {
         let [around, across] = within([phi, theta], rate);
         [around / theta.sin(), across * theta.cos() - rate.z * theta.sin()]
     },
+    step: 1.0,
+    stepped: |step| [0, 1].map(|k| step.angles[k] + step.rates[k] * step.step_s),
 };
+
+/// A rod before the step A.14.
+pub(crate) struct Step {
+    /// φ and θ.
+    pub(crate) angles: [f64; 2],
+    /// φ̇′ and θ̇′.
+    pub(crate) rates: [f64; 2],
+    pub(crate) p: Vector3<f64>,
+    /// ṗ′.
+    pub(crate) rate: Vector3<f64>,
+    pub(crate) step_s: f64,
+}
 
 /// The components of ṗ′ in the shear plane, across φ and along it.
 pub(crate) fn within([phi, _]: [f64; 2], rate: &Vector3<f64>) -> [f64; 2] {
@@ -55,9 +105,10 @@ pub(crate) fn answers(
     rates(gradient_per_s, pair, variant).map(|(p, rate)| match step_s {
         None => rate.as_slice().to_vec(),
         Some(step_s) => {
-            let [phi, theta] = [p.y.atan2(p.x), p.x.hypot(p.y).atan2(p.z)];
-            let [phi_rate, theta_rate] = (variant.turned)([phi, theta], &rate);
-            vec![phi_rate, theta_rate, phi + phi_rate * step_s, theta + theta_rate * step_s]
+            let angles = [p.y.atan2(p.x), p.x.hypot(p.y).atan2(p.z)];
+            let rates = (variant.turned)(angles, &rate);
+            let step = Step { angles, rates, p, rate, step_s: variant.step * step_s };
+            [rates, (variant.stepped)(&step)].concat()
         }
     })
 }
@@ -72,35 +123,53 @@ pub(super) struct Geometry {
 
 /// The feet of the common normal: (x_b + r_b p_b − x_a − r_a p_a) ∥ ℓ.
 pub(super) fn geometry(pair: &[f64]) -> Geometry {
-    let [a, b] = [3, 10].map(|at| Vector3::from_row_slice(&pair[at..at + 3]).normalize());
-    let apart = Vector3::from_fn(|i, _| pair[7 + i] - pair[i]);
-    let cosine = a.dot(&b);
-    let sine_squared = 1.0 - cosine * cosine;
-    let arm_a = (apart.dot(&a) - cosine * apart.dot(&b)) / sine_squared;
-    let arm_b = (cosine * apart.dot(&a) - apart.dot(&b)) / sine_squared;
-    Geometry { sine: sine_squared.sqrt(), arms: [arm_a, arm_b] }
+    let [x, p] = vectors(pair);
+    let cosine = p[0].dot(&p[1]);
+    Geometry { sine: (1.0 - cosine * cosine).sqrt(), arms: (RIGHT.feet)(lengths(x, p)) }
+}
+
+/// The centres in mm and the axes of both rods.
+fn vectors(pair: &[f64]) -> [[Vector3<f64>; 2]; 2] {
+    let vector = |at: usize| Vector3::from_row_slice(&pair[at..at + 3]);
+    [[0, 7].map(vector), [3, 10].map(|at| vector(at).normalize())]
+}
+
+/// d·p_a, d·p_b and p_a·p_b with d = x_b − x_a.
+fn lengths(x: [Vector3<f64>; 2], p: [Vector3<f64>; 2]) -> [f64; 3] {
+    let apart = x[1] - x[0];
+    [apart.dot(&p[0]), apart.dot(&p[1]), p[0].dot(&p[1])]
 }
 
 /// p and ṗ′ in 1/s of both rods; `pair` has centre, axis and r_e of each.
 fn rates(gradient: &Matrix3<f64>, pair: &[f64], variant: Variant) -> [(Vector3<f64>, Vector3<f64>); 2] {
     let l = (variant.gradient)(gradient);
     let (w, d) = (0.5 * (l - l.transpose()), 0.5 * (l + l.transpose()));
-    let rod = |of: &[f64]| {
-        let (x, p) = (Vector3::from_row_slice(&of[..3]), Vector3::from_row_slice(&of[3..6]).normalize());
-        let free = w * p + (variant.shape)(of[6]) * (d * p - p * p.dot(&(d * p)));
-        (x, p, free)
+    let [x, p] = vectors(pair);
+    let shapes = (variant.shapes)([pair[6], pair[13]]);
+    let [spin, pulled, kept] = variant.parts;
+    let jeffery = |shape: f64, p: Vector3<f64>| {
+        let pull = d * p;
+        w * p * spin + shape * (pull * pulled - p * (p.dot(&pull) * kept))
     };
-    let (a, b) = (rod(&pair[..7]), rod(&pair[7..14]));
-    let line = (variant.line)([a.1, b.1, b.0 - a.0]).normalize();
-    let Some([arm_a, arm_b]) = (variant.arms)(geometry(pair).arms.map(|arm| arm / LENGTH_MM)) else {
-        return [(a.1, a.2), (b.1, b.2)];
+    let free = [0, 1].map(|k| jeffery(shapes[k], p[k]));
+    let feet = (variant.feet)(lengths(x, p));
+    let Some(arms) = (variant.arms)(feet.map(|arm| arm / LENGTH_MM)) else {
+        return [0, 1].map(|k| (p[k], free[k]));
     };
-    let [arm_a, arm_b] = [arm_a, arm_b].map(|arm| arm * LENGTH_MM);
-    let along = |(x, _, free): &(Vector3<f64>, Vector3<f64>, Vector3<f64>), arm: f64| {
-        line.dot(&(l * x * variant.centre + free * arm))
-    };
-    let (v_a, v_b) = (along(&a, arm_a), along(&b, arm_b));
-    let mean = 0.5 * (v_a + v_b);
-    let kick = variant.kick;
-    [(a.1, a.2 + line * (kick[0] * (mean - v_a) / arm_a)), (b.1, b.2 + line * (kick[1] * (mean - v_b) / arm_b))]
+    let arms = arms.map(|arm| arm * LENGTH_MM);
+    let divisors = (variant.divisors)(arms);
+    let line = (variant.line)([p[0], p[1], x[1] - x[0]]);
+    let carrying = (variant.carrying)(&l);
+    let carried = [0, 1].map(|k| carrying * (variant.place)([x[k], p[k] * arms[k]]));
+    let moved = [0, 1].map(|k| carried[k] + free[k] * (arms[k] * variant.turning));
+    let mean = moved[0] * variant.mean[0] + moved[1] * variant.mean[1];
+    [0, 1].map(|k| {
+        let change = mean - moved[k];
+        let along = line * line.dot(&change);
+        let change = along * variant.shared[0] + (change - along) * variant.shared[1];
+        let [kept, turning, kicked] = variant.terms;
+        let kick = (carried[k] * kept + change * (kicked * variant.kick[k])) / divisors[k];
+        let rate = (free[k] * turning + kick) * if variant.undivided { arms[k] } else { 1.0 };
+        (p[k], if variant.normal { rate - p[k] * p[k].dot(&rate) } else { rate })
+    })
 }
