@@ -15,7 +15,7 @@ use super::text::AFTER_ID;
 use crate::methods::integrators::Setting;
 use crate::serve::grade::answer::Answer;
 use crate::serve::grade::compare::{Compared, compare};
-use crate::serve::grade::diagnosis::diagnose;
+use crate::serve::grade::diagnosis::{Diagnosis, diagnose};
 use crate::serve::grade::digits;
 use crate::serve::grade::files::{Claim, judge, place};
 use crate::serve::grade::order::other;
@@ -204,9 +204,11 @@ fn climbed(
             end = again;
         }
     }
+    let mut named = Diagnosis::default();
     for other in &others {
         if let (End::Reached, Some(passed)) = (&end, rungs.last()) {
-            end = elsewhere::judged(passed, [other, problem], program.timeout, |setting| ask_of(other, setting));
+            (end, named) =
+                elsewhere::judged(passed, [other, problem], program.timeout, |setting| ask_of(other, setting));
         }
     }
     let mut graded = Graded::without_answer(problem);
@@ -224,6 +226,9 @@ fn climbed(
         graded.steps = finest.setting.steps().ok();
         graded.asked_tolerance = finest.setting.tolerance().ok();
         graded.set_answer(problem, &finest.answer, &finest.compared);
+    }
+    if named.said.is_some() {
+        (graded.diagnosis, graded.suspects) = (named.said, named.suspects);
     }
     // What converges as far as it goes is not wrong.
     let falls = || graded.steps_needed().is_some() || fall_with_tolerances(&rungs).is_some();

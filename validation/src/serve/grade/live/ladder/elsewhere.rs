@@ -6,6 +6,7 @@ use super::climb::{End, FOLLOWED};
 use crate::judge::statistics::worst;
 use crate::methods::integrators::Setting;
 use crate::serve::grade::compare::distance;
+use crate::serve::grade::diagnosis::{Diagnosis, STEPS_OFF, diagnose};
 use crate::serve::grade::live::program::Asked;
 use crate::serve::grade::order::FAR;
 use crate::serve::problems::{Kind, LoadedProblem};
@@ -16,6 +17,9 @@ const FALLS: f64 = 0.7;
 
 /// The share of a tolerance by which two answers to one question may differ.
 const SAME: f64 = 0.1;
+
+/// Numbers of steps to choose from: in part of each doubling one in some ten is cut.
+const CANDIDATES: u64 = 1000;
 
 /// The problem at other times: about rods up to its first time after the start, and to that whose certified rows are
 /// farthest from those at the end; about tensors, which are asked for at all times, without the first, and at the last
@@ -67,20 +71,31 @@ pub(super) fn repeated(
     }
 }
 
-/// The end of a program that passes with `passed`, asked once more at the times of the first of the two problems. Where
-/// a rod flips then, a right program is off by more than at the end, but by less with each finer setting.
+/// An odd number N of steps from `from` to twice that for which T/(T/N), rounded, is below N: a program that cuts it to
+/// a whole number takes a step too few.
+fn cut(time_s: f64, from: u64) -> u64 {
+    let is_cut = |steps: &u64| ((time_s / (time_s / *steps as f64)) as u64) < *steps;
+    (0..CANDIDATES).map(|k| (from + from * k / CANDIDATES) | 1).find(is_cut).unwrap_or(from)
+}
+
+/// The end of a program that passes with `passed`, asked once more at the times of the first of the two problems, and
+/// the mistake by which it fails there. Where a rod flips then, a right program is off by more than at the end, but by
+/// less with each finer setting.
 pub(super) fn judged(
     passed: &Rung,
     problems: [&LoadedProblem; 2],
     timeout: Duration,
     ask: impl Fn(Setting) -> Result<Rung, Asked>,
-) -> End {
+) -> (End, Diagnosis) {
     let [other_s, end_s] = problems.map(|of| of.problem.times_s.last().copied().unwrap_or_default());
     let due = FAR * passed.error().max(problems[1].problem.tolerance);
     // Steps of equal length end at every time: with several, not every number will do.
     let odd = u64::from(problems[0].problem.times_s.len() == 1);
     let finer = |k: i32| match passed.setting {
-        Setting::Steps(steps) => Setting::Steps(((steps as f64 * other_s / end_s).ceil() as u64 * (1 << k)) | odd),
+        Setting::Steps(steps) => {
+            let steps = (steps as f64 * other_s / end_s).ceil() as u64 * (1 << k);
+            Setting::Steps(if odd == 1 { cut(other_s, steps | 1) } else { steps })
+        }
         Setting::Tolerance(asked) => Setting::Tolerance((asked * 0.1f64.powi(k)).max(1e-14)),
         Setting::Once => Setting::Once,
     };
@@ -89,27 +104,39 @@ pub(super) fn judged(
     for setting in (0..3).map(finer) {
         let rung = match ask(setting) {
             Ok(rung) => rung,
-            Err(asked) => return End::without_answer(asked),
+            Err(asked) => return (End::without_answer(asked), Diagnosis::default()),
         };
         let error = rung.error();
         if error <= due {
             break;
         }
-        if error.is_nan() || error > most {
+        let named = diagnose(problems[0], &rung.answer, error, setting.steps().ok());
+        // A missing step is small beside a flip, and halves with the step.
+        let is_off = named.suspects.iter().any(|name| STEPS_OFF.contains(&name.as_str()));
+        if error.is_nan() || error > most || is_off {
             let asked = match odd {
                 _ if other_s < end_s => format!("up to t = {other_s} s"),
                 0 => "without the first time".to_owned(),
                 _ => "at the last time alone".to_owned(),
             };
             let before = passed.error();
-            return End::Jumps(format!(
-                "asked {asked}, with {setting}, it is off by {error:.1e}, before by {before:.1e}"
-            ));
+            let words = format!("asked {asked}, with {setting}, it is off by {error:.1e}, before by {before:.1e}");
+            return (End::Jumps(words), named);
         }
         if 4 * rung.took > timeout {
             break;
         }
         most = FALLS * error;
     }
-    End::Reached
+    (End::Reached, Diagnosis::default())
+}
+
+#[test]
+fn a_number_of_steps_is_found_at_which_a_cut_quotient_loses_one() {
+    for (time_s, from) in [(18.51101255990904, 555), (76.13752245190567, 2087), (1.0, 49), (7.342660346907454e5, 16421)]
+    {
+        let steps = cut(time_s, from);
+        assert!(steps % 2 == 1 && steps >= from && steps < 2 * from, "{steps}");
+        assert_eq!((time_s / (time_s / steps as f64)) as u64, steps - 1);
+    }
 }
