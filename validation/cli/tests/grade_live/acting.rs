@@ -144,6 +144,7 @@ fn answer(name: &str, request: &Value, count: u64) -> Value {
     static FIRST_S: OnceLock<f64> = OnceLock::new();
     let always = name == "turns_for_the_same_time" && rotation.is_some();
     let h = if always { *FIRST_S.get_or_init(|| end_s) } else { end_s } / steps as f64;
+    let steps = if name == "cuts_its_steps" { (end_s / h) as u64 } else { steps };
     let moved = |p: Vector3<f64>| match method(name) {
         _ if let Some(rotation) = rotation => in_turning_flow(name, (l, rotation), square, p, h, steps),
         (Some(order), normalised) => extrapolated(order, normalised, &a, p, h, steps),

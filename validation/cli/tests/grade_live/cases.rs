@@ -23,6 +23,7 @@ pub const CASES: &[Case] = &[
     ("is_right", "PASS", &[]),
     ("is_right_on_one_line_of_stderr_each", "PASS", &[]),
     ("ends_after_a_right_answer", "FAIL", &["the program ended: exit status: 4"]),
+    ("cuts_its_steps", "FAIL", &["one step too few", "asked up to t = "]),
     ("is_off_by_1e-8", "FAIL", &["it is off by 1.0e-8"]),
     ("floods_stderr", "PASS", &[]),
     ("stays", "PASS", &["did not end within 5 s of the end of its input"]),
