@@ -27,12 +27,12 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 /// off.
 const STEP: f64 = 1e-11;
 const ROUGH: f64 = 1e-6;
-const OFF: f64 = 1e-4;
+const OFF: f64 = 1e-3;
 
 /// A closed equation that a code may solve, with its curve, which is computed once for all answers.
-struct Candidate {
+struct Candidate<'a> {
     parts: Parts,
-    closure: &'static Stand,
+    closure: &'a Stand,
     /// Its names: mistakes may have the same parts.
     near: Vec<Near>,
     /// Rough values at the first time; all values.
@@ -40,8 +40,8 @@ struct Candidate {
     whole: OnceLock<Option<Vec<Vec<f64>>>>,
 }
 
-impl Candidate {
-    fn new(parts: Parts, closure: &'static Stand, near: Vec<Near>) -> Self {
+impl<'a> Candidate<'a> {
+    fn new(parts: Parts, closure: &'a Stand, near: Vec<Near>) -> Self {
         Self { parts, closure, near, first: OnceLock::new(), whole: OnceLock::new() }
     }
 
@@ -111,12 +111,12 @@ struct Known {
     parts: Parts,
     start: Matrix3<f64>,
     changes: Vec<Change>,
-    candidates: Vec<Candidate>,
+    candidates: Vec<Candidate<'static>>,
 }
 
 impl Known {
     /// The right equation, if a closure is the right one.
-    fn right(&self) -> Option<Candidate> {
+    fn right(&self) -> Option<Candidate<'static>> {
         Some(Candidate::new(self.parts, &CLOSURES[self.own?], Vec::new()))
     }
 }
@@ -168,7 +168,7 @@ fn asked(problem: &Problem) -> Option<(Closed, Option<usize>)> {
     }
 }
 
-fn candidates(changes: &[Change], own: Option<usize>) -> Vec<Candidate> {
+fn candidates(changes: &[Change], own: Option<usize>) -> Vec<Candidate<'static>> {
     let with = |change: &Change| {
         // Without 𝔸:D a closure has no part in a_ij.
         let without = change.parts.of_fourth == 0.0 && matches!(change.parts.model, Model::FolgarTucker { .. });
@@ -212,7 +212,7 @@ fn distance(
     problem: &Problem,
     rows: &[Vec<f64>],
     start: &Matrix3<f64>,
-    candidate: &Candidate,
+    candidate: &Candidate<'_>,
     most: f64,
 ) -> Option<f64> {
     let far = |off: &f64| off.is_nan() || *off > most + OFF;
@@ -247,7 +247,7 @@ pub(super) fn diagnose(loaded: &LoadedProblem, answer: &Answer, error: f64, step
     }
     near.extend(in_other_layouts(&[certified(loaded)], answer, most));
     let with = |changes: u8| -> Vec<Near> {
-        let near = |candidate: &Candidate| {
+        let near = |candidate: &Candidate<'_>| {
             let distance = distance(problem, &answer.rows, start, candidate, most)?;
             Some(candidate.near.iter().map(move |near| Near { distance, ..near.clone() }).collect::<Vec<_>>())
         };
@@ -283,6 +283,9 @@ pub(super) fn diagnose(loaded: &LoadedProblem, answer: &Answer, error: f64, step
         near.extend(from_isotropic(problem, answer, &known, most));
         near.extend(steps.and_then(|steps| estimate::a_step_off(problem, answer, &known, steps, most)));
     }
+    if near.is_empty() && !problem.is_steady() {
+        near = estimate::of_numbers(problem, answer, &known, most);
+    }
     let cost = match problem.closed {
         Some(_) => String::new(),
         None => format!("; it costs {}", cost(loaded, answer)),
@@ -306,7 +309,7 @@ pub(super) fn off(loaded: &LoadedProblem, name: &str) -> Option<f64> {
         if known.own.is_none() {
             return from_exact(problem, &rows, &change.parts, f64::INFINITY);
         }
-        let of = |candidate: &&Candidate| candidate.parts == change.parts && candidate.near[0].changes == 1;
+        let of = |candidate: &&Candidate<'_>| candidate.parts == change.parts && candidate.near[0].changes == 1;
         let candidate = known.candidates.iter().find(of)?;
         // An equation without a solution does not have the certified one.
         distance(problem, &rows, &known.start, candidate, f64::INFINITY).or(Some(f64::INFINITY))
@@ -358,7 +361,7 @@ fn certified(loaded: &LoadedProblem) -> (Near, Vec<Vec<f64>>) {
 fn of_closures(problem: &Problem, known: &Known) -> Vec<(Near, Vec<Vec<f64>>)> {
     let of = known.candidates.par_iter().filter(|candidate| candidate.parts == known.parts);
     let curve =
-        |candidate: &Candidate| Some((candidate.near[0].clone(), candidate.whole(problem, &known.start)?.clone()));
+        |candidate: &Candidate<'_>| Some((candidate.near[0].clone(), candidate.whole(problem, &known.start)?.clone()));
     of.filter_map(curve).collect()
 }
 

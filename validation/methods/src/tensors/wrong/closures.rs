@@ -10,7 +10,7 @@ use std::sync::{Arc, LazyLock};
 type Form = fn(&Matrix3<f64>) -> Fourth;
 type Formed = Arc<dyn Fn(&Matrix3<f64>) -> Fourth + Send + Sync>;
 /// a_ijkl from the numbers of a closure and a_ij.
-type ByNumbers = Box<dyn Fn(&[f64], &Matrix3<f64>) -> Fourth + Send + Sync>;
+type ByNumbers = Arc<dyn Fn(&[f64], &Matrix3<f64>) -> Fourth + Send + Sync>;
 /// A name and a change.
 type Named<T> = (&'static str, fn(&mut T));
 
@@ -258,13 +258,21 @@ impl Numbered {
         (self.form)(&numbers, a)
     }
 
+    /// What stands for a_ijkl with another value of one number.
+    pub fn stand(&self, of: Closure, number: usize, value: f64) -> Stand {
+        let mut numbers: Vec<_> = self.numbers.iter().map(|(_, number)| *number).collect();
+        numbers[number] = value;
+        let form = self.form.clone();
+        Stand { name: String::new(), of: Some(of), fourth: Arc::new(move |a| form(&numbers, a)) }
+    }
+
     fn new(
         numbers: impl IntoIterator<Item = (String, f64)>,
         form: impl Fn(&[f64], &Matrix3<f64>) -> Fourth + Send + Sync + 'static,
     ) -> Self {
         let whole = ("before every a_ijkl".to_owned(), 1.0);
         let form = move |numbers: &[f64], a: &Matrix3<f64>| Fourth(form(&numbers[1..], a).0 * numbers[0]);
-        Self { numbers: std::iter::once(whole).chain(numbers).collect(), form: Box::new(form) }
+        Self { numbers: std::iter::once(whole).chain(numbers).collect(), form: Arc::new(form) }
     }
 }
 

@@ -1,13 +1,15 @@
 //! A number that is off by an unknown factor: C_I, Λ, or time.
 
-use super::{Candidate, Known, Near, STEP, distance, near_of};
-use crate::methods::tensors::wrong::closures::{CLOSURES, WITH_OTHERS};
+use super::formulas::with_numbers;
+use super::{Candidate, Known, Near, OFF, ROUGH, STEP, apart, distance, near_of};
+use crate::methods::tensors::wrong::closures::{CLOSURES, WITH_OTHERS, numbered};
 use crate::methods::tensors::wrong::{drifting, is_isotropic, scaled, shaped, slowed, spread, with};
-use crate::methods::tensors::{Model, Parts};
+use crate::methods::tensors::{Closure, Model, Parts};
 use crate::serve::grade::answer::Answer;
 use crate::serve::grade::diagnosis::{STEPS_OFF, step_off};
 use crate::serve::grade::estimate::{MOST, digits};
 use crate::serve::problems::Problem;
+use nalgebra::DVector;
 use rayon::prelude::*;
 
 /// A quantity and the parts in which it is `factor` times what is asked.
@@ -53,8 +55,12 @@ pub(super) fn tried(own: Option<usize>) -> impl Iterator<Item = (&'static Quanti
 
 const TIME: &str = "every rate (or time, or the sum of a method's weights)";
 
-/// The step of the slope, and the number of steps of Newton's method.
+/// The step of the slope, that of a rough one, and the number of steps of Newton's method.
 const SLOPE: f64 = 1e-6;
+const ROUGH_SLOPE: f64 = 1e-2;
+
+/// The least cosine between a change and the change with a small part of what makes it.
+const ALIKE: f64 = 0.5;
 const STEPS: usize = 12;
 
 /// The words for a quantity that is `factor` times what is asked, with as many digits as tell the factor from 1.
@@ -94,7 +100,8 @@ pub(super) fn of_curve(problem: &Problem, answer: &Answer, known: &Known, steps:
         let with = |factor: f64| Some(Candidate::new(change(known.parts, factor)?, &CLOSURES[*closure], Vec::new()));
         let row = |factor: f64| with(factor)?.curve(problem, &known.start, 1, STEP)?.pop();
         // At higher rates any steady state is reached, and no code has a larger Λ by mistake.
-        let factor = newton(&answer.rows[0], row).filter(|factor| name == "C_I" || factor.abs() <= MOST)?;
+        let factor =
+            newton(&answer.rows[0], [1.0, SLOPE], row).filter(|factor| name == "C_I" || factor.abs() <= MOST)?;
         let distance = distance(problem, &answer.rows, &known.start, &with(factor)?, most)?;
         let of_step = steps.filter(|_| name == TIME).and_then(|steps| step_off(factor, steps));
         let near = match of_step {
@@ -120,13 +127,50 @@ pub(super) fn a_step_off(problem: &Problem, answer: &Answer, known: &Known, step
     STEPS_OFF.into_iter().zip([-step_s, step_s]).find_map(of)
 }
 
-/// The factor at which `row` is nearest to `found` by least squares, from 1.
-fn newton(found: &[f64], row: impl Fn(f64) -> Option<Vec<f64>>) -> Option<f64> {
-    let mut factor = 1.0;
+/// The curves of the closure that is asked for with one wrong number in it, found at the first time, that fit at all
+/// times.
+pub(super) fn of_numbers(problem: &Problem, answer: &Answer, known: &Known, most: f64) -> Vec<Near> {
+    let Some(closure) = known.own.map(|own| Closure::ALL[own]) else { return Vec::new() };
+    let numbered = numbered(closure);
+    let right = known.right().and_then(|right| right.curve(problem, &known.start, 1, ROUGH)?.pop());
+    let Some(right_row) = right else { return Vec::new() };
+    let off = DVector::from_vec(answer.rows[0].iter().zip(&right_row).map(|(found, due)| found - due).collect());
+    let fit = |(k, (_, right)): (usize, &(String, f64))| {
+        // A number that is 0 has no factor.
+        let value = |factor: f64| right + (factor - 1.0) * right.abs().max(1.0);
+        let stand = |factor: f64| numbered.stand(closure, k, value(factor));
+        let row = |tolerance: f64, factor: f64| {
+            Candidate::new(known.parts, &stand(factor), Vec::new()).curve(problem, &known.start, 1, tolerance)?.pop()
+        };
+        // Saves time: most numbers explain nothing at the first time already, and most not even its direction.
+        let moved = row(ROUGH, 1.0 + ROUGH_SLOPE)?.iter().zip(&right_row).map(|(there, here)| there - here).collect();
+        let moved: DVector<f64> = DVector::from_vec(moved);
+        if moved.dot(&off).abs() < ALIKE * moved.norm() * off.norm() {
+            return None;
+        }
+        let rough = newton(&answer.rows[0], [1.0, ROUGH_SLOPE], |factor| row(ROUGH, factor))?;
+        let left = apart(&answer.rows[..1], &[row(ROUGH, rough)?]);
+        let factor = (left <= OFF).then(|| newton(&answer.rows[0], [rough, SLOPE], |factor| row(STEP, factor)))??;
+        let distance = distance(
+            problem,
+            &answer.rows,
+            &known.start,
+            &Candidate::new(known.parts, &stand(factor), Vec::new()),
+            most,
+        )?;
+        Some(Near::new(distance, &with_numbers(closure, &numbered, &[(k, value(factor))])))
+    };
+    let numbers: Vec<_> = numbered.numbers.iter().enumerate().collect();
+    numbers.into_par_iter().filter_map(fit).collect()
+}
+
+/// The factor at which `row` is nearest to `found` by least squares, from a first one, by slopes over a step.
+fn newton(found: &[f64], [first, slope]: [f64; 2], row: impl Fn(f64) -> Option<Vec<f64>>) -> Option<f64> {
+    let mut factor = first;
     for _ in 0..STEPS {
         let here = row(factor)?;
-        let there = row(factor + SLOPE)?;
-        let slopes = there.iter().zip(&here).map(|(there, here)| (there - here) / SLOPE);
+        let there = row(factor + slope)?;
+        let slopes = there.iter().zip(&here).map(|(there, here)| (there - here) / slope);
         let (mut along, mut square) = (0.0, 0.0);
         for (slope, (here, found)) in slopes.zip(here.iter().zip(found)) {
             along += slope * (found - here);
@@ -137,7 +181,7 @@ fn newton(found: &[f64], row: impl Fn(f64) -> Option<Vec<f64>>) -> Option<f64> {
         if !factor.is_finite() {
             return None;
         }
-        if step.abs() < 1e-12 {
+        if step.abs() < 1e-6 * slope {
             break;
         }
     }
@@ -177,4 +221,33 @@ fn a_factor_has_the_digits_that_tell_it_from_1() {
     let near = near("C_I", 0.73, Model::FolgarTucker { c_i: 0.1 }, 1, Some(0));
     assert_eq!(near.name, "C_I times 0.7300 (0.0730 for 0.1), with the quadratic closure");
     assert_eq!(near.suspects, ["C_I times 0.7300", "C_I = 0.073 in every problem"]);
+}
+
+/// Any number of a closure, in any problem with it; two wrong numbers have no name.
+#[test]
+fn a_wrong_number_in_a_closure_is_named_by_its_curve() {
+    use crate::serve::grade::diagnosis::diagnose;
+    use crate::serve::problems::loaded;
+    let said = |name: &str, others: &[(usize, f64)]| {
+        let whole = loaded(name);
+        let known = super::known(&whole.problem).unwrap();
+        let closure = Closure::ALL[known.own.unwrap()];
+        let numbered = numbered(closure);
+        let others: Vec<_> = others.iter().map(|(k, factor)| (*k, factor * numbered.numbers[*k].1)).collect();
+        let fourth = |a: &nalgebra::Matrix3<f64>| numbered.fourth(&others, a);
+        let rate = |_: f64, a: &nalgebra::Matrix3<f64>| known.parts.rate(a, &fourth(a));
+        let all = crate::methods::tensors::at_rate(&rate, &known.start, &whole.problem.times_s, STEP).unwrap();
+        let rows =
+            all.iter().map(|a| super::values(&whole.problem, &CLOSURES[known.own.unwrap()], a).unwrap()).collect();
+        diagnose(&whole, &Answer { rows, ..Answer::certified(&whole) }, 1e-3, None).said.unwrap_or_default()
+    };
+    for (name, others, words) in [
+        ("closed-ft-hybrid-0.01", (11, 20.0 / 27.0), "the hybrid closure with -20 for -27 before det a in f"),
+        ("closed-ft-ore-0.01", (5, 0.9), "the ORE closure with 3.46 for 3.845 before "),
+        ("closed-ft-ibof-0.01", (9, 1.02), "the IBOF closure with "),
+    ] {
+        let found = said(name, &[others]);
+        assert!(found.starts_with(&format!("this is the curve of {words}")), "{name}: {found}");
+    }
+    assert_eq!(said("closed-ft-hybrid-0.01", &[(10, 0.9), (11, 0.7), (1, 1.3)]), "");
 }

@@ -3,7 +3,7 @@
 use super::estimate::{self, Quantity};
 use super::{CLOSURES, Near, Stand, apart, index, near_of};
 use crate::methods::tensors::fourth::PAIRS;
-use crate::methods::tensors::wrong::closures::{WITH_OTHERS, numbered};
+use crate::methods::tensors::wrong::closures::{Numbered, WITH_OTHERS, numbered};
 use crate::methods::tensors::wrong::{MISTAKES, Mistake, shaped};
 use crate::methods::tensors::{Closure, Equation, Fourth, Model, Parts};
 use crate::serve::grade::answer::Answer;
@@ -137,14 +137,6 @@ fn of_numbers(
         let left = (&found - columns * &off).norm();
         Some((off, left))
     };
-    let name = |others: &[(usize, f64)]| {
-        let of = |(k, value): &(usize, f64)| {
-            let (before, right) = &numbered.numbers[*k];
-            let [value, right] = apart_in_digits(*value, *right);
-            format!("{value} for {right} {before}")
-        };
-        format!("the {} closure with {}", closure.name(), others.iter().map(of).collect::<Vec<_>>().join(" and "))
-    };
     let tried = |chosen: &[usize]| {
         let mut chosen = chosen.to_vec();
         chosen.sort_unstable();
@@ -153,7 +145,7 @@ fn of_numbers(
         let wrong = |(k, off): &(&usize, &f64)| off.abs() > 1e-9 * (1.0 + numbered.numbers[**k].1.abs());
         let others: Vec<_> =
             (chosen.iter().zip(&off).filter(wrong)).map(|(k, off)| (*k, numbered.numbers[*k].1 + off)).collect();
-        within(Near::new(0.0, &name(&others)), answer, &all(&others), most)
+        within(Near::new(0.0, &with_numbers(closure, &numbered, &others)), answer, &all(&others), most)
     };
     // A number that explains all, then the best beside those that explain most.
     let mut chosen: Vec<usize> = Vec::new();
@@ -166,6 +158,16 @@ fn of_numbers(
         near.extend(tried(&chosen));
     }
     near
+}
+
+/// The name of a closure in which these numbers have these values.
+pub(super) fn with_numbers(closure: Closure, numbered: &Numbered, others: &[(usize, f64)]) -> String {
+    let of = |(k, value): &(usize, f64)| {
+        let (before, right) = &numbered.numbers[*k];
+        let [value, right] = apart_in_digits(*value, *right);
+        format!("{value} for {right} {before}")
+    };
+    format!("the {} closure with {}", closure.name(), others.iter().map(of).collect::<Vec<_>>().join(" and "))
 }
 
 /// The x at which one + x (two − one) is nearest to what is found by least squares; `None` if it is the same for all.
