@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import inspect
 import re
+import unittest
 from typing import Any
 
 import numpy as np
@@ -37,6 +38,25 @@ def test_a_wrong_function_fails_in_the_grader_s_words() -> None:
     assert "ten-thousand-periods" not in names and len(names) == len(set(names)) > 5
     with pytest.raises(ValueError, match="'moments'.*'rods' and 'formula' are allowed"):
         shearbed.testing.problems(kind="moments")
+
+
+def test_a_function_may_refuse_a_problem() -> None:
+    def only_couette(gradient_per_s: Array, aspect_ratio: float, p: Array) -> Array:
+        if np.count_nonzero(gradient_per_s) != 1:
+            raise NotImplementedError("simple shear only")
+        return rhs(gradient_per_s, aspect_ratio, p)
+
+    report = shearbed.grade(only_couette, names=["mid-flip-2", "planar-extension"])
+    assert report and report["planar-extension"]["verdict"] == "REFUSED" and "simple shear only" in str(report)
+    problem = next(one for one in shearbed.testing.problems() if str(one) == "planar-extension")
+    with pytest.raises(unittest.SkipTest, match="planar-extension: NotImplementedError: simple shear only"):
+        problem.check(only_couette)
+
+    def broken(gradient_per_s: Array, aspect_ratio: float, p: Array) -> Array:
+        raise RuntimeError("out of luck")
+
+    with pytest.raises(AssertionError, match="out of luck"):
+        problem.check(broken)
 
 
 def dadt(gradient_per_s: Array, aspect_ratio: float, a: Array, model: dict[str, Any]) -> Array:

@@ -14,6 +14,7 @@ from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 from typing import Any
+from unittest import SkipTest
 
 import numpy as np
 from numpy.typing import NDArray
@@ -75,10 +76,13 @@ class Problem:
     def check(self, function: Callable[..., Any], **options: Any) -> None:
         """Grades the function on this problem; ``options`` are those of :func:`grade`.
 
-        Raises ``AssertionError`` with the grader's words unless the verdict is PASS.
+        Raises ``AssertionError`` with the grader's words unless the verdict is PASS, and ``unittest.SkipTest``, a skipped test in pytest
+        too, where the function raises ``NotImplementedError``.
         """
         report = grade(function, names=[self.name], **options)
         judged = report[self.name]
+        if judged["verdict"] == "REFUSED":
+            raise SkipTest(f"{self.name}: {judged['raised']}")
         if judged["verdict"] != "PASS":
             why = [judged["diagnosis"], judged.get("note"), judged["raised"]]
             raise AssertionError("\n".join([str(report), *(str(reason) for reason in why if reason), self.because]))
@@ -153,7 +157,7 @@ class Report:
 
     def __bool__(self) -> bool:
         verdicts = [problem["verdict"] for problem in self.problems]
-        return "PASS" in verdicts and set(verdicts) <= {"PASS", "MISSING"}
+        return "PASS" in verdicts and set(verdicts) <= {"PASS", "REFUSED", "MISSING"}
 
     def __getitem__(self, name: str) -> dict[str, Any]:
         for problem in self.problems:
@@ -230,7 +234,7 @@ def grade(
     judged. With ``order`` the observed order is judged too: one that is lower by whole orders fails. ``tolerance`` is the
     largest error that passes where a problem's own is smaller. ``ten-thousand-periods`` is left out unless ``names`` has it or
     ``steps`` are given. A function that raises an ``ArithmeticError``, ``ValueError`` or ``RuntimeError`` has no answer from there
-    on, and the report says what it raised.
+    on, and the report says what it raised. By ``NotImplementedError`` it says that a problem is none of its own: REFUSED, no failure.
     """
     known = {problem.name: problem for problem in problems() if problem.kind in ("rods", "formula") and not problem.rotation_rad_per_s}
     asked: set[str] = set()
@@ -253,6 +257,7 @@ def grade(
                 what = "right-hand side" if kind == "rhs" else "formula"
                 raise ValueError(f"{name} = {given!r}: a {what} has none; a step or a solver has")
     raised: dict[str, str] = {}
+    refused: set[str] = set()
     uneven: dict[str, str] = {}
     runs: list[tuple[str, int, float, float]] = []
     late: dict[str, int] = {}
@@ -280,6 +285,7 @@ def grade(
                     found = np.full((len(problem.times_s), len(problem.start), 3), np.nan)
                 except (ArithmeticError, RuntimeError, ValueError) as error:
                     raised[problem.name] = f"{type(error).__name__}: {error}"
+                    refused |= {problem.name} if isinstance(error, NotImplementedError) else set()
                     break
                 answer = "answer.csv" if count is None else f"steps-{count}.csv"
                 _write(mine / problem.name / answer, problem, _shaped(found, problem))
@@ -311,6 +317,7 @@ def grade(
         judged["raised"] = raised.get(judged["name"])
         if judged["verdict"] == "MISSING" and judged["raised"]:
             judged["note"] = None
+            judged["verdict"] = "REFUSED" if judged["name"] in refused else "MISSING"
         if judged["name"] in uneven:
             judged["verdict"], judged["diagnosis"] = "FAIL", uneven[judged["name"]]
         # An order that is too low is so whatever the time.
