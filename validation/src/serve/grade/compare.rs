@@ -89,13 +89,15 @@ pub fn compare(loaded: &LoadedProblem, answer: &Answer) -> Compared {
 fn relative(names: &[String], values: &[f64], certified: &[f64]) -> f64 {
     let of_rod = |rod: &str| {
         let due = length(names, rod, |k| certified[k]).max(f64::MIN_POSITIVE);
-        let off = |k: usize| {
-            let off = values[k] - certified[k];
-            if names[k].ends_with("phi_rad") { off - TAU * (off / TAU).round() } else { off }
-        };
-        length(names, rod, off) / due
+        length(names, rod, |k| off(&names[k], values[k], certified[k])) / due
     };
     worst(["a_", "b_"].into_iter().map(of_rod))
+}
+
+/// A value less the one that is due.
+fn off(name: &str, found: f64, due: f64) -> f64 {
+    let off = found - due;
+    if name.ends_with("phi_rad") { off - TAU * (off / TAU).round() } else { off }
 }
 
 /// The length of what `of` gives for each column of a rod, whose names begin with `rod`.
@@ -166,7 +168,7 @@ pub(super) fn worst_entry(loaded: &LoadedProblem, answer: &Answer, row: usize) -
     let keys = loaded.problem.kind.keys().len();
     let (names, values) = (&loaded.problem.columns[keys..], &answer.rows[row]);
     let certified = &loaded.certified.rows[row][keys..];
-    let off = |k: usize| values[k] - certified[k];
+    let off = |k: usize| off(&names[k], values[k], certified[k]);
     let errors: Vec<_> = match loaded.problem.metric {
         Metric::Absolute => (0..names.len()).map(|k| (k, off(k).abs())).collect(),
         Metric::StandardErrors => {

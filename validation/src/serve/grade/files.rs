@@ -135,8 +135,9 @@ pub(super) fn judge(graded: &mut Graded, loaded: &LoadedProblem, answer: &Answer
         let worst = place(loaded, answer, compared.row);
         let place = match compared.remark {
             None => format!("{worst}, in {}", answer.place(compared.row)),
-            Some(remark) if compared.error.is_finite() && !compared.too_little_data => format!("{remark}; {worst}"),
-            Some(remark) => remark,
+            // An answer with too little data may be wrong beyond doubt all the same.
+            Some(remark) if compared.error <= loaded.problem.tolerance || compared.error.is_nan() => remark,
+            Some(remark) => format!("{remark}; {worst}"),
         };
         let needed = graded.steps_needed().filter(|_| off.is_none());
         Some(off.into_iter().chain(needed).chain([place]).chain(digits).collect::<Vec<_>>().join("; "))
