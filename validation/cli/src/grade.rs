@@ -194,6 +194,7 @@ fn files(args: &Args, reference: &Path, mine: &Path) -> Result<Done, Failure> {
     report.diagnosis = grade::overall(&wanted, &mut report.problems);
     report.remarks.extend(on_order(&report.problems, args.order));
     report.remarks.extend(grade::loose(&wanted, &report.problems));
+    report.remarks.extend(grade::single(&report.problems));
     let inputs = inputs::of_files(args, reference, mine, &wanted)?;
     Ok((report, wanted, inputs))
 }
@@ -312,6 +313,7 @@ fn program(args: &Args, command: &str, reference: Option<&Path>) -> Result<Done,
         (!left_out.is_empty()).then(|| format!("{}: {LEFT_OUT}", left_out.join(", "))).into_iter().collect();
     remarks.extend(on_order(&problems, claim.order));
     remarks.extend(grade::loose(&asked, &problems));
+    remarks.extend(grade::single(&problems));
     remarks.extend(program.breaches());
     remarks.extend(program.given_up().map(|reason| format!("the program was given up: {reason}")));
     if let Err(end) = program.close() {

@@ -1,5 +1,6 @@
 //! Answers with few digits: single precision, or few printed ones.
 
+use super::Graded;
 use super::answer::Answer;
 
 /// The range of digits that are recognised: fewer are labels, more are a double's.
@@ -12,27 +13,57 @@ const ROUNDINGS: f64 = 100.0;
 /// The same for printed digits of a double, which round once.
 const PRINTINGS: f64 = 2.0;
 
-/// A sentence if the answer by so many steps has few digits, and its `error` is no more than these explain.
-pub(super) fn remark(answer: &Answer, error: f64, steps: Option<u64>) -> Option<String> {
-    let all = || answer.rows.iter().flatten().copied();
-    if !error.is_finite() || all().any(|x| !x.is_finite()) {
-        return None;
+/// A sentence if answers have single precision and nothing else says so.
+pub fn single(graded: &[Graded]) -> Option<String> {
+    let said = |graded: &Graded| graded.note.as_ref().is_some_and(|note| note.contains("single precision"));
+    let has = |graded: &&Graded| !said(graded) && graded.answer.as_ref().is_some_and(is_single);
+    match graded.iter().filter(has).count() {
+        0 => None,
+        1 => Some("an answer has single precision: each step rounds by 1e-7".to_owned()),
+        many => Some(format!("{many} answers have single precision: each step rounds by 1e-7")),
     }
-    let size = all().fold(0.0, |size: f64, x| size.max(x.abs()));
-    let printed = |x: f64, digits: usize| format!("{x:.*e}", digits - 1).parse::<f64>();
-    let digits = DIGITS.into_iter().find(|digits| all().all(|x| printed(x, *digits) == Ok(x)));
+}
+
+/// A value in so many digits.
+fn printed(x: f64, digits: usize) -> f64 {
+    format!("{x:.*e}", digits - 1).parse().unwrap_or(f64::NAN)
+}
+
+/// The number of digits that all values of an answer have, if they are few.
+fn few(answer: &Answer) -> Option<usize> {
+    DIGITS.into_iter().find(|digits| values(answer).all(|x| printed(x, *digits) == x))
+}
+
+fn values(answer: &Answer) -> impl Iterator<Item = f64> {
+    answer.rows.iter().flatten().copied()
+}
+
+fn has_more_than(answer: &Answer, digits: usize) -> bool {
+    values(answer).any(|x| printed(x, digits) != x)
+}
+
+fn is_single(answer: &Answer) -> bool {
+    let digits = few(answer);
     // Fewer than nine digits say nothing: they round to numbers of single precision and back.
     let is_single = |x: f64| {
         let single = f64::from(x as f32);
-        single == x || digits.is_some_and(|digits| digits > 8 && printed(single, digits) == Ok(x))
+        single == x || digits.is_some_and(|digits| digits > 8 && printed(single, digits) == x)
     };
+    has_more_than(answer, 8) && values(answer).all(is_single)
+}
+
+/// A sentence if the answer by so many steps has few digits, and its `error` is no more than these explain.
+pub(super) fn remark(answer: &Answer, error: f64, steps: Option<u64>) -> Option<String> {
+    if !error.is_finite() || values(answer).any(|x| !x.is_finite()) {
+        return None;
+    }
+    let size = values(answer).fold(0.0, |size: f64, x| size.max(x.abs()));
     let roundings = ROUNDINGS.max(steps.unwrap_or_default() as f64);
-    let have_more_than = |few: usize| all().any(|x| printed(x, few) != Ok(x));
-    if have_more_than(8) && error <= roundings * f64::from(f32::EPSILON) * size && all().all(is_single) {
+    if error <= roundings * f64::from(f32::EPSILON) * size && is_single(answer) {
         return Some("your answer has single precision, whose errors of 1e-7 and more explain this one".to_owned());
     }
     // Zeros and ones are numbers of any precision.
-    let digits = digits.filter(|_| have_more_than(3))?;
+    let digits = few(answer).filter(|_| has_more_than(answer, 3))?;
     let last = 10f64.powi(1 - digits as i32) * size;
     (error <= PRINTINGS * last).then(|| {
         format!(
@@ -62,6 +93,13 @@ mod tests {
         assert!(remark(&printed, 1e-8, None).unwrap().contains("8 digits"));
         assert_eq!(remark(&printed, 1e-3, None), None);
         assert_eq!(remark(&of(vec![vec![0.1 + 0.2, 1.0 / 3.0]]), 1e-8, None), None);
+        // An answer that passes has it said too.
+        let problem = &crate::serve::problems::loaded("mid-flip-2");
+        let with = |rows: Vec<Vec<f64>>| Graded { answer: Some(of(rows)), ..Graded::without_answer(problem) };
+        let [single_one, double] = [f64::from(0.1f32), 0.1].map(|x| with(vec![vec![x, f64::from(0.7f32), 1.0 / 2.0]]));
+        assert!(self::single(&[single_one.clone(), double.clone()]).unwrap().starts_with("an answer has single"));
+        assert!(self::single(&[single_one.clone(), single_one]).unwrap().starts_with("2 answers have single"));
+        assert_eq!(self::single(&[double]), None);
         // Labels, and other errors than rounding.
         assert_eq!(remark(&of(vec![vec![0.0, 1.0, 0.5]]), 1e-6, None), None);
         assert_eq!(remark(&of(vec![vec![f64::NAN]]), f64::NAN, None), None);

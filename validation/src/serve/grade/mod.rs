@@ -27,6 +27,7 @@ mod trace;
 pub use crate::files::csv::LineEnds;
 pub use axes::Axes;
 pub use diagnosis::loose;
+pub use digits::single;
 pub use files::{Claim, Options, grade, grade_one};
 pub use html::html;
 pub use lammps::DumpOptions;
