@@ -104,9 +104,15 @@ impl Document {
     /// Takes a dotted key of the text out; one that was set stays.
     pub(super) fn drop_written(&mut self, key: &str) {
         let path: Vec<_> = key.split('.').map(str::to_owned).collect();
-        if self.places.remove(&path).is_none() {
-            return;
+        if self.places.contains_key(&path) {
+            self.remove(key);
         }
+    }
+
+    /// Takes a dotted key out, where it is.
+    pub fn remove(&mut self, key: &str) {
+        let path: Vec<_> = key.split('.').map(str::to_owned).collect();
+        self.places.remove(&path);
         let mut entries = &mut self.root;
         for table in &path[..path.len() - 1] {
             let Some(Value::Table(inner)) = entries.get_mut(table) else { return };
@@ -182,7 +188,8 @@ impl<'a> Table<'a> {
         self.entries.get(key).cloned()
     }
 
-    pub(super) fn whole(&self) -> toml::Table {
+    /// The keys and values.
+    pub fn whole(&self) -> toml::Table {
         self.entries.clone()
     }
 

@@ -42,7 +42,8 @@ pub const DENSE: f64 = 0.1;
 const CONCENTRATIONS: [&str; 3] =
     ["interaction.concentration_per_cm3", "interaction.box_mm", "particles.volume_fraction"];
 
-/// Sets a key of a scene's document. A concentration replaces that of the text, under whichever key that stands.
+/// Sets a key of a scene's document. A concentration replaces that of the text, under whichever key that stands, and a
+/// duration one in another unit, with the steps and outputs per that unit.
 ///
 /// # Errors
 ///
@@ -52,6 +53,10 @@ pub fn set(document: &mut document::Document, key: &str, value: toml::Value) -> 
     if CONCENTRATIONS.contains(&key) {
         // The one that was set is not the text's any more.
         CONCENTRATIONS.iter().for_each(|written| document.drop_written(written));
+    }
+    if TimeUnit::ALL.iter().any(|unit| unit.duration_key() == key) {
+        let others = TimeUnit::ALL.iter().filter(|unit| unit.duration_key() != key);
+        others.flat_map(|unit| unit.keys()).for_each(|written| document.drop_written(written));
     }
     Ok(())
 }

@@ -45,7 +45,7 @@ impl TimeUnit {
     }
 
     /// The keys of the duration, of the steps and of the outputs.
-    const fn keys(self) -> [&'static str; 3] {
+    pub(super) const fn keys(self) -> [&'static str; 3] {
         match self {
             Self::Period => ["time.periods", "time.steps_per_period", "time.outputs_per_period"],
             Self::Strain => ["time.strain", "time.steps_per_strain", "time.outputs_per_strain"],

@@ -77,13 +77,14 @@ fn of_a_long_line_or_value_the_start_is_shown() {
     assert!(error.contains("particles.count = \"x\" is not allowed"), "{error}");
 }
 
-/// A concentration that is set replaces that of the text, whatever the key; of two that are set none gives way.
+/// A concentration or a duration that is set replaces that of the text, whatever the key; of two that are set none
+/// gives way.
 #[test]
-fn a_concentration_that_is_set_replaces_the_texts() {
+fn a_concentration_or_a_duration_that_is_set_replaces_the_texts() {
     use crate::scene::{document::Document, of_document, set};
     let text = "title = 't'\n[flow]\nshear_rate_per_s = 1\n[particles]\ncount = 5\nlength_mm = 1\naspect_ratio = 10\n\
                 orientation = 'isotropic'\n[interaction]\nconcentration_per_cm3 = 20\nalpha = 0.5\n\
-                [time]\nperiods = 1\n";
+                [time]\nperiods = 1\nsteps_per_period = 60\noutputs_per_period = 60\n";
     let with = |settings: &[(&str, toml::Value)]| {
         let mut document = Document::parse("t.toml", text)?;
         settings.iter().try_for_each(|(key, value)| set(&mut document, key, value.clone()))?;
@@ -97,6 +98,30 @@ fn a_concentration_that_is_set_replaces_the_texts() {
     assert_eq!(with(&[("interaction.box_mm", sides)]).unwrap().concentration_key(), "interaction.box_mm");
     let both = with(&[fraction, ("interaction.concentration_per_cm3", 30.into())]);
     assert!(both.is_err() || crate::Plan::new(&both.unwrap()).is_err());
+    let time = with(&[("time.strain", 3.0.into())]).unwrap().time;
+    assert_eq!(time, crate::scene::Time::strain(3.0));
+    // The same unit keeps its steps.
+    let time = with(&[("time.periods", 3.0.into())]).unwrap().time;
+    assert_eq!((time.duration, time.steps_per_unit, time.outputs_per_unit), (3.0, Some(60), Some(60)));
+    assert!(with(&[("time.strain", 3.0.into()), ("time.seconds", 3.0.into())]).is_err());
+    assert!(with(&[("time.steps_per_period", 30.into()), ("time.strain", 3.0.into())]).is_err());
+}
+
+/// A key that is taken out is gone, with or without a place in the text.
+#[test]
+fn a_key_is_taken_out() {
+    use crate::scene::document::Document;
+    let mut document = Document::parse("t.toml", "title = 't'\n[a]\nb = 1\nc = 2\n").unwrap();
+    document.set("a.d", 3.into()).unwrap();
+    let keys = |document: &Document| {
+        let keys = |table: toml::Table| table.into_iter().map(|(key, _)| key).collect::<Vec<_>>();
+        [keys(document.root().whole()), keys(document.root().table("a").unwrap().whole())].concat()
+    };
+    assert_eq!(keys(&document), ["a", "title", "b", "c", "d"]);
+    ["a.b", "a.d", "a.x", "x.y", "title.z"].iter().for_each(|key| document.remove(key));
+    assert_eq!(keys(&document), ["a", "title", "c"]);
+    document.remove("title");
+    assert_eq!(keys(&document), ["a", "c"]);
 }
 
 /// Each regime begins where it says, here with rods of 1 cm.

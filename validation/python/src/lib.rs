@@ -12,7 +12,7 @@ use shearbed::observable::Channel;
 use shearbed::run::ensemble;
 use shearbed::run::{Replica, run_replica};
 use shearbed::scene::document::{Document, value as value_of};
-use shearbed::scene::{Absent, Key, of_document};
+use shearbed::scene::{Absent, Key, of_document, set};
 use shearbed::{Error, Observable, Plan, Results, Scene};
 use shearbed_validation::input::{scenes, start::Starts};
 use std::ffi::OsString;
@@ -76,26 +76,19 @@ fn describe(name: &str, text: &str) -> PyResult<(String, String, Vec<String>, Op
 /// The text of a scene with values, which are TOML, at dotted keys; a key without a value is taken out.
 #[pyfunction]
 fn changed(name: &str, text: &str, values: Vec<(String, Option<String>)>) -> PyResult<String> {
-    let refused = |error: &dyn std::fmt::Display| SceneError::new_err(format!("{name}: {error}"));
-    let mut scene: toml::Table = toml::from_str(text).map_err(|error| refused(&error))?;
+    let refused = |error: &dyn std::fmt::Display| SceneError::new_err(error.to_string());
+    let mut document = Document::parse(name, text).map_err(|error| refused(&error))?;
     for (key, value) in values {
-        let (tables, last) = key.rsplit_once('.').unwrap_or(("", &key));
-        let mut table = &mut scene;
-        for part in tables.split_terminator('.') {
-            let inner = table.entry(part).or_insert_with(|| toml::Value::Table(toml::Table::new()));
-            table =
-                inner.as_table_mut().ok_or_else(|| refused(&format!("{part} is no table, so there is no {key}")))?;
-        }
         match value {
             Some(value) => {
-                let value =
-                    value_of(&value).ok_or_else(|| refused(&format!("{key} = {value}: no value of a scene")))?;
-                table.insert(last.to_owned(), value);
+                let no_value = || refused(&format!("{name}: {key} = {value}: no value of a scene"));
+                let value = value_of(&value).ok_or_else(no_value)?;
+                set(&mut document, &key, value).map_err(|error| refused(&error))?;
             }
-            None => drop(table.remove(last)),
+            None => document.remove(&key),
         }
     }
-    toml::to_string(&scene).map_err(|error| refused(&error))
+    toml::to_string(&document.root().whole()).map_err(|error| refused(&error))
 }
 
 /// The names and symbols of an observable's channels.

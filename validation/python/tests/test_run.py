@@ -178,14 +178,19 @@ def test_a_scene_with_other_values() -> None:
     assert len({scene, shearbed.Scene(**SMALL), changed}) == 2
     # Defaults follow: longer rods take more steps.
     assert scene.replace(aspect_ratio=50) == shearbed.Scene(**(SMALL | dict(aspect_ratio=50)))
-    in_place = scene.replace(concentration_per_cm3=None, volume_fraction=1e-4)
-    assert "volume_fraction" in in_place.toml
+    # What is said replaces what stood for it.
+    in_place = scene.replace(volume_fraction=1e-4)
+    assert "volume_fraction" in in_place.toml and "concentration_per_cm3" not in in_place.toml
+    assert in_place == scene.replace(concentration_per_cm3=None, volume_fraction=1e-4)
+    assert scene.replace(seconds=10).replace(strain=2, replicas=None) == shearbed.Scene(
+        **{key: value for key, value in SMALL.items() if key not in ("periods", "steps_per_period", "outputs_per_period")}, strain=2
+    )
     assert shearbed.run(scene, set={"alpha": 0.25}).x1.tobytes() == shearbed.run(scene.replace(alpha=0.25)).x1.tobytes()
     assert repr(scene) == "<Scene 'scene': 20 rods, 1 replica, t/T = 0.5, 26 outputs, 100 time steps>"
     assert "<pre>scene\n" in scene._repr_html_()
     with pytest.raises(shearbed.SceneError, match="alhpa"):
         scene.replace(alhpa=0.3)
-    with pytest.raises(shearbed.SceneError, match="title is no table, so there is no title.x"):
+    with pytest.raises(shearbed.SceneError, match="title is not a table: it has no key x"):
         scene.replace(**{"title.x": 1})
 
 
