@@ -140,8 +140,11 @@ pub(super) fn per(time_name: &str) -> &'static str {
 pub(super) fn summary(plan: &Plan, time_name: &str, all: &[OfChannel]) -> String {
     let replicas = plan.scene().ensemble.replicas;
     let number = |estimate: Estimate, decimals: usize| match estimate.se {
-        Some(se) => format!("{:.decimals$} ± {se:.decimals$}", estimate.value),
-        None => format!("{:.decimals$}", estimate.value),
+        Some(se) if se > 0.0 => {
+            let decimals = (-se.log10().floor()).clamp(decimals as f64, 9.0) as usize;
+            format!("{:.decimals$} ± {se:.decimals$}", estimate.value)
+        }
+        _ => format!("{:.decimals$}", estimate.value),
     };
     // Free rods of one size do not damp: what outputs between extremes miss would look like a rate.
     let least = if plan.runs(Stage::Contacts) { 1e-3 } else { 1e-2 };

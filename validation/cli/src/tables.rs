@@ -81,6 +81,21 @@ pub(super) fn is_bounded(column: &str) -> bool {
     channel.is_none_or(|channel| channel.range().iter().all(|end| end.is_finite()))
 }
 
+/// A mean with its standard error, in four decimals or as many as show the error; alone where it has none.
+fn with_error(column: &Column, k: usize) -> String {
+    let (mean, se) = (column.mean[k], column.se[k]);
+    // Below is rounding.
+    let has_error = se >= 1e-9;
+    let decimals = if has_error { (-se.log10().floor()).clamp(4.0, 9.0) as usize } else { 4 };
+    // Values without bounds have a size of their own.
+    let number = |x: f64| if is_bounded(&column.name) { format!("{x:.decimals$}") } else { format!("{x:.2e}") };
+    if has_error || se > 0.0 && !is_bounded(&column.name) {
+        format!("{} ± {}", number(mean), number(se))
+    } else {
+        number(mean)
+    }
+}
+
 /// For each channel the first and the last mean, the least and the largest with their times, and a sparkline.
 pub(super) fn summary(results: &Results) -> String {
     let name = match results.time_name {
@@ -94,28 +109,27 @@ pub(super) fn summary(results: &Results) -> String {
     for series in &results.series {
         let longest = shown(series).iter().map(|channel| channel.name.len() + 1).max();
         let margin = longest.unwrap_or_default().max(7);
+        let values = shown(series).into_iter().flat_map(|channel| [0, last].map(|k| with_error(channel, k)));
+        let width = values.map(|value| value.chars().count()).max().unwrap_or_default().max(16) + 2;
         text += &format!(
-            "{:<margin$}{:<18}{:<18}{:<17}largest\n",
+            "{:<margin$}{:<width$}{:<width$}{:<17}largest\n",
             "",
             format!("at {name} = {}", brief(time(0))),
             format!("at {name} = {}", brief(time(last))),
             "least"
         );
         for channel in shown(series) {
-            // Values without bounds have a size of their own.
-            let bounded = is_bounded(&channel.name);
-            let number = |x: f64| if bounded { format!("{x:.4}") } else { format!("{x:.2e}") };
-            let value = |k: usize| format!("{} ± {}", number(channel.mean[k]), number(channel.se[k]));
+            let number = |x: f64| if is_bounded(&channel.name) { format!("{x:.4}") } else { format!("{x:.2e}") };
             let order = |a: &usize, b: &usize| channel.mean[*a].total_cmp(&channel.mean[*b]);
             let extreme = |k: Option<usize>| {
                 k.map_or_else(String::new, |k| format!("{} at {}", number(channel.mean[k]), brief(time(k))))
             };
             let outputs = 0..channel.mean.len();
             text += &format!(
-                "{:<margin$}{:<17} {:<17} {:<16} {}\n{:<margin$}{}\n",
+                "{:<margin$}{:<width$}{:<width$}{:<16} {}\n{:<margin$}{}\n",
                 channel.name,
-                value(0),
-                value(last),
+                with_error(channel, 0),
+                with_error(channel, last),
                 extreme(outputs.clone().min_by(order)),
                 extreme(outputs.rev().max_by(order)),
                 "",
