@@ -91,7 +91,7 @@ pub(super) fn thumbnails(report: &Report) -> Result<Vec<Json>, String> {
     // Three pictures are side by side and must be legible: they are drawn narrow, with large letters, and the one of
     // most methods wider.
     let wanted =
-        [("fig4", Some((310, 380))), ("work-precision-re11.6", Some((430, 440))), ("stability-steps", Some((310, 0)))];
+        [("fig4", Some((270, 400))), ("work-precision-re11.6", Some((430, 440))), ("stability-steps", Some((270, 0)))];
     let found = |(name, size)| {
         let figure = report.sections.figures().find(|figure| figure.name == name)?;
         Some((figure, Figure { size, ..figure.figure.clone() }))
