@@ -34,10 +34,10 @@ pub(super) struct Args {
     /// picture's name
     #[arg(long = "y", value_name = "CHANNELS", value_delimiter = ',')]
     channels: Vec<String>,
-    /// A key of a sweep to draw its channel against, or a product of powers: KEY*KEY^(1/3)
+    /// What is across: a key of a sweep, or a product of powers, KEY*KEY^(1/3); or t_over_T, time_s or strain
     #[arg(long = "x", value_name = "KEY", conflicts_with = "data")]
     key: Option<String>,
-    /// With --x: the time [default: the last output's]; of extremes, to a quarter period [default: the first of most
+    /// With a key: the time [default: the last output's]; of extremes, to a quarter period [default: the first of most
     /// points]
     #[arg(long, value_name = "TIME", requires = "key", value_parser = time, allow_negative_numbers = true)]
     at: Option<f64>,
@@ -59,6 +59,9 @@ pub(super) struct Args {
     #[arg(long)]
     force: bool,
 }
+
+/// Columns of time that every table of a run has.
+const TIMES: [&str; 3] = ["t_over_T", "time_s", "strain"];
 
 fn time(text: &str) -> Result<f64, String> {
     number(text, |_| true, "a finite number")
@@ -85,9 +88,15 @@ pub(super) fn plot(args: &Args) -> Result<(), Failure> {
 }
 
 fn of_runs(args: &Args) -> Result<(Figure, String), Failure> {
-    let mut drawn = drawn_of(&args.dirs, &args.channels)?;
+    let across = args.key.as_deref().filter(|key| TIMES.contains(key));
+    let mut drawn = drawn_of(&args.dirs, &args.channels, across)?;
     let (channels, runs) = (drawn.channels.join(", "), drawn.runs.len());
-    if let Some(key) = &args.key {
+    if let (Some(_), Some(at)) = (across, args.at) {
+        return Err(Failure::Input(format!(
+            "--at {at}: a curve against time has all times; --x KEY of a sweep has one"
+        )));
+    }
+    if let (Some(key), None) = (&args.key, across) {
         if args.dirs.len() > 1 {
             let message = format!("--x {key}: {} folders are given; one sweep is allowed", args.dirs.len());
             return Err(Failure::Input(message));
@@ -159,13 +168,13 @@ impl Drawn {
 
 /// Channels of every folder against time; by default the first channel of the first folder.
 pub(super) fn figure(dirs: &[PathBuf], channels: &[String]) -> Result<Figure, Failure> {
-    let drawn = drawn_of(dirs, channels)?;
+    let drawn = drawn_of(dirs, channels, None)?;
     drawn.is_defined()?;
     Ok(drawn.figure)
 }
 
-/// The same, also where a channel is undefined in some runs.
-fn drawn_of(dirs: &[PathBuf], channels: &[String]) -> Result<Drawn, Failure> {
+/// The same, also where a channel is undefined in some runs, against the column `across`.
+fn drawn_of(dirs: &[PathBuf], channels: &[String], across: Option<&str>) -> Result<Drawn, Failure> {
     let mut runs = Vec::new();
     for dir in dirs {
         runs.extend(runs_in(dir)?);
@@ -175,7 +184,7 @@ fn drawn_of(dirs: &[PathBuf], channels: &[String]) -> Result<Drawn, Failure> {
     };
     let mut rows = MOST_ROWS;
     let channels = match channels {
-        [] => vec![table::channel(first, None, &mut rows.clone())?.channel],
+        [] => vec![table::channel(first, None, across, &mut rows.clone())?.channel],
         asked => asked.to_vec(),
     };
     let symbols = channels.iter().map(|channel| names::channel(channel)).collect::<Vec<_>>();
@@ -187,7 +196,7 @@ fn drawn_of(dirs: &[PathBuf], channels: &[String]) -> Result<Drawn, Failure> {
         let differ = runs.len() > 1 && titles.len() == runs.len();
         let label = if differ { &run.scene.title } else { &run.label };
         for (channel, symbol) in channels.iter().zip(&symbols) {
-            let mut found = table::channel(run, Some(channel), &mut rows)?;
+            let mut found = table::channel(run, Some(channel), across, &mut rows)?;
             let time = time.get_or_insert_with(|| found.time.clone());
             if *time != found.time {
                 return Err(Failure::Input(format!(

@@ -1,6 +1,6 @@
 //! A channel at one time against a swept key.
 
-use super::{Drawn, Run};
+use super::{Drawn, Run, TIMES};
 use crate::Failure;
 use crate::derived::{is_extreme, lacks};
 use shearbed_validation::files::text::Shown;
@@ -26,9 +26,8 @@ pub(super) fn against(drawn: Drawn, key: &str, at: Option<f64>) -> Result<(Figur
         let mut without = Vec::new();
         for ((run, curve), place) in runs.iter().zip(own).zip(places) {
             let point = run.point.as_ref().ok_or_else(|| {
-                let as_is = ["time_s", "strain", "t_over_T", "t_s"].contains(&key);
-                let hint = if as_is { "; a run is drawn against its own time, time.unit of its scene" } else { "" };
-                refused(format!("{} is no sweep; a folder of `shearbed sweep` is allowed{hint}", run.dir.shown()))
+                let times = TIMES.join(", ");
+                refused(format!("{} is no sweep, of which a key is allowed; of a run {times} are", run.dir.shown()))
             })?;
             let (value, others) = value(point, key).map_err(refused)?;
             let Some(place) = place else {

@@ -24,9 +24,14 @@ pub(super) struct Found {
     pub(super) curve: Curve,
 }
 
-/// The column `wanted` of the run's tables, by default the first of the first table. `left` counts down the rows that
-/// may be read.
-pub(super) fn channel(run: &Run, wanted: Option<&str>, left: &mut usize) -> Result<Found, Failure> {
+/// The column `wanted` of the run's tables, by default the first of the first table, against the column `across`, by
+/// default the time of the run's unit. `left` counts down the rows that may be read.
+pub(super) fn channel(
+    run: &Run,
+    wanted: Option<&str>,
+    across: Option<&str>,
+    left: &mut usize,
+) -> Result<Found, Failure> {
     let mut known = Vec::new();
     let observables = run.scene.output.observables.iter().map(|observable| format!("{}.csv", observable.name()));
     let derived = [EXTREMES, DERIVED].map(str::to_owned).into_iter();
@@ -47,11 +52,15 @@ pub(super) fn channel(run: &Run, wanted: Option<&str>, left: &mut usize) -> Resu
             known.extend(channels);
             continue;
         };
-        let [x, y, se] = table.columns(chosen, left)?;
+        let time = match across {
+            Some(across) => table.0.place(across).ok_or_else(|| at(format!(": has no column {across}")))?,
+            None => 0,
+        };
+        let [x, y, se] = table.columns(time, chosen, left)?;
         run.record.check(&name, &table.sum()).map_err(|why| at(format!(": {why}")))?;
         let half = pictures::half_widths(&run.scene);
         return Ok(Found {
-            time: table.0.names()[0].clone(),
+            time: table.0.names()[time].clone(),
             channel: chosen.clone(),
             curve: Curve {
                 label: String::new(),
@@ -89,11 +98,11 @@ impl RunTable {
         channels.cloned().collect()
     }
 
-    /// The times, and the means and standard errors of a channel, each checked. `left` counts down the rows that may be
-    /// read.
-    fn columns(&mut self, channel: &str, left: &mut usize) -> Result<[Vec<f64>; 3], FileError> {
+    /// The times, from the column at `time`, and the means and standard errors of a channel, each checked. `left`
+    /// counts down the rows that may be read.
+    fn columns(&mut self, time: usize, channel: &str, left: &mut usize) -> Result<[Vec<f64>; 3], FileError> {
         let place = |name: &str| self.0.place(name).unwrap_or(0);
-        let places = [0, place(channel), place(&format!("{channel}_se"))];
+        let places = [time, place(channel), place(&format!("{channel}_se"))];
         let mut columns = [(); 3].map(|()| Vec::new());
         let mut rows = 0;
         while let Some(row) = self.0.next_row()? {
