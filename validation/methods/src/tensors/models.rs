@@ -190,6 +190,7 @@ impl Equation {
             spin,
             strain,
             square: strain * strain,
+            by_component: [false; 2],
             spun: [1.0, -1.0],
             stretched: [1.0, 1.0],
             of_strain: shape,
@@ -197,6 +198,7 @@ impl Equation {
             pairs: 1.0,
             speed,
             decay: 3.0,
+            off_diagonal: 0.0,
             drift: RIGHT,
             kappas: [self.model.slowness(); 2],
             in_laboratory: false,
@@ -219,6 +221,8 @@ pub struct Parts {
     pub strain: Matrix3<f64>,
     /// D² of a diffusivity, in 1/s².
     pub square: Matrix3<f64>,
+    /// Whether products with W and with D are those of each component alone.
+    pub by_component: [bool; 2],
     /// The 1 before Wa and the −1 before aW.
     pub spun: [f64; 2],
     /// The 1 before Da and before aD.
@@ -233,6 +237,8 @@ pub struct Parts {
     pub speed: f64,
     /// The 3 of Folgar & Tucker's δ − 3a.
     pub decay: f64,
+    /// What stands off the diagonal of their δ, 0.
+    pub off_diagonal: f64,
     /// The 5 before Ca + aC and the 10 before 𝔸:C.
     pub drift: [f64; 2],
     /// κ at 𝔸, and at the diffusion.
@@ -247,8 +253,11 @@ impl Parts {
     /// The rate da_ij/dt in 1/s of the equation with these parts, as it stands: the trace is not corrected.
     pub fn rate(&self, a: &Matrix3<f64>, fourth: &Fourth) -> Matrix3<f64> {
         let Self { spin: w, strain: d, spun, stretched, of_strain, of_fourth, speed, decay, .. } = self;
-        let sides = |x: &Matrix3<f64>, [left, right]: &[f64; 2]| x * a * *left + a * x * *right;
-        let turned = sides(w, spun);
+        let sides = |x: &Matrix3<f64>, [left, right]: &[f64; 2], by_component: bool| {
+            let [xa, ax] = if by_component { [x.component_mul(a); 2] } else { [x * a, a * x] };
+            xa * *left + ax * *right
+        };
+        let turned = sides(w, spun, self.by_component[0]);
         if *d == Matrix3::zeros() {
             return turned;
         }
@@ -258,10 +267,11 @@ impl Parts {
         let by_fourth = |x: &Matrix3<f64>| {
             fourth.contract(&Matrix3::from_fn(|k, l| if k == l { x[(k, l)] } else { self.pairs * x[(k, l)] }))
         };
-        let stretched = sides(d, stretched) * *of_strain - by_fourth(d) * *of_fourth;
+        let stretched = sides(d, stretched, self.by_component[1]) * *of_strain - by_fourth(d) * *of_fourth;
         let diffused = match self.model {
             Model::FolgarTucker { c_i } | Model::Rsc { c_i, .. } => {
-                (Matrix3::identity() - a * *decay) * (2.0 * kappa * c_i)
+                let ones = Matrix3::from_fn(|i, j| if i == j { 1.0 } else { self.off_diagonal });
+                (ones - a * *decay) * (2.0 * kappa * c_i)
             }
             _ => {
                 let slowness = (source - c) * 2.0 + a * (2.0 * (1.0 - kappa) * c.trace());

@@ -22,6 +22,8 @@ impl Mistake {
 }
 
 const L: &str = "L_ij = ∂u_i/∂x_j, W = (L − Lᵀ)/2, D = (L + Lᵀ)/2";
+const TRANSPOSED: &str = "L_ij = ∂u_i/∂x_j, W = (L − Lᵀ)/2: W with the wrong sign is the same";
+const PRODUCTS: &str = "Wa, aW, Da and aD are products of matrices";
 const SHAPE: &str = "Λ = (r_e² − 1)/(r_e² + 1), below 0 for discs";
 const SIDES: &str = "the rate is Wa − aW + Λ(Da + aD − 2𝔸:D) + diffusion: Da is not symmetric, Da + aD is";
 const CONTRACTION: &str = "𝔸:D sums over all nine pairs k, l: 12, 13 and 23 count twice";
@@ -40,11 +42,15 @@ const fn mistake(name: &'static str, advice: &'static str, change: fn(Parts) -> 
 }
 
 /// Every known mistake in the parts of the rate.
-pub const MISTAKES: [Mistake; 94] = [
-    mistake("a transposed gradient", L, |p| Some(Parts { spin: -p.spin, ..p })),
+pub const MISTAKES: [Mistake; 97] = [
+    mistake("a transposed gradient", TRANSPOSED, |p| Some(Parts { spin: -p.spin, ..p })),
     mistake("the flow reversed (L with the wrong sign, or time backwards)", L, |p| {
         Some(Parts { spin: -p.spin, strain: -p.strain, ..p })
     }),
+    mistake("Wa − aW and Da + aD by components (NumPy's * for @)", PRODUCTS, |p| {
+        Some(Parts { by_component: [true; 2], ..p })
+    }),
+    mistake("Da + aD by components (NumPy's * for @)", PRODUCTS, |p| Some(Parts { by_component: [false, true], ..p })),
     mistake("half the shear rate", L, |p| Some(scaled(p, 0.5, 0.5, 0.5))),
     mistake("twice the shear rate", L, |p| Some(scaled(p, 2.0, 2.0, 2.0))),
     mistake("D without its ½", L, |p| Some(scaled(p, 1.0, 2.0, 2.0))),
@@ -100,11 +106,14 @@ pub const MISTAKES: [Mistake; 94] = [
     }),
     mistake("the largest |L_ij| for γ̇", SPEED, |p| Some(Parts { speed: gradient(&p).amax(), ..p })),
     mistake("γ̇ left out", SPEED, |p| Some(Parts { speed: 1.0, ..p })),
-    mistake("half the C_I (C_I γ̇ (δ − 3a), without the 2)", SPREAD, |p| spread(p, 0.5)),
+    mistake("half the C_I (C_I γ̇ (δ − 3a), without the 2, or γ̇ = (D:D/2)^½)", SPREAD, |p| spread(p, 0.5)),
     mistake("twice the C_I", SPREAD, |p| spread(p, 2.0)),
     mistake("2 C_I γ̇ (δ/3 − a) for diffusion", SPREAD, |p| spread(p, 1.0 / 3.0)),
     mistake("6 C_I γ̇ (δ − 3a) for diffusion", SPREAD, |p| spread(p, 3.0)),
     mistake("2 C_I γ̇ (δ − 2a) for diffusion", SPREAD, |p| Some(Parts { decay: 2.0, ..p })),
+    mistake("2 C_I γ̇ (1 − 3a) for diffusion, with 1 in every component of δ", SPREAD, |p| {
+        is_isotropic(&p).then_some(Parts { off_diagonal: 1.0, ..p })
+    }),
     mistake("diffusion left out", SPREAD, |p| spread(p, 0.0)),
     mistake("diffusion with the wrong sign", SPREAD, |p| spread(p, -1.0)),
     mistake("1 − κ for κ", RSC, |p| slowed(p, |kappas| kappas.map(|kappa| 1.0 - kappa))),

@@ -40,7 +40,7 @@ pub static CLOSURES: LazyLock<Vec<Stand>> = LazyLock::new(|| {
     listed.into_iter().chain(Closure::ALL.into_iter().flat_map(inside)).collect()
 });
 
-const LISTED: [(&str, Form); 35] = [
+const LISTED: [(&str, Form); 37] = [
     ("the linear closure", linear),
     ("the quadratic closure", quadratic),
     ("the hybrid closure", |a| Closure::Hybrid.fourth(a)),
@@ -84,6 +84,14 @@ const LISTED: [(&str, Form); 35] = [
     }),
     ("a hybrid closure with f = 1 + 27 det a", |a| mixed(a, 2.0 - aligned(a), linear)),
     ("a hybrid closure with f² for f", |a| mixed(a, aligned(a).powi(2), linear)),
+    ("a hybrid closure with a_11 a_22 a_33 for det a", |a| {
+        mixed(a, 1.0 - 27.0 * a.diagonal().iter().product::<f64>(), linear)
+    }),
+    ("a hybrid closure with a_ik a_jl for a_ij a_kl, or 𝔸 contracted over i and k", |a| {
+        let f = aligned(a);
+        let crossed = Fourth::from_fn(|i, j, k, l| a[(i, k)] * a[(j, l)]);
+        Fourth(crossed.0 * f + linear(a).0 * (1.0 - f))
+    }),
 ];
 
 /// The linear closure with the numbers of rods in a plane.
@@ -295,19 +303,27 @@ pub fn numbered(closure: Closure) -> Numbered {
             orthotropic::Fit { coefficients: numbers.to_vec(), ..fit.clone() }.fourth(a)
         })
     };
-    let linear_terms = || TERMS.map(|term| before(&format!("{term} of its linear part")));
+    // Both brackets as a whole, then each term of theirs.
+    let linear_terms = || {
+        let brackets = [("before its terms with a_ij", 1.0 / 7.0), ("before its terms δ_ij δ_kl", -1.0 / 35.0)];
+        let brackets = brackets.map(|(name, value)| (name.to_owned(), value));
+        brackets.into_iter().chain(TERMS.map(|term| before(&format!("{term} of its linear part"))))
+    };
+    let linear = |numbers: &[f64], a: &Matrix3<f64>| {
+        weighted(a, &std::array::from_fn(|k| numbers[2 + k]), 1.0 / numbers[0], -1.0 / numbers[1])
+    };
     match closure {
-        Closure::Linear => Numbered::new(linear_terms(), |numbers, a| weighted(a, &nine(numbers), 7.0, 35.0)),
+        Closure::Linear => Numbered::new(linear_terms(), linear),
         Closure::Quadratic | Closure::Natural => Numbered::new([], move |_, a| closure.fourth(a)),
         Closure::Hybrid => {
             let determinant = OF_DETERMINANT.iter().map(|(name, ..)| (format!("before {name} in det a"), 1.0));
             let f = [("as the constant of f".to_owned(), 1.0), ("before det a in f".to_owned(), -27.0)];
-            let all: Vec<_> = linear_terms().into_iter().chain(f).chain(determinant).collect();
-            Numbered::new(all, |numbers, a| {
-                let products = OF_DETERMINANT.iter().zip(&numbers[11..]);
+            let all: Vec<_> = linear_terms().chain(f).chain(determinant).collect();
+            Numbered::new(all, move |numbers, a| {
+                let products = OF_DETERMINANT.iter().zip(&numbers[13..]);
                 let determinant: f64 =
                     products.map(|((_, sign, at), n)| sign * n * at.map(|at| a[at]).iter().product::<f64>()).sum();
-                mixed(a, numbers[9] + numbers[10] * determinant, |a| weighted(a, &nine(numbers), 7.0, 35.0))
+                mixed(a, numbers[11] + numbers[12] * determinant, |a| linear(numbers, a))
             })
         }
         Closure::Ore => in_axes(orthotropic::Fit::ore()),
@@ -342,10 +358,6 @@ pub fn numbered(closure: Closure) -> Numbered {
             })
         }
     }
-}
-
-fn nine(numbers: &[f64]) -> [f64; 9] {
-    std::array::from_fn(|k| numbers[k])
 }
 
 /// A product of three components, with its name and the number before it.

@@ -178,8 +178,22 @@ fn along(one: &[f64], two: &[f64], found: &[f64]) -> Option<f64> {
     (square > 0.0).then(|| along / square)
 }
 
-/// A value and the right one in as many decimals as tell them apart, and four digits at least.
+/// 1/n, if the value is that.
+fn fraction(value: f64) -> Option<String> {
+    let whole = value.recip().round();
+    let is_it = (2.0..1000.0).contains(&whole.abs()) && (value * whole - 1.0).abs() < 1e-8;
+    is_it.then(|| format!("{}1/{}", if whole < 0.0 { "-" } else { "" }, whole.abs()))
+}
+
+/// A value and the right one as fractions, or in as many decimals as tell them apart, and four digits at least.
 fn apart_in_digits(value: f64, right: f64) -> [String; 2] {
+    if let (Some(right), whole) = (fraction(right), value.round()) {
+        // Whole numbers are written by hand too.
+        let whole = ((value - whole).abs() < 1e-8).then(|| whole.to_string());
+        if let Some(value) = fraction(value).or(whole) {
+            return [value, right];
+        }
+    }
     let place = |x: f64| x.abs().max(1e-15).log10().floor();
     let decimals = (2.0 - place(value - right)).max(3.0 - place(right.abs().max(value.abs()))).max(0.0) as usize;
     [value, right].map(|x| {
@@ -199,6 +213,9 @@ fn a_value_and_the_right_one_have_the_digits_that_tell_them_apart() {
     assert_eq!(apart_in_digits(-1.874_663, -1.872_663), ["-1.87466", "-1.87266"]);
     assert_eq!(apart_in_digits(-1e-15, 1.0), ["0", "1"]);
     assert_eq!(apart_in_digits(1e100, 1.0), ["1.000e100", "1"]);
+    assert_eq!(apart_in_digits(1.0 / 15.0, 1.0 / 35.0), ["1/15", "1/35"]);
+    assert_eq!(apart_in_digits(-1.0, -1.0 / 35.0), ["-1", "-1/35"]);
+    assert_eq!(apart_in_digits(0.4, 1.0 / 7.0), ["0.4", "0.1429"]);
     assert_eq!(apart_in_digits(-485_213.0, -48_521.0), ["-485213", "-48521"]);
 }
 

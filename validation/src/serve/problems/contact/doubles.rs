@@ -32,15 +32,19 @@ pub(crate) struct Variant {
     pub(crate) place: fn([Vector3<f64>; 2]) -> Vector3<f64>,
     /// The factor on ṗ r in V_c.
     pub(crate) turning: f64,
-    /// The factors on L x, ṗ and the change of velocity in ṗ′.
-    pub(crate) terms: [f64; 3],
+    /// What is taken off V′_c as the liquid's velocity: of rod k, from what was added as L x, and L x of both centres.
+    pub(crate) taken: fn(usize, [Vector3<f64>; 2], [Vector3<f64>; 2]) -> Vector3<f64>,
+    /// The factor on ṗ in ṗ′.
+    pub(crate) free: f64,
     /// The contact line from p_a, p_b and x_b − x_a.
     pub(crate) line: fn([Vector3<f64>; 3]) -> Vector3<f64>,
     /// The shares of V_c of a and of b in the velocity that both take.
     pub(crate) mean: [f64; 2],
     /// How much of the velocities along and across the contact line becomes the mean.
     pub(crate) shared: [f64; 2],
-    /// True if ṗ′ is made normal to p.
+    /// The factor on the mean across the contact line.
+    pub(crate) mean_across: f64,
+    /// True if ṗ′ is made normal to p, which the right rule's is already.
     pub(crate) normal: bool,
     /// φ̇′ and θ̇′ from φ, θ and ṗ′.
     pub(crate) turned: fn([f64; 2], &Vector3<f64>) -> [f64; 2],
@@ -64,10 +68,12 @@ pub(crate) const RIGHT: Variant = Variant {
     shapes: |r| r.map(|r| (r * r - 1.0) / (r * r + 1.0)),
     place: |[centre, _]| centre,
     turning: 1.0,
-    terms: [0.0, 1.0, 1.0],
+    taken: |rod, added, _| added[rod],
+    free: 1.0,
     line: |[a, b, _]| a.cross(&b).normalize(),
     mean: [0.5; 2],
     shared: [1.0, 0.0],
+    mean_across: 1.0,
     normal: false,
     turned: |[phi, theta], rate| {
         let [around, across] = within([phi, theta], rate);
@@ -163,13 +169,15 @@ fn rates(gradient: &Matrix3<f64>, pair: &[f64], variant: Variant) -> [(Vector3<f
     let carried = [0, 1].map(|k| carrying * (variant.place)([x[k], p[k] * arms[k]]));
     let moved = [0, 1].map(|k| carried[k] + free[k] * (arms[k] * variant.turning));
     let mean = moved[0] * variant.mean[0] + moved[1] * variant.mean[1];
+    let mean_along = line * line.dot(&mean);
+    let mean = mean_along + (mean - mean_along) * variant.mean_across;
     [0, 1].map(|k| {
         let change = mean - moved[k];
         let along = line * line.dot(&change);
         let change = along * variant.shared[0] + (change - along) * variant.shared[1];
-        let [kept, turning, kicked] = variant.terms;
-        let kick = (carried[k] * kept + change * (kicked * variant.kick[k])) / divisors[k];
-        let rate = (free[k] * turning + kick) * if variant.undivided { arms[k] } else { 1.0 };
+        let taken = (variant.taken)(k, carried, x.map(|x| l * x));
+        let kick = (carried[k] - taken + change * variant.kick[k]) / divisors[k];
+        let rate = (free[k] * variant.free + kick) * if variant.undivided { arms[k] } else { 1.0 };
         (p[k], if variant.normal { rate - p[k] * p[k].dot(&rate) } else { rate })
     })
 }
