@@ -12,7 +12,7 @@ use crate::judge::statistics::worst;
 use crate::methods::tensors::fourth::PAIRS;
 use crate::methods::tensors::wrong::closures::{CLOSURES, Stand, WITH_OTHERS};
 use crate::methods::tensors::wrong::{MISTAKES, scaled};
-use crate::methods::tensors::{Closure, Model, Parts, at_rate, isotropic, steady_of};
+use crate::methods::tensors::{Closure, Fourth, Model, Parts, at_rate, isotropic, steady_of};
 use crate::oracle::diffusion::strain_rate_per_s;
 use crate::serve::problems::formula::tensor;
 use crate::serve::problems::{Closed, LoadedProblem, Problem};
@@ -201,6 +201,24 @@ fn values(problem: &Problem, closure: &Stand, a: &Matrix3<f64>) -> Option<Vec<f6
     problem.columns[1..].iter().map(value).collect()
 }
 
+/// a_ijkl from a row of such; `None` if it has others.
+fn fourth_of(problem: &Problem, row: &[f64]) -> Option<Fourth> {
+    let sorted = |mut digits: Vec<u8>| {
+        digits.sort_unstable();
+        digits
+    };
+    let names = &problem.columns[problem.columns.len() - row.len()..];
+    let digits =
+        names.iter().map(|name| Some(sorted(name.strip_prefix('a')?.bytes().map(|digit| digit - b'1').collect())));
+    let digits: Vec<_> = digits.collect::<Option<_>>()?;
+    let value = |at: [usize; 4]| {
+        let own = sorted(at.map(|k| k as u8).to_vec());
+        Some(row[digits.iter().position(|digits| *digits == own)?])
+    };
+    value([0; 4])?;
+    Some(Fourth::from_fn(|i, j, k, l| value([i, j, k, l]).unwrap_or(f64::NAN)))
+}
+
 /// The largest difference of a value; NaN if one is not finite.
 fn apart(rows: &[Vec<f64>], expected: &[Vec<f64>]) -> f64 {
     let pairs = rows.iter().zip(expected).flat_map(|(row, expected)| row.iter().zip(expected));
@@ -222,9 +240,14 @@ fn distance(
         if far(&apart(&rows[..1], std::slice::from_ref(first))) {
             return None;
         }
-    } else if rows[0].len() == PAIRS.len() && candidate.rate(&tensor(&rows[0])).amax() > 100.0 * most * candidate.norm()
-    {
-        return None;
+    } else {
+        let a = match fourth_of(problem, &rows[0]) {
+            Some(fourth) => fourth.contract(&Matrix3::identity()),
+            None => tensor(&rows[0]),
+        };
+        if candidate.rate(&a).amax() > 100.0 * most * candidate.norm() {
+            return None;
+        }
     }
     Some(apart(rows, candidate.whole(problem, start)?)).filter(|off| *off <= most)
 }
