@@ -60,7 +60,7 @@ pub(super) fn remark(answer: &Answer, error: f64, steps: Option<u64>) -> Option<
     let size = values(answer).fold(0.0, |size: f64, x| size.max(x.abs()));
     let roundings = ROUNDINGS.max(steps.unwrap_or_default() as f64);
     if error <= roundings * f64::from(f32::EPSILON) * size && is_single(answer) {
-        return Some("your answer has single precision, whose errors of 1e-7 and more explain this one".to_owned());
+        return Some("your answer has single precision, whose rounding explains this error".to_owned());
     }
     // Zeros and ones are numbers of any precision.
     let digits = few(answer).filter(|_| has_more_than(answer, 3))?;

@@ -25,6 +25,9 @@ const FOLLOWS: f64 = 0.1;
 /// tolerance, a correct code may have reached its round-off.
 pub(super) const ROUND_OFF: f64 = 0.01;
 
+/// Errors that no longer fall and are below so many tolerances may be rounding.
+const ROUGHLY: f64 = 4.0;
+
 /// Errors that fall with a higher order than this are the method's, not round-off.
 const NO_ROUND_OFF: f64 = 1.5;
 
@@ -33,6 +36,9 @@ const CLOSE: f64 = 0.01;
 
 /// Number of consecutive pairs that may refute an order though they do not agree.
 const WANDERING: usize = 4;
+
+/// Number of pairs after these that may show the order all the same.
+const SHOWING: usize = 3;
 
 /// The orders that they must lack on average: more than a right method of order 7 does on its way.
 const LOST: f64 = 1.5;
@@ -84,7 +90,7 @@ pub fn orders(errors: &[(u64, f64)], [tolerance, allowed]: [f64; 2]) -> Orders {
         }
         match order {
             // The error has stopped falling, and the pair before has reached round-off too.
-            Some(order) if coarse <= allowed && *order < 0.5 => {
+            Some(order) if coarse <= ROUGHLY * allowed && *order < 0.5 => {
                 found.usable.pop();
                 found.ended = true;
                 break;
@@ -127,12 +133,15 @@ impl Orders {
         }
         // A last answer that is right by chance, or copied, does not take back what those before it show.
         let shown = |pairs: &[(f64, f64)]| Self::proves_lower(pairs, claimed);
-        let wander = |pairs: &[(f64, f64)]| {
-            let mean = pairs.iter().map(|pair| pair.0).sum::<f64>() / WANDERING as f64;
+        let mean = |pairs: &[(f64, f64)]| pairs.iter().map(|pair| pair.0).sum::<f64>() / pairs.len() as f64;
+        let wander = |(k, pairs): (usize, &[(f64, f64)])| {
             let none = pairs.iter().all(|pair| pair.0 < claimed - ORDER_TOLERANCE);
-            pairs[0].1 < CLOSE && (ROUNDING..=claimed - LOST).contains(&mean) && none
+            // A method may wander before its order shows, which one answer by chance does not.
+            let after = &self.certain()[k + WANDERING..];
+            let shows = after.len() >= SHOWING && mean(after) >= claimed - WHOLE;
+            pairs[0].1 < CLOSE && (ROUNDING..=claimed - LOST).contains(&mean(pairs)) && none && !shows
         };
-        if self.certain().windows(3).any(shown) || self.certain().windows(WANDERING).any(wander) {
+        if self.certain().windows(3).any(shown) || self.certain().windows(WANDERING).enumerate().any(wander) {
             return Order::Lower;
         }
         if let [.., before, newest] = self.usable[..]

@@ -65,7 +65,7 @@ pub fn read(
         below => below,
     };
     // A row of units below the header.
-    let is_of_units = |line: &String| layout.split(line).all(|field| number(field.trim_matches('"')).is_err());
+    let is_of_units = |line: &String| layout.split(line).all(|field| is_unit(field.trim_matches('"')));
     if !layout.first_is_row && row.as_ref().is_some_and(is_of_units) {
         row = lines.next_line()?.map(plain);
     }
@@ -124,4 +124,36 @@ fn fields(line: &str, layout: &Layout, problem: &LoadedProblem) -> Result<(Vec<f
         }
     }
     Ok((keys, values))
+}
+
+/// True of the unit of a column, as s, (rad), [1/s] or -.
+fn is_unit(field: &str) -> bool {
+    const UNITS: [&str; 18] = [
+        "s",
+        "sec",
+        "seconds",
+        "min",
+        "h",
+        "rad",
+        "radians",
+        "deg",
+        "degrees",
+        "mm",
+        "cm",
+        "m",
+        "um",
+        "µm",
+        "pa",
+        "unit",
+        "none",
+        "dimensionless",
+    ];
+    let words = field.split(|c: char| !c.is_alphabetic()).filter(|word| !word.is_empty());
+    number(field).is_err() && words.into_iter().all(|word| UNITS.contains(&word.to_lowercase().as_str()))
+}
+
+#[test]
+fn units_are_told_from_other_words() {
+    assert!(["s", "(rad)", "[1/s]", "-", "–", "", "s^-1", "Degrees", "°", "µm"].into_iter().all(is_unit));
+    assert!(!["garbage", "x", "1.0", "1", "nan", "s or h"].into_iter().any(is_unit));
 }

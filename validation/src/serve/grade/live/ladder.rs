@@ -65,13 +65,26 @@ struct Rung {
 }
 
 impl Rung {
-    fn of(problem: &LoadedProblem, setting: Setting, rows: Vec<Vec<f64>>, took: Duration) -> Self {
+    fn of(problem: &LoadedProblem, setting: Setting, mut rows: Vec<Vec<f64>>, took: Duration) -> Self {
+        if problem.problem.kind == Kind::Rods {
+            headed(&mut rows, problem);
+        }
         let answer = printed(rows);
         Self { setting, compared: compare(problem, &answer), answer, took }
     }
 
     fn error(&self) -> f64 {
         self.compared.error
+    }
+}
+
+/// Turns each p by half a turn that lies against the certified one: a rod has no head, and a program may give either.
+fn headed(rows: &mut [Vec<f64>], problem: &LoadedProblem) {
+    let keys = problem.problem.kind.keys().len();
+    for (p, due) in rows.iter_mut().zip(&problem.certified.rows) {
+        if p.iter().zip(&due[keys..]).map(|(a, b)| a * b).sum::<f64>() < 0.0 {
+            p.iter_mut().for_each(|x| *x = -*x);
+        }
     }
 }
 
@@ -319,7 +332,9 @@ fn why(graded: &Graded, finest: Option<&Rung>, words: String, may_be_reached: bo
     };
     let (setting, error) = (finest.setting, finest.error());
     if !error.is_finite() {
-        return format!("with {setting} the answer is not finite; {words}");
+        let finite = finest.answer.rows.iter().flatten().all(|x| x.is_finite());
+        let what = if finite { "too large to judge" } else { "not finite" };
+        return format!("with {setting} the answer is {what}; {words}");
     }
     let said = match setting {
         Setting::Tolerance(asked) => {

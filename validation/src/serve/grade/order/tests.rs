@@ -31,6 +31,25 @@ fn an_order_has_its_sign_and_needs_two_errors_above_round_off() {
     assert!((uneven.observed(None).unwrap() - 2.0).abs() < 1e-12 && uneven.all.len() == 1);
 }
 
+/// Measured on right codes: Gauss of order 6 in angles, which wanders first, and a splitting of order 2 whose rounding
+/// begins above the tolerance.
+#[test]
+fn right_codes_that_wander_first_or_meet_their_rounding_early_are_not_refuted() {
+    let of = |errors: &[f64]| {
+        let errors: Vec<_> = (0..).map(|k| 32u64 << k).zip(errors.iter().copied()).collect();
+        orders(&errors, [5e-11; 2])
+    };
+    let gauss = [1.31e-1, 7.41e-2, 1.67e-3, 2.78e-3, 6.44e-5, 1.27e-6, 7.76e-9, 1.77e-10, 2.83e-12, 1.27e-13];
+    assert_ne!(of(&gauss).judged(6.0), Order::Lower);
+    assert_eq!(of(&gauss[..6]).judged(6.0), Order::Lower, "so far it lacks two orders");
+    let splitting = [1.10e-6, 2.75e-7, 6.88e-8, 1.72e-8, 4.29e-9, 1.08e-9, 2.71e-10, 7.84e-11, 8.66e-11, 1.90e-10];
+    assert_eq!(of(&splitting).judged(2.0), Order::Seen);
+    // Errors that stay far above the tolerance are no rounding.
+    let stays = splitting.map(|error| 100.0 * error);
+    assert_ne!(of(&stays[..9]).judged(2.0), Order::Lower);
+    assert_eq!(of(&[&stays[..9], &[1.9e-8, 3.8e-8, 7.6e-8]].concat()).judged(2.0), Order::Lower);
+}
+
 #[test]
 fn what_right_methods_show_is_not_refuted_and_lost_orders_are() {
     for (orders, claimed, expected) in [
