@@ -144,12 +144,22 @@ fn asked_for(args: &Args, name: &str) -> bool {
     args.problems.is_empty() || args.problems.iter().any(|asked| is_meant(asked, name))
 }
 
-/// True if a word after `--problem` is this name, or has a `*` in place of some of it.
+/// True if a word after `--problem` is this name, or has a `*` in place of any part of it.
 fn is_meant(word: &str, name: &str) -> bool {
-    match word.split_once('*') {
-        Some((head, tail)) => name.strip_prefix(head).is_some_and(|rest| rest.ends_with(tail)),
-        None => word == name,
-    }
+    let Some((head, tail)) = word.split_once('*') else { return word == name };
+    let rest = |rest: &str| (0..=rest.len()).any(|at| rest.is_char_boundary(at) && is_meant(tail, &rest[at..]));
+    name.strip_prefix(head).is_some_and(rest)
+}
+
+#[test]
+fn a_star_stands_for_any_part_of_a_name() {
+    let name = "closed-ft-quadratic-0.01";
+    assert!(
+        [name, "*", "closed-*", "*quadratic*", "*-0.01", "c*ft*1", "**"].into_iter().all(|word| is_meant(word, name))
+    );
+    assert!(
+        !["", "closed", "quadratic*", "*quadratic", "*ibof*", "c*x*1"].into_iter().any(|word| is_meant(word, name))
+    );
 }
 
 /// Refuses a word after `--problem` that means none of `names`.

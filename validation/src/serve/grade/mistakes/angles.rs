@@ -19,6 +19,14 @@ pub(super) fn all() -> Vec<Mistake> {
     let mut all: Vec<_> = tilts.map(|(name, tilt)| curve(name, move |s, p, time| tipped(s, p, time, tilt))).into();
     all.push(curve(ATAN, |s, p, time| Some(in_front(&(right_map(s, time)? * p)))));
     all.push(curve(&format!("{ATAN}{IN_THE_START}"), |s, p, time| Some(right_map(s, time)? * in_front(p))));
+    all.push(curve("|p_i| for each p_i", |s, p, time| Some((right_map(s, time)? * p).abs())));
+    all.extend((0..3).map(|k| {
+        curve(&format!("|p_{0}| for p_{0}", k + 1), move |s, p, time| {
+            let mut q = right_map(s, time)? * p;
+            q[k] = q[k].abs();
+            Some(q)
+        })
+    }));
     all
 }
 
