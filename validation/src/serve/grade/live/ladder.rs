@@ -271,7 +271,11 @@ fn climbed(
             let remark = remark.filter(|_| finite.is_some());
             let long = graded.length_drift.filter(|drift| *drift > 0.1 && graded.diagnosis.is_none());
             let long = long.map(|drift| format!("the length of p is off 1 by up to {drift:.1}: are these components?"));
+            let on_axis = problem.start.iter().any(|p| p[0].hypot(p[1]) < 1e-9);
+            let pole = (on_axis && best(&rungs).is_some_and(|finest| !finest.error().is_finite()))
+                .then(|| "a rod lies along axis 3, where its φ is undefined".to_owned());
             let all = std::iter::once(why(&graded, best(&rungs), words, may_be_reached))
+                .chain(pole)
                 .chain(long)
                 .chain(remark)
                 .chain(worst)
