@@ -109,7 +109,7 @@ pub(super) fn summary(results: &Results) -> String {
     for series in &results.series {
         let longest = shown(series).iter().map(|channel| channel.name.len() + 1).max();
         let margin = longest.unwrap_or_default().max(7);
-        let values = shown(series).into_iter().flat_map(|channel| [0, last].map(|k| with_error(channel, k)));
+        let values = shown(series).iter().flat_map(|channel| [0, last].map(|k| with_error(channel, k)));
         let width = values.map(|value| value.chars().count()).max().unwrap_or_default().max(16) + 2;
         text += &format!(
             "{:<margin$}{:<width$}{:<width$}{:<17}largest\n",

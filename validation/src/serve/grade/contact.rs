@@ -4,7 +4,7 @@ use super::answer::Answer;
 use super::compare::distance;
 use super::nearness::Near;
 use crate::serve::problems::LoadedProblem;
-use crate::serve::problems::contact::{ASPECT_RATIO, LENGTH_MM, RIGHT, Step, Variant, answers, within};
+use crate::serve::problems::contact::{ASPECT_RATIO, Both, LENGTH_MM, RIGHT, Step, Variant, answers, within};
 use nalgebra::{Matrix3, Vector3};
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -249,7 +249,7 @@ const fn footed(feet: fn([f64; 3]) -> [f64; 2]) -> Variant {
     Variant { feet, ..RIGHT }
 }
 
-const fn taken(taken: fn(usize, [Vector3<f64>; 2], [Vector3<f64>; 2]) -> Vector3<f64>) -> Variant {
+const fn taken(taken: fn(usize, Both, Both) -> Vector3<f64>) -> Variant {
     Variant { taken, ..RIGHT }
 }
 

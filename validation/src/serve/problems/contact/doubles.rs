@@ -7,6 +7,9 @@
 use super::LENGTH_MM;
 use nalgebra::{Matrix3, Vector3};
 
+/// A vector of each rod.
+pub(crate) type Both = [Vector3<f64>; 2];
+
 /// What may be wrong; [`RIGHT`] has the right parts.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Variant {
@@ -33,7 +36,7 @@ pub(crate) struct Variant {
     /// The factor on ṗ r in V_c.
     pub(crate) turning: f64,
     /// What is taken off V′_c as the liquid's velocity: of rod k, from what was added as L x, and L x of both centres.
-    pub(crate) taken: fn(usize, [Vector3<f64>; 2], [Vector3<f64>; 2]) -> Vector3<f64>,
+    pub(crate) taken: fn(usize, Both, Both) -> Vector3<f64>,
     /// The factor on ṗ in ṗ′.
     pub(crate) free: f64,
     /// The contact line from p_a, p_b and x_b − x_a.
