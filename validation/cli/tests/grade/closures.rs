@@ -108,7 +108,7 @@ fn a_coefficient_that_is_off_is_named_and_half_a_closure_is_not() {
     let half = said(answer(name, 0.005, hybrid));
     // γ̇ = 0.5/s: its square is half of it.
     let expected = "this is the curve of 2D:D for γ̇, with the hybrid closure or of half the C_I (C_I γ̇ (δ − 3a), \
-        without the 2), with the hybrid closure, to ";
+        without the 2, or γ̇ = (D:D/2)^½), with the hybrid closure, to ";
     assert!(half.as_str().unwrap().starts_with(expected), "{half}");
     assert_eq!(said(answer(name, 0.01, |a| 0.5 * hybrid(a))), serde_json::Value::Null);
 }

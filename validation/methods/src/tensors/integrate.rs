@@ -65,6 +65,9 @@ const MOST_STRAIN: f64 = 10_000.0;
 /// better; and how far the result may be off a state of rods.
 const ROUGH: f64 = 1e-6;
 
+/// An eigenvalue below 0 by so much is on the way to no state of rods.
+const FAR_OFF: f64 = 0.2;
+
 /// A steady a_ij: that to which Newton's method leads from where a is after some strain, close by. `None` where a comes
 /// near none.
 pub fn steady(equation: &Equation, start: &Matrix3<f64>) -> Option<Matrix3<f64>> {
@@ -81,6 +84,9 @@ pub fn steady_of(rate: Rate, norm: f64, start: &Matrix3<f64>) -> Option<Matrix3<
                 a = found[0];
                 break;
             }
+        }
+        if a.symmetric_eigenvalues().min() < -FAR_OFF {
+            return None;
         }
         strain += stretch;
         if strain >= 100.0 {
