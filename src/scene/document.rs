@@ -111,14 +111,12 @@ impl Document {
 
     /// Takes a dotted key out, where it is.
     pub fn remove(&mut self, key: &str) {
-        let path: Vec<_> = key.split('.').map(str::to_owned).collect();
-        self.places.remove(&path);
-        let mut entries = &mut self.root;
-        for table in &path[..path.len() - 1] {
-            let Some(Value::Table(inner)) = entries.get_mut(table) else { return };
-            entries = inner;
+        let (mut entries, mut rest) = (&mut self.root, key);
+        while let Some((first, inner)) = rest.split_once('.') {
+            let Some(Value::Table(next)) = entries.get_mut(first) else { return };
+            (entries, rest) = (next, inner);
         }
-        entries.remove(&path[path.len() - 1]);
+        entries.remove(rest);
     }
 
     /// Adds the line of each key to an error of the scene that was read from this document; returns other errors

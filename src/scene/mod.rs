@@ -50,15 +50,20 @@ const CONCENTRATIONS: [&str; 3] =
 /// If a part of the key before the last is not a table.
 pub fn set(document: &mut document::Document, key: &str, value: toml::Value) -> Result<(), Error> {
     document.set(key, value)?;
-    if CONCENTRATIONS.contains(&key) {
-        // The one that was set is not the text's any more.
-        CONCENTRATIONS.iter().for_each(|written| document.drop_written(written));
-    }
-    if TimeUnit::ALL.iter().any(|unit| unit.duration_key() == key) {
-        let others = TimeUnit::ALL.iter().filter(|unit| unit.duration_key() != key);
-        others.flat_map(|unit| unit.keys()).for_each(|written| document.drop_written(written));
-    }
+    // The key that was set is not the text's any more, and stays.
+    alternatives(key).iter().for_each(|written| document.drop_written(written));
     Ok(())
+}
+
+/// The keys of a text that this one replaces when it is set.
+fn alternatives(key: &str) -> Vec<&'static str> {
+    if CONCENTRATIONS.contains(&key) {
+        return CONCENTRATIONS.to_vec();
+    }
+    match TimeUnit::ALL.into_iter().find(|unit| unit.duration_key() == key) {
+        Some(own) => TimeUnit::ALL.into_iter().filter(|unit| *unit != own).flat_map(TimeUnit::keys).collect(),
+        None => Vec::new(),
+    }
 }
 
 /// A whole scene. Tables and keys are those of the scene file ([`keys()`]). In code, start from the default and change

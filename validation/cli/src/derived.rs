@@ -139,13 +139,8 @@ pub(super) fn per(time_name: &str) -> &'static str {
 /// have no rate.
 pub(super) fn summary(plan: &Plan, time_name: &str, all: &[OfChannel]) -> String {
     let replicas = plan.scene().ensemble.replicas;
-    let number = |estimate: Estimate, decimals: usize| match estimate.se {
-        Some(se) if se > 0.0 => {
-            let decimals = (-se.log10().floor()).clamp(decimals as f64, 9.0) as usize;
-            format!("{:.decimals$} ± {se:.decimals$}", estimate.value)
-        }
-        _ => format!("{:.decimals$}", estimate.value),
-    };
+    let number =
+        |estimate: Estimate, decimals: usize| tables::with_error(estimate.value, estimate.se.unwrap_or(0.0), decimals);
     // Free rods of one size do not damp: what outputs between extremes miss would look like a rate.
     let least = if plan.runs(Stage::Contacts) { 1e-3 } else { 1e-2 };
     let mut text = String::new();

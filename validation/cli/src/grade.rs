@@ -202,16 +202,16 @@ fn files(args: &Args, reference: &Path, mine: &Path) -> Result<Done, Failure> {
     let problems = grade::grade(&wanted, mine, &options(args));
     let mut report = report(args, [reference.shown(), mine.shown()], problems, not_read(mine, &names));
     report.diagnosis = grade::overall(&wanted, &mut report.problems);
-    report.remarks.extend(on_order(&report.problems, args.order));
-    report.remarks.extend(grade::loose(&wanted, &report.problems));
-    report.remarks.extend(grade::single(&report.problems));
+    report.remarks.extend(on_all(&wanted, &report.problems, args.order));
     let inputs = inputs::of_files(args, reference, mine, &wanted)?;
     Ok((report, wanted, inputs))
 }
 
-fn on_order(graded: &[Graded], claimed: Option<f64>) -> Option<String> {
-    let said = grade::remark(graded, claimed)?;
-    Some(if claimed.is_none() { format!("{said}; --order claims one") } else { said })
+/// Remarks on all answers together.
+fn on_all(problems: &[LoadedProblem], graded: &[Graded], claimed: Option<f64>) -> impl Iterator<Item = String> {
+    let hint = if claimed.is_none() { "; --order claims one" } else { "" };
+    let order = grade::remark(graded, claimed).map(|said| format!("{said}{hint}"));
+    [order, grade::loose(problems, graded), grade::single(graded)].into_iter().flatten()
 }
 
 /// Remarks on folders of answers without a problem, and on files outside a folder with a problem's name.
@@ -321,9 +321,7 @@ fn program(args: &Args, command: &str, reference: Option<&Path>) -> Result<Done,
     const LEFT_OUT: &str = "not measured, as the program needs longer for it than --timeout, or broke off";
     let mut remarks: Vec<_> =
         (!left_out.is_empty()).then(|| format!("{}: {LEFT_OUT}", left_out.join(", "))).into_iter().collect();
-    remarks.extend(on_order(&problems, claim.order));
-    remarks.extend(grade::loose(&asked, &problems));
-    remarks.extend(grade::single(&problems));
+    remarks.extend(on_all(&asked, &problems, claim.order));
     remarks.extend(program.breaches());
     remarks.extend(program.given_up().map(|reason| format!("the program was given up: {reason}")));
     if let Err(end) = program.close() {

@@ -34,7 +34,7 @@ pub(super) struct Args {
     /// picture's name
     #[arg(long = "y", value_name = "CHANNELS", value_delimiter = ',')]
     channels: Vec<String>,
-    /// What is across: a key of a sweep, or a product of powers, KEY*KEY^(1/3); or t_over_T, time_s or strain
+    /// The horizontal axis: t_over_T, time_s or strain; of a sweep also a key, or a product of powers, KEY*KEY^(1/3)
     #[arg(long = "x", value_name = "KEY", conflicts_with = "data")]
     key: Option<String>,
     /// With a key: the time [default: the last output's]; of extremes, to a quarter period [default: the first of most
@@ -89,13 +89,12 @@ pub(super) fn plot(args: &Args) -> Result<(), Failure> {
 
 fn of_runs(args: &Args) -> Result<(Figure, String), Failure> {
     let across = args.key.as_deref().filter(|key| TIMES.contains(key));
+    if let (Some(time), Some(at)) = (across, args.at) {
+        let message = format!("--at {at}: --x {time} draws all times; --at is for a key of a sweep");
+        return Err(Failure::Input(message));
+    }
     let mut drawn = drawn_of(&args.dirs, &args.channels, across)?;
     let (channels, runs) = (drawn.channels.join(", "), drawn.runs.len());
-    if let (Some(_), Some(at)) = (across, args.at) {
-        return Err(Failure::Input(format!(
-            "--at {at}: a curve against time has all times; --x KEY of a sweep has one"
-        )));
-    }
     if let (Some(key), None) = (&args.key, across) {
         if args.dirs.len() > 1 {
             let message = format!("--x {key}: {} folders are given; one sweep is allowed", args.dirs.len());

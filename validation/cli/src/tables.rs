@@ -81,19 +81,24 @@ pub(super) fn is_bounded(column: &str) -> bool {
     channel.is_none_or(|channel| channel.range().iter().all(|end| end.is_finite()))
 }
 
-/// A mean with its standard error, in four decimals or as many as show the error; alone where it has none.
-fn with_error(column: &Column, k: usize) -> String {
-    let (mean, se) = (column.mean[k], column.se[k]);
-    // Below is rounding.
-    let has_error = se >= 1e-9;
-    let decimals = if has_error { (-se.log10().floor()).clamp(4.0, 9.0) as usize } else { 4 };
-    // Values without bounds have a size of their own.
-    let number = |x: f64| if is_bounded(&column.name) { format!("{x:.decimals$}") } else { format!("{x:.2e}") };
-    if has_error || se > 0.0 && !is_bounded(&column.name) {
-        format!("{} ± {}", number(mean), number(se))
-    } else {
-        number(mean)
+/// A value of order 1 with its standard error, in so many decimals or as many as show the error; alone where that is
+/// rounding or unknown.
+pub(super) fn with_error(value: f64, se: f64, decimals: usize) -> String {
+    if se < 1e-9 || se.is_nan() {
+        return format!("{value:.decimals$}");
     }
+    let decimals = (-se.log10().floor()).clamp(decimals as f64, 9.0) as usize;
+    format!("{value:.decimals$} ± {se:.decimals$}")
+}
+
+/// A mean with its standard error.
+fn mean(column: &Column, k: usize) -> String {
+    let (mean, se) = (column.mean[k], column.se[k]);
+    if is_bounded(&column.name) {
+        return with_error(mean, se, 4);
+    }
+    // Values without bounds have a size of their own.
+    if se > 0.0 { format!("{mean:.2e} ± {se:.2e}") } else { format!("{mean:.2e}") }
 }
 
 /// For each channel the first and the last mean, the least and the largest with their times, and a sparkline.
@@ -109,7 +114,7 @@ pub(super) fn summary(results: &Results) -> String {
     for series in &results.series {
         let longest = shown(series).iter().map(|channel| channel.name.len() + 1).max();
         let margin = longest.unwrap_or_default().max(7);
-        let values = shown(series).iter().flat_map(|channel| [0, last].map(|k| with_error(channel, k)));
+        let values = shown(series).iter().flat_map(|channel| [0, last].map(|k| mean(channel, k)));
         let width = values.map(|value| value.chars().count()).max().unwrap_or_default().max(16) + 2;
         text += &format!(
             "{:<margin$}{:<width$}{:<width$}{:<17}largest\n",
@@ -128,8 +133,8 @@ pub(super) fn summary(results: &Results) -> String {
             text += &format!(
                 "{:<margin$}{:<width$}{:<width$}{:<16} {}\n{:<margin$}{}\n",
                 channel.name,
-                with_error(channel, 0),
-                with_error(channel, last),
+                mean(channel, 0),
+                mean(channel, last),
                 extreme(outputs.clone().min_by(order)),
                 extreme(outputs.rev().max_by(order)),
                 "",

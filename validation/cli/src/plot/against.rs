@@ -26,8 +26,8 @@ pub(super) fn against(drawn: Drawn, key: &str, at: Option<f64>) -> Result<(Figur
         let mut without = Vec::new();
         for ((run, curve), place) in runs.iter().zip(own).zip(places) {
             let point = run.point.as_ref().ok_or_else(|| {
-                let times = TIMES.join(", ");
-                refused(format!("{} is no sweep, of which a key is allowed; of a run {times} are", run.dir.shown()))
+                let (dir, times) = (run.dir.shown(), TIMES.join(", "));
+                refused(format!("{dir} is a run: {times} are allowed; a key needs a folder of `shearbed sweep`"))
             })?;
             let (value, others) = value(point, key).map_err(refused)?;
             let Some(place) = place else {

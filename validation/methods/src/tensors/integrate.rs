@@ -65,7 +65,7 @@ const MOST_STRAIN: f64 = 10_000.0;
 /// better; and how far the result may be off a state of rods.
 const ROUGH: f64 = 1e-6;
 
-/// An eigenvalue below 0 by so much is on the way to no state of rods.
+/// A state with an eigenvalue this far below 0 does not come back to one of rods.
 const FAR_OFF: f64 = 0.2;
 
 /// A steady a_ij: that to which Newton's method leads from where a is after some strain, close by. `None` where a comes

@@ -190,7 +190,7 @@ impl Equation {
             spin,
             strain,
             square: strain * strain,
-            by_component: [false; 2],
+            by_component: false,
             spun: [1.0, -1.0],
             stretched: [1.0, 1.0],
             of_strain: shape,
@@ -221,8 +221,8 @@ pub struct Parts {
     pub strain: Matrix3<f64>,
     /// D² of a diffusivity, in 1/s².
     pub square: Matrix3<f64>,
-    /// Whether products with W and with D are those of each component alone.
-    pub by_component: [bool; 2],
+    /// Whether Da and aD are products of each component alone.
+    pub by_component: bool,
     /// The 1 before Wa and the −1 before aW.
     pub spun: [f64; 2],
     /// The 1 before Da and before aD.
@@ -253,11 +253,7 @@ impl Parts {
     /// The rate da_ij/dt in 1/s of the equation with these parts, as it stands: the trace is not corrected.
     pub fn rate(&self, a: &Matrix3<f64>, fourth: &Fourth) -> Matrix3<f64> {
         let Self { spin: w, strain: d, spun, stretched, of_strain, of_fourth, speed, decay, .. } = self;
-        let sides = |x: &Matrix3<f64>, [left, right]: &[f64; 2], by_component: bool| {
-            let [xa, ax] = if by_component { [x.component_mul(a); 2] } else { [x * a, a * x] };
-            xa * *left + ax * *right
-        };
-        let turned = sides(w, spun, self.by_component[0]);
+        let turned = w * a * spun[0] + a * w * spun[1];
         if *d == Matrix3::zeros() {
             return turned;
         }
@@ -267,7 +263,8 @@ impl Parts {
         let by_fourth = |x: &Matrix3<f64>| {
             fourth.contract(&Matrix3::from_fn(|k, l| if k == l { x[(k, l)] } else { self.pairs * x[(k, l)] }))
         };
-        let stretched = sides(d, stretched, self.by_component[1]) * *of_strain - by_fourth(d) * *of_fourth;
+        let [da, ad] = if self.by_component { [d.component_mul(a); 2] } else { [d * a, a * d] };
+        let stretched = (da * stretched[0] + ad * stretched[1]) * *of_strain - by_fourth(d) * *of_fourth;
         let diffused = match self.model {
             Model::FolgarTucker { c_i } | Model::Rsc { c_i, .. } => {
                 let ones = Matrix3::from_fn(|i, j| if i == j { 1.0 } else { self.off_diagonal });

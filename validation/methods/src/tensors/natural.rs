@@ -18,7 +18,7 @@ const OUTSIDE: f64 = 1e-6;
 
 pub(super) fn fourth(a: &Matrix3<f64>) -> Fourth {
     let (values, axes) = principal(a);
-    // No rods have this a, and no z: what follows is as good as any.
+    // Of no distribution of rods: there is no z to be found.
     let rounds = if values.min() < -OUTSIDE { 0 } else { 60 };
     let values = values.map(|value| value.max(LEAST));
     // The result is homogeneous of degree 1 in a, so that a rounding error of the trace is kept.

@@ -48,9 +48,10 @@ pub const MISTAKES: [Mistake; 97] = [
         Some(Parts { spin: -p.spin, strain: -p.strain, ..p })
     }),
     mistake("Wa − aW and Da + aD by components (NumPy's * for @)", PRODUCTS, |p| {
-        Some(Parts { by_component: [true; 2], ..p })
+        // By components Wa and aW are the same.
+        Some(Parts { by_component: true, spun: [0.0; 2], ..p })
     }),
-    mistake("Da + aD by components (NumPy's * for @)", PRODUCTS, |p| Some(Parts { by_component: [false, true], ..p })),
+    mistake("Da + aD by components (NumPy's * for @)", PRODUCTS, |p| Some(Parts { by_component: true, ..p })),
     mistake("half the shear rate", L, |p| Some(scaled(p, 0.5, 0.5, 0.5))),
     mistake("twice the shear rate", L, |p| Some(scaled(p, 2.0, 2.0, 2.0))),
     mistake("D without its ½", L, |p| Some(scaled(p, 1.0, 2.0, 2.0))),

@@ -285,7 +285,8 @@ def grade(
                     found = np.full((len(problem.times_s), len(problem.start), 3), np.nan)
                 except (ArithmeticError, RuntimeError, ValueError) as error:
                     raised[problem.name] = f"{type(error).__name__}: {error}"
-                    refused |= {problem.name} if isinstance(error, NotImplementedError) else set()
+                    if isinstance(error, NotImplementedError):
+                        refused.add(problem.name)
                     break
                 answer = "answer.csv" if count is None else f"steps-{count}.csv"
                 _write(mine / problem.name / answer, problem, _shaped(found, problem))
@@ -317,7 +318,8 @@ def grade(
         judged["raised"] = raised.get(judged["name"])
         if judged["verdict"] == "MISSING" and judged["raised"]:
             judged["note"] = None
-            judged["verdict"] = "REFUSED" if judged["name"] in refused else "MISSING"
+            if judged["name"] in refused:
+                judged["verdict"] = "REFUSED"
         if judged["name"] in uneven:
             judged["verdict"], judged["diagnosis"] = "FAIL", uneven[judged["name"]]
         # An order that is too low is so whatever the time.

@@ -4,7 +4,9 @@ use super::answer::Answer;
 use super::compare::distance;
 use super::nearness::Near;
 use crate::serve::problems::LoadedProblem;
-use crate::serve::problems::contact::{ASPECT_RATIO, Both, LENGTH_MM, RIGHT, Step, Variant, answers, within};
+use crate::serve::problems::contact::{
+    ASPECT_RATIO, AngleRate, Both, LENGTH_MM, RIGHT, Step, Variant, answers, within,
+};
 use nalgebra::{Matrix3, Vector3};
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -138,53 +140,51 @@ const MISTAKES: &[(&str, Variant)] = &[
     ("r_e = 11.6 for all rods, not each rod's own", shaped(|_| (RIGHT.shapes)([ASPECT_RATIO; 2]))),
 ];
 
+/// φ from the second axis, in the rates.
+const MIRRORED: Variant = Variant {
+    phi_rate: |at, rate| (RIGHT.phi_rate)(mirrored(at), rate),
+    theta_rate: |at, rate| (RIGHT.theta_rate)(mirrored(at), rate),
+    ..RIGHT
+};
+
 /// Mistakes in the angles and their rates.
 const OF_ANGLES: &[(&str, Variant)] = &[
-    ("A.13 as in the text", turned(printed)),
-    ("φ̇′ without 1/sin θ", turned(|at, rate| [within(at, rate)[0], (RIGHT.turned)(at, rate)[1]])),
     (
-        "φ̇′ times sin θ, not divided",
-        turned(|at, rate| [within(at, rate)[0] * at[1].sin(), (RIGHT.turned)(at, rate)[1]]),
-    ),
-    (
-        "φ̇′ divided by cos θ, not by sin θ",
-        turned(|at, rate| [within(at, rate)[0] / at[1].cos(), (RIGHT.turned)(at, rate)[1]]),
-    ),
-    ("φ̇′ with the wrong sign", turned(|at, rate| [-(RIGHT.turned)(at, rate)[0], (RIGHT.turned)(at, rate)[1]])),
-    ("θ̇′ with the wrong sign", turned(|at, rate| [(RIGHT.turned)(at, rate)[0], -(RIGHT.turned)(at, rate)[1]])),
-    ("θ̇′ without v_3", turned(|at, rate| [(RIGHT.turned)(at, rate)[0], within(at, rate)[1] * at[1].cos()])),
-    ("θ̇′ of −v_3/sin θ alone", turned(|at, rate| [(RIGHT.turned)(at, rate)[0], -rate.z * at[1].sin()])),
-    (
-        "θ̇′ with + v_3 sin θ",
-        turned(|at, rate| [(RIGHT.turned)(at, rate)[0], (RIGHT.turned)(at, rate)[1] + 2.0 * rate.z * at[1].sin()]),
-    ),
-    ("sin φ and cos φ exchanged in the rates", turned(|at, rate| (RIGHT.turned)(mirrored(at), rate))),
-    ("atan2(p_1, p_2) for φ", stepped(|step| (RIGHT.stepped)(&Step { angles: mirrored(step.angles), ..*step }))),
-    (
-        "atan2(p_1, p_2) for φ, and in the rates",
+        "A.13 as in the text",
         Variant {
-            stepped: |step| (RIGHT.stepped)(&Step { angles: mirrored(step.angles), ..*step }),
-            ..turned(|at, rate| (RIGHT.turned)(mirrored(at), rate))
+            phi_rate: |at, rate| within(at, rate)[0],
+            theta_rate: |at, rate| within(at, rate)[1] * at[1].sin() - rate.z * at[1].cos(),
+            ..RIGHT
         },
     ),
+    ("φ̇′ without 1/sin θ", going_round(|at, rate| within(at, rate)[0])),
+    ("φ̇′ times sin θ, not divided", going_round(|at, rate| within(at, rate)[0] * at[1].sin())),
+    ("φ̇′ divided by cos θ, not by sin θ", going_round(|at, rate| within(at, rate)[0] / at[1].cos())),
+    ("φ̇′ with the wrong sign", going_round(|at, rate| -(RIGHT.phi_rate)(at, rate))),
+    ("θ̇′ with the wrong sign", tilting(|at, rate| -(RIGHT.theta_rate)(at, rate))),
+    ("θ̇′ without v_3", tilting(|at, rate| within(at, rate)[1] * at[1].cos())),
+    ("θ̇′ of −v_3/sin θ alone", tilting(|at, rate| -rate.z * at[1].sin())),
+    ("θ̇′ with + v_3 sin θ", tilting(|at, rate| within(at, rate)[1] * at[1].cos() + rate.z * at[1].sin())),
+    ("sin φ and cos φ exchanged in the rates", MIRRORED),
+    ("atan2(p_1, p_2) for φ", stepped(from_the_second_axis)),
+    ("atan2(p_1, p_2) for φ, and in the rates", Variant { stepped: from_the_second_axis, ..MIRRORED }),
     (
         "θ before φ",
         Variant {
-            stepped: |step| {
+            phi_rate: RIGHT.theta_rate,
+            theta_rate: RIGHT.phi_rate,
+            ..stepped(|step| {
                 let [phi, theta] = step.angles;
                 (RIGHT.stepped)(&Step { angles: [theta, phi], ..*step })
-            },
-            ..turned(|at, rate| {
-                let [around, tilt] = (RIGHT.turned)(at, rate);
-                [tilt, around]
             })
         },
     ),
     (
         "angles and their rates in degrees",
         Variant {
-            stepped: |step| (RIGHT.stepped)(&Step { angles: step.angles.map(f64::to_degrees), ..*step }),
-            ..turned(|at, rate| (RIGHT.turned)(at, rate).map(f64::to_degrees))
+            phi_rate: |at, rate| (RIGHT.phi_rate)(at, rate).to_degrees(),
+            theta_rate: |at, rate| (RIGHT.theta_rate)(at, rate).to_degrees(),
+            ..stepped(|step| (RIGHT.stepped)(&Step { angles: step.angles.map(f64::to_degrees), ..*step }))
         },
     ),
     ("half a time step", Variant { step: 0.5, ..RIGHT }),
@@ -203,7 +203,11 @@ const OF_ANGLES: &[(&str, Variant)] = &[
     ("atan for atan2 in φ", stepped(by_atan)),
     (
         "atan for atan2 in φ, and in its rates",
-        Variant { stepped: by_atan, ..turned(|at, rate| (RIGHT.turned)(folded(at), rate)) },
+        Variant {
+            phi_rate: |at, rate| (RIGHT.phi_rate)(folded(at), rate),
+            theta_rate: |at, rate| (RIGHT.theta_rate)(folded(at), rate),
+            ..stepped(by_atan)
+        },
     ),
     (
         "θ from the shear plane, not from the vorticity axis",
@@ -261,8 +265,12 @@ const fn shared(shared: [f64; 2]) -> Variant {
     Variant { shared, ..RIGHT }
 }
 
-const fn turned(turned: fn([f64; 2], &Vector3<f64>) -> [f64; 2]) -> Variant {
-    Variant { turned, ..RIGHT }
+const fn going_round(phi_rate: AngleRate) -> Variant {
+    Variant { phi_rate, ..RIGHT }
+}
+
+const fn tilting(theta_rate: AngleRate) -> Variant {
+    Variant { theta_rate, ..RIGHT }
 }
 
 const fn stepped(stepped: fn(&Step) -> [f64; 2]) -> Variant {
@@ -287,9 +295,8 @@ fn by_atan(step: &Step) -> [f64; 2] {
     (RIGHT.stepped)(&Step { angles: folded(step.angles), ..*step })
 }
 
-fn printed(at: [f64; 2], rate: &Vector3<f64>) -> [f64; 2] {
-    let ([around, across], theta) = (within(at, rate), at[1]);
-    [around, across * theta.sin() - rate.z * theta.cos()]
+fn from_the_second_axis(step: &Step) -> [f64; 2] {
+    (RIGHT.stepped)(&Step { angles: mirrored(step.angles), ..*step })
 }
 
 /// The mistakes in what is asked for: angles with a step, ṗ′ without one.

@@ -107,14 +107,15 @@ fn by_name(problems: &[LoadedProblem], graded: &[Graded], wrong: &[&Graded]) -> 
         let alike = best.iter().all(|name| explained(name) == of);
         if alike && alone && best.len() <= MOST_NAMES {
             let names: Vec<_> = best.iter().map(|name| (*name).clone()).collect();
-            let either = if names.len() > 1 { " (their curves are equal here)" } else { "" };
             let rest = match wrong.len() - of.len() {
                 0 => format!("all {}", of.len()),
                 _ => format!("{} of {}", of.len(), wrong.len()),
             };
             let (all, fits) = (names.join(", or "), of.join(", "));
             let without_time = theirs.iter().all(|graded| matches!(graded.kind, Kind::Formula | Kind::Contact));
-            let (what, its) = if without_time { (VALUES, "its values fit") } else { (CURVE, "its curve fits") };
+            let (what, its, theirs) =
+                if without_time { (VALUES, "its values fit", "values") } else { (CURVE, "its curve fits", "curves") };
+            let either = if names.len() > 1 { format!(" (their {theirs} are equal here)") } else { String::new() };
             let advice = tensors::advice(&names[0]);
             let shared = !advice.is_empty() && names.iter().all(|name| tensors::advice(name) == advice);
             let advice = if shared { format!("; {advice}") } else { String::new() };

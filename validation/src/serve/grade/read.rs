@@ -148,8 +148,8 @@ fn is_unit(field: &str) -> bool {
         "none",
         "dimensionless",
     ];
-    let words = field.split(|c: char| !c.is_alphabetic()).filter(|word| !word.is_empty());
-    number(field).is_err() && words.into_iter().all(|word| UNITS.contains(&word.to_lowercase().as_str()))
+    let mut words = field.split(|c: char| !c.is_alphabetic()).filter(|word| !word.is_empty());
+    number(field).is_err() && words.all(|word| UNITS.contains(&word.to_lowercase().as_str()))
 }
 
 #[test]

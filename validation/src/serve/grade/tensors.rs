@@ -1,6 +1,7 @@
 //! Diagnosis of answers about orientation tensors: another closure, a mistake in one part of the equation, another
 //! layout of the columns, or two of these.
 
+mod columns;
 mod distribution;
 mod estimate;
 pub(super) mod formulas;
@@ -12,10 +13,11 @@ use crate::judge::statistics::worst;
 use crate::methods::tensors::fourth::PAIRS;
 use crate::methods::tensors::wrong::closures::{CLOSURES, Stand, WITH_OTHERS};
 use crate::methods::tensors::wrong::{MISTAKES, scaled};
-use crate::methods::tensors::{Closure, Fourth, Model, Parts, at_rate, isotropic, steady_of};
+use crate::methods::tensors::{Closure, Model, Parts, at_rate, isotropic, steady_of};
 use crate::oracle::diffusion::strain_rate_per_s;
 use crate::serve::problems::formula::tensor;
 use crate::serve::problems::{Closed, LoadedProblem, Problem};
+use columns::{fourth_of, values};
 use distribution::{from_exact, of_wrong_distribution};
 use layouts::LAYOUTS;
 use nalgebra::Matrix3;
@@ -117,7 +119,12 @@ struct Known {
 impl Known {
     /// The right equation, if a closure is the right one.
     fn right(&self) -> Option<Candidate<'static>> {
-        Some(Candidate::new(self.parts, &CLOSURES[self.own?], Vec::new()))
+        Some(self.with(&CLOSURES[self.own?]))
+    }
+
+    /// The equation with this closure in place of the right one.
+    fn with<'a>(&self, closure: &'a Stand) -> Candidate<'a> {
+        Candidate::new(self.parts, closure, Vec::new())
     }
 }
 
@@ -185,38 +192,6 @@ fn candidates(changes: &[Change], own: Option<usize>) -> Vec<Candidate<'static>>
         all.filter_map(of).collect::<Vec<_>>()
     };
     changes.iter().flat_map(with).collect()
-}
-
-/// The values of the problem's columns for a, with the fourth moments by the closure; `None` for other columns.
-fn values(problem: &Problem, closure: &Stand, a: &Matrix3<f64>) -> Option<Vec<f64>> {
-    let fourth = closure.fourth(a);
-    let value = |name: &String| {
-        let digits: Vec<_> = name.strip_prefix('a')?.bytes().map(|digit| usize::from(digit - b'1')).collect();
-        match digits[..] {
-            [i, j] => Some(a[(i, j)]),
-            [i, j, k, l] => Some(fourth.at(i, j, k, l)),
-            _ => None,
-        }
-    };
-    problem.columns[1..].iter().map(value).collect()
-}
-
-/// a_ijkl from a row of such; `None` if it has others.
-fn fourth_of(problem: &Problem, row: &[f64]) -> Option<Fourth> {
-    let sorted = |mut digits: Vec<u8>| {
-        digits.sort_unstable();
-        digits
-    };
-    let names = &problem.columns[problem.columns.len() - row.len()..];
-    let digits =
-        names.iter().map(|name| Some(sorted(name.strip_prefix('a')?.bytes().map(|digit| digit - b'1').collect())));
-    let digits: Vec<_> = digits.collect::<Option<_>>()?;
-    let value = |at: [usize; 4]| {
-        let own = sorted(at.map(|k| k as u8).to_vec());
-        Some(row[digits.iter().position(|digits| *digits == own)?])
-    };
-    value([0; 4])?;
-    Some(Fourth::from_fn(|i, j, k, l| value([i, j, k, l]).unwrap_or(f64::NAN)))
 }
 
 /// The largest difference of a value; NaN if one is not finite.

@@ -161,11 +161,8 @@ fn timeless(program: &Program, problem: &LoadedProblem, mode: Mode, claim: Claim
 /// tolerance.
 pub(in crate::serve::grade) fn converging(problem: &LoadedProblem, answers: &[(u64, Answer)]) -> Option<String> {
     let last = answers.last_chunk::<4>()?;
-    let rung = |(steps, answer): &(u64, Answer)| Rung {
-        setting: Setting::Steps(*steps),
-        compared: compare(problem, answer),
-        answer: answer.clone(),
-        took: Duration::ZERO,
+    let rung = |(steps, answer): &(u64, Answer)| {
+        Rung::of(problem, Setting::Steps(*steps), answer.rows.clone(), Duration::ZERO)
     };
     let doubles = last.windows(2).all(|pair| pair[1].0 == 2 * pair[0].0);
     doubles.then(|| converges(problem, &last.each_ref().map(rung))).flatten()

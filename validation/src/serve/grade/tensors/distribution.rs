@@ -1,6 +1,7 @@
 //! The exact distribution of rods that diffuse, with a mistake.
 
-use super::{Near, apart, fourth_of};
+use super::columns::fourth_of;
+use super::{Near, apart};
 use crate::methods::tensors::fourth::PAIRS;
 use crate::methods::tensors::{Model, Parts, shear_rate};
 use crate::oracle::diffusion::{Means, Motion, strain_rate_per_s};
@@ -46,7 +47,7 @@ pub(super) fn from_exact(problem: &Problem, rows: &[Vec<f64>], parts: &Parts, mo
     if !of_rods
         || parts.spun != [1.0, -1.0]
         || parts.stretched != [1.0, 1.0]
-        || parts.by_component != [false; 2]
+        || parts.by_component
         || parts.off_diagonal != 0.0
         || parts.of_strain.abs() > 1.0
         || !(1e-9..=1e9).contains(&c_i)

@@ -58,10 +58,10 @@ const TIME: &str = "every rate (or time, or the sum of a method's weights)";
 /// The step of the slope, that of a rough one, and the number of steps of Newton's method.
 const SLOPE: f64 = 1e-6;
 const ROUGH_SLOPE: f64 = 1e-2;
+const STEPS: usize = 12;
 
 /// The least cosine between a change and the change with a small part of what makes it.
 const ALIKE: f64 = 0.5;
-const STEPS: usize = 12;
 
 /// The words for a quantity that is `factor` times what is asked, with as many digits as tell the factor from 1.
 fn words(quantity: &str, factor: f64) -> String {
@@ -139,9 +139,8 @@ pub(super) fn of_numbers(problem: &Problem, answer: &Answer, known: &Known, most
         // A number that is 0 has no factor.
         let value = |factor: f64| right + (factor - 1.0) * right.abs().max(1.0);
         let stand = |factor: f64| numbered.stand(closure, k, value(factor));
-        let row = |tolerance: f64, factor: f64| {
-            Candidate::new(known.parts, &stand(factor), Vec::new()).curve(problem, &known.start, 1, tolerance)?.pop()
-        };
+        let row =
+            |tolerance: f64, factor: f64| known.with(&stand(factor)).curve(problem, &known.start, 1, tolerance)?.pop();
         // Saves time: most numbers explain nothing at the first time already, and most not even its direction.
         let moved = row(ROUGH, 1.0 + ROUGH_SLOPE)?.iter().zip(&right_row).map(|(there, here)| there - here).collect();
         let moved: DVector<f64> = DVector::from_vec(moved);
@@ -151,13 +150,7 @@ pub(super) fn of_numbers(problem: &Problem, answer: &Answer, known: &Known, most
         let rough = newton(&answer.rows[0], [1.0, ROUGH_SLOPE], |factor| row(ROUGH, factor))?;
         let left = apart(&answer.rows[..1], &[row(ROUGH, rough)?]);
         let factor = (left <= OFF).then(|| newton(&answer.rows[0], [rough, SLOPE], |factor| row(STEP, factor)))??;
-        let distance = distance(
-            problem,
-            &answer.rows,
-            &known.start,
-            &Candidate::new(known.parts, &stand(factor), Vec::new()),
-            most,
-        )?;
+        let distance = distance(problem, &answer.rows, &known.start, &known.with(&stand(factor)), most)?;
         Some(Near::new(distance, &with_numbers(closure, &numbered, &[(k, value(factor))])))
     };
     let numbers: Vec<_> = numbered.numbers.iter().enumerate().collect();

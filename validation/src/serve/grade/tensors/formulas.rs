@@ -187,12 +187,10 @@ fn fraction(value: f64) -> Option<String> {
 
 /// A value and the right one as fractions, or in as many decimals as tell them apart, and four digits at least.
 fn apart_in_digits(value: f64, right: f64) -> [String; 2] {
-    if let (Some(right), whole) = (fraction(right), value.round()) {
-        // Whole numbers are written by hand too.
-        let whole = ((value - whole).abs() < 1e-8).then(|| whole.to_string());
-        if let Some(value) = fraction(value).or(whole) {
-            return [value, right];
-        }
+    // For a fraction a whole number is written by hand too.
+    let whole = || ((value - value.round()).abs() < 1e-8).then(|| value.round().to_string());
+    if let (Some(right), Some(value)) = (fraction(right), fraction(value).or_else(whole)) {
+        return [value, right];
     }
     let place = |x: f64| x.abs().max(1e-15).log10().floor();
     let decimals = (2.0 - place(value - right)).max(3.0 - place(right.abs().max(value.abs()))).max(0.0) as usize;

@@ -7,6 +7,9 @@
 use super::LENGTH_MM;
 use nalgebra::{Matrix3, Vector3};
 
+/// φ̇′ or θ̇′ from φ, θ and ṗ′.
+pub(crate) type AngleRate = fn([f64; 2], &Vector3<f64>) -> f64;
+
 /// A vector of each rod.
 pub(crate) type Both = [Vector3<f64>; 2];
 
@@ -49,8 +52,8 @@ pub(crate) struct Variant {
     pub(crate) mean_across: f64,
     /// True if ṗ′ is made normal to p, which the right rule's is already.
     pub(crate) normal: bool,
-    /// φ̇′ and θ̇′ from φ, θ and ṗ′.
-    pub(crate) turned: fn([f64; 2], &Vector3<f64>) -> [f64; 2],
+    pub(crate) phi_rate: AngleRate,
+    pub(crate) theta_rate: AngleRate,
     /// The factor on Δt.
     pub(crate) step: f64,
     /// φ and θ after the step.
@@ -78,10 +81,8 @@ pub(crate) const RIGHT: Variant = Variant {
     shared: [1.0, 0.0],
     mean_across: 1.0,
     normal: false,
-    turned: |[phi, theta], rate| {
-        let [around, across] = within([phi, theta], rate);
-        [around / theta.sin(), across * theta.cos() - rate.z * theta.sin()]
-    },
+    phi_rate: |at, rate| within(at, rate)[0] / at[1].sin(),
+    theta_rate: |at, rate| within(at, rate)[1] * at[1].cos() - rate.z * at[1].sin(),
     step: 1.0,
     stepped: |step| [0, 1].map(|k| step.angles[k] + step.rates[k] * step.step_s),
 };
@@ -115,7 +116,7 @@ pub(crate) fn answers(
         None => rate.as_slice().to_vec(),
         Some(step_s) => {
             let angles = [p.y.atan2(p.x), p.x.hypot(p.y).atan2(p.z)];
-            let rates = (variant.turned)(angles, &rate);
+            let rates = [variant.phi_rate, variant.theta_rate].map(|of| of(angles, &rate));
             let step = Step { angles, rates, p, rate, step_s: variant.step * step_s };
             [rates, (variant.stepped)(&step)].concat()
         }
@@ -155,10 +156,10 @@ fn rates(gradient: &Matrix3<f64>, pair: &[f64], variant: Variant) -> [(Vector3<f
     let (w, d) = (0.5 * (l - l.transpose()), 0.5 * (l + l.transpose()));
     let [x, p] = vectors(pair);
     let shapes = (variant.shapes)([pair[6], pair[13]]);
-    let [spin, pulled, kept] = variant.parts;
+    let [spin, pulled, along] = variant.parts;
     let jeffery = |shape: f64, p: Vector3<f64>| {
         let pull = d * p;
-        w * p * spin + shape * (pull * pulled - p * (p.dot(&pull) * kept))
+        w * p * spin + shape * (pull * pulled - p * (p.dot(&pull) * along))
     };
     let free = [0, 1].map(|k| jeffery(shapes[k], p[k]));
     let feet = (variant.feet)(lengths(x, p));

@@ -317,9 +317,7 @@ fn last_converge(problem: &LoadedProblem, rungs: &[Rung]) -> Option<String> {
     let extrapolated = |coarse: &Rung, fine: &Rung| -> Vec<Vec<f64>> {
         let weight = 1.0 / (order.exp2() - 1.0);
         let of = |(coarse, fine): (&Vec<f64>, &Vec<f64>)| {
-            // A rod has no head.
-            let sign = if coarse.iter().zip(fine).map(|(a, b)| a * b).sum::<f64>() < 0.0 { -1.0 } else { 1.0 };
-            fine.iter().zip(coarse).map(|(fine, coarse)| fine + weight * (fine - sign * coarse)).collect()
+            fine.iter().zip(coarse).map(|(fine, coarse)| fine + weight * (fine - coarse)).collect()
         };
         coarse.answer.rows.iter().zip(&fine.answer.rows).map(of).collect()
     };

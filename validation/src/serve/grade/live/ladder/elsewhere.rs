@@ -90,11 +90,11 @@ pub(super) fn judged(
     let [other_s, end_s] = problems.map(|of| of.problem.times_s.last().copied().unwrap_or_default());
     let due = FAR * passed.error().max(problems[1].problem.tolerance);
     // Steps of equal length end at every time: with several, not every number will do.
-    let odd = u64::from(problems[0].problem.times_s.len() == 1);
+    let alone = problems[0].problem.times_s.len() == 1;
     let finer = |k: i32| match passed.setting {
         Setting::Steps(steps) => {
             let steps = (steps as f64 * other_s / end_s).ceil() as u64 * (1 << k);
-            Setting::Steps(if odd == 1 { cut(other_s, steps | 1) } else { steps })
+            Setting::Steps(if alone { cut(other_s, steps | 1) } else { steps })
         }
         Setting::Tolerance(asked) => Setting::Tolerance((asked * 0.1f64.powi(k)).max(1e-14)),
         Setting::Once => Setting::Once,
@@ -114,10 +114,10 @@ pub(super) fn judged(
         // A missing step is small beside a flip, and halves with the step.
         let is_off = named.suspects.iter().any(|name| STEPS_OFF.contains(&name.as_str()));
         if error.is_nan() || error > most || is_off {
-            let asked = match odd {
-                _ if other_s < end_s => format!("up to t = {other_s} s"),
-                0 => "without the first time".to_owned(),
-                _ => "at the last time alone".to_owned(),
+            let asked = if other_s < end_s {
+                format!("up to t = {other_s} s")
+            } else {
+                (if alone { "at the last time alone" } else { "without the first time" }).to_owned()
             };
             let before = passed.error();
             let words = format!("asked {asked}, with {setting}, it is off by {error:.1e}, before by {before:.1e}");
