@@ -8,6 +8,7 @@ use super::layout::FileOptions;
 use super::live::converging;
 use super::order;
 use super::read::{self, read};
+use super::slips;
 use super::{Graded, Verdict};
 use crate::files::text::Shown;
 use crate::files::{FileError, entries};
@@ -85,17 +86,18 @@ fn find(dir: &Path) -> Result<(Option<PathBuf>, BTreeMap<u64, PathBuf>), FileErr
 ///
 /// A file that cannot be read: file, line and column.
 pub fn grade_one(loaded: &LoadedProblem, dir: &Path, options: &Options) -> Result<Graded, FileError> {
-    let (single, ladder) = find(dir)?;
-    let mut paths = single.iter().chain(ladder.values());
+    let (single, by_steps) = find(dir)?;
+    let mut paths = single.iter().chain(by_steps.values());
     // A closed equation has no random answer.
     let may_scatter = loaded.problem.kind == Kind::Tensor && loaded.problem.closed.is_none();
     let scattered = may_scatter && paths.any(|path| read::has_errors(path, &options.file));
     let scattered = scattered.then(|| loaded.with_standard_errors());
     let loaded = scattered.as_ref().unwrap_or(loaded);
     let read = |path: &PathBuf| read(path, loaded, &options.file, &options.dump);
-    let answers = ladder.iter().map(|(steps, path)| Ok((*steps, read(path)?)));
+    let answers = by_steps.iter().map(|(steps, path)| Ok((*steps, read(path)?)));
     let answers = answers.collect::<Result<Vec<_>, FileError>>()?;
     let errors: Vec<_> = answers.iter().map(|(steps, answer)| (*steps, compare(loaded, answer).error)).collect();
+    let ladder = answers.iter().zip(errors.clone()).map(|((steps, answer), (_, error))| (*steps, error, answer));
     let mut finest = answers.last().map(|(steps, answer)| (Some(*steps), answer.clone()));
     // A file without steps is the answer; the others only give the order.
     if let Some(path) = &single {
@@ -109,6 +111,7 @@ pub fn grade_one(loaded: &LoadedProblem, dir: &Path, options: &Options) -> Resul
     graded.set_orders(errors, loaded, options.claim.order);
     graded.steps = steps;
     judge(&mut graded, loaded, &answer, options.claim);
+    slips::name(&mut graded, loaded, options.claim, ladder);
     let refuted = graded.order_off(options.claim.order).is_some();
     let fails = graded.verdict == Verdict::Fail && steps.is_some() && !refuted;
     if let Some(words) = fails.then(|| converging(loaded, &answers)).flatten() {

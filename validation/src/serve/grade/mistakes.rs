@@ -30,6 +30,19 @@ impl From<&Problem> for Setting {
     }
 }
 
+impl Setting {
+    /// A = W + ΛD in 1/s, of ṗ = Ap − p(p·Ap), at t = 0.
+    pub fn rates_per_s(&self) -> Matrix3<f64> {
+        let (w, d) = halves(&self.gradient_per_s);
+        w + shape(self.aspect_ratio) * d
+    }
+}
+
+/// W and D of L.
+fn halves(l: &Matrix3<f64>) -> (Matrix3<f64>, Matrix3<f64>) {
+    (0.5 * (l - l.transpose()), 0.5 * (l + l.transpose()))
+}
+
 type Curve = Box<dyn Fn(&Setting, &Vector3<f64>, f64) -> Option<Vector3<f64>> + Send + Sync>;
 type Map = Box<dyn Fn(&Setting, f64) -> Option<Matrix3<f64>> + Send + Sync>;
 
@@ -142,8 +155,7 @@ fn moved(name: &str, spoil: impl Fn(Setting) -> Setting + Send + Sync + 'static)
 /// The motion by another A, computed from W, D and Λ.
 fn rate(name: &str, a: fn(Matrix3<f64>, Matrix3<f64>, f64) -> Matrix3<f64>) -> Mistake {
     linear(name, move |setting, time| {
-        let l = setting.gradient_per_s;
-        let (w, d) = (0.5 * (l - l.transpose()), 0.5 * (l + l.transpose()));
+        let (w, d) = halves(&setting.gradient_per_s);
         let a = a(w, d, shape(setting.aspect_ratio));
         Some(rotation(&setting.spin_per_s, time) * map_of(&(a - setting.spin_per_s), time)?)
     })

@@ -21,6 +21,7 @@ mod order;
 mod overall;
 mod read;
 mod report;
+mod slips;
 mod tensors;
 mod trace;
 

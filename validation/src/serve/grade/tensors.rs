@@ -291,6 +291,18 @@ pub(super) fn diagnose(loaded: &LoadedProblem, answer: &Answer, error: f64, step
     said(CURVE, near, problem.tolerance, &cost)
 }
 
+/// The rows of a problem's columns for the states that `step` makes of its closed equation for da/dt and of its start;
+/// `None` if it has none in a steady flow, or asks for its steady state.
+pub(super) fn by_equation(
+    problem: &Problem,
+    step: impl Fn(&dyn Fn(Matrix3<f64>) -> Matrix3<f64>, Matrix3<f64>) -> Vec<Matrix3<f64>>,
+) -> Option<Vec<Vec<f64>>> {
+    let known = known(problem).filter(|_| !problem.is_steady() && problem.oscillation_period_s.is_none())?;
+    let right = known.right()?;
+    let states = step(&|a| right.rate(&a), known.start);
+    states.iter().map(|a| values(problem, right.closure, a)).collect()
+}
+
 /// The right equation from random rods, where the start is another.
 fn from_isotropic(problem: &Problem, answer: &Answer, known: &Known, most: f64) -> Option<Near> {
     let distance = distance(problem, &answer.rows, &isotropic(), &known.right()?, most)?;

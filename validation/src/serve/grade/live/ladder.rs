@@ -19,7 +19,7 @@ use crate::serve::grade::diagnosis::{Diagnosis, diagnose};
 use crate::serve::grade::digits;
 use crate::serve::grade::files::{Claim, judge, place};
 use crate::serve::grade::order::other;
-use crate::serve::grade::{Graded, Order, Verdict};
+use crate::serve::grade::{Graded, Order, Verdict, slips};
 use crate::serve::problems::{Kind, LoadedProblem, Metric};
 use climb::{End, climb, converges, fall_with_tolerances, fewest};
 use elsewhere::others;
@@ -223,6 +223,9 @@ fn climbed(
     }
     let mut graded = Graded::without_answer(problem);
     graded.set_orders(errors(&rungs), problem, claim.order);
+    if matches!(end, End::Lower) {
+        graded.order_found = Some(Order::Lower);
+    }
     let refuted = graded.order_found == Some(Order::Lower);
     // Whether a mistake is named must not depend on how fast the machine is; that of a step is of order 1.
     let mistaken = matches!(end, End::NotReached(_)) && claim.order != Some(1.0) && stays_on_a_mistake(problem, &rungs);
@@ -240,6 +243,8 @@ fn climbed(
     if named.said.is_some() {
         (graded.diagnosis, graded.suspects) = (named.said, named.suspects);
     }
+    let answers = rungs.iter().filter_map(|rung| Some((rung.setting.steps().ok()?, rung.error(), &rung.answer)));
+    slips::name(&mut graded, problem, claim, answers);
     // What converges as far as it goes is not wrong.
     let falls = || graded.steps_needed().is_some() || fall_with_tolerances(&rungs).is_some();
     if matches!(end, End::NoFiner(_)) && graded.verdict == Verdict::Fail && falls() {
@@ -251,7 +256,6 @@ fn climbed(
         _ if converging.is_some() => converging,
         End::Broke(words) | End::Jumps(words) | End::Refused(words) => Some(words),
         End::Lower => {
-            graded.order_found = Some(Order::Lower);
             let said = claim.order.map(|claimed| other(&graded, claimed)).into_iter().chain(digits());
             Some(said.collect::<Vec<_>>().join("; "))
         }

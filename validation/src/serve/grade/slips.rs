@@ -1,0 +1,318 @@
+//! Slips of Runge and Kutta's method of order 4, as codes have them: each converges, but not at order 4, so that its
+//! order is refuted and no curve is wrong. What names a slip is its own steps, to rounding.
+
+use super::answer::Answer;
+use super::mistakes::Setting;
+use super::nearness::{CURVE, Diagnosis, NEARER, Near, said};
+use super::tensors;
+use super::{Claim, Graded, Order};
+use crate::judge::statistics::worst;
+use crate::methods::integrators::apart_rad;
+use crate::serve::problems::{Kind, LoadedProblem};
+use nalgebra::{Matrix3, Vector3};
+use std::ops::{Add, Mul};
+
+/// A method of four stages: the factors of h before k1 to k3 in the arguments of k2 to k4, and those in the step.
+type Stages = ([[f64; 3]; 3], [f64; 4]);
+
+const THIRD: f64 = 1.0 / 3.0;
+const SIXTH: f64 = 1.0 / 6.0;
+const RIGHT: Stages = ([[0.5, 0.0, 0.0], [0.0, 0.5, 0.0], [0.0, 0.0, 1.0]], [SIXTH, THIRD, THIRD, SIXTH]);
+
+const fn second(row: [f64; 3]) -> Stages {
+    ([row, RIGHT.0[1], RIGHT.0[2]], RIGHT.1)
+}
+
+const fn third(row: [f64; 3]) -> Stages {
+    ([RIGHT.0[0], row, RIGHT.0[2]], RIGHT.1)
+}
+
+const fn fourth(row: [f64; 3]) -> Stages {
+    ([RIGHT.0[0], RIGHT.0[1], row], RIGHT.1)
+}
+
+const fn weighted(weights: [f64; 4]) -> Stages {
+    (RIGHT.0, weights)
+}
+
+/// What a code does, and its stages.
+const SLIPS: [(&str, Stages); 20] = [
+    ("RK4 with k2 a whole step ahead, not half", second([1.0, 0.0, 0.0])),
+    ("RK4 with k2 = k1", second([0.0; 3])),
+    ("RK4 with k3 a whole step ahead, not half", third([0.0, 1.0, 0.0])),
+    ("RK4 with k3 from k1, not k2", third([0.5, 0.0, 0.0])),
+    ("RK4 with k3 = k1", third([0.0; 3])),
+    ("RK4 with k4 half a step ahead, not a whole one", fourth([0.0, 0.0, 0.5])),
+    ("RK4 with k4 from k2, not k3", fourth([0.0, 1.0, 0.0])),
+    ("RK4 with k4 from k1, not k3", fourth([1.0, 0.0, 0.0])),
+    ("RK4 with k4 = k1, or with k1 twice and no k4", fourth([0.0; 3])),
+    ("RK4 with k2 and k3 a whole step ahead", ([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]], RIGHT.1)),
+    ("RK4 with the weights 1, 1, 1, 1", weighted([0.25; 4])),
+    ("RK4 with the weights 1, 2, 1, 2", weighted([SIXTH, THIRD, SIXTH, THIRD])),
+    ("RK4 with the weights 2, 1, 1, 2", weighted([THIRD, SIXTH, SIXTH, THIRD])),
+    ("RK4 with the weights 2, 1, 2, 1", weighted([THIRD, SIXTH, THIRD, SIXTH])),
+    ("RK4 with the weights 1, 3, 3, 1", weighted([0.125, 0.375, 0.375, 0.125])),
+    ("RK4 with k2 twice and k3 not at all", weighted([SIXTH, 2.0 * THIRD, 0.0, SIXTH])),
+    ("Kutta's method of order 3", ([[0.5, 0.0, 0.0], [-1.0, 2.0, 0.0], [0.0; 3]], [SIXTH, 4.0 * SIXTH, SIXTH, 0.0])),
+    ("Euler's method", weighted([1.0, 0.0, 0.0, 0.0])),
+    ("the midpoint method", weighted([0.0, 1.0, 0.0, 0.0])),
+    ("Heun's method of order 2", ([[1.0, 0.0, 0.0], [0.0; 3], [0.0; 3]], [0.5, 0.5, 0.0, 0.0])),
+];
+
+/// An answer is compared whose error is neither rounding nor that of steps that miss the motion: from so many
+/// tolerances up to so much in rad or in a component, by at most so many steps.
+const ROUNDING: f64 = 100.0;
+const MISSED: f64 = 0.05;
+const MOST: u64 = 4096;
+
+/// The largest distance of an answer from the steps that it is made of, which round otherwise.
+const EQUAL: f64 = 1e-8;
+
+/// Below this order a method that claims none may be RK4 with a slip.
+const LOW: f64 = 3.5;
+
+/// Sets the slip by whose steps one of the `answers` (steps, error, answer) comes as the diagnosis, if there is no
+/// other and the claimed order is refuted. Without a claim a method of lower order is right, and is not named.
+pub(super) fn name<'a>(
+    graded: &mut Graded,
+    loaded: &LoadedProblem,
+    claim: Claim,
+    answers: impl Iterator<Item = (u64, f64, &'a Answer)>,
+) {
+    let low = match claim.order {
+        Some(_) => graded.order_found == Some(Order::Lower),
+        None => graded.observed_order.is_some_and(|order| order < LOW),
+    };
+    if !low || graded.diagnosis.is_some() {
+        return;
+    }
+    let found = diagnose(loaded, answers);
+    if claim.order.is_some() || found.suspects.iter().all(|name| name.starts_with("RK4")) {
+        (graded.diagnosis, graded.suspects) = (found.said, found.suspects);
+    }
+}
+
+fn diagnose<'a>(loaded: &LoadedProblem, mut answers: impl Iterator<Item = (u64, f64, &'a Answer)>) -> Diagnosis {
+    let of = &loaded.problem;
+    let shows = |error: f64| ROUNDING * loaded.own_tolerance < error && error < MISSED;
+    let Some((steps, error, answer)) = answers.find(|(steps, error, _)| shows(*error) && *steps <= MOST) else {
+        return Diagnosis::default();
+    };
+    let most = EQUAL.min(NEARER * error);
+    let times = Times::new(&of.times_s, steps);
+    let near = SLIPS.iter().filter_map(|(name, stages)| {
+        let distance = match of.kind {
+            Kind::Rods => of_rods(loaded, &times, stages, answer, most)?,
+            _ => of_tensors(loaded, &times, stages, answer)?,
+        };
+        (distance <= most).then(|| Near::new(distance, name))
+    });
+    said(CURVE, near.collect(), most, &format!(", in {steps} steps"))
+}
+
+/// The times of a problem that lie after whole numbers of equal steps, of which the last is one.
+struct Times {
+    /// The length of a step, s.
+    step_s: f64,
+    /// The place of each time among all, and the number of steps until it.
+    at: Vec<(usize, u64)>,
+}
+
+impl Times {
+    fn new(times_s: &[f64], steps: u64) -> Self {
+        let step_s = times_s.iter().fold(0.0, |a: f64, b| a.max(*b)) / steps as f64;
+        let count = |(place, time_s): (usize, &f64)| {
+            let count = (time_s / step_s).round();
+            ((time_s / step_s - count).abs() < 1e-6).then_some((place, count as u64))
+        };
+        Self { step_s, at: times_s.iter().enumerate().filter_map(count).collect() }
+    }
+
+    /// The states at the times, by equal steps with these stages.
+    fn states<V: Copy + Add<Output = V> + Mul<f64, Output = V>>(
+        &self,
+        (rows, weights): &Stages,
+        start: V,
+        rate: &dyn Fn(V) -> V,
+        ended: &dyn Fn(V) -> V,
+    ) -> Vec<V> {
+        let h = self.step_s;
+        let mut state = start;
+        let mut found = Vec::with_capacity(self.at.len());
+        for step in 0..self.at.last().map_or(0, |(_, count)| *count) {
+            let mut k = [rate(state); 4];
+            for (stage, row) in rows.iter().enumerate() {
+                k[stage + 1] = rate(state + (k[0] * row[0] + k[1] * row[1] + k[2] * row[2]) * h);
+            }
+            state = ended(state + (k[0] * weights[0] + k[1] * weights[1] + k[2] * weights[2] + k[3] * weights[3]) * h);
+            found.extend(self.at.iter().filter(|(_, count)| *count == step + 1).map(|_| state));
+        }
+        found
+    }
+
+    /// The rows of an answer at the times, of which each has so many.
+    fn rows<'a>(&self, answer: &'a Answer, each: usize, row: usize) -> impl Iterator<Item = &'a Vec<f64>> {
+        self.at.iter().map(move |(place, _)| &answer.rows[place * each + row])
+    }
+}
+
+/// The variable in which a code turns a rod.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Form {
+    /// p.
+    Raw,
+    /// p, divided by |p| after each step.
+    Normalised,
+    /// q with q̇ = Aq.
+    Linear,
+    /// φ and θ, and 0.
+    Angles,
+}
+
+const FORMS: [Form; 4] = [Form::Raw, Form::Normalised, Form::Linear, Form::Angles];
+
+/// The directions of a rod at the times, which turns by ṗ = Ap − p(p·Ap).
+fn directions(form: Form, a: &Matrix3<f64>, stages: &Stages, times: &Times, start: Vector3<f64>) -> Vec<Vector3<f64>> {
+    let rate = |state: Vector3<f64>| match form {
+        Form::Linear => a * state,
+        Form::Angles => {
+            let ((sin, cos), (sin_phi, cos_phi)) = (state.y.sin_cos(), state.x.sin_cos());
+            let pull = a * direction(state);
+            let phi = Vector3::new(-sin_phi, cos_phi, 0.0);
+            let theta = Vector3::new(cos * cos_phi, cos * sin_phi, -sin);
+            Vector3::new(phi.dot(&pull) / sin, theta.dot(&pull), 0.0)
+        }
+        Form::Raw | Form::Normalised => {
+            let pull = a * state;
+            pull - state * state.dot(&pull)
+        }
+    };
+    let ended = |state: Vector3<f64>| if form == Form::Normalised { state.normalize() } else { state };
+    if form != Form::Angles {
+        return times.states(stages, start, &rate, &ended);
+    }
+    let start = Vector3::new(start.y.atan2(start.x), start.x.hypot(start.y).atan2(start.z), 0.0);
+    times.states(stages, start, &rate, &ended).into_iter().map(direction).collect()
+}
+
+/// p from φ and θ.
+fn direction(angles: Vector3<f64>) -> Vector3<f64> {
+    let ((sin, cos), (sin_phi, cos_phi)) = (angles.y.sin_cos(), angles.x.sin_cos());
+    Vector3::new(sin * cos_phi, sin * sin_phi, cos)
+}
+
+/// The distance in rad of an answer about rods from these steps in one of the variables; none if it exceeds `most`.
+fn of_rods(loaded: &LoadedProblem, times: &Times, stages: &Stages, answer: &Answer, most: f64) -> Option<f64> {
+    let setting = Setting::from(&loaded.problem);
+    if loaded.problem.rotation_rad_per_s.is_some() {
+        return None;
+    }
+    let a = setting.rates_per_s();
+    let count = loaded.start.len();
+    let of_rod = |form: Form, rod: usize| {
+        let found = directions(form, &a, stages, times, loaded.start[rod].into());
+        let rows = times.rows(answer, count, rod).map(|row| Vector3::from_row_slice(row));
+        worst(found.iter().zip(rows).map(|(due, found)| apart_rad(&found, due)))
+    };
+    // The first rod that is far ends it.
+    FORMS.iter().find_map(|form| {
+        (0..count).map(|rod| of_rod(*form, rod)).try_fold(0.0, |a: f64, b| (b <= most).then_some(a.max(b)))
+    })
+}
+
+/// The distance of an answer about tensors from these steps of the closed equation.
+fn of_tensors(loaded: &LoadedProblem, times: &Times, stages: &Stages, answer: &Answer) -> Option<f64> {
+    let states = |rate: &dyn Fn(Matrix3<f64>) -> Matrix3<f64>, start| times.states(stages, start, rate, &|a| a);
+    let rows = tensors::by_equation(&loaded.problem, states)?;
+    Some(worst(rows.iter().zip(times.rows(answer, 1, 0)).map(|(due, found)| crate::oracle::apart(found, due))))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::serve::grade::compare::compare;
+    use crate::serve::grade::live::last_time;
+    use crate::serve::problems::loaded;
+
+    /// The answer to a problem by these stages.
+    fn answered(loaded: &LoadedProblem, form: Form, stages: &Stages, steps: u64) -> Answer {
+        let times = Times::new(&loaded.problem.times_s, steps);
+        let rows: Vec<Vec<f64>> = match loaded.problem.kind {
+            Kind::Rods => {
+                let a = Setting::from(&loaded.problem).rates_per_s();
+                let of_rod = |p: &[f64; 3]| {
+                    let found = directions(form, &a, stages, &times, (*p).into());
+                    found.into_iter().map(|q| if form == Form::Raw { q } else { q.normalize() }).collect::<Vec<_>>()
+                };
+                let rods: Vec<_> = loaded.start.iter().map(of_rod).collect();
+                let at = |k: usize| rods.iter().map(move |rod| rod[k].as_slice().to_vec());
+                (0..times.at.len()).flat_map(at).collect()
+            }
+            _ => {
+                tensors::by_equation(&loaded.problem, |rate, start| times.states(stages, start, rate, &|a| a)).unwrap()
+            }
+        };
+        Answer { lines: vec![0; rows.len()], rows, path: "a test".into() }
+    }
+
+    /// Each slip is found in its own steps and is none of the others, and in right ones there is none; of a linear
+    /// equation several have the same steps.
+    #[test]
+    fn each_slip_is_found_by_its_own_steps() {
+        let mut all = 0;
+        for (name, form, steps) in [
+            ("mid-flip-2", Form::Raw, 256),
+            ("mid-flip-2", Form::Linear, 256),
+            ("spiral", Form::Normalised, 128),
+            ("spiral", Form::Angles, 64),
+            ("closed-ft-ibof-mixed", Form::Raw, 60),
+        ] {
+            let whole = loaded(name);
+            let loaded = if whole.problem.kind == Kind::Rods { last_time(&whole) } else { whole };
+            let found = |stages: &Stages| {
+                let answer = answered(&loaded, form, stages, steps);
+                let error = compare(&loaded, &answer).error;
+                (error, diagnose(&loaded, [(steps, error, &answer)].into_iter()))
+            };
+            for (slip, stages) in &SLIPS {
+                let (error, found) = found(stages);
+                // With so few steps some miss the motion.
+                let missed = error.is_nan() || error > MISSED;
+                match &found.suspects[..] {
+                    [] => assert!(missed, "{name} {slip}: {error}"),
+                    [own] => assert_eq!(own, slip),
+                    several => assert!(form == Form::Linear && several.iter().any(|own| own == slip), "{several:?}"),
+                }
+                all += usize::from(!missed);
+            }
+            assert_eq!(found(&RIGHT).1, Diagnosis::default());
+        }
+        assert_eq!(all, 95);
+    }
+
+    /// A slip is named where its order refutes the claim, or where none is made; a right method of low order is not,
+    /// nor is anything where there is another diagnosis.
+    #[test]
+    fn a_slip_is_named_where_its_order_is_low() {
+        let loaded = last_time(&loaded("spiral"));
+        let named = |stages: &Stages, order: Option<f64>, diagnosis: Option<String>| {
+            let answers = [128, 256, 512, 1024].map(|steps| (steps, answered(&loaded, Form::Raw, stages, steps)));
+            let errors = answers.each_ref().map(|(steps, answer)| (*steps, compare(&loaded, answer).error));
+            let mut graded = Graded { diagnosis, ..Graded::without_answer(&loaded) };
+            graded.set_orders(errors.into(), &loaded, order);
+            let ladder = answers.iter().zip(errors).map(|((steps, answer), (_, error))| (*steps, error, answer));
+            name(&mut graded, &loaded, Claim { order }, ladder);
+            graded.diagnosis
+        };
+        let slip = &SLIPS.iter().find(|(name, _)| name.ends_with("k3 from k1, not k2")).unwrap().1;
+        let midpoint = weighted([0.0, 1.0, 0.0, 0.0]);
+        let said = "this is the curve of RK4 with k3 from k1, not k2, to 2e-16, in 128 steps";
+        assert_eq!(named(slip, Some(4.0), None).as_deref(), Some(said));
+        assert_eq!(named(slip, None, None).as_deref(), Some(said));
+        assert!(named(&midpoint, Some(4.0), None).unwrap().contains("the midpoint method"));
+        for (stages, order) in [(&midpoint, None), (&midpoint, Some(2.0)), (slip, Some(2.0)), (&RIGHT, Some(4.0))] {
+            assert_eq!(named(stages, order, None), None);
+        }
+        assert_eq!(named(slip, Some(4.0), Some("another".into())).as_deref(), Some("another"));
+    }
+}
