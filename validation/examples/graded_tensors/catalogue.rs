@@ -1,11 +1,11 @@
 //! Mistakes in codes for orientation tensors.
 
-use crate::code::{
-    self, Code, M, along, delta, double, hybrid_by, iard, iard_of, ibof_by, linear, linear_by, ore_by, planar, product,
-    quadratic, transposed,
-};
 use shearbed_validation::methods::tensors::ibof::COEFFICIENTS;
 use shearbed_validation::methods::tensors::orthotropic::ORE;
+use shearbed_validation::methods::textbook::tensors::{
+    self as code, Code, M, along, delta, double, hybrid_by, iard, iard_of, ibof_by, linear, linear_by, ore_by, planar,
+    product, quadratic, transposed,
+};
 use std::array::from_fn;
 
 /// A wrong code: its name, what its diagnosis must contain, and the mistake.

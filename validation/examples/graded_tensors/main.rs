@@ -7,13 +7,13 @@
 //! does the same.
 
 mod catalogue;
-mod code;
 mod rods;
 
 use catalogue::{WRONG, WRONG_INSIDE, WRONG_MODELS, Wrong};
-use code::{Code, M, along, delta, hybrid, iard, ibof, linear, quadratic};
 use rayon::prelude::*;
 use shearbed_validation::methods::tensors::Model;
+use shearbed_validation::methods::textbook::tensors::{self as code, Code, M};
+use shearbed_validation::methods::textbook::tensors::{along, delta, hybrid, iard, ibof, linear, quadratic};
 use shearbed_validation::serve::grade::{self, Claim, DumpOptions, FileOptions, Graded, Options, Verdict};
 use shearbed_validation::serve::problems::{self, Formula, LoadedProblem};
 use std::array::from_fn;

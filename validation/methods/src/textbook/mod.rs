@@ -1,8 +1,9 @@
-//! Methods for ṗ = Ap − p(p·Ap) in double precision, by which the grader's rules are tested. They share no code with
-//! the grader.
+//! Methods for ṗ = Ap − p(p·Ap) in double precision, and a code for tensors, by which the grader is tested. They share
+//! no code with it.
 
 pub mod extrapolated;
 pub mod tableaus;
+pub mod tensors;
 
 use nalgebra::{Matrix3, Rotation3, Vector3};
 use ode_solvers::dop_shared::OutputType;

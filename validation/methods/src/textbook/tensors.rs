@@ -1,23 +1,28 @@
 //! A code for orientation tensors in plain arrays, each part of which can be made wrong. Its models
 //! share nothing with the project's own but coefficients.
 
-use shearbed::nalgebra::Matrix3;
-use shearbed_validation::methods::tensors::ibof::{COEFFICIENTS, POWERS};
-use shearbed_validation::methods::tensors::orthotropic::ORE;
+use crate::tensors::ibof::{COEFFICIENTS, POWERS};
+use crate::tensors::orthotropic::ORE;
+use nalgebra::Matrix3;
 use std::array::from_fn;
 
+/// A tensor of rank 2.
 pub type M = [[f64; 3]; 3];
+/// a_ijkl from a and i, j, k, l from 0.
 pub type Closure = fn(&M, [usize; 4]) -> f64;
+/// C/C_I from a, D, L, γ̇ and a parameter.
 pub type Diffusivity = fn(&M, &M, &M, f64, f64) -> M;
 
 /// The parts of a code; [`Code::right`] has the right ones.
 #[derive(Clone)]
 pub struct Code {
+    /// The L that the code uses, from L.
     pub gradient: fn(&M) -> M,
     /// The ½ of W and of D.
     pub half: [f64; 2],
     /// Before D_12, D_13 and D_23.
     pub shear: f64,
+    /// Λ from r_e.
     pub shape: fn(f64) -> f64,
     /// γ̇ from L and D.
     pub speed: fn(&M, &M) -> f64,
@@ -29,6 +34,7 @@ pub struct Code {
     pub stretch: [fn(f64) -> f64; 2],
     /// The 2 and the 3 of 2 C_I γ̇ (δ − 3a), and the 1 before δ.
     pub spread: [f64; 3],
+    /// a_ijkl.
     pub closure: Closure,
     /// κ in RSC's bracket and at the diffusion, from κ.
     pub slow: fn(f64) -> [f64; 2],
@@ -44,22 +50,27 @@ fn sum(of: impl Fn(usize) -> f64) -> f64 {
     (0..3).map(of).sum()
 }
 
+/// a:b.
 pub fn double(a: &M, b: &M) -> f64 {
     sum(|i| sum(|j| a[i][j] * b[i][j]))
 }
 
+/// aᵀ.
 pub fn transposed(a: &M) -> M {
     from_fn(|i| from_fn(|j| a[j][i]))
 }
 
+/// The matrix product.
 pub fn product(a: &M, b: &M) -> M {
     from_fn(|i| from_fn(|j| sum(|k| a[i][k] * b[k][j])))
 }
 
+/// δ_ij.
 pub const fn delta(i: usize, j: usize) -> f64 {
     if i == j { 1.0 } else { 0.0 }
 }
 
+/// The linear closure with other numbers for 1/7 and −1/35.
 pub fn linear_by(a: &M, [i, j, k, l]: [usize; 4], seventh: f64, ones: f64) -> f64 {
     let d = delta;
     let of_a = a[i][j] * d(k, l) + a[i][k] * d(j, l) + a[i][l] * d(j, k);
@@ -67,10 +78,12 @@ pub fn linear_by(a: &M, [i, j, k, l]: [usize; 4], seventh: f64, ones: f64) -> f6
     seventh * (of_a + of_others) + ones * (d(i, j) * d(k, l) + d(i, k) * d(j, l) + d(i, l) * d(j, k))
 }
 
+/// The linear closure.
 pub fn linear(a: &M, at: [usize; 4]) -> f64 {
     linear_by(a, at, 1.0 / 7.0, -1.0 / 35.0)
 }
 
+/// The linear closure of directions in a plane.
 pub fn planar(a: &M, at: [usize; 4]) -> f64 {
     linear_by(a, at, 1.0 / 6.0, -1.0 / 24.0)
 }
@@ -80,18 +93,22 @@ pub fn in_plane(a: &M) -> f64 {
     a[0][0] * a[1][1] - a[0][1] * a[1][0]
 }
 
+/// The quadratic closure.
 pub fn quadratic(a: &M, [i, j, k, l]: [usize; 4]) -> f64 {
     a[i][j] * a[k][l]
 }
 
+/// det a.
 pub fn determinant(a: &M) -> f64 {
     sum(|j| a[0][j] * (a[1][(j + 1) % 3] * a[2][(j + 2) % 3] - a[1][(j + 2) % 3] * a[2][(j + 1) % 3]))
 }
 
+/// f times the quadratic closure and 1 − f times the linear one.
 pub fn hybrid_by(a: &M, at: [usize; 4], f: f64) -> f64 {
     f * quadratic(a, at) + (1.0 - f) * linear(a, at)
 }
 
+/// The hybrid closure.
 pub fn hybrid(a: &M, at: [usize; 4]) -> f64 {
     hybrid_by(a, at, 1.0 - 27.0 * determinant(a))
 }
@@ -120,6 +137,7 @@ fn axes_of(a: &M) -> ([f64; 3], M) {
     (order.map(|k| eigen.eigenvalues[k]), order.map(|k| eigen.eigenvectors.column(k).into_owned().into()))
 }
 
+/// IBOF.
 pub fn ibof(a: &M, at: [usize; 4]) -> f64 {
     ibof_by(a, at, invariants, |_, _, c| c, true)
 }
@@ -166,6 +184,7 @@ pub fn ore_by(a: &M, at: [usize; 4], sort: fn(Axes) -> Axes, change: fn(usize, u
     sum(|m| sum(|n| sum(|p| sum(|q| each(m, n, p, q)))))
 }
 
+/// ORE.
 pub fn ore(a: &M, at: [usize; 4]) -> f64 {
     ore_by(a, at, |axes| axes, |_, _, c| c)
 }
@@ -214,6 +233,7 @@ pub fn invariants(a: &M) -> [f64; 2] {
 }
 
 impl Code {
+    /// The right code with a closure.
     pub fn right(closure: Closure) -> Self {
         Self {
             gradient: |l| *l,
