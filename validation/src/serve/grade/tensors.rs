@@ -19,7 +19,7 @@ use crate::serve::problems::formula::tensor;
 use crate::serve::problems::{Closed, LoadedProblem, Problem};
 use columns::{fourth_of, values};
 use distribution::{from_exact, of_wrong_distribution};
-use layouts::LAYOUTS;
+use layouts::{LAYOUTS, Layout};
 use nalgebra::Matrix3;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
@@ -37,14 +37,16 @@ struct Candidate<'a> {
     closure: &'a Stand,
     /// Its names: mistakes may have the same parts.
     near: Vec<Near>,
-    /// Rough values at the first time; all values.
+    /// True if it keeps the trace 1; rough values at the first time; all values.
+    keeps_trace: OnceLock<bool>,
     first: OnceLock<Option<Vec<f64>>>,
     whole: OnceLock<Option<Vec<Vec<f64>>>>,
 }
 
 impl<'a> Candidate<'a> {
     fn new(parts: Parts, closure: &'a Stand, near: Vec<Near>) -> Self {
-        Self { parts, closure, near, first: OnceLock::new(), whole: OnceLock::new() }
+        let keeps_trace = OnceLock::new();
+        Self { parts, closure, near, keeps_trace, first: OnceLock::new(), whole: OnceLock::new() }
     }
 
     fn rate(&self, a: &Matrix3<f64>) -> Matrix3<f64> {
@@ -54,6 +56,16 @@ impl<'a> Candidate<'a> {
     /// The rate in `factor` times the flow, with the same diffusion.
     fn rate_in(&self, factor: f64, a: &Matrix3<f64>) -> Matrix3<f64> {
         scaled(self.parts, factor, factor, 1.0).rate(a, &self.closure.fourth(a))
+    }
+
+    /// True if the trace of a stays 1, as far as two tensors show.
+    fn keeps_trace(&self) -> bool {
+        let of = || {
+            let other = Matrix3::new(0.5, 0.1, -0.05, 0.1, 0.3, 0.02, -0.05, 0.02, 0.2);
+            let rates = [isotropic(), other].map(|a| self.rate(&a));
+            rates.iter().all(|rate| rate.trace().abs() <= 1e-9 * rate.amax())
+        };
+        *self.keeps_trace.get_or_init(of)
     }
 
     /// The norm of the flow in 1/s.
@@ -200,6 +212,12 @@ fn apart(rows: &[Vec<f64>], expected: &[Vec<f64>]) -> f64 {
     worst(pairs.map(|(a, b)| (a - b).abs()))
 }
 
+/// False if the trace of a_ij is not 1 within what values that are off by `most` allow; true of other columns.
+fn has_trace_one(rows: &[Vec<f64>], most: f64) -> bool {
+    let off = |row: &Vec<f64>| (tensor(row).trace() - 1.0).abs();
+    rows[0].len() != PAIRS.len() || worst(rows.iter().map(off)) <= 3.0 * most + STEP
+}
+
 /// The distance of rows from a candidate's curve; `None` if it is larger than `most`.
 fn distance(
     problem: &Problem,
@@ -209,6 +227,9 @@ fn distance(
     most: f64,
 ) -> Option<f64> {
     let far = |off: &f64| off.is_nan() || *off > most + OFF;
+    if !has_trace_one(rows, most) && candidate.keeps_trace() {
+        return None;
+    }
     // Saves time: most candidates are far already at the first time, or not at rest where the answer is.
     if !problem.is_steady() {
         let first = candidate.first(problem, start)?;
@@ -272,7 +293,8 @@ pub(super) fn diagnose(loaded: &LoadedProblem, answer: &Answer, error: f64, step
     // time.
     if near.is_empty() {
         near = with(2);
-        if is_second {
+        let has_one = |layout: &Layout| layout.rows(&answer.rows).is_some_and(|rows| has_trace_one(&rows, most));
+        if is_second && LAYOUTS.iter().any(has_one) {
             near.extend(in_other_layouts(&of_closures(problem, &known), answer, most));
         }
     }
@@ -337,14 +359,13 @@ pub(super) fn advice(name: &str) -> &'static str {
 /// How far rows are from themselves in the layout of this name.
 fn of_layout(rows: &[Vec<f64>], name: &str) -> Option<f64> {
     let layout = LAYOUTS.iter().find(|layout| layout.name == name)?;
-    Some(apart(rows, &rows.iter().map(|row| layout.read(row)).collect::<Option<Vec<_>>>()?))
+    Some(apart(rows, &layout.rows(rows)?))
 }
 
 /// The right values in other layouts; each of `curves` is a name and the values that a code writes.
 fn in_other_layouts(curves: &[(Near, Vec<Vec<f64>>)], answer: &Answer, most: f64) -> Vec<Near> {
-    let of = |layout: &layouts::Layout| {
-        let rows: Option<Vec<_>> = answer.rows.iter().map(|row| layout.read(row)).collect();
-        let rows = rows?;
+    let of = |layout: &Layout| {
+        let rows = layout.rows(&answer.rows)?;
         let near = curves.iter().filter_map(|(near, curve)| {
             let distance = apart(&rows, curve);
             let name = if near.name.is_empty() {

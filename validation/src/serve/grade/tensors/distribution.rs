@@ -1,7 +1,7 @@
 //! The exact distribution of rods that diffuse, with a mistake.
 
 use super::columns::fourth_of;
-use super::{Near, apart};
+use super::{Near, apart, has_trace_one};
 use crate::methods::tensors::fourth::PAIRS;
 use crate::methods::tensors::{Model, Parts, shear_rate};
 use crate::oracle::diffusion::{Means, Motion, strain_rate_per_s};
@@ -51,6 +51,7 @@ pub(super) fn from_exact(problem: &Problem, rows: &[Vec<f64>], parts: &Parts, mo
         || parts.off_diagonal != 0.0
         || parts.of_strain.abs() > 1.0
         || !(1e-9..=1e9).contains(&c_i)
+        || !has_trace_one(rows, most)
     {
         return None;
     }

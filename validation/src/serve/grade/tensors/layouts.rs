@@ -50,6 +50,11 @@ pub(super) const LAYOUTS: [Layout; 16] = [
 ];
 
 impl Layout {
+    /// The rows of an answer in this layout; `None` if one has other columns.
+    pub(super) fn rows(&self, rows: &[Vec<f64>]) -> Option<Vec<Vec<f64>>> {
+        rows.iter().map(|row| self.read(row)).collect()
+    }
+
     /// A row of an answer in this layout, as 11, 22, 33, 12, 13, 23, or a_ijkl as pairs of these; `None` for
     /// others.
     pub(super) fn read(&self, row: &[f64]) -> Option<Vec<f64>> {
