@@ -7,7 +7,7 @@ use shearbed::plan::{Stage, counted};
 use shearbed::run::ensemble;
 use shearbed_validation::files::cluster;
 use shearbed_validation::methods::least_squares::basis::Basis;
-use shearbed_validation::serve::fit::search::FIRST_REPLICAS;
+use shearbed_validation::serve::fit::search::{FIRST_REPLICAS, MOST_ROUNDS};
 use shearbed_validation::studies::speed::{SECONDS_PER_DRAW, SECONDS_PER_OUTPUT, SECONDS_PER_ROD_AND_STEP};
 use shearbed_validation::studies::suspensions::job::Job;
 use shearbed_validation::studies::suspensions::law::{self, Replicas};
@@ -115,7 +115,7 @@ pub(super) fn nodes(parameters: usize) -> u64 {
 }
 
 /// The cost of a fit of so many parameters, as text, if a replica of `plan` takes `each_s`: its first runs, and as many
-/// as are allowed; `corners` are the ends of the ranges.
+/// as are allowed in one range and in all; `corners` are the ends of the ranges.
 pub(super) fn of_fit<'a>(
     plan: &Plan,
     each_s: f64,
@@ -130,7 +130,11 @@ pub(super) fn of_fit<'a>(
         format!("{runs} runs, {} of one core", about(each_s * runs as f64))
     };
     let [first, most] = [FIRST_REPLICAS, MOST_REPLICAS].map(of);
-    format!("fit: at first {first}; then up to {most}, in each range that it tries\n")
+    let all = about(each_s * (nodes * MOST_REPLICAS * MOST_ROUNDS) as f64);
+    format!(
+        "fit: at first {first}; then up to {most}, in each range that it tries: mostly 2 to 6, at most \
+        {MOST_ROUNDS}, {all}\n"
+    )
 }
 
 /// The cost of a study's jobs, as text: `4.0e9 rods × steps, some 3 min of one core`.

@@ -34,8 +34,8 @@ const NOTHING_ELSE: f64 = 0.7;
 /// The share of χ² that may come from a covariance of few replicas.
 const MOST_EXCESS: f64 = 0.5;
 
-/// The largest number of changes of the box.
-const MOST_ROUNDS: u64 = 12;
+/// The largest number of boxes.
+pub const MOST_ROUNDS: u64 = 12;
 
 /// The rise of χ² at which the box may end: four standard deviations from the best place.
 pub(super) const FAR: f64 = 16.0;
