@@ -90,11 +90,16 @@ pub const FORMULAS: [Formula; 4] = [
 ];
 
 impl Formula {
+    /// The formula's value at any `r` > 0, meant or not.
+    pub fn value(&self, r: f64) -> f64 {
+        (self.value)(r)
+    }
+
     /// r_e of a cylinder of aspect ratio `r`; `None` outside the formula's meaning: where r_e exceeds r, which is true
     /// of no long cylinder, or falls as r grows.
     pub fn equivalent(&self, r: f64) -> Option<f64> {
-        let value = (self.value)(r);
-        let rises = (self.value)(1.001 * r) > value;
+        let value = self.value(r);
+        let rises = self.value(1.001 * r) > value;
         (value > 0.0 && value <= r && rises).then_some(value)
     }
 }
@@ -112,6 +117,7 @@ mod tests {
 
     #[test]
     fn where_a_formula_cannot_mean_it_there_is_none() {
+        assert_eq!(FORMULAS[2].value(1.0), 1.14);
         let given = |r: f64| FORMULAS.map(|formula| formula.equivalent(r).is_some());
         // 1.24/√(ln r) > 1 below r = e^1.5376 = 4.65; 1.14 r^−0.156 > 1 below 2.32.
         assert_eq!(given(2.0), [true, false, false, true]);

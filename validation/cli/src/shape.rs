@@ -11,7 +11,7 @@ Examples:
   shearbed shape --physical 20
   shearbed shape --period-s 147 --period-u 2 --shear-rate-per-s 0.5")]
 pub(super) struct Args {
-    /// Length over diameter of a cylinder, from 2 to 1000
+    /// Length over diameter of a cylinder, up to 1000; below 2, and of discs and rings, what is known
     #[arg(
         long,
         value_name = "R",
@@ -46,14 +46,18 @@ fn positive(text: &str) -> Result<f64, String> {
     number(text, |x| (1e-100..=1e100).contains(&x), "a number from 1e-100 to 1e100")
 }
 
+/// The thinnest disc.
+const THINNEST: f64 = 0.001;
+
 fn ratio(text: &str) -> Result<f64, String> {
-    let (least, most) = ALLOWED;
+    let (least, most) = (THINNEST, ALLOWED.1);
     number(text, |r| (least..=most).contains(&r), &format!("a number from {least} to {most}"))
 }
 
 /// Prints the equivalent aspect ratio of a cylinder by every formula, or that of a period.
 pub(super) fn shape(args: &Args) -> Result<(), Failure> {
     match (args.physical, args.period_s, args.shear_rate_per_s) {
+        (Some(r), ..) if r < ALLOWED.0 => of_flat(r),
         (Some(r), ..) => of_cylinder(r),
         (None, Some(period_s), Some(g)) => of_period((period_s, args.period_u), (g, args.shear_rate_u)),
         // The parser refuses it.
@@ -141,4 +145,29 @@ fn of_cylinder(r: f64) -> Result<(), Failure> {
          In a scene: aspect_ratio = r_e, or physical_aspect_ratio = {r} with shape_correlation = a name in brackets.\n"
     );
     print(&text)
+}
+
+/// Prints what is known of short cylinders, discs and rings: one formula, continued below its rods, and what was
+/// measured.
+fn of_flat(r: f64) -> Result<(), Failure> {
+    let formula = Correlation::HarrisPittman.formula();
+    print(&format!(
+        "a body of length over diameter r = {r}: no formula is stated to hold below r = {}\n\n\
+         {:>9.3}  {}, continued: r_e = {}, for a cylinder or a disc\n           \
+         valid for: {}\n           quoted from: {}\n     \
+         0.07  measured, a disc of r = 0.03 (the formula: {:.3})\n     \
+         0.33  measured, a ring of r = 0.45 (the formula: {:.3})\n           \
+         source: D. Di Giusto, L. Bergougnoux & É. Guazzelli, J. Fluid Mech. (2025)\n           \
+         quoted from: a digest of the paper\n\n\
+         What turns once in a known time has a known r_e: --period-s T --shear-rate-per-s G.\n\
+         In a scene: aspect_ratio = r_e\n",
+        ALLOWED.0,
+        formula.value(r),
+        formula.name,
+        formula.formula,
+        formula.range,
+        formula.read_in,
+        formula.value(0.03),
+        formula.value(0.45),
+    ))
 }
