@@ -35,7 +35,7 @@ pub(super) struct Args {
     #[arg(long = "y", value_name = "CHANNELS", value_delimiter = ',')]
     channels: Vec<String>,
     /// The horizontal axis: t_over_T, time_s or strain; of a sweep also a key, or a product of powers, KEY*KEY^(1/3)
-    #[arg(long = "x", value_name = "KEY", conflicts_with = "data")]
+    #[arg(long = "x", value_name = "KEY")]
     key: Option<String>,
     /// With a key: the time [default: the last output's]; of extremes, to a quarter period [default: the first of most
     /// points]
@@ -48,7 +48,7 @@ pub(super) struct Args {
     #[arg(long, value_name = "NAMES", value_delimiter = ',', allow_hyphen_values = true, requires = "data")]
     columns: Option<Vec<String>>,
     /// Exact curves of `shearbed reference` to draw over the runs
-    #[arg(long, value_name = "FILE.csv", conflicts_with = "key")]
+    #[arg(long, value_name = "FILE.csv")]
     reference: Option<PathBuf>,
     #[command(flatten)]
     look: Look,
@@ -96,6 +96,11 @@ fn of_runs(args: &Args) -> Result<(Figure, String), Failure> {
     let mut drawn = drawn_of(&args.dirs, &args.channels, across)?;
     let (channels, runs) = (drawn.channels.join(", "), drawn.runs.len());
     if let (Some(key), None) = (&args.key, across) {
+        let over_times = [("--data", &args.data), ("--reference", &args.reference)];
+        if let Some((flag, _)) = over_times.into_iter().find(|(_, file)| file.is_some()) {
+            let times = TIMES.join(", ");
+            return Err(Failure::Input(format!("--x {key}: {flag} has times; {times} are allowed beside it")));
+        }
         if args.dirs.len() > 1 {
             let message = format!("--x {key}: {} folders are given; one sweep is allowed", args.dirs.len());
             return Err(Failure::Input(message));
@@ -107,7 +112,7 @@ fn of_runs(args: &Args) -> Result<(Figure, String), Failure> {
     drawn.is_defined()?;
     shades::colour(&mut drawn);
     if let Some(path) = &args.data {
-        drawn.figure.points = measured::points(path, args.columns.as_ref(), &drawn.runs, &drawn.channels)?;
+        drawn.figure.points = measured::points(path, args.columns.as_ref(), &drawn)?;
     }
     if let Some(path) = &args.reference {
         drawn.figure.curves.extend(exact::curves(path, &drawn.time, &drawn.channels, &drawn.runs[0])?);

@@ -1,5 +1,6 @@
 //! Measured points over the curves of runs.
 
+use super::Drawn;
 use super::folders::Run;
 use crate::{Failure, scene};
 use shearbed::Plan;
@@ -7,23 +8,26 @@ use shearbed_validation::files::text::Shown;
 use shearbed_validation::input::experiment::not_read;
 use shearbed_validation::methods::least_squares::Datum;
 use shearbed_validation::present::plot::{MEASURED, Points, WITHOUT_BARS, names};
-use shearbed_validation::serve::fit::data::{self, Reading};
+use shearbed_validation::serve::fit::data::{self, Reading, TimeColumn};
 use std::path::Path;
 
-/// The points of each channel that was measured, with times in the unit of the runs, of which there is at least one,
-/// and with bars of one standard uncertainty if all points have one; `columns` replace the names of the file's.
-pub(super) fn points(
-    path: &Path,
-    columns: Option<&Vec<String>>,
-    runs: &[Run],
-    channels: &[String],
-) -> Result<Vec<Points>, Failure> {
+/// The points of each channel that was measured, with times in the unit of the axis, and with bars of one standard
+/// uncertainty if all points have one; `columns` replace the names of the file's.
+pub(super) fn points(path: &Path, columns: Option<&Vec<String>>, drawn: &Drawn) -> Result<Vec<Points>, Failure> {
+    let Drawn { runs, channels, time, .. } = drawn;
     let at = |what: String| Failure::Input(format!("--data {}: {what}", path.shown()));
     let read = data::read(path, 0, &Reading { columns: columns.cloned(), u: None, without_u: true })?;
     scene::warn("--data", &not_read(path, &read.unread).into_iter().collect::<Vec<_>>());
     let unit = |run: &Run| {
         let plan = Plan::new(&run.scene).map_err(|error| at(error.to_string()))?;
-        read.time.per_unit(&plan).ok_or_else(|| {
+        let axis = match time.as_str() {
+            "time_s" => TimeColumn::Seconds,
+            "strain" => TimeColumn::Strain,
+            _ => TimeColumn::Periods,
+        };
+        // Points have no periods where the scene has none, and then the axis has none either.
+        let unit = read.time.per_unit(&plan).map(|own| own / axis.per_unit(&plan).unwrap_or(1.0));
+        unit.ok_or_else(|| {
             at(format!("{} has no periods; t_s or strain are allowed in place of t_over_T", run.dir.shown()))
         })
     };
