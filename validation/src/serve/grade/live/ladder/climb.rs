@@ -5,7 +5,9 @@ use super::{Mode, Rung, errors};
 use crate::methods::integrators::Setting;
 use crate::serve::grade::answer::Answer;
 use crate::serve::grade::compare::compare;
+use crate::serve::grade::diagnosis::diagnose;
 use crate::serve::grade::live::program::Asked;
+use crate::serve::grade::nearness::NEARER;
 use crate::serve::grade::order::{Order, ROUND_OFF, orders};
 use crate::serve::problems::{Kind, LoadedProblem, Metric};
 use std::time::{Duration, Instant};
@@ -18,6 +20,14 @@ const RESOLVING: usize = 7;
 
 /// The same for tensors, which do not flip: after them a step is some sixteenth of a unit of strain.
 const RESOLVING_TENSORS: usize = 3;
+
+/// The number of coarse settings, which prove nothing: they may be unstable, or miss the motion.
+fn resolving(smooth: bool) -> usize {
+    if smooth { RESOLVING_TENSORS } else { RESOLVING }
+}
+
+/// Said of answers that have settled.
+const NO_CHANGE: &str = "finer ones no longer change the answer";
 
 /// The number of equal answers that show that a setting is ignored.
 const SAME: usize = 4;
@@ -120,7 +130,8 @@ pub(super) fn climb(
             },
             _ => {}
         }
-        if !arrived && let Some(end) = hopeless(&rungs, tolerance, timeout, smooth) {
+        let ended = || hopeless(&rungs, tolerance, timeout, smooth).or_else(|| on_a_mistake(problem, &rungs, smooth));
+        if !arrived && let Some(end) = ended() {
             return (rungs, end);
         }
         let spent = begun.elapsed();
@@ -184,9 +195,7 @@ pub(super) fn reached(rungs: &[Rung], tolerance: f64) -> bool {
 /// The reason why finer settings would not come within the tolerance, if the settings so far prove it. A `smooth`
 /// motion is that of tensors.
 pub(super) fn hopeless(rungs: &[Rung], tolerance: f64, timeout: Duration, smooth: bool) -> Option<End> {
-    // Coarse steps prove nothing: they may be unstable, or miss the motion.
-    let coarse = if smooth { RESOLVING_TENSORS } else { RESOLVING };
-    let resolving = &rungs[coarse.min(rungs.len())..];
+    let resolving = &rungs[resolving(smooth).min(rungs.len())..];
     let [.., third, second, first, last] = resolving else {
         return None;
     };
@@ -202,7 +211,7 @@ pub(super) fn hopeless(rungs: &[Rung], tolerance: f64, timeout: Duration, smooth
         return Some(End::Wrong(words.to_owned()));
     }
     if changes.iter().all(|change| *change <= still) && errors[3] > tolerance {
-        return Some(End::Wrong("finer ones no longer change the answer".to_owned()));
+        return Some(End::Wrong(NO_CHANGE.to_owned()));
     }
     if converge_elsewhere(resolving) && errors[3] > tolerance {
         return Some(End::Wrong("the answers converge, but not to the certified one".to_owned()));
@@ -215,6 +224,15 @@ pub(super) fn hopeless(rungs: &[Rung], tolerance: f64, timeout: Duration, smooth
     (doubles && needed_s > 4.0 * timeout.as_secs_f64()).then(|| {
         End::NotReached(format!("finer ones would take some {needed_s:.0e} s, which --timeout does not allow"))
     })
+}
+
+/// The end where two short steps in a row give the curve of one known mistake: no other will give another.
+fn on_a_mistake(problem: &LoadedProblem, rungs: &[Rung], smooth: bool) -> Option<End> {
+    let [before, last] = rungs.get(resolving(smooth)..)?.last_chunk()?;
+    let error = last.error();
+    let stays = error > problem.problem.tolerance && before.answer.largest_change(&last.answer) <= NEARER * error;
+    let found = stays.then(|| diagnose(problem, &last.answer, error, last.setting.steps().ok()))?;
+    found.said.map(|_| End::Wrong(NO_CHANGE.to_owned()))
 }
 
 /// A message on answers that are the same to the last digit with every setting, and wrong.
@@ -236,8 +254,7 @@ fn ignores(rungs: &[Rung], tolerance: f64) -> Option<&'static str> {
 
 /// A message if the errors of the last four settings do not fall any more, with steps that are short.
 fn no_longer_falls(rungs: &[Rung], smooth: bool) -> Option<&'static str> {
-    let coarse = if smooth { RESOLVING_TENSORS } else { RESOLVING };
-    let last = rungs.get(coarse..)?.last_chunk::<4>()?.each_ref().map(Rung::error);
+    let last = rungs.get(resolving(smooth)..)?.last_chunk::<4>()?.each_ref().map(Rung::error);
     let least = last[..3].iter().copied().fold(f64::INFINITY, f64::min);
     if last[3] > 2.0 * last[0] && last[3] >= last[2] {
         Some("the error grows with the steps, as rounding does")

@@ -360,6 +360,32 @@ fn two_answers_on_the_curve_of_one_mistake_are_wrong_before_time_is_up() {
     assert!(!stays_on_a_mistake(&problem, &[rung(64, right(0.97)), rung(128, right(0.985))]));
 }
 
+/// A program whose answers stay on a curve is asked two short steps if the curve has a name, and four if it has none.
+#[test]
+fn a_curve_with_a_name_is_asked_fewer_steps() {
+    let problem = last_time(&loaded("mid-flip-2"));
+    let setting = mistakes::Setting::from(&problem.problem);
+    let start = Vector3::from(problem.start[0]);
+    let asked = |rate: f64| {
+        // Its own error falls by an order 4.
+        let moved = |steps: u64| {
+            let time_s = problem.problem.times_s[0] * rate * (1.0 + (steps as f64).powi(-4));
+            (mistakes::right_map(&setting, time_s).unwrap() * start).normalize()
+        };
+        let ask = |setting: Setting| {
+            let p = moved(setting.steps().unwrap());
+            Ok(Rung::of(&problem, setting, vec![p.as_slice().to_vec()], Duration::ZERO))
+        };
+        let (rungs, end) = climb(&problem, Mode::Steps, Duration::from_secs(60), None, ask);
+        (rungs.len(), end)
+    };
+    let no_change = || End::Wrong("finer ones no longer change the answer".to_owned());
+    assert_eq!(asked(0.5), (9, no_change()));
+    let (without_name, end) = asked(0.83);
+    assert!(without_name > 10 && matches!(end, End::Wrong(_)), "{without_name} {end:?}");
+    assert_eq!(asked(1.0).1, End::Reached);
+}
+
 /// Otherwise a code of equal steps passes no time of the problem but the last.
 #[test]
 fn steps_of_tensors_end_at_every_time_of_the_problem() {
