@@ -20,7 +20,7 @@ pub(super) fn write(report: &Report) -> Result<String, String> {
     let page = json!({
         "style": include_str!("report.css"),
         "script": include_str!("report.js"),
-        "headline": report.headline(),
+        "alarms": report.alarms(),
         "sizes": sizes(report),
         "good": report.exit_code() == 0,
         "cards": cards(report),

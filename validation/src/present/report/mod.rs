@@ -161,19 +161,23 @@ impl Report {
         u8::from(red || self.summary.false_alarm > FALSE_ALARM_BUDGET)
     }
 
-    /// The opening lines of a report: what passes, by kind, and the false-alarm probability.
+    /// What passes, by kind, what does not, and the false-alarm probability.
     pub fn headline(&self) -> String {
+        let parts: Vec<_> = self.summary.parts.iter().map(Part::to_string).collect();
+        format!("Passed: {}. {}", parts.join("; "), self.alarms())
+    }
+
+    /// What does not pass, and the false-alarm probability.
+    pub fn alarms(&self) -> String {
         let summary = &self.summary;
-        let parts: Vec<_> = summary.parts.iter().map(Part::to_string).collect();
         let over = if summary.false_alarm > FALSE_ALARM_BUDGET {
             format!(", over the budget of {}", formats::number(FALSE_ALARM_BUDGET))
         } else {
             String::new()
         };
         format!(
-            "Passed: {}. {} fail, {} under-powered. By chance alone statistical checks turn correct code red with a \
-             probability of at most {}{over}.",
-            parts.join("; "),
+            "{} fail, {} under-powered. By chance alone statistical checks turn correct code red with a probability of \
+             at most {}{over}.",
             summary.fail,
             summary.underpowered,
             formats::number(summary.false_alarm),
