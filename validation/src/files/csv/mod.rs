@@ -60,9 +60,13 @@ pub fn split(text: &str) -> Vec<String> {
     split_at(text, ',')
 }
 
+/// Stands for any white space between cells.
+const BLANK: char = ' ';
+
 /// The cells of a line, with a point in numbers where commas do not separate cells.
 fn cells(line: &str, separator: char) -> Vec<String> {
-    let mut cells = split_at(line, separator);
+    let words = || line.split_whitespace().map(|word| word.trim_matches('"').to_owned()).collect();
+    let mut cells = if separator == BLANK { words() } else { split_at(line, separator) };
     for cell in cells.iter_mut().filter(|cell| separator != ',' && cell.contains(',')) {
         let pointed = cell.replace(',', ".");
         if number(&pointed).is_some() {
@@ -141,13 +145,14 @@ impl<R: BufRead> Rows<R> {
 const EMPTY: &str = "the file is empty";
 
 /// What separates the cells of a file with this first line: commas in it beside semicolons or tabs are those of
-/// numbers.
+/// numbers, and blanks separate where nothing else does.
 fn separator(first: &str) -> char {
     let is_number = |cell: &str| number_with_comma(cell.trim()).is_some();
     let other = |separator: &char| {
         first.contains(*separator) && (!first.contains(',') || first.split(*separator).all(is_number))
     };
-    [';', '\t'].into_iter().find(other).unwrap_or(',')
+    let blank = first.trim().contains(BLANK) && !first.contains([',', '"']);
+    [';', '\t'].into_iter().find(other).unwrap_or(if blank { BLANK } else { ',' })
 }
 
 /// True if the cells are numbers or empty.
@@ -202,7 +207,7 @@ impl<R: BufRead> Table<R> {
         let mut rows = Rows::new(path, reader);
         let (line, cells) = rows.read(true)?.ok_or_else(|| FileError::line(path, 1, EMPTY))?;
         let table = match given {
-            None => match rows.comment.take().map(|(line, text)| (line, self::cells(&text, rows.separator))) {
+            None => match rows.comment.take().map(|(line, text)| (line, self::cells(text.trim(), separator(&text)))) {
                 Some((of_names, names)) if is_row(&cells) && names.len() == cells.len() => {
                     Self { rows, line: of_names, names, first: Some((line, cells)) }
                 }
@@ -258,6 +263,13 @@ impl<R: BufRead> Table<R> {
         let first = self.first.take();
         let Some((line, cells)) = first.map_or_else(|| self.rows.read(false), |row| Ok(Some(row)))? else {
             return Ok(None);
+        };
+        // NumPy's savetxt writes blanks below a header of any form.
+        let cells = match &cells[..] {
+            [one] if self.names.len() > 1 && one.split_whitespace().count() == self.names.len() => {
+                self::cells(one, BLANK)
+            }
+            _ => cells,
         };
         let row = Row { path: self.rows.lines.path(), names: &self.names, line, cells };
         match (row.cells.len(), row.names.len()) {
@@ -318,4 +330,18 @@ impl Row<'_> {
     pub fn error(&self, message: impl Into<String>) -> FileError {
         FileError::line(self.path, self.line, message)
     }
+}
+
+#[test]
+fn blanks_separate_where_nothing_else_does() {
+    let read = |text: &str| {
+        let mut table = Table::new(Path::new("a.csv"), text.as_bytes()).unwrap();
+        let names = table.names().join("|");
+        (names, table.next_row().unwrap().unwrap().cells.join("|"))
+    };
+    for text in ["t x1\n1 2\n", "# t,x1\n1 2\n", "# t x1\n1   2\n", "t,x1\n 1  2\n", "t;x1\n1 2", "\"t\",x1\n1,2\n"] {
+        assert_eq!(read(text), ("t|x1".into(), "1|2".into()), "{text:?}");
+    }
+    assert_eq!(read("t, x1\n1, 2\n"), ("t|x1".into(), "1|2".into()));
+    assert_eq!(read("a name,x1\na b,2\n"), ("a name|x1".into(), "a b|2".into()));
 }

@@ -105,6 +105,15 @@ impl Layout {
         Ok(Self { separator, fields: fields(&names, problem, axes)?, first_is_row })
     }
 
+    /// Takes white space as the separator where a row below the header has that and none of the header's, as NumPy's
+    /// `savetxt` writes.
+    pub fn take_separator(&mut self, row: &str) {
+        let count = self.fields.len();
+        if count > 1 && !row.contains(self.separator) && split(row, ' ').count() == count {
+            self.separator = ' ';
+        }
+    }
+
     /// The fields of a row.
     pub fn split<'a>(&self, line: &'a str) -> impl Iterator<Item = &'a str> + use<'a> {
         split(line, self.separator)

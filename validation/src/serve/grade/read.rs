@@ -55,7 +55,7 @@ pub fn read(
         return Err(lines.error(0, message));
     }
     let foreign = if probes { Some(Foreign::Openfoam) } else { options.foreign };
-    let layout = Layout::find(&first, &problem.problem, &FileOptions { foreign, ..options.clone() })
+    let mut layout = Layout::find(&first, &problem.problem, &FileOptions { foreign, ..options.clone() })
         .map_err(|(at, message)| lines.error(at, message))?;
     let mut collector = Collector::new(problem);
     let mut last = lines.number();
@@ -68,6 +68,9 @@ pub fn read(
     let is_of_units = |line: &String| layout.split(line).all(|field| is_unit(field.trim_matches('"')));
     if !layout.first_is_row && row.as_ref().is_some_and(is_of_units) {
         row = lines.next_line()?.map(plain);
+    }
+    if let Some(line) = row.as_ref().filter(|_| !layout.first_is_row) {
+        layout.take_separator(line);
     }
     while let Some(line) = row {
         if line.starts_with('#') {
