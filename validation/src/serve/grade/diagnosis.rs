@@ -28,7 +28,8 @@ pub fn diagnose(loaded: &LoadedProblem, answer: &Answer, error: f64, steps: Opti
         (in_time && found.suspects.is_empty() && found.said.is_none()).then(|| row_off(loaded, answer, NEARER * error));
     match off.flatten() {
         Some(off) => {
-            Diagnosis { said: Some(format!("this is the right answer {off}")), suspects: vec![off.to_owned()] }
+            let said = Some(format!("this is the right answer {off}"));
+            Diagnosis { said, suspects: vec![off.to_owned()], ..Diagnosis::default() }
         }
         None => found,
     }
@@ -66,7 +67,8 @@ fn named(loaded: &LoadedProblem, answer: &Answer, error: f64, steps: Option<u64>
                         .or_else(|| frozen(loaded, answer, nearer_than, steps))
                 });
                 if let Some(off) = off.or_else(|| reordered(loaded, answer, nearer_than)) {
-                    return Diagnosis { said: Some(format!("this is {off}")), suspects: vec![off.to_owned()] };
+                    let said = Some(format!("this is {off}"));
+                    return Diagnosis { said, suspects: vec![off.to_owned()], ..Diagnosis::default() };
                 }
                 if let Some(said) = not_unit(loaded, answer, nearer_than) {
                     return Diagnosis::sentence(&said);
@@ -77,8 +79,8 @@ fn named(loaded: &LoadedProblem, answer: &Answer, error: f64, steps: Option<u64>
                 mistake.is_some_and(|mistake| has_come_to_rest(loaded, mistake, nearer_than))
             };
             // A result that other mistakes reach as well is no evidence for this one.
-            let said = found.said.filter(|_| !found.suspects.iter().any(rests));
-            Diagnosis { said, suspects: found.suspects }
+            let said = found.said.take().filter(|_| !found.suspects.iter().any(rests));
+            Diagnosis { said, ..found }
         }
     }
 }

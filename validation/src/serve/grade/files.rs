@@ -130,7 +130,7 @@ pub(super) fn judge(graded: &mut Graded, loaded: &LoadedProblem, answer: &Answer
     let outlier = exact.then(|| order::outlier(&graded.errors, loaded.problem.tolerance)).flatten();
     let off = graded.order_off(claim.order).or(outlier);
     graded.verdict = if within && off.is_none() { Verdict::Pass } else { Verdict::Fail };
-    graded.set_answer(loaded, answer, &compared);
+    graded.set_answer(loaded, answer, &compared, f64::INFINITY);
     let digits = digits::remark(answer, compared.error, graded.steps).filter(|_| !compared.too_little_data);
     graded.note = if within {
         off.map(|off| [Some(off), digits].into_iter().flatten().collect::<Vec<_>>().join("; "))

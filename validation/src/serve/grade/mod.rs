@@ -175,11 +175,11 @@ impl Graded {
         self.phase_lost_per_period = compared.phase_lost_per_period.filter(finite);
     }
 
-    /// Sets an answer, its error and drifts, and the diagnosis.
-    fn set_answer(&mut self, loaded: &LoadedProblem, answer: &answer::Answer, compared: &compare::Compared) {
+    /// Sets an answer, its error and drifts, and the diagnosis, if it is within `most`.
+    fn set_answer(&mut self, loaded: &LoadedProblem, answer: &answer::Answer, compared: &compare::Compared, most: f64) {
         self.set_compared(compared);
         self.path = figures::along(loaded, &compared.errors);
-        let found = diagnosis::diagnose(loaded, answer, compared.error, self.steps);
+        let found = diagnosis::diagnose(loaded, answer, compared.error, self.steps).within(most);
         (self.diagnosis, self.suspects, self.answer) = (found.said, found.suspects, Some(answer.clone()));
     }
 

@@ -27,12 +27,19 @@ pub struct Diagnosis {
     pub said: Option<String>,
     /// The mistakes whose curve the answer is.
     pub suspects: Vec<String>,
+    /// How far the answer is from that curve.
+    pub distance: f64,
 }
 
 impl Diagnosis {
     /// A sentence without a known mistake.
     pub(super) fn sentence(said: &str) -> Self {
         Self { said: Some(said.to_owned()), ..Self::default() }
+    }
+
+    /// Nothing, where the answer is farther from the curve than `most`.
+    pub(super) fn within(self, most: f64) -> Self {
+        if self.distance <= most { self } else { Self::default() }
     }
 }
 
@@ -87,7 +94,7 @@ pub(super) fn said(what: &str, mut near: Vec<Near>, tolerance: f64, rest: &str) 
     let mut suspects: Vec<_> = near.into_iter().flat_map(|near| near.suspects).collect();
     suspects.sort();
     suspects.dedup();
-    Diagnosis { said, suspects }
+    Diagnosis { said, suspects, distance: nearest }
 }
 
 #[test]
@@ -95,4 +102,9 @@ fn only_the_nearest_are_named() {
     let near = [("a", 1e-9), ("b", 5e-9), ("c", 2e-8)].map(|(name, distance)| Near::new(distance, name));
     let named = |tolerance| said(CURVE, near.to_vec(), tolerance, "").suspects;
     assert_eq!((named(0.0), named(3e-8)), (vec!["a".into(), "b".into()], vec!["a".into(), "b".into(), "c".into()]));
+    let found = said(CURVE, near.to_vec(), 0.0, "");
+    assert_eq!(
+        (found.clone().within(1e-9), found.within(9e-10)),
+        (said(CURVE, near.to_vec(), 0.0, ""), Diagnosis::default())
+    );
 }

@@ -227,7 +227,8 @@ pub fn other(graded: &Graded, claimed: f64) -> String {
     let said = format!("observed order {} where {claimed} is claimed", graded.order_text());
     match (graded.observed_order, graded.error) {
         (Some(order), Some(error)) if order.abs() < NO_ORDER => format!(
-            "{said}: the error stays at {error:.1e} whatever the step, so the equation is wrong or digits are too few"
+            "{said}: the error stays at {error:.1e} whatever the step, so the equation is wrong, or the step (do its \
+             weights sum to 1?), or digits are too few"
         ),
         _ => said,
     }
@@ -247,7 +248,7 @@ pub fn settle(problems: &[LoadedProblem], graded: &mut [Graded], claimed: Option
         let of = problems.iter().find(|loaded| loaded.problem.name == graded.name);
         if shown || of.is_some_and(in_the_shear_plane) {
             let observed = graded.order_text();
-            graded.note = Some(format!("observed order {observed}: this problem has no error of order {claimed}"));
+            graded.note = Some(format!("observed order {observed}, higher than the claimed {claimed}: no fault"));
         } else {
             graded.verdict = Verdict::Fail;
             graded.note = Some(other(graded, claimed));

@@ -21,7 +21,7 @@ use crate::serve::grade::files::{Claim, judge, place};
 use crate::serve::grade::order::other;
 use crate::serve::grade::{Graded, Order, Verdict, slips};
 use crate::serve::problems::{Kind, LoadedProblem, Metric};
-use climb::{End, climb, converges, fall_with_tolerances, fewest};
+use climb::{End, climb, converges, fall_with_tolerances, fewest, is_smooth, resolving, within};
 use elsewhere::others;
 use std::cell::Cell;
 use std::time::{Duration, Instant};
@@ -204,6 +204,12 @@ fn climbed(
     };
     let ask = |setting: Setting| ask_of(problem, setting);
     let (rungs, mut end) = climb(problem, mode, program.timeout, claim.order, ask);
+    let few = |rung: &Rung| digits::remark(&rung.answer, rung.error(), rung.setting.steps().ok());
+    // Rounding that explains the error hides the order, and refutes none.
+    let hidden = matches!(end, End::Lower) && rungs.last().and_then(few).is_some();
+    if hidden {
+        end = if within(&rungs, of.tolerance) { End::Reached } else { End::Stays(String::new()) };
+    }
     if matches!(end, End::Reached) {
         end = jumps::judged(&rungs, of.tolerance, fewest(&of.times_s), ask);
     }
@@ -226,6 +232,9 @@ fn climbed(
     if matches!(end, End::Lower) {
         graded.order_found = Some(Order::Lower);
     }
+    if hidden {
+        graded.order_found = Some(Order::Unclear);
+    }
     let refuted = graded.order_found == Some(Order::Lower);
     // Whether a mistake is named must not depend on how fast the machine is; that of a step is of order 1.
     let mistaken = matches!(end, End::NotReached(_)) && claim.order != Some(1.0) && stays_on_a_mistake(problem, &rungs);
@@ -238,7 +247,7 @@ fn climbed(
     if let Some(finest) = best(&rungs) {
         graded.steps = finest.setting.steps().ok();
         graded.asked_tolerance = finest.setting.tolerance().ok();
-        graded.set_answer(problem, &finest.answer, &finest.compared);
+        graded.set_answer(problem, &finest.answer, &finest.compared, settled(&rungs));
     }
     if named.said.is_some() {
         (graded.diagnosis, graded.suspects) = (named.said, named.suspects);
@@ -247,34 +256,34 @@ fn climbed(
     slips::name(&mut graded, problem, claim, answers);
     // What converges as far as it goes is not wrong.
     let falls = || graded.steps_needed().is_some() || fall_with_tolerances(&rungs).is_some();
-    if matches!(end, End::NoFiner(_)) && graded.verdict == Verdict::Fail && falls() {
+    // Nor is what has taken coarse steps alone, unless it lies on the curve of a mistake.
+    let coarse = || rungs.len() <= resolving(is_smooth(problem)) && graded.diagnosis.is_none();
+    if matches!(end, End::NoFiner(_)) && graded.verdict == Verdict::Fail && (falls() || coarse()) {
         graded.verdict = Verdict::Refused;
     }
-    let digits = || rungs.last().and_then(|rung| digits::remark(&rung.answer, rung.error(), rung.setting.steps().ok()));
+    let digits = || best(&rungs).and_then(few);
     let may_be_reached = !matches!(end, End::Wrong(_) | End::Stays(_));
     graded.note = match end {
         _ if converging.is_some() => converging,
         End::Broke(words) | End::Jumps(words) | End::Refused(words) => Some(words),
-        End::Lower => {
-            let said = claim.order.map(|claimed| other(&graded, claimed)).into_iter().chain(digits());
-            Some(said.collect::<Vec<_>>().join("; "))
-        }
+        End::Lower => claim.order.map(|claimed| other(&graded, claimed)),
         End::Reached => not_finite(&rungs),
         End::Stays(words) | End::Wrong(words) | End::NoFiner(words) | End::NotReached(words) => {
-            let finite = rungs.last().filter(|finest| finest.error().is_finite());
+            let finite = best(&rungs).filter(|finest| finest.error().is_finite());
             // Of directions there is no worst component.
             let finite = finite.filter(|_| problem.problem.metric == Metric::Absolute);
             let worst = finite.map(|finest| place(problem, &finest.answer, finest.compared.row));
             // Few digits are the reason why errors end.
             let few = digits();
             let words = if few.is_some() { String::new() } else { words };
-            let remark = rungs.last().and_then(|finest| finest.compared.remark.clone());
+            let remark = best(&rungs).and_then(|finest| finest.compared.remark.clone());
             let remark = remark.filter(|_| finite.is_some());
-            let long = graded.length_drift.filter(|drift| *drift > 0.1 && graded.diagnosis.is_none());
+            let wrong = graded.verdict == Verdict::Fail && graded.diagnosis.is_none();
+            let long = graded.length_drift.filter(|drift| wrong && *drift > 0.1);
             let long = long.map(|drift| format!("the length of p is off 1 by up to {drift:.1}: are these components?"));
             let on_axis = problem.start.iter().any(|p| p[0].hypot(p[1]) < 1e-9);
             let pole = (on_axis && best(&rungs).is_some_and(|finest| !finest.error().is_finite()))
-                .then(|| "a rod lies along axis 3, where its φ is undefined".to_owned());
+                .then(|| "a rod lies along axis 3, where φ is undefined and p does not move".to_owned());
             let all = std::iter::once(why(&graded, best(&rungs), words, may_be_reached))
                 .chain(pole)
                 .chain(long)
@@ -286,6 +295,17 @@ fn climbed(
     };
     graded
 }
+
+/// How far an answer that has settled may be from the curve of its mistake: what the last steps still change, and few
+/// printed digits.
+fn settled(rungs: &[Rung]) -> f64 {
+    match rungs {
+        [.., before, last] => before.answer.largest_change(&last.answer).max(PRINTED),
+        _ => f64::INFINITY,
+    }
+}
+
+const PRINTED: f64 = 1e-4;
 
 /// The finest answer, or where its error is rounding that grows, the best one.
 fn best(rungs: &[Rung]) -> Option<&Rung> {

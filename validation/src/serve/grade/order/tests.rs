@@ -104,7 +104,7 @@ fn a_claim_that_is_too_low_fails_where_no_problem_shows_it_and_none_explains_it(
     };
     let (plane, space) = ("shear-plane", "spiral");
     let too_low = "observed order +5.00 where 4 is claimed";
-    let no_error = "observed order +5.00: this problem has no error of order 4";
+    let no_error = "observed order +5.00, higher than the claimed 4: no fault";
     let none = String::new;
     assert_eq!(
         settled(&[(plane, Order::Higher, Verdict::Pass), (space, Order::Higher, Verdict::Pass)]),

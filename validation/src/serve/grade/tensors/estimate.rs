@@ -102,7 +102,12 @@ pub(super) fn of_curve(problem: &Problem, answer: &Answer, known: &Known, steps:
         // At higher rates any steady state is reached, and no code has a larger Λ by mistake.
         let factor =
             newton(&answer.rows[0], [1.0, SLOPE], row).filter(|factor| name == "C_I" || factor.abs() <= MOST)?;
-        let distance = distance(problem, &answer.rows, &known.start, &with(factor)?, most)?;
+        let apart = |factor: f64| distance(problem, &answer.rows, &known.start, &with(factor)?, most);
+        // An answer of few steps fits a round number less well than another, but well enough.
+        let round = [1, 2].map(|digits| rounded(factor, digits)).into_iter();
+        let mut round = round.filter(|round| *round != 1.0 && (round / factor - 1.0).abs() < 0.02);
+        let factor = round.find(|round| apart(*round).is_some()).unwrap_or(factor);
+        let distance = apart(factor)?;
         let of_step = steps.filter(|_| name == TIME).and_then(|steps| step_off(factor, steps));
         let near = match of_step {
             Some(name) => near_of(name, "", *closure, known.own),
@@ -113,6 +118,11 @@ pub(super) fn of_curve(problem: &Problem, answer: &Answer, known: &Known, steps:
     // Another closure is sought only where a number of the right equation explains nothing, which saves time.
     let near: Vec<_> = first.par_iter().filter_map(fit).collect();
     if near.is_empty() { others.par_iter().filter_map(fit).collect() } else { near }
+}
+
+/// A number in so many digits.
+fn rounded(x: f64, digits: usize) -> f64 {
+    format!("{x:.*e}", digits - 1).parse().unwrap_or(x)
 }
 
 /// The right curve at the times one step before or after those asked for, where the answer is that: every time is

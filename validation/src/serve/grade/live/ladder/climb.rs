@@ -1,13 +1,12 @@
 //! From coarse settings to fine ones, until the answers are within the tolerance, prove that they will not be, or time
 //! is up.
 
-use super::{Mode, Rung, errors};
+use super::{Mode, Rung, errors, settled};
 use crate::methods::integrators::Setting;
 use crate::serve::grade::answer::Answer;
 use crate::serve::grade::compare::compare;
 use crate::serve::grade::diagnosis::diagnose;
 use crate::serve::grade::live::program::Asked;
-use crate::serve::grade::nearness::NEARER;
 use crate::serve::grade::order::{Order, ROUND_OFF, orders};
 use crate::serve::problems::{Kind, LoadedProblem, Metric};
 use std::time::{Duration, Instant};
@@ -22,9 +21,17 @@ const RESOLVING: usize = 7;
 const RESOLVING_TENSORS: usize = 3;
 
 /// The number of coarse settings, which prove nothing: they may be unstable, or miss the motion.
-fn resolving(smooth: bool) -> usize {
+pub(super) fn resolving(smooth: bool) -> usize {
     if smooth { RESOLVING_TENSORS } else { RESOLVING }
 }
+
+/// True of tensors, which do not flip, unless their answers are random.
+pub(super) fn is_smooth(problem: &LoadedProblem) -> bool {
+    problem.problem.kind != Kind::Rods && problem.problem.metric != Metric::StandardErrors
+}
+
+/// The largest change, as a share of the error, of an answer that has settled on a curve.
+const STILL: f64 = 1e-5;
 
 /// Said of answers that have settled.
 const NO_CHANGE: &str = "finer ones no longer change the answer";
@@ -86,7 +93,7 @@ pub(super) fn climb(
     let claimed = claimed.filter(|_| mode == Mode::Steps);
     let mut rungs: Vec<Rung> = Vec::new();
     // Errors of random answers are in units of their own.
-    let smooth = problem.problem.kind != Kind::Rods && problem.problem.metric != Metric::StandardErrors;
+    let smooth = is_smooth(problem);
     let (mut says, mut refused) = (None, 0);
     let mut begun = Instant::now();
     for setting in settings(problem, mode) {
@@ -230,8 +237,9 @@ pub(super) fn hopeless(rungs: &[Rung], tolerance: f64, timeout: Duration, smooth
 fn on_a_mistake(problem: &LoadedProblem, rungs: &[Rung], smooth: bool) -> Option<End> {
     let [before, last] = rungs.get(resolving(smooth)..)?.last_chunk()?;
     let error = last.error();
-    let stays = error > problem.problem.tolerance && before.answer.largest_change(&last.answer) <= NEARER * error;
+    let stays = error > problem.problem.tolerance && before.answer.largest_change(&last.answer) <= STILL * error;
     let found = stays.then(|| diagnose(problem, &last.answer, error, last.setting.steps().ok()))?;
+    let found = found.within(settled(rungs));
     found.said.map(|_| End::Wrong(NO_CHANGE.to_owned()))
 }
 

@@ -38,6 +38,10 @@ pub(super) fn judged(rungs: &[Rung], tolerance: f64, unit: u64, ask: impl Fn(Set
         if !rungs[..=k].iter().any(|rung| rung.error().is_finite()) {
             return End::Reached;
         }
+        // Over several steps at once a right method may pass from unstable to close. What is unstable is so with fewer.
+        if unit > 1 && !rungs[..k].iter().any(|rung| rung.error() < FOLLOWS) {
+            return End::Reached;
+        }
         let found = match (rungs[k].setting, rungs[k + 1].setting) {
             (Setting::Steps(coarse), Setting::Steps(fine)) => {
                 let foretold = Foretold::from(&rungs[k + 1..], fine, tolerance, order);

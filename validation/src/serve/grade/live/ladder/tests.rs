@@ -316,6 +316,23 @@ fn answers_that_are_wrong_at_some_numbers_of_steps_are_no_methods() {
     }
 }
 
+/// From 180 to 200 steps an explicit method may pass its limit of stability: of 20 steps at once no jump is known. One
+/// that is right with fewer steps again is no method's.
+#[test]
+fn over_several_steps_at_once_a_method_may_become_stable() {
+    let judged_by = |unit: u64, error: &dyn Fn(u64) -> f64| {
+        let ask = |setting: Setting| Ok(rung(setting, error(setting.steps().unwrap()), 0.0));
+        let rungs: Vec<_> = (0..8).map(|k| ask(Setting::Steps(40 << k)).unwrap()).collect();
+        jumps::judged(&rungs, 1e-12, unit, ask)
+    };
+    let right = |steps: u64| 1e5 * (steps as f64).powi(-4);
+    let unstable = |steps: u64| if steps < 200 { 0.16 } else { right(steps) };
+    assert_eq!(judged_by(20, &unstable), End::Reached);
+    assert!(matches!(judged_by(1, &unstable), End::Jumps(_)));
+    let once = |steps: u64| if steps == 320 { 0.16 } else { right(steps) * 1e-2 };
+    assert!(matches!(judged_by(20, &once), End::Jumps(_)));
+}
+
 #[test]
 fn a_tolerance_far_worse_than_both_its_neighbours_is_no_methods() {
     let judged_where = |spoilt: &dyn Fn(i32) -> bool, error: f64| {
