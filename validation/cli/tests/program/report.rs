@@ -81,7 +81,7 @@ fn a_real_report_is_whole() {
         let start = format!("figure-fig{figure}");
         assert!(anchors.iter().any(|anchor| anchor.starts_with(&start)), "{start}");
     }
-    assert!(html.contains(&report.headline()));
+    assert!(html.contains(&report.alarms()));
     assert!(html.contains("keep") && html.contains("drop neighbours"), "plans");
     assert!(report.markdown().contains("| A.13 |"));
 }
