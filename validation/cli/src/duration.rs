@@ -133,7 +133,7 @@ pub(super) fn of_fit<'a>(
     let all = about(each_s * (nodes * MOST_REPLICAS * MOST_ROUNDS) as f64);
     format!(
         "fit: at first {first}; then up to {most}, in each range that it tries: mostly 2 to 6, at most \
-        {MOST_ROUNDS}, {all}\n"
+        {MOST_ROUNDS} ({all})\n"
     )
 }
 

@@ -60,6 +60,14 @@ pub(super) struct Args {
     force: bool,
 }
 
+impl Args {
+    /// The flag of a file that is drawn over the curves of runs, if one is given.
+    fn over_runs(&self) -> Option<&'static str> {
+        let files = [("--data", &self.data), ("--reference", &self.reference)];
+        files.into_iter().find(|(_, file)| file.is_some()).map(|(flag, _)| flag)
+    }
+}
+
 /// Columns of time that every table of a run has.
 const TIMES: [&str; 3] = ["t_over_T", "time_s", "strain"];
 
@@ -96,8 +104,7 @@ fn of_runs(args: &Args) -> Result<(Figure, String), Failure> {
     let mut drawn = drawn_of(&args.dirs, &args.channels, across)?;
     let (channels, runs) = (drawn.channels.join(", "), drawn.runs.len());
     if let (Some(key), None) = (&args.key, across) {
-        let over_times = [("--data", &args.data), ("--reference", &args.reference)];
-        if let Some((flag, _)) = over_times.into_iter().find(|(_, file)| file.is_some()) {
+        if let Some(flag) = args.over_runs() {
             let times = TIMES.join(", ");
             return Err(Failure::Input(format!("--x {key}: {flag} has times; {times} are allowed beside it")));
         }
@@ -128,8 +135,7 @@ fn named(args: &Args, dir: &Path, kept: Vec<(String, Figure)>) -> Result<(Figure
             dir.shown()
         )));
     }
-    let over_runs = [("--data", &args.data), ("--reference", &args.reference)];
-    if let Some((flag, _)) = over_runs.into_iter().find(|(_, file)| file.is_some()) {
+    if let Some(flag) = args.over_runs() {
         let why = format!("{flag}: {} is no run; a folder of `shearbed run` is allowed", dir.shown());
         return Err(Failure::Input(why));
     }

@@ -153,7 +153,7 @@ fn of_flat(r: f64) -> Result<(), Failure> {
     let formula = Correlation::HarrisPittman.formula();
     print(&format!(
         "a body of length over diameter r = {r}: no formula is stated to hold below r = {}\n\n\
-         {:>9.3}  {}, continued: r_e = {}, for a cylinder or a disc\n           \
+         {:>9.3}  {}, used below r = 2: r_e = {}, for a cylinder or a disc\n           \
          valid for: {}\n           quoted from: {}\n     \
          0.07  measured, a disc of r = 0.03 (the formula: {:.3})\n     \
          0.33  measured, a ring of r = 0.45 (the formula: {:.3})\n           \

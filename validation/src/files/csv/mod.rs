@@ -65,8 +65,10 @@ const BLANK: char = ' ';
 
 /// The cells of a line, with a point in numbers where commas do not separate cells.
 fn cells(line: &str, separator: char) -> Vec<String> {
-    let words = || line.split_whitespace().map(|word| word.trim_matches('"').to_owned()).collect();
-    let mut cells = if separator == BLANK { words() } else { split_at(line, separator) };
+    let mut cells: Vec<_> = match separator {
+        BLANK => line.split_whitespace().map(|word| word.trim_matches('"').to_owned()).collect(),
+        other => split_at(line, other),
+    };
     for cell in cells.iter_mut().filter(|cell| separator != ',' && cell.contains(',')) {
         let pointed = cell.replace(',', ".");
         if number(&pointed).is_some() {
@@ -207,7 +209,7 @@ impl<R: BufRead> Table<R> {
         let mut rows = Rows::new(path, reader);
         let (line, cells) = rows.read(true)?.ok_or_else(|| FileError::line(path, 1, EMPTY))?;
         let table = match given {
-            None => match rows.comment.take().map(|(line, text)| (line, self::cells(text.trim(), separator(&text)))) {
+            None => match rows.comment.take().map(|(line, text)| (line, self::cells(&text, separator(&text)))) {
                 Some((of_names, names)) if is_row(&cells) && names.len() == cells.len() => {
                     Self { rows, line: of_names, names, first: Some((line, cells)) }
                 }

@@ -25,7 +25,7 @@ pub fn single(graded: &[Graded]) -> Option<String> {
 }
 
 /// A value in so many digits.
-fn printed(x: f64, digits: usize) -> f64 {
+pub(super) fn printed(x: f64, digits: usize) -> f64 {
     format!("{x:.*e}", digits - 1).parse().unwrap_or(f64::NAN)
 }
 

@@ -19,7 +19,7 @@ use crate::serve::problems::formula::tensor;
 use crate::serve::problems::{Closed, LoadedProblem, Problem};
 use columns::{fourth_of, values};
 use distribution::{from_exact, of_wrong_distribution};
-use layouts::{LAYOUTS, Layout};
+use layouts::{LAYOUTS, Layout, in_other_layouts, of_layout};
 use nalgebra::Matrix3;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
@@ -354,31 +354,6 @@ pub(super) fn advice(name: &str) -> &'static str {
     let mistakes = MISTAKES.iter().map(|mistake| (mistake.name, mistake.advice));
     let layouts = LAYOUTS.iter().map(|layout| (layout.name, layout.advice));
     mistakes.chain(layouts).find(|(known, _)| *known == name).map_or("", |(_, advice)| advice)
-}
-
-/// How far rows are from themselves in the layout of this name.
-fn of_layout(rows: &[Vec<f64>], name: &str) -> Option<f64> {
-    let layout = LAYOUTS.iter().find(|layout| layout.name == name)?;
-    Some(apart(rows, &layout.rows(rows)?))
-}
-
-/// The right values in other layouts; each of `curves` is a name and the values that a code writes.
-fn in_other_layouts(curves: &[(Near, Vec<Vec<f64>>)], answer: &Answer, most: f64) -> Vec<Near> {
-    let of = |layout: &Layout| {
-        let rows = layout.rows(&answer.rows)?;
-        let near = curves.iter().filter_map(|(near, curve)| {
-            let distance = apart(&rows, curve);
-            let name = if near.name.is_empty() {
-                layout.name.to_owned()
-            } else {
-                format!("{}, in {}", near.name, layout.name)
-            };
-            let (suspects, advice) = (vec![layout.name.to_owned()], layout.advice);
-            (distance <= most).then(|| Near { distance, name, suspects, advice, changes: near.changes + 1 })
-        });
-        Some(near.collect::<Vec<_>>())
-    };
-    LAYOUTS.iter().filter_map(of).flatten().collect()
 }
 
 /// The certified values, as a curve without a name.

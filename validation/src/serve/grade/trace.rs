@@ -42,7 +42,7 @@ fn of_second(answer: &Answer, row: usize) -> Option<String> {
     let first = trace(&answer.rows[0]);
     Some(match (row > 0 && is_one(first), permuted) {
         (true, _) => {
-            format!("the trace drifts from {first:.4} to {digits}: the rate of a_ij has a trace, or rounding has")
+            format!("the trace drifts from {first:.4} to {digits}: its rate has a trace, or digits are too few")
         }
         (false, true) => format!("the trace is {digits}; are the columns in another order?"),
         (false, false) => format!("the trace is {digits}, where 1 is due"),

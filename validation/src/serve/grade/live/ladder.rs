@@ -204,9 +204,9 @@ fn climbed(
     };
     let ask = |setting: Setting| ask_of(problem, setting);
     let (rungs, mut end) = climb(problem, mode, program.timeout, claim.order, ask);
-    let few = |rung: &Rung| digits::remark(&rung.answer, rung.error(), rung.setting.steps().ok());
+    let rounding = |rung: &Rung| digits::remark(&rung.answer, rung.error(), rung.setting.steps().ok());
     // Rounding that explains the error hides the order, and refutes none.
-    let hidden = matches!(end, End::Lower) && rungs.last().and_then(few).is_some();
+    let hidden = matches!(end, End::Lower) && rungs.last().and_then(rounding).is_some();
     if hidden {
         end = if within(&rungs, of.tolerance) { End::Reached } else { End::Stays(String::new()) };
     }
@@ -229,11 +229,10 @@ fn climbed(
     }
     let mut graded = Graded::without_answer(problem);
     graded.set_orders(errors(&rungs), problem, claim.order);
-    if matches!(end, End::Lower) {
-        graded.order_found = Some(Order::Lower);
-    }
-    if hidden {
-        graded.order_found = Some(Order::Unclear);
+    match end {
+        End::Lower => graded.order_found = Some(Order::Lower),
+        _ if hidden => graded.order_found = Some(Order::Unclear),
+        _ => {}
     }
     let refuted = graded.order_found == Some(Order::Lower);
     // Whether a mistake is named must not depend on how fast the machine is; that of a step is of order 1.
@@ -261,7 +260,6 @@ fn climbed(
     if matches!(end, End::NoFiner(_)) && graded.verdict == Verdict::Fail && (falls() || coarse()) {
         graded.verdict = Verdict::Refused;
     }
-    let digits = || best(&rungs).and_then(few);
     let may_be_reached = !matches!(end, End::Wrong(_) | End::Stays(_));
     graded.note = match end {
         _ if converging.is_some() => converging,
@@ -274,7 +272,7 @@ fn climbed(
             let finite = finite.filter(|_| problem.problem.metric == Metric::Absolute);
             let worst = finite.map(|finest| place(problem, &finest.answer, finest.compared.row));
             // Few digits are the reason why errors end.
-            let few = digits();
+            let few = best(&rungs).and_then(rounding);
             let words = if few.is_some() { String::new() } else { words };
             let remark = best(&rungs).and_then(|finest| finest.compared.remark.clone());
             let remark = remark.filter(|_| finite.is_some());

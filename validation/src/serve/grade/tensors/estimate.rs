@@ -7,6 +7,7 @@ use crate::methods::tensors::wrong::{drifting, is_isotropic, scaled, shaped, slo
 use crate::methods::tensors::{Closure, Model, Parts};
 use crate::serve::grade::answer::Answer;
 use crate::serve::grade::diagnosis::{STEPS_OFF, step_off};
+use crate::serve::grade::digits::printed;
 use crate::serve::grade::estimate::{MOST, digits};
 use crate::serve::problems::Problem;
 use nalgebra::DVector;
@@ -104,7 +105,7 @@ pub(super) fn of_curve(problem: &Problem, answer: &Answer, known: &Known, steps:
             newton(&answer.rows[0], [1.0, SLOPE], row).filter(|factor| name == "C_I" || factor.abs() <= MOST)?;
         let apart = |factor: f64| distance(problem, &answer.rows, &known.start, &with(factor)?, most);
         // An answer of few steps fits a round number less well than another, but well enough.
-        let round = [1, 2].map(|digits| rounded(factor, digits)).into_iter();
+        let round = [1, 2].map(|digits| printed(factor, digits)).into_iter();
         let mut round = round.filter(|round| *round != 1.0 && (round / factor - 1.0).abs() < 0.02);
         let factor = round.find(|round| apart(*round).is_some()).unwrap_or(factor);
         let distance = apart(factor)?;
@@ -118,11 +119,6 @@ pub(super) fn of_curve(problem: &Problem, answer: &Answer, known: &Known, steps:
     // Another closure is sought only where a number of the right equation explains nothing, which saves time.
     let near: Vec<_> = first.par_iter().filter_map(fit).collect();
     if near.is_empty() { others.par_iter().filter_map(fit).collect() } else { near }
-}
-
-/// A number in so many digits.
-fn rounded(x: f64, digits: usize) -> f64 {
-    format!("{x:.*e}", digits - 1).parse().unwrap_or(x)
 }
 
 /// The right curve at the times one step before or after those asked for, where the answer is that: every time is

@@ -1,5 +1,7 @@
 //! Six components in another order, with factors, or in other axes.
 
+use super::{Near, apart};
+use crate::serve::grade::answer::Answer;
 use crate::serve::problems::formula::paired;
 use std::f64::consts::SQRT_2;
 
@@ -57,7 +59,7 @@ impl Layout {
 
     /// A row of an answer in this layout, as 11, 22, 33, 12, 13, 23, or a_ijkl as pairs of these; `None` for
     /// others.
-    pub(super) fn read(&self, row: &[f64]) -> Option<Vec<f64>> {
+    fn read(&self, row: &[f64]) -> Option<Vec<f64>> {
         let factor = |k: usize| if k < 3 { 1.0 } else { self.factors[k - 3] };
         let on_row = |k: usize| if self.on_rows { factor(k) } else { 1.0 };
         match row.len() {
@@ -70,4 +72,29 @@ impl Layout {
             _ => None,
         }
     }
+}
+
+/// How far rows are from themselves in the layout of this name.
+pub(super) fn of_layout(rows: &[Vec<f64>], name: &str) -> Option<f64> {
+    let layout = LAYOUTS.iter().find(|layout| layout.name == name)?;
+    Some(apart(rows, &layout.rows(rows)?))
+}
+
+/// The right values in other layouts; each of `curves` is a name and the values that a code writes.
+pub(super) fn in_other_layouts(curves: &[(Near, Vec<Vec<f64>>)], answer: &Answer, most: f64) -> Vec<Near> {
+    let of = |layout: &Layout| {
+        let rows = layout.rows(&answer.rows)?;
+        let near = curves.iter().filter_map(|(near, curve)| {
+            let distance = apart(&rows, curve);
+            let name = if near.name.is_empty() {
+                layout.name.to_owned()
+            } else {
+                format!("{}, in {}", near.name, layout.name)
+            };
+            let (suspects, advice) = (vec![layout.name.to_owned()], layout.advice);
+            (distance <= most).then(|| Near { distance, name, suspects, advice, changes: near.changes + 1 })
+        });
+        Some(near.collect::<Vec<_>>())
+    };
+    LAYOUTS.iter().filter_map(of).flatten().collect()
 }

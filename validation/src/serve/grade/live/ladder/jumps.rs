@@ -38,7 +38,8 @@ pub(super) fn judged(rungs: &[Rung], tolerance: f64, unit: u64, ask: impl Fn(Set
         if !rungs[..=k].iter().any(|rung| rung.error().is_finite()) {
             return End::Reached;
         }
-        // Over several steps at once a right method may pass from unstable to close. What is unstable is so with fewer.
+        // Between multiples of several steps a right method may pass from unstable to close. Then it is unstable with
+        // fewer steps too.
         if unit > 1 && !rungs[..k].iter().any(|rung| rung.error() < FOLLOWS) {
             return End::Reached;
         }
@@ -177,3 +178,6 @@ fn outlier(rungs: &[Rung], k: usize, tolerance: f64) -> Option<String> {
     let coarser = &rungs[k.checked_sub(1)?];
     above(capped(coarser).max(capped(finer))).then(|| format!("{off}, {} and {}", named(coarser), named(finer)))
 }
+
+#[cfg(test)]
+mod tests;
