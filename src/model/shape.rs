@@ -118,6 +118,7 @@ mod tests {
     #[test]
     fn where_a_formula_cannot_mean_it_there_is_none() {
         assert_eq!(FORMULAS[2].value(1.0), 1.14);
+        assert!((FORMULAS[2].value(100.0) - 1.14 * 10f64.powf(1.688)).abs() < 1e-12);
         let given = |r: f64| FORMULAS.map(|formula| formula.equivalent(r).is_some());
         // 1.24/√(ln r) > 1 below r = e^1.5376 = 4.65; 1.14 r^−0.156 > 1 below 2.32.
         assert_eq!(given(2.0), [true, false, false, true]);
