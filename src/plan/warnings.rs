@@ -276,7 +276,7 @@ impl Plan {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::parse;
+    use crate::scene::{OwnRods, Particles, RodsFile, parse};
 
     /// 50 rods per cm³ of 0.72 mm, with keys that follow those of particles, of interaction and of time.
     fn warnings(particles: &str, interaction: &str, time: &str) -> Vec<String> {
@@ -343,5 +343,19 @@ mod tests {
             assert_eq!(found.len(), usize::from(!expected.is_empty()), "{particles} {interaction} {time}: {found:?}");
             assert!(found.iter().all(|warning| warning.starts_with(expected)), "{found:?}");
         }
+    }
+
+    #[test]
+    fn rods_of_a_file_in_the_shear_plane_or_along_the_vorticity_axis_do_not_disturb_each_other() {
+        let why = |p: [[f64; 2]; 3]| {
+            let own = OwnRods { p: Some(p.map(Vec::from)), ..OwnRods::default() };
+            Particles { rods: Some(RodsFile::with("two.csv", own)), ..Particles::default() }.undisturbed()
+        };
+        assert_eq!(why([[1.0, 0.6], [0.0, 0.8], [0.0, 0.0]]), Some("all rods start in the shear plane"));
+        assert_eq!(why([[0.0, 0.0], [0.0, 0.0], [1.0, -1.0]]), Some("all rods start along the vorticity axis"));
+        // One of two out of the plane; two across the flow; two across the gradient.
+        assert_eq!(why([[1.0, 0.6], [0.0, 0.0], [0.0, 0.8]]), None);
+        assert_eq!(why([[0.0, 0.6], [0.0, 0.0], [1.0, 0.8]]), None);
+        assert_eq!(why([[0.0, 0.0], [0.0, 0.6], [1.0, 0.8]]), None);
     }
 }

@@ -146,9 +146,14 @@ impl Particles {
         }
     }
 
-    /// The reason why rods with a common initial direction do not disturb each other; `None` if they do. Parallel rods
-    /// have no contact line; in the shear plane it is along axis 3, along which nothing moves.
+    /// The reason why rods do not disturb each other, by their initial directions; `None` if they do, or if directions
+    /// are drawn. Parallel rods have no contact line; in the shear plane it is along axis 3, along which nothing moves.
     pub fn undisturbed(&self) -> Option<&'static str> {
+        if let Some([p1, p2, p3]) = self.own().and_then(|own| own.p.as_ref()) {
+            let vanish = |p: &[f64]| p.iter().all(|p| *p == 0.0);
+            let in_plane = vanish(p3).then_some("all rods start in the shear plane");
+            return in_plane.or((vanish(p1) && vanish(p2)).then_some("all rods start along the vorticity axis"));
+        }
         let [_, theta_deg] = self.common_start_deg()?;
         match theta_deg.rem_euclid(180.0) {
             90.0 => Some("all rods start parallel in the shear plane"),

@@ -16,7 +16,7 @@ use shearbed_validation::studies::suspensions::law::{self, Replicas};
 const PILOT_S: f64 = 3.0;
 
 /// The longest work that begins unasked, in hours: longer work is more often a slip in a count than meant.
-const UNASKED_H: f64 = 24.0;
+pub(super) const UNASKED_H: f64 = 24.0;
 
 /// The option of commands that may work for days.
 #[derive(clap::Args)]
@@ -27,6 +27,11 @@ pub(super) struct Long {
 }
 
 impl Long {
+    /// The hours that work may take from here on: a day unasked. Ranks of an MPI job, whose clocks differ, work on.
+    pub(super) fn most_h(&self) -> f64 {
+        if self.yes || cluster::size() > 1 { f64::INFINITY } else { UNASKED_H }
+    }
+
     /// Refuses plans, each with its number of replicas, that would take more than [`UNASKED_H`] hours. A replica runs
     /// on one thread.
     pub(super) fn check(&self, source: &str, given: Option<u64>, plans: &[(&Plan, u64)]) -> Result<(), Failure> {
@@ -108,6 +113,9 @@ pub(super) fn of_sweep<'a>(plan: &Plan, each_s: f64, points: impl ExactSizeItera
     let all: f64 = points.map(|point| work(point) * point.scene().ensemble.replicas as f64).sum();
     format!("sweep: {}, {} of one core\n", counted(count as u64, "point"), about(each_s * all / work(plan)))
 }
+
+/// The ranges that a fit usually tries: a few of the first replicas in each.
+pub(super) const USUAL_ROUNDS: u64 = 4;
 
 /// The number of values at which a fit of so many parameters runs replicas, in each range.
 pub(super) fn nodes(parameters: usize) -> u64 {

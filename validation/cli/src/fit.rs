@@ -5,7 +5,7 @@ mod input;
 mod shifts;
 mod terminal;
 
-use super::duration::{Long, nodes};
+use super::duration::{Long, USUAL_ROUNDS, nodes};
 use super::{
     Failure, Threads, Writing, checkpoint, log_progress, number, on_threads, print, progress, result_folder, scene,
     spares_inputs, whole,
@@ -151,7 +151,7 @@ pub(super) fn fit(args: &Args) -> Result<(), Failure> {
 }
 
 /// Refuses a fit that may take days: as many replicas as are asked for at each value, at the ends of the ranges. The
-/// default is a limit that few fits reach: with it the first replicas count.
+/// default is a limit that few fits reach: with it the first replicas of the usual ranges count.
 fn check_duration(args: &Args, input: &Input) -> Result<(), Failure> {
     let ends = [|range: &Range| range.from, |range: &Range| range.to];
     let plans = |end: &fn(&Range) -> f64| {
@@ -159,7 +159,7 @@ fn check_duration(args: &Args, input: &Input) -> Result<(), Failure> {
         input.scenes.plans(&values, &input.data, AS_WRITTEN).map_err(|error| Failure::Input(of_scene(&error)))
     };
     let plans: Vec<_> = ends.iter().map(plans).collect::<Result<Vec<_>, _>>()?.concat();
-    let replicas = if args.replicas == MOST_REPLICAS { FIRST_REPLICAS } else { args.replicas };
+    let replicas = if args.replicas == MOST_REPLICAS { USUAL_ROUNDS * FIRST_REPLICAS } else { args.replicas };
     let runs = nodes(args.over.len()) * replicas / ends.len() as u64;
     let cost: Vec<_> = plans.iter().map(|plan| (plan, runs)).collect();
     args.long.check(&input.stem, args.threads.given, &cost)

@@ -5,6 +5,7 @@
 //! stopped. A checkpoint of other rules may have more replicas: then all of them are used.
 
 use super::Failure;
+use super::duration::UNASKED_H;
 use super::scene::Named;
 use serde::Serialize;
 use shearbed::observable::Channel;
@@ -67,6 +68,9 @@ pub(super) struct Ended {
     columns: Vec<Reached>,
     #[serde(skip_serializing_if = "Option::is_none")]
     time_limit_s: Option<f64>,
+    /// The hours that more replicas would take, if that was too long to go on unasked.
+    #[serde(skip)]
+    unasked_h: Option<f64>,
 }
 
 /// The number of replicas in a sum, and for each rule the largest standard error.
@@ -152,7 +156,7 @@ impl Until {
             .map(|((name, asked), reached)| Reached { channel: name.clone(), asked: *asked, reached })
             .collect();
         let holds = replicas >= LEAST && columns.iter().all(|column| column.reached <= column.asked);
-        Ended { replicas, holds, columns, time_limit_s: limit.map(|limit| limit.as_secs_f64()) }
+        Ended { replicas, holds, columns, time_limit_s: limit.map(|limit| limit.as_secs_f64()), unasked_h: None }
     }
 
     /// The largest standard error so far for each rule.
@@ -165,18 +169,19 @@ impl Until {
         self.rules.iter().map(|(name, _)| largest(name).unwrap_or(f64::NAN)).collect()
     }
 
-    /// Adds replicas to the existing ones (`has`) until every rule holds, or no more may be added. `add` runs the
-    /// replicas up to a number, or fewer after the deadline, and measures their sum; it must return the same on every
-    /// rank.
+    /// Adds replicas to the existing ones (`has`) until every rule holds, or no more may be added: after a time limit,
+    /// or where the rest would take more than `most_h` hours. `add` runs the replicas up to a number, or fewer after
+    /// the deadline, and measures their sum; it must return the same on every rank.
     pub(super) fn grow(
         &self,
         plan: &Plan,
-        (has, limit): (u64, Option<Duration>),
+        (has, limit, most_h): (u64, Option<Duration>, f64),
         mut add: impl FnMut(u64, Option<Instant>, &Measure) -> Result<Look, Error>,
         progress: impl Fn(&Ended),
     ) -> Result<Ended, Error> {
         let measure = |tally: &Tally| (tally.replicas(), self.reached(plan, tally));
-        let deadline = limit.map(|limit| Instant::now() + limit);
+        let begun = Instant::now();
+        let deadline = limit.map(|limit| begun + limit);
         let mut target = LEAST;
         while target < has {
             target = next(target);
@@ -186,6 +191,11 @@ impl Until {
             let ended = self.ended(replicas, reached, limit);
             if ended.holds || replicas < target || target >= MAX_REPLICAS {
                 return Ok(ended);
+            }
+            let each_h = begun.elapsed().as_secs_f64() / 3600.0 / (replicas - has).max(1) as f64;
+            let left_h = each_h * (ended.expected() - replicas) as f64;
+            if left_h > most_h {
+                return Ok(Ended { unasked_h: Some(left_h), ..ended });
             }
             progress(&ended);
             target = next(target);
@@ -237,8 +247,13 @@ impl Ended {
         if self.holds {
             return Ok(());
         }
-        let why = match self.time_limit_s {
-            Some(seconds) if self.replicas < MAX_REPLICAS => {
+        let why = match (self.time_limit_s, self.unasked_h) {
+            (_, Some(hours)) => {
+                format!(
+                    "the rest takes some {hours:.0} h; more than {UNASKED_H} h go on with --yes or --time-limit alone"
+                )
+            }
+            (Some(seconds), _) if self.replicas < MAX_REPLICAS => {
                 format!("the time limit of {seconds} s came first")
             }
             _ => format!("{MAX_REPLICAS} replicas are the most"),

@@ -55,11 +55,11 @@ pub(super) fn curves(path: &Path, time: &str, channels: &[String], run: &Run) ->
 fn differences(time: &str, [at, t_over_t, strain]: [f64; 3], run: &Run) -> Vec<String> {
     let Ok(plan) = Plan::new(&run.scene) else { return Vec::new() };
     let other = |own: f64, of_run: f64| own.is_finite() && (own / of_run - 1.0).abs() > 1e-9;
-    let (named, of_run) = (run.dir.shown(), plan.elapsed(at).strain);
+    let one = plan.elapsed(1.0);
+    let (named, of_run) = (run.dir.shown(), at * one.strain / one.seconds);
     let rate = (time == "time_s" && other(strain, of_run)).then(|| {
         format!("at {at} s its strain is {strain:.3}, in the run {named} it is {of_run:.3}: the shear rate is another")
     });
-    let one = plan.elapsed(1.0);
     let period_s = Propagator::new(plan.flow(), run.scene.particles.aspect_ratio).period_s();
     let period = period_s.map(|period_s| period_s * one.strain / one.seconds);
     let turn = period.filter(|period| other(strain / t_over_t, *period)).map(|period| {

@@ -71,7 +71,7 @@ pub(super) fn kept(dir: &Path) -> Result<Option<Vec<(String, Figure)>>, Failure>
     };
     match record.origin.command.as_str() {
         "fit" if !record.files.contains_key(FIGURES) => Err(Failure::Input(format!(
-            "{}: {FIGURES} is not in it: the fit is of an older version; run it again",
+            "{}: {FIGURES} is not in it: a fit without --over, or of an older version, keeps no picture",
             dir.shown()
         ))),
         "fit" => json(dir, FIGURES, &record).map(Some),

@@ -77,7 +77,7 @@ impl Work<'_> {
             }
             cluster::from_root(|| Ok(measure(&tally)))
         };
-        let ended = args.until.grow(plan, (0, args.time_limit), add, |ended| self.show(ended))?;
+        let ended = args.until.grow(plan, (0, args.time_limit, self.most_h()), add, |ended| self.show(ended))?;
         Ok(cluster::is_root().then(|| (tally.results(plan), Some(ended))))
     }
 
@@ -104,9 +104,14 @@ impl Work<'_> {
             replicas.run_to(self.run.threads, (target, deadline), finished, saved)?;
             Ok(measure(&replicas.tally()))
         };
-        let from = (replicas.replicas(), args.time_limit);
+        let from = (replicas.replicas(), args.time_limit, self.most_h());
         let ended = args.until.grow(plan, from, add, |ended| self.show(ended))?;
         Ok((replicas.tally().results(plan), Some(ended)))
+    }
+
+    /// The hours that replicas may be added without being asked; a time limit is an answer.
+    fn most_h(&self) -> f64 {
+        self.run.args.time_limit.map_or(self.run.args.long.most_h(), |_| f64::INFINITY)
     }
 
     /// Shows on the terminal how far the standard errors are from the rules.

@@ -41,6 +41,9 @@ impl Origin {
     pub fn difference(&self, now: &Self) -> Option<String> {
         let shown = |value: &Value| match value {
             Value::Object(all) if all.len() > 3 => format!("of {} files", all.len()),
+            Value::Array(all) if all.len() > 3 || all.iter().any(Value::is_object) => {
+                format!("of {} entries", all.len())
+            }
             value => shortened(&value.to_string()).into_owned(),
         };
         let words =

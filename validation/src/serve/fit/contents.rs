@@ -78,9 +78,15 @@ pub fn warning(
             let others: String = [contained, beside].into_iter().flatten().collect();
             (!others.is_empty()).then_some(Warning::Independent { answer: own, others })
         }
-        (Some(rods), None) if times > 0.7 => {
+        // A single rod does not scatter.
+        (Some(rods), None) if times > 0.7 && times.is_finite() => {
             let other = best(data, &fit.emulator, &self::rods(measured, Some(Contents::Rods), counts))?;
-            Some(Warning::ReadingAlone { times, rods, answer: own, with_rods: answer(fit, &other) })
+            differs(fit, &other).then(|| Warning::ReadingAlone {
+                times,
+                rods,
+                answer: own,
+                with_rods: answer(fit, &other),
+            })
         }
         (Some(rods), Some(Contents::Rods)) if times < 0.7 => Some(Warning::TooSmall(times, rods)),
         (Some(rods), Some(Contents::Rods)) if times > 1.5 => Some(Warning::TooLarge(times, rods)),

@@ -32,7 +32,9 @@ pub enum SceneError {
 /// Points that no value of the parameters describes.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[error(
-    "no value describes the {points} points: χ² is {chi_square:.1} for {} degrees of freedom",
+    "no value{} describes the {points} points: χ² is {chi_square:.1} for {} degrees of freedom",
+    // A search in several parameters may miss a narrow valley.
+    if *parameters > 1 { " that the search found" } else { "" },
     freedom(*points, *parameters)
 )]
 pub struct Undescribed {
