@@ -70,9 +70,9 @@ impl Closure {
             Self::Quadratic => quadratic(a),
             Self::Hybrid => mixed(a, aligned(a), linear),
             Self::Natural => natural::fourth(a),
-            Self::Ore => orthotropic::ore(a),
-            Self::Orw => orthotropic::orw(a),
-            Self::Ibof => ibof::fourth(a),
+            Self::Ore => orthotropic::ORE_FIT.fourth(a),
+            Self::Orw => orthotropic::ORW_FIT.fourth(a),
+            Self::Ibof => ibof::FIT.fourth(a),
         }
     }
 }

@@ -30,18 +30,7 @@ impl Fourth {
         Matrix3::from_fn(|i, j| product[place(i, j)])
     }
 
-    /// a_ijkl of an orthotropic distribution: the columns of `axes` are its axes, `mixed` is a_2233, a_3311, a_1122 in
-    /// them, `values` is a_11, a_22, a_33. a_iiii follows from a_iikk = a_ii.
-    pub(super) fn orthotropic(axes: &Matrix3<f64>, values: &Vector3<f64>, mixed: &Vector3<f64>) -> Self {
-        Self::in_axes(
-            axes,
-            |i, j| {
-                if i == j { values[i] - mixed[(i + 1) % 3] - mixed[(i + 2) % 3] } else { mixed[3 - i - j] }
-            },
-        )
-    }
-
-    /// a_ijkl of an orthotropic distribution, with a_iijj in its axes by `all`.
+    /// a_ijkl of an orthotropic distribution: the columns of `axes` are its axes, in which `all` is a_iijj.
     pub(super) fn in_axes(axes: &Matrix3<f64>, all: impl Fn(usize, usize) -> f64) -> Self {
         let all = Matrix3::from_fn(all);
         let principal = Self::from_fn(|i, j, k, l| match (i == j && k == l, i == k && j == l) {

@@ -86,7 +86,7 @@ pub(super) struct Fit {
 }
 
 impl Fit {
-    pub(super) fn new() -> Self {
+    fn new() -> Self {
         Self {
             coefficients: (0..3).flat_map(|k| COEFFICIENTS.map(|row| row[k])).collect(),
             powers: POWERS,
@@ -124,8 +124,4 @@ impl Fit {
     }
 }
 
-static RIGHT: LazyLock<Fit> = LazyLock::new(Fit::new);
-
-pub(super) fn fourth(a: &Matrix3<f64>) -> Fourth {
-    RIGHT.fourth(a)
-}
+pub(super) static FIT: LazyLock<Fit> = LazyLock::new(Fit::new);

@@ -46,7 +46,10 @@ pub(super) fn fourth(a: &Matrix3<f64>) -> Fourth {
             break;
         }
     }
-    Fourth::orthotropic(&axes, &(values * trace), &(now.1 * trace))
+    let (values, mixed) = (values * trace, now.1 * trace);
+    // a_iiii by a_iikk = a_ii.
+    let own = |i: usize| values[i] - mixed[(i + 1) % 3] - mixed[(i + 2) % 3];
+    Fourth::in_axes(&axes, |i, j| if i == j { own(i) } else { mixed[3 - i - j] })
 }
 
 /// The largest step of an exponent.

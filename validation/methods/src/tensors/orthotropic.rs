@@ -49,7 +49,7 @@ pub(super) const ORE_POWERS: [(i32, i32); 15] = [
     (0, 0), (1, 0), (0, 1), (1, 1), (2, 0), (0, 2), (2, 1), (1, 2), (3, 0), (0, 3), (2, 2), (3, 1), (1, 3), (4, 0),
     (0, 4),
 ];
-pub(super) const ORW_POWERS: [(i32, i32); 6] = [(0, 0), (1, 0), (2, 0), (0, 1), (0, 2), (1, 1)];
+const ORW_POWERS: [(i32, i32); 6] = [(0, 0), (1, 0), (2, 0), (0, 1), (0, 2), (1, 1)];
 
 /// How a closure of this kind is formed: the polynomials and which eigenvalue, axis and polynomial stands where.
 #[derive(Clone)]
@@ -70,27 +70,10 @@ pub(super) struct Fit {
 }
 
 impl Fit {
-    pub(super) fn ore() -> Self {
-        Self::new(&ORE_POWERS, (0..3).flat_map(|k| ORE.map(|row| row[k])).collect())
-    }
-
-    pub(super) fn orw() -> Self {
-        Self::new(&ORW_POWERS, ORW.concat())
-    }
-
     fn new(powers: &'static [(i32, i32)], coefficients: Vec<f64>) -> Self {
-        let right = [0, 1, 2];
-        let (polynomials, arguments) = (right, [0, 1]);
-        Self {
-            powers,
-            coefficients,
-            values: right,
-            axes: right,
-            polynomials,
-            arguments,
-            mixed: |mixed| mixed,
-            turn: |axes| axes,
-        }
+        let [values, axes, polynomials] = [[0, 1, 2]; 3];
+        let (mixed, turn) = (|mixed| mixed, |axes| axes);
+        Self { powers, coefficients, values, axes, polynomials, arguments: [0, 1], mixed, turn }
     }
 
     /// a_ijkl of a.
@@ -111,16 +94,7 @@ impl Fit {
     }
 }
 
-static RIGHT: LazyLock<[Fit; 3]> = LazyLock::new(|| [Fit::ore(), Fit::orw(), Fit::new(&ORW_POWERS, ORF.concat())]);
-
-pub(super) fn ore(a: &Matrix3<f64>) -> Fourth {
-    RIGHT[0].fourth(a)
-}
-
-pub(super) fn orw(a: &Matrix3<f64>) -> Fourth {
-    RIGHT[1].fourth(a)
-}
-
-pub(super) fn orf(a: &Matrix3<f64>) -> Fourth {
-    RIGHT[2].fourth(a)
-}
+pub(super) static ORE_FIT: LazyLock<Fit> =
+    LazyLock::new(|| Fit::new(&ORE_POWERS, (0..3).flat_map(|k| ORE.map(|row| row[k])).collect()));
+pub(super) static ORW_FIT: LazyLock<Fit> = LazyLock::new(|| Fit::new(&ORW_POWERS, ORW.concat()));
+pub(super) static ORF_FIT: LazyLock<Fit> = LazyLock::new(|| Fit::new(&ORW_POWERS, ORF.concat()));

@@ -1,6 +1,6 @@
 //! The polynomials of fitted closures as text, to compare coefficients.
 
-use super::orthotropic::{self, ORE_POWERS, ORW_POWERS};
+use super::orthotropic::{ORE_FIT, ORW_FIT};
 use super::{Closure, ibof};
 
 const EIGENVALUES: &str = "in the axes of a, with its eigenvalues x ≥ y ≥ z, three components are polynomials, and the \
@@ -14,9 +14,9 @@ impl Closure {
     pub fn polynomials(self) -> Vec<String> {
         let [eigenvalues, invariants] = [["a_1111", "a_2222", "a_3333"], ["β3", "β4", "β6"]];
         let (words, names, coefficients, terms) = match self {
-            Self::Ore => (EIGENVALUES, eigenvalues, orthotropic::Fit::ore().coefficients, terms(&ORE_POWERS, XY)),
-            Self::Orw => (EIGENVALUES, eigenvalues, orthotropic::Fit::orw().coefficients, terms(&ORW_POWERS, XY)),
-            Self::Ibof => (INVARIANTS, invariants, ibof::Fit::new().coefficients, terms(&ibof::POWERS, INVARIANT)),
+            Self::Ore => (EIGENVALUES, eigenvalues, &ORE_FIT.coefficients, terms(ORE_FIT.powers, XY)),
+            Self::Orw => (EIGENVALUES, eigenvalues, &ORW_FIT.coefficients, terms(ORW_FIT.powers, XY)),
+            Self::Ibof => (INVARIANTS, invariants, &ibof::FIT.coefficients, terms(&ibof::POWERS, INVARIANT)),
             _ => return Vec::new(),
         };
         let rows = names.into_iter().zip(coefficients.chunks(terms.len()));

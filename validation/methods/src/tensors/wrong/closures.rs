@@ -48,7 +48,7 @@ const LISTED: [(&str, Form); 37] = [
     ("the ORE closure", |a| Closure::Ore.fourth(a)),
     ("the ORW closure", |a| Closure::Orw.fourth(a)),
     ("the IBOF closure", |a| Closure::Ibof.fourth(a)),
-    ("the ORF closure (Cintra & Tucker 1995)", orthotropic::orf),
+    ("the ORF closure (Cintra & Tucker 1995)", |a| orthotropic::ORF_FIT.fourth(a)),
     ("the quadratic closure made symmetric in all indices", symmetric),
     ("a·D·a for 𝔸:D (a_ik a_jl for a_ij a_kl)", |a| {
         Fourth::from_fn(|i, j, k, l| 0.5 * (a[(i, k)] * a[(j, l)] + a[(i, l)] * a[(j, k)]))
@@ -114,7 +114,7 @@ fn inside(closure: Closure) -> Vec<Stand> {
         let name = format!("the {} closure {what}", closure.name());
         Stand { name, of: Some(closure), fourth }
     };
-    let axes = |fit: orthotropic::Fit| -> Vec<Stand> {
+    let axes = |fit: &orthotropic::Fit| -> Vec<Stand> {
         let changed = |(what, change): &Named<orthotropic::Fit>| {
             let mut fit = fit.clone();
             change(&mut fit);
@@ -127,10 +127,10 @@ fn inside(closure: Closure) -> Vec<Stand> {
         IN_AXES.iter().map(changed).chain(changes).collect()
     };
     match closure {
-        Closure::Ore => axes(orthotropic::Fit::ore()),
-        Closure::Orw => axes(orthotropic::Fit::orw()),
+        Closure::Ore => axes(&orthotropic::ORE_FIT),
+        Closure::Orw => axes(&orthotropic::ORW_FIT),
         Closure::Ibof => {
-            let right = ibof::Fit::new();
+            let right = &*ibof::FIT;
             let changed = |(what, change): &Named<ibof::Fit>| {
                 let mut fit = right.clone();
                 change(&mut fit);
@@ -297,11 +297,9 @@ pub fn numbered(closure: Closure) -> Numbered {
         };
         values.iter().enumerate().map(name).collect()
     };
-    let in_axes = |fit: orthotropic::Fit| {
+    let in_axes = |fit: &'static orthotropic::Fit| {
         let names = coefficients(["a_1111", "a_2222", "a_3333"], &terms(fit.powers, XY), &fit.coefficients);
-        Numbered::new(names, move |numbers, a| {
-            orthotropic::Fit { coefficients: numbers.to_vec(), ..fit.clone() }.fourth(a)
-        })
+        Numbered::new(names, |numbers, a| orthotropic::Fit { coefficients: numbers.to_vec(), ..fit.clone() }.fourth(a))
     };
     // Both brackets as a whole, then each term of theirs.
     let linear_terms = || {
@@ -326,10 +324,10 @@ pub fn numbered(closure: Closure) -> Numbered {
                 mixed(a, numbers[11] + numbers[12] * determinant, |a| linear(numbers, a))
             })
         }
-        Closure::Ore => in_axes(orthotropic::Fit::ore()),
-        Closure::Orw => in_axes(orthotropic::Fit::orw()),
+        Closure::Ore => in_axes(&orthotropic::ORE_FIT),
+        Closure::Orw => in_axes(&orthotropic::ORW_FIT),
         Closure::Ibof => {
-            let fit = ibof::Fit::new();
+            let fit = &*ibof::FIT;
             let first = coefficients(["β3", "β4", "β6"], &terms(&fit.powers, INVARIANT), &fit.coefficients);
             let places = ["S(δ δ)", "S(δ a)", "S(a a)", "S(δ a·a)", "S(a a·a)", "S(a·a a·a)"];
             let related = ["β1", "β2", "β5"].into_iter().zip(&fit.relations).flat_map(|(name, relation)| {
