@@ -64,10 +64,7 @@ fn averaged(limit: &Limit, effort: &Effort) -> Evidence {
         scene.particles.count = 16;
         // Many collisions, so that their effect shows soon.
         lab::interaction(&mut scene).alpha = 2.0;
-        (0..effort.samples(design))
-            .into_par_iter()
-            .map(|replica| apart(&scene, steps / 2, limit.change, replica))
-            .collect()
+        lab::replicas(effort.samples(design), |replica| apart(&scene, steps / 2, limit.change, replica))
     });
     let falls = (coarse.iter().zip(&fine))
         .map(|(coarse, fine)| (0.6 * coarse.square - fine.square) / (coarse.square + fine.square));

@@ -120,11 +120,9 @@ fn orbit_distribution(orbit: &Orbit, effort: &Effort) -> Vec<Evidence> {
     let change = crate::oracle::apart(&before, &after);
     let levels = after.iter().map(|&c| closed_form::orbit_constant_cdf(c, r)).collect();
     vec![
-        Evidence::new(
-            "p of C_b having the closed distribution after 137 steps",
-            "–",
-            lab::uniform(levels, distance, "Kolmogorov–Smirnov; half of what eq. 13 without r_e is off by"),
-        ),
+        Evidence::on("p of C_b having the closed distribution after 137 steps", "–")
+            .uniform(levels, distance)
+            .because("Kolmogorov–Smirnov; half of what eq. 13 without r_e is off by"),
         Evidence::on("largest change of a rod's C_b", "–")
             .within(if failed { f64::NAN } else { change }, 4.0 * r * f64::EPSILON)
             .because("four roundings of a direction, each grown by r_e in C"),

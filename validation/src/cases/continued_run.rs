@@ -37,8 +37,7 @@ fn continues(way: &Way, effort: &Effort) -> Evidence {
     // 100 rods at 50 per cm³.
     lab::set_box_mm(&mut scene, [20.0, 10.0, 10.0]);
     let replicas = effort.samples(Design { effect: EFFECT, sd: SD });
-    let differences = (0..replicas).into_par_iter().map(|replica| again_less_straight(&scene, *way, replica));
-    let differences: Vec<f64> = differences.collect();
+    let differences: Vec<f64> = lab::replicas(replicas, |replica| again_less_straight(&scene, *way, replica));
     Evidence::on("X̄₁ at t/T = 1½, continued at t = T less straight on", "rod lengths")
         .is(Sample::of(&differences), 0.0, 0.0, EFFECT)
         .because("the same rods, with other collisions; with r_e drawn again they fall out of step more slowly")
@@ -46,7 +45,7 @@ fn continues(way: &Way, effort: &Effort) -> Evidence {
 
 fn again_less_straight(scene: &Scene, way: Way, replica: u64) -> f64 {
     let mut straight = lab::suspension(scene, replica);
-    let Some(_) = stepped(&mut straight, STEPS_PER_PERIOD) else {
+    let Some(_) = lab::x1_after(&mut straight, STEPS_PER_PERIOD) else {
         return f64::NAN;
     };
     let mut own = written(&straight, scene.particles.length_mm);
@@ -55,15 +54,8 @@ fn again_less_straight(scene: &Scene, way: Way, replica: u64) -> f64 {
     scene.particles.rods = Some(RodsFile::with("rods.csv", own));
     // Random numbers that no uninterrupted run uses.
     let mut again = lab::suspension(&scene, u64::MAX / 2 + replica);
-    let x1 = |suspension: &mut Suspension| stepped(suspension, STEPS_PER_PERIOD / 2).unwrap_or(f64::NAN);
+    let x1 = |suspension: &mut Suspension| lab::x1_after(suspension, STEPS_PER_PERIOD / 2).unwrap_or(f64::NAN);
     x1(&mut again) - x1(&mut straight)
-}
-
-/// X̄₁ after `steps` steps; `None` if a step failed.
-fn stepped(suspension: &mut Suspension, steps: u64) -> Option<f64> {
-    (0..steps).try_for_each(|_| suspension.step().map(|_| ())).ok()?;
-    let directions = suspension.directions();
-    Some(directions.iter().map(|p| p.x.abs()).sum::<f64>() / directions.len() as f64)
 }
 
 fn written(suspension: &Suspension, length_mm: f64) -> OwnRods {

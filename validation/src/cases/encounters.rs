@@ -75,28 +75,23 @@ fn frequency(change: &Change, effort: &Effort) -> Vec<Evidence> {
     // sixth.
     let settings = [((0.5, 3.0, 50.0), 25, 100, 0.2), ((0.3, 1.7, 400.0), 300, 2, 0.14)];
     let evidence = settings.map(|((alpha, m, concentration), count, steps, sd)| {
-        let mut scene = lab::interacting_scene(effort);
+        let mut scene = lab::crowded_scene(effort, count, concentration);
         scene.ensemble.seed = effort.seed(count as u64);
-        scene.particles.count = count;
         let interaction = lab::interaction(&mut scene);
-        (interaction.alpha, interaction.m, interaction.concentration_per_cm3) = (alpha, m, Some(concentration));
-        let mut model = scene.clone();
-        change(&mut model);
+        (interaction.alpha, interaction.m) = (alpha, m);
+        change(&mut scene);
         let design = Design { effect: 0.12, sd };
-        let ratios: Vec<f64> = (0..effort.samples(design))
-            .into_par_iter()
-            .map(|replica| {
-                let mut suspension = lab::suspension(&model, replica);
-                let mut expected = 0.0;
-                for _ in 0..steps {
-                    expected += expected_candidates(suspension.positions_in_lengths(), alpha, m);
-                    if suspension.step().is_err() {
-                        return f64::NAN;
-                    }
+        let ratios: Vec<f64> = lab::replicas(effort.samples(design), |replica| {
+            let mut suspension = lab::suspension(&scene, replica);
+            let mut expected = 0.0;
+            for _ in 0..steps {
+                expected += expected_candidates(suspension.positions_in_lengths(), alpha, m);
+                if suspension.step().is_err() {
+                    return f64::NAN;
                 }
-                suspension.counters().candidates as f64 / expected
-            })
-            .collect();
+            }
+            suspension.counters().candidates as f64 / expected
+        });
         Evidence::on(
             format!("candidates over the sum of P_c, {count} rods, α = {alpha}, m = {m}, n = {concentration} per cm³"),
             "–",

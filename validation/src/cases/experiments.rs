@@ -154,17 +154,9 @@ fn fit(comparison: &Comparison, curves: &[MeasuredCurve], late: usize, source: &
     if late > 0 {
         what += &format!("; {late} points of the source after t/T = {} not judged", source.judged_up_to);
     }
-    let rule = Rule::PValue {
-        p: comparison.p,
-        samples: n as u64,
-        enough: 3,
-        level: MEASURED_LEVEL,
-        distance: None,
-        because: "χ² over all points with their full covariance; three points can tell a shape from a shift, and the \
-                  controls show the power"
-            .into(),
-    };
-    Evidence::new(what, "–", rule)
+    let because = "χ² over all points with their full covariance; three points can tell a shape from a shift, and the \
+                   controls show the power";
+    Evidence::on(what, "–").p_value(comparison.p, n as u64, 3, MEASURED_LEVEL).because(because)
 }
 
 /// The difference of the two best α. The control doubles α in the model at r_e = 14.2, which the estimate does not

@@ -69,9 +69,7 @@ pub fn cases() -> Vec<Case> {
 }
 
 fn extreme_suspensions(model: &Model, effort: &Effort) -> Vec<Evidence> {
-    let mut length = 0.0f64;
-    let mut stopped = 0.0;
-    let mut trace = 0.0f64;
+    let [mut length, mut stopped, mut trace] = [0.0f64; 3];
     for scene in scenes(effort) {
         let mut suspension = lab::stepped(&scene, 0);
         stopped += f64::from((0..300).any(|_| suspension.step().is_err()));

@@ -110,16 +110,13 @@ pub(super) fn set(scene: &Scene, seed: u64, time: TimeColumn) -> Result<Set, Str
 fn pool(effort: &Effort) -> Result<Pool, String> {
     let range = Range::parse("interaction.alpha=0.4:1.6")?;
     let places = data(|_| f64::NAN);
-    let scenes = |sd_percent: f64| {
+    let basis = Basis::new(1);
+    let at_nodes = |sd_percent: f64| {
         let mut scene = lab::interacting_scene(effort);
         scene.particles.aspect_ratio_sd_percent = sd_percent;
         scene.particles.count = RODS;
         scene.time = Time { steps_per_unit: Some(STEPS_PER_PERIOD), ..Time::periods(1.5) };
-        Scenes::new(vec![set(&scene, effort.seed(70), TimeColumn::Periods)?], vec![range.clone()]).map_err(String::from)
-    };
-    let basis = Basis::new(1);
-    let at_nodes = |sd_percent: f64| {
-        let scenes = scenes(sd_percent)?;
+        let scenes = Scenes::new(vec![set(&scene, effort.seed(70), TimeColumn::Periods)?], vec![range.clone()])?;
         let model = |values: &[f64]| scenes.model(&places, AS_WRITTEN, values).map_err(String::from);
         let value = |node: &[f64]| vec![1.0 + 0.6 * node[0]];
         coefficients(&basis, &model, &value, 0..POOL, &|| ())
@@ -202,7 +199,7 @@ fn repeats(way: Way, effort: &Effort) -> Arc<Result<Vec<Fitted>, String>> {
             Way::NoSpread => laws(effort),
             _ => shares(effort).max(laws(effort)),
         };
-        (0..count).into_par_iter().map(one).collect()
+        lab::replicas(count, one)
     })
 }
 
@@ -257,13 +254,7 @@ fn laws(effort: &Effort) -> u64 {
 fn refuses(way: &Way, effort: &Effort) -> Result<Evidence, String> {
     let fits = repeats(*way, effort);
     let fits = fits.as_ref().as_ref().map_err(Clone::clone)?;
-    Ok(Evidence::new(
-        "p-values of χ² over repeats: uniform",
-        "–",
-        lab::uniform(
-            fits.iter().take(laws(effort) as usize).map(|fit| fit.p).collect(),
-            DISTANCE,
-            "Kolmogorov–Smirnov; without the spread of r_e the p-values crowd at 0, a distance near 1",
-        ),
-    ))
+    Ok(Evidence::on("p-values of χ² over repeats: uniform", "–")
+        .uniform(fits.iter().take(laws(effort) as usize).map(|fit| fit.p).collect(), DISTANCE)
+        .because("Kolmogorov–Smirnov; without the spread of r_e the p-values crowd at 0, a distance near 1"))
 }

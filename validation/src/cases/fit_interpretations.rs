@@ -56,9 +56,7 @@ pub(super) fn cases() -> Vec<Case> {
 }
 
 fn scene(effort: &Effort, concentration_per_cm3: f64) -> Scene {
-    let mut scene = lab::interacting_scene(effort);
-    lab::interaction(&mut scene).concentration_per_cm3 = Some(concentration_per_cm3);
-    scene.particles.count = RODS;
+    let mut scene = lab::crowded_scene(effort, RODS, concentration_per_cm3);
     scene.time = Time { steps_per_unit: Some(STEPS_PER_PERIOD), ..Time::periods(0.5) };
     scene
 }
@@ -83,7 +81,7 @@ fn curve(change: Change, effort: &Effort, replica: u64) -> Vec<f64> {
 
 /// Means over replicas of X̄₁ to X̄₃ of both suspensions, with an interpretation of the paper.
 pub fn points(change: Change, effort: &Effort, replicas: u64) -> Vec<f64> {
-    let rows: Vec<Vec<f64>> = (0..replicas).into_par_iter().map(|replica| curve(change, effort, replica)).collect();
+    let rows: Vec<Vec<f64>> = lab::replicas(replicas, |replica| curve(change, effort, replica));
     let mean = |k: usize| rows.iter().map(|row| row[k]).sum::<f64>() / replicas as f64;
     (0..rows[0].len()).map(mean).collect()
 }
@@ -133,17 +131,7 @@ fn accepted(change: &Change, effort: &Effort) -> Result<Evidence, String> {
         .map(|mean| mean + NOISE * rng.sample::<f64, _>(StandardNormal))
         .collect();
     let fit = one_alpha(&points, NOISE, replicas, model)?;
-    Ok(Evidence::new(
-        "p-value of χ² of one α for both suspensions",
-        "–",
-        Rule::PValue {
-            p: fit.best.goodness.p_value(),
-            samples: replicas,
-            enough: REPLICAS,
-            level: LEVEL,
-            distance: None,
-            because: "with these replicas χ² of cut lines is 5.5 of its standard deviations above what is accepted"
-                .into(),
-        },
-    ))
+    Ok(Evidence::on("p-value of χ² of one α for both suspensions", "–")
+        .p_value(fit.best.goodness.p_value(), replicas, REPLICAS, LEVEL)
+        .because("with these replicas χ² of cut lines is 5.5 of its standard deviations above what is accepted"))
 }

@@ -110,15 +110,12 @@ const RODS: usize = 100;
 fn effective(estimator: &Estimator, effort: &Effort) -> Vec<Evidence> {
     // A pilot of 40 replicas scattered by 0.0011.
     let design = Design::new(0.0015, 0.0014);
-    let estimates: Vec<f64> = (0..effort.samples(design))
-        .into_par_iter()
-        .map(|replica| {
-            let diffusion = Diffusion::isotropic(LAMBDA, PLANTED, STEP);
-            let mut rods = Diffusing::isotropic(RODS, diffusion, effort.seed(1 + replica));
-            rods.step();
-            (estimator.of)(&rods.means(&(estimator.alone)(STEP), STEPS))
-        })
-        .collect();
+    let estimates: Vec<f64> = lab::replicas(effort.samples(design), |replica| {
+        let diffusion = Diffusion::isotropic(LAMBDA, PLANTED, STEP);
+        let mut rods = Diffusing::isotropic(RODS, diffusion, effort.seed(1 + replica));
+        rods.step();
+        (estimator.of)(&rods.means(&(estimator.alone)(STEP), STEPS))
+    });
     let mut scene = lab::interacting_scene(effort);
     scene.particles.aspect_ratio = 3.0;
     lab::interaction(&mut scene).alpha = 0.0;

@@ -50,13 +50,12 @@ const UNIFORM: [Problem; 4] = [(1.5, 0.0, &[2, 20]), (5.0, 0.0, &[10]), (11.6, 0
 const UNEQUAL: [Problem; 3] = [(11.6, 3.6, &[10, 20]), (14.2, 8.5, &[20]), (5.0, 7.2, &[10])];
 
 fn compare(problems: &[Problem], change: Change, effort: &Effort) -> Vec<Evidence> {
-    let problems = (0..).zip(problems);
-    problems.flat_map(|(stream, problem)| compare_one(*problem, change, effort, effort.seed(stream))).collect()
+    (0..).zip(problems).flat_map(|(stream, problem)| compare_one(*problem, change, effort, stream)).collect()
 }
 
-fn compare_one((r, sd, sevenths): Problem, change: Change, effort: &Effort, seed: u64) -> Vec<Evidence> {
+fn compare_one((r, sd, sevenths): Problem, change: Change, effort: &Effort, stream: u64) -> Vec<Evidence> {
     let mut scene = lab::free_scene(effort);
-    scene.ensemble.seed = seed;
+    scene.ensemble.seed = effort.seed(stream);
     scene.particles.count = effort.samples(DESIGN) as usize;
     scene.particles.aspect_ratio = r;
     scene.particles.aspect_ratio_sd_percent = sd;

@@ -129,16 +129,14 @@ fn changes(model: Model, effort: &Effort, replicas: u64) -> Vec<f64> {
 }
 
 fn by_core(change: fn(&mut Interaction), effort: &Effort, replicas: u64) -> Vec<f64> {
-    let mut scene = lab::interacting_scene(effort);
+    let mut scene = lab::crowded_scene(effort, 100, CONCENTRATION_PER_CM3);
     scene.time = Time { outputs_per_unit: Some(2), ..Time::periods(0.5) };
-    let interaction = lab::interaction(&mut scene);
-    interaction.concentration_per_cm3 = Some(CONCENTRATION_PER_CM3);
-    change(interaction);
+    change(lab::interaction(&mut scene));
     per_replica(&scene, replicas, |mean| mean(Channel::X[0], 1))
 }
 
 fn by_reference(change: Change, effort: &Effort, replicas: u64) -> Vec<f64> {
-    let x1 = |replica| {
+    lab::replicas(replicas, |replica| {
         let mut problem = NaiveProblem {
             count: 25,
             concentration_per_cm3: CONCENTRATION_PER_CM3,
@@ -150,6 +148,5 @@ fn by_reference(change: Change, effort: &Effort, replicas: u64) -> Vec<f64> {
         let mut naive = Naive::new(problem);
         (0..steps).for_each(|_| naive.step());
         mean_projections(&naive.orientations)[0]
-    };
-    (0..replicas).into_par_iter().map(x1).collect()
+    })
 }

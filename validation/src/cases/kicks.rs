@@ -5,7 +5,7 @@ use super::*;
 use crate::oracle::kicks::{chance_of_threads, kicks, largest_kick, tail_of_isotropic};
 use crate::oracle::pairing::nearest_pairs;
 use crate::studies::kicks::{
-    Angles, CLOSING, Counted, KICKS, OPENING, is_above, kicks_rad, of_one_step, rates, step_strain, tail,
+    Angles, CLOSING, Counted, Counts, KICKS, OPENING, is_above, kicks_rad, of_one_step, rates, step_strain, tail,
 };
 use shearbed::scene::Interaction;
 
@@ -82,8 +82,7 @@ fn formula(expected: &Expected, effort: &Effort) -> Vec<Evidence> {
     let fresh = FRESH.get(effort, (), || {
         SETTINGS.map(|setting| {
             let scene = scene(setting);
-            let fresh = |replica| first_step(&scene, replica, setting.0);
-            (0..replicas).into_par_iter().map(fresh).collect()
+            lab::replicas(replicas, |replica| first_step(&scene, replica, setting.0))
         })
     });
     let evidence = SETTINGS.iter().zip(&*fresh).map(|(setting, replicas)| {
@@ -119,10 +118,8 @@ fn first_step(scene: &Scene, replica: u64, threshold_rad: f64) -> Fresh {
 
 /// Isotropic rods so close to each other that a third of them collides in a step.
 pub(super) fn fresh_scene(effort: &Effort, count: usize, steps_per_period: u64) -> Scene {
-    let mut scene = lab::interacting_scene(effort);
-    scene.particles.count = count;
-    let interaction = lab::interaction(&mut scene);
-    (interaction.concentration_per_cm3, interaction.alpha) = (Some(400.0), 2.0);
+    let mut scene = lab::crowded_scene(effort, count, 400.0);
+    lab::interaction(&mut scene).alpha = 2.0;
     scene.time.steps_per_unit = Some(steps_per_period);
     scene.time.outputs_per_unit = Some(1);
     scene
@@ -131,11 +128,9 @@ pub(super) fn fresh_scene(effort: &Effort, count: usize, steps_per_period: u64) 
 fn memory(counted: &Counted, effort: &Effort) -> Vec<Evidence> {
     const OVER: usize = 1; // 0.1 rad
     let run = |alpha: f64, steps, stream, replicas, looks_per_period| {
-        let mut scene = lab::interacting_scene(effort);
+        let mut scene = lab::crowded_scene(effort, 25, 400.0);
         scene.ensemble.seed = effort.seed(stream);
-        scene.particles.count = 25;
-        let interaction = lab::interaction(&mut scene);
-        (interaction.concentration_per_cm3, interaction.alpha) = (Some(400.0), alpha);
+        lab::interaction(&mut scene).alpha = alpha;
         let counted = Counted { looks_per_period, ..*counted };
         rates(&scene, steps, 0..1, replicas, counted).counts
     };
@@ -144,11 +139,9 @@ fn memory(counted: &Counted, effort: &Effort) -> Vec<Evidence> {
     // and 0.27 of the sum of both rates.
     let fall = Design::new(0.37, 0.29);
     let [coarse, fine] = [100, 800].map(|steps| run(4.0, steps, 1, effort.samples(fall), 1));
-    let both = Sample::of(coarse.iter().chain(&fine).map(|c| 2.0 * c.kicks[(OPENING, OVER)])).mean;
-    let falls = coarse
-        .iter()
-        .zip(&fine)
-        .map(|(coarse, fine)| (coarse.kicks[(OPENING, OVER)] - fine.kicks[(OPENING, OVER)]) / both);
+    let opening = |counts: &Counts| counts.kicks[(OPENING, OVER)];
+    let both = Sample::of(coarse.iter().chain(&fine).map(|c| 2.0 * opening(c))).mean;
+    let falls = coarse.iter().zip(&fine).map(|(coarse, fine)| (opening(coarse) - opening(fine)) / both);
     let opening = Evidence::on(
         "kicks > 0.1 rad of opening pairs at 100 steps a period, less those at 800, over both; α = 4",
         "–",
@@ -177,11 +170,10 @@ fn memory(counted: &Counted, effort: &Effort) -> Vec<Evidence> {
 fn heavy((angles, min_arm): &(Angles, f64), effort: &Effort) -> [Evidence; 2] {
     let mut fresh = fresh_scene(effort, 1000, 200);
     lab::interaction(&mut fresh).min_contact_arm = *min_arm;
-    let mut run = lab::interacting_scene(effort);
+    let mut run = lab::crowded_scene(effort, 100, 400.0);
     run.ensemble.seed = effort.seed(1);
     let interaction = lab::interaction(&mut run);
-    (interaction.concentration_per_cm3, interaction.alpha) = (Some(400.0), 2.0);
-    interaction.min_contact_arm = *min_arm;
+    (interaction.alpha, interaction.min_contact_arm) = (2.0, *min_arm);
     run.time.steps_per_unit = Some(200);
     // By theory the deviation of one kick's share is α = 1; pilots at seeds 9001 to 9010 scattered by 1.07 and 0.97 of
     // that. A fresh replica has 11.3 such kicks, one of a run 61: for Poisson numbers a tenth of room.

@@ -203,9 +203,7 @@ fn in_a_flow(scene: &mut Scene, gradient_per_s: [[f64; 3]; 3]) {
 /// Scenes of 2 to 400 rods; the small ones are dense enough to collide.
 fn scenes(effort: &Effort) -> Vec<Scene> {
     let scene = |count: usize, per_cm3: f64, change: fn(&mut Scene)| {
-        let mut scene = lab::interacting_scene(effort);
-        scene.particles.count = count;
-        lab::interaction(&mut scene).concentration_per_cm3 = Some(per_cm3);
+        let mut scene = lab::crowded_scene(effort, count, per_cm3);
         scene.ensemble.seed = effort.seed(1982 + count as u64);
         change(&mut scene);
         scene

@@ -102,19 +102,15 @@ fn replacement(volume: &Volume, effort: &Effort) -> Vec<Evidence> {
             .within(overshoot_off, 4.0 * f64::EPSILON)
             .because("five roundings of numbers near 1, half an ε each"),
         Evidence::exact("new rods with unchanged x_1 or x_3", "rods", places.unchanged as f64),
-        Evidence::new(
-            "p of (x_1/H)² of new rods being uniform",
-            "–",
-            lab::uniform(squares, 0.2, "Kolmogorov–Smirnov; x_1 = HR is ¼ off, √u − u at u = ¼"),
-        ),
-        Evidence::new(
-            "p of x_3/H of new rods being uniform",
-            "–",
-            lab::uniform(places.new_x3, 0.2, "Kolmogorov–Smirnov; half the axis is ½ off"),
-        ),
-        Evidence::new("p of x_1/H being uniform after a strain of 3.7", "–", lab::uniform(x1, END, even)),
-        Evidence::new("p of x_2/H being uniform after a strain of 3.7", "–", lab::uniform(x2, END, even)),
-        Evidence::new("p of x_3/H being uniform after a strain of 3.7", "–", lab::uniform(x3, END, even)),
+        Evidence::on("p of (x_1/H)² of new rods being uniform", "–")
+            .uniform(squares, 0.2)
+            .because("Kolmogorov–Smirnov; x_1 = HR is ¼ off, √u − u at u = ¼"),
+        Evidence::on("p of x_3/H of new rods being uniform", "–")
+            .uniform(places.new_x3, 0.2)
+            .because("Kolmogorov–Smirnov; half the axis is ½ off"),
+        Evidence::on("p of x_1/H being uniform after a strain of 3.7", "–").uniform(x1, END).because(even),
+        Evidence::on("p of x_2/H being uniform after a strain of 3.7", "–").uniform(x2, END).because(even),
+        Evidence::on("p of x_3/H being uniform after a strain of 3.7", "–").uniform(x3, END).because(even),
     ]
 }
 
@@ -205,7 +201,7 @@ fn even(inflow: &Inflow, effort: &Effort) -> Vec<Evidence> {
             outside += places.len() - inside.len();
             let title = format!("{name}: p of x_{k}/H_{k} being uniform after a strain of 4", k = axis + 1);
             let because = "Kolmogorov–Smirnov; each mistake moves a coordinate by more in some flow";
-            evidence.push(Evidence::new(title, "–", lab::uniform(inside, DISTANCE, because)));
+            evidence.push(Evidence::on(title, "–").uniform(inside, DISTANCE).because(because));
         }
     }
     evidence.push(Evidence::exact("rods outside the volume", "rods", outside as f64));

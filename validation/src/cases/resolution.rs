@@ -5,9 +5,8 @@ use super::*;
 
 /// Fig. 7's rods for half a period, with another mean aspect ratio and concentration.
 pub fn scene(effort: &Effort, aspect_ratio: f64, concentration_per_cm3: f64) -> Scene {
-    let mut scene = lab::interacting_scene(effort);
+    let mut scene = lab::crowded_scene(effort, 100, concentration_per_cm3);
     scene.particles.aspect_ratio = aspect_ratio;
-    lab::interaction(&mut scene).concentration_per_cm3 = Some(concentration_per_cm3);
     scene.time = Time { outputs_per_unit: Some(2), ..Time::periods(0.5) };
     scene
 }

@@ -29,11 +29,7 @@ pub fn cases() -> Vec<Case> {
 
 fn whole_map(integrators: &Integrators, effort: &Effort) -> Vec<Evidence> {
     let most_steps = effort.pick(2_000, 20_000);
-    let mut exact = 0.0f64;
-    let mut angles = 0.0f64;
-    let mut length = 0.0f64;
-    let mut accurate = 0.0f64;
-    let mut silent = 0.0;
+    let [mut exact, mut angles, mut length, mut accurate, mut silent] = [0.0f64; 5];
     for integrator in integrators() {
         for (cell, strain_per_step) in tried(&integrator, most_steps) {
             let error = cell.error_rad.unwrap_or(f64::NAN);

@@ -184,13 +184,10 @@ fn in_plane(theta_deg: &f64, effort: &Effort) -> Vec<Evidence> {
     // A pilot of 40 replicas by `rotation`: 0.01607 and 0.00333 on average, which leaves 0.0047 ± 0.0008 (mean and
     // deviation).
     let design = Design::new(0.0043, 0.001);
-    let runs: Vec<_> = (0..effort.samples(design))
-        .into_par_iter()
-        .map(|replica| {
-            let turned = |steps| run(Update::Rotation, steps, replica);
-            [run(Update::Kick, 200, replica), turned(200), turned(800)]
-        })
-        .collect();
+    let runs: Vec<_> = lab::replicas(effort.samples(design), |replica| {
+        let turned = |steps| run(Update::Rotation, steps, replica);
+        [run(Update::Kick, 200, replica), turned(200), turned(800)]
+    });
     let most = worst(runs.iter().flatten().map(|(out_of_plane, _)| *out_of_plane));
     let kicked = worst(runs.iter().map(|[kick, ..]| kick.1));
     let fall = runs.iter().map(|[_, coarse, fine]| 0.5 * coarse.1 - fine.1);

@@ -20,10 +20,8 @@ fn steady_angle(change: &Change, effort: &Effort) -> [Evidence; 3] {
     // there.
     let design = Design::new(0.02, 0.003);
     [5.0, 11.6, 30.0].map(|r| {
-        let mut scene = lab::interacting_scene(effort);
-        scene.particles.count = 50;
+        let mut scene = lab::crowded_scene(effort, 50, 500.0);
         scene.particles.aspect_ratio = r;
-        lab::interaction(&mut scene).concentration_per_cm3 = Some(500.0);
         scene.time.duration = 6.0;
         scene.output.observables = vec![Observable::MeanAngle];
         change(&mut scene);

@@ -214,8 +214,7 @@ fn agrees(claimed: &Claimed, _: &Effort) -> Vec<Evidence> {
 }
 
 fn rest(integrators: &Integrators, _: &Effort) -> Vec<Evidence> {
-    let mut moving = 0.0;
-    let mut resting = 0.0;
+    let [mut moving, mut resting] = [0.0; 2];
     for integrator in integrators() {
         for (r, k) in pairs([2.0, 11.6, 100.0], 0..32) {
             let limit = theory::euler_turning(r);

@@ -108,20 +108,14 @@ type Number = fn(u64) -> u64;
 
 fn replicas(number: &Number, effort: &Effort) -> Evidence {
     const GROUP: u64 = 256;
-    const COUNT: usize = 10;
     let mut scene = lab::interacting_scene(effort);
-    scene.particles.count = COUNT;
+    scene.particles.count = 10;
     scene.time.steps_per_unit = Some(20);
     // Pilot of 2,360 groups at seeds 9001 to 9010: 0.075; a tenth of room.
     let design = Design::new(0.065, 0.083);
-    let x1 = |replica| {
-        let mut suspension = lab::suspension(&scene, number(replica));
-        let done = (0..2).all(|_| suspension.step().is_ok());
-        let sum: f64 = suspension.directions().iter().map(|p| p.x.abs()).sum();
-        if done { sum / COUNT as f64 } else { f64::NAN }
-    };
-    let replicas = GROUP * effort.samples(design);
-    let x1: Vec<_> = (0..replicas).into_par_iter().map(x1).collect();
+    let x1: Vec<_> = lab::replicas(GROUP * effort.samples(design), |replica| {
+        lab::x1_after(&mut lab::suspension(&scene, number(replica)), 2).unwrap_or(f64::NAN)
+    });
     Evidence::on("exponent of M in the standard deviation of block means", "–")
         .is(Sample::of(blocks::replicas_exponents(&x1, GROUP as usize)), -0.5, 0.0, design.effect)
         .because("independent replicas, in groups of 256; a deviation that is √2 as large from two on makes 0.07")
@@ -168,10 +162,8 @@ fn faces(exponent: &f64, effort: &Effort) -> Evidence {
     let design = Design::new(0.22, 0.45);
     // For losses ∝ Nᵉ the ratio is 8⁻ᵉ to 1.
     let ratio = (RODS[1] as f64 / RODS[0] as f64).powf(-exponent);
-    let differences: Vec<_> = (0..effort.samples(design))
-        .into_par_iter()
-        .map(|replica| lost(RODS[0], replica) - ratio * lost(RODS[1], replica))
-        .collect();
+    let samples = effort.samples(design);
+    let differences: Vec<_> = lab::replicas(samples, |replica| lost(RODS[0], replica) - ratio * lost(RODS[1], replica));
     Evidence::on("share of collisions lost at 64 rods, less the loss at 512 times what the exponent asks for", "–")
         .is(Sample::of(&differences), 0.0, 0.02, design.effect)
         .because(

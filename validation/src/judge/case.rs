@@ -8,8 +8,8 @@ pub use effort::{Effort, GATE_SEED};
 pub use judges::Judges;
 pub use outcome::{Control, Judged, Outcome};
 
-use crate::judge::accept::{Rule, Text, Verdict};
-use crate::judge::statistics::Sample;
+use crate::judge::accept::{LEVEL, Rule, Text, Verdict, kolmogorov_samples};
+use crate::judge::statistics::{Sample, kolmogorov};
 use outcome::{lacks_data, overall};
 use serde::{Deserialize, Serialize};
 use std::fmt;
@@ -64,6 +64,20 @@ impl Quantity {
     pub fn exceeds(self, sample: Sample, bound: f64, effect: f64) -> Bound {
         let Sample { mean, se, samples } = sample;
         Bound(self, Box::new(move |because| Rule::Above { mean, se, samples, bound, effect, because }))
+    }
+
+    /// The rule that p, of a test on `samples` values of which it needs `enough`, is at least `level`.
+    pub fn p_value(self, p: f64, samples: u64, enough: u64, level: f64) -> Bound {
+        Bound(self, Box::new(move |because| Rule::PValue { p, samples, enough, level, distance: None, because }))
+    }
+
+    /// The Kolmogorov–Smirnov test that `values` in [0, 1] are uniform; there must be enough values to show a
+    /// `distance` between the two distribution functions.
+    pub fn uniform(self, values: Vec<f64>, distance: f64) -> Bound {
+        let (samples, enough) = (values.len() as u64, kolmogorov_samples(distance));
+        let (found, p) = kolmogorov(values);
+        let (level, distance) = (LEVEL, Some(found));
+        Bound(self, Box::new(move |because| Rule::PValue { p, samples, enough, level, distance, because }))
     }
 }
 

@@ -1,7 +1,6 @@
 //! Tools shared by cases and studies: the paper's problem as a scene, samples of replicas, and the scene in the form of
 //! the naive reference.
 
-use crate::judge::accept::{LEVEL, Rule, Text, kolmogorov_samples};
 use crate::judge::case::Effort;
 use crate::judge::statistics::Sample;
 use crate::oracle::naive::{self, Mistake, NaiveProblem, OtherFlow, Reading, Start};
@@ -12,9 +11,6 @@ use shearbed::plan::{Plan, Stage};
 use shearbed::run::ensemble::Results;
 use shearbed::run::run_replica;
 use shearbed::scene::{Ensemble, Interaction, Orientation, Scene, Update};
-use statrs::distribution::Uniform;
-use statrs::stats_tests::NaNPolicy;
-use statrs::stats_tests::ks_test::{KSOneSampleAlternativeMethod, ks_onesample};
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -37,7 +33,15 @@ pub fn interacting_scene(effort: &Effort) -> Scene {
     Scene { interaction: Some(Interaction::default()), ..free_scene(effort) }
 }
 
-/// The same with the paper's own update, A.14 taken literally, for cases that reproduce the paper.
+/// So many of these rods at this concentration.
+pub fn crowded_scene(effort: &Effort, count: usize, per_cm3: f64) -> Scene {
+    changed(interacting_scene(effort), |scene| {
+        scene.particles.count = count;
+        interaction(scene).concentration_per_cm3 = Some(per_cm3);
+    })
+}
+
+/// Those of `interacting_scene` with the paper's own update, A.14 taken literally, for cases that reproduce the paper.
 pub fn paper_scene(effort: &Effort) -> Scene {
     changed(free_scene(effort), |scene| {
         paper_interaction(scene);
@@ -117,19 +121,30 @@ pub fn problem(scene: &Scene, replica: u64, mistake: Option<Mistake>) -> NaivePr
     }
 }
 
+/// One value per replica, from the first on, computed side by side.
+pub fn replicas<T: Send, C: FromParallelIterator<T>>(count: u64, value: impl Fn(u64) -> T + Sync + Send) -> C {
+    (0..count).into_par_iter().map(value).collect()
+}
+
+/// X̄₁ of a suspension after `steps` more steps; `None` if one of them failed.
+pub fn x1_after(suspension: &mut Suspension, steps: u64) -> Option<f64> {
+    (0..steps).try_for_each(|_| suspension.step().map(|_| ())).ok()?;
+    let directions = suspension.directions();
+    Some(directions.iter().map(|p| p.x.abs()).sum::<f64>() / directions.len() as f64)
+}
+
 /// One value per replica of a scene, computed by `value` from the replica's means `mean(channel, output)`.
 pub fn per_replica<T: Send>(
     scene: &Scene,
-    replicas: u64,
+    count: u64,
     value: impl Fn(&dyn Fn(Channel, usize) -> f64) -> T + Sync,
 ) -> Vec<T> {
     let plan = plan(scene);
-    let of_replica = |replica| {
+    replicas(count, |replica| {
         // A run that stopped fails every check: all its means are NaN.
         let means = run_replica(&plan, replica).ok();
         value(&|channel, output| means.as_ref().and_then(|means| means.mean(channel, output)).unwrap_or(f64::NAN))
-    };
-    (0..replicas).into_par_iter().map(of_replica).collect()
+    })
 }
 
 /// A mean over `samples` rods or replicas of a run at an output; NaN if the run stopped.
@@ -137,19 +152,6 @@ pub fn at_output<E>(results: &Result<Results, E>, channel: Channel, output: usiz
     let column = results.as_ref().ok().and_then(|results| results.column(&channel.name()));
     let (mean, se) = column.map_or((f64::NAN, f64::NAN), |column| (column.mean[output], column.se[output]));
     Sample { mean, se, samples }
-}
-
-/// The Kolmogorov–Smirnov test that `values` in [0, 1] are uniform; there must be enough values to show a `distance`
-/// between the two distribution functions.
-pub fn uniform(values: Vec<f64>, distance: f64, because: impl Into<Text>) -> Rule {
-    let samples = values.len() as u64;
-    let enough = kolmogorov_samples(distance);
-    let method = KSOneSampleAlternativeMethod::TwoSidedAsymptotic;
-    let (distance, p) = Uniform::new(0.0, 1.0)
-        .ok()
-        .and_then(|unit| ks_onesample(values, &unit, method, NaNPolicy::Propogate).ok())
-        .unwrap_or((f64::NAN, f64::NAN));
-    Rule::PValue { p, samples, enough, level: LEVEL, distance: Some(distance), because: because.into() }
 }
 
 /// Values that a check shares with its controls, by their keys, for the seed and the effort of one run: a control that

@@ -2,8 +2,10 @@
 
 pub use crate::oracle::{larger, worst};
 use serde::{Deserialize, Serialize};
-use statrs::distribution::{ContinuousCDF, Normal, StudentsT};
+use statrs::distribution::{ContinuousCDF, Normal, StudentsT, Uniform};
 use statrs::statistics::Statistics;
+use statrs::stats_tests::NaNPolicy;
+use statrs::stats_tests::ks_test::{KSOneSampleAlternativeMethod, ks_onesample};
 use std::borrow::Borrow;
 
 /// Mean and standard error of independent values.
@@ -94,6 +96,13 @@ pub fn correlation(a: &[f64], b: &[f64]) -> f64 {
 pub fn slope(points: &[(f64, f64)]) -> f64 {
     let (x, y): (Vec<_>, Vec<_>) = points.iter().copied().unzip();
     covariance(&x, &y) / covariance(&x, &x)
+}
+
+/// Kolmogorov's distance of `values` in [0, 1] from uniform ones, and its p.
+pub(super) fn kolmogorov(values: Vec<f64>) -> (f64, f64) {
+    let method = KSOneSampleAlternativeMethod::TwoSidedAsymptotic;
+    let test = |unit: Uniform| ks_onesample(values, &unit, method, NaNPolicy::Propogate).ok();
+    Uniform::new(0.0, 1.0).ok().and_then(test).unwrap_or((f64::NAN, f64::NAN))
 }
 
 /// The two-sided critical value of Student's t at `level` for a mean of `samples` independent values.

@@ -164,12 +164,11 @@ pub fn measure(effort: &Effort) -> Option<Vec<InterpretationRow>> {
 
 /// The traces of the first `replicas` replicas of the paper's problem with `change`.
 pub fn traces(change: Change, replicas: u64) -> Vec<Trace> {
-    let run = |replica| {
+    lab::replicas(replicas, |replica| {
         let mut problem = NaiveProblem::paper(SEED, replica);
         change(&mut problem);
         trace(problem)
-    };
-    (0..replicas).into_par_iter().map(run).collect()
+    })
 }
 
 /// Runs two periods of a problem whose number of steps per period is a multiple of four.

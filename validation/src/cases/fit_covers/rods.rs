@@ -69,10 +69,9 @@ pub(super) fn hold(treatment: &Treatment, effort: &Effort) -> Result<Evidence, S
     let offset = OFFSETS.get(effort, (), || offset(pool));
     let count = effort.samples(Design::new(EXCESS, DEVIATION));
     let seed = |k: u64| effort.seed(73).wrapping_add(k.wrapping_mul(0x9E37_79B9_7F4A_7C15));
-    let ratio = |k: u64| repeat((pool, &offset), *treatment, seed(k));
-    let below: Result<Vec<f64>, String> =
-        (0..count).into_par_iter().map(|k| ratio(k).map(|ratio| 1.0 - ratio)).collect();
+    let below = |k: u64| Ok(1.0 - repeat((pool, &offset), *treatment, seed(k))?);
+    let below: Vec<f64> = lab::replicas::<_, Result<_, String>>(count, below)?;
     Ok(Evidence::on("1 − χ² per degree of freedom", "–")
-        .exceeds(Sample::of(&below?), -0.1, EXCESS)
+        .exceeds(Sample::of(&below), -0.1, EXCESS)
         .because("with a tenth more a right model would be rejected twice as often as due"))
 }

@@ -31,21 +31,12 @@ impl Design {
             let worst_sd = self.sd * scatter(level, samples);
             worst_sd / (samples as f64).sqrt() * needed_noncentrality(level, miss, samples) <= self.effect
         };
-        let mut high = FEWEST;
-        while !enough(high) {
-            if high > MOST {
-                return u64::MAX;
-            }
-            high *= 2;
-        }
+        let mut doubled = std::iter::successors(Some(FEWEST), |samples| (*samples <= MOST).then_some(2 * samples));
+        let Some(mut high) = doubled.find(|samples| enough(*samples)) else { return u64::MAX };
         let mut low = high / 2;
         while high - low > 1 {
             let middle = low.midpoint(high);
-            if enough(middle) {
-                high = middle;
-            } else {
-                low = middle;
-            }
+            if enough(middle) { high = middle } else { low = middle }
         }
         high.max(FEWEST)
     }
@@ -73,7 +64,7 @@ fn scatter(level: f64, samples: u64) -> f64 {
 /// The effect over its standard error that a mean of `samples` values at `level` misses with the probability `miss`.
 pub(super) fn needed_noncentrality(level: f64, miss: f64, samples: u64) -> f64 {
     let (critical, nu) = (student(level, samples), freedom(samples));
-    let normal = normal().inverse_cdf(1.0 - miss);
+    let normal = Normal::standard().inverse_cdf(1.0 - miss);
     critical * (1.0 - 0.25 / nu) + normal * (1.0 + 0.5 * critical * critical / nu).sqrt()
 }
 
@@ -86,16 +77,12 @@ pub(super) fn noncentral(t: f64, noncentrality: f64, samples: u64) -> f64 {
 
 /// The probability of a normal deviate above `deviate`.
 pub fn upper_tail(deviate: f64) -> f64 {
-    normal().sf(deviate)
+    Normal::standard().sf(deviate)
 }
 
 /// The value that √n D, with Kolmogorov's distance D, exceeds with at most this probability (Massart 1990).
 pub(super) fn massart(probability: f64) -> f64 {
     (0.5 * (2.0 / probability).ln()).sqrt()
-}
-
-fn normal() -> Normal {
-    Normal::standard()
 }
 
 #[cfg(test)]

@@ -7,14 +7,13 @@ use crate::methods::coefficients::{Diffusing, Diffusion};
 
 /// Shares of `replicas` replicas of interacting rods.
 pub fn kicked(scene: &Scene, watch: Watch, replicas: u64) -> Vec<Shares> {
-    let one = |replica| {
+    lab::replicas(replicas, |replica| {
         let mut rods = lab::suspension(scene, replica);
         observed(scene.particles.aspect_ratio, watch, &mut || {
             let stopped = (0..watch.steps).any(|_| rods.step().is_err());
             (!stopped).then(|| rods.directions())
         })
-    };
-    (0..replicas).into_par_iter().map(one).collect()
+    })
 }
 
 /// The same for as many rods in the same steps that turn by Jeffery's equation and rotary diffusion of C_I. Their seeds
@@ -22,14 +21,13 @@ pub fn kicked(scene: &Scene, watch: Watch, replicas: u64) -> Vec<Shares> {
 pub fn diffused(scene: &Scene, c_i: f64, watch: Watch, replicas: u64, (effort, stream): (&Effort, u64)) -> Vec<Shares> {
     let aspect_ratio = scene.particles.aspect_ratio;
     let diffusion = Diffusion::isotropic(shape_factor(aspect_ratio), c_i, watch.strain);
-    let one = |replica| {
+    lab::replicas(replicas, |replica| {
         let mut rods = Diffusing::isotropic(scene.particles.count, diffusion, effort.seed(stream + replica));
         observed(aspect_ratio, watch, &mut || {
             (0..watch.steps).for_each(|_| rods.step());
             Some(rods.rods.clone())
         })
-    };
-    (0..replicas).into_par_iter().map(one).collect()
+    })
 }
 
 #[derive(Clone, Debug)]

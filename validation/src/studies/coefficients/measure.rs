@@ -113,8 +113,7 @@ pub fn scene(setting: Setting, effort: &Effort) -> Scene {
     let length_cm = 0.1 * scene.particles.length_mm;
     let interaction = lab::interaction(&mut scene);
     interaction.concentration_per_cm3 = Some(setting.n_a3 / length_cm.powi(3));
-    interaction.alpha = setting.alpha;
-    interaction.update = setting.update;
+    (interaction.alpha, interaction.update) = (setting.alpha, setting.update);
     scene.time.duration = 2.0 * periods(setting) as f64;
     scene.time.outputs_per_unit = Some(1);
     scene.time.steps_per_unit = Some(setting.finer * scene.resolving_steps());
@@ -124,7 +123,7 @@ pub fn scene(setting: Setting, effort: &Effort) -> Scene {
 /// The means of each replica over the second half of its scene, and X̄₁ at each quarter of the first two periods.
 pub(crate) fn windows(scene: &Scene, places: Places, replicas: u64) -> Vec<(Means, [f64; 9])> {
     let lost = (Means { gain: Matrix3::from_element(f64::NAN), ..Means::default() }, [f64::NAN; 9]);
-    (0..replicas).into_par_iter().map(|replica| window(scene, places, replica).unwrap_or(lost)).collect()
+    lab::replicas(replicas, |replica| window(scene, places, replica).unwrap_or(lost))
 }
 
 /// One replica of [`windows`]; `None` where a step fails.
@@ -148,8 +147,7 @@ fn window(scene: &Scene, places: Places, replica: u64) -> Option<(Means, [f64; 9
     for step in 0..half {
         // The nearest step to each quarter of a period; the first half of a scene has more than two periods.
         if let Some(k) = (0..9).find(|k| (k * steps + 2) / 4 == step) {
-            let now = rods.directions();
-            quarters[k] = now.iter().map(|p| p.x.abs()).sum::<f64>() / now.len() as f64;
+            quarters[k] = lab::x1_after(&mut rods, 0)?;
         }
         moved(&mut rods)?;
     }

@@ -48,18 +48,15 @@ pub struct AtStep<const N: usize> {
 /// X̄₁ of the averaged motion, that of the model less it, and sin² between the paths ([`Apart`]).
 pub fn row(effort: &Effort, steps_per_period: u64, min_contact_arm: f64, replicas: u64) -> AtStep<3> {
     let scene = scene(effort, steps_per_period, min_contact_arm);
-    let distances: Vec<_> =
-        (0..replicas).into_par_iter().map(|replica| apart(&scene, steps_per_period, |_| {}, replica)).collect();
+    let distances: Vec<_> = lab::replicas(replicas, |replica| apart(&scene, steps_per_period, |_| {}, replica));
     let values: [fn(&Apart) -> f64; 3] = [|apart| apart.averaged_x1, |apart| apart.x1, |apart| apart.square];
     AtStep { steps_per_period, min_contact_arm, samples: values.map(|value| Sample::of(distances.iter().map(value))) }
 }
 
 /// 50 rods at 400 per cm³, for one period: eight times as dense as in Fig. 7, so that a few replicas show the limit.
 pub fn scene(effort: &Effort, steps_per_period: u64, min_contact_arm: f64) -> Scene {
-    let mut scene = lab::interacting_scene(effort);
-    scene.particles.count = 50;
-    let interaction = lab::interaction(&mut scene);
-    (interaction.concentration_per_cm3, interaction.min_contact_arm) = (Some(400.0), min_contact_arm);
+    let mut scene = lab::crowded_scene(effort, 50, 400.0);
+    lab::interaction(&mut scene).min_contact_arm = min_contact_arm;
     scene.time.steps_per_unit = Some(steps_per_period);
     scene.time.outputs_per_unit = Some(1);
     scene

@@ -163,7 +163,7 @@ pub fn rates(scene: &Scene, steps_per_period: u64, periods: Range<u64>, replicas
         Time { steps_per_unit: Some(steps_per_period), outputs_per_unit: Some(1), ..Time::periods(periods.end as f64) };
     StepCounts {
         steps_per_period,
-        counts: (0..replicas).into_par_iter().map(|replica| count(&scene, replica, periods.clone(), counted)).collect(),
+        counts: lab::replicas(replicas, |replica| count(&scene, replica, periods.clone(), counted)),
         periods,
     }
 }

@@ -84,9 +84,8 @@ fn measure(effort: &Effort) -> Result<Limit, String> {
     let doubled =
         |coarsest: u64, finest: u64| (0u32..).map(move |k| coarsest << k).take_while(move |steps| *steps <= finest);
     let averaged_steps = doubled(100, effort.pick(400, 6400));
-    let mut dense = lab::interacting_scene(effort);
-    let interaction = lab::interaction(&mut dense);
-    (interaction.concentration_per_cm3, interaction.alpha) = (Some(400.0), 2.0);
+    let mut dense = lab::crowded_scene(effort, 100, 400.0);
+    lab::interaction(&mut dense).alpha = 2.0;
     // The second arm is the rods' radius.
     let arms = [0.25, 0.5 / 11.6, 0.0];
     let each = |arm| averaged_steps.clone().map(move |steps| (steps, arm));

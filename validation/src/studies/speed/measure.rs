@@ -119,9 +119,7 @@ fn seconds<T>(work: impl FnOnce() -> T) -> f64 {
 
 /// The time of a step, from a number of steps that takes about the time in `amount`.
 fn step(rods: usize, concentration_per_cm3: f64, amount: Amount) -> Result<Step, String> {
-    let mut scene = lab::interacting_scene(&Effort::gate());
-    scene.particles.count = rods;
-    lab::interaction(&mut scene).concentration_per_cm3 = Some(concentration_per_cm3);
+    let scene = lab::crowded_scene(&Effort::gate(), rods, concentration_per_cm3);
     let mut suspension = lab::suspension(&scene, 0);
     let steps = |suspension: &mut Suspension, count: u64| (0..count).try_for_each(|_| suspension.step().map(|_| ()));
     // The first steps set up the buffers.

@@ -78,15 +78,12 @@ pub fn free(scene: &Scene, quarters: u64, replicas: u64) -> Result<Values, Strin
     scene.time = Time { outputs_per_unit: Some(4), ..Time::periods(quarters as f64 / 4.0) };
     scene.output.observables = vec![Observable::Projections];
     let plan = Plan::new(&scene).map_err(|error| error.to_string())?;
-    (0..replicas)
-        .into_par_iter()
-        .map(|replica| {
-            let means = run_replica(&plan, replica).map_err(|error| error.to_string())?;
-            // The first output is the start.
-            let x1 = (1..plan.outputs()).map(|output| means.mean(Channel::X[0], output));
-            Ok(x1.map(|mean| mean.unwrap_or(f64::NAN)).collect())
-        })
-        .collect()
+    lab::replicas(replicas, |replica| {
+        let means = run_replica(&plan, replica).map_err(|error| error.to_string())?;
+        // The first output is the start.
+        let x1 = (1..plan.outputs()).map(|output| means.mean(Channel::X[0], output));
+        Ok(x1.map(|mean| mean.unwrap_or(f64::NAN)).collect())
+    })
 }
 
 /// The mean of the free rods at t/T = `turns`, over all initial directions.

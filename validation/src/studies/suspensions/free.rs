@@ -92,13 +92,10 @@ impl Free {
     /// The number of rods that `start` chooses for `count`, and the errors of X̄₁ in `trials` trials.
     pub fn errors(&self, start: &Start, count: usize, trials: usize, seed: u64) -> (usize, Vec<f64>) {
         let exact = self.exact();
-        let tried: Vec<_> = (0..trials as u64)
-            .into_par_iter()
-            .map(|trial| {
-                let rods = (start.lay)(count, self.unequal(), &mut generator(seed, count, trial));
-                (rods.len(), self.mean(&rods) - exact)
-            })
-            .collect();
+        let tried: Vec<_> = lab::replicas(trials as u64, |trial| {
+            let rods = (start.lay)(count, self.unequal(), &mut generator(seed, count, trial));
+            (rods.len(), self.mean(&rods) - exact)
+        });
         let rods = tried.first().map_or(0, |(rods, _)| *rods);
         (rods, tried.into_iter().map(|(_, error)| error).collect())
     }

@@ -75,14 +75,11 @@ impl Job {
     /// Runs the job on the threads of the current pool. `finished` is called after each replica.
     pub fn run(&self, finished: &(dyn Fn() + Sync)) -> Result<Vec<Trace>, String> {
         let plan = Plan::new(&self.scene).map_err(|error| error.to_string())?;
-        (0..self.replicas)
-            .into_par_iter()
-            .map(|replica| {
-                let trace = self.trace(&plan, replica);
-                finished();
-                trace
-            })
-            .collect()
+        lab::replicas(self.replicas, |replica| {
+            let trace = self.trace(&plan, replica);
+            finished();
+            trace
+        })
     }
 
     fn trace(&self, plan: &Plan, replica: u64) -> Result<Trace, String> {
