@@ -82,14 +82,10 @@ pub type Trace = [f64; QUARTERS + 2];
 /// The results of one interpretation.
 #[derive(Clone, Debug, PartialEq)]
 pub struct InterpretationRow {
-    /// The open choice.
-    pub open: &'static str,
-    /// The interpretation of it.
-    pub interpretation: &'static str,
-    /// Number of independent replicas.
-    pub replicas: u64,
-    /// The value of each of [`QUANTITIES`].
-    pub values: Vec<Estimate>,
+    pub(crate) open: &'static str,
+    pub(crate) interpretation: &'static str,
+    pub(crate) replicas: u64,
+    pub(crate) values: Vec<Estimate>,
     /// Each value less that of the default, from pairs of replicas; none for the default itself.
     pub changes: Option<Vec<Estimate>>,
 }
@@ -129,9 +125,7 @@ const ALTERNATIVES: [(&str, &str, Change); 17] = [
     ("box", "4 : ½ : ½ of the cube's sides", |p| p.box_mm = Some([4.0, 0.5, 0.5].map(|side| side * p.edges_mm()[0]))),
     ("time step", "halved: 400 steps a period", |p| p.steps_per_period *= 2),
     ("time step", "doubled: 100 steps a period", |p| p.steps_per_period /= 2),
-    ("update and step", "angles, 400 steps a period", |p| {
-        (p.update, p.steps_per_period) = (Update::Angles, 400);
-    }),
+    ("update and step", "angles, 400 steps a period", |p| (p.update, p.steps_per_period) = (Update::Angles, 400)),
     ("arm and step", "the rod's radius, 400 steps a period", |p| {
         (p.min_contact_arm, p.steps_per_period) = (0.5 / p.aspect_ratio, 400);
     }),

@@ -47,16 +47,13 @@ pub fn step_strain(scene: &Scene) -> f64 {
 /// Numbers of kicks above each of [`THRESHOLDS_RAD`]: in the row [`CLOSING`] where the gap was closing, ℓ·D·ℓ < 0, in
 /// the row [`OPENING`] where it was opening.
 pub type Sides = SMatrix<f64, 2, 4>;
-/// See [`Sides`].
-pub const CLOSING: usize = 0;
-/// See [`Sides`].
-pub const OPENING: usize = 1;
+pub(crate) const CLOSING: usize = 0;
+pub(crate) const OPENING: usize = 1;
 
 /// The counts of one replica over a window, per rod and period.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Counts {
-    /// Kicks.
-    pub kicks: Sides,
+    pub(crate) kicks: Sides,
     /// The prediction for them by the formula for fresh arms, from the directions and collisions of the run.
     pub fresh: Sides,
     /// Number of rods that collided, two for each collision.
@@ -141,12 +138,10 @@ impl Counts {
 /// The counts of many replicas of a scene at one step.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StepCounts {
-    /// Steps per period.
-    pub steps_per_period: u64,
+    pub(crate) steps_per_period: u64,
     /// The window, in periods.
     pub periods: Range<u64>,
-    /// The counts of each replica.
-    pub counts: Vec<Counts>,
+    pub(crate) counts: Vec<Counts>,
 }
 
 impl StepCounts {

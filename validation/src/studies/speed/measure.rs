@@ -4,6 +4,7 @@ use super::*;
 use crate::methods::least_work::{plain_sum, sum_of_inverse_roots};
 use crate::oracle::reference::motion::{Motion, Unit};
 use crate::oracle::reference::table::{self, Start};
+use crate::studies::work_precision::seconds;
 use shearbed::run::memory;
 use std::hint::black_box;
 
@@ -109,12 +110,6 @@ fn pool(threads: usize) -> Result<rayon::ThreadPool, String> {
 fn least(amount: Amount, mut measure: impl FnMut() -> f64) -> f64 {
     measure();
     (0..amount.repeats).map(|_| measure()).fold(f64::INFINITY, f64::min)
-}
-
-fn seconds<T>(work: impl FnOnce() -> T) -> f64 {
-    let start = Instant::now();
-    black_box(work());
-    start.elapsed().as_secs_f64()
 }
 
 /// The time of a step, from a number of steps that takes about the time in `amount`.

@@ -53,23 +53,18 @@ impl Replicas {
 /// The result of one job for X̄₁ at t/T = 1.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct JobMean {
-    /// Steps per period.
-    pub steps_per_period: u64,
-    /// Rods in the control volume.
-    pub rods: usize,
-    /// Number of independent runs.
-    pub replicas: u64,
+    pub(crate) steps_per_period: u64,
+    pub(crate) rods: usize,
+    pub(crate) replicas: u64,
     /// The mean of |p_1| over rods and replicas.
     pub x1: f64,
-    /// The standard error of `x1` over replicas.
-    pub se: f64,
+    pub(crate) se: f64,
 }
 
 /// The results at one number of steps per period less those at the next finer one, at the same seeds.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Change {
-    /// The change of X̄₁.
-    pub x1: Estimate,
+    pub(crate) x1: Estimate,
     /// The correlation of X̄₁ between the two; its standard error is that for normal variables.
     pub correlation: Estimate,
     /// The change of the share of rods with |p_1| below 0.1, 0.2, … 0.9, for the bound where it is largest in standard
@@ -86,10 +81,8 @@ pub struct Change {
 /// X̄₁ at [`QUARTERS`] of the period at one number of steps, which they divide.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Quarters {
-    /// Steps per period.
-    pub steps_per_period: u64,
-    /// X̄₁ at each quarter.
-    pub x1: [Estimate; 4],
+    pub(crate) steps_per_period: u64,
+    pub(crate) x1: [Estimate; 4],
     /// X̄₁ less that at the finest step, at the same seeds; `None` for the finest itself.
     pub less_finest: Option<[Estimate; 4]>,
 }
@@ -97,10 +90,8 @@ pub struct Quarters {
 /// The results of the study.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Law {
-    /// Results against the steps per period, coarse to fine.
-    pub steps: Vec<JobMean>,
-    /// Each level less the next finer one.
-    pub changes: Vec<Change>,
+    pub(crate) steps: Vec<JobMean>,
+    pub(crate) changes: Vec<Change>,
     /// Results within the period against the steps per period, coarse to fine.
     pub quarters: Vec<Quarters>,
     /// The first of the levels with GΔt ≤ 1, which resolve a flip: from it on an order may be determined.
@@ -111,8 +102,7 @@ pub struct Law {
     pub steps_line: Option<Line>,
     /// The first level of that line.
     pub line_from: usize,
-    /// Results against the rods.
-    pub rods: Vec<JobMean>,
+    pub(crate) rods: Vec<JobMean>,
     /// Lines of X̄₁ against N^(−1/3), and against 1/N.
     pub rods_lines: [Option<Line>; 2],
     /// Blocks of replicas of the scene as it is.

@@ -43,16 +43,11 @@ pub enum Scope {
 /// A choice of steps, rods and replicas, with its predicted error.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Split {
-    /// The required error.
-    pub target: f64,
-    /// The exact value for the error.
-    pub scope: Scope,
-    /// Steps per period.
-    pub steps_per_period: u64,
-    /// N.
-    pub rods: usize,
-    /// M.
-    pub replicas: u64,
+    pub(crate) target: f64,
+    pub(crate) scope: Scope,
+    pub(crate) steps_per_period: u64,
+    pub(crate) rods: usize,
+    pub(crate) replicas: u64,
     /// The largest bias.
     pub bias: f64,
     /// The scatter, one standard deviation.
@@ -62,10 +57,8 @@ pub struct Split {
 /// The results of a split that was run several times with new seeds.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Realised {
-    /// The split that was run.
-    pub split: Split,
-    /// Number of runs.
-    pub repeats: u64,
+    pub(crate) split: Split,
+    pub(crate) repeats: u64,
     /// The runs' mean less the reference; the standard error includes the reference's.
     pub bias: Estimate,
     /// The standard deviation of one run.

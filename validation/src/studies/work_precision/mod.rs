@@ -8,8 +8,8 @@ mod time;
 
 use super::*;
 use crate::methods::integrators::Failure;
-pub(crate) use time::measure;
 pub use time::{Budget, Seconds};
+pub(crate) use time::{measure, seconds};
 
 /// The aspect ratios of the benches.
 pub const ASPECT_RATIOS: [f64; 4] = [2.0, 11.6, 100.0, 1e4];
@@ -27,8 +27,7 @@ pub struct Point {
     pub setting: Setting,
     /// The errors at the end; none if the run failed.
     pub errors: Option<Errors>,
-    /// The reason if the run failed.
-    pub failure: Option<String>,
+    pub(crate) failure: Option<String>,
     /// The time of a run, failed or not.
     pub seconds: Seconds,
     /// The number of evaluations of ṗ for each rod, if the integrator counts them.
@@ -39,8 +38,7 @@ pub struct Point {
 /// The error of an integrator against its run time.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct IntegratorCurve {
-    /// The integrator's name.
-    pub integrator: String,
+    pub(crate) integrator: String,
     /// The theory of its error.
     pub theory: Theory,
     /// The points, from the coarsest setting to the finest that the budget allows.
@@ -52,12 +50,10 @@ pub struct IntegratorCurve {
 pub struct Bench {
     /// The bench's name, such as `re11.6`.
     pub name: String,
-    /// r_e.
-    pub aspect_ratio: f64,
+    pub(crate) aspect_ratio: f64,
     /// t/T at the end.
     pub turns: f64,
-    /// The curve of each integrator.
-    pub curves: Vec<IntegratorCurve>,
+    pub(crate) curves: Vec<IntegratorCurve>,
 }
 
 /// The name of the bench at an aspect ratio.

@@ -60,8 +60,7 @@ pub struct Richardson {
 pub struct Convergence {
     /// The integrator's name.
     pub integrator: String,
-    /// The order by theory.
-    pub theory: u32,
+    pub(crate) theory: u32,
     /// The runs, from coarse to fine.
     pub halvings: Vec<Halving>,
     /// The orders of the last two pairs above round-off.
@@ -77,8 +76,7 @@ pub struct Convergence {
 /// The problem in words, and the convergence of every fixed-step integrator of the project.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Orders {
-    /// The rod, its start and its end.
-    pub problem: String,
+    pub(crate) problem: String,
     /// The convergence of each integrator.
     pub studies: Vec<Convergence>,
 }

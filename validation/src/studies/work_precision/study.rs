@@ -148,32 +148,23 @@ pub(super) fn cheapest(benches: &[Bench]) -> ReportTable {
 
 /// The exact propagator's time over the cheapest adaptive integrator's.
 fn ratio(benches: &[Bench]) -> ReportTable {
-    let exact = |bench: &Bench| {
+    type Row<'a> = (&'a Bench, Chosen<'a>, Chosen<'a>);
+    fn row(bench: &Bench) -> Row<'_> {
         let exact = bench.curves.iter().find(|curve| curve.theory == Theory::Exact);
-        exact.and_then(|curve| curve.points.first().cloned())
-    };
-    let adaptive = |bench: &Bench| {
-        let adaptive = bench.cheapest(1e-6, |theory| theory == Theory::Adaptive);
-        (named(adaptive), timed(adaptive))
-    };
+        let exact = exact.and_then(|curve| Some((curve, curve.points.first()?)));
+        (bench, exact, bench.cheapest(1e-6, |theory| theory == Theory::Adaptive))
+    }
     ReportTable::new(
         ["exact-against-adaptive", "The exact propagator against the cheapest adaptive integrator"],
         "The propagator's time for round-off error over the cheapest adaptive integrator's for 10⁻⁶ rad.",
-        benches.iter(),
+        benches.iter().map(row),
         vec![
-            field("r_e", |b: &Bench| b.aspect_ratio),
-            number("error of the propagator (rad)", powers(1), move |b: &Bench| {
-                exact(b).map(|point| point.error_rad())
-            })
-            .or(NOT_REACHED),
-            number("its time", time, move |b: &Bench| exact(b).map(|point| point.seconds.least)).or(NOT_REACHED),
-            words("adaptive, for 1e-6", move |b: &Bench| adaptive(b).0),
-            number("its time for 1e-6", time, move |b: &Bench| adaptive(b).1).or(NOT_REACHED),
-            number(
-                "ratio",
-                |ratio| format!("1/{:.0}", 1.0 / ratio),
-                move |b: &Bench| Some(exact(b)?.seconds.least / adaptive(b).1?),
-            ),
+            field("r_e", |r: &Row| r.0.aspect_ratio),
+            number("error of the propagator (rad)", powers(1), |r: &Row| Some(r.1?.1.error_rad())).or(NOT_REACHED),
+            number("its time", time, |r: &Row| timed(r.1)).or(NOT_REACHED),
+            words("adaptive, for 1e-6", |r: &Row| named(r.2)),
+            number("its time for 1e-6", time, |r: &Row| timed(r.2)).or(NOT_REACHED),
+            number("ratio", |x| format!("1/{:.0}", 1.0 / x), |r: &Row| Some(timed(r.1)? / timed(r.2)?)),
         ],
     )
 }

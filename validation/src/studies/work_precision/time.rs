@@ -48,9 +48,12 @@ pub(crate) fn measure<T>(budget: Budget, run: impl Fn() -> T) -> Seconds {
 
 /// Seconds per run, over `repeats` runs.
 fn clock<T>(repeats: u32, run: &impl Fn() -> T) -> f64 {
+    seconds(|| (0..repeats).for_each(|_| _ = black_box(run()))) / f64::from(repeats)
+}
+
+/// Seconds of one run.
+pub(crate) fn seconds<T>(work: impl FnOnce() -> T) -> f64 {
     let start = Instant::now();
-    for _ in 0..repeats {
-        black_box(run());
-    }
-    start.elapsed().as_secs_f64() / f64::from(repeats)
+    black_box(work());
+    start.elapsed().as_secs_f64()
 }
