@@ -116,11 +116,8 @@ fn updates([rotation, angles]: &[Update; 2], _: &Effort) -> Vec<Evidence> {
         Evidence::on("how much the two ends of a kick of 1 rad come nearer as Δt goes from 10⁻² to 10⁻⁸", "–")
             .within(worst(kicked.map(|[long, short]| (long - short).abs())), 1e-14)
             .because("round-off: only rate × Δt counts"),
-        Evidence::exact(
-            "by how much less than 0.1 the sine of the angle between the two ends is on average",
-            "–",
-            (0.1 - distance).max(0.0),
-        ),
+        Evidence::on("by how much less than 0.1 the sine of the angle between the two ends is on average", "–")
+            .exact((0.1 - distance).max(0.0)),
         Evidence::on("order in Δt of the distance of both ends at a given rate, less 2", "–")
             .within(order(&ends_apart), 2e-3)
             .because(because),
@@ -177,10 +174,7 @@ fn pushed(kick: &Kick, _: &Effort) -> Vec<Evidence> {
         Evidence::on("dr/dt while colliding over h² ℓ·D·ℓ/(2 r sin²χ), less 1", "–")
             .within(worst, 1e-5)
             .because("left out: terms in 1 − Λ = 2·10⁻⁸ over h ℓ·D·ℓ ≥ 0.02, and the square of the turn, 10⁻⁸"),
-        Evidence::exact(
-            format!("pairs, of which {opening} open, with an arm that moves the other way"),
-            "pairs",
-            f64::from(wrong),
-        ),
+        Evidence::on(format!("pairs, of which {opening} open, with an arm that moves the other way"), "pairs")
+            .exact(f64::from(wrong)),
     ]
 }

@@ -64,7 +64,7 @@ fn realised(respell: &Respell, effort: &Effort) -> Vec<Evidence> {
     // ∛4 of the mistake scatters by ∛4 of what 1 does, and both errors' quantiles leave 0.049 for that; 200 have 0.041.
     let repeats = effort.pick(1, 4) * 200;
     let Ok(found) = run.realise(&scene, repeats, known.reference) else {
-        return vec![Evidence::exact("runs that stopped", "runs", 1.0)];
+        return vec![Evidence::on("runs that stopped", "runs").exact(1.0)];
     };
     // The cube root of a ratio of variances is normal to a part in 10³ (Wilson & Hilferty 1931), the ratio itself is
     // not.

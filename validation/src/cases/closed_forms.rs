@@ -38,9 +38,7 @@ pub fn cases() -> Vec<Case> {
             .mistake("r_e 10 % longer", orbit(|scene| scene.particles.aspect_ratio *= 1.1))
             .mistake(
                 "every rod at 45°",
-                orbit(|scene| {
-                    scene.particles.orientation = Orientation::Given { phi_deg: 45.0, theta_deg: 45.0 };
-                }),
+                orbit(|scene| scene.particles.orientation = Orientation::Given { phi_deg: 45.0, theta_deg: 45.0 }),
             )
             .mistake("rods in collision", orbit(|scene| lab::interaction(scene).alpha = 0.5))
             .mistake(

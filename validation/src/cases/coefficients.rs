@@ -7,6 +7,7 @@ use shearbed::scene::Particles;
 
 pub fn cases() -> Vec<Case> {
     let right = Read { change: |_| {}, place: |k| k };
+    let of_scene = |change| Pascals { change, stress: |stress| stress };
     vec![
         Case::of(Judges::Core, "fourth-moments")
             .claim(
@@ -45,22 +46,13 @@ pub fn cases() -> Vec<Case> {
                  of r_e by Jeffery's integrals, or of cylinders of r by Batchelor's series.",
             )
             .source("Jeffery 1922; Leal & Hinch 1971; Batchelor 1970; docs/src/theory/coefficients.md")
-            .under_test(Pascals { change: |_| {}, stress: |stress| stress })
-            .mistake(
-                "viscosity in poise",
-                Pascals {
-                    change: |scene| scene.liquid.viscosity_pa_s = scene.liquid.viscosity_pa_s.map(|mu| 10.0 * mu),
-                    stress: |stress| stress,
-                },
-            )
+            .under_test(of_scene(|_| {}))
+            .mistake("viscosity in poise", of_scene(|scene| scene.liquid.viscosity_pa_s = Some(10.0 * VISCOSITY_PA_S)))
             .mistake(
                 "cylinders taken for spheroids of their r_e",
-                Pascals {
-                    change: |Scene { particles, .. }| {
-                        (particles.physical_aspect_ratio, particles.shape_correlation) = (None, None);
-                    },
-                    stress: |stress| stress,
-                },
+                of_scene(|Scene { particles, .. }| {
+                    (particles.physical_aspect_ratio, particles.shape_correlation) = (None, None);
+                }),
             )
             .mistake("N₁ as gradient less flow", Pascals { change: |_| {}, stress: |[s12, n1, n2]| [s12, -n1, n2] })
             .mistake("N₁ and N₂ exchanged", Pascals { change: |_| {}, stress: |[s12, n1, n2]| [s12, n2, n1] })
@@ -178,15 +170,16 @@ fn particle_stress(stress: &Stress, effort: &Effort) -> [[Evidence; 3]; 2] {
     )
 }
 
-#[derive(Clone, Copy)]
 struct Pascals {
     change: Change,
     stress: Stress,
 }
 
+const VISCOSITY_PA_S: f64 = 20.0;
+
 fn stress_in_pascals(pascals: &Pascals, effort: &Effort) -> Vec<Evidence> {
-    // μ G n a³ for 50 rods of 0.72 mm per cm³ at G = 0.5 1/s in a liquid of 20 Pa s.
-    let unit = 20.0 * 0.5 * 50.0 * 0.072f64.powi(3);
+    // μ G n a³ for 50 rods of 0.72 mm per cm³ at G = 0.5 1/s.
+    let unit = VISCOSITY_PA_S * 0.5 * 50.0 * 0.072f64.powi(3);
     let of_shape = |name: &str, cylinder: Option<f64>, k: [f64; 3]| {
         let mut scene = lab::interacting_scene(effort);
         scene.particles = Particles {
@@ -197,7 +190,7 @@ fn stress_in_pascals(pascals: &Pascals, effort: &Effort) -> Vec<Evidence> {
             shape_correlation: cylinder.map(|_| Correlation::Zhang),
             ..Particles::default()
         };
-        scene.liquid.viscosity_pa_s = Some(20.0);
+        scene.liquid.viscosity_pa_s = Some(VISCOSITY_PA_S);
         scene.output.observables =
             vec![Observable::OrientationTensor, Observable::OrientationTensor4, Observable::Stress];
         (pascals.change)(&mut scene);
@@ -209,12 +202,8 @@ fn stress_in_pascals(pascals: &Pascals, effort: &Effort) -> Vec<Evidence> {
                 let n1 = a * (named("a1222") - named("a1112"));
                 let n2 = a * (named("a1112") - named("a1233")) + b * named("a12");
                 let reported = (pascals.stress)(["s12_pa", "n1_pa", "n2_pa"].map(named));
-                worst(
-                    [s12, n1, n2]
-                        .into_iter()
-                        .zip(reported)
-                        .map(|(expected, reported)| (reported - expected).abs() / unit),
-                )
+                let off = [s12, n1, n2].into_iter().zip(reported).map(|(expected, reported)| reported - expected);
+                worst(off.map(|off| off.abs() / unit))
             }))
         });
         Evidence::on(format!("the largest difference over μ G n a³, {name}"), "–").within(worst(off), 1e-13).because(

@@ -94,11 +94,7 @@ pub fn cases() -> Vec<Case> {
                  interactions\".",
             )
             .source("eq. 4; Results, after Fig. 10; Figs 6 and 10")
-            .under_test(
-                (|scene| {
-                    lab::paper_interaction(scene);
-                }) as Change,
-            )
+            .under_test((|scene| _ = lab::paper_interaction(scene)) as Change)
             .mistake("α a tenth", |scene| lab::paper_interaction(scene).alpha *= 0.1)
             .check(collisions_damp),
         Case::of(Judges::Statement, "dies-out")
@@ -110,9 +106,7 @@ pub fn cases() -> Vec<Case> {
             .source("eqs 4, 16; Results, after Fig. 6")
             .under_test((|_| {}) as Change)
             .mistake("collisions without effect", |scene| lab::interaction(scene).alpha = 0.0)
-            .mistake("rods of one aspect ratio", |scene| {
-                scene.particles.aspect_ratio_sd_percent = 0.0;
-            })
+            .mistake("rods of one aspect ratio", |scene| scene.particles.aspect_ratio_sd_percent = 0.0)
             .check(dies_out),
         Case::of(Judges::Statement, "other-axes-decay")
             .claim(
@@ -214,8 +208,7 @@ fn dies_out(change: &Change, effort: &Effort) -> Vec<Evidence> {
     let spread = measured(&scene(3.6), both);
     let margin = spread[0].iter().zip(&spread[3]).map(|(first, last)| first / E - last);
     // The spread of r_e alone brings the amplitude below 1/e: the effect of collisions is judged against that.
-    let mut free = scene(3.6);
-    free.interaction = None;
+    let free = Scene { interaction: None, ..scene(3.6) };
     let (without, with) = (measured(&free, added), measured(&scene(3.6), added));
     let uniform = measured(&scene(0.0), alone);
     let falls = [(1, "0 and 1"), (2, "1 and 2"), (3, "2 and 4")].map(|(k, which)| {
@@ -273,12 +266,10 @@ fn on_all_axes(axes: &Axes, effort: &Effort) -> [Evidence; 4] {
         let mean = Sample::of(&left[j]).mean;
         // a − b² to first order in each replica's deviation, so that its mean is a − b² of the means.
         let difference = left[i].iter().zip(&left[j]).map(|(a, b)| a - 2.0 * mean * b + mean * mean);
-        let because = "\"similar\" has no number in the paper: rates within a factor of two";
-        Evidence::on(
-            format!("share of the amplitude left at t/T = 2, X̄_{} less the square of that of X̄_{}", i + 1, j + 1),
-            "–",
-        )
-        .exceeds(Sample::of(difference), 0.0, design.effect)
-        .because(because)
+        let what =
+            format!("share of the amplitude left at t/T = 2, X̄_{} less the square of that of X̄_{}", i + 1, j + 1);
+        Evidence::on(what, "–")
+            .exceeds(Sample::of(difference), 0.0, design.effect)
+            .because("\"similar\" has no number in the paper: rates within a factor of two")
     })
 }

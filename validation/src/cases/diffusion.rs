@@ -109,10 +109,10 @@ fn check(of: &Of, _: &Effort) -> Vec<Evidence> {
     ]
 }
 
+const ASKEW: Free = Free { gradient_per_s: [[0.3, -0.5, 0.1], [0.8, 0.1, -0.2], [0.4, 0.6, -0.4]], aspect_ratio: 4.0 };
+
 fn free(of: Of, strain: f64) -> f64 {
-    let gradient_per_s = [[0.3, -0.5, 0.1], [0.8, 0.1, -0.2], [0.4, 0.6, -0.4]];
-    let motion = Free { gradient_per_s, aspect_ratio: 4.0 };
-    let Some(exact) = Covariance::at(&motion, &Bits(64).of(strain), Unit::Second) else { return f64::NAN };
+    let Some(exact) = Covariance::at(&ASKEW, &Bits(64).of(strain), Unit::Second) else { return f64::NAN };
     let mut a = Matrix3::zeros();
     for (value, (i, j)) in exact.second().iter().zip(PAIRS) {
         (a[(i, j)], a[(j, i)]) = (double(value), double(value));
@@ -240,10 +240,8 @@ fn rate((gradient, r, c_i): Asked, means: &Means) -> Matrix3<f64> {
 }
 
 fn without_diffusion(model: Model) -> Result<f64, NoAnswer> {
-    let gradient = [[0.3, -0.5, 0.1], [0.8, 0.1, -0.2], [0.4, 0.6, -0.4]];
-    let free = Free { gradient_per_s: gradient, aspect_ratio: 4.0 };
-    let solution = at(&model((gradient, 4.0, 0.0)), Start::Isotropic, &[1.5])?;
-    let Some(exact) = Covariance::at(&free, &Bits(64).of(1.5), Unit::Second) else {
+    let solution = at(&model((ASKEW.gradient_per_s, ASKEW.aspect_ratio, 0.0)), Start::Isotropic, &[1.5])?;
+    let Some(exact) = Covariance::at(&ASKEW, &Bits(64).of(1.5), Unit::Second) else {
         return Err(NoAnswer::Unsettled);
     };
     let mut worst = 0.0;

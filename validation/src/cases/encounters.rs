@@ -48,12 +48,9 @@ fn limits(reach: &Formula, _: &Effort) -> Vec<Evidence> {
     // By hand: α = 0.5 and m = 3 give (1/3)³ at s = a.
     let by_hand = reach(1.0 / 27.0, 0.5, 3.0) - 1.0;
     vec![
-        Evidence::exact(
-            "s* of R = 1, where P_c is certain",
-            "rod lengths",
-            worst(scenes().map(|(alpha, m)| reach(1.0, alpha, m).abs())),
-        ),
-        Evidence::exact("scenes in which R = 0 does not reach everyone", "scenes", bounded as f64),
+        Evidence::on("s* of R = 1, where P_c is certain", "rod lengths")
+            .exact(worst(scenes().map(|(alpha, m)| reach(1.0, alpha, m).abs()))),
+        Evidence::on("scenes in which R = 0 does not reach everyone", "scenes").exact(bounded as f64),
         Evidence::on("P_c(s*(R)) over R, less 1, over 1 + m", "–")
             .within(worst(errors), 8.0 * f64::EPSILON)
             .because("round-off of the two powers, m times that of their bases"),
@@ -92,12 +89,10 @@ fn frequency(change: &Change, effort: &Effort) -> Vec<Evidence> {
             }
             suspension.counters().candidates as f64 / expected
         });
-        Evidence::on(
-            format!("candidates over the sum of P_c, {count} rods, α = {alpha}, m = {m}, n = {concentration} per cm³"),
-            "–",
-        )
-        .is(Sample::of(&ratios), 1.0, 0.0, design.effect)
-        .because("unbiased; an α a tenth larger makes 13 % more at 300 rods, and 25 % at 25")
+        let rods = format!("{count} rods, α = {alpha}, m = {m}, n = {concentration} per cm³");
+        Evidence::on(format!("candidates over the sum of P_c, {rods}"), "–")
+            .is(Sample::of(&ratios), 1.0, 0.0, design.effect)
+            .because("unbiased; an α a tenth larger makes 13 % more at 300 rods, and 25 % at 25")
     });
     evidence.into()
 }

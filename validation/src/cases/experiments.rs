@@ -73,8 +73,8 @@ fn not_fitted(theta_deg: &f64, effort: &Effort) -> Result<Vec<Evidence>, String>
         error.to_string().contains("disturb each other in this model only by the error of a time step")
     });
     Ok(vec![
-        Evidence::exact("the largest difference of X̄_i between α = 0.05 and 5", "rod lengths", apart),
-        Evidence::exact("fits of α to it that are not refused", "fits", f64::from(u8::from(!refused))),
+        Evidence::on("the largest difference of X̄_i between α = 0.05 and 5", "rod lengths").exact(apart),
+        Evidence::on("fits of α to it that are not refused", "fits").exact(f64::from(u8::from(!refused))),
     ])
 }
 
@@ -126,7 +126,7 @@ fn agreement(source: &Source, change: Change, effort: &Effort) -> Result<Vec<Evi
         }
         match experiment::compare(scene, &here, change, runs(effort, stream)) {
             Ok(comparison) => fit(&comparison, &here, late, source),
-            Err(error) => Evidence::exact(format!("{scene}: {error}"), "–", f64::NAN),
+            Err(error) => Evidence::on(format!("{scene}: {error}"), "–").exact(f64::NAN),
         }
     };
     Ok(source.scenes.iter().zip(0..).map(of_scene).collect())

@@ -40,9 +40,8 @@ pub fn cases() -> Vec<Case> {
                 "a shortest arm of 10⁻³ nobody asked for",
                 Model {
                     pair: |scene, placed| {
-                        let mut scene = scene.clone();
-                        lab::interaction(&mut scene).min_contact_arm = 1.1e-3;
-                        step_of_the_core(&scene, placed)
+                        let long = |scene: &mut Scene| lab::interaction(scene).min_contact_arm = 1.1e-3;
+                        step_of_the_core(&lab::changed(scene.clone(), long), placed)
                     },
                     ..CORE
                 },
@@ -58,9 +57,7 @@ pub fn cases() -> Vec<Case> {
             .source("eqs 3, 4, 11, 15")
             .under_test(whole_run as Program)
             .mistake("a thousandth of the strain", |scene| {
-                let mut short = scene.clone();
-                short.time.duration *= 1e-3;
-                whole_run(&short)
+                whole_run(&lab::changed(scene.clone(), |scene| scene.time.duration *= 1e-3))
             })
             .mistake("the plain exponential", |scene| by_exponential(scene, true))
             .mistake("the plain exponential, not rescaled", |scene| by_exponential(scene, false))
@@ -83,18 +80,15 @@ fn extreme_suspensions(model: &Model, effort: &Effort) -> Vec<Evidence> {
     vec![
         Evidence::on("largest ||p| − 1|", "–").within(length, LENGTH).because(LENGTH_BECAUSE),
         Evidence::on("largest |tr⟨pp⟩ − 1| of whole runs", "–").within(trace, TRACE).because(TRACE_BECAUSE),
-        Evidence::exact(
-            "rods that met although n = 10⁻³⁰ per cm³, or did not although α = 10³⁰⁰",
-            "rods",
-            meetings(model, effort),
-        ),
-        Evidence::exact("runs that stopped or had a mean that is not finite", "runs", stopped),
-        Evidence::exact(
+        Evidence::on("rods that met although n = 10⁻³⁰ per cm³, or did not although α = 10³⁰⁰", "rods")
+            .exact(meetings(model, effort)),
+        Evidence::on("runs that stopped or had a mean that is not finite", "runs").exact(stopped),
+        Evidence::on(
             "pairs put down by hand that did not turn, or did not stop with rod, step, seed and arm where the kick \
              overflows",
             "pairs",
-            unlike,
-        ),
+        )
+        .exact(unlike),
     ]
 }
 

@@ -140,7 +140,7 @@ fn extreme_flows(motion: &FlowMotion, _: &Effort) -> Vec<Evidence> {
         }
     }
     vec![
-        Evidence::exact("directions that are not finite", "directions", lost),
+        Evidence::on("directions that are not finite", "directions").exact(lost),
         Evidence::on("largest ||p| − 1|", "–").within(length, LENGTH).because(LENGTH_BECAUSE),
         Evidence::on("distance from the flow's axis at a strain of 10⁶ or more, times |p_1| at first", "–")
             .within(end, LENGTH)

@@ -107,7 +107,7 @@ pub(super) fn set(scene: &Scene, seed: u64, time: TimeColumn) -> Result<Set, Str
     })
 }
 
-fn pool(effort: &Effort) -> Result<Pool, String> {
+fn pool(effort: &Effort) -> Result<Arc<Pool>, String> {
     let range = Range::parse("interaction.alpha=0.4:1.6")?;
     let places = data(|_| f64::NAN);
     let basis = Basis::new(1);
@@ -122,16 +122,11 @@ fn pool(effort: &Effort) -> Result<Pool, String> {
         coefficients(&basis, &model, &value, 0..POOL, &|| ())
     };
     let replicas = at_nodes(3.6)?;
-    Ok(Pool {
-        truth: Emulator::new(&basis, &replicas).at(&[PLACE]).iter().copied().collect(),
-        replicas,
-        without_spread: at_nodes(0.0)?,
-        basis,
-        range,
-    })
+    let truth = Emulator::new(&basis, &replicas).at(&[PLACE]).iter().copied().collect();
+    Ok(Arc::new(Pool { truth, replicas, without_spread: at_nodes(0.0)?, basis, range }))
 }
 
-static SIMULATED: Shared<(), Result<Pool, String>> = Shared::new();
+static SIMULATED: Shared<(), Result<Arc<Pool>, String>> = Shared::new();
 
 fn repeat(pool: &Pool, way: Way, seed: u64, k: u64) -> Result<Fit, String> {
     let mut rng = Pcg64Dxsm::seed_from_u64(seed.wrapping_add(k.wrapping_mul(0x9E37_79B9_7F4A_7C15)));
@@ -173,19 +168,18 @@ struct Fitted {
 }
 
 /// Fits of each model; several treatments share them.
-static FITTED: Shared<Way, Result<Vec<Fitted>, String>> = Shared::new();
+static FITTED: Shared<Way, Result<Arc<Vec<Fitted>>, String>> = Shared::new();
 
 /// The fits, as many as either case needs.
-fn repeats(way: Way, effort: &Effort) -> Arc<Result<Vec<Fitted>, String>> {
+fn repeats(way: Way, effort: &Effort) -> Result<Arc<Vec<Fitted>>, String> {
     let simulated = match way {
         Way::HalfAsLong | Way::StraightLines => Way::AsItIs,
         way => way,
     };
-    FITTED.get(effort, simulated, || {
-        let pool = SIMULATED.get(effort, (), || self::pool(effort));
-        let pool = pool.as_ref().as_ref().map_err(Clone::clone)?;
+    let fitted = FITTED.get(effort, simulated, || {
+        let pool = Result::clone(&SIMULATED.get(effort, (), || self::pool(effort)))?;
         let one = |k: u64| {
-            let fit = repeat(pool, simulated, effort.seed(71), k)?;
+            let fit = repeat(&pool, simulated, effort.seed(71), k)?;
             Ok(Fitted {
                 intervals: CONFIDENCES.map(|confidence| {
                     let interval = fit.interval(0, confidence);
@@ -199,8 +193,9 @@ fn repeats(way: Way, effort: &Effort) -> Arc<Result<Vec<Fitted>, String>> {
             Way::NoSpread => laws(effort),
             _ => shares(effort).max(laws(effort)),
         };
-        lab::replicas(count, one)
-    })
+        lab::replicas::<_, Result<_, _>>(count, one).map(Arc::new)
+    });
+    Result::clone(&fitted)
 }
 
 /// Allowed difference from the stated share, 68 and 95 %: profile intervals are exact if the model is linear in α and
@@ -223,8 +218,7 @@ fn shares(effort: &Effort) -> u64 {
 }
 
 fn covers(way: &Way, effort: &Effort) -> Result<Vec<Evidence>, String> {
-    let fits = repeats(*way, effort);
-    let fits = fits.as_ref().as_ref().map_err(Clone::clone)?;
+    let fits = repeats(*way, effort)?;
     let inside = |fit: &Fitted, k: usize| {
         let (low, high) = fit.intervals[k];
         let (low, high) = match way {
@@ -252,8 +246,7 @@ fn laws(effort: &Effort) -> u64 {
 }
 
 fn refuses(way: &Way, effort: &Effort) -> Result<Evidence, String> {
-    let fits = repeats(*way, effort);
-    let fits = fits.as_ref().as_ref().map_err(Clone::clone)?;
+    let fits = repeats(*way, effort)?;
     Ok(Evidence::on("p-values of χ² over repeats: uniform", "–")
         .uniform(fits.iter().take(laws(effort) as usize).map(|fit| fit.p).collect(), DISTANCE)
         .because("Kolmogorov–Smirnov; without the spread of r_e the p-values crowd at 0, a distance near 1"))

@@ -20,6 +20,7 @@ use crate::serve::fit::scenes::{AS_WRITTEN, Scenes};
 use crate::serve::fit::search::Fit;
 use crate::studies::interpretations::Change;
 use rand_distr::StandardNormal;
+use std::sync::Arc;
 
 const PLANTED: f64 = 0.8;
 /// The two suspensions: n a³ = 0.0075 and 0.75.
@@ -48,9 +49,7 @@ pub(super) fn cases() -> Vec<Case> {
             )
             .source("eq. 5; docs/src/theory/fits.md")
             .under_test((|_| ()) as Change)
-            .mistake("contact lines cut at the rods' ends", |problem| {
-                problem.reading.lines = Lines::CutAtEnds;
-            })
+            .mistake("contact lines cut at the rods' ends", |problem| problem.reading.lines = Lines::CutAtEnds)
             .check(accepted),
     ]
 }
@@ -97,7 +96,7 @@ fn data(value: impl Fn(usize) -> f64, u: f64) -> Vec<Datum> {
 }
 
 /// The coefficients of the model at its nodes, shared by the case and its control.
-static MODEL: Shared<(), Result<Vec<Coefficients>, String>> = Shared::new();
+static MODEL: Shared<(), Result<Arc<Vec<Coefficients>>, String>> = Shared::new();
 
 fn range() -> Result<Range, String> {
     Range::parse("interaction.alpha=0.4:1.2")
@@ -124,13 +123,12 @@ pub fn one_alpha(points: &[f64], u: f64, replicas: u64, model: &[Coefficients]) 
 
 fn accepted(change: &Change, effort: &Effort) -> Result<Evidence, String> {
     let replicas = effort.pick(REPLICAS, 4 * REPLICAS);
-    let model = MODEL.get(effort, (), || model(effort, replicas));
-    let model = model.as_ref().as_ref().map_err(Clone::clone)?;
+    let model = Result::clone(&MODEL.get(effort, (), || model(effort, replicas).map(Arc::new)))?;
     let mut rng = Pcg64Dxsm::seed_from_u64(effort.seed(84));
     let points: Vec<f64> = (points(*change, effort, replicas).iter())
         .map(|mean| mean + NOISE * rng.sample::<f64, _>(StandardNormal))
         .collect();
-    let fit = one_alpha(&points, NOISE, replicas, model)?;
+    let fit = one_alpha(&points, NOISE, replicas, &model)?;
     Ok(Evidence::on("p-value of χ² of one α for both suspensions", "–")
         .p_value(fit.best.goodness.p_value(), replicas, REPLICAS, LEVEL)
         .because("with these replicas χ² of cut lines is 5.5 of its standard deviations above what is accepted"))

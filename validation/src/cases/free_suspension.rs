@@ -31,9 +31,7 @@ pub fn cases() -> Vec<Case> {
             .source("eqs 4, 15")
             .under_test((|_| {}) as Change)
             .mistake("aspect ratios spread by 1 %", |scene| scene.particles.aspect_ratio_sd_percent = 1.0)
-            .mistake("rods that interact", |scene| {
-                lab::interaction(scene);
-            })
+            .mistake("rods that interact", |scene| _ = lab::interaction(scene))
             .check(half_period),
     ]
 }

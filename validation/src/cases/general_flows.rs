@@ -4,6 +4,7 @@ mod problems;
 mod scenes;
 
 use super::*;
+use crate::oracle::exponential::Rod;
 use problems::{FlowProblem, Kind, random};
 use shearbed::motion::{Moved, Span};
 use shearbed::plan::free_motion::MAX_ERROR_RAD;
@@ -24,9 +25,8 @@ pub fn cases() -> Vec<Case> {
             .mistake("Λ rounded to double before 1 − Λ is formed", |problem| {
                 let shape = shape_factor(problem.rod.aspect_ratio);
                 let rounded = ((1.0 + shape) / (1.0 - shape)).sqrt().clamp(1e-100, 1e100);
-                let mut other = *problem;
-                other.rod.aspect_ratio = rounded;
-                core(&other)
+                let rod = Rod { aspect_ratio: rounded, ..problem.rod };
+                core(&FlowProblem { rod, ..*problem })
             })
             .mistake("double for double-double", |problem| in_double(problem, squared_exponential))
             .mistake("|det A| ≤ 16 ε taken as planar", |problem| {
@@ -49,9 +49,7 @@ pub fn cases() -> Vec<Case> {
             .source("eqs 3, 15, A.1")
             .under_test(scenes::program as scenes::Run)
             .mistake("r_e longer by 10⁻⁶ of itself", |scene| {
-                let mut longer = scene.clone();
-                longer.particles.aspect_ratio *= 1.0 + 1e-6;
-                scenes::program(&longer)
+                scenes::program(&lab::changed(scene.clone(), |scene| scene.particles.aspect_ratio *= 1.0 + 1e-6))
             })
             .mistake("nearly plane taken as plane: the flow along axis 3 left out", |scene| {
                 let mut plane = scene.clone();
@@ -194,19 +192,15 @@ fn general_flows(motion: &Motion, effort: &Effort) -> Vec<Evidence> {
         decades.bound = decades.bound.max(bound);
     }
     let all = [
-        Evidence::exact("answers that are off by more than their bound", "answers", wrong),
+        Evidence::on("answers that are off by more than their bound", "answers").exact(wrong),
         Evidence::on("largest error over its bound", "–").within(share, 1.0).because("what a bound is"),
-        Evidence::exact("refused, though 106 bits can answer", "answers", needless),
+        Evidence::on("refused, though 106 bits can answer", "answers").exact(needless),
     ];
     let by_decade = decades.into_iter().enumerate().filter(|(_, found)| found.answered + found.refused > 0);
     let by_decade = by_decade.map(|(k, Decades { answered, refused, worst, bound })| {
         let exponent = 2 * (k + 1);
-        Evidence::on(
-            format!("worst of {answered} answers, condition number up to 10^{exponent}; {refused} refused"),
-            "rad",
-        )
-        .within(worst, bound)
-        .because("the largest bound among them")
+        let what = format!("worst of {answered} answers, condition number up to 10^{exponent}; {refused} refused");
+        Evidence::on(what, "rad").within(worst, bound).because("the largest bound among them")
     });
     all.into_iter().chain(by_decade).collect()
 }

@@ -189,11 +189,8 @@ fn lose_length(integrators: &Integrators, _: &Effort) -> Evidence {
     };
     let all = integrators();
     let losing = all.iter().filter(|integrator| !integrator.keeps_length && integrator.theory != Theory::Exact);
-    Evidence::exact(
-        "integrators that keep |p| to round-off, though theirs is not said to be",
-        "integrators",
-        losing.filter(|integrator| keeps(integrator)).count() as f64,
-    )
+    Evidence::on("integrators that keep |p| to round-off, though theirs is not said to be", "integrators")
+        .exact(losing.filter(|integrator| keeps(integrator)).count() as f64)
 }
 
 fn coarse(strain: &f64, _: &Effort) -> Evidence {
@@ -210,7 +207,7 @@ fn coarse(strain: &f64, _: &Effort) -> Evidence {
         };
         unlike += f64::from(!as_said);
     }
-    Evidence::exact("of the two, not as said", "integrators", unlike)
+    Evidence::on("of the two, not as said", "integrators").exact(unlike)
 }
 
 fn index_bounds(integrators: &Integrators, _: &Effort) -> Evidence {

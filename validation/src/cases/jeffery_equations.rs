@@ -45,9 +45,7 @@ pub fn cases() -> Vec<Case> {
             .claim("What a run makes of one rod is A.4 and A.5: its direction, φ and C_b at every output.")
             .source("eqs 13, 18, 20, A.4, A.5")
             .under_test((|_| {}) as Change)
-            .mistake("r_e a millionth too long", |scene| {
-                scene.particles.aspect_ratio *= 1.0 + 1e-6;
-            })
+            .mistake("r_e a millionth too long", |scene| scene.particles.aspect_ratio *= 1.0 + 1e-6)
             .mistake("−G for G", |scene| {
                 scene.flow = Flow::Gradient { gradient_per_s: [[0.0; 3], [-0.5, 0.0, 0.0], [0.0; 3]] };
             })

@@ -74,9 +74,7 @@ fn formula(expected: &Expected, effort: &Effort) -> Vec<Evidence> {
     // Pilot of 13,220 replicas at seeds 9001 to 9010: 0.42, 0.47 and 0.47; a tenth of room.
     let design = Design::new(0.2, 0.52);
     let scene = |(_, steps, stream)| {
-        let mut scene = fresh_scene(effort, 300, steps);
-        scene.ensemble.seed = effort.seed(stream);
-        scene
+        lab::changed(fresh_scene(effort, 300, steps), |scene| scene.ensemble.seed = effort.seed(stream))
     };
     let replicas = effort.samples(design);
     let fresh = FRESH.get(effort, (), || {
@@ -92,14 +90,10 @@ fn formula(expected: &Expected, effort: &Effort) -> Vec<Evidence> {
         let constant = 6.0 * PI * tail_of_isotropic(scene.particles.aspect_ratio);
         let chance = |factor: f64| constant * chance_of_threads(factor * scaled);
         let ratios = replicas.iter().map(|fresh| fresh.kicked / expected(fresh, &chance));
-        Evidence::on(
-            format!("rods kicked by more than {threshold_rad} rad over those expected, {steps} steps a period"),
-            "–",
-        )
-        .is(Sample::of(ratios), 1.0, 0.003, design.effect)
-        .because(
-            "left out, 10⁻³ each: the next term in GΔt/κ, terms in (1 − Λ)/Y², the cube's corners, to \
-             which distant neighbours point; the nearest of the controls is 1 − π/4 = 0.21 off",
+        let what = format!("rods kicked by more than {threshold_rad} rad over those expected, {steps} steps a period");
+        Evidence::on(what, "–").is(Sample::of(ratios), 1.0, 0.003, design.effect).because(
+            "left out, 10⁻³ each: the next term in GΔt/κ, terms in (1 − Λ)/Y², the cube's corners, to which distant \
+             neighbours point; the nearest of the controls is 1 − π/4 = 0.21 off",
         )
     });
     evidence.collect()
@@ -150,20 +144,18 @@ fn memory(counted: &Counted, effort: &Effort) -> Vec<Evidence> {
     .because("they would be equal if the rate did not depend on Δt, and are 1 : 3");
     // Pilot of 4,650 replicas at seeds 9001 to 9010: 0.35 for both.
     let off = Design::new(0.5, 0.39);
-    let closing =
-        [(200, 2), (400, 3)].map(|(steps, stream)| {
-            let counts = run(0.5, steps, stream, effort.samples(off), 50);
-            let fresh = Sample::of(counts.iter().map(|c| c.fresh[(CLOSING, OVER)])).mean;
-            let offs = counts.iter().map(|c| (c.kicks[(CLOSING, OVER)] - c.fresh[(CLOSING, OVER)]) / fresh);
-            Evidence::on(format!(
-            "kicks > 0.1 rad of closing pairs over the formula's number, less 1; {steps} steps a period, α = ½"
-        ), "–")
-        .is(Sample::of(offs), 0.0, 0.05, off.effect)
-        .because(
-            "the formula takes the separation to be independent of the directions; a pair that collides is no longer \
-             so, by the share of P_c ≈ 0.05",
-        )
-        });
+    let closing = [(200, 2), (400, 3)].map(|(steps, stream)| {
+        let counts = run(0.5, steps, stream, effort.samples(off), 50);
+        let fresh = Sample::of(counts.iter().map(|c| c.fresh[(CLOSING, OVER)])).mean;
+        let offs = counts.iter().map(|c| (c.kicks[(CLOSING, OVER)] - c.fresh[(CLOSING, OVER)]) / fresh);
+        let what = "kicks > 0.1 rad of closing pairs over the formula's number, less 1";
+        Evidence::on(format!("{what}; {steps} steps a period, α = ½"), "–")
+            .is(Sample::of(offs), 0.0, 0.05, off.effect)
+            .because(
+                "the formula takes the separation to be independent of the directions; a pair that collides is no \
+                 longer so, by the share of P_c ≈ 0.05",
+            )
+    });
     [opening].into_iter().chain(closing).collect()
 }
 
@@ -240,11 +232,8 @@ fn bounded((angles, share): &(Angles, f64), effort: &Effort) -> Vec<Evidence> {
         }
     }
     vec![
-        Evidence::exact(
-            "collisions that are missing to 2000",
-            "collisions",
-            2000usize.saturating_sub(collisions) as f64,
-        ),
+        Evidence::on("collisions that are missing to 2000", "collisions")
+            .exact(2000usize.saturating_sub(collisions) as f64),
         Evidence::on("largest difference of a kick from |g|Δt/(2|r|), over its conditioning", "–")
             .within(worst[0], 1e-13)
             .because("some hundred roundings, ε each"),

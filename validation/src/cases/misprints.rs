@@ -142,12 +142,9 @@ fn free_rods_keep_c(by_contact: &Moves, effort: &Effort) -> Vec<Evidence> {
         Evidence::on("largest change of C_b of a free rod in one step", "–")
             .within(free_change, ROUND_OFF)
             .because("the exact motion keeps C to round-off"),
-        Evidence::new(
-            format!("of {colliding} colliding rods, those whose C_b stayed to round-off"),
-            "rods",
-            // If no rod is said to collide, every rod counts as free, and the evidence above covers all rods.
-            Rule::exact(f64::from(unchanged)),
-        ),
+        // If no rod is said to collide, every rod counts as free, and the evidence above covers all rods.
+        Evidence::on(format!("of {colliding} colliding rods, those whose C_b stayed to round-off"), "rods")
+            .exact(f64::from(unchanged)),
     ]
 }
 

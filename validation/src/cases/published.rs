@@ -32,12 +32,12 @@ pub fn cases() -> Vec<Case> {
                 // Without a mean, `outside` is NaN, which fails.
                 let outside = if (least..=most).contains(&mean) { 0.0 } else { (least - mean).max(mean - most) };
                 vec![
-                    Evidence::exact("runs that turn", "runs", turns.len() as f64 - 5.0),
-                    Evidence::exact(
+                    Evidence::on("runs that turn", "runs").exact(turns.len() as f64 - 5.0),
+                    Evidence::on(
                         format!("strain {mean:.2} of the first half turn; T/2 is {least:.2} to {most:.2}"),
                         "–",
-                        outside,
-                    ),
+                    )
+                    .exact(outside),
                 ]
             }),
     ]

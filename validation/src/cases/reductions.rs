@@ -73,18 +73,15 @@ fn reductions(limits: &Limits, effort: &Effort) -> [Evidence; 6] {
     let free = lab::changed(uniform.clone(), |scene| scene.particles.aspect_ratio_sd_percent = 3.6);
     let interacting = Scene { interaction: lab::interacting_scene(effort).interaction, ..free.clone() };
     let long = lab::changed(uniform.clone(), |scene| scene.time.duration = 3.0);
+    let one = lab::changed(free.clone(), limits[3]);
     let sphere = lab::changed(uniform.clone(), |scene| scene.particles.aspect_ratio = 1.0);
-    let at = |which: usize, scene: &Scene| lab::changed(scene.clone(), limits[which]);
-    let apart = |which: usize, scene: &Scene, limit: &Scene| difference(&at(which, scene), limit);
+    let apart =
+        |which: usize, scene: &Scene, limit: &Scene| difference(&lab::changed(scene.clone(), limits[which]), limit);
     [
-        Evidence::exact("α = 10⁻³⁰⁰ against free rods", "rod lengths", apart(0, &interacting, &free)),
-        Evidence::exact("n = 10⁻³⁰ per cm³ against free rods", "rod lengths", apart(1, &interacting, &free)),
-        Evidence::exact("m = 10⁹ against free rods", "rod lengths", apart(2, &interacting, &free)),
-        Evidence::exact(
-            "one interacting rod against one free rod",
-            "rod lengths",
-            apart(3, &interacting, &at(3, &free)),
-        ),
+        Evidence::on("α = 10⁻³⁰⁰ against free rods", "rod lengths").exact(apart(0, &interacting, &free)),
+        Evidence::on("n = 10⁻³⁰ per cm³ against free rods", "rod lengths").exact(apart(1, &interacting, &free)),
+        Evidence::on("m = 10⁹ against free rods", "rod lengths").exact(apart(2, &interacting, &free)),
+        Evidence::on("one interacting rod against one free rod", "rod lengths").exact(apart(3, &interacting, &one)),
         Evidence::on("σ = 10⁻¹² % against σ = 0", "rod lengths")
             .within(apart(4, &long, &long), 1e-11)
             .because("a phase of 6π shifted by σ, grown by r_e at the flip"),

@@ -109,11 +109,11 @@ fn against_reference(mistake: &Option<Mistake>, effort: &Effort) -> Vec<Evidence
         }
     }
     vec![
-        Evidence::exact(
+        Evidence::on(
             format!("problems in which other rods collided, in {} steps with {} collisions", off.steps, off.collisions),
             "problems",
-            off.pairs as f64,
-        ),
+        )
+        .exact(off.pairs as f64),
         Evidence::on("largest difference of places after up to one period", "rod lengths")
             .within(off.places, 1e-11)
             .because("round-off of 200 sums of lengths up to 100"),
@@ -235,9 +235,7 @@ fn scenes(effort: &Effort) -> Vec<Scene> {
         scene(300, 1000.0, |scene| in_a_box(scene, [4.0, 0.5, 0.5])),
         scene(400, 500.0, |scene| in_a_box(scene, [0.1, 10.0, 1.0])),
         // Other flows: extension, oblique shear in a box, and one with all components.
-        scene(100, 1000.0, |scene| {
-            in_a_flow(scene, [[1.0, 0.0, 0.0], [0.0, -0.5, 0.0], [0.0, 0.0, -0.5]]);
-        }),
+        scene(100, 1000.0, |scene| in_a_flow(scene, [[1.0, 0.0, 0.0], [0.0, -0.5, 0.0], [0.0, 0.0, -0.5]])),
         scene(60, 1000.0, |scene| {
             in_a_box(scene, [2.0, 1.0, 0.5]);
             in_a_flow(scene, [[0.3, -0.3, 0.0], [0.3, -0.3, 0.0], [0.0; 3]]);

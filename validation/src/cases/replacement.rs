@@ -20,9 +20,7 @@ pub fn cases() -> Vec<Case> {
             )
             .mistake(
                 "new rods in the lower half of axis 3",
-                Volume::Wrong(|x, draws| {
-                    *x = [root(draws), x[1].rem_euclid(1.0), 0.5 * draws.random::<f64>()];
-                }),
+                Volume::Wrong(|x, draws| *x = [root(draws), x[1].rem_euclid(1.0), 0.5 * draws.random::<f64>()]),
             )
             .mistake(
                 "x_2 drawn at random, as eq. 14's text has it",
@@ -97,11 +95,11 @@ fn replacement(volume: &Volume, effort: &Effort) -> Vec<Evidence> {
     let [x1, x2, x3] = end;
     let even = "Kolmogorov–Smirnov; long steps move x_1 by 0.12 at the least";
     vec![
-        Evidence::exact("rods outside the volume", "rods", outside as f64),
+        Evidence::on("rods outside the volume", "rods").exact(outside as f64),
         Evidence::on("largest |x_2 − overshoot modulo H| of new rods, over H", "–")
             .within(overshoot_off, 4.0 * f64::EPSILON)
             .because("five roundings of numbers near 1, half an ε each"),
-        Evidence::exact("new rods with unchanged x_1 or x_3", "rods", places.unchanged as f64),
+        Evidence::on("new rods with unchanged x_1 or x_3", "rods").exact(places.unchanged as f64),
         Evidence::on("p of (x_1/H)² of new rods being uniform", "–")
             .uniform(squares, 0.2)
             .because("Kolmogorov–Smirnov; x_1 = HR is ¼ off, √u − u at u = ¼"),
@@ -204,7 +202,7 @@ fn even(inflow: &Inflow, effort: &Effort) -> Vec<Evidence> {
             evidence.push(Evidence::on(title, "–").uniform(inside, DISTANCE).because(because));
         }
     }
-    evidence.push(Evidence::exact("rods outside the volume", "rods", outside as f64));
+    evidence.push(Evidence::on("rods outside the volume", "rods").exact(outside as f64));
     evidence
 }
 

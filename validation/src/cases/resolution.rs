@@ -18,8 +18,7 @@ pub fn steps(aspect_ratio: f64, strain: f64) -> u64 {
 
 /// X̄₁ at t/T = ½ of the replicas 0 to `replicas`.
 pub fn x1(scene: &Scene, steps_per_period: u64, replicas: u64) -> Vec<f64> {
-    let mut scene = scene.clone();
-    scene.time.steps_per_unit = Some(steps_per_period);
+    let scene = lab::changed(scene.clone(), |scene| scene.time.steps_per_unit = Some(steps_per_period));
     lab::per_replica(&scene, replicas, |mean| mean(Channel::X[0], 1))
 }
 

@@ -50,11 +50,8 @@ fn whole_map(integrators: &Integrators, effort: &Effort) -> Vec<Evidence> {
         }
     }
     vec![
-        Evidence::exact(
-            "cells in which an integrator without steps, other than in angles, is not at round-off",
-            "cells",
-            exact,
-        ),
+        Evidence::on("cells in which an integrator without steps, other than in angles, is not at round-off", "cells")
+            .exact(exact),
         Evidence::on("largest angle to the closed form, A.4 and A.5 in angles", "rad").within(angles, 4e-5).because(
             "the starting phase is added to t/T before whole turns are taken out: rounded to half an ulp of 10³, \
              6·10⁻¹⁴, times 2π r_e = 6·10⁸",
@@ -68,42 +65,32 @@ fn whole_map(integrators: &Integrators, effort: &Effort) -> Vec<Evidence> {
                 "a step of order 2 is off by (GΔt)³/6 times a third derivative, 3 at most by A.2, and a flip lasts \
                  some 8/G: 4 (GΔt)²; order 4 is nearer; below 10⁻³ round-off is more",
             ),
-        Evidence::exact("cells without a direction and without an error", "cells", silent),
+        Evidence::on("cells without a direction and without an error", "cells").exact(silent),
     ]
 }
 
 /// The cells of all maps that an integrator can fill with at most `most_steps` steps, and the strain of a step.
 fn tried(integrator: &Integrator, most_steps: u64) -> Vec<(Cell, f64)> {
     let theory = integrator.theory;
-    let mut all = Vec::new();
-    let mut push = |run: map::Run| {
-        let strain = RodProblem::new(run.aspect_ratio, run.turns).strain();
-        let strain_per_step = match run.setting {
-            // Long runs do not count here: their phase error grows with the time.
-            Setting::Steps(steps) if run.turns < 2.0 => strain / steps as f64,
-            _ => f64::INFINITY,
-        };
-        all.push((run.of(integrator), strain_per_step));
-    };
+    let by_duration = |r: f64, periods, end| map::by_duration(theory, r, periods, end, most_steps).ok();
+    let mut runs: Vec<map::Run> = Vec::new();
     for r in ASPECT_RATIOS {
-        match theory {
-            Theory::Adaptive => {
-                for tolerance in TOLERANCES {
-                    let setting = Setting::Tolerance(tolerance);
-                    let run = map::by_duration(theory, r, 1.0, Place::mid_flip(r), most_steps);
-                    run.into_iter().for_each(|run| push(map::Run { setting, ..run }));
-                }
-            }
-            _ => STEPS.into_iter().for_each(|step| push(map::by_step(theory, r, step, most_steps))),
+        if theory == Theory::Adaptive {
+            let run = by_duration(r, 1.0, Place::mid_flip(r));
+            let settings = TOLERANCES.map(Setting::Tolerance).into_iter();
+            runs.extend(settings.filter_map(|setting| Some(map::Run { setting, ..run? })));
+        } else {
+            runs.extend(STEPS.map(|step| map::by_step(theory, r, step, most_steps)));
         }
-        for (_, place) in map::places(r) {
-            let run = map::by_duration(theory, r, 1.0, place, most_steps);
-            run.into_iter().for_each(&mut push);
+        runs.extend(map::places(r).into_iter().filter_map(|(_, place)| by_duration(r, 1.0, place)));
+    }
+    runs.extend(map::PERIODS.into_iter().filter_map(|periods| by_duration(11.6, periods, Place::mid_flip(11.6))));
+    let strain_per_step = |run: &map::Run| match run.setting {
+        // Long runs do not count here: their phase error grows with the time.
+        Setting::Steps(steps) if run.turns < 2.0 => {
+            RodProblem::new(run.aspect_ratio, run.turns).strain() / steps as f64
         }
-    }
-    for periods in map::PERIODS {
-        let run = map::by_duration(theory, 11.6, periods, Place::mid_flip(11.6), most_steps);
-        run.into_iter().for_each(&mut push);
-    }
-    all
+        _ => f64::INFINITY,
+    };
+    runs.iter().map(|run| (run.of(integrator), strain_per_step(run))).collect()
 }

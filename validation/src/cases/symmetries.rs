@@ -91,13 +91,11 @@ fn symmetries(mapping: &Mapping, effort: &Effort) -> Vec<Evidence> {
     times.time.steps_per_unit = Some(mapping.steps_per_period);
 
     let given = |scene: &Scene, [phi_deg, theta_deg]: [f64; 2]| {
-        let mut scene = scene.clone();
-        scene.particles.orientation = Orientation::Given { phi_deg, theta_deg };
-        scene
+        let orientation = Orientation::Given { phi_deg, theta_deg };
+        lab::changed(scene.clone(), |scene| scene.particles.orientation = orientation)
     };
     // A fifth of a period: kicks amplify the 10⁻¹⁶ of the opposite start.
-    let mut short = base.clone();
-    short.time.duration = 0.2;
+    let short = lab::changed(base.clone(), |scene| scene.time.duration = 0.2);
     let head = given(&short, [25.0, 70.0]);
     let tail = given(&short, mapping.tail_deg);
 
@@ -107,17 +105,11 @@ fn symmetries(mapping: &Mapping, effort: &Effort) -> Vec<Evidence> {
     let straight = given(&lab::free_scene(effort), [25.0, 70.0]);
 
     vec![
-        Evidence::exact(
-            "the same rods in another order, every one of them a candidate",
-            "–",
-            relabelled(mapping.directions_too, effort),
-        ),
-        Evidence::exact(
-            "lengths 8 times larger, concentration 512 times less",
-            "rod lengths",
-            difference(&lengths, &base),
-        ),
-        Evidence::exact("a shear rate of 5·10⁻³¹ 1/s", "rod lengths", difference(&times, &base)),
+        Evidence::on("the same rods in another order, every one of them a candidate", "–")
+            .exact(relabelled(mapping.directions_too, effort)),
+        Evidence::on("lengths 8 times larger, concentration 512 times less", "rod lengths")
+            .exact(difference(&lengths, &base)),
+        Evidence::on("a shear rate of 5·10⁻³¹ 1/s", "rod lengths").exact(difference(&times, &base)),
         Evidence::on("every rod turned head to tail, interacting", "rod lengths")
             .within(difference(&tail, &head), 1e-10)
             .because("the turned angles are rounded to 10⁻¹⁶, which kicks ∝ 1/r grow"),
@@ -177,9 +169,9 @@ fn one_length(given: &OneLength, effort: &Effort) -> Vec<Evidence> {
     let [long_in_box, short_in_box] = [(0.5, 1.0), (given.alpha_in_box, 0.5)]
         .map(|(alpha, share)| scene(alpha, 50.0, share, Some([12.0, 12.0, 14.0])));
     vec![
-        Evidence::exact("400 rods per cm³ at α = 0.25", "rod lengths", difference(&dense, &base)),
-        Evidence::exact("half the length at α = 1", "rod lengths", difference(&short, &base)),
-        Evidence::exact("the same in a box", "rod lengths", difference(&short_in_box, &long_in_box)),
+        Evidence::on("400 rods per cm³ at α = 0.25", "rod lengths").exact(difference(&dense, &base)),
+        Evidence::on("half the length at α = 1", "rod lengths").exact(difference(&short, &base)),
+        Evidence::on("the same in a box", "rod lengths").exact(difference(&short_in_box, &long_in_box)),
     ]
 }
 

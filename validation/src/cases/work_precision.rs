@@ -200,15 +200,9 @@ fn paths(change: &Change, effort: &Effort) -> Evidence {
     let replicas = effort.samples(design);
     let (coarse, fine) = (mean_squares(&scene, 100, replicas), mean_squares(&scene, 400, replicas));
     let excess = fine.iter().zip(&coarse).map(|(fine, coarse)| fine - 0.5 * coarse);
-    Evidence::on(
-        "mean square angle between 400 and 800 steps a period, less half of that between \
-         100 and 200",
-        "rad²",
-    )
-    .exceeds(Sample::of(excess), 0.0, design.effect)
-    .because(
-        "paths that converge with order ½ or more would bring a quarter or less; the mean square \
-         is some 0.035",
+    let what = "mean square angle between 400 and 800 steps a period, less half of that between 100 and 200";
+    Evidence::on(what, "rad²").exceeds(Sample::of(excess), 0.0, design.effect).because(
+        "paths that converge with order ½ or more would bring a quarter or less; the mean square is some 0.035",
     )
 }
 

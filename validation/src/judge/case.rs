@@ -32,11 +32,6 @@ impl Evidence {
         Quantity(what.into(), unit)
     }
 
-    /// The rule that `error` is 0.
-    pub fn exact(what: impl Into<String>, unit: &'static str, error: f64) -> Self {
-        Self::new(what, unit, Rule::exact(error))
-    }
-
     /// The rule `rule` for the quantity `what`.
     pub fn new(what: impl Into<String>, unit: &'static str, rule: Rule) -> Self {
         Self { what: what.into(), unit: unit.into(), rule }
@@ -47,6 +42,11 @@ impl Evidence {
 pub struct Quantity(String, &'static str);
 
 impl Quantity {
+    /// The rule that `error` is 0.
+    pub fn exact(self, error: f64) -> Evidence {
+        Evidence::new(self.0, self.1, Rule::exact(error))
+    }
+
     /// The rule that `error` is at most `tolerance`.
     pub fn within(self, error: f64, tolerance: f64) -> Bound {
         Bound(self, Box::new(move |because| Rule::Within { error, tolerance, because }))
@@ -118,7 +118,7 @@ impl<T: Findings, const N: usize> Findings for [T; N] {
 
 impl<T: Findings, E: fmt::Display> Findings for Result<T, E> {
     fn evidence(self) -> Vec<Evidence> {
-        self.map_or_else(|error| vec![Evidence::exact(error.to_string(), "–", f64::NAN)], T::evidence)
+        self.map_or_else(|error| vec![Evidence::on(error.to_string(), "–").exact(f64::NAN)], T::evidence)
     }
 }
 
@@ -255,7 +255,7 @@ mod tests {
     fn is_three(value: &f64, _: &Effort) -> Result<Vec<Evidence>, &'static str> {
         match value {
             7.0 => Err("no seven"),
-            _ => Ok(vec![Evidence::exact("three", "–", value - 3.0)]),
+            _ => Ok(vec![Evidence::on("three", "–").exact(value - 3.0)]),
         }
     }
 
@@ -293,7 +293,7 @@ mod tests {
     fn what_data_there_are_is_judged() {
         let check = |value: &f64, _: &Effort| {
             let none = || Evidence::new("none", "–", Rule::NoData { supply: "a file".into() });
-            let judged = (*value > 0.0).then(|| Evidence::exact("three", "–", value - 3.0));
+            let judged = (*value > 0.0).then(|| Evidence::on("three", "–").exact(value - 3.0));
             [none()].into_iter().chain(judged).chain([none()]).collect::<Vec<_>>()
         };
         let verdict = |value| {

@@ -43,9 +43,7 @@ pub fn crowded_scene(effort: &Effort, count: usize, per_cm3: f64) -> Scene {
 
 /// Those of `interacting_scene` with the paper's own update, A.14 taken literally, for cases that reproduce the paper.
 pub fn paper_scene(effort: &Effort) -> Scene {
-    changed(free_scene(effort), |scene| {
-        paper_interaction(scene);
-    })
+    changed(free_scene(effort), |scene| _ = paper_interaction(scene))
 }
 
 /// The interaction of a scene; if it has none, adds that of [`paper_scene`].
@@ -154,39 +152,28 @@ pub fn at_output<E>(results: &Result<Results, E>, channel: Channel, output: usiz
     Sample { mean, se, samples }
 }
 
-/// Values that a check shares with its controls, by their keys, for the seed and the effort of one run: a control that
-/// is a wrong formula needs no run of its own.
-pub(crate) struct Shared<K, T>(Mutex<Stored<K, T>>);
-
-struct Stored<K, T> {
-    /// The seed, and whether the run is a full one.
-    run: (u64, bool),
-    values: BTreeMap<K, Arc<T>>,
-}
+/// Values that a check shares with its controls, by seed, effort and their keys: a control that is a wrong formula needs
+/// no run of its own. Only those of one run are kept.
+pub(crate) struct Shared<K, T>(Mutex<BTreeMap<(u64, bool, K), Arc<T>>>);
 
 impl<K: Ord, T> Shared<K, T> {
     /// An empty store.
     pub(crate) const fn new() -> Self {
-        Self(Mutex::new(Stored { run: (0, false), values: BTreeMap::new() }))
+        Self(Mutex::new(BTreeMap::new()))
     }
 
-    /// The value for `key`, computed by `work_out` if it is missing. It must depend only on key and effort; another run
-    /// clears it.
+    /// The value for `key`, computed by `work_out` if it is missing. It must depend only on key and effort.
     pub(crate) fn get(&self, effort: &Effort, key: K, work_out: impl FnOnce() -> T) -> Arc<T> {
-        let run = (effort.seed, effort.full);
-        let locked = || {
-            let mut stored = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-            if stored.run != run {
-                *stored = Stored { run, values: BTreeMap::new() };
-            }
-            stored
-        };
-        if let Some(value) = locked().values.get(&key) {
+        let key = (effort.seed, effort.full, key);
+        let locked = || self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(value) = locked().get(&key) {
             return Arc::clone(value);
         }
         // Not under the lock: while it waits, a thread may be given another thread's work, which may need the lock too.
         let value = Arc::new(work_out());
-        locked().values.insert(key, Arc::clone(&value));
+        let mut stored = locked();
+        stored.retain(|(seed, full, _), _| (*seed, *full) == (effort.seed, effort.full));
+        stored.insert(key, Arc::clone(&value));
         value
     }
 }

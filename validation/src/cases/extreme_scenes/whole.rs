@@ -15,23 +15,21 @@ pub(super) struct Ended {
     pub(super) last_x1: f64,
 }
 
-impl Ended {
-    /// A run that stopped or had a result that is not finite: it counts as not finite and has no other effect.
-    const LOST: Self = Self { trace: 0.0, finite: false, last_x1: 1.0 };
-}
+/// A run that stopped or had a result that is not finite: it counts as not finite and has no other effect.
+const LOST: Ended = Ended { trace: 0.0, finite: false, last_x1: 1.0 };
 
 /// Runs a scene as the program does.
 pub(super) fn whole_run(scene: &Scene) -> Ended {
     let mut scene = scene.clone();
     scene.ensemble.replicas = 2;
     let Ok(results) = ensemble::run(&lab::plan(&scene)) else {
-        return Ended::LOST;
+        return LOST;
     };
     let mut channels = results.series.iter().flat_map(|series| &series.columns);
     let finite = channels.all(|channel| (channel.mean.iter().chain(&channel.se)).all(|value| value.is_finite()));
     let mean = |name: &str, output: usize| results.column(name).map_or(f64::NAN, |channel| channel.mean[output]);
     if !finite {
-        return Ended::LOST;
+        return LOST;
     }
     let trace = |output: usize| (["a11", "a22", "a33"].map(|name| mean(name, output)).iter().sum::<f64>() - 1.0).abs();
     let last = results.times.len() - 1;
@@ -53,7 +51,7 @@ pub(super) fn by_exponential(scene: &Scene, rescaled: bool) -> Ended {
     let q = map * Vector3::new(0.6, 0.0, 0.8);
     let p = if rescaled { q.normalize() } else { q };
     if !p.norm_squared().is_finite() {
-        return Ended::LOST;
+        return LOST;
     }
     Ended { trace: (p.norm_squared() - 1.0).abs(), finite: true, last_x1: p.x.abs() }
 }
@@ -117,7 +115,7 @@ pub(super) fn extreme_scenes(program: &Program, effort: &Effort) -> Vec<Evidence
     let failed = ended.iter().filter(|ended| !ended.finite).count() as f64;
     let apart = worst(ended[free..].iter().map(|ended| (ended.last_x1 - 1.0).abs()));
     vec![
-        Evidence::exact("scenes that stopped or had a result that is not finite", "scenes", failed),
+        Evidence::on("scenes that stopped or had a result that is not finite", "scenes").exact(failed),
         Evidence::on("largest |tr⟨pp⟩ − 1|", "–").within(trace, TRACE).because(TRACE_BECAUSE),
         Evidence::on("largest |X̄₁ − 1| at the end of an extension", "rod lengths")
             .within(apart, LENGTH)

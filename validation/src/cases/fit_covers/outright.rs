@@ -22,13 +22,11 @@ struct Simulated {
     influence: DMatrix<f64>,
 }
 
-static SIMULATED: Shared<(), Result<Simulated, String>> = Shared::new();
+static SIMULATED: Shared<(), Result<Arc<Simulated>, String>> = Shared::new();
 
-fn simulated(effort: &Effort) -> Result<Simulated, String> {
+fn simulated(effort: &Effort) -> Result<Arc<Simulated>, String> {
     let range = Range::parse(RANGE)?;
-    let mut scene = lab::interacting_scene(effort);
-    scene.interaction = None;
-    scene.time = Time::periods(1.6);
+    let scene = Scene { time: Time::periods(1.6), ..lab::free_scene(effort) };
     let scenes = Scenes::new(vec![set(&scene, effort.seed(72), TimeColumn::Strain)?], vec![range.clone()])?;
     let mut points = data(|_| f64::NAN);
     for point in &mut points {
@@ -48,13 +46,12 @@ fn simulated(effort: &Effort) -> Result<Simulated, String> {
     }
     let fit = fit(&points, &range, &Rods::none(1), &basis, &at_nodes)?;
     let uncertainty = fit.best.covariance()[(0, 0)].sqrt();
-    Ok(Simulated { influence: &fit.best.influence / uncertainty, basis, at_nodes, at_own })
+    Ok(Arc::new(Simulated { influence: &fit.best.influence / uncertainty, basis, at_nodes, at_own }))
 }
 
 /// The error of r_e from such points, over the replicas; straight lines between the nodes are a mistake.
 pub fn off(straight: bool, effort: &Effort) -> Result<Evidence, String> {
-    let simulated = SIMULATED.get(effort, (), || simulated(effort));
-    let simulated = simulated.as_ref().as_ref().map_err(Clone::clone)?;
+    let simulated = Result::clone(&SIMULATED.get(effort, (), || simulated(effort)))?;
     let mut terms = simulated.basis.terms(&[PLACE]);
     if straight {
         terms.rows_mut(2, 3).fill(0.0);

@@ -64,12 +64,11 @@ const EXCESS: f64 = 0.2;
 const DEVIATION: f64 = 0.6;
 
 pub(super) fn hold(treatment: &Treatment, effort: &Effort) -> Result<Evidence, String> {
-    let pool = SIMULATED.get(effort, (), || pool(effort));
-    let pool = pool.as_ref().as_ref().map_err(Clone::clone)?;
-    let offset = OFFSETS.get(effort, (), || offset(pool));
+    let pool = Result::clone(&SIMULATED.get(effort, (), || pool(effort)))?;
+    let offset = OFFSETS.get(effort, (), || offset(&pool));
     let count = effort.samples(Design::new(EXCESS, DEVIATION));
     let seed = |k: u64| effort.seed(73).wrapping_add(k.wrapping_mul(0x9E37_79B9_7F4A_7C15));
-    let below = |k: u64| Ok(1.0 - repeat((pool, &offset), *treatment, seed(k))?);
+    let below = |k: u64| Ok(1.0 - repeat((&pool, &offset), *treatment, seed(k))?);
     let below: Vec<f64> = lab::replicas::<_, Result<_, String>>(count, below)?;
     Ok(Evidence::on("1 − χ² per degree of freedom", "–")
         .exceeds(Sample::of(&below), -0.1, EXCESS)

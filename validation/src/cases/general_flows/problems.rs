@@ -3,7 +3,7 @@
 //! and in planes.
 
 use super::*;
-use crate::oracle::exponential::{Rod, Span};
+use crate::oracle::exponential::Span;
 use rand::Rng;
 use rand_pcg::Pcg64;
 

@@ -2,7 +2,7 @@
 //! rotated by 45°, a weak strain in a strong rotation.
 
 use super::*;
-use crate::oracle::exponential::{Rod, Span};
+use crate::oracle::exponential::Span;
 use shearbed::model::orientation::from_degrees;
 
 /// A function that runs a scene of one rod: |p_i| at its end and the bound on its error, `None` if the scene is
@@ -75,20 +75,14 @@ pub fn listed_scenes(run: &Run, _: &Effort) -> Vec<Evidence> {
         unknown += f64::from(!off.is_finite());
         share = share.max(off / (error + 2.0 * f64::EPSILON));
     }
-    let no_period = (LISTED.last()).is_some_and(|listed| {
-        let mut scene = scene(listed);
-        scene.time = Time::periods(1.0);
-        run(&scene).is_none()
-    });
+    let a_period = |listed| lab::changed(scene(listed), |scene| scene.time = Time::periods(1.0));
+    let no_period = LISTED.last().is_some_and(|listed| run(&a_period(listed)).is_none());
     vec![
         Evidence::on("largest error of |p_i| at the end over the bound that the plan states", "–")
             .within(share, 1.0)
             .because("what a bound is: the start's rounding and the map's"),
-        Evidence::exact("scenes refused, or with an end that is no number", "scenes", refused + unknown),
-        Evidence::exact(
-            "a flow of three real rates, on which an eigenvalue solver hung, that is given a period",
-            "flows",
-            f64::from(!no_period),
-        ),
+        Evidence::on("scenes refused, or with an end that is no number", "scenes").exact(refused + unknown),
+        Evidence::on("a flow of three real rates, on which an eigenvalue solver hung, that is given a period", "flows")
+            .exact(f64::from(!no_period)),
     ]
 }

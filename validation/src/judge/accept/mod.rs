@@ -221,10 +221,8 @@ pub fn judge(rule: &Rule) -> Verdict {
         Rule::NoData { .. } => return Verdict::NoData,
     };
     // True if the sample does not exclude that the mean is above its bound.
-    let is_hidden = match rule {
-        Rule::Above { mean, se, samples, bound, .. } => mean + student(LEVEL, *samples) * se >= *bound,
-        _ => false,
-    };
+    let is_hidden = matches!(rule, Rule::Above { mean, se, samples, bound, .. }
+        if mean + student(LEVEL, *samples) * se >= *bound);
     match (holds, rule.has_enough()) {
         // Noise can hide a difference, but can bring a mean neither close to its reference nor many standard errors
         // below its bound.

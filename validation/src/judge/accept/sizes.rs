@@ -88,6 +88,7 @@ pub(super) fn massart(probability: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::judge::statistics::Sample;
     use rand::SeedableRng;
     use rand_distr::{Distribution, StandardNormal};
     use rand_pcg::Pcg64Dxsm;
@@ -101,10 +102,8 @@ mod tests {
             let below = (0..trials)
                 .filter(|_| {
                     let values = (0..samples).map(|_| noncentrality / root + normal_value(&mut rng));
-                    let values: Vec<f64> = values.collect();
-                    let mean = values.iter().sum::<f64>() / samples as f64;
-                    let square = values.iter().map(|v| (v - mean).powi(2)).sum::<f64>();
-                    mean / (square / freedom(samples)).sqrt() * root <= t
+                    let Sample { mean, se, .. } = Sample::of(values);
+                    mean / se <= t
                 })
                 .count();
             let observed = below as f64 / f64::from(trials);
@@ -130,10 +129,7 @@ mod tests {
             let mut rng = Pcg64Dxsm::seed_from_u64(2);
             let (mut far, mut wide, mut blind, mut blind_of_half) = (0, 0, 0, 0);
             for _ in 0..TRIALS {
-                let values: Vec<f64> = (0..samples).map(|_| normal_value(&mut rng)).collect();
-                let n = samples as f64;
-                let mean = values.iter().sum::<f64>() / n;
-                let se = (values.iter().map(|v| (v - mean).powi(2)).sum::<f64>() / (n - 1.0) / n).sqrt();
+                let Sample { mean, se, .. } = Sample::of((0..samples).map(|_| normal_value(&mut rng)));
                 let critical = student(LEVEL, samples);
                 far += u32::from(mean.abs() > critical * se);
                 wide += u32::from(se * needed_noncentrality(LEVEL, MISS, samples) > design.effect);
