@@ -1,6 +1,6 @@
 //! Links and pictures that stay in the repository.
 
-use crate::pages::{Page, anchors, events, readmes, root, under};
+use crate::pages::{Page, anchors, events, files, readmes, root, under};
 use pulldown_cmark::{Event, Tag};
 use std::collections::BTreeSet;
 use std::fs;
@@ -115,21 +115,13 @@ fn named(text: &str) -> impl Iterator<Item = &str> {
 #[test]
 fn pages_named_in_the_sources_are_there() {
     let (mut wrong, mut number) = (Vec::new(), 0);
-    let mut folders = ["src", "tests", "validation", ".ci", ".cargo"].map(|folder| root().join(folder)).to_vec();
-    while let Some(folder) = folders.pop() {
-        for entry in fs::read_dir(folder).unwrap() {
-            let path = entry.unwrap().path();
-            let name = path.file_name().unwrap().to_str().unwrap();
-            // Built files, and the controls of these tests.
-            if path.is_dir() {
-                folders.extend((name != "target" && !path.ends_with("tests/docs")).then_some(path));
-            } else if let Ok(text) = fs::read_to_string(&path) {
-                for page in named(&text) {
-                    number += 1;
-                    if !root().join(page).exists() {
-                        wrong.push(format!("{}: {page}", path.display()));
-                    }
-                }
+    let paths = ["src", "tests", "validation", ".ci", ".cargo"].map(|folder| files(&root().join(folder))).concat();
+    // But the controls of these tests.
+    for path in paths.iter().filter(|path| !path.parent().unwrap().ends_with("tests/docs")) {
+        for page in named(&fs::read_to_string(path).unwrap_or_default()) {
+            number += 1;
+            if !root().join(page).exists() {
+                wrong.push(format!("{}: {page}", path.display()));
             }
         }
     }

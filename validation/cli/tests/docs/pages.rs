@@ -17,20 +17,18 @@ pub fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").canonicalize().unwrap()
 }
 
+/// Every file under a folder but built ones.
+pub fn files(folder: &Path) -> Vec<PathBuf> {
+    let paths = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
+    let paths = paths.filter(|path| !path.ends_with("target"));
+    paths.flat_map(|path| if path.is_dir() { files(&path) } else { vec![path] }).collect()
+}
+
 /// Every Markdown file under a folder of the repository, ordered by its path.
 pub fn under(folder: &str) -> Vec<Page> {
-    let mut found = Vec::new();
-    let mut folders = vec![root().join(folder)];
-    while let Some(folder) = folders.pop() {
-        for entry in fs::read_dir(folder).unwrap() {
-            let path = entry.unwrap().path();
-            match path.extension() {
-                _ if path.is_dir() => folders.push(path),
-                Some(extension) if extension == "md" => found.push(page(&path)),
-                _ => {}
-            }
-        }
-    }
+    let files = files(&root().join(folder)).into_iter();
+    let pages = files.filter(|path| path.extension().is_some_and(|extension| extension == "md"));
+    let mut found: Vec<_> = pages.map(|path| page(&path)).collect();
     found.sort_by(|a, b| a.path.cmp(&b.path));
     found
 }

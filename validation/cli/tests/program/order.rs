@@ -8,18 +8,14 @@ fn declared(lib: &str) -> Vec<&str> {
     lib.lines().filter_map(|line| line.strip_prefix("pub mod ")?.strip_suffix(';')).collect()
 }
 
-/// Rust files below a folder.
-fn all_sources(folder: &Path) -> Vec<PathBuf> {
-    let mut files = Vec::new();
-    for entry in fs::read_dir(folder).unwrap() {
-        let path = entry.unwrap().path();
-        if path.is_dir() {
-            files.extend(all_sources(&path));
-        } else if path.extension().is_some_and(|ending| ending == "rs") {
-            files.push(path);
-        }
+/// Rust files below a folder; of a file, itself.
+pub fn all_sources(place: &Path) -> Vec<PathBuf> {
+    assert!(place.symlink_metadata().is_ok(), "{}", place.display());
+    if place.is_dir() {
+        return fs::read_dir(place).unwrap().flat_map(|entry| all_sources(&entry.unwrap().path())).collect();
     }
-    files
+    let is_rust = place.extension().is_some_and(|ending| ending == "rs");
+    is_rust.then(|| place.to_owned()).into_iter().collect()
 }
 
 /// Those that are not of tests alone.

@@ -1,9 +1,10 @@
 //! docs/src/developer/dependencies.md is true, and the oracles ask for nothing of what they judge. Licences and sources
 //! are cargo-deny's: validation/deny.toml.
 
+use super::order::all_sources;
 use crate::common::bounded::Bounded;
 use std::collections::{BTreeMap, BTreeSet};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::Command;
 
 fn text(path: &str) -> String {
@@ -138,7 +139,7 @@ fn every_file_that_is_built_in_is_a_source() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").canonicalize().unwrap();
     let is_source = |path: &Path| sources.iter().any(|source| path.starts_with(root.join(source)));
     let mut seen = 0;
-    for file in walk(&root, &sources) {
+    for file in sources.iter().flat_map(|source| all_sources(&root.join(source))) {
         let text = std::fs::read_to_string(&file).unwrap();
         for after in text.split("include_").skip(1) {
             let name = ["str!(\"", "bytes!(\""].iter().find_map(|start| after.strip_prefix(start)?.split('"').next());
@@ -149,18 +150,4 @@ fn every_file_that_is_built_in_is_a_source() {
         }
     }
     assert!(seen > 20 && !is_source(&root.join("README.md")));
-}
-
-/// The files of Rust in these places.
-fn walk(root: &Path, places: &[&str]) -> Vec<PathBuf> {
-    let mut left: Vec<_> = places.iter().map(|place| root.join(place)).collect();
-    let mut files = Vec::new();
-    while let Some(path) = left.pop() {
-        if let Ok(entries) = path.read_dir() {
-            left.extend(entries.map(|entry| entry.unwrap().path()));
-        } else if path.extension().is_some_and(|extension| extension == "rs") {
-            files.push(path);
-        }
-    }
-    files
 }
