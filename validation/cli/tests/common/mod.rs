@@ -100,17 +100,8 @@ pub fn empty_folder() -> Folder {
 
 /// A folder with [`SMALL`] as `small.toml` in it.
 pub fn folder() -> Folder {
-    folder_with(SMALL)
-}
-
-/// A folder with [`UNEQUAL`] as `small.toml` in it.
-pub fn unequal() -> Folder {
-    folder_with(&UNEQUAL)
-}
-
-fn folder_with(scene: &str) -> Folder {
     let dir = empty_folder();
-    dir.write("small.toml", scene);
+    dir.write("small.toml", SMALL);
     dir
 }
 

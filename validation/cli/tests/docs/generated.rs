@@ -17,23 +17,15 @@ fn fresh(file: &str, expected: &str) {
 }
 
 #[test]
-fn the_page_of_commands_is_fresh() {
+fn pages_and_the_schema_of_scenes_are_fresh() {
     fresh("docs/src/reference/commands.md", &shearbed_cli::commands());
-}
-
-#[test]
-fn the_page_of_keys_and_the_schema_of_scenes_are_fresh() {
+    fresh("docs/src/verification/equations.md", &catalogue::markdown());
     let head = "# Keys of a scene\n\nMade from the table of keys that the program reads by; `shearbed scenes --keys` \
         prints it. A JSON Schema for editors is `validation/schemas/scene.json`. [Scenes](../user/scenes.md) shows how \
         keys go together.\n\n";
     fresh("docs/src/reference/keys.md", &format!("{head}{}", scene_keys::markdown()));
     let schema = serde_json::to_string_pretty(&scene_keys::schema()).unwrap();
     fresh("validation/schemas/scene.json", &format!("{schema}\n"));
-}
-
-#[test]
-fn the_page_of_equations_is_fresh() {
-    fresh("docs/src/verification/equations.md", &catalogue::markdown());
 }
 
 /// Those that take seconds (four by Python, where it is here); with DOCS_SLOW also those that take a minute.

@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 use shearbed::nalgebra::{Matrix3, Vector3};
 use shearbed_validation::methods::textbook::extrapolated::{jeffery_rate, rk4_in_p};
-use shearbed_validation::oracle::naive::{self, Mistake, Naive, Reading, Start, Update};
+use shearbed_validation::oracle::naive::{self, Mistake, Naive};
 use shearbed_validation::serve::problems::{self, Kind, LoadedProblem, Metric};
 use std::sync::LazyLock;
 
@@ -85,23 +85,15 @@ fn suspension(loaded: &LoadedProblem, replica: u64, mistake: Option<Mistake>) ->
     naive::NaiveProblem {
         count: ensemble.count as usize,
         shear_rate_per_s: problem.gradient_per_s[1][0],
-        other_flow: None,
         length_mm: ensemble.length_mm,
-        length_sd_percent: 0.0,
-        box_mm: None,
         aspect_ratio: problem.aspect_ratio,
         aspect_ratio_sd_percent: problem.aspect_ratio_sd_percent,
-        orientation: Start::Isotropic,
         concentration_per_cm3: ensemble.concentration_per_cm3,
         alpha: ensemble.alpha,
         m: ensemble.m,
-        min_contact_arm: 0.0,
-        update: Update::Rotation,
-        reading: Reading::default(),
         steps_per_period: ensemble.steps_per_period as usize,
-        seed: 11,
-        replica,
         mistake,
+        ..naive::NaiveProblem::paper(11, replica)
     }
 }
 

@@ -1,11 +1,12 @@
 //! The record of a run.
 
-use crate::common::unequal;
+use crate::common::{UNEQUAL, empty_folder};
 
 #[test]
 fn the_scene_in_run_json_gives_the_same_bits() {
-    let dir = unequal();
-    dir.runs("run small.toml --replicas 4 --seed 7 --threads 2 --out a");
+    let dir = empty_folder();
+    dir.write("unequal.toml", UNEQUAL.as_str());
+    dir.runs("run unequal.toml --replicas 4 --seed 7 --threads 2 --out a");
     let record = dir.json("a/run.json");
     assert_eq!((&record["seed"], &record["threads"]), (&7.into(), &2.into()));
     let scene: shearbed::Scene = serde_json::from_value(record["scene"].clone()).unwrap();
