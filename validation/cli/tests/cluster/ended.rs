@@ -51,8 +51,8 @@ fn a_rank_that_dies_ends_the_job() {
     }
 }
 
-/// A failing job's exit code and message.
-fn shearbed(dir: &Path, arguments: &str) -> (Option<i32>, String) {
+/// A job's exit code and message.
+pub fn shearbed(dir: &Path, arguments: &str) -> (Option<i32>, String) {
     let job = mpirun(dir, arguments).ended();
     (job.status.code(), text(&job.stderr))
 }

@@ -6,6 +6,7 @@
 #[path = "../common/mod.rs"]
 mod common;
 mod ended;
+mod input;
 
 use crate::common::bounded::{Bounded, end};
 use common::{UNEQUAL, files, kill, wait_for};
@@ -71,9 +72,7 @@ fn both(dir: &Path, ranks: usize, arguments: &str) -> [BTreeMap<String, Vec<u8>>
 }
 
 fn in_one_process(dir: &Path, arguments: &str) -> (Vec<String>, BTreeMap<String, Vec<u8>>) {
-    let mut command = Command::new(PROGRAM);
-    command.args(format!("{arguments} --out alone --threads 2").split_whitespace()).current_dir(dir);
-    written(&mut command, &dir.join("alone"))
+    written(&mut common::command(dir, &format!("{arguments} --out alone --threads 2")), &dir.join("alone"))
 }
 
 fn on_ranks(dir: &Path, ranks: usize, arguments: &str) -> (Vec<String>, BTreeMap<String, Vec<u8>>) {
@@ -152,11 +151,7 @@ fn a_killed_job_is_gone_on_with_by_one_process() {
     let ended = end("the killed job", job).status.success();
     assert_eq!(dir.path().join("shared/sweep.csv").exists(), ended);
     for out in ["shared", "alone"] {
-        let ended = Command::new(PROGRAM)
-            .args(format!("{over} --out {out}").split_whitespace())
-            .current_dir(dir.path())
-            .ended();
-        assert!(ended.status.success());
+        assert!(common::command(dir.path(), &format!("{over} --out {out}")).ended().status.success());
     }
     assert_eq!(files(&dir.path().join("shared")), files(&dir.path().join("alone")));
 }

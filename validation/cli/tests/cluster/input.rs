@@ -1,27 +1,14 @@
-//! Ranks of an MPI job that were given different things: refused before anything runs, with the rank and the key. Built
-//! with the feature `mpi` only; needs Open MPI's `mpirun`.
+//! Ranks that were given different things: refused before anything runs, with the rank and the key.
 
-#![cfg(feature = "mpi")]
-
-mod common;
-
-use common::bounded::Bounded;
-use common::{SMALL, folder};
+use super::ended::shearbed;
+use crate::common::{SMALL, folder};
 use std::fs;
 use std::path::Path;
-use std::process::Command;
 
-/// A job whose ranks run these commands; its exit code and messages. A job that hangs is ended.
+/// A job whose ranks run these commands; its exit code and messages.
 fn job(dir: &Path, ranks: &[&str]) -> (Option<i32>, String) {
-    let program = env!("CARGO_BIN_EXE_shearbed");
-    let ranks: Vec<_> = (ranks.iter()).map(|command| format!("-n 1 {program} {command}")).collect();
-    let output = Command::new("mpirun")
-        .args(ranks.join(" : ").split_whitespace())
-        .envs(["OMPI_ALLOW_RUN_AS_ROOT", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM"].map(|name| (name, "1")))
-        .env("OMPI_MCA_rmaps_base_oversubscribe", "1")
-        .current_dir(dir)
-        .ended();
-    (output.status.code(), String::from_utf8_lossy(&output.stderr).into_owned())
+    let ranks: Vec<_> = ranks.iter().map(|command| format!("-n 1 shearbed {command}")).collect();
+    shearbed(dir, &ranks.join(" : "))
 }
 
 #[test]
