@@ -81,11 +81,8 @@ pub fn checkpoint() -> Target {
             }
             fs::write(&path, bytes).map_err(|error| format!("the harness: {error}"))?;
             match Replicas::open(&plan, &path, Duration::from_secs(3600)) {
-                Err(Refused(why)) if why.contains("kept: ") => {
-                    // What all say at the end is left out.
-                    Ok(Taken::Refused(why.split(';').next().unwrap_or_default().to_owned()))
-                }
-                Err(Refused(why)) => Err(format!("the file is not named: {why}")),
+                // What all say at the end is left out.
+                Err(Refused(why)) => Taken::refused_at("kept: ", why.split(';').next().unwrap_or_default().to_owned()),
                 Ok(run) => match run.run(1, || (), |_| ()) {
                     Err(error) => Ok(Taken::Refused(error.to_string())),
                     Ok(results) => {

@@ -49,6 +49,11 @@ impl Taken {
     fn if_finite(finite: bool, fault: &str) -> Result<Self, String> {
         if finite { Ok(Self::Accepted) } else { Err(format!("{fault} that is not finite")) }
     }
+
+    /// Not, for a reason that names this place; else this is at fault.
+    fn refused_at(place: &str, why: String) -> Result<Self, String> {
+        if why.contains(place) { Ok(Self::Refused(why)) } else { Err(format!("{place} is not named: {why}")) }
+    }
 }
 
 /// Files by name.

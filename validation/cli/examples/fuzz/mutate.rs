@@ -130,17 +130,10 @@ impl Mutator {
 /// Where numbers and words of a text are.
 fn tokens(bytes: &[u8]) -> Vec<(usize, usize)> {
     let word = |byte: &u8| byte.is_ascii_alphanumeric() || b"._+-".contains(byte);
-    let mut found = Vec::new();
-    let mut start = None;
-    for (at, byte) in bytes.iter().enumerate().chain([(bytes.len(), &b' ')]) {
-        match (word(byte), start) {
-            (true, None) => start = Some(at),
-            (false, Some(from)) => {
-                found.push((from, at));
-                start = None;
-            }
-            _ => (),
-        }
-    }
-    found
+    let mut to = 0;
+    let runs = bytes.chunk_by(|a, b| word(a) == word(b)).map(|run| {
+        to += run.len();
+        (word(&run[0]), (to - run.len(), to))
+    });
+    runs.filter(|(is_word, _)| *is_word).map(|(_, place)| place).collect()
 }

@@ -7,7 +7,6 @@ use shearbed_validation::serve::grade::{self, Claim, DumpOptions, FileOptions, O
 use shearbed_validation::serve::problems::{self, LoadedProblem};
 use std::fs;
 use std::path::Path;
-use std::sync::OnceLock;
 
 const PROVENANCE: &str = r#"paper = "synthetic, for this test"
 figure = "none"
@@ -83,14 +82,12 @@ pub fn data() -> Target {
 /// The files of a problem that are read.
 fn files_of(name: &str) -> Vec<(&'static str, Vec<u8>)> {
     let built = problems::named(name).expect("its name is in the registry");
-    let mut files = problems::files(built);
-    files.retain(|(name, _)| !name.ends_with(".md"));
     let known = ["problem.json", "start.csv", "inputs.csv", "certified.csv"];
     let named = |(name, text): (String, String)| {
         let name = known.into_iter().find(|known| *known == name);
         (name.expect("a file of a problem"), text.into_bytes())
     };
-    files.into_iter().map(named).collect()
+    problems::files(built).into_iter().filter(|(name, _)| !name.ends_with(".md")).map(named).collect()
 }
 
 /// Small problems of two kinds.
@@ -112,16 +109,11 @@ pub fn problems() -> Target {
         name: "problems",
         corpus: PROBLEMS.iter().map(|name| files_of(name)).chain([foreign()]).collect(),
         take: Box::new(|folder, files| {
-            let called = |name: &&str| {
-                let name = format!("\"name\": \"{name}\"");
-                let text = files.iter().find(|(file, _)| *file == "problem.json");
-                text.is_some_and(|(_, bytes)| String::from_utf8_lossy(bytes).contains(&name))
-            };
-            let names = [PROBLEMS[0], PROBLEMS[1], FOREIGN];
-            for name in names {
-                let _ = fs::remove_dir_all(folder.join(name));
-            }
-            put(&folder.join(names.iter().find(|name| called(name)).unwrap_or(&FOREIGN)), files)?;
+            let problem = files.iter().find(|(file, _)| *file == "problem.json");
+            let text = problem.map(|(_, bytes)| String::from_utf8_lossy(bytes)).unwrap_or_default();
+            let is_its_name = |name: &&&str| text.contains(&format!("\"name\": \"{name}\""));
+            put(folder, &[])?;
+            put(&folder.join(PROBLEMS.iter().find(is_its_name).unwrap_or(&FOREIGN)), files)?;
             match problems::read(folder) {
                 Ok(found) => Taken::if_finite(found.iter().all(finite), "a number"),
                 Err(error) => refused(&error, files),
@@ -143,18 +135,15 @@ pub fn answers() -> Target {
         let (_, answer) = certified.expect("it is exported");
         vec![(name, answer)]
     });
-    static LOADED: OnceLock<Vec<LoadedProblem>> = OnceLock::new();
+    let dir = tempfile::tempdir().expect("the harness has a folder");
+    for name in PROBLEMS {
+        put(&dir.path().join(name), &files_of(name)).expect("the harness writes");
+    }
+    let loaded = problems::read(dir.path()).expect("what is exported is read");
     Target {
         name: "answers",
         corpus: corpus.to_vec(),
-        take: Box::new(|folder, files| {
-            let loaded = LOADED.get_or_init(|| {
-                let dir = tempfile::tempdir().expect("the harness has a folder");
-                for name in PROBLEMS {
-                    put(&dir.path().join(name), &files_of(name)).expect("the harness writes");
-                }
-                problems::read(dir.path()).expect("what is exported is read")
-            });
+        take: Box::new(move |folder, files| {
             let (name, answer) = &files[0];
             put(&folder.join(name), &[("answer.csv", answer.clone())])?;
             let asked = loaded.iter().find(|loaded| loaded.problem.name == *name).ok_or("no such problem")?;

@@ -81,13 +81,7 @@ pub fn plots() -> Target {
                     let mut numbers = figure.curves.iter().flat_map(|curve| curve.x.iter().chain(&curve.y));
                     Taken::if_finite(numbers.all(|number| number.is_finite()), "a curve")
                 }
-                Err(why) => {
-                    if why.contains(&folder.display().to_string()) {
-                        Ok(Taken::Refused(why))
-                    } else {
-                        Err(format!("refused without its place: {why}"))
-                    }
-                }
+                Err(why) => Taken::refused_at(&folder.display().to_string(), why),
             }
         }),
     }

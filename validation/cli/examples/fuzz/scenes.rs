@@ -1,10 +1,10 @@
 //! Scene files and arguments of `sweep`.
 
 use crate::{Taken, Target};
-use shearbed::run::memory;
-use shearbed::run::run_replica;
+use shearbed::run::{memory, run_replica};
 use shearbed::{Error, Plan};
 use shearbed_validation::input::scenes;
+use shearbed_validation::input::start::Starts;
 use shearbed_validation::serve::sweep::{Axis, KeyValue, points, scene_with};
 
 /// Rods times steps and outputs of one replica that is run: milliseconds.
@@ -13,18 +13,14 @@ const BYTES: u64 = 16 << 20;
 
 /// Every built-in scene, small enough to be run, and flows that they do not have.
 fn corpus() -> Vec<String> {
-    let small = |text: &str| {
-        let mut lines: Vec<_> = text.lines().map(str::to_owned).collect();
-        for line in &mut lines {
-            if line.starts_with("count = ") {
-                *line = "count = 20".into();
-            } else if line.starts_with("replicas = ") {
-                *line = "replicas = 2".into();
-            } else if line.starts_with("periods = ") {
-                *line = "periods = 1".into();
-            }
-        }
-        lines.join("\n") + "\n"
+    let small = |text: &str| -> String {
+        let line = |line: &str| match line.split_once(" = ") {
+            Some(("count", _)) => "count = 20\n".into(),
+            Some(("replicas", _)) => "replicas = 2\n".into(),
+            Some(("periods", _)) => "periods = 1\n".into(),
+            _ => format!("{line}\n"),
+        };
+        text.lines().map(line).collect()
     };
     let mut all: Vec<_> = scenes::ALL.iter().map(|scene| small(scene.text)).collect();
     for (gradient, orbits) in [
@@ -34,10 +30,9 @@ fn corpus() -> Vec<String> {
     ] {
         for time in ["periods = 1\noutputs_per_period = 8", "strain = 3\noutputs_per_strain = 4"] {
             all.push(format!(
-                "title = \"t\"\n[flow]\ngradient_per_s = {gradient}\n[particles]\ncount = 9\nlength_mm = \
-                    0.7\naspect_ratio = 2\n\
-                 aspect_ratio_sd_percent = 1\norientation = {{ phi_deg = 10, theta_deg = 80 \
-                 }}\n[time]\n{time}\n[output]\n\
+                "title = \"t\"\n[flow]\ngradient_per_s = {gradient}\n[particles]\ncount = 9\nlength_mm = 0.7\n\
+                 aspect_ratio = 2\naspect_ratio_sd_percent = 1\norientation = {{ phi_deg = 10, theta_deg = 80 }}\n\
+                 [time]\n{time}\n[output]\n\
                  observables = [\"projections\", {orbits}\"orientation_tensor\", \"mean_angle\"]\n"
             ));
         }
@@ -55,27 +50,21 @@ pub fn scene() -> Target {
             let Ok(text) = std::str::from_utf8(&files[0].1) else {
                 return Ok(Taken::Refused("not UTF-8".into()));
             };
-            match Plan::parse("scene.toml", text) {
-                Err(error) => {
-                    let lines = text.lines().count() + 1;
-                    let Error::Text { problems, .. } = &error else {
-                        return Err(format!("no line is named: {error}"));
-                    };
-                    for problem in problems {
-                        if !problem.line.is_some_and(|line| (1..=lines).contains(&line)) {
-                            return Err(format!("line {:?} of {lines}: {}", problem.line, problem.message));
-                        }
-                        names(&problem.message)?;
-                    }
-                    let message = error.to_string();
-                    if message.starts_with("scene.toml:") {
-                        Ok(Taken::Refused(message))
-                    } else {
-                        Err(format!("the file is not named: {message}"))
-                    }
+            let error = match Plan::parse("scene.toml", text) {
+                Ok(plan) => return run(&plan),
+                Err(error) => error,
+            };
+            let lines = text.lines().count() + 1;
+            let Error::Text { problems, .. } = &error else { return Err(format!("no line is named: {error}")) };
+            for problem in problems {
+                if !problem.line.is_some_and(|line| (1..=lines).contains(&line)) {
+                    return Err(format!("line {:?} of {lines}: {}", problem.line, problem.message));
                 }
-                Ok(plan) => run(&plan),
+                names(&problem.message)?;
             }
+            let message = error.to_string();
+            let names_it = message.starts_with("scene.toml:");
+            if names_it { Ok(Taken::Refused(message)) } else { Err(format!("the file is not named: {message}")) }
         }),
     }
 }
@@ -150,16 +139,14 @@ pub fn sweep() -> Target {
             if axis.values.len() > 64 {
                 return Ok(Taken::Accepted);
             }
-            match points(text, &shearbed_validation::input::start::Starts::default(), &[], std::slice::from_ref(&axis))
-                .map_err(|error| error.to_string())
-            {
+            let found = points(text, &Starts::default(), &[], std::slice::from_ref(&axis));
+            match found.map_err(|error| error.to_string()) {
                 Ok(found) if found.len() != axis.values.len() => Err(format!("{} points", found.len())),
                 Ok(found) if found.len() == 1 && set.as_ref().ok() != Some(found[0].plan.scene()) => {
                     Err(format!("--set and --over make different scenes: {set:?}"))
                 }
                 Ok(_) => Ok(Taken::Accepted),
-                Err(why) if !why.contains(&axis.key) => Err(format!("the key is not named: {why}")),
-                Err(why) => Ok(Taken::Refused(why)),
+                Err(why) => Taken::refused_at(&axis.key, why),
             }
         }),
     }
