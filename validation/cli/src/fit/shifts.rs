@@ -25,23 +25,20 @@ pub(super) fn shifts(input: &Input, fit: &Fit, own: &Model<'_>, watch: &Watch<'_
     if best.iter().all(|scene| scene.interaction.is_none()) {
         return Ok(Vec::new());
     }
-    let half_the_step = Variant { steps: 2, ..AS_WRITTEN };
-    let twice_the_rods = Variant { rods: 2, ..AS_WRITTEN };
-    let one_aspect_ratio = Variant { one_aspect_ratio: true, ..AS_WRITTEN };
-    let mut variants = vec![("half the time step", half_the_step), ("twice the rods", twice_the_rods)];
-    let fitted = fit.ranges.iter().any(|range| range.key == SPREAD);
-    if !fitted && (best.iter()).any(|scene| scene.particles.aspect_ratio_sd_percent > 0.0) {
-        variants.push((ONE_ASPECT_RATIO, one_aspect_ratio));
-    }
-    // The number of rods cannot exceed the rows of a file.
-    let from_a_file = |scene: &Scene| scene.particles.rods.is_some();
-    let fixed = best.iter().any(from_a_file);
-    let variants = (variants.into_iter()).filter(|(_, variant)| variant.rods == 1 || !fixed);
-    let shift = |(change, variant): (&'static str, Variant)| {
+    let from_a_file = best.iter().any(|scene| scene.particles.rods.is_some());
+    let is_fitted = fit.ranges.iter().any(|range| range.key == SPREAD);
+    let scatters = best.iter().any(|scene| scene.particles.aspect_ratio_sd_percent > 0.0);
+    let variants = [
+        (true, "half the time step", Variant { steps: 2, ..AS_WRITTEN }),
+        // The number of rods cannot exceed the rows of a file.
+        (!from_a_file, "twice the rods", Variant { rods: 2, ..AS_WRITTEN }),
+        (!is_fitted && scatters, ONE_ASPECT_RATIO, Variant { one_aspect_ratio: true, ..AS_WRITTEN }),
+    ];
+    let shift = |(_, change, variant): (bool, &'static str, Variant)| {
         let changed = |values: &[f64]| advice::model(scenes, &input.data, variant, values);
         budget::shift(fit, change, own, &changed, watch)
     };
-    variants.map(shift).collect()
+    variants.into_iter().filter(|(applies, ..)| *applies).map(shift).collect()
 }
 
 /// Warnings that the assumed spread of r_e affects a parameter as much as the points do: if the spread is wrong, a
