@@ -6,22 +6,19 @@ use std::path::Path;
 /// Bytes still available: the least of the machine's, of those of the process's control groups, and of those within a
 /// shell's `ulimit -v` and `-d`. `None` if the system does not report them.
 pub(super) fn available() -> Option<u64> {
-    let read = |file: &str| text(Path::new(file)).unwrap_or_default();
-    let machine = number_of(&read("/proc/meminfo"), "MemAvailable:")?;
-    let groups = of_groups(Path::new("/sys/fs/cgroup"), &read("/proc/self/cgroup"));
-    let others = [within_limits(), groups].into_iter().flatten();
-    others.chain([machine]).min()
+    let machine = number_of(&text("/proc/meminfo")?, "MemAvailable:")?;
+    let groups = text("/proc/self/cgroup").and_then(|groups| of_groups(Path::new("/sys/fs/cgroup"), &groups));
+    [within_limits(), groups, Some(machine)].into_iter().flatten().min()
 }
 
 /// Bytes left within a shell's `ulimit -v` and `-d`; `None` where neither is set.
 pub(super) fn within_limits() -> Option<u64> {
-    let read = |file: &str| text(Path::new(file)).unwrap_or_default();
-    of_limits(&read("/proc/self/limits"), &read("/proc/self/status"))
+    of_limits(&text("/proc/self/limits")?, &text("/proc/self/status")?)
 }
 
 /// The text of a short file of the system.
-fn text(path: &Path) -> Option<String> {
-    bounded::text(path, 1 << 20).ok()
+fn text(path: impl AsRef<Path>) -> Option<String> {
+    bounded::text(path.as_ref(), 1 << 20).ok()
 }
 
 /// The value of a line such as `MemAvailable:  17 kB`, in bytes.
@@ -62,7 +59,7 @@ fn of_groups(root: &Path, groups: &str) -> Option<u64> {
         // In a container the path is often that of the host, and only the top folder exists.
         let own = top.join(path.trim_start_matches('/'));
         for group in own.ancestors().take_while(|group| group.starts_with(&top)) {
-            let text = |file: &str| text(&group.join(file));
+            let text = |file: &str| text(group.join(file));
             let number = |file: &str| text(file)?.trim().parse::<u64>().ok();
             let Some((most, used)) = number(most).zip(number(used)) else {
                 continue;
