@@ -8,6 +8,7 @@ pub(super) fn watch() {
     use shearbed_validation::files::{checkpoint, cluster, output};
     use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
     use signal_hook::iterator::Signals;
+    use signal_hook::low_level::signal_name;
 
     // If this fails, the system ends the program in its usual way.
     let Ok(mut signals) = Signals::new([SIGINT, SIGTERM, SIGHUP]) else {
@@ -17,11 +18,7 @@ pub(super) fn watch() {
         let Some(signal) = signals.forever().next() else {
             return;
         };
-        let name = match signal {
-            SIGINT => "SIGINT",
-            SIGTERM => "SIGTERM",
-            _ => "SIGHUP",
-        };
+        let name = signal_name(signal).unwrap_or("SIGHUP");
         let code = 128 + signal;
         super::terminal::clear();
         let kept = checkpoint::last_words().unwrap_or_else(|| match super::words::command().as_str() {
