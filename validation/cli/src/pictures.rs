@@ -14,7 +14,6 @@ pub(super) fn stems(observable: Observable) -> Vec<String> {
 /// The pictures of an observable, each with the stem of its file's name.
 pub(super) fn figures(scene: &Scene, results: &Results, series: &Series) -> Vec<(String, Figure)> {
     let stem = series.observable.name();
-    let half_widths = half_widths(scene);
     let figure = |x_name: &str, y_name: &str, curves| Figure {
         title: scene.title.clone(),
         x_name: x_name.to_owned(),
@@ -28,7 +27,7 @@ pub(super) fn figures(scene: &Scene, results: &Results, series: &Series) -> Vec<
             label: names::channel(&channel.name),
             x: results.times.clone(),
             y: channel.mean.clone(),
-            half_band: half_widths.map(|factor| channel.se.iter().map(|se| factor * se).collect()),
+            half_band: band(scene, channel.se.iter().copied()),
         };
         figure(&time_name, series.observable.label(), channels.iter().map(curve).collect())
     };
@@ -39,8 +38,7 @@ pub(super) fn figures(scene: &Scene, results: &Results, series: &Series) -> Vec<
                 label: format!("{time_name} = {}", results.times[output]),
                 x: (0..density.len()).map(|bin| (bin as f64 + 0.5) / density.len() as f64).collect(),
                 y: density.iter().map(|channel| channel.mean[output]).collect(),
-                half_band: half_widths
-                    .map(|factor| density.iter().map(|channel| factor * channel.se[output]).collect()),
+                half_band: band(scene, density.iter().map(|channel| channel.se[output])),
             });
             let density = figure("C_b = C/(1 + C)", "density", curves.into());
             vec![(stem.to_owned(), against_time(std::slice::from_ref(mean))), (format!("{stem}_density"), density)]
@@ -49,12 +47,13 @@ pub(super) fn figures(scene: &Scene, results: &Results, series: &Series) -> Vec<
     }
 }
 
-/// Half the width of a 95 % band in standard errors: Student's t for the number of replicas, or of rods for a single
-/// replica. `None` if there is only one value, which has no standard error.
-pub(super) fn half_widths(scene: &Scene) -> Option<f64> {
+/// Half the width of a 95 % band: the standard errors times Student's t for the number of replicas, or of rods for a
+/// single replica. `None` if there is only one value, which has no standard error.
+pub(super) fn band(scene: &Scene, se: impl Iterator<Item = f64>) -> Option<Vec<f64>> {
     let samples = match scene.ensemble.replicas {
         1 => scene.particles.count as u64,
         replicas => replicas,
     };
-    (samples > 1).then(|| student(0.05, samples))
+    let factor = (samples > 1).then(|| student(0.05, samples))?;
+    Some(se.map(|se| factor * se).collect())
 }

@@ -58,17 +58,9 @@ pub(super) fn channel(
         };
         let [x, y, se] = table.columns(time, chosen, left)?;
         run.record.check(&name, &table.sum()).map_err(|why| at(format!(": {why}")))?;
-        let half = pictures::half_widths(&run.scene);
-        return Ok(Found {
-            time: table.0.names()[time].clone(),
-            channel: chosen.clone(),
-            curve: Curve {
-                label: String::new(),
-                x,
-                y,
-                half_band: half.map(|factor| se.iter().map(|se| factor * se).collect()),
-            },
-        });
+        let half_band = pictures::band(&run.scene, se.into_iter());
+        let curve = Curve { x, y, half_band, ..Curve::default() };
+        return Ok(Found { time: table.0.names()[time].clone(), channel: chosen.clone(), curve });
     }
     Err(Failure::Input(match wanted {
         Some(wanted) => {
