@@ -2,15 +2,14 @@
 
 use super::{Failure, print};
 use serde::Deserialize;
-use shearbed_validation::files::bounded;
 use shearbed_validation::files::text::Shown;
+use shearbed_validation::files::{FileError, bounded};
 use shearbed_validation::judge::accept::Verdict;
 use shearbed_validation::present::report::{self, FORMAT};
 use shearbed_validation::present::table::{ReportTable, number, words};
 use shearbed_validation::studies::work_precision::study::time;
 use std::path::{Path, PathBuf};
 
-/// Arguments of `compare`.
 #[derive(clap::Args)]
 #[command(after_help = "Example:\n  shearbed compare old/report.json new/report.json")]
 pub(super) struct Args {
@@ -98,23 +97,13 @@ const NOISE: f64 = 4.0;
 /// Errors without noise count as changed if they change by this share of their tolerance.
 const PART: f64 = 0.01;
 
-/// Prints the changes.
 pub(super) fn compare(args: &Args) -> Result<(), Failure> {
     let (a, b) = (read(&args.before)?, read(&args.after)?);
-    if !a.cases.iter().any(|case| b.cases.iter().any(|other| other.name == case.name)) {
-        return Err(Failure::Input(format!(
-            "{} and {} have no case in common: nothing can be compared",
-            args.before.shown(),
-            args.after.shown()
-        )));
+    let [before, after] = [&args.before, &args.after].map(|path| path.shown());
+    if of_both(&a, &b).next().is_none() {
+        return Err(Failure::Input(format!("{before} and {after} have no case in common: nothing can be compared")));
     }
-    let mut text = format!(
-        "A: {}, commit {}\nB: {}, commit {}\n",
-        args.before.shown(),
-        a.origin.commit,
-        args.after.shown(),
-        b.origin.commit
-    );
+    let mut text = format!("A: {before}, commit {}\nB: {after}, commit {}\n", a.origin.commit, b.origin.commit);
     if (a.summary.full, a.summary.seed) != (b.summary.full, b.summary.seed) {
         text += "The two differ in --full or --seed: other samples, so that means move by chance.\n";
     }
@@ -138,11 +127,9 @@ pub(super) fn compare(args: &Args) -> Result<(), Failure> {
 const MOST_BYTES: u64 = 256 << 20;
 
 fn read(path: &Path) -> Result<Report, Failure> {
-    let at = |what: String| Failure::Input(format!("{}: {what}", path.shown()));
-    let text = bounded::text(path, MOST_BYTES).map_err(|error| at(format!("cannot be read: {error}")))?;
-    let report = parse(&text).map_err(at)?;
-    report::check(&text).map_err(at)?;
-    Ok(report)
+    let text = bounded::text(path, MOST_BYTES).map_err(|error| FileError::unreadable(path, &error))?;
+    let report = parse(&text).and_then(|report| report::check(&text).map(|()| report));
+    Ok(report.map_err(|why| FileError::whole(path, why))?)
 }
 
 /// Parses a report of this version's format.
@@ -162,12 +149,10 @@ fn parse(text: &str) -> Result<Report, String> {
 fn verdicts(a: &Report, b: &Report) -> String {
     let mut lines = Vec::new();
     for before in &a.cases {
-        match b.cases.iter().find(|case| case.name == before.name) {
-            Some(after) if after.verdict != before.verdict => {
-                lines.push(format!("{}: {} → {}", before.name, before.verdict, after.verdict));
-            }
-            Some(_) => {}
-            None => lines.push(format!("{}: {} → not in B", before.name, before.verdict)),
+        let after = b.cases.iter().find(|case| case.name == before.name);
+        if after.is_none_or(|after| after.verdict != before.verdict) {
+            let after = after.map_or("not in B".to_owned(), |after| after.verdict.to_string());
+            lines.push(format!("{}: {} → {after}", before.name, before.verdict));
         }
     }
     let new = b.cases.iter().filter(|case| !a.cases.iter().any(|other| other.name == case.name));
@@ -284,10 +269,7 @@ const LEAST_SECONDS: f64 = 0.05;
 
 fn speeds(a: &Report, b: &Report) -> ReportTable {
     type Row<'a> = (&'a str, f64, f64);
-    let cases = a.cases.iter().filter_map(|case| {
-        let other = b.cases.iter().find(|other| other.name == case.name)?;
-        Some((case.name.as_str(), case.seconds, other.seconds))
-    });
+    let cases = of_both(a, b).map(|(case, other)| (case.name.as_str(), case.seconds, other.seconds));
     let studies = a.studies.iter().filter_map(|study| {
         let other = b.studies.iter().find(|other| other.name == study.name)?;
         Some((study.name.as_str(), study.seconds, other.seconds))

@@ -152,8 +152,8 @@ pub fn at_output<E>(results: &Result<Results, E>, channel: Channel, output: usiz
     Sample { mean, se, samples }
 }
 
-/// Values that a check shares with its controls, by seed, effort and their keys: a control that is a wrong formula needs
-/// no run of its own. Only those of one run are kept.
+/// Values that a check shares with its controls, by seed, effort and their keys: a control that is a wrong formula
+/// needs no run of its own. Only those of one run are kept.
 pub(crate) struct Shared<K, T>(Mutex<BTreeMap<(u64, bool, K), Arc<T>>>);
 
 impl<K: Ord, T> Shared<K, T> {

@@ -3,8 +3,7 @@
 use super::Args;
 use crate::Failure;
 use serde_json::{Value, json};
-use shearbed_validation::files::bounded;
-use shearbed_validation::files::text::Shown;
+use shearbed_validation::files::{FileError, bounded};
 use shearbed_validation::serve::grade::live::Protocol;
 use shearbed_validation::serve::problems::LoadedProblem;
 use std::collections::BTreeMap;
@@ -28,7 +27,8 @@ pub(super) fn of_program(args: &Args, reference: Option<&Path>, wanted: &[Loaded
     Ok(json!({
         "problems": problems,
         "reference_crc32": reference,
-        "command": command(args),
+        // A list of several programs.
+        "command": if args.command.len() > 1 { json!(args.command) } else { json!(args.command.first()) },
         "protocol": args.protocol.map(Protocol::word),
         "flow": args.flow,
         "tolerances": wanted.iter().map(|loaded| loaded.problem.tolerance).collect::<Vec<_>>(),
@@ -45,11 +45,6 @@ pub(super) fn of_program(args: &Args, reference: Option<&Path>, wanted: &[Loaded
     }))
 }
 
-/// The program, or a list of several.
-fn command(args: &Args) -> Value {
-    if args.command.len() > 1 { json!(args.command) } else { json!(args.command.first()) }
-}
-
 /// The checksums of the files in each problem's folder inside `dir`, by `NAME/FILE`.
 fn checksums(dir: &Path, wanted: &[LoadedProblem]) -> Result<BTreeMap<String, String>, Failure> {
     let mut sums = BTreeMap::new();
@@ -60,8 +55,8 @@ fn checksums(dir: &Path, wanted: &[LoadedProblem]) -> Result<BTreeMap<String, St
             if !path.is_file() {
                 continue;
             }
-            let (_, crc32) = bounded::length_and_crc32(&path, MOST_BYTES)
-                .map_err(|error| Failure::Input(format!("{}: cannot be read: {error}", path.shown())))?;
+            let sum = bounded::length_and_crc32(&path, MOST_BYTES);
+            let (_, crc32) = sum.map_err(|error| FileError::unreadable(&path, &error))?;
             let file = format!("{name}/{}", entry.file_name().to_string_lossy());
             sums.insert(file, format!("{crc32:08x}"));
         }
