@@ -34,16 +34,11 @@ pub(super) fn seconds(text: &str) -> Result<Duration, String> {
 const ENDINGS: [&str; 9] = ["csv", "svg", "json", "pvd", "vtp", "html", "md", "xml", "png"];
 
 /// Checks a checkpoint's path, if there is one, and resolves its links; from then on the message after a signal says
-/// that the file is kept.
-///
-/// # Errors
-///
-/// More than one rank; a name that the results in `out` may have, whether or not these files and folders exist.
+/// that the file is kept. Refuses several ranks, and a name that results in `out` may have, whether they exist or not.
 pub(super) fn check(checkpoint: Option<&Path>, out: &Path) -> Result<Option<PathBuf>, Failure> {
     let Some(checkpoint) = checkpoint else { return Ok(None) };
     let refused = |what: &str| Failure::Input(format!("--checkpoint {}: {what}", checkpoint.shown()));
-    if cluster::size() > 1 {
-        let ranks = cluster::size();
+    if let ranks @ 2.. = cluster::size() {
         return Err(refused(&format!("{ranks} ranks; one process alone is allowed")));
     }
     let path = output::followed(checkpoint);

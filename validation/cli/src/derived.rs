@@ -41,7 +41,6 @@ pub(super) fn is_extreme(column: &str) -> bool {
     column.rsplit_once('_').is_some_and(|(_, kind)| OF_EXTREMES.contains(&kind))
 }
 
-/// True for a rate of decay, such as `x1_damping_rate`.
 pub(super) fn is_rate(column: &str) -> bool {
     column.ends_with("_damping_rate")
 }

@@ -11,7 +11,6 @@ use shearbed_validation::methods::least_squares::basis::MOST_PARAMETERS;
 use shearbed_validation::serve::fit::Range;
 use shearbed_validation::serve::sweep::Axis;
 
-/// Arguments of `plan`.
 #[derive(clap::Args)]
 #[command(after_help = "Example:\n  shearbed plan fig4-n50 --set interaction.alpha=0.3")]
 pub(super) struct PlanArgs {
@@ -69,7 +68,6 @@ fn of_keys(named: &Named, plan: &Plan, each_s: f64, over: &[Over]) -> Result<(St
     Ok((cost, sweep::warnings(&points, &axes)))
 }
 
-/// Arguments of `scenes`.
 #[derive(clap::Args)]
 #[command(after_help = "Example:\n  shearbed scenes --show fig4-n50 > mine.toml")]
 pub(super) struct ScenesArgs {
@@ -120,14 +118,12 @@ pub(super) fn scenes(args: &ScenesArgs) -> Result<(), Failure> {
     let Some(name) = &args.show else {
         return print(&table()?);
     };
-    match scenes::find(name) {
-        Some(built_in) => print(built_in.text),
-        None => {
-            let names: Vec<_> = scenes::ALL.iter().map(|built_in| built_in.name).collect();
-            let names = names.join(", ");
-            Err(Failure::Input(format!("--show {}: no built-in scene has this name; there are {names}", line(name))))
-        }
-    }
+    let Some(built_in) = scenes::find(name) else {
+        let names = scenes::ALL.iter().map(|built_in| built_in.name).collect::<Vec<_>>().join(", ");
+        let name = line(name);
+        return Err(Failure::Input(format!("--show {name}: no built-in scene has this name; there are {names}")));
+    };
+    print(built_in.text)
 }
 
 fn table() -> Result<String, Failure> {

@@ -33,7 +33,6 @@ pub(super) fn time_names(results: &Results) -> &'static [&'static str] {
     }
 }
 
-/// The cells of the time columns.
 pub(super) fn time_cells(results: &Results, time: f64, elapsed: Elapsed) -> Vec<f64> {
     let of_name = |name: &&str| match *name {
         name if name == results.time_name => time,

@@ -2,10 +2,8 @@
 
 use super::{Failure, whole};
 use shearbed_validation::files::text::complain;
-use std::ffi::OsString;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// The largest allowed number of threads.
 const MAX_THREADS: u64 = 1024;
 
 /// Rayon's own setting, which is used without `--threads`.
@@ -21,19 +19,18 @@ pub(super) struct Threads {
 
 /// Refuses a number of threads in the environment that is not allowed.
 pub(super) fn check() -> Result<(), Failure> {
-    of_environment(std::env::var_os(VARIABLE)).map(drop)
+    of_environment().map(drop)
 }
 
 /// The number of threads for a command: `given`, or that of the environment, or one for each core.
 pub(super) fn count(given: Option<u64>) -> Result<u64, Failure> {
     let cores = || std::thread::available_parallelism().map_or(1, |cores| cores.get() as u64);
-    let set = of_environment(std::env::var_os(VARIABLE))?;
-    Ok(given.or(set).unwrap_or_else(|| cores().min(MAX_THREADS)))
+    Ok(given.or(of_environment()?).unwrap_or_else(|| cores().min(MAX_THREADS)))
 }
 
 /// Parses the variable; 0 and an empty text mean one thread for each core, as for rayon.
-fn of_environment(value: Option<OsString>) -> Result<Option<u64>, Failure> {
-    let text = value.unwrap_or_default().to_string_lossy().into_owned();
+fn of_environment() -> Result<Option<u64>, Failure> {
+    let text = std::env::var_os(VARIABLE).unwrap_or_default().to_string_lossy().into_owned();
     match text.parse() {
         _ if text.is_empty() => Ok(None),
         Ok(0) => Ok(None),

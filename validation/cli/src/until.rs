@@ -49,20 +49,17 @@ pub(super) fn time_limit(text: &str) -> Result<Duration, String> {
 /// A column with its largest standard error over the outputs.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub(super) struct Reached {
-    /// The column.
     channel: String,
     /// The largest allowed standard error.
     asked: f64,
-    /// The largest standard error at any output.
+    /// The largest one at any output.
     reached: f64,
 }
 
 /// The outcome of adding replicas, for `run.json`.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub(super) struct Ended {
-    /// Number of replicas in the results.
     pub(super) replicas: u64,
-    /// True if every rule holds.
     pub(super) holds: bool,
     /// Each rule's column, with its standard error.
     columns: Vec<Reached>,
@@ -80,17 +77,12 @@ pub(super) type Look = (u64, Vec<f64>);
 pub(super) type Measure<'a> = dyn Fn(&Tally) -> Look + Sync + 'a;
 
 impl Until {
-    /// True if there is no rule.
     pub(super) fn is_empty(&self) -> bool {
         self.rules.is_empty()
     }
 
-    /// Checks the rules against a plan.
-    ///
-    /// # Errors
-    ///
-    /// A number of replicas that is given, a column that the scene does not have, a column that is named twice, or a
-    /// scene that requests rods of every replica.
+    /// Refuses rules beside a number of replicas, for a column that the scene does not have or that is named twice, and
+    /// for a scene that requests rods of every replica.
     pub(super) fn check(&self, plan: &Plan, named: &Named) -> Result<(), Failure> {
         let refused = |what: String| Err(Failure::Input(format!("{}: --until-se {what}", named.source)));
         if !self.is_empty() && named.settings.iter().any(|setting| setting.key == "ensemble.replicas") {
@@ -143,11 +135,8 @@ impl Until {
         let expected = self.ended(LEAST, self.reached(&plan, &tally), None).expected();
         let mut replicas = std::iter::successors(Some(LEAST), |replicas| Some(next(*replicas)));
         let replicas = replicas.find(|replicas| *replicas >= expected)?;
-        let words = self.words();
-        Some((
-            replicas,
-            format!("replicas: some {replicas} by a pilot of {LEAST}, until standard errors hold: {words}\n"),
-        ))
+        let until = format!("until standard errors hold: {}", self.words());
+        Some((replicas, format!("replicas: some {replicas} by a pilot of {LEAST}, {until}\n")))
     }
 
     /// The outcome with so many replicas and these standard errors, if no more are added.
@@ -208,19 +197,18 @@ fn next(replicas: u64) -> u64 {
     (replicas + (replicas / 8).max(8)).min(MAX_REPLICAS)
 }
 
-/// A column of the plan's observables.
+fn channels(plan: &Plan) -> impl Iterator<Item = Channel> {
+    plan.observables().into_iter().flat_map(|observable| observable.channels())
+}
+
 fn channel(plan: &Plan, name: &str) -> Option<Channel> {
-    let mut all = plan.observables().into_iter().flat_map(|observable| observable.channels());
-    all.find(|channel| channel.name() == name)
+    channels(plan).find(|channel| channel.name() == name)
 }
 
 fn allowed(plan: &Plan) -> String {
-    let names = plan.observables().into_iter().flat_map(|observable| observable.channels());
-    let names: Vec<_> = names.map(Channel::name).collect();
+    let names: Vec<_> = channels(plan).map(Channel::name).collect();
     match names.as_slice() {
-        [first, .., last] if names.len() > 24 => {
-            format!("allowed: {first} to {last}, the columns of its tables")
-        }
+        [first, .., last] if names.len() > 24 => format!("allowed: {first} to {last}, the columns of its tables"),
         _ => format!("allowed: {}; output.observables adds others", names.join(", ")),
     }
 }
@@ -235,8 +223,7 @@ impl Ended {
 
     /// A text on each rule, with the standard error reached and the allowed one.
     pub(super) fn text(&self) -> String {
-        let of = |column: &Reached| {
-            let Reached { channel, asked, reached } = column;
+        let of = |Reached { channel, asked, reached }: &Reached| {
             format!("largest standard error of {channel}: {:?}, asked for: {asked:?}", two_digits(*reached))
         };
         self.columns.iter().map(of).collect::<Vec<_>>().join("; ")
@@ -271,7 +258,6 @@ impl Ended {
     }
 }
 
-/// A number rounded to two digits.
 fn two_digits(value: f64) -> f64 {
     format!("{value:.1e}").parse().unwrap_or(value)
 }
