@@ -1,16 +1,14 @@
 //! `shearbed bench`: runs the studies that have named parts, alone and with longer measurements.
 
 use super::finished::{Finished, measured};
-use super::{Failure, Writing, checkpoint, on_threads, print, progress, result_folder, write};
+use super::{Failure, Writing, checkpoint, on_threads, progress, refuse, result_folder};
 use serde_json::json;
-use shearbed_validation::files::text::Shown;
 use shearbed_validation::judge::case::Effort;
 use shearbed_validation::present::plot;
 use shearbed_validation::present::study::Request;
 use shearbed_validation::studies;
 use std::path::PathBuf;
 
-/// Arguments of `bench`.
 #[derive(clap::Args)]
 #[command(after_help = "Example:\n  shearbed bench --case re11.6")]
 pub(super) struct Args {
@@ -32,11 +30,10 @@ pub(super) struct Args {
 pub(super) fn bench(args: &Args) -> Result<(), Failure> {
     check(&args.cases)?;
     let wanted = |name: &str| args.cases.is_empty() || args.cases.iter().any(|case| case == name);
-    let origin = ("bench", json!({ "cases": args.cases }), args.writing.force);
-    let path = checkpoint::check(args.checkpoint.as_deref(), &args.out)?;
-    let folder = result_folder(&args.out, origin, 0, &[""; 0])?;
     let input = json!({ "cases": args.cases });
-    let finished = Finished::open(path.as_deref(), "bench", input, args.writing.quiet)?;
+    let path = checkpoint::check(args.checkpoint.as_deref(), &args.out)?;
+    let folder = result_folder(&args.out, ("bench", input.clone(), args.writing.force), 0, &[""; 0])?;
+    let finished = Finished::open(path.as_deref(), "bench", input, &args.writing)?;
     let effort = Effort { full: true, ..Effort::gate() };
     let (mut files, mut tables) = (Vec::new(), String::new());
     let bar = progress(1, "", args.writing.quiet);
@@ -58,21 +55,13 @@ pub(super) fn bench(args: &Args) -> Result<(), Failure> {
         }
     }
     bar.finish_and_clear();
-    let names: Vec<_> = files.iter().map(|(name, _)| name.clone()).collect();
-    let replaced = write(&folder, files)?;
-    if args.writing.quiet {
-        return Ok(());
-    }
-    print(&format!("{tables}in {}: {}\n{replaced}", args.out.shown(), names.join(", ")))
+    args.writing.write(&folder, files, &tables)
 }
 
 /// Refuses names that no bench has; `names` are the arguments of `--case`.
 fn check(names: &[String]) -> Result<(), Failure> {
     let known: Vec<_> = studies::ALL.iter().flat_map(|study| study.parts).copied().collect();
-    match names.iter().find(|name| !known.contains(&name.as_str())) {
-        Some(unknown) => {
-            Err(Failure::Input(format!("--case {unknown}: no bench has this name; there are {}", known.join(", "))))
-        }
-        None => Ok(()),
-    }
+    refuse(names.iter().find(|name| !known.contains(&name.as_str())), |unknown| {
+        format!("--case {unknown}: no bench has this name; there are {}", known.join(", "))
+    })
 }

@@ -1,6 +1,6 @@
 //! The choice of cases for `validate`: by name, by tag, or all.
 
-use super::Failure;
+use super::{Failure, refuse};
 use shearbed::plan::counted;
 use shearbed_validation::cases;
 use shearbed_validation::input::scenes::near;
@@ -10,19 +10,15 @@ use shearbed_validation::judge::case::Case;
 pub(super) fn chosen(names: &[String], tags: &[String]) -> Result<Vec<Case>, Failure> {
     let mut all = cases::all();
     let known: Vec<_> = all.iter().map(|case| case.about.name.to_owned()).collect();
-    for name in names {
-        if !known.contains(name) {
-            return Err(unknown("--case", name, "no case has this name", &known, LIST));
-        }
-    }
+    refuse(names.iter().find(|name| !known.contains(name)), |name| {
+        unknown("--case", name, "no case has this name", &known, LIST)
+    })?;
     let mut known: Vec<String> = all.iter().flat_map(|case| case.about.tags()).collect();
     known.sort();
     known.dedup();
-    for tag in tags {
-        if !known.contains(tag) {
-            return Err(unknown("--tag", tag, "no case has this tag", &known, LIST));
-        }
-    }
+    refuse(tags.iter().find(|tag| !known.contains(tag)), |tag| {
+        unknown("--tag", tag, "no case has this tag", &known, LIST)
+    })?;
     let tagged = |case: &Case| case.about.tags().iter().any(|tag| tags.contains(tag));
     let named = |case: &Case| names.iter().any(|name| name == case.about.name);
     all.retain(|case| (names.is_empty() && tags.is_empty()) || named(case) || tagged(case));
@@ -32,17 +28,15 @@ pub(super) fn chosen(names: &[String], tags: &[String]) -> Result<Vec<Case>, Fai
 /// The command that lists the cases.
 const LIST: &str = "shearbed validate --list";
 
-/// The error for a word after a flag that is none of the `known` ones, all of which `list` prints.
-pub(super) fn unknown(flag: &str, word: &str, what: &str, known: &[String], list: &str) -> Failure {
+/// Why a word after a flag is refused that is none of the `known` ones, all of which `list` prints.
+pub(super) fn unknown(flag: &str, word: &str, what: &str, known: &[String], list: &str) -> String {
     let near = near(word, known.iter().map(String::as_str));
     let suggested = match near.split_first() {
         None => ".".to_owned(),
         Some((nearest, [])) => format!("; did you mean {nearest}?"),
-        Some((nearest, rest)) => {
-            format!("; did you mean {nearest}? Others that are near: {}.", rest.join(", "))
-        }
+        Some((nearest, rest)) => format!("; did you mean {nearest}? Others that are near: {}.", rest.join(", ")),
     };
-    Failure::Input(format!("{flag} {word}: {what}{suggested} `{list}` has all"))
+    format!("{flag} {word}: {what}{suggested} `{list}` has all")
 }
 
 /// The list of cases: name and tags, then the claim on a line of its own.
@@ -51,9 +45,6 @@ pub(super) fn list(cases: &[Case]) -> String {
         let about = &case.about;
         format!("{:<28} [{}]\n    {}\n", about.name, about.tags().join(" "), about.claim)
     };
-    let cases_by_line: String = cases.iter().map(line).collect();
-    format!(
-        "{cases_by_line}\n{}. Tags: what a case judges, and the equations that it tests.\n",
-        counted(cases.len() as u64, "case")
-    )
+    let (lines, count) = (cases.iter().map(line).collect::<String>(), counted(cases.len() as u64, "case"));
+    format!("{lines}\n{count}. Tags: what a case judges, and the equations that it tests.\n")
 }

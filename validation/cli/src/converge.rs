@@ -2,8 +2,8 @@
 
 use super::scene::{Chosen, Ensemble};
 use super::{
-    Failure, Threads, Writing, agree, duration, memory, on_threads, print, progress, result_folder, scene,
-    spares_inputs, whole, write,
+    Failure, Threads, Writing, agree, duration, memory, on_threads, progress, refuse, result_folder, scene,
+    spares_inputs, whole,
 };
 use serde::Serialize;
 use serde_json::json;
@@ -12,7 +12,7 @@ use shearbed::model::jeffery::strain_per_period;
 use shearbed::plan::Stage;
 use shearbed::scene::{MAX_REPLICAS, resolved_strain};
 use shearbed_validation::files::output::Output;
-use shearbed_validation::files::text::{Shown, complain};
+use shearbed_validation::files::text::complain;
 use shearbed_validation::files::{build, cluster};
 use shearbed_validation::present::plot;
 use shearbed_validation::present::table::{ReportTable, rows_csv};
@@ -25,7 +25,6 @@ use shearbed_validation::studies::work_precision::rows::orders_csv;
 use shearbed_validation::studies::work_precision::study::{orders_figure, orders_table};
 use std::path::{Path, PathBuf};
 
-/// Arguments of `converge`.
 #[derive(clap::Args)]
 #[command(after_help = "Example:\n  shearbed converge fig4-n50 --replicas 20")]
 pub(super) struct Args {
@@ -52,15 +51,13 @@ pub(super) fn converge(args: &Args) -> Result<(), Failure> {
     let plan = named.plan()?;
     if plan.runs(Stage::Contacts) && !law::judges(&plan) {
         let (key, steps) = (named.scene.time.unit.steps_key(), named.scene.steps_per_unit());
+        let (half, quarter) = (2 * steps, 4 * steps);
         return Err(Failure::Input(at(format!(
             "converge of interacting rods needs plane Couette flow, only ∂u_2/∂x_1 other than 0, time.periods and no \
-             particles.rods; else halve the time step and compare: sweep --over {key}={steps},{},{}",
-            2 * steps,
-            4 * steps
+             particles.rods; else halve the time step and compare: sweep --over {key}={steps},{half},{quarter}"
         ))));
     }
-    let stem = format!("converge-{}", named.stem);
-    let out = (args.out.clone()).unwrap_or_else(|| Path::new("out").join(stem));
+    let out = (args.out.clone()).unwrap_or_else(|| Path::new("out").join(format!("converge-{}", named.stem)));
     let input = json!({ "scene": named.scene.resolved(), "replicas": args.replicas });
     agree("converge", input.clone())?;
     let names = ["converge.csv", "converge.svg", "converge.json", "replicas.csv"];
@@ -84,19 +81,14 @@ pub(super) fn converge(args: &Args) -> Result<(), Failure> {
     let Some(done) = done else {
         return Ok(());
     };
-    let names: Vec<_> = done.files.iter().map(|(name, _)| name.clone()).collect();
-    let replaced = write(&folder, done.files)?;
-    if !args.writing.quiet {
-        let text: String = done.tables.iter().map(ReportTable::for_terminal).collect();
-        print(&format!("{text}in {}: {}\n{replaced}", out.shown(), names.join(", ")))?;
-    }
+    let text: String = done.tables.iter().map(ReportTable::for_terminal).collect();
+    args.writing.write(&folder, done.files, &text)?;
     match done.wrong {
         None => Ok(()),
         Some(names) => Err(Failure::Failed(at(format!("the observed order is not that of theory: {names}")))),
     }
 }
 
-/// The results of a study.
 struct Done {
     tables: Vec<ReportTable>,
     files: Vec<Output>,
@@ -118,12 +110,9 @@ fn free(scene: &Scene) -> Result<Done, Failure> {
             "flow: converge compares integrators of free rods in plane Couette flow; give shear_rate_per_s".into(),
         ));
     }
-    let d_r = scene.particles.rotary_diffusion_per_s;
-    if d_r > 0.0 {
-        return Err(Failure::Input(format!(
-            "particles.rotary_diffusion_per_s = {d_r}: converge compares integrators of free rods; 0 is allowed"
-        )));
-    }
+    refuse(Some(scene.particles.rotary_diffusion_per_s).filter(|d_r| *d_r > 0.0), |d_r| {
+        format!("particles.rotary_diffusion_per_s = {d_r}: converge compares integrators of free rods; 0 is allowed")
+    })?;
     let orders = order::of_scene(scene).ok_or_else(|| {
         Failure::Input("time: converge compares integrators of free rods over periods; give periods".into())
     })?;
@@ -139,14 +128,12 @@ fn free(scene: &Scene) -> Result<Done, Failure> {
 
 /// A sentence where the scene ends at another time than the study's runs.
 fn other_end(scene: &Scene) -> Vec<String> {
-    let periods = scene.time.duration;
-    let other = (periods != 1.0).then(|| {
-        format!(
-            "time.periods = {periods} is not used: every run of this study ends after one period, whose means it \
-             compares"
-        )
-    });
-    other.into_iter().collect()
+    let periods = Some(scene.time.duration).filter(|periods| *periods != 1.0);
+    let said = |periods| {
+        let why = "every run of this study ends after one period, whose means it compares";
+        format!("time.periods = {periods} is not used: {why}")
+    };
+    periods.map(said).into_iter().collect()
 }
 
 /// A sentence on the tried steps that are coarser than the default.

@@ -1,6 +1,6 @@
 //! The checkpoint of `validate` and `bench`: their finished cases and studies.
 
-use super::{Failure, print};
+use super::{Failure, Writing};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use shearbed_validation::files::checkpoint::{Checkpoint, on_stop};
@@ -40,7 +40,7 @@ impl Finished {
         path: Option<&Path>,
         command: &'static str,
         input: Value,
-        quiet: bool,
+        writing: &Writing,
     ) -> Result<Option<Self>, Failure> {
         let Some(path) = path else { return Ok(None) };
         let file = Checkpoint::open(path, command, input)?;
@@ -48,11 +48,10 @@ impl Finished {
         file.write(&state)?;
         let path = path.display().to_string();
         let counted = [(state.cases.len(), "cases"), (state.studies.len(), "studies")];
-        let counted: Vec<_> = (counted.iter().filter(|(count, _)| *count > 0))
-            .map(|(count, of)| format!("finished {of}: {count}"))
-            .collect();
-        if !counted.is_empty() && !quiet {
-            print(&format!("goes on from {path}: {}\n", counted.join(", ")))?;
+        let counted = counted.iter().filter(|(count, _)| *count > 0);
+        let counted: Vec<_> = counted.map(|(count, of)| format!("finished {of}: {count}")).collect();
+        if !counted.is_empty() {
+            writing.print(&format!("goes on from {path}: {}\n", counted.join(", ")))?;
         }
         let count = Arc::new(AtomicUsize::new(state.cases.len() + state.studies.len()));
         let kept = count.clone();
@@ -158,7 +157,8 @@ mod tests {
     fn what_is_finished_is_there_again_and_nothing_else() {
         let dir = tempfile::tempdir().unwrap();
         let path = dir.path().join("kept");
-        let open = || Finished::open(Some(&path), "validate", json!({ "seed": 1 }), true).unwrap().unwrap();
+        let quiet = Writing { force: false, quiet: true };
+        let open = || Finished::open(Some(&path), "validate", json!({ "seed": 1 }), &quiet).unwrap().unwrap();
         let ended: CaseResult = (Verdict::Pass, Vec::new(), Vec::new(), 0.3);
         let first = open();
         let study = measured(Some(&first), "figures", || Ok(Some(found()))).unwrap();

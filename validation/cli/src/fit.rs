@@ -7,7 +7,7 @@ mod terminal;
 
 use super::duration::{Long, USUAL_ROUNDS, nodes};
 use super::{
-    Failure, Threads, Writing, checkpoint, log_progress, number, on_threads, print, progress, result_folder, scene,
+    Failure, Threads, Writing, checkpoint, log_progress, number, on_threads, progress, result_folder, scene,
     spares_inputs, whole,
 };
 use advice::{of_fit, of_scene, of_warning};
@@ -19,6 +19,7 @@ use shearbed::scene::{MAX_REPLICAS, MAX_SEED};
 use shearbed_validation::files::build::BUILD;
 use shearbed_validation::files::output::{Output, ResultFolder};
 use shearbed_validation::files::text::{self, Shown, command};
+use shearbed_validation::files::{FileError, bounded};
 use shearbed_validation::input::experiment::MOST_BYTES;
 use shearbed_validation::methods::least_squares::Datum;
 use shearbed_validation::methods::least_squares::direct::Direct;
@@ -42,7 +43,6 @@ use std::time::Duration;
 /// The default of the largest number of replicas at each value of the parameters.
 pub(super) const MOST_REPLICAS: u64 = 1000;
 
-/// Arguments of `fit`.
 #[derive(clap::Args)]
 #[command(override_usage = "shearbed fit <SCENE> --data <FILE.csv> [--over <KEY=FROM:TO>] [OPTIONS]")]
 #[command(after_help = "\
@@ -133,8 +133,8 @@ pub(super) fn fit(args: &Args) -> Result<(), Failure> {
     let scenes = json!({ "scenes": scenes.collect::<Vec<_>>() });
     let open = |path: PathBuf| Runs::open(&path, args.kept.every(), scenes);
     let runs = path.map(open).transpose()?;
-    if let Some(runs) = runs.as_ref().filter(|runs| runs.count() > 0 && !args.writing.quiet) {
-        print(&format!("goes on from {}\n", counted(runs.count() as u64, "finished run")))?;
+    if let Some(runs) = runs.as_ref().filter(|runs| runs.count() > 0) {
+        args.writing.print(&format!("goes on from {}\n", counted(runs.count() as u64, "finished run")))?;
     }
     input.scenes = input.scenes.with_runs(runs.clone());
     let bar = progress(0, "runs", args.writing.quiet);
@@ -153,14 +153,10 @@ pub(super) fn fit(args: &Args) -> Result<(), Failure> {
 /// Refuses a fit that may take days: as many replicas as are asked for at each value, at the ends of the ranges. The
 /// default is a limit that few fits reach: with it the first replicas of the usual ranges count.
 fn check_duration(args: &Args, input: &Input) -> Result<(), Failure> {
-    let ends = [|range: &Range| range.from, |range: &Range| range.to];
-    let plans = |end: &fn(&Range) -> f64| {
-        let values: Vec<f64> = args.over.iter().map(end).collect();
-        input.scenes.plans(&values, &input.data, AS_WRITTEN).map_err(|error| Failure::Input(of_scene(&error)))
-    };
-    let plans: Vec<_> = ends.iter().map(plans).collect::<Result<Vec<_>, _>>()?.concat();
     let replicas = if args.replicas == MOST_REPLICAS { USUAL_ROUNDS * FIRST_REPLICAS } else { args.replicas };
-    let runs = nodes(args.over.len()) * replicas / ends.len() as u64;
+    // Half of them at each end.
+    let runs = nodes(args.over.len()) * replicas / 2;
+    let plans = input.plans_at_ends(&args.over)?;
     let cost: Vec<_> = plans.iter().map(|plan| (plan, runs)).collect();
     args.long.check(&input.stem, args.threads.given, &cost)
 }
@@ -184,15 +180,13 @@ fn write(args: &Args, input: &Input, folder: &ResultFolder, asked: &Value, done:
     let names = names.join(", ");
     let replaced = crate::write(folder, files.into_iter().chain([(FIT.into(), record)]).collect())?;
     scene::warn(&input.stem, input.warnings.iter().chain(&done.warnings));
-    if args.writing.quiet {
-        return Ok(());
-    }
     let design = done.report.design.as_ref();
     let design =
         done.fit.as_ref().zip(design).map_or(String::new(), |(fit, steps)| terminal::design(fit, steps, &times) + "\n");
     let table = done.fit.as_ref().map_or(String::new(), |fit| terminal::table(fit, &done.report) + "\n");
     let (sentence, tests) = (terminal::sentence(done.fit.as_ref(), &done.report), terminal::tests(&done.report));
-    print(&format!("{sentence}\n{tests}\n{table}{design}in {}: {names}\n{replaced}", folder.dir().shown()))
+    let place = folder.dir().shown();
+    args.writing.print(&format!("{sentence}\n{tests}\n{table}{design}in {place}: {names}\n{replaced}"))
 }
 
 /// Tables and pictures.
@@ -272,9 +266,7 @@ fn as_written(input: &Input, problem: &FitProblem<'_>, watch: &Watch<'_>) -> Res
 
 /// The warnings of the scenes' plans with these values, each once.
 fn of_plans(input: &Input, values: &[f64]) -> Result<Vec<String>, Failure> {
-    let plans = input.scenes.plans(values, &input.data, AS_WRITTEN);
-    let plans = plans.map_err(|error| Failure::Input(of_scene(&error)))?;
-    let mut all: Vec<String> = plans.iter().flat_map(Plan::warnings).collect();
+    let mut all: Vec<String> = input.plans(values)?.iter().flat_map(Plan::warnings).collect();
     all.dedup();
     Ok(all)
 }
@@ -283,8 +275,8 @@ fn of_plans(input: &Input, values: &[f64]) -> Result<Vec<String>, Failure> {
 fn asked(args: &Args, input: &Input) -> Result<Value, Failure> {
     let mut data = Vec::new();
     for (set, path) in input.scenes.sets.iter().zip(&input.files) {
-        let (_, crc32) = shearbed_validation::files::bounded::length_and_crc32(path, MOST_BYTES)
-            .map_err(|error| Failure::Input(format!("{}: cannot be read: {error}", path.shown())))?;
+        let sum = bounded::length_and_crc32(path, MOST_BYTES);
+        let (_, crc32) = sum.map_err(|error| FileError::unreadable(path, &error))?;
         data.push(json!({
             "scene": set.source, "file": path.display().to_string(), "crc32": crc32, "time": set.time,
             "seed": set.seed, "scene_text": set.text, "starts": set.starts.checksums()

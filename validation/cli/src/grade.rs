@@ -8,8 +8,9 @@ mod tolerances;
 pub(super) use args::Args;
 
 use super::choice::unknown as unknown_name;
-use super::{Failure, print, spares_inputs, write};
+use super::{Failure, refuse, spares_inputs, write};
 use serde_json::Value;
+use shearbed_validation::files::FileError;
 use shearbed_validation::files::output::{self, RECORD, Record, ResultFolder};
 use shearbed_validation::files::text::Shown;
 use shearbed_validation::present::plot::{self, Figure};
@@ -47,8 +48,7 @@ pub(super) fn grade(args: &Args) -> Result<(), Failure> {
     if let Some(dir) = &args.reference
         && let Ok(Some(record)) = Record::read(dir)
     {
-        let incomplete = |why: String| Failure::Input(format!("{}: {why}", dir.join(RECORD).shown()));
-        record.is_complete().map_err(incomplete)?;
+        record.is_complete().map_err(|why| FileError::whole(dir.join(RECORD), why))?;
     }
     if args.command.len() > 1 {
         return several::compare(args);
@@ -56,12 +56,9 @@ pub(super) fn grade(args: &Args) -> Result<(), Failure> {
     let (mut report, wanted, inputs) = match (args.command.first(), &args.reference, &args.mine) {
         (Some(command), reference, _) => program(args, command, reference.as_deref())?,
         (None, Some(reference), Some(mine)) => files(args, reference, mine)?,
-        _ => {
-            return Err(Failure::Input("give REF and MINE, or --command".to_owned()));
-        }
+        _ => return Err(Failure::Input("give REF and MINE, or --command".to_owned())),
     };
-    let axes = axes(args, &report);
-    report.remarks.extend(axes);
+    report.remarks.extend(axes(args, &report));
     let pictures = pictures(&report, &wanted).map_err(Failure::Failed)?;
     let svg = pictures.iter().filter(|(name, _)| name.ends_with(".svg"));
     let inside: Vec<_> = svg.map(|(_, svg)| svg.as_str()).collect();
@@ -69,12 +66,9 @@ pub(super) fn grade(args: &Args) -> Result<(), Failure> {
     let pages = [grade::json(&report).map_err(Failure::Failed)?, html, grade::markdown(&report), grade::junit(&report)];
     let mut files: Vec<_> = PAGES.map(str::to_owned).into_iter().zip(pages).collect();
     files.extend(pictures);
-    let folder = folder(args, inputs);
-    let replaced = write(&folder, files)?;
-    if !args.writing.quiet {
-        let place = args.out.join("grade.html");
-        print(&format!("{}\nreport: {}\n{replaced}", grade::terminal(&report), place.shown()))?;
-    }
+    let replaced = write(&folder(args, inputs), files)?;
+    let place = args.out.join("grade.html");
+    args.writing.print(&format!("{}\nreport: {}\n{replaced}", grade::terminal(&report), place.shown()))?;
     if report.passes() {
         Ok(())
     } else {
@@ -89,10 +83,10 @@ fn axes(args: &Args, report: &Report) -> Option<String> {
     if in_time.iter().all(|graded| graded.verdict == grade::Verdict::Pass) {
         return None;
     }
+    // What is said of all stands for what is said of each.
     let of_problems = in_time.iter().filter_map(|graded| graded.diagnosis.as_ref());
-    let all =
-        if report.diagnosis.is_empty() { of_problems.collect() } else { report.diagnosis.iter().collect::<Vec<_>>() };
-    let after = all.iter().find_map(|said| said.split_once(grade::LAID_OUT))?;
+    let of_problems = of_problems.filter(|_| report.diagnosis.is_empty());
+    let after = report.diagnosis.iter().chain(of_problems).find_map(|said| said.split_once(grade::LAID_OUT))?;
     if args.axes != Axes::default() {
         return Some("--axes was given: grade without it if the answers are in the problem's own axes".to_owned());
     }
@@ -100,7 +94,6 @@ fn axes(args: &Args, report: &Report) -> Option<String> {
     Some(format!("if these are your axes: --axes {axes}"))
 }
 
-/// The folder of the report.
 fn folder(args: &Args, inputs: Value) -> ResultFolder {
     ResultFolder::new(&args.out, "grade", inputs, args.writing.force)
 }
@@ -164,9 +157,9 @@ fn a_star_stands_for_any_part_of_a_name() {
 
 /// Refuses a word after `--problem` that means none of `names`.
 fn check_names(args: &Args, names: &[String]) -> Result<(), Failure> {
-    let unknown = args.problems.iter().find(|word| !names.iter().any(|name| is_meant(word, name)));
-    let refused = |word| unknown_name("--problem", word, "no problem has this name", names, "shearbed problems");
-    unknown.map_or(Ok(()), |word| Err(refused(word)))
+    refuse(args.problems.iter().find(|word| !names.iter().any(|name| is_meant(word, name))), |word| {
+        unknown_name("--problem", word, "no problem has this name", names, "shearbed problems")
+    })
 }
 
 /// The problems to grade.
@@ -196,7 +189,7 @@ fn files(args: &Args, reference: &Path, mine: &Path) -> Result<Done, Failure> {
     check_names(args, &names)?;
     let wanted = tolerances::with(&args.tolerances, chosen(args, all)?)?;
     if !mine.is_dir() {
-        return Err(Failure::Input(format!("{}: no such folder; answers are asked for in MINE/NAME", mine.shown())));
+        return Err(FileError::whole(mine, "no such folder; answers are asked for in MINE/NAME").into());
     }
     output::probe(&args.out, 0)?;
     let problems = grade::grade(&wanted, mine, &options(args));
@@ -277,19 +270,20 @@ fn asked(args: &Args, reference: Option<&Path>) -> Result<Vec<LoadedProblem>, Fa
     check_names(args, &names(&all))?;
     all.retain(is_wanted);
     let wanted = chosen(args, all)?;
-    let tables = wanted.iter().find(|loaded| loaded.problem.kind != Kind::Rods);
-    let refused = match wanted.iter().find(|loaded| !live::can_be_asked(&loaded.problem)) {
-        Some(loaded) => {
-            Some((loaded, "a program that runs is not asked about it; answers go into files (grade REF MINE)"))
-        }
-        None => {
-            tables.filter(|_| args.protocol == Some(Protocol::Text)).map(|loaded| (loaded, "it needs lines of JSON"))
-        }
+    let refused = |is: &dyn Fn(&LoadedProblem) -> bool, why: &str| {
+        refuse(wanted.iter().find(|loaded| is(loaded)), |loaded| format!("--problem {}: {why}", loaded.problem.name))
     };
-    match refused {
-        Some((loaded, why)) => Err(Failure::Input(format!("--problem {}: {why}", loaded.problem.name))),
-        None => Ok(wanted),
-    }
+    let in_files = "a program that runs is not asked about it; answers go into files (grade REF MINE)";
+    refused(&|loaded| !live::can_be_asked(&loaded.problem), in_files)?;
+    let in_text = args.protocol == Some(Protocol::Text);
+    refused(&|loaded| in_text && loaded.problem.kind != Kind::Rods, "it needs lines of JSON")?;
+    Ok(wanted)
+}
+
+fn started(args: &Args, command: &str) -> Result<Program, Failure> {
+    let timeout = Duration::from_secs_f64(args.timeout);
+    let program = Program::start(command, args.protocol.unwrap_or_default(), timeout);
+    Ok(program.map_err(|error| Failure::Input(format!("--command {error}")))?.with_axes(args.axes))
 }
 
 fn program(args: &Args, command: &str, reference: Option<&Path>) -> Result<Done, Failure> {
@@ -297,10 +291,7 @@ fn program(args: &Args, command: &str, reference: Option<&Path>) -> Result<Done,
     let inputs = inputs::of_program(args, reference, &wanted)?;
     output::probe(&args.out, 0)?;
     folder(args, inputs.clone()).check(&[&PAGES[..], &PICTURES].concat())?;
-    let timeout = Duration::from_secs_f64(args.timeout);
-    let program = Program::start(command, args.protocol.unwrap_or_default(), timeout)
-        .map_err(|error| Failure::Input(format!("--command {error}")))?
-        .with_axes(args.axes);
+    let program = started(args, command)?;
     // A code for tensors alone has no first question about a rod.
     let rods = wanted.iter().any(|loaded| loaded.problem.kind == Kind::Rods);
     let (program, mode) = if rods { live::prepared(program, args.protocol.is_none()) } else { (program, Mode::Steps) };

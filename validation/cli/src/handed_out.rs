@@ -9,7 +9,6 @@ use shearbed_validation::files::output::{Output, ResultFolder};
 use shearbed_validation::files::text::Shown;
 use std::path::PathBuf;
 
-/// Arguments of `completions`.
 #[derive(clap::Args)]
 #[command(after_help = "Example:\n  shearbed completions bash > shearbed.bash")]
 pub(super) struct Completions {
@@ -17,7 +16,6 @@ pub(super) struct Completions {
     shell: Shell,
 }
 
-/// Arguments of `man`.
 #[derive(clap::Args)]
 #[command(after_help = "Example:\n  shearbed man man1")]
 pub(super) struct Man {
@@ -27,14 +25,12 @@ pub(super) struct Man {
     writing: Writing,
 }
 
-/// Prints the completion script for a shell.
 pub(super) fn completions(args: &Completions) -> Result<(), Failure> {
     let mut script = Vec::new();
     clap_complete::generate(args.shell, &mut Cli::command(), "shearbed", &mut script);
     print(&String::from_utf8_lossy(&script))
 }
 
-/// Writes the manual pages.
 pub(super) fn man(args: &Man) -> Result<(), Failure> {
     let mut command = Cli::command().disable_help_subcommand(true);
     command.build();
@@ -43,7 +39,7 @@ pub(super) fn man(args: &Man) -> Result<(), Failure> {
     let names: Vec<_> = pages.iter().map(|(name, _)| name.clone()).collect();
     let folder = ResultFolder::new(&args.dir, "man", json!({}), args.writing.force).as_argument();
     folder.write(pages)?;
-    if args.writing.quiet { Ok(()) } else { print(&format!("in {}: {}\n", args.dir.shown(), names.join(", "))) }
+    args.writing.print(&format!("in {}: {}\n", args.dir.shown(), names.join(", ")))
 }
 
 /// Adds the page of a command, then those of its subcommands.

@@ -23,7 +23,6 @@ mod handed_out;
 mod interrupt;
 mod manual;
 mod memory;
-mod owner;
 mod pictures;
 mod plot;
 mod problems;
@@ -110,7 +109,6 @@ enum Command {
     Man(handed_out::Man),
 }
 
-/// The reason why a command failed.
 #[derive(Debug)]
 enum Failure {
     /// Bad input or usage, a scene that cannot be computed, or a file that cannot be read or written.
@@ -164,14 +162,15 @@ pub fn main_of(program: Vec<OsString>, arguments: Vec<OsString>) -> u8 {
         Err(error) => return print_usage(&error),
     };
     interrupt::watch();
-    match command(cli.command).map_err(Failure::message_and_code) {
-        Ok(()) => 0,
-        Err((message, code)) => {
-            terminal::clear();
-            cluster::failed(&message, code);
-            code
-        }
-    }
+    command(cli.command).map_or_else(complained, |()| 0)
+}
+
+/// Prints why a command failed; returns the exit code.
+fn complained(failure: Failure) -> u8 {
+    terminal::clear();
+    let (message, code) = failure.message_and_code();
+    cluster::failed(&message, code);
+    code
 }
 
 /// Runs a command, without its name as the first word, inside another program: no signal is watched for. An error has
@@ -179,8 +178,7 @@ pub fn main_of(program: Vec<OsString>, arguments: Vec<OsString>) -> u8 {
 pub fn call(arguments: Vec<OsString>) -> Result<(), (String, u8)> {
     let cli =
         Cli::try_parse_from(with_name(arguments)).map_err(|error| (error.to_string(), error.exit_code() as u8))?;
-    let ended = command(cli.command).map_err(Failure::message_and_code);
-    ended.map_err(|(message, code)| (text::message(&message), code))
+    command(cli.command).map_err(Failure::message_and_code).map_err(|(message, code)| (text::message(&message), code))
 }
 
 /// The picture that `shearbed plot` draws for these folders; the error says why there is none.
@@ -217,14 +215,12 @@ fn on_one_line(error: &clap::Error, message: String) -> String {
 
 /// Prints what is wrong with the arguments, or the help; returns the exit code.
 fn print_usage(error: &clap::Error) -> u8 {
-    let (message, code) = (error.to_string(), error.exit_code());
+    let (message, code) = (error.to_string(), error.exit_code() as u8);
     if error.use_stderr() {
-        complain(&text::message(&on_one_line(error, message)))
-    } else if let Err((message, code)) = print(&message).map_err(Failure::message_and_code) {
-        cluster::failed(&message, code);
+        complain(&text::message(&on_one_line(error, message)));
         return code;
     }
-    code as u8
+    print(&message).map_or_else(complained, |()| code)
 }
 
 impl Command {
@@ -299,6 +295,20 @@ struct Writing {
     quiet: bool,
 }
 
+impl Writing {
+    /// Prints, unless nothing but errors and warnings is wanted.
+    fn print(&self, text: &str) -> Result<(), Failure> {
+        if self.quiet { Ok(()) } else { print(text) }
+    }
+
+    /// Writes the results of a command, and prints `text` with their names.
+    fn write(&self, folder: &ResultFolder, files: Vec<Output>, text: &str) -> Result<(), Failure> {
+        let names = files.iter().map(|(name, _)| name.clone()).collect::<Vec<_>>().join(", ");
+        let replaced = write(folder, files)?;
+        self.print(&format!("{text}in {}: {names}\n{replaced}", folder.dir().shown()))
+    }
+}
+
 /// The folder for a command's results. Before the work the root checks that `bytes` bytes and a little more can be
 /// written, and that no other file has one of these names.
 fn result_folder<N: AsRef<str>>(
@@ -307,9 +317,11 @@ fn result_folder<N: AsRef<str>>(
     bytes: u64,
     names: &[N],
 ) -> Result<ResultFolder, Failure> {
+    /// Additional bytes for pictures and records.
+    const MORE: u64 = 1 << 20;
     let folder = ResultFolder::new(dir, command, inputs, force);
-    probe(dir, bytes)?;
     if cluster::is_root() {
+        output::probe(dir, bytes + MORE)?;
         folder.check(names)?;
     }
     Ok(folder)
@@ -343,21 +355,16 @@ fn spares(
 ) -> Result<(), Failure> {
     let there = |path: &Path| path.canonicalize().ok();
     let results: Vec<_> = targets.into_iter().filter_map(|target| there(&target)).collect();
-    match inputs.into_iter().find(|input| there(input).is_some_and(|input| results.contains(&input))) {
-        Some(input) => Err(Failure::Input(format!(
-            "{}: a result would replace {}, which this command reads; give another",
-            out.shown(),
-            input.shown()
-        ))),
-        None => Ok(()),
-    }
+    let read = inputs.into_iter().find(|input| there(input).is_some_and(|input| results.contains(&input)));
+    refuse(read, |input| {
+        let (out, input) = (out.shown(), input.shown());
+        format!("{out}: a result would replace {input}, which this command reads; give another")
+    })
 }
 
-/// Checks on the root that `bytes` bytes and a little more can be written to a folder.
-fn probe(dir: &Path, bytes: u64) -> Result<(), Failure> {
-    /// Additional bytes for pictures and records.
-    const MORE: u64 = 1 << 20;
-    if cluster::is_root() { Ok(output::probe(dir, bytes + MORE)?) } else { Ok(()) }
+/// Refuses what was found, if anything was; `why` says what it is and what is allowed.
+fn refuse<T>(found: Option<T>, why: impl FnOnce(T) -> String) -> Result<(), Failure> {
+    found.map_or(Ok(()), |found| Err(Failure::Input(why(found))))
 }
 
 /// Refuses ranks whose inputs differ from the root's, before anything runs.

@@ -2,7 +2,7 @@
 
 mod available;
 
-use super::{Failure, rods, tables, threads};
+use super::{Failure, refuse, rods, tables, threads};
 use available::available;
 use shearbed::Plan;
 use shearbed::run::memory;
@@ -22,14 +22,11 @@ pub(super) fn check_start(on_threads: bool) -> Result<(), Failure> {
     const EACH_THREAD: u64 = 16 << 20;
     let threads = if on_threads { WITH_THREADS + threads::count(None)?.min(16) * EACH_THREAD } else { 0 };
     let needed = LEAST + threads;
-    match available::within_limits() {
-        Some(free) if free < needed => Err(Failure::Input(format!(
-            "this command needs {} of address space, and {} are free; allowed: a higher limit (ulimit -v, ulimit -d)",
-            size(needed),
-            size(free)
-        ))),
-        _ => Ok(()),
-    }
+    refuse(available::within_limits().filter(|free| *free < needed), |free| {
+        let (needed, free) = (size(needed), size(free));
+        let allowed = "a higher limit (ulimit -v, ulimit -d)";
+        format!("this command needs {needed} of address space, and {free} are free; allowed: {allowed}")
+    })
 }
 
 /// Refuses a plan that needs more memory than is available, with `threads` replicas at a time.
@@ -46,9 +43,7 @@ pub(super) fn check_each<'a>(
     beside: u64,
 ) -> Result<(), Failure> {
     let threads = threads::count(threads)?;
-    let Some(free) = available() else {
-        return Ok(());
-    };
+    let Some(free) = available() else { return Ok(()) };
     plans.into_iter().try_for_each(|(plan, source)| {
         fits(plan, threads, vtk, free, beside).map_err(|message| Failure::Input(format!("{source}: {message}")))
     })
@@ -67,16 +62,12 @@ pub(super) fn check_jobs(jobs: &[Job], threads: Option<u64>) -> Result<(), Failu
         // Directions are copied for evaluation.
         let copies = at_once * 24 * scene.particles.count as u64;
         let needed = memory::bytes(&plan, at_once) + copies + threads * THREAD + PROGRAM + left;
-        if needed > free {
-            return Err(Failure::Input(format!(
-                "particles.count = {}: with {} rods, {at_once} replicas at a time need {} of memory, and {} are free; \
-                 allowed: fewer --threads, --replicas or particles",
-                jobs[0].scene.particles.count,
-                scene.particles.count,
-                size(needed),
-                size(free),
-            )));
-        }
+        refuse((needed > free).then_some(scene.particles.count), |rods| {
+            let (count, needed, free) = (jobs[0].scene.particles.count, size(needed), size(free));
+            let need = format!("{at_once} replicas at a time need {needed} of memory, and {free} are free");
+            let allowed = "fewer --threads, --replicas or particles";
+            format!("particles.count = {count}: with {rods} rods, {need}; allowed: {allowed}")
+        })?;
     }
     Ok(())
 }

@@ -9,20 +9,19 @@ mod measured;
 mod shades;
 mod table;
 
-use super::{Failure, derived, ending_in, number, print, scene, spares};
+use super::{Failure, derived, ending_in, number, print, refuse, scene, spares};
 use against::against;
 pub(super) use folders::FIGURES;
 use folders::{Run, kept, runs_in};
 use look::Look;
 use shearbed::plan::counted;
-use shearbed_validation::files::output;
 use shearbed_validation::files::text::Shown;
+use shearbed_validation::files::{FileError, output};
 use shearbed_validation::present::plot::{self, Figure, names};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use table::MOST_ROWS;
 
-/// Arguments of `plot`.
 #[derive(clap::Args)]
 #[command(after_help = "Example:\n  shearbed plot first second --y x1 --out both.svg")]
 pub(super) struct Args {
@@ -97,21 +96,18 @@ pub(super) fn plot(args: &Args) -> Result<(), Failure> {
 
 fn of_runs(args: &Args) -> Result<(Figure, String), Failure> {
     let across = args.key.as_deref().filter(|key| TIMES.contains(key));
-    if let (Some(time), Some(at)) = (across, args.at) {
-        let message = format!("--at {at}: --x {time} draws all times; --at is for a key of a sweep");
-        return Err(Failure::Input(message));
-    }
+    refuse(across.zip(args.at), |(time, at)| {
+        format!("--at {at}: --x {time} draws all times; --at is for a key of a sweep")
+    })?;
     let mut drawn = drawn_of(&args.dirs, &args.channels, across)?;
     let (channels, runs) = (drawn.channels.join(", "), drawn.runs.len());
     if let (Some(key), None) = (&args.key, across) {
-        if let Some(flag) = args.over_runs() {
-            let times = TIMES.join(", ");
-            return Err(Failure::Input(format!("--x {key}: {flag} has times; {times} are allowed beside it")));
-        }
-        if args.dirs.len() > 1 {
-            let message = format!("--x {key}: {} folders are given; one sweep is allowed", args.dirs.len());
-            return Err(Failure::Input(message));
-        }
+        refuse(args.over_runs(), |flag| {
+            format!("--x {key}: {flag} has times; {} are allowed beside it", TIMES.join(", "))
+        })?;
+        refuse((args.dirs.len() > 1).then_some(args.dirs.len()), |count| {
+            format!("--x {key}: {count} folders are given; one sweep is allowed")
+        })?;
         let (figure, left_out) = against(drawn, key, args.at)?;
         scene::warn(&args.out.shown(), &left_out);
         return Ok((figure, format!("{channels} of {}", counted(runs as u64, "point"))));
@@ -129,31 +125,22 @@ fn of_runs(args: &Args) -> Result<(Figure, String), Failure> {
 
 /// The requested picture of a fit or a report, by default the first.
 fn named(args: &Args, dir: &Path, kept: Vec<(String, Figure)>) -> Result<(Figure, String), Failure> {
-    if let Some(key) = &args.key {
-        return Err(Failure::Input(format!(
-            "--x {key}: {} is no sweep; a folder of `shearbed sweep` is allowed",
-            dir.shown()
-        )));
-    }
-    if let Some(flag) = args.over_runs() {
-        let why = format!("{flag}: {} is no run; a folder of `shearbed run` is allowed", dir.shown());
-        return Err(Failure::Input(why));
-    }
+    let shown = dir.shown();
+    refuse(args.key.as_ref(), |key| {
+        format!("--x {key}: {shown} is no sweep; a folder of `shearbed sweep` is allowed")
+    })?;
+    refuse(args.over_runs(), |flag| format!("{flag}: {shown} is no run; a folder of `shearbed run` is allowed"))?;
     if kept.is_empty() {
-        return Err(Failure::Input(format!(
-            "{}: has no picture: `validate` draws them where it runs all cases",
-            dir.shown()
-        )));
+        let why = "has no picture: `validate` draws them where it runs all cases";
+        return Err(FileError::whole(dir, why).into());
     }
     let names = kept.iter().map(|(name, _)| name.as_str()).collect::<Vec<_>>().join(", ");
     let is_it = |(name, _): &(String, Figure)| args.channels.is_empty() || args.channels == [name.as_str()];
-    let found = kept.into_iter().find(is_it).ok_or_else(|| {
+    let (name, figure) = kept.into_iter().find(is_it).ok_or_else(|| {
         let asked = args.channels.join(",");
-        let why =
-            format!("--y {asked}: {} has no such picture; there are {names}, of which one is allowed", dir.shown());
-        Failure::Input(why)
+        Failure::Input(format!("--y {asked}: {shown} has no such picture; there are {names}, of which one is allowed"))
     })?;
-    Ok((found.1, format!("{} of {}", found.0, dir.shown())))
+    Ok((figure, format!("{name} of {shown}")))
 }
 
 /// A picture of channels for several runs.
@@ -172,7 +159,7 @@ impl Drawn {
     fn is_defined(&self) -> Result<(), Failure> {
         let Some(k) = self.figure.curves.iter().position(|curve| curve.x.is_empty()) else { return Ok(()) };
         let (run, channel) = (&self.runs[k / self.channels.len()], &self.channels[k % self.channels.len()]);
-        Err(Failure::Input(format!("{}: has no {channel}: {}", run.dir.shown(), derived::lacks(channel))))
+        Err(FileError::whole(&run.dir, format!("has no {channel}: {}", derived::lacks(channel))).into())
     }
 }
 
@@ -209,12 +196,9 @@ fn drawn_of(dirs: &[PathBuf], channels: &[String], across: Option<&str>) -> Resu
             let mut found = table::channel(run, Some(channel), across, &mut rows)?;
             let time = time.get_or_insert_with(|| found.time.clone());
             if *time != found.time {
-                return Err(Failure::Input(format!(
-                    "{}: its time is {}, that of {} is {time}: one of the two can be drawn",
-                    run.dir.shown(),
-                    found.time,
-                    first.dir.shown(),
-                )));
+                let (own, first) = (&found.time, first.dir.shown());
+                let why = format!("its time is {own}, that of {first} is {time}: one of the two can be drawn");
+                return Err(FileError::whole(&run.dir, why).into());
             }
             found.curve.label = match (channels.len(), runs.len()) {
                 (1, _) => label.clone(),
@@ -247,8 +231,8 @@ fn drawn_of(dirs: &[PathBuf], channels: &[String], across: Option<&str>) -> Resu
 fn write(out: &Path, figure: &Figure, force: bool) -> Result<bool, Failure> {
     let target = output::followed(out);
     if picture(&target.to_string_lossy()).is_err() {
-        let why = format!("{}: is a link to {}, which is no picture", out.shown(), target.shown());
-        return Err(Failure::Input(why));
+        let why = format!("is a link to {}, which is no picture", target.shown());
+        return Err(FileError::whole(out, why).into());
     }
     Ok(output::write_one(out, &drawn(out, figure)?, force)?)
 }

@@ -6,7 +6,6 @@ use shearbed_validation::files::text::{Shown, left_aligned};
 use shearbed_validation::serve::problems;
 use std::path::PathBuf;
 
-/// Arguments of `problems`.
 #[derive(clap::Args)]
 #[command(after_help = "Example:\n  shearbed problems export ref")]
 pub(super) struct Args {
@@ -60,7 +59,7 @@ pub(super) fn problems(args: &Args) -> Result<(), Failure> {
                 output::write_one(file, &problems::archive(), writing.force)?;
                 said += &format!("{}: {} problems\n", file.shown(), problems::all().len());
             }
-            if writing.quiet { Ok(()) } else { print(&said) }
+            writing.print(&said)
         }
     }
 }

@@ -4,9 +4,10 @@ mod density;
 mod flows;
 mod values;
 
-use super::{Failure, print, progress, spares};
-use shearbed_validation::files::output;
+use super::shape::positive;
+use super::{Failure, print, progress, refuse, spares};
 use shearbed_validation::files::text::{Shown, complain};
+use shearbed_validation::files::{FileError, output};
 use shearbed_validation::oracle::diffusion::{self, NoAnswer, strain_rate_per_s};
 use shearbed_validation::oracle::reference::big::digits;
 use shearbed_validation::oracle::reference::constants::{self, Constant};
@@ -17,7 +18,6 @@ use shearbed_validation::oracle::reference::table::{self, NoValue, Start, Table}
 use shearbed_validation::oracle::reference::unequal::LONGEST_TURNS;
 use std::path::PathBuf;
 
-/// Arguments of `reference`.
 #[derive(clap::Args)]
 #[command(after_help = "Example:\n  shearbed reference --aspect-ratio 11.6 --start 0,90 --times 0:1:101")]
 pub(super) struct Args {
@@ -50,7 +50,7 @@ pub(super) struct Args {
         conflicts_with_all = ["shear_rate_per_s", "gradient_per_s", "steady"])]
     steps: Option<PathBuf>,
     /// The flow times cos 2πt/T, for rods with --d-r-per-s; times are in s
-    #[arg(long, value_name = "T", requires = "d_r_per_s", value_parser = values::period, allow_negative_numbers = true,
+    #[arg(long, value_name = "T", requires = "d_r_per_s", value_parser = positive, allow_negative_numbers = true,
         conflicts_with_all = ["steps", "steady", "density", "marginal"])]
     oscillation_period_s: Option<f64>,
     /// Standard deviation of a Gaussian r_e in percent of the mean, for isotropic starts and for rods with diffusion
@@ -104,19 +104,11 @@ impl Args {
 enum From {
     Isotropic,
     Planar,
-    Angles { phi_deg: f64, theta_deg: f64 },
+    Rod(Direction),
     Bingham([[f64; 3]; 3]),
     Directions(PathBuf),
 }
 
-impl From {
-    /// The file that it names.
-    fn file(&self) -> Option<&PathBuf> {
-        if let Self::Directions(path) = self { Some(path) } else { None }
-    }
-}
-
-/// The value of `--times`.
 #[derive(Clone, Debug)]
 struct Times(Vec<f64>);
 
@@ -126,28 +118,26 @@ pub(super) fn reference(args: &Args) -> Result<(), Failure> {
     if args.force && asked_for.is_empty() {
         return Err(Failure::Input("--force: needs --out, --density or --marginal".into()));
     }
+    let directions = if let From::Directions(path) = &args.start { Some(path) } else { None };
     for (k, file) in asked_for.iter().enumerate() {
         if asked_for[..k].iter().any(|other| output::place(other) == output::place(file)) {
-            return Err(Failure::Input(format!("{}: is given twice; two files are needed", file.shown())));
+            return Err(FileError::whole(file, "is given twice; two files are needed").into());
         }
-        spares(file, [file.to_path_buf()], args.steps.iter().chain(args.start.file()).cloned())?;
+        spares(file, [file.to_path_buf()], args.steps.iter().chain(directions).cloned())?;
     }
     let mut files = Vec::new();
     let rate = args.shear_rate_per_s;
     let couette = [[0.0; 3], [rate, 0.0, 0.0], [0.0; 3]];
     let motion = Motion { gradient_per_s: args.gradient_per_s.unwrap_or(couette), aspect_ratio: args.aspect_ratio };
-    let direction = match args.start {
-        From::Isotropic | From::Planar | From::Bingham(_) | From::Directions(_) => None,
-        From::Angles { phi_deg, theta_deg } => Some(Direction::Angles { phi_deg, theta_deg }),
-    };
     let text = if args.constants {
-        if matches!(args.start, From::Planar | From::Bingham(_) | From::Directions(_)) {
-            return Err(Failure::Input("--constants: isotropic or angles are allowed as --start".into()));
-        }
-        let constants = constants::constants(&motion, direction).ok_or_else(|| no_couette("--constants"))?;
-        constants_csv(&constants)
+        let direction = match args.start {
+            From::Isotropic => None,
+            From::Rod(direction) => Some(direction),
+            _ => return Err(Failure::Input("--constants: isotropic or angles are allowed as --start".into())),
+        };
+        constants_csv(&constants::constants(&motion, direction).ok_or_else(|| no_couette("--constants"))?)
     } else {
-        let asked = asked(args, &motion, direction)?;
+        let asked = asked(args, &motion)?;
         if args.explain {
             explained(&asked)
         } else {
@@ -161,13 +151,9 @@ pub(super) fn reference(args: &Args) -> Result<(), Failure> {
             text
         }
     };
-    let printed = match &args.out {
-        Some(path) => {
-            files.push((path, text.into_bytes(), String::new()));
-            None
-        }
-        None => Some(text),
-    };
+    if let Some(path) = &args.out {
+        files.push((path, text.clone().into_bytes(), String::new()));
+    }
     if let Some((path, ..)) = files.iter().find(|(path, ..)| path.file_name().is_none()) {
         return Err(Failure::Input(format!("--out {}: is no file name", path.shown())));
     }
@@ -178,14 +164,12 @@ pub(super) fn reference(args: &Args) -> Result<(), Failure> {
         output::write_one(path, bytes, args.force)?;
         complain(note);
     }
-    printed.map_or(Ok(()), |text| print(&text))
+    if args.only_prints() { print(&text) } else { Ok(()) }
 }
 
 /// The rods of the requested values.
 enum Asked {
-    /// Free rods.
     Free(Start),
-    /// Rods with diffusion.
     Diffusing(Diffusing),
 }
 
@@ -201,7 +185,7 @@ fn peclet(motion: &Motion, asked: &Asked, d_r: f64) -> String {
     format!("note: the Péclet number γ̇/D_r{of} is {}\n", if rate == 0.0 { 0.0 } else { rate / d_r.abs() })
 }
 
-fn asked(args: &Args, motion: &Motion, direction: Option<Direction>) -> Result<Asked, Failure> {
+fn asked(args: &Args, motion: &Motion) -> Result<Asked, Failure> {
     let sd = args.aspect_ratio_sd_percent;
     let steps = args.steps.as_ref().map(|path| flows::read(path)).transpose()?;
     let flows = steps.unwrap_or_else(|| vec![(motion.gradient_per_s, f64::INFINITY)]);
@@ -221,13 +205,13 @@ fn asked(args: &Args, motion: &Motion, direction: Option<Direction>) -> Result<A
                  --aspect-ratio, without --density and --marginal"
             )));
         }
-        let start = match (&args.start, direction) {
-            (From::Planar, _) => diffusion::Start::Plane([0.0, 0.0, 1.0]),
-            (From::Bingham(k), _) => diffusion::Start::Bingham(*k),
+        let start = match &args.start {
+            From::Isotropic => diffusion::Start::Isotropic,
+            From::Planar => diffusion::Start::Plane([0.0, 0.0, 1.0]),
+            From::Bingham(k) => diffusion::Start::Bingham(*k),
             // Kept to the end of the program: the start of one command.
-            (From::Directions(path), _) => diffusion::Start::Directions(flows::directions(path)?.leak()),
-            (_, Some(direction)) => diffusion::Start::Direction(rod::nearest(direction)),
-            _ => diffusion::Start::Isotropic,
+            From::Directions(path) => diffusion::Start::Directions(flows::directions(path)?.leak()),
+            From::Rod(direction) => diffusion::Start::Direction(rod::nearest(*direction)),
         };
         return Ok(Asked::Diffusing(Diffusing {
             aspect_ratio: args.aspect_ratio,
@@ -250,20 +234,17 @@ fn asked(args: &Args, motion: &Motion, direction: Option<Direction>) -> Result<A
         ("--start a11,…,a23", matches!(args.start, From::Bingham(_))),
         ("--start FILE.csv", matches!(args.start, From::Directions(_))),
     ];
-    if let Some((flag, _)) = needs.iter().find(|(_, given)| *given) {
-        return Err(Failure::Input(format!(
-            "{flag}: needs rods that diffuse; a --c-i or --d-r-per-s above 0 is allowed"
-        )));
-    }
-    match direction {
-        _ if sd != 0.0 && !matches!(args.start, From::Isotropic) => {
-            Err(isotropic_only(&format!("--aspect-ratio-sd-percent {sd}")))
-        }
-        None if matches!(args.start, From::Planar) => Ok(Asked::Free(Start::Planar { fourth: args.fourth })),
-        None => Ok(Asked::Free(Start::Isotropic { aspect_ratio_sd_percent: sd, fourth: args.fourth })),
-        Some(_) if args.fourth => Err(isotropic_only("--fourth")),
-        Some(direction) => Ok(Asked::Free(Start::Rod(direction))),
-    }
+    refuse(needs.iter().find(|(_, given)| *given), |(flag, _)| {
+        format!("{flag}: needs rods that diffuse; a --c-i or --d-r-per-s above 0 is allowed")
+    })?;
+    let fourth = args.fourth;
+    Ok(Asked::Free(match args.start {
+        From::Isotropic => Start::Isotropic { aspect_ratio_sd_percent: sd, fourth },
+        _ if sd != 0.0 => return Err(isotropic_only(&format!("--aspect-ratio-sd-percent {sd}"))),
+        From::Rod(_) if fourth => return Err(isotropic_only("--fourth")),
+        From::Rod(direction) => Start::Rod(direction),
+        _ => Start::Planar { fourth },
+    }))
 }
 
 fn unit(args: &Args) -> Unit {
@@ -345,10 +326,8 @@ fn refused(args: &Args, why: NoValue) -> Failure {
     let weak = "(in plane Couette flow from C_I = D_r/γ̇ = 1e-5 on, in any flow from about 1e-4 on)";
     Failure::Input(match why {
         NoValue::Past => {
-            format!(
-                "--times: rods with diffusion have no past; times from 0 are allowed with {}",
-                flag.split(' ').next().unwrap_or_default()
-            )
+            let (flag, _) = flag.split_once(' ').unwrap_or_default();
+            format!("--times: rods with diffusion have no past; times from 0 are allowed with {flag}")
         }
         NoValue::Steady(NoAnswer::Unsettled) => format!(
             "--steady: nothing settles with {flag} in this flow; a C_I above 0 and a flow that strains are allowed, or \

@@ -8,9 +8,10 @@ use super::record::Seconds;
 use super::scene::{Chosen, Ensemble, Named};
 use super::until::{self, LEAST, Until};
 use super::{
-    Failure, Threads, Writing, agree, checkpoint, derived, memory, pictures, print, probe, record, rods, scene,
-    spares_inputs, tables, threads, write,
+    Failure, Threads, Writing, agree, checkpoint, derived, memory, pictures, progress, record, result_folder, rods,
+    scene, spares_inputs, tables, threads,
 };
+use indicatif::ProgressBar;
 use serde_json::{Value, json};
 use shearbed::run::resume::Halfway;
 use shearbed::scene::MAX_REPLICAS;
@@ -18,7 +19,6 @@ use shearbed::{Plan, Results};
 use shearbed_validation::files::checkpoint::Replicas;
 use shearbed_validation::files::cluster;
 use shearbed_validation::files::output::{Output, ResultFolder};
-use shearbed_validation::files::text::Shown;
 use shearbed_validation::files::text::line;
 use shearbed_validation::present::plot;
 use std::path::{Path, PathBuf};
@@ -26,7 +26,6 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 use work::Done;
 
-/// Arguments of `run`.
 #[derive(clap::Args)]
 #[command(after_help = "Example:\n  shearbed run fig4-n50 --replicas 10 --out first")]
 pub(super) struct Args {
@@ -63,23 +62,20 @@ fn planned(args: &Args, named: &Named) -> Result<Plan, Failure> {
     let plan = named.plan()?;
     args.until.check(&plan, named)?;
     if args.vtk && plan.rods_outputs().is_empty() {
-        return Err(Failure::Input(format!(
-            "{}: --vtk: output.rods_at is missing: the times at which rods are to be written; output.rods_every = 1 \
-             takes every output",
-            named.source
-        )));
+        let why = "output.rods_at is missing: the times at which rods are to be written; output.rods_every = 1 takes \
+                   every output";
+        return Err(Failure::Input(format!("{}: --vtk: {why}", named.source)));
     }
     Ok(if args.until.is_empty() { plan } else { plan.with_replicas(MAX_REPLICAS) })
 }
 
 /// The inputs on which the results depend. Rules for standard errors replace the number of replicas.
 fn inputs(args: &Args, plan: &Plan) -> Value {
-    if args.until.is_empty() {
-        return json!({ "scene": plan.scene().resolved() });
-    }
-    let limit = args.time_limit.map(|limit| format!(", at most {} s", limit.as_secs_f64()));
     let mut scene = json!(plan.scene().resolved());
-    scene["ensemble"]["replicas"] = (args.until.input() + &limit.unwrap_or_default()).into();
+    if !args.until.is_empty() {
+        let limit = args.time_limit.map(|limit| format!(", at most {} s", limit.as_secs_f64()));
+        scene["ensemble"]["replicas"] = (args.until.input() + &limit.unwrap_or_default()).into();
+    }
     json!({ "scene": scene })
 }
 
@@ -90,8 +86,8 @@ struct Run<'a> {
     plan: Plan,
     threads: usize,
     folder: ResultFolder,
-    /// A line on an earlier run in that folder.
     checkpoint: Option<Arc<Replicas>>,
+    bar: ProgressBar,
 }
 
 /// Runs a scene and writes its results.
@@ -100,13 +96,8 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let run = Run::prepare(args)?;
     let plan = start.elapsed().as_secs_f64();
     let start = Instant::now();
-    match run.replicas()? {
-        Some(done) => {
-            let run_s = start.elapsed().as_secs_f64();
-            run.write(done, Seconds { plan, run: run_s, ..Seconds::default() })
-        }
-        None => Ok(()),
-    }
+    let Some(done) = run.replicas()? else { return Ok(()) };
+    run.write(done, Seconds { plan, run: start.elapsed().as_secs_f64(), ..Seconds::default() })
 }
 
 impl<'a> Run<'a> {
@@ -131,15 +122,17 @@ impl<'a> Run<'a> {
         if cluster::is_root() {
             spares_inputs(&out, &names, named.files())?;
         }
-        probe(&out, tables::most_bytes(&plan).saturating_add(rods::most_bytes(&plan, args.vtk)))?;
+        let bytes = tables::most_bytes(&plan).saturating_add(rods::most_bytes(&plan, args.vtk));
+        let folder = result_folder(&out, ("run", inputs, args.writing.force), bytes, &names)?;
         let checkpoint = path.map(|path| Replicas::open(&plan, &path, args.kept.every())).transpose()?;
-        let folder = ResultFolder::new(&out, "run", inputs, args.writing.force);
-        if cluster::is_root() {
-            folder.check(&names)?;
-        }
         scene::warn(&named.source, &plan.warnings());
         let threads = threads::count(args.threads.given)? as usize;
-        Ok(Self { args, named, plan, threads, folder, checkpoint })
+        if let Some(replicas) = &checkpoint {
+            work::begin(args, replicas)?;
+        }
+        let first = if args.until.is_empty() { plan.scene().ensemble.replicas } else { LEAST };
+        let bar = progress(first, "replicas", args.writing.quiet);
+        Ok(Self { args, named, plan, threads, folder, checkpoint, bar })
     }
 
     /// Writes the results and prints their summary.
@@ -154,21 +147,16 @@ impl<'a> Run<'a> {
         let names = files.iter().map(|(name, _)| name.as_str()).collect();
         let record = record::json(&plan, &results, self.threads, seconds, names, until.as_ref());
         files.push((RUN.to_owned(), record.map_err(Failure::Failed)?));
-        let names: Vec<_> = files.iter().map(|(name, _)| name.clone()).collect();
-        let out = self.folder.dir().shown();
-        let replaced = write(&self.folder, files)?;
-        if !self.args.writing.quiet {
-            let until = until.as_ref().map(|until| format!("{}\n\n", until.text())).unwrap_or_default();
-            print(&format!(
-                "{}\nMeans ± standard errors, rods: {}, replicas: {}\n\n{}{until}in {out}: {}\n{}",
-                line(&self.named.scene.title),
-                self.named.scene.particles.count,
-                plan.scene().ensemble.replicas,
-                tables::summary(&results) + &derived::summary(&plan, results.time_name, &derived),
-                names.join(", "),
-                replaced
-            ))?;
-        }
+        let text = format!(
+            "{}\nMeans ± standard errors, rods: {}, replicas: {}\n\n{}{}{}",
+            line(&self.named.scene.title),
+            self.named.scene.particles.count,
+            plan.scene().ensemble.replicas,
+            tables::summary(&results),
+            derived::summary(&plan, results.time_name, &derived),
+            until.as_ref().map(|until| format!("{}\n\n", until.text())).unwrap_or_default(),
+        );
+        self.args.writing.write(&self.folder, files, &text)?;
         until.map_or(Ok(()), |until| until.failure())
     }
 }

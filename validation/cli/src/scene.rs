@@ -1,14 +1,11 @@
 //! Loads the scene that the command line names, with the keys that it sets.
 
-use super::owner::one_owner;
-use super::{Failure, whole};
+use super::{Failure, refuse, whole};
 use shearbed::scene::document::Document;
-use shearbed::scene::{MAX_REPLICAS, MAX_SEED};
-use shearbed::scene::{SceneProblem, of_document, set};
+use shearbed::scene::{MAX_REPLICAS, MAX_SEED, SceneProblem, of_document, set};
 use shearbed::{Error, Plan, Scene};
-use shearbed_validation::files::bounded;
-use shearbed_validation::files::cluster;
 use shearbed_validation::files::text::{Shown, complain, line};
+use shearbed_validation::files::{bounded, cluster};
 use shearbed_validation::input::scenes;
 use shearbed_validation::input::start::Starts;
 use shearbed_validation::present::plot::names;
@@ -42,9 +39,7 @@ impl Ensemble {
     fn settings(&self) -> impl Iterator<Item = (&'static str, KeyValue)> {
         let given = [("--replicas", "ensemble.replicas", self.replicas), ("--seed", "ensemble.seed", self.seed)];
         given.into_iter().filter_map(|(flag, key, value)| {
-            let value = Value::Integer(value? as i64);
-            let key = key.to_owned();
-            Some((flag, KeyValue { key, value }))
+            Some((flag, KeyValue { key: key.to_owned(), value: Value::Integer(value? as i64) }))
         })
     }
 }
@@ -61,10 +56,28 @@ impl Chosen {
     }
 }
 
+/// Checks that no two flags set the same key; a table owns every key in it. An error says which two.
+pub(super) fn one_owner(flags: &[(&str, &str)]) -> Result<(), Failure> {
+    let within = |inner: &str, outer: &str| {
+        inner.strip_prefix(outer).is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
+    };
+    // Other flags than these take no key.
+    let takes_key = |flag: &str| ["--over", "--set"].contains(&flag);
+    let given = |flag: &str, key: &str| if takes_key(flag) { format!("{flag} {key}") } else { flag.to_owned() };
+    for (k, (flag, key)) in flags.iter().enumerate() {
+        let clash = flags[..k].iter().find(|(_, other)| within(other, key) || within(key, other));
+        refuse(clash, |(first, other)| {
+            let longer = if key.len() > other.len() { key } else { other };
+            let both = if other == key && takes_key(flag) && takes_key(first) { "it" } else { longer };
+            format!("{} and {}: both set {both}; one of the two is allowed", given(flag, key), given(first, other))
+        })?;
+    }
+    Ok(())
+}
+
 /// A scene with its source, and a name for results made from it.
 pub(super) struct Named {
     pub(super) scene: Scene,
-    /// The text from which the scene was read.
     pub(super) text: String,
     /// The text as a document, with the keys that were set.
     document: Document,

@@ -4,7 +4,6 @@ use super::{Failure, number, print};
 use shearbed::model::jeffery::aspect_ratio_of_period;
 use shearbed::model::shape::{ALLOWED, Correlation, FORMULAS, spread};
 
-/// Arguments of `shape`.
 #[derive(clap::Args)]
 #[command(after_help = "\
 Examples:
@@ -12,23 +11,12 @@ Examples:
   shearbed shape --period-s 147 --period-u 2 --shear-rate-per-s 0.5")]
 pub(super) struct Args {
     /// Length over diameter of a cylinder, up to 1000; below 2, and of discs and rings, what is known
-    #[arg(
-        long,
-        value_name = "R",
-        value_parser = ratio,
-        allow_negative_numbers = true,
-        required_unless_present = "period_s",
-        conflicts_with = "period_s"
-    )]
+    #[arg(long, value_name = "R", value_parser = ratio, allow_negative_numbers = true)]
+    #[arg(required_unless_present = "period_s", conflicts_with = "period_s")]
     physical: Option<f64>,
     /// The time in which a rod turns once, through 360°: r_e of T = 2π(r_e + 1/r_e)/G
-    #[arg(
-        long,
-        value_name = "T",
-        value_parser = positive,
-        allow_negative_numbers = true,
-        requires = "shear_rate_per_s"
-    )]
+    #[arg(long, value_name = "T", value_parser = positive, allow_negative_numbers = true)]
+    #[arg(requires = "shear_rate_per_s")]
     period_s: Option<f64>,
     /// One standard uncertainty of that time
     #[arg(long, value_name = "U", value_parser = positive, allow_negative_numbers = true, requires = "period_s")]
@@ -42,7 +30,7 @@ pub(super) struct Args {
     shear_rate_u: Option<f64>,
 }
 
-fn positive(text: &str) -> Result<f64, String> {
+pub(super) fn positive(text: &str) -> Result<f64, String> {
     number(text, |x| (1e-100..=1e100).contains(&x), "a number from 1e-100 to 1e100")
 }
 
@@ -69,8 +57,7 @@ pub(super) fn shape(args: &Args) -> Result<(), Failure> {
 const OF_SPHERE: f64 = 4.0 * std::f64::consts::PI;
 
 /// Prints r_e of a rod, and of a disc, with this period at this shear rate, each with its standard uncertainty if
-/// given:
-/// relative ones, taken as independent, add in squares to that of GT, on which alone r_e depends.
+/// given: relative ones, taken as independent, add in squares to that of GT, on which alone r_e depends.
 fn of_period((period_s, period_u): (f64, Option<f64>), (g, g_u): (f64, Option<f64>)) -> Result<(), Failure> {
     let strain = g * period_s;
     let Some(r) = aspect_ratio_of_period(strain) else {
@@ -121,18 +108,13 @@ fn decimals(x: f64, digits: i32) -> usize {
 }
 
 fn of_cylinder(r: f64) -> Result<(), Failure> {
-    let mut text = match spread(r) {
-        Some((least, most)) => {
-            let percent = 200.0 * (most - least) / (most + least);
-            format!("a cylinder of r = {r}: r_e from {least:.3} to {most:.3}, a spread of {percent:.1} %\n\n")
-        }
-        None => format!("a cylinder of r = {r}: no formula gives an r_e\n\n"),
-    };
+    let of_all = spread(r).map_or("no formula gives an r_e".to_owned(), |(least, most)| {
+        let percent = 200.0 * (most - least) / (most + least);
+        format!("r_e from {least:.3} to {most:.3}, a spread of {percent:.1} %")
+    });
+    let mut text = format!("a cylinder of r = {r}: {of_all}\n\n");
     for (formula, key) in FORMULAS.iter().zip(Correlation::NAMES) {
-        let value = match formula.equivalent(r) {
-            Some(value) => format!("{value:.3}"),
-            None => "none".into(),
-        };
+        let value = formula.equivalent(r).map_or("none".into(), |value| format!("{value:.3}"));
         text += &format!(
             "{value:>9}  {} ({key}): r_e = {}\n           valid for: {}\n           source: {}\n           quoted \
              from: {}\n",

@@ -4,19 +4,17 @@ use super::derived::{self, DERIVED, EXTREMES};
 use super::duration::Long;
 use super::scene::{Chosen, Ensemble, Named};
 use super::{
-    Failure, Threads, Writing, agree, log, memory, on_threads, print, progress, result_folder, scene, spares_inputs,
+    Failure, Threads, Writing, agree, log, memory, on_threads, progress, refuse, result_folder, scene, spares_inputs,
     tables::{self, is_bounded},
 };
 use shearbed::run::ensemble;
-use shearbed_validation::files::cluster;
 use shearbed_validation::files::output::Output;
-use shearbed_validation::files::text;
-use shearbed_validation::files::text::Shown;
+use shearbed_validation::files::text::{self, Shown};
+use shearbed_validation::files::{FileError, cluster};
 use shearbed_validation::present::plot::names;
 use shearbed_validation::serve::sweep::{self, Axis, Folder, GridError, Point, Points};
 use std::path::{Path, PathBuf};
 
-/// Arguments of `sweep`.
 #[derive(clap::Args)]
 #[command(after_help = "\
 The same command, also with more values, runs only missing points. Every point has the same seed.
@@ -52,7 +50,6 @@ fn flag(error: &GridError) -> &'static str {
     }
 }
 
-/// The points of a sweep of these keys.
 pub(super) fn points(named: &Named, over: &[Axis]) -> Result<Vec<Point>, Failure> {
     check(over)?;
     sweep::points(&named.text, &named.starts, &named.settings, over)
@@ -63,21 +60,15 @@ pub(super) fn points(named: &Named, over: &[Axis]) -> Result<Vec<Point>, Failure
 pub(super) fn sweep(args: &Args) -> Result<(), Failure> {
     let named = args.chosen.load(&args.ensemble, &args.over)?;
     let points = points(&named, &args.over)?;
-    if let Some(key) = named.scene.output.rods_key() {
-        return Err(Failure::Input(format!("{}: {key}: a sweep writes no rods; remove this key", named.source)));
-    }
-    for point in &points {
-        if point.plan.time_name() != points[0].plan.time_name() {
-            return Err(Failure::Input(format!(
-                "{}: --over {}: its time is {}, that of the first point {}; all points have the same columns",
-                named.source,
-                sweep::described(&args.over, &point.values),
-                point.plan.time_name(),
-                points[0].plan.time_name()
-            )));
-        }
-    }
+    refuse(named.scene.output.rods_key(), |key| {
+        format!("{}: {key}: a sweep writes no rods; remove this key", named.source)
+    })?;
     let at = |point: &Point| format!("{}: --over {}", named.source, sweep::described(&args.over, &point.values));
+    let first = points[0].plan.time_name();
+    refuse(points.iter().find(|point| point.plan.time_name() != first), |point| {
+        let (at, own) = (at(point), point.plan.time_name());
+        format!("{at}: its time is {own}, that of the first point {first}; all points have the same columns")
+    })?;
     memory::check_each(points.iter().map(|point| (&point.plan, at(point))), args.threads.given, false, 0)?;
     let cost: Vec<_> = points.iter().map(|point| (&point.plan, point.plan.scene().ensemble.replicas)).collect();
     args.long.check(&named.source, args.threads.given, &cost)?;
@@ -110,24 +101,19 @@ pub(super) fn sweep(args: &Args) -> Result<(), Failure> {
     };
     let (checked, jobs): (Option<usize>, Vec<usize>) = cluster::from_root(open)?;
     scene::warn(&named.source, warned.iter().take(MOST_WARNINGS));
-    let more = warned.len().saturating_sub(MOST_WARNINGS);
-    scene::warn(
-        &named.source,
-        (more > 0).then(|| format!("and {more} more points with warnings: sweep.json has them all")).iter(),
-    );
-    let new = jobs.len() - usize::from(checked.is_some());
-    let finished = total - new;
-    if finished > 0 && !args.writing.quiet {
-        print(&format!("goes on from {}: {finished} of {total} points are finished\n", out.shown()))?;
+    if let Some(more @ 1..) = warned.len().checked_sub(MOST_WARNINGS) {
+        scene::warn(&named.source, [&format!("and {more} more points with warnings: sweep.json has them all")]);
+    }
+    let finished = total - (jobs.len() - usize::from(checked.is_some()));
+    if finished > 0 {
+        let so_far = format!("{finished} of {total} points are finished");
+        args.writing.print(&format!("goes on from {}: {so_far}\n", out.shown()))?;
     }
     let mut ended = finished;
     let bar = progress(jobs.len() as u64, "points", args.writing.quiet);
     let job = |job: usize| {
-        let k = jobs[job];
-        tables_of(&points[k]).map_err(|error| {
-            let point = sweep::described(&args.over, &points[k].values);
-            Failure::Input(format!("{}: --over {point}: {error}", named.source))
-        })
+        let point = &points[jobs[job]];
+        tables_of(point).map_err(|error| Failure::Input(format!("{}: {error}", at(point))))
     };
     let arrived = |job: usize, tables: &Vec<Output>| {
         bar.inc(1);
@@ -136,22 +122,14 @@ pub(super) fn sweep(args: &Args) -> Result<(), Failure> {
         let Some(folder) = &folder else {
             return Ok(());
         };
-        match checked {
-            Some(finished) if finished == k => {
-                if folder.tables(k)? == *tables {
-                    Ok(())
-                } else {
-                    Err(other_numbers(&folder.point(k)))
-                }
-            }
-            _ => {
-                folder.write(k, tables)?;
-                ended += 1;
-                let line = format!("saved in {}: {ended} of {total} points are finished", out.shown());
-                log(&line, args.writing.quiet);
-                Ok(())
-            }
+        if checked == Some(k) {
+            let same = folder.tables(k)? == *tables;
+            return if same { Ok(()) } else { Err(FileError::whole(folder.point(k), OTHER_NUMBERS).into()) };
         }
+        folder.write(k, tables)?;
+        ended += 1;
+        log(&format!("saved in {}: {ended} of {total} points are finished", out.shown()), args.writing.quiet);
+        Ok(())
     };
     let shared = on_threads(args.threads.given, || cluster::share(jobs.len(), job, arrived))??;
     bar.finish_and_clear();
@@ -160,11 +138,8 @@ pub(super) fn sweep(args: &Args) -> Result<(), Failure> {
     };
     let values: Vec<_> = points.iter().map(|point| point.values.clone()).collect();
     let rows = folder.gather(&args.over, &values)?;
-    if args.writing.quiet {
-        return Ok(());
-    }
     let swept: Vec<_> = args.over.iter().map(|axis| axis.key.as_str()).collect();
-    print(&format!(
+    args.writing.print(&format!(
         "{}\npoints: {total}, of which {finished} were finished before\n\n{}\nin {}: sweep.csv, sweep.json, points\n",
         text::line(&names::title_without(&named.scene.title, &swept)),
         table(&rows, args.over.len()),
@@ -199,13 +174,9 @@ pub(super) fn warnings(points: &[Point], over: &[Axis]) -> Vec<String> {
 
 /// Refuses a key that changes the columns of the results.
 fn check(axes: &[Axis]) -> Result<(), Failure> {
-    match axes.iter().find(|axis| axis.key.starts_with("output")) {
-        Some(axis) => Err(Failure::Input(format!(
-            "--over {}: all points have the same columns; keys of other tables are allowed",
-            axis.key
-        ))),
-        None => Ok(()),
-    }
+    refuse(axes.iter().find(|axis| axis.key.starts_with("output")), |Axis { key, .. }| {
+        format!("--over {key}: all points have the same columns; keys of other tables are allowed")
+    })
 }
 
 /// The points to run: the missing ones; if others are finished, the first of these comes before them, and its result is
@@ -219,22 +190,16 @@ fn jobs(finished: &[usize], points: usize) -> (Option<usize>, Vec<usize>) {
 /// Runs a point and returns a table for each observable.
 fn tables_of(point: &Point) -> Result<Vec<Output>, String> {
     let results = ensemble::run(&point.plan).map_err(|error| error.to_string())?;
-    let table = |series: &ensemble::Series| {
-        let name = format!("{}.csv", series.observable.name());
-        Ok((name, tables::csv(&results, series)?))
-    };
+    let table =
+        |series: &ensemble::Series| Ok((format!("{}.csv", series.observable.name()), tables::csv(&results, series)?));
     let mut tables: Vec<Output> = results.series.iter().map(table).collect::<Result<_, String>>()?;
     tables.extend(derived::files(&point.plan, &results, &derived::of(&point.plan, &results))?);
     Ok(tables)
 }
 
-fn other_numbers(point: &Path) -> Failure {
-    Failure::Input(format!(
-        "{}: run again, this point gives other numbers, so another build of the program wrote the folder; give another \
-         --out, or remove the folder; nothing of it was changed",
-        point.shown()
-    ))
-}
+/// Why a sweep does not go on with a point that is run again.
+const OTHER_NUMBERS: &str = "run again, this point gives other numbers, so another build of the program wrote the \
+    folder; give another --out, or remove the folder; nothing of it was changed";
 
 /// The largest numbers of rows and columns of a table for the terminal.
 const MOST: (usize, usize) = (32, 9);

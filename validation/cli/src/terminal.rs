@@ -1,6 +1,6 @@
 //! Output of a command on the terminal while it runs.
 
-use super::Failure;
+use super::{Failure, refuse};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle, WeakProgressBar};
 use shearbed_validation::files::cluster;
 use shearbed_validation::files::text::{complain, readable};
@@ -37,25 +37,17 @@ pub(super) fn print(text: &str) -> Result<(), Failure> {
 
 /// Refuses to print where nobody can read it: to a standard output that was closed (`>&-`). The runtime opens /dev/null
 /// in its place for reading and writing, before `main`; a shell's `> /dev/null` is opened for writing alone.
-///
-/// # Errors
-///
-/// Standard output is /dev/null, opened for reading and writing.
 #[cfg(unix)]
 pub(super) fn is_open() -> Result<(), Failure> {
     use rustix::fs::{OFlags, fcntl_getfl, fstat, stat};
     let stdout = io::stdout();
     let null = || Ok::<_, rustix::io::Errno>(fstat(&stdout)?.st_rdev == stat("/dev/null")?.st_rdev);
     let both = fcntl_getfl(&stdout).is_ok_and(|flags| flags & OFlags::RWMODE == OFlags::RDWR);
-    if both && null().unwrap_or(false) {
-        Err(Failure::Input(
-            "standard output: cannot be written: it is closed, or /dev/null opened for reading and writing; open it \
-             for writing alone (`> /dev/null`) to discard what this command prints"
-                .to_owned(),
-        ))
-    } else {
-        Ok(())
-    }
+    refuse((both && null().unwrap_or(false)).then_some(()), |()| {
+        "standard output: cannot be written: it is closed, or /dev/null opened for reading and writing; open it for \
+         writing alone (`> /dev/null`) to discard what this command prints"
+            .to_owned()
+    })
 }
 
 /// Never refuses.

@@ -19,7 +19,6 @@ use shearbed_validation::studies;
 use shearbed_validation::studies::figures;
 use std::path::PathBuf;
 
-/// Arguments of `validate`.
 #[derive(clap::Args)]
 #[command(after_help = "Example:\n  shearbed validate --case jeffery-period --out out/period")]
 pub(super) struct Args {
@@ -86,7 +85,7 @@ pub(super) fn validate(args: Args) -> Result<(), Failure> {
     agree("validate", agreed.clone())?;
     let path = checkpoint::check(args.checkpoint.as_deref(), &args.out)?;
     let folder = result_folder(&args.out, ("validate", agreed, args.writing.force), 0, &PAGES)?;
-    let finished = Finished::open(path.as_deref(), "validate", input, args.writing.quiet)?;
+    let finished = Finished::open(path.as_deref(), "validate", input, &args.writing)?;
     let effort = Effort { full: args.full, seed: args.seed, data: args.data };
     let (outcomes, sections) = on_threads(args.threads.given, || {
         let outcomes = outcomes(&chosen, &effort, finished.as_ref(), args.writing.quiet)?;
@@ -107,10 +106,8 @@ pub(super) fn validate(args: Args) -> Result<(), Failure> {
         // Printed even with --quiet: a failed case is an error.
         complain(&format!("\n{red}"));
     }
-    if !args.writing.quiet {
-        let page = args.out.join("report.html");
-        print(&format!("\n{}\nreport: {}\n{replaced}", report.headline(), page.shown()))?;
-    }
+    let page = args.out.join("report.html");
+    args.writing.print(&format!("\n{}\nreport: {}\n{replaced}", report.headline(), page.shown()))?;
     match report.exit_code() {
         0 => Ok(()),
         _ => Err(Failure::Failed(format!("not every case passed: {}", report.headline()))),
@@ -172,12 +169,9 @@ fn outcomes(
     };
     let found = cluster::share(chosen.len(), run, arrived)?;
     bar.finish_and_clear();
-    let outcome = |(case, (verdict, evidence, controls, seconds)): (&Case, CaseResult)| Outcome {
-        about: case.about.clone(),
-        verdict,
-        evidence,
-        controls,
-        seconds,
+    let outcome = |(case, found): (&Case, CaseResult)| {
+        let (verdict, evidence, controls, seconds) = found;
+        Outcome { about: case.about.clone(), verdict, evidence, controls, seconds }
     };
     Ok(found.map(|found| chosen.iter().zip(found).map(outcome).collect()))
 }

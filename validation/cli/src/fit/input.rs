@@ -2,14 +2,13 @@
 
 use super::Args;
 use super::advice::of_scene;
-use crate::owner::one_owner;
-use crate::{Failure, memory, scene};
+use crate::scene::one_owner;
+use crate::{Failure, memory, refuse, scene};
 use shearbed::Plan;
 use shearbed::plan::counted;
 use shearbed::scene::TimeUnit;
 use shearbed_validation::files::FileError;
-use shearbed_validation::files::text::Shown;
-use shearbed_validation::files::text::line;
+use shearbed_validation::files::text::{Shown, line};
 use shearbed_validation::input::experiment::not_read;
 use shearbed_validation::methods::least_squares::Datum;
 use shearbed_validation::methods::least_squares::basis::MOST_PARAMETERS;
@@ -37,46 +36,51 @@ pub(super) struct Input {
     pub(super) warnings: Vec<String>,
 }
 
+impl Input {
+    /// The plans of the scenes with these values of the parameters.
+    pub(super) fn plans(&self, values: &[f64]) -> Result<Vec<Plan>, Failure> {
+        self.scenes.plans(values, &self.data, AS_WRITTEN).map_err(refused)
+    }
+
+    /// The plans at the lower ends of all ranges, and at the upper ones.
+    pub(super) fn plans_at_ends(&self, over: &[Range]) -> Result<Vec<Plan>, Failure> {
+        let ends = [|range: &Range| range.from, |range: &Range| range.to];
+        let [from, to] = ends.map(|end| self.plans(&over.iter().map(end).collect::<Vec<f64>>()));
+        Ok([from?, to?].concat())
+    }
+}
+
+fn refused(error: SceneError) -> Failure {
+    Failure::Input(of_scene(&error))
+}
+
 /// Reads scenes and points. Every fault in them is found here, before anything runs.
 pub(super) fn input(args: &Args) -> Result<Input, Failure> {
-    if args.over.len() > MOST_PARAMETERS {
-        return Err(Failure::Input(format!(
-            "--over: given {} times; up to {MOST_PARAMETERS} parameters at once are allowed",
-            args.over.len()
-        )));
-    }
+    refuse((args.over.len() > MOST_PARAMETERS).then_some(args.over.len()), |count| {
+        format!("--over: given {count} times; up to {MOST_PARAMETERS} parameters at once are allowed")
+    })?;
     let only_of_fits = [("--test", !args.test.is_empty()), ("--design", args.design)];
-    if let Some((flag, _)) = only_of_fits.iter().find(|(_, given)| *given && args.over.is_empty()) {
-        return Err(Failure::Input(format!("{flag}: nothing is fitted; --over KEY=FROM:TO names a key and its range")));
-    }
+    refuse(only_of_fits.iter().find(|(_, given)| *given && args.over.is_empty()), |(flag, _)| {
+        format!("{flag}: nothing is fitted; --over KEY=FROM:TO names a key and its range")
+    })?;
     for set in 0..args.data.len() {
         check_owners(args, set)?;
     }
     for setting in &args.settings {
-        let table = setting.key.split('.').next().unwrap_or_default();
-        if ["ensemble", "output"].contains(&table) {
-            return Err(Failure::Input(format!(
-                "--set {}: a fit takes its own {table}; --replicas and --seed are allowed",
-                setting.key
-            )));
-        }
+        refuse(["ensemble", "output"].iter().find(|table| is_in(&setting.key, table)), |table| {
+            format!("--set {}: a fit takes its own {table}; --replicas and --seed are allowed", setting.key)
+        })?;
     }
     for range in &args.over {
-        if let Some(none) = range.set.filter(|set| *set > args.data.len()) {
-            return Err(Failure::Input(format!(
-                "--over {}: there is no set {none}; with {} of --data the first is 1 and the last {}",
-                range.label(),
-                counted(args.data.len() as u64, "set"),
-                args.data.len()
-            )));
-        }
-        let key = &range.key;
-        if let Some(table) = NOT_FITTED.iter().find(|table| key.split('.').next() == Some(table)) {
-            return Err(Failure::Input(format!(
-                "--over {key}: points do not determine keys of {table}; keys of flow, particles and interaction are \
-                 allowed"
-            )));
-        }
+        let last = args.data.len();
+        refuse(range.set.filter(|set| *set > last), |none| {
+            let (label, sets) = (range.label(), counted(last as u64, "set"));
+            format!("--over {label}: there is no set {none}; with {sets} of --data the first is 1 and the last {last}")
+        })?;
+        refuse(NOT_FITTED.iter().find(|table| is_in(&range.key, table)), |table| {
+            let allowed = "keys of flow, particles and interaction are allowed";
+            format!("--over {}: points do not determine keys of {table}; {allowed}", range.key)
+        })?;
     }
     let (mut sets, mut data, mut names, mut files) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
     let (mut stem, mut warnings) = (String::new(), Vec::new());
@@ -84,20 +88,16 @@ pub(super) fn input(args: &Args) -> Result<Input, Failure> {
     for (k, given) in args.data.iter().enumerate() {
         let (scene, path) = scene_and_file(&args.scene, given);
         let named = scene::load(scene, Vec::new())?;
-        let same = |other: &PathBuf| fs::canonicalize(other).ok() == fs::canonicalize(path).ok();
-        if files.iter().any(same) {
-            return Err(Failure::Input(format!(
-                "--data {}: given twice, and its points would count twice; each file once is allowed",
-                path.shown()
-            )));
-        }
+        let same = |other: &&PathBuf| fs::canonicalize(other).ok() == fs::canonicalize(path).ok();
+        refuse(files.iter().find(same), |_| {
+            let why = "given twice, and its points would count twice; each file once is allowed";
+            format!("--data {}: {why}", path.shown())
+        })?;
         let points = data::read(path, k, &reading).map_err(in_flags)?;
-        if let (Some(u), Some(column)) = (args.u, &points.u_column) {
-            return Err(Failure::Input(format!(
-                "--u {u}: {} has uncertainties of its own, in the column {column}; either these or --u are allowed",
-                path.shown()
-            )));
-        }
+        refuse(args.u.zip(points.u_column.as_ref()), |(u, column)| {
+            let own = format!("{} has uncertainties of its own, in the column {column}", path.shown());
+            format!("--u {u}: {own}; either these or --u are allowed")
+        })?;
         warnings.extend(not_read(path, &points.unread));
         within_scene(&named, args, points.time, &points.points, path)?;
         if k == 0 {
@@ -115,22 +115,15 @@ pub(super) fn input(args: &Args) -> Result<Input, Failure> {
             time: points.time,
         });
     }
-    if data.len() > MOST_POINTS {
-        return Err(Failure::Input(format!(
-            "--data: {} points in {} files; at most {MOST_POINTS} are allowed",
-            data.len(),
-            files.len()
-        )));
-    }
-    if data.len() <= args.over.len() {
-        let counted = |count: usize, what: &str| format!("{count} {what}{}", if count == 1 { "" } else { "s" });
-        return Err(Failure::Input(format!(
-            "--data {}: {} for {}; more points than parameters are needed",
-            files.iter().map(|file| file.shown()).collect::<Vec<_>>().join(" --data "),
-            counted(data.len(), "point"),
-            counted(args.over.len(), "parameter")
-        )));
-    }
+    let count = data.len();
+    refuse((count > MOST_POINTS).then_some(count), |count| {
+        format!("--data: {count} points in {} files; at most {MOST_POINTS} are allowed", files.len())
+    })?;
+    refuse((count <= args.over.len()).then_some(args.over.len()), |parameters| {
+        let files = files.iter().map(|file| file.shown()).collect::<Vec<_>>().join(" --data ");
+        let (points, parameters) = (counted(count as u64, "point"), counted(parameters as u64, "parameter"));
+        format!("--data {files}: {points} for {parameters}; more points than parameters are needed")
+    })?;
     for (k, point) in data.iter().enumerate() {
         let measured = |datum: &Datum| (datum.time.to_bits(), datum.value.to_bits());
         let same = |other: &&Datum| {
@@ -138,30 +131,23 @@ pub(super) fn input(args: &Args) -> Result<Input, Failure> {
                 && sets[other.set].source == sets[point.set].source
                 && (measured(other), &other.column) == (measured(point), &point.column)
         };
-        if let Some(first) = data[..k].iter().find(same) {
-            return Err(Failure::Input(format!(
-                "{}:{}: {} = {} at {} is in {}:{} already: leave one out, or put all points of one scene into one file \
-                 if two experiments gave it",
-                files[point.set].shown(),
-                point.line,
-                point.column,
-                point.value,
-                point.time,
-                files[first.set].shown(),
-                first.line
-            )));
-        }
+        let place = |datum: &Datum| format!("{}:{}", files[datum.set].shown(), datum.line);
+        refuse(data[..k].iter().find(same), |first| {
+            let Datum { column, value, time, .. } = point;
+            let advice = "leave one out, or put all points of one scene into one file if two experiments gave it";
+            format!("{}: {column} = {value} at {time} is in {} already: {advice}", place(point), place(first))
+        })?;
     }
-    let refused = |error: SceneError| Failure::Input(of_scene(&error));
     let scenes = Scenes::new(sets, args.over.clone()).map_err(refused)?;
     scenes.one_length(&data).map_err(refused)?;
-    let ends = [|range: &Range| range.from, |range: &Range| range.to];
-    for values in ends.map(|end| args.over.iter().map(end).collect::<Vec<f64>>()) {
-        for plan in scenes.plans(&values, &data, AS_WRITTEN).map_err(refused)? {
-            memory::check(&plan, args.threads.given, &stem)?;
-        }
-    }
-    Ok(Input { scenes, data, names, files, stem, warnings })
+    let input = Input { scenes, data, names, files, stem, warnings };
+    let plans = input.plans_at_ends(&args.over)?;
+    memory::check_each(plans.iter().map(|plan| (plan, input.stem.clone())), args.threads.given, false, 0)?;
+    Ok(input)
+}
+
+fn is_in(key: &str, table: &str) -> bool {
+    key.split('.').next() == Some(table)
 }
 
 /// Checks that each key of a set's scene is set by one flag.
@@ -205,11 +191,8 @@ fn within_scene(
     named.starts.clone().fill(&mut scene).map_err(refused)?;
     let plan = Plan::new(&scene).map_err(|error| refused(error.to_string()))?;
     let end = time.end_of(&plan).ok_or_else(|| {
-        Failure::Input(format!(
-            "{}: {} has no periods; t_s or strain are allowed in place of t_over_T",
-            path.shown(),
-            named.source
-        ))
+        let why = "has no periods; t_s or strain are allowed in place of t_over_T";
+        FileError::whole(path, format!("{} {why}", named.source))
     })?;
     let unit = scene.time.unit;
     let key = unit.duration_key();
@@ -217,26 +200,17 @@ fn within_scene(
         (TimeUnit::Period, Some(period)) => (0.25 * period, "a quarter of a period"),
         _ => (end, "the scene's length"),
     };
-    if let Some(point) = points.iter().find(|point| point.u_time > most * (1.0 + 1e-12)) {
-        return Err(Failure::Input(format!(
-            "{}:{}: column {}_u: `{}` is not allowed: expected one standard deviation of at most {what}, {most}",
-            path.shown(),
-            point.line,
-            time.name(),
-            point.u_time
-        )));
-    }
     // A point at the very end may be rounded to a later time.
-    match points.iter().find(|point| point.time > end * (1.0 + 1e-12)) {
-        None => Ok(()),
-        Some(point) => Err(Failure::Input(format!(
-            "{}:{}: column {}: `{}` is not allowed: {} ends at {} there; --set {key}=… moves that",
-            path.shown(),
-            point.line,
-            time.name(),
-            point.time,
-            named.source,
-            end
-        ))),
-    }
+    let late = |time: f64, most: f64| time > most * (1.0 + 1e-12);
+    let refused = |point: &Datum, column: String, value: f64, why: String| {
+        format!("{}:{}: column {column}: `{value}` is not allowed: {why}", path.shown(), point.line)
+    };
+    refuse(points.iter().find(|point| late(point.u_time, most)), |point| {
+        let why = format!("expected one standard deviation of at most {what}, {most}");
+        refused(point, format!("{}_u", time.name()), point.u_time, why)
+    })?;
+    refuse(points.iter().find(|point| late(point.time, end)), |point| {
+        let why = format!("{} ends at {end} there; --set {key}=… moves that", named.source);
+        refused(point, time.name().to_owned(), point.time, why)
+    })
 }

@@ -33,7 +33,6 @@ impl Args {
     }
 }
 
-/// Arguments of `grade`.
 #[derive(clap::Args)]
 #[command(after_help = "\
 Examples:
@@ -68,13 +67,8 @@ pub(crate) struct Args {
         value_parser = [PossibleValue::new("couette").help("Plane Couette flow, u_2 = G x_1")])]
     pub(super) flow: Option<String>,
     /// The answer's columns in the order of the file, - for one to leave out: time_s,rod,p3,p1,p2
-    #[arg(
-        long,
-        value_name = "NAMES",
-        value_delimiter = ',',
-        conflicts_with_all = ["layout", "command"],
-        allow_hyphen_values = true
-    )]
+    #[arg(long, value_name = "NAMES", value_delimiter = ',', allow_hyphen_values = true)]
+    #[arg(conflicts_with_all = ["layout", "command"])]
     pub(super) columns: Option<Vec<String>>,
     /// What the program's axes 1, 2, 3 are, as flow,gradient,vorticity; -flow is against the flow
     #[arg(long, value_name = "AXES", default_value = "gradient,flow,vorticity", allow_hyphen_values = true)]

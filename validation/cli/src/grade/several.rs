@@ -1,13 +1,12 @@
 //! Several programs on one problem: compared, not judged.
 
-use super::{Args, asked, folder, inputs};
-use crate::{Failure, print, write};
+use super::{Args, asked, folder, inputs, started};
+use crate::{Failure, refuse, write};
 use shearbed_validation::files::output;
 use shearbed_validation::files::text::{Shown, complain, line};
 use shearbed_validation::present::{plot, report};
 use shearbed_validation::serve::grade::live::{self, Program};
 use shearbed_validation::serve::problems::{Kind, LoadedProblem};
-use std::time::Duration;
 
 /// The problem that is compared on unless another is asked for: the paper's rod.
 const DEFAULT: &str = "mid-flip-11.6";
@@ -16,9 +15,9 @@ const DEFAULT: &str = "mid-flip-11.6";
 pub(super) fn compare(args: &Args) -> Result<(), Failure> {
     let judging =
         [("--order", args.order.is_some()), ("--tolerance", !args.tolerances.is_empty()), ("--all", args.all)];
-    if let Some((flag, _)) = judging.into_iter().find(|(_, given)| *given) {
-        return Err(Failure::Input(format!("{flag}: several programs are compared, not judged; leave it out")));
-    }
+    refuse(judging.into_iter().find(|(_, given)| *given), |(flag, _)| {
+        format!("{flag}: several programs are compared, not judged; leave it out")
+    })?;
     let problem = problem(args)?;
     let inputs = inputs::of_program(args, args.reference.as_deref(), std::slice::from_ref(&problem))?;
     let names = ["work-precision", "steps", "evaluations", "tolerance"];
@@ -28,15 +27,10 @@ pub(super) fn compare(args: &Args) -> Result<(), Failure> {
     folder.check(&names)?;
     let mut programs: Vec<(String, Program, live::Mode)> = Vec::new();
     for (name, command) in args.command.iter().map(|command| named(command)) {
-        if programs.iter().any(|(known, ..)| *known == name) {
-            return Err(Failure::Input(format!(
-                "--command {name}: two programs have this name; NAME=PROGRAM gives one"
-            )));
-        }
-        let program = Program::start(command, args.protocol.unwrap_or_default(), Duration::from_secs_f64(args.timeout))
-            .map_err(|error| Failure::Input(format!("--command {error}")))?
-            .with_axes(args.axes);
-        let (program, mode) = live::prepared(program, args.protocol.is_none());
+        refuse(programs.iter().find(|(known, ..)| *known == name), |_| {
+            format!("--command {name}: two programs have this name; NAME=PROGRAM gives one")
+        })?;
+        let (program, mode) = live::prepared(started(args, command)?, args.protocol.is_none());
         programs.push((name, program, mode));
     }
     let found = live::several(&programs, &problem);
@@ -54,10 +48,8 @@ pub(super) fn compare(args: &Args) -> Result<(), Failure> {
         Ok(files)
     };
     let replaced = write(&folder, files().map_err(Failure::Failed)?)?;
-    if !args.writing.quiet {
-        let picture = args.out.join("work-precision.svg");
-        print(&format!("{}picture: {}\n{replaced}", table.for_terminal(), picture.shown()))?;
-    }
+    let picture = args.out.join("work-precision.svg");
+    args.writing.print(&format!("{}picture: {}\n{replaced}", table.for_terminal(), picture.shown()))?;
     match found.silent()[..] {
         [] => Ok(()),
         ref silent => Err(Failure::Failed(format!("no finite answer from {}", silent.join(", ")))),

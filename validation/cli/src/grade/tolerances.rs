@@ -1,6 +1,6 @@
 //! `--tolerance X` and `--tolerance NAME=X`.
 
-use crate::Failure;
+use crate::{Failure, refuse};
 use shearbed_validation::serve::problems::{Kind, LoadedProblem, tolerances};
 use std::str::FromStr;
 
@@ -30,9 +30,9 @@ impl FromStr for Tolerance {
 /// does not apply to ensembles, which count standard errors, and never lowers a problem's own.
 pub(super) fn with(given: &[Tolerance], problems: Vec<LoadedProblem>) -> Result<Vec<LoadedProblem>, Failure> {
     let known = |name: &String| problems.iter().any(|loaded| loaded.problem.name == *name);
-    if let Some(name) = given.iter().filter_map(|tolerance| tolerance.name.as_ref()).find(|name| !known(name)) {
-        return Err(Failure::Input(format!("--tolerance {name}=...: no problem of this name is graded")));
-    }
+    refuse(given.iter().filter_map(|tolerance| tolerance.name.as_ref()).find(|name| !known(name)), |name| {
+        format!("--tolerance {name}=...: no problem of this name is graded")
+    })?;
     problems.into_iter().map(|loaded| one(given, loaded)).collect()
 }
 

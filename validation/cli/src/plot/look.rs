@@ -1,6 +1,6 @@
 //! How a picture looks: what the flags change in it.
 
-use crate::{Failure, number};
+use crate::{Failure, number, refuse};
 use clap::builder::PossibleValuesParser;
 use shearbed_validation::oracle::reference::big::finite;
 use shearbed_validation::present::plot::{Figure, Theme};
@@ -75,16 +75,16 @@ fn values(figure: &Figure) -> [Vec<f64>; 2] {
     [x, y].map(|all| all.into_iter().flatten().copied().collect())
 }
 
-/// Refuses a range that no curve and no point reaches.
-fn reached(flag: &str, range: Option<(f64, f64)>, all: &[f64]) -> Result<(), Failure> {
+/// Refuses a range that begins at or below 0 on a logarithmic axis, or that no curve and no point reaches.
+fn check(flag: &str, range: Option<(f64, f64)>, log: bool, all: &[f64]) -> Result<(), Failure> {
+    refuse(range.filter(|(from, _)| log && *from <= 0.0), |(from, to)| {
+        format!("{flag} {from}:{to}: a logarithmic axis begins above 0; a positive FROM is allowed")
+    })?;
     let finite = all.iter().copied().filter(|value| value.is_finite());
     let (least, most) = finite.fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), v| (v.min(least), v.max(most)));
-    match range {
-        Some((from, to)) if least <= most && (to < least || most < from) => Err(Failure::Input(format!(
-            "{flag} {from}:{to}: nothing lies there; the picture goes from {least} to {most}"
-        ))),
-        _ => Ok(()),
-    }
+    refuse(range.filter(|(from, to)| least <= most && (*to < least || most < *from)), |(from, to)| {
+        format!("{flag} {from}:{to}: nothing lies there; the picture goes from {least} to {most}")
+    })
 }
 
 /// What a logarithmic axis leaves out.
@@ -118,32 +118,21 @@ impl Look {
             let curves = figure.curves.iter_mut().map(|curve| &mut curve.label);
             let labels = curves.chain(figure.points.iter_mut().map(|points| &mut points.label));
             let labels: Vec<_> = labels.collect();
-            if labels.len() != self.legend.len() {
-                return Err(Failure::Input(format!(
-                    "--legend: given {} times; the picture has {} curves and sets of points, and as many are needed",
-                    self.legend.len(),
-                    labels.len()
-                )));
-            }
+            let (asked, there) = (self.legend.len(), labels.len());
+            refuse((asked != there).then_some("and as many are needed"), |needed| {
+                format!("--legend: given {asked} times; the picture has {there} curves and sets of points, {needed}")
+            })?;
             for (label, asked) in labels.into_iter().zip(&self.legend) {
                 label.clone_from(asked);
             }
         }
         figure.x_log |= self.log_x;
         figure.y_log |= self.log_y;
-        for (flag, range, log) in [("--x-range", self.x_range, figure.x_log), ("--y-range", self.y_range, figure.y_log)]
-        {
-            if let Some((from, to)) = range.filter(|(from, _)| log && *from <= 0.0) {
-                return Err(Failure::Input(format!(
-                    "{flag} {from}:{to}: a logarithmic axis begins above 0; a positive FROM is allowed"
-                )));
-            }
-        }
         figure.x_range = self.x_range.or(figure.x_range);
         figure.y_range = self.y_range.or(figure.y_range);
         let [x, y] = values(figure);
-        reached("--x-range", self.x_range, &x)?;
-        reached("--y-range", self.y_range, &y)?;
+        check("--x-range", self.x_range, figure.x_log, &x)?;
+        check("--y-range", self.y_range, figure.y_log, &y)?;
         figure.size = self.size.or(figure.size);
         figure.width_mm = self.width_mm.or(figure.width_mm);
         if self.theme == "dark" {

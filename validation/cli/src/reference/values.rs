@@ -5,6 +5,7 @@ use crate::{ending_in, number};
 use shearbed_validation::oracle::diffusion;
 use shearbed_validation::oracle::reference::big::{Bits, decimal, double, finite};
 use shearbed_validation::oracle::reference::motion::Unit;
+use shearbed_validation::oracle::reference::rod::Direction;
 use std::path::PathBuf;
 
 fn number_or_inf(text: &str, allowed: impl Fn(f64) -> bool, words: &str) -> Result<f64, String> {
@@ -23,10 +24,6 @@ pub(super) fn c_i(text: &str) -> Result<f64, String> {
 pub(super) fn d_r(text: &str) -> Result<f64, String> {
     let words = "0 (free rods), a number from 1e-100 to 1e100, or inf (all directions alike)";
     number_or_inf(text, |d| d == 0.0 || (1e-100..=1e100).contains(&d), words)
-}
-
-pub(super) fn period(text: &str) -> Result<f64, String> {
-    number(text, |t| (1e-100..=1e100).contains(&t), "a number from 1e-100 to 1e100")
 }
 
 pub(super) fn density_file(text: &str) -> Result<PathBuf, String> {
@@ -58,10 +55,10 @@ pub(super) fn start(text: &str) -> Result<From, String> {
         [file] if file.ends_with(".csv") => Ok(From::Directions(file.into())),
         ["isotropic"] => Ok(From::Isotropic),
         ["planar"] => Ok(From::Planar),
-        [phi, theta] => Ok(From::Angles {
+        [phi, theta] => Ok(From::Rod(Direction::Angles {
             phi_deg: number(phi, |_| true, words)?,
             theta_deg: number(theta, |theta| (0.0..=180.0).contains(&theta), words)?,
-        }),
+        })),
         [_, _, _, _, _, _] => tensor(text).map(From::Bingham),
         _ => Err(format!("{words} is allowed")),
     }

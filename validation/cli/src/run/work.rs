@@ -1,9 +1,8 @@
 //! The work of a run: its replicas, with a checkpoint or without, a given number or until a rule holds.
 
-use super::Run;
-use crate::until::{Ended, LEAST, Look, Measure};
-use crate::{Failure, log, on_threads, print, progress, scene};
-use indicatif::ProgressBar;
+use super::{Args, Run};
+use crate::until::{Ended, Look, Measure};
+use crate::{Failure, log, on_threads, scene};
 use shearbed::run::ensemble::Tally;
 use shearbed::{Error, Results};
 use shearbed_validation::files::checkpoint::{Progress, Replicas};
@@ -15,50 +14,37 @@ use std::time::Instant;
 /// The results, and the choice of the number of replicas by rules for standard errors; none without them.
 pub(super) type Done = (Results, Option<Ended>);
 
-/// A run with the bar that shows its progress.
-struct Work<'a> {
-    run: &'a Run<'a>,
-    bar: ProgressBar,
+/// Writes the checkpoint for the first time, and prints how much of the run it contains.
+pub(super) fn begin(args: &Args, replicas: &Replicas) -> Result<(), Failure> {
+    replicas.write()?;
+    let progress = replicas.progress();
+    let Progress { done, halfway, .. } = progress;
+    if done == 0 && halfway == 0 {
+        return Ok(());
+    }
+    let progress = if args.until.is_empty() {
+        progress.to_string()
+    } else {
+        format!("{done} replicas are done, {halfway} halfway")
+    };
+    args.writing.print(&format!("goes on from {}: {progress}\n", replicas.path().shown()))
 }
 
 impl Run<'_> {
     /// Runs the replicas, or those that the checkpoint lacks; the results on the root. A run that stops writes nothing,
     /// so that earlier results stay.
     pub(super) fn replicas(&self) -> Result<Option<Done>, Failure> {
-        if let Some(replicas) = &self.checkpoint {
-            self.begin(replicas)?;
-        }
-        let first = if self.args.until.is_empty() { self.plan.scene().ensemble.replicas } else { LEAST };
-        let work = Work { run: self, bar: progress(first, "replicas", self.args.writing.quiet) };
         let results = match &self.checkpoint {
-            Some(replicas) => work.kept(replicas).map(Some),
-            None => on_threads(self.args.threads.given, || work.alone())?,
+            Some(replicas) => self.kept(replicas).map(Some),
+            None => on_threads(self.args.threads.given, || self.alone())?,
         };
-        work.bar.finish_and_clear();
+        self.bar.finish_and_clear();
         results.map_err(|error| Failure::Input(format!("{}: {error}", self.named.source)))
     }
 
-    /// Writes the checkpoint for the first time, and prints how much of the run it contains.
-    fn begin(&self, replicas: &Replicas) -> Result<(), Failure> {
-        replicas.write()?;
-        let progress = replicas.progress();
-        let Progress { done, halfway, .. } = progress;
-        if self.args.writing.quiet || done == 0 && halfway == 0 {
-            return Ok(());
-        }
-        let progress = if self.args.until.is_empty() {
-            progress.to_string()
-        } else {
-            format!("{done} replicas are done, {halfway} halfway")
-        };
-        print(&format!("goes on from {}: {progress}\n", replicas.path().shown()))
-    }
-}
-
-impl Work<'_> {
     /// Runs the replicas on the threads of the current pool and all ranks; the results on the root.
     fn alone(&self) -> Result<Option<Done>, Error> {
-        let Run { plan, args, .. } = self.run;
+        let Run { plan, args, .. } = self;
         let finished = || self.bar.inc(1);
         if args.until.is_empty() {
             return Ok(cluster::ensemble(plan, finished)?.map(|results| (results, None)));
@@ -87,21 +73,21 @@ impl Work<'_> {
         match deadline {
             None => target,
             Some(deadline) if done > 1 && Instant::now() >= deadline => done,
-            Some(_) => target.min(done + (self.run.threads * cluster::size()) as u64),
+            Some(_) => target.min(done + (self.threads * cluster::size()) as u64),
         }
     }
 
     /// Runs the replicas that are missing in a checkpoint.
     fn kept(&self, replicas: &Replicas) -> Result<Done, Error> {
-        let Run { plan, args, .. } = self.run;
+        let Run { plan, args, .. } = self;
         self.bar.inc(replicas.progress().done);
         let finished = || self.bar.inc(1);
         let saved = |saved| self.saved(replicas, saved);
         if args.until.is_empty() {
-            return Ok((replicas.run(self.run.threads, finished, saved)?, None));
+            return Ok((replicas.run(self.threads, finished, saved)?, None));
         }
         let add = |target: u64, deadline: Option<Instant>, measure: &Measure| -> Result<Look, Error> {
-            replicas.run_to(self.run.threads, (target, deadline), finished, saved)?;
+            replicas.run_to(self.threads, (target, deadline), finished, saved)?;
             Ok(measure(&replicas.tally()))
         };
         let from = (replicas.replicas(), args.time_limit, self.most_h());
@@ -122,12 +108,9 @@ impl Work<'_> {
 
     fn saved(&self, replicas: &Replicas, saved: Result<Progress, OutputError>) {
         match saved {
-            Ok(progress) => {
-                log(&format!("saved in {}: {progress}", replicas.path().shown()), self.run.args.writing.quiet)
-            }
+            Ok(progress) => log(&format!("saved in {}: {progress}", replicas.path().shown()), self.args.writing.quiet),
             Err(error) => {
-                let lost = format!("{error}; the run goes on, later work is not saved");
-                scene::warn("--checkpoint", [&lost]);
+                scene::warn("--checkpoint", [&format!("{error}; the run goes on, later work is not saved")]);
             }
         }
     }
