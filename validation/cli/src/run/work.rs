@@ -97,7 +97,7 @@ impl Run<'_> {
 
     /// The hours that replicas may be added without being asked; a time limit is an answer.
     fn most_h(&self) -> f64 {
-        self.run.args.time_limit.map_or(self.run.args.long.most_h(), |_| f64::INFINITY)
+        self.args.time_limit.map_or(self.args.long.most_h(), |_| f64::INFINITY)
     }
 
     /// Shows on the terminal how far the standard errors are from the rules.
