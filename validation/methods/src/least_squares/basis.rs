@@ -35,10 +35,7 @@ impl Basis {
     /// The basis for `parameters` parameters, 1 to [`MOST_PARAMETERS`].
     pub fn new(parameters: usize) -> Self {
         let (along, degree) = DESIGNS[parameters.clamp(1, MOST_PARAMETERS) - 1];
-        let place = |k: usize| -(std::f64::consts::PI * k as f64 / (along - 1) as f64).cos();
-        let alike = |index: &Vec<usize>| parameters < THINNED || index.iter().all(|k| k % 2 == index[0] % 2);
-        let nodes = grid(parameters, along).into_iter().filter(alike);
-        let nodes: Vec<Vec<f64>> = nodes.map(|index| index.into_iter().map(place).collect()).collect();
+        let nodes = nodes(parameters, along, parameters >= THINNED);
         let degrees: Vec<Degrees> = (grid(parameters, degree + 1).into_iter())
             .filter(|degrees| degrees.iter().sum::<usize>() <= degree)
             .map(|degrees| std::array::from_fn(|k| degrees.get(k).copied().unwrap_or(0)))
@@ -81,8 +78,16 @@ impl Basis {
     }
 }
 
-/// All combinations of `axes` numbers from 0 to `along` − 1.
-pub(super) fn grid(axes: usize, along: usize) -> Vec<Vec<usize>> {
+/// The nodes, `along` each axis; if `thinned`, those whose numbers are all even or all odd.
+fn nodes(parameters: usize, along: usize, thinned: bool) -> Vec<Vec<f64>> {
+    let place = |k: usize| -(std::f64::consts::PI * k as f64 / (along - 1) as f64).cos();
+    let alike = |index: &Vec<usize>| !thinned || index.iter().all(|k| k % 2 == index[0] % 2);
+    let nodes = grid(parameters, along).into_iter().filter(alike);
+    nodes.map(|index| index.into_iter().map(place).collect()).collect()
+}
+
+/// All combinations of `axes` numbers from 0 to `along` − 1, of which the first varies fastest.
+pub fn grid(axes: usize, along: usize) -> Vec<Vec<usize>> {
     (0..along.pow(axes as u32))
         .map(|mut k| {
             let digit = |_| {
@@ -168,15 +173,14 @@ mod tests {
     #[test]
     fn the_lower_degree_misses_what_only_the_higher_can_have() {
         let basis = Basis::new(1);
-        let quartic = DVector::from_iterator(
-            7,
-            basis.nodes.iter().map(|node| 8.0 * node[0].powi(4) - 8.0 * node[0].powi(2) + 1.0),
-        );
-        let missed = &basis.missed * &basis.project * &quartic;
-        assert!((missed[4] - 1.0).abs() < 1e-14, "{missed}");
-        let cubic = DVector::from_iterator(7, basis.nodes.iter().map(|node| cubic(node).0));
-        let missed = &basis.missed * &basis.project * &cubic;
-        assert!(missed.amax() < 1e-14, "{missed}");
+        let missed = |of: fn(&[f64]) -> f64| {
+            let values = DVector::from_iterator(7, basis.nodes.iter().map(|node| of(node)));
+            &basis.missed * &basis.project * &values
+        };
+        let quartic = missed(|node| 8.0 * node[0].powi(4) - 8.0 * node[0].powi(2) + 1.0);
+        assert!((quartic[4] - 1.0).abs() < 1e-14, "{quartic}");
+        let cubic = missed(|node| cubic(node).0);
+        assert!(cubic.amax() < 1e-14, "{cubic}");
     }
 
     /// The largest sum of |weights| by which a place depends on the nodes, over a grid that has the corners.
@@ -192,11 +196,7 @@ mod tests {
     fn a_quarter_of_the_nodes_is_enough_in_three_parameters() {
         let basis = Basis::new(3);
         let of = |along: usize, thinned: bool| {
-            let place = |k: usize| -(std::f64::consts::PI * k as f64 / (along - 1) as f64).cos();
-            let alike = |index: &Vec<usize>| !thinned || index.iter().all(|k| k % 2 == index[0] % 2);
-            let nodes: Vec<Vec<f64>> = (grid(3, along).into_iter().filter(alike))
-                .map(|index| index.into_iter().map(place).collect())
-                .collect();
+            let nodes = nodes(3, along, thinned);
             (nodes.len(), amplified(|place| basis.terms(place), &projection(&basis.degrees, &nodes), 3))
         };
         let own = amplified(|place| basis.terms(place), &basis.project, 3);

@@ -35,7 +35,7 @@ pub struct Best {
 impl Best {
     /// The covariance of the parameters, on the box's scale.
     pub fn covariance(&self) -> DMatrix<f64> {
-        sum(&self.spread)
+        self.spread.iter().sum()
     }
 
     /// The best place if the replicas' noise is not subtracted, for a control.
@@ -130,24 +130,20 @@ pub fn within(data: &[Datum], emulator: &Emulator, place: &[f64]) -> Option<[Rod
     Some([likely.1.clone(), most.1.clone()])
 }
 
-fn sum(parts: &[DMatrix<f64>]) -> DMatrix<f64> {
-    parts.iter().skip(1).fold(parts[0].clone(), |sum, one| sum + one)
-}
-
 /// The best place; `None` if V or the information is not positive definite, or χ² is not finite.
 pub fn best(data: &[Datum], emulator: &Emulator, rods: &Rods) -> Option<Best> {
     let parameters = emulator.basis.nodes[0].len();
     let mut place = vec![0.0; parameters];
     for _ in 0..ROUNDS {
         let causes = causes(data, emulator, &place, rods);
-        let surface = ChiSquare::new(data, emulator, &sum(&causes), &place)?;
+        let surface = ChiSquare::new(data, emulator, &causes.iter().sum(), &place)?;
         let before = std::mem::replace(&mut place, minimise(&surface, &vec![None; parameters], &[]).0);
         if before.iter().zip(&place).all(|(a, b)| (a - b).abs() < STAYS) {
             break;
         }
     }
     let causes = causes(data, emulator, &place, rods);
-    let covariance = sum(&causes);
+    let covariance = causes.iter().sum();
     let surface = ChiSquare::new(data, emulator, &covariance, &place)?;
     let (place, chi_square) = minimise(&surface, &vec![None; parameters], &[&place]);
     if !chi_square.is_finite() {
@@ -166,7 +162,7 @@ pub fn best(data: &[Datum], emulator: &Emulator, rods: &Rods) -> Option<Best> {
     let of_replica = emulator.covariance_of_replica(&place);
     let replicas = [emulator.replicas(), emulator.behind_covariance()];
     let scatter = scatter_of_covariance(data, replicas, &of_replica, &rods.over_measured, &projector);
-    let linear = sum(&spread);
+    let linear = spread.iter().sum();
     let hidden = added(&linear, &(&influence * &scatter * influence.transpose()));
     spread.push(hidden.unwrap_or_else(|| linear * UNKNOWN));
     let excess = ((&projector * &scatter).trace() / (data.len() - parameters).max(1) as f64).min(1.0);

@@ -126,11 +126,7 @@ impl Emulator {
     /// The emulator of these replicas. One alone has no noise: enough for a model that draws nothing.
     pub fn new(basis: &Basis, replicas: &[Coefficients]) -> Self {
         let share = 1.0 / replicas.len() as f64;
-        let mean = |which: usize| {
-            let first = &replicas[0][which];
-            let zero = DMatrix::zeros(first.nrows(), first.ncols());
-            replicas.iter().fold(zero, |sum, one| sum + &one[which]) * share
-        };
+        let mean = |which: usize| replicas.iter().map(|one| &one[which]).sum::<DMatrix<f64>>() * share;
         let away = |which: usize| {
             let mean = mean(which);
             replicas.iter().map(|one| &one[which] - &mean).collect()
@@ -145,7 +141,7 @@ impl Emulator {
     pub fn with_alone(self, replicas: &[Vec<Prediction>]) -> Self {
         let row = |one: &Vec<Prediction>| RowDVector::from_iterator(one.len(), one.iter().map(|point| point[0]));
         let rows: Vec<_> = replicas.iter().map(row).collect();
-        let zero = RowDVector::zeros(self.points());
+        let zero = RowDVector::zeros(self.mean().ncols());
         let mean = rows.iter().fold(zero, |sum, row| sum + row) / rows.len().max(1) as f64;
         Self { alone: rows.into_iter().map(|row| row - &mean).collect(), ..self }
     }
@@ -158,11 +154,6 @@ impl Emulator {
     /// Number of replicas behind the covariance of a replica.
     pub fn behind_covariance(&self) -> usize {
         if self.alone.is_empty() { self.replicas() } else { self.alone.len() }
-    }
-
-    /// Number of measured points.
-    pub fn points(&self) -> usize {
-        self.mean().ncols()
     }
 
     /// Coefficients of the mean: a row for each term, a column for each point.
@@ -188,9 +179,7 @@ impl Emulator {
     pub fn lack_of_fit(&self, place: &[f64]) -> DVector<f64> {
         let terms = self.basis.missed.tr_mul(&self.basis.terms(place));
         let n = self.replicas() as f64;
-        let zero = DVector::zeros(self.points());
-        let squares = (self.deviations.iter())
-            .fold(zero, |sum, one| sum + one.tr_mul(&terms).map(|deviation| deviation * deviation));
+        let squares: DVector<f64> = self.deviations.iter().map(|one| one.tr_mul(&terms).map(|d| d * d)).sum();
         let own = |lack: f64, squares: f64| {
             lack.signum() * (lack * lack - CERTAIN.powi(2) * squares / (n * (n - 1.0).max(1.0))).max(0.0).sqrt()
         };
@@ -201,20 +190,18 @@ impl Emulator {
     /// (a row for each term) and `inverse` is V⁻¹.
     pub fn noise(&self, inverse: &DMatrix<f64>) -> DMatrix<f64> {
         let n = self.replicas() as f64;
-        let terms = self.mean().nrows();
-        let zero = DMatrix::zeros(terms, terms);
+        let (terms, points) = self.mean().shape();
         // One product with V⁻¹ for many replicas: a replica alone has too few rows for the fast kernels.
         let some = |deviations: &[DMatrix<f64>]| {
-            let stacked = DMatrix::from_fn(self.points(), terms * deviations.len(), |point, column| {
+            let stacked = DMatrix::from_fn(points, terms * deviations.len(), |point, column| {
                 deviations[column / terms][(column % terms, point)]
             });
             let weighted = inverse * &stacked;
             let of = |k: usize| stacked.columns(k * terms, terms).tr_mul(&weighted.columns(k * terms, terms));
-            (0..deviations.len()).fold(zero.clone(), |sum, k| sum + of(k))
+            (0..deviations.len()).map(of).sum()
         };
         let all: Vec<DMatrix<f64>> = self.deviations.par_chunks(TOGETHER).map(some).collect();
-        let sum = all.iter().fold(zero.clone(), |sum, one| sum + one);
-        sum / (n * (n - 1.0).max(1.0))
+        all.iter().sum::<DMatrix<f64>>() / (n * (n - 1.0).max(1.0))
     }
 
     /// The covariance of the mean curve, points × points.

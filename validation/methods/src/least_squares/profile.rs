@@ -2,7 +2,6 @@
 
 use super::best::Best;
 use super::minimise::{descend, minimise};
-use serde::Serialize;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 const PLACES: usize = 61;
@@ -11,7 +10,7 @@ const PLACES: usize = 61;
 const HALVINGS: usize = 20;
 
 /// An interval of one parameter, on the scale of the box.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Interval {
     /// The lower end.
     pub low: f64,
@@ -20,7 +19,6 @@ pub struct Interval {
     /// True, below and above, if the profile does not reach the level before the edge of the box.
     pub open: [bool; 2],
     /// True if the profile jumps over the level at an end: the inner minima on both sides belong to different valleys.
-    #[serde(skip)]
     pub jumps: [bool; 2],
 }
 
@@ -70,12 +68,12 @@ impl Rise {
 
     /// The rise with the parameter `axis` fixed at `place`.
     fn along(best: &Best, axis: usize, place: f64, starts: &[&[f64]]) -> Self {
-        Self::to(best, &fixed(best, axis, place), starts)
+        Self::to(best, &fixed(best, &[(axis, place)]), starts)
     }
 
     /// The rise with the parameter `axis` fixed at `place`, in the valley of `start`.
     fn from(best: &Best, axis: usize, place: f64, start: &[f64]) -> Self {
-        Self::of(best, descend(&best.surface, &fixed(best, axis, place), start.to_vec()))
+        Self::of(best, descend(&best.surface, &fixed(best, &[(axis, place)]), start.to_vec()))
     }
 
     /// The rise that counts for an interval. Noise in the slopes makes the variance of an estimate larger than the
@@ -85,10 +83,10 @@ impl Rise {
     }
 }
 
-fn fixed(best: &Best, axis: usize, place: f64) -> Vec<Option<f64>> {
-    let mut fixed = vec![None; best.place.len()];
-    fixed[axis] = Some(place);
-    fixed
+/// The parameters with these fixed at their places.
+pub fn fixed(best: &Best, at: &[(usize, f64)]) -> Vec<Option<f64>> {
+    let place = |axis: usize| at.iter().find(|(fixed, _)| *fixed == axis).map(|(_, place)| *place);
+    (0..best.place.len()).map(place).collect()
 }
 
 /// The profile of one parameter over the box, with its best place among the places. The inner minima are searched from
@@ -220,8 +218,7 @@ pub fn region(best: &Best, profile: &Profile, [a, b]: [usize; 2], level: f64) ->
             continue;
         }
         let is_inside = |other: f64| {
-            let mut fixed = vec![None; best.place.len()];
-            (fixed[a], fixed[b]) = (Some(place), Some(other));
+            let fixed = fixed(best, &[(a, place), (b, other)]);
             shown * Rise::to(best, &fixed, &[&found.at]).beside_noise() <= level
         };
         let [low, high] = [-1.0, 1.0].map(|side| end(found.at[b], side, first_step, is_inside));

@@ -17,7 +17,7 @@ use super::error::{FitError, SceneError, Warning};
 use super::scenes::Scenes;
 use super::search::{Fit, Watch, values};
 use crate::methods::least_squares::Datum;
-use crate::methods::least_squares::basis::Basis;
+use crate::methods::least_squares::basis::{Basis, grid};
 use crate::methods::least_squares::emulator::{Emulator, Replica, coefficients};
 use crate::methods::least_squares::likelihood::{READING, Rods, correlation_of};
 pub(super) use known::Known;
@@ -208,23 +208,12 @@ fn weighted(fit: &Fit) -> (Vec<Vec<f64>>, Vec<f64>) {
     let parameters = fit.sides.len();
     let count = PLACES[parameters - 1];
     let coordinate = |k: usize| 2.0 * k as f64 / (count - 1) as f64 - 1.0;
-    let place = |mut k: usize| -> Vec<f64> {
-        let mut next = || {
-            let own = k % count;
-            k /= count;
-            coordinate(own)
-        };
-        (0..parameters).map(|_| next()).collect()
-    };
-    let (mut places, mut weights) = (Vec::new(), Vec::new());
-    for k in 0..count.pow(parameters as u32) {
-        let place = place(k);
+    let places = grid(parameters, count).into_iter().map(|index| index.into_iter().map(coordinate).collect());
+    let weighted = |place: Vec<f64>| {
         let weight = (-0.5 * (fit.best.surface.at(&place) - fit.best.chi_square)).exp();
-        if weight > SMALL {
-            places.push(place);
-            weights.push(weight);
-        }
-    }
+        (weight > SMALL).then_some((place, weight))
+    };
+    let (places, weights): (Vec<_>, Vec<f64>) = places.filter_map(weighted).unzip();
     let all: f64 = weights.iter().sum();
     (places, weights.into_iter().map(|weight| weight / all).collect())
 }
@@ -236,13 +225,9 @@ fn deviations(covariance: &DMatrix<f64>) -> Vec<f64> {
 /// The uncertainties left by the measured points, by as many more of each kind, and by the best points in sequence.
 pub(super) fn steps(known: &Known, candidates: &[Candidate], data: &[Datum]) -> Vec<Step> {
     let mut steps = vec![Step::of(Added::Nothing, known)];
-    let mut kinds: Vec<(usize, Option<f64>)> = Vec::new();
-    for candidate in candidates {
-        let kind = (candidate.set, candidate.concentration_per_cm3);
-        if !kinds.contains(&kind) {
-            kinds.push(kind);
-        }
-    }
+    // Candidates come set by set at each concentration.
+    let mut kinds: Vec<_> = candidates.iter().map(|one| (one.set, one.concentration_per_cm3)).collect();
+    kinds.dedup();
     for (set, concentration_per_cm3) in kinds {
         let is_here = |one: &Candidate| (one.set, one.concentration_per_cm3) == (set, concentration_per_cm3);
         let here: Vec<usize> = (0..candidates.len()).filter(|k| is_here(&candidates[*k])).collect();

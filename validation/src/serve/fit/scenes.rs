@@ -11,6 +11,7 @@ use crate::input::scenes;
 use crate::input::start::Starts;
 use crate::methods::interpolate::interpolate;
 use crate::methods::least_squares::Datum;
+use crate::methods::least_squares::basis::grid;
 use crate::methods::least_squares::emulator::{Part, Prediction, Replica};
 use crate::serve::sweep::{self, KeyValue};
 use shearbed::observable::Channel;
@@ -183,13 +184,9 @@ impl Scenes {
     }
 
     fn corners(&self) -> Vec<Vec<f64>> {
-        let end = |k: usize, range: usize| match k >> range & 1 {
-            0 => self.ranges[range].from,
-            _ => self.ranges[range].to,
-        };
-        (0..1 << self.ranges.len())
-            .map(|k: usize| (0..self.ranges.len()).map(|range| end(k, range)).collect())
-            .collect()
+        let corner =
+            |ends: Vec<usize>| self.ranges.iter().zip(ends).map(|(range, end)| [range.from, range.to][end]).collect();
+        grid(self.ranges.len(), 2).into_iter().map(corner).collect()
     }
 
     /// The scene of a set with these values; the other keys are as in its file.

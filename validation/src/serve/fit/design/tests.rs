@@ -39,8 +39,7 @@ fn further_points_leave_what_the_textbook_says_and_the_best_are_the_ends() {
     data.truncate(10);
     let row = |time: &f64| DVector::from_vec(vec![1.0, *time]) / u;
     let information = |times: &[f64]| {
-        let rows = times.iter().map(|time| row(time) * row(time).transpose());
-        rows.fold(DMatrix::zeros(2, 2), |sum: DMatrix<f64>, one| sum + one)
+        times.iter().map(|time| row(time) * row(time).transpose()).fold(DMatrix::zeros(2, 2), |sum, one| sum + one)
     };
     let inverse = |matrix: DMatrix<f64>| matrix.try_inverse().unwrap();
     let times: Vec<f64> = (0..=20).map(|k| 0.1 * f64::from(k)).collect();
