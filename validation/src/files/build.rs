@@ -1,7 +1,6 @@
 //! Identifies this build of the program. Values that were unknown at build time are "unknown".
 
 use serde::Serialize;
-use serde_json::{Value, json};
 
 /// A build of the program.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -29,11 +28,6 @@ pub const BUILD: Build = Build {
 
 /// A digest of the sources of this build, of the compiler and of its settings.
 pub const SOURCES: &str = env!("SHEARBED_SOURCES");
-
-/// This build as an object to which the rest of a record can be added.
-pub fn record() -> Value {
-    json!(BUILD)
-}
 
 /// A record with the build that wrote it.
 #[derive(Serialize)]

@@ -108,24 +108,18 @@ pub fn write_one(path: &Path, contents: &[u8], force: bool) -> Result<bool, Refu
     let target = followed(path);
     let name = target.file_name().and_then(|name| name.to_str());
     let name = name.ok_or_else(|| at(path)(io::ErrorKind::InvalidFilename.into()))?;
-    let folder = target.parent().filter(|folder| !folder.as_os_str().is_empty());
-    let folder = folder.unwrap_or(Path::new("."));
+    let folder = folder_of(&target);
     let at_file = |error: OutputError| at(path)(error.reason);
     // Checked before the claim: in a folder that is not writable, such as /dev, the reason is the kind of the file.
     may_write(path, contents, force)?;
-    loop {
-        if let Some(claim) = Claim::open(folder, PATIENCE).map_err(at_file)? {
-            let other = may_write(path, contents, force)?;
-            let replaces = other && is_own_picture(path);
-            if other {
-                claim.write_file(name, contents).map_err(at_file)?;
-            }
-            return Ok(replaces);
-        }
-        if Claim::appear(folder, &[(name.to_owned(), contents)]).map_err(at_file)?.is_some() {
-            return Ok(false);
-        }
+    let new = [(name.to_owned(), contents)];
+    let (claim, is_new) = Claim::open_or_appear(folder, PATIENCE, &new).map_err(at_file)?;
+    if is_new || !may_write(path, contents, force)? {
+        return Ok(false);
     }
+    let replaces = is_own_picture(path);
+    claim.write_file(name, contents).map_err(at_file)?;
+    Ok(replaces)
 }
 
 /// False if the file has these contents already.
@@ -162,9 +156,14 @@ fn holds(path: &Path, contents: &[u8]) -> io::Result<Option<bool>> {
 /// The place of a file, by which two names of it are one.
 pub fn place(path: &Path) -> PathBuf {
     let target = followed(path);
-    let folder = target.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let folder = folder_of(&target);
     let folder = folder.canonicalize().unwrap_or_else(|_| folder.to_owned());
     target.file_name().map_or(folder.clone(), |name| folder.join(name))
+}
+
+/// The folder of a file.
+fn folder_of(path: &Path) -> &Path {
+    path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }
 
 /// The file that links lead to, whether it exists or not.

@@ -5,7 +5,7 @@ mod tests;
 
 use crate::files::cluster;
 use crate::files::csv::written;
-use crate::files::text::{cell, left_aligned};
+use crate::files::text::{cell, left_aligned, widths};
 use crate::judge::statistics::{Estimate, Sample};
 use crate::present::markup;
 use serde::{Deserialize, Serialize};
@@ -230,17 +230,9 @@ pub fn of_words(
     columns: &[impl AsRef<str>],
     rows: Vec<Vec<String>>,
 ) -> ReportTable {
-    let columns: Vec<String> = columns.iter().map(|column| column.as_ref().into()).collect();
-    let data = |row: &Vec<String>| row.iter().map(|text| Datum::Text(text.clone())).collect();
-    ReportTable {
-        name: name.into(),
-        title: title.into(),
-        caption: caption.into(),
-        data: rows.iter().map(data).collect(),
-        heads: columns.clone(),
-        columns,
-        rows,
-    }
+    let columns = columns.iter().enumerate();
+    let columns = columns.map(|(k, name)| words(name.as_ref(), move |row: &Vec<String>| row[k].clone()));
+    ReportTable::new([name, title], caption, rows, columns.collect())
 }
 
 impl ReportTable {
@@ -312,16 +304,12 @@ impl ReportTable {
     }
 
     fn text_within(&self, room: usize) -> String {
-        let lines = || std::iter::once(&self.columns).chain(&self.rows);
-        let width = |column: usize| {
-            let cells = lines().filter_map(|cells| cells.get(column));
-            cells.map(|cell| cell.chars().count()).max().unwrap_or(0)
-        };
-        let widths: Vec<_> = (0..self.columns.len()).map(width).collect();
+        let mut rows: Vec<_> = std::iter::once(&self.columns).chain(&self.rows).cloned().collect();
+        let widths = widths(&rows);
         // Two blanks stand between columns.
         let across = |last: usize| widths[..=last].iter().sum::<usize>() + 2 * last;
         let shown = (0..widths.len()).take_while(|last| across(*last) <= room).count().max(1);
-        let rows: Vec<_> = lines().map(|cells| cells[..shown].to_vec()).collect();
+        rows.iter_mut().for_each(|cells| cells.truncate(shown));
         let mut text = format!("{}\n\n{}", self.title, left_aligned(&rows));
         if shown < self.columns.len() {
             text += &format!("\nLeft out for want of room: {}.\n", self.columns[shown..].join(", "));
@@ -359,14 +347,13 @@ pub(crate) fn wrapped(text: &str) -> String {
             let length = word.chars().count();
             if k > 0 && width + 1 + length > WIDTH {
                 all += "\n  ";
-                width = 2 + length;
-            } else {
-                if k > 0 {
-                    all.push(' ');
-                }
-                width += usize::from(k > 0) + length;
+                width = 2;
+            } else if k > 0 {
+                all.push(' ');
+                width += 1;
             }
             all += word;
+            width += length;
         }
         all.push('\n');
     }

@@ -5,6 +5,7 @@
 
 use super::saved::{Progress, Saved, without_replicas};
 use super::{Checkpoint, on_stop_of};
+use crate::files::locked;
 use crate::files::output::{OutputError, Refused};
 use crate::files::text::Shown;
 use serde_json::json;
@@ -16,7 +17,7 @@ use shearbed::{Plan, Results};
 use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::atomic::{AtomicU64, Ordering};
-use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Condvar, Mutex, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
 
@@ -96,23 +97,23 @@ impl Replicas {
     ///
     /// If the file cannot be written.
     pub fn write(&self) -> Result<(), OutputError> {
-        self.file.write(&self.state().saved)
+        self.file.write(&locked(&self.state).saved)
     }
 
     /// The progress of the run.
     pub fn progress(&self) -> Progress {
-        let state = self.state();
+        let state = locked(&self.state);
         state.saved.progress(state.all)
     }
 
     /// The number of replicas in the sum.
     pub fn replicas(&self) -> u64 {
-        self.state().saved.tally.replicas()
+        locked(&self.state).saved.tally.replicas()
     }
 
     /// The sum of the replicas so far.
     pub fn tally(&self) -> Tally {
-        self.state().saved.tally.clone()
+        locked(&self.state).saved.tally.clone()
     }
 
     /// Runs the plan's remaining replicas. Calls `finished` after each replica, and `saved` after each checkpoint with
@@ -137,7 +138,7 @@ impl Replicas {
         saved: impl Fn(Result<Progress, OutputError>) + Sync,
     ) -> Result<(), Error> {
         {
-            let mut state = self.state();
+            let mut state = locked(&self.state);
             state.all = all.min(self.plan.scene().ensemble.replicas);
             state.deadline = deadline;
             state.ended = false;
@@ -164,7 +165,7 @@ impl Replicas {
                 .collect();
             let saver = scope.spawn(|| self.save_regularly(&saved));
             let ends: Vec<_> = workers.into_iter().map(|worker| worker.join()).collect();
-            self.state().ended = true;
+            locked(&self.state).ended = true;
             self.changed.notify_all();
             let mut ends = ends.into_iter().chain([saver.join()]);
             if let Some(panic) = ends.find_map(Result::err) {
@@ -172,11 +173,7 @@ impl Replicas {
             }
         });
         self.save_and_report(&saved);
-        let mut state = self.state();
-        match state.stopped.take() {
-            Some((_, error)) => Err(error),
-            None => Ok(()),
-        }
+        locked(&self.state).stopped.take().map_or(Ok(()), |(_, error)| Err(error))
     }
 
     /// Runs replicas, one after the other, until none is left.
@@ -196,7 +193,7 @@ impl Replicas {
 
     /// The next replica, the state from which it resumes, and the last round of requests that it need not answer.
     fn begin(&self) -> Option<(u64, Option<Halfway>, u64)> {
-        let mut state = self.state();
+        let mut state = locked(&self.state);
         // A replica that was finished before its turn may be in the sum by now.
         state.next = state.next.max(state.saved.tally.replicas());
         while state.saved.done.contains_key(&state.next) {
@@ -214,7 +211,7 @@ impl Replicas {
     }
 
     fn answer(&self, replica: u64, round: u64, halfway: &dyn Fn() -> Halfway) {
-        let mut state = self.state();
+        let mut state = locked(&self.state);
         // The old state is removed first, because there is memory for only one.
         state.saved.halfway.remove(&replica);
         state.saved.halfway.insert(replica, halfway());
@@ -224,7 +221,7 @@ impl Replicas {
     }
 
     fn end(&self, replica: u64, end: Result<Replica, Error>) {
-        let mut state = self.state();
+        let mut state = locked(&self.state);
         state.in_work.remove(&replica);
         match end {
             Ok(end) => {
@@ -232,12 +229,10 @@ impl Replicas {
                 state.saved.done.insert(replica, end);
                 state.new = true;
             }
-            Err(error) => {
-                let first = state.stopped.as_ref().is_none_or(|(first, _)| replica < *first);
-                if first {
-                    state.stopped = Some((replica, error));
-                }
+            Err(error) if state.stopped.as_ref().is_none_or(|(first, _)| replica < *first) => {
+                state.stopped = Some((replica, error));
             }
+            Err(_) => {}
         }
         let all = state.all;
         state.saved.add_up(all);
@@ -247,7 +242,7 @@ impl Replicas {
     /// Saves at regular intervals until the run has ended.
     fn save_regularly(&self, saved: &impl Fn(Result<Progress, OutputError>)) {
         loop {
-            let wait = self.changed.wait_timeout_while(self.state(), self.every, |state| !state.ended);
+            let wait = self.changed.wait_timeout_while(locked(&self.state), self.every, |state| !state.ended);
             if wait.unwrap_or_else(PoisonError::into_inner).0.ended {
                 return;
             }
@@ -256,17 +251,15 @@ impl Replicas {
     }
 
     fn save_and_report(&self, saved: &impl Fn(Result<Progress, OutputError>)) {
-        match self.save(None) {
-            Ok((_, false)) => (),
-            Ok((progress, true)) => saved(Ok(progress)),
-            Err(error) => saved(Err(error)),
+        if let Some(result) = self.save(None).map(|(progress, is_new)| is_new.then_some(progress)).transpose() {
+            saved(result);
         }
     }
 
     /// Checkpoints every replica: requests their states, waits up to `patience` for the answers, and writes the file if
     /// there is anything new. Returns the progress in the file, and true if it was written.
     fn save(&self, patience: Option<Duration>) -> Result<(Progress, bool), OutputError> {
-        let mut state = self.state();
+        let mut state = locked(&self.state);
         let round = self.round.fetch_add(1, Ordering::Relaxed) + 1;
         let silent = |state: &mut State| !state.ended && state.in_work.values().any(|answered| *answered < round);
         state = match patience {
@@ -285,7 +278,7 @@ impl Replicas {
         // The lock is released, so that replicas do not wait for a slow disk.
         drop(state);
         if let Err(error) = part.finish() {
-            self.state().new = true;
+            locked(&self.state).new = true;
             return Err(error);
         }
         Ok((progress, true))
@@ -302,9 +295,5 @@ impl Replicas {
                 format!("{error}; the earlier state stays in {path}, and the same command goes on from there")
             }
         }
-    }
-
-    fn state(&self) -> MutexGuard<'_, State> {
-        self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }

@@ -16,7 +16,7 @@ use std::fmt;
 #[derive(Serialize, Deserialize)]
 pub(super) struct Saved {
     /// Number of replicas that the last command requested.
-    asked: u64,
+    pub(super) asked: u64,
     /// The sum of the first replicas.
     pub(super) tally: Tally,
     /// Finished replicas that wait for earlier ones.

@@ -1,8 +1,9 @@
 //! The last action before a signal ends the program.
 
+use crate::files::locked;
 use crate::files::text::Shown;
 use std::path::Path;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex};
 
 type Last = Box<dyn FnOnce() -> Option<String> + Send>;
 
@@ -11,7 +12,7 @@ static LAST: Mutex<Option<Last>> = Mutex::new(None);
 /// Sets the last action before a signal ends the program, replacing the previous one. It returns a message on how to
 /// resume, if possible.
 pub fn on_stop(last: impl FnOnce() -> Option<String> + Send + 'static) {
-    *LAST.lock().unwrap_or_else(PoisonError::into_inner) = Some(Box::new(last));
+    *locked(&LAST) = Some(Box::new(last));
 }
 
 /// Sets the last action as `last`, on what holds the checkpoint at `path`, as long as that exists. The reference is
@@ -30,7 +31,7 @@ pub fn on_stop_of<T: Send + Sync + 'static>(
 
 /// Runs the last action, at most once, and returns its message.
 pub fn last_words() -> Option<String> {
-    let last = LAST.lock().unwrap_or_else(PoisonError::into_inner).take();
+    let last = locked(&LAST).take();
     last.and_then(|last| last())
 }
 

@@ -1,5 +1,4 @@
 use super::*;
-use serde_json::json;
 use std::fs;
 use std::path::PathBuf;
 use tempfile::TempDir;
@@ -82,7 +81,7 @@ fn other_work_and_other_formats_are_refused_by_name() {
     other[HEAD.len()] = b'1';
     assert!(refused(&path, &summed(other), 1).contains("has the format 1, of another version"));
     for build in ["version", "commit"] {
-        let own = json!(crate::files::build::record()[build]).to_string();
+        let own = json!(BUILD)[build].to_string();
         let at = whole.windows(own.len()).position(|bytes| bytes == own.as_bytes()).unwrap();
         let mut other = whole.clone();
         other[at + 1] = b'Z';
@@ -119,15 +118,6 @@ fn one_process_at_a_time_and_files_alone() {
     assert!(opened(Path::new("/proc/x"), 1).write(&state()).is_err());
 }
 
-/// The layout of a run's checkpoint.
-#[derive(serde::Serialize)]
-struct Kept {
-    asked: u64,
-    tally: shearbed::run::ensemble::Tally,
-    done: std::collections::BTreeMap<u64, shearbed::run::Replica>,
-    halfway: std::collections::BTreeMap<u64, shearbed::run::resume::Halfway>,
-}
-
 /// Replica 0 is in the sum, 2 waits for its turn, 3 is in work.
 #[test]
 fn nothing_that_is_done_is_run_again() {
@@ -148,7 +138,7 @@ fn nothing_that_is_done_is_run_again() {
         halfway.extend((looks == 20).then(state));
     })
     .unwrap();
-    let mut kept = Kept {
+    let mut kept = saved::Saved {
         asked: 6,
         tally,
         done: [(2, run_replica(&plan, 2).unwrap())].into(),
@@ -182,7 +172,7 @@ fn nothing_that_is_done_is_run_again() {
     let dir = tempfile::tempdir().unwrap();
     let path = dir.path().join("kept");
     let open = |plan: &shearbed::Plan| Replicas::open(plan, &path, std::time::Duration::from_secs(1));
-    let keep = |kept: &Kept| {
+    let keep = |kept: &saved::Saved| {
         let inputs = json!({ "scene": super::without_replicas(plan.scene()) });
         Checkpoint::open(&path, "run", inputs).unwrap().write(kept).unwrap();
     };

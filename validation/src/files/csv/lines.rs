@@ -24,7 +24,8 @@ pub enum LineEnds {
 /// The lines of a text that are not blank.
 pub struct Lines<R = BufReader<File>> {
     path: PathBuf,
-    reader: R,
+    /// What the lines are read from.
+    pub(super) reader: R,
     number: u64,
     ends: LineEnds,
 }
@@ -46,11 +47,6 @@ impl<R: BufRead> Lines<R> {
     /// The file.
     pub fn path(&self) -> &Path {
         &self.path
-    }
-
-    /// What the lines are read from.
-    pub fn reader(&self) -> &R {
-        &self.reader
     }
 
     /// The number of the last line read, from 1.

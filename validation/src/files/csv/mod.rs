@@ -253,7 +253,7 @@ impl<R: BufRead> Table<R> {
 
     /// What the table is read from.
     pub fn reader(&self) -> &R {
-        self.rows.lines.reader()
+        &self.rows.lines.reader
     }
 
     /// The next row; `None` at the end.

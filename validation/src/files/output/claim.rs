@@ -35,9 +35,25 @@ impl Claim {
         Ok(Some(Self { path: path.to_owned(), dir, _lock: lock }))
     }
 
+    /// Claims a folder, or writes it with `files` if there is none; true if it is new.
+    pub fn open_or_appear<C: AsRef<[u8]>>(
+        path: &Path,
+        patience: Duration,
+        files: &[(String, C)],
+    ) -> Result<(Self, bool), OutputError> {
+        loop {
+            if let Some(claim) = Self::open(path, patience)? {
+                return Ok((claim, false));
+            }
+            if let Some(claim) = Self::appear(path, files)? {
+                return Ok((claim, true));
+            }
+        }
+    }
+
     /// Writes a new folder under a hidden name, with the missing ones above it. They appear with all files by one move;
     /// `None` if somebody else has made one of them meanwhile.
-    pub fn appear<C: AsRef<[u8]>>(path: &Path, files: &[(String, C)]) -> Result<Option<Self>, OutputError> {
+    fn appear<C: AsRef<[u8]>>(path: &Path, files: &[(String, C)]) -> Result<Option<Self>, OutputError> {
         let (above, missing) = existing(path);
         let mut missing = missing.components();
         let first = match missing.next() {

@@ -26,7 +26,8 @@ pub(super) const OTHER_OUT: &str = "another --out";
 pub struct ResultFolder {
     dir: PathBuf,
     origin: Origin,
-    force: bool,
+    /// True if files may be overwritten whoever wrote them.
+    pub(crate) force: bool,
     /// True if results of the same command from other inputs stay too.
     from_same_input: bool,
     /// How to give the command another folder, for messages.
@@ -64,11 +65,6 @@ impl ResultFolder {
     /// The command and its inputs.
     pub fn origin(&self) -> &Origin {
         &self.origin
-    }
-
-    /// True if files may be overwritten whoever wrote them.
-    pub fn has_force(&self) -> bool {
-        self.force
     }
 
     /// True if this command wrote the folder from the same inputs.
@@ -137,20 +133,17 @@ impl ResultFolder {
     pub fn write(&self, files: Vec<Output>) -> Result<Option<String>, Refused> {
         let record = Record::new(&self.origin, &files);
         let names: Vec<String> = files.iter().map(|(name, _)| name.clone()).collect();
-        loop {
-            if let Some(claim) = Claim::open(&self.dir, PATIENCE)? {
-                self.check(&names)?;
-                let earlier = self.earlier(&claim);
-                let left_over: Vec<_> = earlier.keys().filter(|name| !names.contains(name)).cloned().collect();
-                let replaced = self.own().and_then(|record| record.origin.difference(&self.origin));
-                claim.write(&record, &files, earlier, &left_over)?;
-                return Ok(replaced);
-            }
-            let all = [&files[..], &[record.file()]].concat();
-            if Claim::appear(&self.dir, &all)?.is_some() {
-                return Ok(None);
-            }
+        let all = [&files[..], &[record.file()]].concat();
+        let (claim, is_new) = Claim::open_or_appear(&self.dir, PATIENCE, &all)?;
+        if is_new {
+            return Ok(None);
         }
+        self.check(&names)?;
+        let earlier = self.earlier(&claim);
+        let left_over: Vec<_> = earlier.keys().filter(|name| !names.contains(name)).cloned().collect();
+        let replaced = self.own().and_then(|record| record.origin.difference(&self.origin));
+        claim.write(&record, &files, earlier, &left_over)?;
+        Ok(replaced)
     }
 
     /// The record of earlier results of this command in the folder.

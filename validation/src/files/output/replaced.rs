@@ -1,14 +1,14 @@
 //! A single file that one process replaces repeatedly, always as a whole.
 
 use super::stage::{Stage, report};
-use super::{OutputError, at};
-use crate::files::bounded;
+use super::{OutputError, at, folder_of};
+use crate::files::{bounded, locked};
 use cap_std::ambient_authority;
 use cap_std::fs::Dir;
 use std::fs::{self, File, TryLockError};
 use std::io::{self, BufWriter, Seek, Write};
 use std::path::{Path, PathBuf};
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::sync::Mutex;
 
 /// A file that no other process replaces while this exists.
 #[derive(Debug)]
@@ -55,20 +55,15 @@ impl Replaced {
 
     /// The file, to be read; `None` if there is none.
     pub fn open(&self) -> io::Result<Option<File>> {
-        let file = self.held().as_ref().map(File::try_clone).transpose()?;
+        let file = locked(&self.file).as_ref().map(File::try_clone).transpose()?;
         file.map(|mut file| file.rewind().map(|()| file)).transpose()
-    }
-
-    fn held(&self) -> MutexGuard<'_, Option<File>> {
-        self.file.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// Writes new contents, which `Part::finish` moves into place: at every moment either the old or the new file is
     /// there, complete and on the disk. Creates the file's folder if that does not exist.
     pub fn write(&self, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<Part<'_>, OutputError> {
         let written = || {
-            let parent = self.path.parent().filter(|dir| !dir.as_os_str().is_empty());
-            let parent = parent.unwrap_or(Path::new("."));
+            let parent = folder_of(&self.path);
             fs::create_dir_all(parent)?;
             let above = Dir::open_ambient_dir(parent, ambient_authority())?;
             report(&above, parent);
@@ -109,7 +104,7 @@ impl Part<'_> {
     /// Writes the contents to the disk and moves them into place.
     pub fn finish(self) -> Result<(), OutputError> {
         let Self { of, file, stage } = self;
-        let mut held = of.held();
+        let mut held = locked(&of.file);
         let moved = || {
             file.sync_all()?;
             // Locked before others see it; where files have no locks, nobody is kept out.

@@ -1,6 +1,7 @@
 //! The one hidden name under which a command writes: a folder with a random name, beside the place of what it writes.
 
 use super::{OutputError, at};
+use crate::files::locked;
 use crate::files::text::{Shown, complain};
 use cap_std::fs::{Dir, OpenOptions};
 use std::collections::BTreeSet;
@@ -8,7 +9,7 @@ use std::fs::{File, TryLockError};
 use std::hash::{BuildHasher, Hasher, RandomState};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::sync::{Mutex, MutexGuard};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
@@ -20,13 +21,9 @@ pub(super) const PATIENCE: Duration = Duration::from_secs(20);
 /// Held while a hidden folder is there.
 static WRITING: Mutex<()> = Mutex::new(());
 
-fn held<T>(mutex: &'static Mutex<T>) -> MutexGuard<'static, T> {
-    mutex.lock().unwrap_or_else(PoisonError::into_inner)
-}
-
 /// Waits until no files are being written, then ends the process, so that no hidden folder is left.
 pub fn stop(code: i32) -> ! {
-    let _writing = held(&WRITING);
+    let _writing = locked(&WRITING);
     std::process::exit(code)
 }
 
@@ -44,7 +41,7 @@ impl Stage {
     /// Makes a hidden folder in `above` and locks it.
     pub(super) fn new(above: &Dir) -> io::Result<Self> {
         let above = above.try_clone()?;
-        let writing = held(&WRITING);
+        let writing = locked(&WRITING);
         let name = format!("{PREFIX}{:016x}", RandomState::new().build_hasher().finish());
         above.create_dir(&name)?;
         let locked = || {
@@ -149,7 +146,7 @@ pub(super) fn report(dir: &Dir, path: &Path) {
         };
         let is_dir = random && dir.symlink_metadata(&name).is_ok_and(|found| found.is_dir());
         let left_over = path.join(&name);
-        if is_dir && is_left().unwrap_or(false) && held(&SAID).insert(left_over.clone()) {
+        if is_dir && is_left().unwrap_or(false) && locked(&SAID).insert(left_over.clone()) {
             complain(&format!(
                 "warning: {}: a shearbed that was killed left this folder of unfinished files; remove it\n",
                 left_over.shown()

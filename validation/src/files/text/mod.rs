@@ -1,11 +1,10 @@
 //! Makes texts of other people harmless: on a terminal, in cells of a table, in a shell.
 
-mod cell;
 mod columns;
 mod message;
 mod shell;
 
-pub(crate) use cell::cell;
+pub(crate) use columns::widths;
 pub use columns::{four_decimals, left_aligned, right_aligned};
 pub(crate) use message::shortened;
 pub use message::{complain, message};
@@ -72,6 +71,15 @@ pub(crate) fn escaped(text: &str) -> String {
         }
     }
     escaped
+}
+
+/// A CSV cell that no spreadsheet treats as a formula: a text that begins like a formula gets an apostrophe before it.
+/// Numbers are unchanged.
+pub(crate) fn cell(text: &str) -> String {
+    // Full-width forms too, which East Asian spreadsheets treat like the others.
+    let formula = text.starts_with(['=', '+', '-', '@', '\t', '\r', '\n', '|', '%', '＝', '＋', '－', '＠']);
+    let mark = if formula && text.parse::<f64>().is_err() { "'" } else { "" };
+    format!("{mark}{}", readable(text))
 }
 
 /// A readable text on one line.

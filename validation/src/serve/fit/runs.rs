@@ -2,6 +2,7 @@
 //! whenever it is asked for, so the fit goes on to the same bits.
 
 use crate::files::checkpoint::{Checkpoint, on_stop_of};
+use crate::files::locked;
 use crate::files::output::{OutputError, Refused};
 use crate::files::text::Shown;
 use crate::methods::least_squares::emulator::Predictions;
@@ -11,7 +12,7 @@ use std::collections::{BTreeMap, HashMap};
 use std::fmt;
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::Path;
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
 /// Predictions by what a run depends on but the replica, then by replica.
@@ -54,7 +55,7 @@ impl Runs {
 
     /// The number of runs.
     pub fn count(&self) -> usize {
-        self.state().count()
+        locked(&self.state).count()
     }
 
     /// Writes all runs to the file.
@@ -63,7 +64,7 @@ impl Runs {
     ///
     /// If the file cannot be written.
     pub fn write(&self) -> Result<(), OutputError> {
-        self.write_state(&mut self.state())
+        self.write_state(&mut locked(&self.state))
     }
 
     /// The result of a run, by `key` and replica: that of the file, or of `run`.
@@ -73,11 +74,11 @@ impl Runs {
         replica: u64,
         run: impl FnOnce() -> Result<Predictions, String>,
     ) -> Result<Predictions, String> {
-        if let Some(found) = self.state().found.get(&key).and_then(|found| found.get(&replica)) {
+        if let Some(found) = locked(&self.state).found.get(&key).and_then(|found| found.get(&replica)) {
             return Ok(found.clone());
         }
         let found = run()?;
-        let mut state = self.state();
+        let mut state = locked(&self.state);
         state.found.entry(key).or_default().insert(replica, found.clone());
         if state.written.elapsed() >= self.every {
             self.write_state(&mut state).map_err(|error| error.to_string())?;
@@ -93,7 +94,7 @@ impl Runs {
 
     fn last_words(&self) -> String {
         let path = self.file.path().shown();
-        let mut state = self.state();
+        let mut state = locked(&self.state);
         match self.write_state(&mut state) {
             Ok(()) => {
                 let runs = counted(state.count() as u64, "run");
@@ -101,10 +102,6 @@ impl Runs {
             }
             Err(error) => format!("{error}; earlier runs stay in {path}, and the same command goes on from there"),
         }
-    }
-
-    fn state(&self) -> MutexGuard<'_, State> {
-        self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 

@@ -4,11 +4,12 @@
 
 use super::axis::{Axis, shown};
 use super::{Pairs, Point, at, count, pairs};
+use crate::files::build::BUILD;
 use crate::files::csv::{self, Table};
 use crate::files::difference::difference;
 use crate::files::output::{Claim, Origin, Output, OutputError, RECORD, Record, Refused, ResultFolder};
 use crate::files::text::{self, Shown, cell};
-use crate::files::{FileError, bounded, build};
+use crate::files::{FileError, bounded};
 use serde_json::{Value, json};
 use shearbed::Scene;
 use std::collections::BTreeMap;
@@ -20,7 +21,7 @@ use std::time::Duration;
 /// The inputs of a sweep, everything on which its results depend: this build, the scene without the swept keys, the
 /// grid, the warnings of the points' plans, and the checksums of files with initial directions.
 pub fn inputs(scene: &Scene, axes: &[Axis], points: &[Point], warnings: &[String]) -> Value {
-    let mut inputs = build::record();
+    let mut inputs = json!(BUILD);
     inputs["scene"] = json!(scene.resolved());
     inputs["over"] = json!(axes);
     inputs["warnings"] = json!(warnings);
@@ -114,14 +115,8 @@ impl Folder {
         let text = text::json(inputs).map_err(|error| Refused(error.to_string()))?;
         let first = vec![("sweep.json".to_owned(), text)];
         let begun = Record::new(folder.origin(), &first);
-        let claim = loop {
-            if let Some(claim) = Claim::open(folder.dir(), Duration::ZERO)? {
-                break claim;
-            }
-            if let Some(claim) = Claim::appear(folder.dir(), &[&first[..], &[begun.file()]].concat())? {
-                break claim;
-            }
-        };
+        let all = [&first[..], &[begun.file()]].concat();
+        let (claim, _) = Claim::open_or_appear(folder.dir(), Duration::ZERO, &all)?;
         claim.report("points");
         let own = folder.is_own();
         // Without a record, points are of unknown origin, too.
@@ -133,7 +128,7 @@ impl Folder {
             folder.begin(own)?;
         }
         match folder.finished().into_iter().find_map(|k| folder.tables(k).err()) {
-            Some(_) if folder.folder.has_force() => folder.begin(false)?,
+            Some(_) if folder.folder.force => folder.begin(false)?,
             Some(why) => return Err(why),
             None => {}
         }
