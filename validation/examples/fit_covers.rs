@@ -19,7 +19,7 @@ use shearbed_validation::serve::fit::Range;
 use shearbed_validation::serve::fit::data::TimeColumn;
 use shearbed_validation::serve::fit::elsewhere::best_fit;
 use shearbed_validation::serve::fit::scenes::{AS_WRITTEN, Scenes, Set};
-use shearbed_validation::serve::fit::search::{Fit, FitProblem, Measured, Watch};
+use shearbed_validation::serve::fit::search::{Fit, FitProblem, Watch};
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 use std::collections::BTreeMap;
 
@@ -81,11 +81,7 @@ fn whole_fit(k: u64, truth: &[f64], over: &[Range]) -> Result<Fit, String> {
     let data = points(|k| truth[k] + NOISE * noise[k]);
     let scenes = scenes(2000 + k, over)?;
     let model = |values: &[f64]| scenes.model(&data, AS_WRITTEN, values).map_err(String::from);
-    let problem = FitProblem {
-        measured: Measured { data: &data, ranges: over, rods: &Rods::none(2) },
-        model: &model,
-        most_replicas: 1000,
-    };
+    let problem = FitProblem { data: &data, ranges: over, rods: &Rods::none(2), model: &model, most_replicas: 1000 };
     Ok(best_fit(&problem, &Watch::SILENT)?.0)
 }
 

@@ -26,7 +26,7 @@ use shearbed_validation::serve::fit::Range;
 use shearbed_validation::serve::fit::data::TimeColumn;
 use shearbed_validation::serve::fit::report::report;
 use shearbed_validation::serve::fit::scenes::{AS_WRITTEN, Scenes, Set};
-use shearbed_validation::serve::fit::search::{FitProblem, Measured, Watch, search};
+use shearbed_validation::serve::fit::search::{FitProblem, Watch, search};
 use shearbed_validation::serve::sweep;
 
 const PLANTED: f64 = 0.8;
@@ -93,8 +93,9 @@ fn main() -> Result<(), String> {
         let data: Vec<Datum> = (0..TIMES).map(point).collect();
         let scenes = Scenes::new(vec![set(rods, 5000 + k)?], range.clone())?;
         let model = |values: &[f64]| scenes.model(&data, AS_WRITTEN, values).map_err(String::from);
-        let measured = Measured { data: &data, ranges: &range, rods: &rods_of_fit };
-        let fit = search(&FitProblem { measured, model: &model, most_replicas: 1000 }, &Watch::SILENT)?;
+        let (ranges, rods) = (&range, &rods_of_fit);
+        let problem = FitProblem { data: &data, ranges, rods, model: &model, most_replicas: 1000 };
+        let fit = search(&problem, &Watch::SILENT)?;
         let report = report(&fit, &data, Vec::new());
         let ends = &report.parameters["interaction.alpha"];
         let inside = [(ends.low_68, ends.high_68), (ends.low_95, ends.high_95)]

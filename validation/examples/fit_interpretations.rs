@@ -14,7 +14,7 @@ use shearbed_validation::methods::least_squares::emulator::{Prediction, Replica}
 use shearbed_validation::methods::least_squares::likelihood::Rods;
 use shearbed_validation::oracle::naive::{self, Naive, mean_projections};
 use shearbed_validation::serve::fit::Range;
-use shearbed_validation::serve::fit::search::{FitProblem, Measured, Watch, search};
+use shearbed_validation::serve::fit::search::{FitProblem, Watch, search};
 use shearbed_validation::studies::interpretations::{self, Change, SEED};
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
@@ -87,11 +87,9 @@ fn main() -> Result<(), String> {
             Ok(Replica::whole(move |replica| Ok(curve(change, alpha, 1, replica))))
         };
         let problem = FitProblem {
-            measured: Measured {
-                data: &data,
-                ranges: &[Range::parse("interaction.alpha=0.2:3")?],
-                rods: &Rods::none(1),
-            },
+            data: &data,
+            ranges: &[Range::parse("interaction.alpha=0.2:3")?],
+            rods: &Rods::none(1),
             model: &model,
             most_replicas: most,
         };

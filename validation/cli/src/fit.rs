@@ -32,7 +32,7 @@ use shearbed_validation::serve::fit::report::{self, Report};
 use shearbed_validation::serve::fit::runs::Runs;
 use shearbed_validation::serve::fit::samples::samples_csv;
 use shearbed_validation::serve::fit::scenes::{AS_WRITTEN, Scenes};
-use shearbed_validation::serve::fit::search::{FIRST_REPLICAS, Fit, FitProblem, Measured, Watch};
+use shearbed_validation::serve::fit::search::{FIRST_REPLICAS, Fit, FitProblem, Watch};
 use shearbed_validation::serve::fit::{Hypothesis, Range, pictures};
 use shearbed_validation::serve::sweep::KeyValue;
 use shifts::{shifts, taken_as_known};
@@ -217,7 +217,9 @@ fn work(args: &Args, input: &Input, watch: &Watch<'_>) -> Result<Done, Failure> 
     let counts: Vec<f64> = (0..scenes.sets.len()).map(count).collect::<Result<_, _>>().map_err(refused)?;
     let rods = contents::rods(args.rods, args.u_contains, &counts);
     let problem = FitProblem {
-        measured: Measured { data, ranges: &args.over, rods: &rods },
+        data,
+        ranges: &args.over,
+        rods: &rods,
         model: &model,
         most_replicas: if scenes.draw(data).map_err(refused)? { args.replicas } else { 1 },
     };
@@ -252,7 +254,7 @@ fn work(args: &Args, input: &Input, watch: &Watch<'_>) -> Result<Done, Failure> 
 
 /// The points beside the scene as it is.
 fn as_written(input: &Input, problem: &FitProblem<'_>, watch: &Watch<'_>) -> Result<Done, Failure> {
-    let FitProblem { measured: Measured { data, rods, .. }, model, most_replicas } = *problem;
+    let FitProblem { data, rods, model, most_replicas, .. } = *problem;
     (watch.stage)("the scene as it is");
     let replica = model(&[]).map_err(Failure::Input)?;
     let rows = watch.replicas(most_replicas, |k| replica.run(k)).map_err(Failure::Input)?;

@@ -19,7 +19,7 @@ use crate::methods::least_squares::likelihood::Rods;
 use crate::serve::fit::Range;
 use crate::serve::fit::data::TimeColumn;
 use crate::serve::fit::scenes::{AS_WRITTEN, Scenes, Set};
-use crate::serve::fit::search::{Fit, Measured, fitted};
+use crate::serve::fit::search::{Fit, fitted};
 use rand_distr::{Distribution, StandardNormal};
 use std::sync::Arc;
 
@@ -156,8 +156,8 @@ pub(super) fn fit(
     basis: &Basis,
     drawn: &[Coefficients],
 ) -> Result<Fit, String> {
-    let measured = Measured { data, ranges: std::slice::from_ref(range), rods };
-    fitted(&measured, &vec![(range.from, range.to)], Emulator::new(basis, drawn))
+    let sides = vec![(range.from, range.to)];
+    fitted(data, std::slice::from_ref(range), rods, &sides, Emulator::new(basis, drawn))
 }
 
 struct Fitted {

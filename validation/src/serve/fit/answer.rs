@@ -2,9 +2,11 @@
 
 use super::error::{FitError, ParameterError};
 use super::range::Range;
-use super::search::{FAR, Measured};
+use super::search::FAR;
+use crate::methods::least_squares::Datum;
 use crate::methods::least_squares::best::{Best, best};
 use crate::methods::least_squares::emulator::{Emulator, Sides};
+use crate::methods::least_squares::likelihood::Rods;
 use crate::methods::least_squares::profile::{Interval, Profile, interval, profile, rise_of};
 use nalgebra::{DMatrix, DVector};
 
@@ -29,18 +31,20 @@ pub struct Fit {
 
 /// The values of the parameters at `place` of the box `sides`.
 pub fn values(ranges: &[Range], sides: &Sides, place: &[f64]) -> Vec<f64> {
-    let one = |((range, (low, high)), place): ((&Range, &(f64, f64)), &f64)| {
-        range.value(0.5 * (low + high) + 0.5 * (high - low) * place)
-    };
-    ranges.iter().zip(sides).zip(place).map(one).collect()
+    ranges.iter().zip(sides).zip(place).map(|((range, side), place)| range.value(along(*side, *place))).collect()
+}
+
+/// The place from −1 to 1 of a side of a box, on the scale of its range.
+pub(super) fn along((low, high): (f64, f64), place: f64) -> f64 {
+    0.5 * (low + high) + 0.5 * (high - low) * place
 }
 
 /// The fit over the box `sides` with the model's emulator over it.
-pub fn fitted(measured: &Measured<'_>, sides: &Sides, emulator: Emulator) -> Result<Fit, String> {
-    let best = best(measured.data, &emulator, measured.rods)
+pub fn fitted(data: &[Datum], ranges: &[Range], rods: &Rods, sides: &Sides, emulator: Emulator) -> Result<Fit, String> {
+    let best = best(data, &emulator, rods)
         .ok_or("the points say nothing about a parameter: no model value changes with it")?;
     Ok(Fit {
-        ranges: measured.ranges.to_vec(),
+        ranges: ranges.to_vec(),
         sides: sides.clone(),
         profiles: (0..sides.len()).map(|axis| profile(&best, axis)).collect(),
         best,
@@ -67,10 +71,15 @@ impl Fit {
             let (low, high) = self.sides[axis];
             let uncertainty = 0.5 * (high - low) * covariance[(axis, axis)].sqrt();
             let range = &self.ranges[axis];
-            let all = interval(&self.best, axis, &self.profiles[axis], rise_of(0.95)).open == [true; 2];
-            all && uncertainty > UNDETERMINED * (range.scaled(range.to) - range.scaled(range.from))
+            self.within(axis, rise_of(0.95)).open == [true; 2]
+                && uncertainty > UNDETERMINED * (range.scaled(range.to) - range.scaled(range.from))
         });
         axis.map(|axis| &self.ranges[axis])
+    }
+
+    /// The part of the box along parameter `axis` in which its profile is below `level`.
+    pub(super) fn within(&self, axis: usize, level: f64) -> Interval {
+        interval(&self.best, axis, &self.profiles[axis], level)
     }
 
     /// The largest share of the replicas' noise in the rise of χ² at the ends of the 95 % intervals.
@@ -100,8 +109,7 @@ impl Fit {
     /// Derivative of parameter `axis` with respect to its place in the box, at the best place.
     pub fn scale(&self, axis: usize) -> f64 {
         let (low, high) = self.sides[axis];
-        let scaled = 0.5 * (low + high) + 0.5 * (high - low) * self.best.place[axis];
-        0.5 * (high - low) * self.ranges[axis].slope(scaled)
+        0.5 * (high - low) * self.ranges[axis].slope(along((low, high), self.best.place[axis]))
     }
 
     /// The covariance of the parameters in their units, by linear theory.
@@ -113,7 +121,7 @@ impl Fit {
     /// The interval of parameter `axis` at a confidence level, in the parameter's unit. It is open at an end that is
     /// the edge of the parameter's range.
     pub fn interval(&self, axis: usize, confidence: f64) -> Interval {
-        let found = interval(&self.best, axis, &self.profiles[axis], rise_of(confidence));
+        let found = self.within(axis, rise_of(confidence));
         let range = &self.ranges[axis];
         let (low, high) = self.sides[axis];
         // Exact to the last digit where the box ends at the end of the range.
@@ -150,8 +158,7 @@ impl Fit {
     /// The parameter whose intervals cannot be determined, and what to do.
     pub(super) fn is_smooth(&self) -> Result<(), FitError> {
         for (axis, range) in self.ranges.iter().enumerate() {
-            let [inner, outer] =
-                [0.68, 0.95].map(|confidence| interval(&self.best, axis, &self.profiles[axis], rise_of(confidence)));
+            let [inner, outer] = [0.68, 0.95].map(|confidence| self.within(axis, rise_of(confidence)));
             let centre = self.best.place[axis];
             let error = |error| Err(FitError::Parameter(range.label(), error));
             let minima = self.minima(axis);

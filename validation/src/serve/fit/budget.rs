@@ -2,6 +2,7 @@
 
 use super::search::{Fit, Watch};
 use crate::methods::least_squares::Datum;
+use crate::methods::least_squares::best::SCARCE;
 use crate::methods::least_squares::emulator::Model;
 use crate::methods::least_squares::likelihood::{CAUSES, REPLICAS};
 use nalgebra::{DMatrix, DVector};
@@ -29,13 +30,15 @@ pub struct Shift {
 
 /// The uncertainty budget of a fit: one part for each cause in the covariance of the points, then their total.
 pub fn parts(fit: &Fit) -> Vec<Part> {
-    let u = |spread: &DMatrix<f64>| -> Vec<f64> {
-        let diagonal = spread.diagonal();
-        (0..diagonal.len()).map(|axis| diagonal[axis].max(0.0).sqrt() * fit.scale(axis)).collect()
-    };
     let causes = CAUSES.iter().chain([&"covariance of few replicas"]);
-    let own = causes.zip(&fit.best.spread).map(|(source, spread)| Part { source, u: u(spread) });
-    own.chain([Part { source: "all of these", u: u(&fit.best.covariance()) }]).collect()
+    let own = causes.zip(&fit.best.spread).map(|(source, spread)| Part { source, u: deviations(fit, spread) });
+    own.chain([Part { source: "all of these", u: deviations(fit, &fit.best.covariance()) }]).collect()
+}
+
+/// The standard deviations by a covariance on the box's scale, in the parameters' units.
+fn deviations(fit: &Fit, covariance: &DMatrix<f64>) -> Vec<f64> {
+    let variances = covariance.diagonal();
+    (0..variances.len()).map(|axis| variances[axis].max(0.0).sqrt() * fit.scale(axis)).collect()
 }
 
 /// The largest number of replicas from which a shift is measured.
@@ -61,9 +64,8 @@ pub fn shift(
         Ok(-&fit.best.influence * DVector::from_iterator(before.len(), difference))
     })?;
     let n = moves.len() as f64;
-    let mean = moves.iter().fold(DVector::zeros(fit.sides.len()), |sum, one| sum + one) / n;
-    let square =
-        moves.iter().fold(DVector::zeros(fit.sides.len()), |sum: DVector<f64>, one| sum + (one - &mean).map(|d| d * d));
+    let mean = moves.iter().sum::<DVector<f64>>() / n;
+    let square: DVector<f64> = moves.iter().map(|one| (one - &mean).map(|d| d * d)).sum();
     let scaled = |vector: &DVector<f64>| (0..vector.len()).map(|axis| vector[axis] * fit.scale(axis)).collect();
     Ok(Shift { change, shift: scaled(&mean), se: scaled(&square.map(|square| (square / (n * (n - 1.0))).sqrt())) })
 }
@@ -88,8 +90,7 @@ pub(super) fn residual(datum: &Datum, simulated: f64, u: f64) -> Residual {
 /// adds to the covariance; the other half corrects one that is too small.
 pub fn another_seed(fit: &Fit) -> Vec<f64> {
     let spread = &fit.best.spread;
-    let variance = (&spread[REPLICAS] + &spread[CAUSES.len()] * 0.5).diagonal();
-    (0..variance.len()).map(|axis| variance[axis].max(0.0).sqrt() * fit.scale(axis)).collect()
+    deviations(fit, &(&spread[REPLICAS] + &spread[SCARCE] * 0.5))
 }
 
 /// Writes the index of a data set as the messages count, from 1.

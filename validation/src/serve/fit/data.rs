@@ -5,8 +5,8 @@ use crate::files::csv::{Table, not_allowed};
 use crate::input::experiment::{PERCENT, read_text, table};
 use crate::methods::least_squares::Datum;
 use serde::Serialize;
+use shearbed::Plan;
 use shearbed::observable::Channel;
-use shearbed::{Observable, Plan};
 use std::path::Path;
 
 /// The most points that are fitted at once: their covariance is a full matrix.
@@ -77,16 +77,10 @@ pub struct Reading {
     pub without_u: bool,
 }
 
-/// Every column that can be measured: the channels of all observables.
-fn measurable() -> Vec<String> {
-    Observable::ALL.iter().flat_map(|observable| observable.channels()).map(Channel::name).collect()
-}
-
 /// A channel's name and the factor that gives its unit, for a column in per cent too.
-fn channel<'a>(name: &'a str, known: &[String]) -> Option<(&'a str, f64)> {
-    let in_percent = name.strip_suffix(PERCENT).map(|name| (name, 0.01));
-    let of = in_percent.unwrap_or((name, 1.0));
-    known.iter().any(|known| known == of.0).then_some(of)
+fn channel(name: &str) -> Option<(&str, f64)> {
+    let of = name.strip_suffix(PERCENT).map_or((name, 1.0), |name| (name, 0.01));
+    Channel::named(of.0).map(|_| of)
 }
 
 /// Reads the file `path` as data set number `set`. Every point needs an uncertainty, `NAME_u` or that of `reading`;
@@ -117,8 +111,7 @@ pub fn read(path: &Path, set: usize, reading: &Reading) -> Result<Points, FileEr
         };
         return Err(refused(format!("{found}; one of {times} is allowed")));
     };
-    let known = measurable();
-    let is_value = |name: &str| channel(name, &known).is_some();
+    let is_value = |name: &str| channel(name).is_some();
     let unread = table::unread(&head, |name| name == time.name() || is_value(name))?;
     if let Some(name) = unread.first().filter(|_| given.is_some()) {
         return Err(refused(format!("column `{name}` is not allowed: {EXPECTED}")));
@@ -139,7 +132,7 @@ pub fn read(path: &Path, set: usize, reading: &Reading) -> Result<Points, FileEr
     }
     let mut points = Vec::new();
     for dataset in table::columns(path, &text, given, time.name(), &columns)? {
-        let (name, factor) = channel(&dataset.name, &known).unwrap_or((&dataset.name, 1.0));
+        let (name, factor) = channel(&dataset.name).unwrap_or((&dataset.name, 1.0));
         for row in dataset.rows {
             let refused = |message: String| FileError::line(path, row.line, message);
             let u = row.u_y.or(reading.u).or(reading.without_u.then_some(f64::NAN)).ok_or_else(|| {

@@ -34,12 +34,11 @@ const OF_A_POINT: usize = 8;
 /// Steps of the golden section towards a minimum: each leaves 0.62 of the way.
 const STEPS: usize = 12;
 
-/// A place on the scale of its range, with every prediction and χ² there.
+/// A place on the scale of its range, with every prediction, its standard error, and χ² there.
 #[derive(Clone)]
 struct Tried {
     at: f64,
     mean: DVector<f64>,
-    /// Standard errors of `mean`.
     se: DVector<f64>,
     chi_square: f64,
 }
@@ -58,7 +57,7 @@ const NEARBY: f64 = 1.0 / PARTS as f64;
 /// As of [`search`] and [`look_elsewhere`].
 pub fn best_fit(problem: &FitProblem<'_>, watch: &Watch<'_>) -> Result<(Fit, Vec<Warning>), FitError> {
     let mut fit = match search(problem, watch) {
-        Err(FitError::NotEnclosed { .. }) if problem.measured.ranges.len() == 1 => {
+        Err(FitError::NotEnclosed { .. }) if problem.ranges.len() == 1 => {
             search_from(problem, around_lowest(problem, watch)?, watch)?
         }
         found => found?,
@@ -89,7 +88,7 @@ fn around(range: &Range, at: f64) -> (f64, f64) {
 
 /// A box around the lowest χ² of a few replicas along the only range.
 fn around_lowest(problem: &FitProblem<'_>, watch: &Watch<'_>) -> Result<Sides, FitError> {
-    let range = &problem.measured.ranges[0];
+    let range = &problem.ranges[0];
     let values = [range.from];
     let (_, known) = at_best(problem, &values, FIRST_REPLICAS.min(problem.most_replicas), watch)?;
     let (tried, _) = Line { problem, watch, values: &values, known: &known, axis: 0, range }.scan()?;
@@ -106,7 +105,7 @@ fn around_lowest(problem: &FitProblem<'_>, watch: &Watch<'_>) -> Result<Sides, F
 pub fn look_elsewhere(problem: &FitProblem<'_>, fit: &Fit, watch: &Watch<'_>) -> Result<Vec<Warning>, FitError> {
     let values = fit.values(&fit.best.place);
     (watch.stage)("best values");
-    let of_points = fit.emulator.behind_covariance().min(OF_A_POINT * problem.measured.data.len());
+    let of_points = fit.emulator.behind_covariance().min(OF_A_POINT * problem.data.len());
     let replicas = of_points.max(fit.emulator.replicas());
     let (own_rows, known) = at_best(problem, &values, replicas as u64, watch)?;
     let mut warnings = Vec::new();
@@ -153,7 +152,7 @@ pub fn look_elsewhere(problem: &FitProblem<'_>, fit: &Fit, watch: &Watch<'_>) ->
             if found.chi_square < allowed {
                 let places = [(range.value(found.at), found.chi_square), (values[axis], own.chi_square)];
                 let least = found.chi_square.min(own.chi_square);
-                let undescribed = Undescribed::check(least, problem.measured.data.len(), fit.ranges.len());
+                let undescribed = Undescribed::check(least, problem.data.len(), fit.ranges.len());
                 let error = undescribed.map_or(ParameterError::TwoMinima(places), ParameterError::from);
                 return Err(FitError::Parameter(range.label(), error));
             }
@@ -206,8 +205,7 @@ impl Line<'_> {
 
     /// χ² at the place `at` from the predictions `rows` of its replicas.
     fn tried(&self, at: f64, rows: &[Vec<Prediction>]) -> Result<Tried, String> {
-        let measured = &self.problem.measured;
-        let found = Direct::of(measured.data, rows, measured.rods);
+        let found = Direct::of(self.problem.data, rows, self.problem.rods);
         let Direct { mean, se, chi_square, .. } = found.ok_or("the covariance of the points is not positive")?;
         Ok(Tried { at, chi_square, mean, se })
     }
@@ -217,7 +215,7 @@ impl Line<'_> {
         let (from, to) = (self.range.scaled(self.range.from), self.range.scaled(self.range.to));
         let place = |k: usize| from + (to - from) * k as f64 / PARTS as f64;
         let mut tried: Vec<Tried> = (0..=PARTS).map(|k| self.run(place(k), self.few())).collect::<Result<_, _>>()?;
-        let data = self.problem.measured.data;
+        let data = self.problem.data;
         for _ in 0..HALVED {
             let enough: Vec<f64> = (0..data.len())
                 .map(|point| {

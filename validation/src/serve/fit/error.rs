@@ -35,16 +35,12 @@ pub enum SceneError {
     "no value{} describes the {points} points: χ² is {chi_square:.1} for {} degrees of freedom",
     // A search in several parameters may miss a narrow valley.
     if *parameters > 1 { " that the search found" } else { "" },
-    freedom(*points, *parameters)
+    points.saturating_sub(*parameters)
 )]
 pub struct Undescribed {
     points: usize,
     parameters: usize,
     chi_square: f64,
-}
-
-fn freedom(points: usize, parameters: usize) -> usize {
-    points.saturating_sub(parameters)
 }
 
 impl Undescribed {
@@ -53,7 +49,7 @@ impl Undescribed {
 
     /// The error if the least `chi_square` is too large for any value to describe the points.
     pub(super) fn check(chi_square: f64, points: usize, parameters: usize) -> Option<Self> {
-        let law = ChiSquared::new(freedom(points, parameters) as f64).ok()?;
+        let law = ChiSquared::new(points.saturating_sub(parameters) as f64).ok()?;
         (law.sf(chi_square) < Self::IMPOSSIBLE).then_some(Self { points, parameters, chi_square })
     }
 }

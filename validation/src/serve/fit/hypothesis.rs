@@ -4,7 +4,7 @@
 use super::error::HypothesisError;
 use super::range::Range;
 use super::search::Fit;
-use crate::methods::least_squares::profile::{rise_of, rise_to};
+use crate::methods::least_squares::profile::{fixed, rise_of, rise_to};
 use crate::oracle::reference::big::finite;
 use crate::serve::sweep::key_and_text;
 use serde::Serialize;
@@ -157,10 +157,9 @@ impl Hypothesis {
         let (rise, beyond_the_box, difference) = match self.asked(&fit.ranges)? {
             Asked::Value(axis, value) => {
                 let place = fit.place(axis, value);
-                let mut fixed = vec![None; fit.ranges.len()];
-                fixed[axis] = Some(place.clamp(-1.0, 1.0));
+                let rise = rise_to(&fit.best, &fixed(&fit.best, &[(axis, place.clamp(-1.0, 1.0))]));
                 // The value at the box's edge differs from the edge by rounding.
-                (rise_to(&fit.best, &fixed), place.abs() > 1.0 + 1e-9, None)
+                (rise, place.abs() > 1.0 + 1e-9, None)
             }
             Asked::Difference(axes) => {
                 let tied = Tied { fit, axes };
@@ -201,9 +200,7 @@ impl Tied<'_> {
             if other.abs() > 1.0 + 1e-9 {
                 return f64::INFINITY;
             }
-            let mut fixed = vec![None; self.fit.ranges.len()];
-            (fixed[a], fixed[b]) = (Some(place), Some(other.clamp(-1.0, 1.0)));
-            rise_to(&self.fit.best, &fixed)
+            rise_to(&self.fit.best, &fixed(&self.fit.best, &[(a, place), (b, other.clamp(-1.0, 1.0))]))
         };
         // The part of the box in which both keys are inside it.
         let [low, high] = [-1.0, 1.0].map(|side| {
@@ -248,6 +245,3 @@ impl Tied<'_> {
         }
     }
 }
-
-#[cfg(test)]
-mod tests;

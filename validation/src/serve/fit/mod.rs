@@ -5,8 +5,6 @@
 //! axes, the measured rods, the model's replicas and the polynomials' lack of fit. `docs/src/theory/fits.md` has the
 //! formulas.
 
-#[cfg(test)]
-mod again_tests;
 mod answer;
 pub mod budget;
 pub mod contents;
@@ -16,17 +14,11 @@ pub mod digits;
 pub mod elsewhere;
 pub mod error;
 mod hypothesis;
-#[cfg(test)]
-mod minima_tests;
-#[cfg(test)]
-mod noise_tests;
 pub mod pictures;
 mod range;
 pub mod report;
 pub mod runs;
 pub mod samples;
-#[cfg(test)]
-mod scarce_tests;
 pub mod scenes;
 pub mod search;
 #[cfg(test)]

@@ -88,13 +88,8 @@ pub fn figures(
         let of_set: Vec<_> = kinds(data).into_iter().filter(|kind| kind.0 == set).map(|kind| kind.1).collect();
         let here = |datum: &Datum, column: &String| datum.set == set && datum.column == *column;
         let curve = |column: &String| {
-            let own: Vec<_> = places.iter().zip(curves).filter(|(place, _)| here(place, column)).collect();
-            Curve {
-                label: letters::channel(column) + FITTED,
-                x: own.iter().map(|(place, _)| place.time).collect(),
-                y: own.iter().map(|(_, curve)| curve.0).collect(),
-                half_band: Some(own.iter().map(|(_, curve)| curve.1).collect()),
-            }
+            let own = places.iter().zip(curves).filter(|(place, _)| here(place, column));
+            Curve::with_band(letters::channel(column) + FITTED, own, |(place, (y, half))| (place.time, *y, *half))
         };
         let zero = |column: &String| {
             let best = curve(column);
@@ -144,13 +139,9 @@ fn profile_of(fit: &Fit, axis: usize) -> (String, Figure) {
     let near: Vec<usize> = (0..profile.place.len()).filter(|k| profile.rise[*k] <= 3.0 * outer).collect();
     let x: Vec<f64> = near.iter().map(|k| fit.value(axis, profile.place[*k])).collect();
     let ends = [x.first(), x.last()].map(|end| end.copied().unwrap_or(f64::NAN));
-    let level =
-        |name: &str, level: f64| Curve { label: name.to_owned(), x: ends.to_vec(), y: vec![level; 2], half_band: None };
-    let curves = vec![
-        Curve { label: "profile".into(), y: near.iter().map(|k| profile.rise[*k]).collect(), x, half_band: None },
-        level("68 %", inner),
-        level("95 %", outer),
-    ];
+    let level = |name: &str, level: f64| Curve::of(name, ends, |x| (x, level));
+    let rises = x.into_iter().zip(near.iter().map(|k| profile.rise[*k]));
+    let curves = vec![Curve::of("profile", rises, |point| point), level("68 %", inner), level("95 %", outer)];
     let figure = Figure {
         title: format!("Profile of χ² along {}", letters::key(&range.label())),
         x_name: letters::key(&range.label()),
@@ -168,12 +159,8 @@ fn region_of(fit: &Fit, axes: [usize; 2]) -> (String, Figure) {
         // The curve is interrupted between two islands.
         let ring = islands.join(&[[f64::NAN; 2]][..]);
         let edge = if is_open(&ring) { ", open: cut at the end of a range" } else { "" };
-        Curve {
-            label: format!("{:.0} %{edge}", 100.0 * confidence),
-            x: ring.iter().map(|point| fit.value(a, point[0])).collect(),
-            y: ring.iter().map(|point| fit.value(b, point[1])).collect(),
-            half_band: None,
-        }
+        let label = format!("{:.0} %{edge}", 100.0 * confidence);
+        Curve::of(label, ring, |[x, y]| (fit.value(a, x), fit.value(b, y)))
     });
     let best = fit.values(&fit.best.place);
     let [x_name, y_name] = axes.map(|axis| letters::key(&fit.ranges[axis].label()));
@@ -182,7 +169,7 @@ fn region_of(fit: &Fit, axes: [usize; 2]) -> (String, Figure) {
         x_name,
         y_name,
         curves: curves.into(),
-        points: vec![Points { label: "best".into(), x: vec![best[a]], y: vec![best[b]], ..Points::default() }],
+        points: vec![Points::of("best", [(best[a], best[b])], |best| best)],
         ..Figure::default()
     };
     (format!("region_{}_{}", fit.ranges[a].name(), fit.ranges[b].name()), figure)

@@ -199,31 +199,23 @@ fn warnings(
                 fit.profiles[axis].rise[k]
             )));
         }
-        let ends = [(found.ends_at_edge[0], "lower", range.from), (found.ends_at_edge[1], "upper", range.to)];
-        if found.ends_at_edge == [true, true] {
-            all.push(Warning::Other(format!(
-                "{}: its 95 % interval is its whole range, {} to {}: the points say nothing of it there",
-                range.label(),
-                range.from,
-                range.to
-            )));
-            continue;
-        }
-        for (_, side, edge) in ends.into_iter().filter(|(open, ..)| *open) {
-            all.push(Warning::Other(format!(
-                "{}: its 95 % interval reaches the {side} end of its range, {edge}: the points do not say where it \
-                    ends",
-                range.label()
-            )));
-        }
-    }
-    for i in 0..fit.ranges.len() {
-        for j in 0..i {
-            if correlation[(i, j)].abs() > ALIKE {
-                all.push(Warning::Alike([j, i].map(|axis| fit.ranges[axis].label()), correlation[(i, j)]));
+        let reaches = |side: &str, edge: f64| {
+            format!("reaches the {side} end of its range, {edge}: the points do not say where it ends")
+        };
+        let how = match found.ends_at_edge {
+            [true, true] => {
+                Some(format!("is its whole range, {} to {}: the points say nothing of it there", range.from, range.to))
             }
-        }
+            [true, false] => Some(reaches("lower", range.from)),
+            [false, true] => Some(reaches("upper", range.to)),
+            [false, false] => None,
+        };
+        all.extend(how.map(|how| Warning::Other(format!("{}: its 95 % interval {how}", range.label()))));
     }
+    let pairs = (0..fit.ranges.len()).flat_map(|i| (0..i).map(move |j| [j, i]));
+    let alike = pairs.filter(|[j, i]| correlation[(*i, *j)].abs() > ALIKE);
+    let labels = |pair: [usize; 2]| pair.map(|axis| fit.ranges[axis].label());
+    all.extend(alike.map(|[j, i]| Warning::Alike(labels([j, i]), correlation[(i, j)])));
     if let Some(range) = fit.ranges.iter().find(|range| fit.ranges.len() > 1 && range.key == ALPHA) {
         all.push(Warning::Other(format!("{}: {BESIDE_ANOTHER}", range.label())));
     }
@@ -254,14 +246,13 @@ fn another_minimum(rise: &[f64]) -> Option<usize> {
 
 /// `residuals.csv`: each point with the best model; sets count from 1.
 pub fn residuals_csv(report: &Report, times: &[&str]) -> Result<String, String> {
-    let mut rows = vec![
-        ["set", "time_unit", "time", "column", "measured", "simulated", "residual", "u"].map(String::from).to_vec(),
-    ];
-    rows.extend(report.residuals.iter().map(|r| {
+    let head = ["set", "time_unit", "time", "column", "measured", "simulated", "residual", "u"];
+    let row = |r: &Residual| {
         let numbers = [r.measured, r.simulated, r.residual, r.u].map(|number| number.to_string());
         let place = [(r.set + 1).to_string(), times[r.set].to_owned(), r.time.to_string(), r.column.clone()];
-        place.into_iter().chain(numbers).collect()
-    }));
+        [place, numbers].concat()
+    };
+    let rows: Vec<_> = [head.map(String::from).to_vec()].into_iter().chain(report.residuals.iter().map(row)).collect();
     csv::text(&rows)
 }
 

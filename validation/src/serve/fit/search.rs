@@ -3,15 +3,15 @@
 
 pub use super::answer::{Fit, fitted, values};
 
+use super::answer::along;
 use super::error::{FitError, ParameterError, Undescribed};
-
 use super::range::Range;
 use crate::methods::least_squares::Datum;
 use crate::methods::least_squares::basis::Basis;
 use crate::methods::least_squares::best::SCARCE;
 use crate::methods::least_squares::emulator::{Coefficients, Emulator, Model, Prediction, Sides, coefficients};
 use crate::methods::least_squares::likelihood::{EMULATOR, REPLICAS, Rods};
-use crate::methods::least_squares::profile::{interval, rise_of};
+use crate::methods::least_squares::profile::rise_of;
 use rayon::prelude::*;
 
 /// Number of replicas of the first runs, which only show where to look closer.
@@ -47,21 +47,14 @@ const NEAR: f64 = 9.0;
 /// A box is made smaller only when a side shrinks below this share of it: otherwise new runs cost more than they gain.
 const WORTH: f64 = 0.6;
 
-/// The measured points, and the parameters to fit.
-#[derive(Clone, Copy, Debug)]
-pub struct Measured<'a> {
+/// The input of a fit.
+pub struct FitProblem<'a> {
     /// The measured points.
     pub data: &'a [Datum],
     /// The parameters.
     pub ranges: &'a [Range],
     /// The rods that were measured.
     pub rods: &'a Rods,
-}
-
-/// The input of a fit.
-pub struct FitProblem<'a> {
-    /// The points and the parameters.
-    pub measured: Measured<'a>,
     /// The model that predicts the points.
     pub model: &'a Model<'a>,
     /// The largest number of replicas at each parameter value.
@@ -135,12 +128,12 @@ enum Next {
 ///
 /// Why a run was impossible or did not finish, or why its result is no answer.
 pub fn search(problem: &FitProblem<'_>, watch: &Watch<'_>) -> Result<Fit, FitError> {
-    search_from(problem, whole(problem.measured.ranges), watch)
+    search_from(problem, whole(problem.ranges), watch)
 }
 
 /// Fits the parameters, beginning with the box `sides`, which may move and grow over the whole ranges.
 pub(super) fn search_from(problem: &FitProblem<'_>, sides: Sides, watch: &Watch<'_>) -> Result<Fit, FitError> {
-    let ranges = problem.measured.ranges;
+    let ranges = problem.ranges;
     let whole = whole(ranges);
     let first = FIRST_REPLICAS.min(problem.most_replicas);
     let mut search = Search {
@@ -189,10 +182,10 @@ impl Search<'_> {
         (watch.stage)(&format!("search, box {}", self.rounds));
         (watch.planned)(planned);
         self.runs += planned;
-        let value = |node: &[f64]| values(problem.measured.ranges, sides, node);
+        let value = |node: &[f64]| values(problem.ranges, sides, node);
         self.coefficients.extend(coefficients(basis, problem.model, &value, new, watch.done)?);
         let emulator = Emulator::new(basis, &self.coefficients).with_alone(&self.alone);
-        let fit = fitted(&problem.measured, sides, emulator)?;
+        let fit = fitted(problem.data, problem.ranges, problem.rods, sides, emulator)?;
         Ok(Fit { runs: self.runs, rounds: self.rounds, ..fit })
     }
 
@@ -202,7 +195,7 @@ impl Search<'_> {
         let noise = fit.noise_share();
         let until = |share, allowed| Next::Replicas(enough(self.replicas, share, allowed).min(most));
         let (scarce, behind) = (fit.best.share(SCARCE), fit.emulator.behind_covariance() as u64);
-        let share_rods = self.problem.measured.rods.over_measured.iter().any(|ratio| *ratio > 0.0);
+        let share_rods = self.problem.rods.over_measured.iter().any(|ratio| *ratio > 0.0);
         // The points, not the replicas' noise, must decide where to look closer.
         if more && noise > CLEAR {
             return until(noise, CLEAR);
@@ -224,7 +217,7 @@ impl Search<'_> {
 
     /// Refuses a fit that is no answer.
     fn check(&self, fit: &Fit) -> Result<(), FitError> {
-        let (points, ranges) = (self.problem.measured.data.len(), &fit.ranges);
+        let (points, ranges) = (self.problem.data.len(), &fit.ranges);
         if fit.noise_share() > NOTHING_ELSE {
             return Err(FitError::Noise(fit.noise_share(), self.replicas));
         }
@@ -263,8 +256,8 @@ fn other_sides(fit: &Fit, whole: &Sides, far: f64) -> (Sides, bool) {
     let sides = (0..whole.len())
         .map(|axis| {
             let (low, high) = fit.sides[axis];
-            let at = |place: f64| 0.5 * (low + high) + 0.5 * (high - low) * place;
-            let far = interval(&fit.best, axis, &fit.profiles[axis], far);
+            let at = |place: f64| along((low, high), place);
+            let far = fit.within(axis, far);
             let centre = fit.best.place[axis];
             let end = |place: f64, open: bool| match open {
                 // The end is not known yet: go beyond this box, and far beyond it if even the best place is at its
@@ -285,7 +278,7 @@ fn other_sides(fit: &Fit, whole: &Sides, far: f64) -> (Sides, bool) {
 /// True if every 95 % interval ends inside its box or at the edge of its range.
 fn enclosed(fit: &Fit, whole: &Sides) -> bool {
     (0..whole.len()).all(|axis| {
-        let found = interval(&fit.best, axis, &fit.profiles[axis], rise_of(0.95));
+        let found = fit.within(axis, rise_of(0.95));
         let (own, all) = (fit.sides[axis], whole[axis]);
         (!found.open[0] || own.0 <= all.0) && (!found.open[1] || own.1 >= all.1)
     })

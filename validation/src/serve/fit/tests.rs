@@ -1,22 +1,30 @@
 //! The whole fit on a model of one line, whose replicas cost nothing: planted values, coverage, χ², controls.
 
+mod again;
+mod hypotheses;
+mod minima;
+mod noise;
+mod scarce;
+
 use super::budget::residuals;
 use super::elsewhere::look_elsewhere;
 use super::pictures::best_curves;
 use super::range::Range;
 use super::report::{levels, report};
 use super::samples::{SAMPLES, samples};
-use super::search::{Fit, FitProblem, Measured, Watch, fitted, search, values};
+use super::search::{Fit, FitProblem, Watch, fitted, search, values};
 use crate::judge::accept::{Rule, Verdict, judge};
 use crate::methods::least_squares::Datum;
 use crate::methods::least_squares::basis::Basis;
+use crate::methods::least_squares::best::Best;
 use crate::methods::least_squares::emulator::{Emulator, Model, Prediction, Replica, Sides, coefficients};
 use crate::methods::least_squares::likelihood::Rods;
-use crate::methods::least_squares::profile::{region, rise_of_several};
+use crate::methods::least_squares::profile::{profile, region, rise_of_several};
 use nalgebra::{DMatrix, DVector};
 use rand::SeedableRng;
 use rand_distr::{Distribution, StandardNormal};
 use rand_pcg::Pcg64Dxsm;
+use rayon::prelude::*;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 const TIMES: usize = 22;
@@ -30,12 +38,12 @@ fn times() -> impl Iterator<Item = f64> {
     (0..TIMES).map(|k| 0.1 * k as f64)
 }
 
-pub(super) fn normal(rng: &mut Pcg64Dxsm) -> f64 {
+fn normal(rng: &mut Pcg64Dxsm) -> f64 {
     StandardNormal.sample(rng)
 }
 
 /// A model whose replicas deviate in the offset and in the rate, by the same amount at every parameter value.
-pub(super) fn model(seed: u64, scatter: f64) -> impl Fn(&[f64]) -> Result<Replica, String> + Sync {
+fn model(seed: u64, scatter: f64) -> impl Fn(&[f64]) -> Result<Replica, String> + Sync {
     move |values| {
         let (rate, frequency) = (values[0], values.get(1).copied().unwrap_or(1.0));
         // The same for all replicas.
@@ -52,42 +60,41 @@ pub(super) fn model(seed: u64, scatter: f64) -> impl Fn(&[f64]) -> Result<Replic
 }
 
 pub(super) fn points(rate: f64, frequency: f64, u: f64, seed: u64) -> Vec<Datum> {
-    let mut rng = Pcg64Dxsm::seed_from_u64(seed);
-    let point = |time: f64| Datum {
-        value: curve(rate, frequency, time) + u * normal(&mut rng),
-        u,
-        ..Datum::place(0, "x1", time)
-    };
-    times().map(point).collect()
+    let curve = times().map(|time| (0, time, curve(rate, frequency, time)));
+    noisy(curve, u, &mut Pcg64Dxsm::seed_from_u64(seed))
 }
 
-pub(super) fn ranges(over: &[&str]) -> Vec<Range> {
+/// Points with reading errors of `u`, from the set, time and right value of each.
+fn noisy(curve: impl Iterator<Item = (usize, f64, f64)>, u: f64, rng: &mut Pcg64Dxsm) -> Vec<Datum> {
+    let mut read = |value: f64| value + u * normal(rng);
+    curve.map(|(set, time, value)| Datum { value: read(value), u, ..Datum::place(set, "x1", time) }).collect()
+}
+
+fn ranges(over: &[&str]) -> Vec<Range> {
     over.iter().map(|text| Range::parse(text).unwrap()).collect()
 }
 
 /// The whole fit of a model to points that share no rods.
 pub(super) fn searched(data: &[Datum], over: &[&str], model: &Model<'_>, most_replicas: u64) -> Fit {
-    let measured = Measured { data, ranges: &ranges(over), rods: &Rods::none(1) };
-    search(&FitProblem { measured, model, most_replicas }, &Watch::SILENT).unwrap()
+    let problem = FitProblem { data, ranges: &ranges(over), rods: &Rods::none(1), model, most_replicas };
+    search(&problem, &Watch::SILENT).unwrap()
 }
 
 /// The fit over one fixed box, without a search.
-pub(super) fn over_box(
-    data: &[Datum],
-    rods: &Rods,
-    over: &[&str],
-    sides: &Sides,
-    model: &Model<'_>,
-    replicas: u64,
-) -> Fit {
+fn over_box(data: &[Datum], rods: &Rods, over: &[&str], sides: &Sides, model: &Model<'_>, replicas: u64) -> Fit {
     let (ranges, basis) = (ranges(over), Basis::new(over.len()));
     let value = |node: &[f64]| values(&ranges, sides, node);
     let found = coefficients(&basis, model, &value, 0..replicas, &|| ()).unwrap();
-    fitted(&Measured { data, ranges: &ranges, rods }, sides, Emulator::new(&basis, &found)).unwrap()
+    fitted(data, &ranges, rods, sides, Emulator::new(&basis, &found)).unwrap()
+}
+
+/// The fit of one parameter with another best place, for a control.
+fn with_best(fit: &Fit, best: Best) -> Fit {
+    Fit { profiles: vec![profile(&best, 0)], best, ..fit.clone() }
 }
 
 /// Whether the intervals of 68 and 95 % of the first parameter contain a value.
-pub(super) fn inside(fit: &Fit, value: f64) -> [bool; 2] {
+fn inside(fit: &Fit, value: f64) -> [bool; 2] {
     [0.68, 0.95].map(|confidence| {
         let ends = fit.interval(0, confidence);
         (ends.low..=ends.high).contains(&value)
@@ -150,11 +157,7 @@ fn too_small_and_too_large_uncertainties_are_warned_of() {
 fn another_minimum_of_the_range_is_seen() {
     let (data, model) = (points(0.3, 1.0, 0.01, 1), model(1, 1e-9));
     let look_at = |data: &[Datum], fit: &Fit| {
-        let problem = FitProblem {
-            measured: Measured { data, ranges: &fit.ranges, rods: &Rods::none(1) },
-            model: &model,
-            most_replicas: 20,
-        };
+        let problem = FitProblem { data, ranges: &fit.ranges, rods: &Rods::none(1), model: &model, most_replicas: 20 };
         look_elsewhere(&problem, fit, &Watch::SILENT)
     };
     let look = |fit: &Fit| look_at(&data, fit);
@@ -273,18 +276,12 @@ fn repeats(count: u64, scatter: f64, most_replicas: u64) -> Vec<Repeat> {
         let law = ChiSquared::new((TIMES - TWO.len()) as f64).unwrap();
         Repeat { inside: within(1.0), inside_half: within(0.5), p: law.sf(found.best.chi_square) }
     };
-    use rayon::prelude::*;
     (0..count).into_par_iter().map(one).collect()
 }
 
 /// Judges that the share of true values is `reference`, up to an error of `allowance`, with a rule that must detect
 /// `effect`.
-pub(super) fn judged_share(
-    verdict: Verdict,
-    inside: impl Iterator<Item = bool>,
-    reference: f64,
-    [allowance, effect]: [f64; 2],
-) {
+fn judged_share(verdict: Verdict, inside: impl Iterator<Item = bool>, reference: f64, [allowance, effect]: [f64; 2]) {
     let all: Vec<f64> = inside.map(|inside| f64::from(u8::from(inside))).collect();
     let rule = mean(&all, (reference, (reference * (1.0 - reference)).sqrt()), allowance, effect);
     assert_eq!(judge(&rule), verdict, "{rule:?}");
@@ -292,7 +289,7 @@ pub(super) fn judged_share(
 
 /// The rule that values with a known standard deviation have this mean, up to an error of `allowance`, and that it must
 /// detect `effect`.
-pub(super) fn mean(all: &[f64], (reference, sd): (f64, f64), allowance: f64, effect: f64) -> Rule {
+fn mean(all: &[f64], (reference, sd): (f64, f64), allowance: f64, effect: f64) -> Rule {
     let n = all.len() as f64;
     Rule::Mean {
         mean: all.iter().sum::<f64>() / n,
@@ -307,7 +304,7 @@ pub(super) fn mean(all: &[f64], (reference, sd): (f64, f64), allowance: f64, eff
 
 /// The smallest number of values with a known standard deviation with which [`mean`] detects `effect`. `Design` would
 /// allow for one that is estimated, with up to half as many values more.
-pub(super) fn enough(sd: f64, effect: f64) -> usize {
+fn enough(sd: f64, effect: f64) -> usize {
     let shows = |count: &usize| judge(&mean(&vec![0.0; *count], (0.0, sd), 0.0, effect)) == Verdict::Pass;
     (2..).find(shows).unwrap()
 }

@@ -1,18 +1,8 @@
 //! Fits of points that hardly determine a parameter, with a noisy model: by chance its curves differ from one value to
 //! another, which would make intervals too short.
 
-use super::search::Fit;
-use super::tests::{enough, inside, judged_share, normal, over_box};
-use crate::judge::accept::Verdict;
+use super::*;
 use crate::judge::statistics::Sample;
-use crate::methods::least_squares::Datum;
-use crate::methods::least_squares::emulator::Replica;
-use crate::methods::least_squares::likelihood::Rods;
-use crate::methods::least_squares::profile::profile;
-use rand::SeedableRng;
-use rand_pcg::Pcg64Dxsm;
-use rayon::prelude::*;
-use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 const POINTS: usize = 40;
 const NOISE: f64 = 0.01;
@@ -43,13 +33,8 @@ fn model(slope: f64, seed: u64) -> impl Fn(&[f64]) -> Result<Replica, String> + 
 }
 
 fn points(seed: u64) -> Vec<Datum> {
-    let mut rng = Pcg64Dxsm::seed_from_u64(seed);
-    let point = |(k, value): (usize, f64)| Datum {
-        value: value + NOISE * normal(&mut rng),
-        u: NOISE,
-        ..Datum::place(0, "x1", k as f64)
-    };
-    curve(SLOPE, PLANTED).enumerate().map(point).collect()
+    let curve = curve(SLOPE, PLANTED).enumerate().map(|(k, value)| (0, k as f64, value));
+    noisy(curve, NOISE, &mut Pcg64Dxsm::seed_from_u64(seed))
 }
 
 fn fit(data: &[Datum], slope: f64, seed: u64) -> Fit {
@@ -58,8 +43,7 @@ fn fit(data: &[Datum], slope: f64, seed: u64) -> Fit {
 
 /// The control: the noise in the slopes counts as information of the points.
 fn believed(fit: &Fit) -> Fit {
-    let best = fit.best.with_noise();
-    Fit { profiles: vec![profile(&best, 0)], best, ..fit.clone() }
+    with_best(fit, fit.best.with_noise())
 }
 
 /// Returns whether the intervals of 68 and 95 % contain the planted value, and the p-value.

@@ -1,18 +1,7 @@
 //! Fits of points that scatter as replicas do, with a covariance from few replicas.
 
-use super::range::Range;
-use super::search::{Fit, FitProblem, Measured, Watch, search};
-use super::tests::{enough, inside, judged_share, normal, over_box};
-use crate::judge::accept::Verdict;
-use crate::methods::least_squares::Datum;
+use super::*;
 use crate::methods::least_squares::best::SCARCE;
-use crate::methods::least_squares::emulator::{Emulator, Replica};
-use crate::methods::least_squares::likelihood::{CAUSES, Rods};
-use crate::methods::least_squares::profile::profile;
-use nalgebra::DMatrix;
-use rand::SeedableRng;
-use rand_pcg::Pcg64Dxsm;
-use rayon::prelude::*;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 const POINTS: usize = 20;
@@ -42,12 +31,8 @@ fn scatter(rng: &mut Pcg64Dxsm) -> Vec<f64> {
 fn data(seed: u64) -> Vec<Datum> {
     let mut rng = Pcg64Dxsm::seed_from_u64(seed);
     let own = scatter(&mut rng);
-    let point = |(k, mean): (usize, f64)| Datum {
-        value: mean + own[k] + NOISE * normal(&mut rng),
-        u: NOISE,
-        ..Datum::place(0, "x1", k as f64)
-    };
-    curve(PLANTED).enumerate().map(point).collect()
+    let curve = curve(PLANTED).zip(own).enumerate().map(|(k, (mean, own))| (0, k as f64, mean + own));
+    noisy(curve, NOISE, &mut rng)
 }
 
 /// Other replicas, each of which scatters alike at every value.
@@ -74,9 +59,9 @@ fn fit(seed: u64) -> Fit {
 /// The control: V counts as known.
 fn believed(fit: &Fit) -> Fit {
     let mut best = fit.best.clone();
-    best.spread[CAUSES.len()] = DMatrix::zeros(1, 1);
+    best.spread[SCARCE] = DMatrix::zeros(1, 1);
     best.goodness.excess = 0.0;
-    Fit { profiles: vec![profile(&best, 0)], best, ..fit.clone() }
+    with_best(fit, best)
 }
 
 /// Returns whether the intervals of 68 and 95 % contain the planted value, and the p-value.
@@ -120,8 +105,8 @@ fn replicas_alone_count_for_the_covariance_of_rods() {
     let own = fit(7);
     let replica = model(7)(&[PLANTED]).unwrap();
     let rows: Vec<_> = (0..ALONE).map(|k| replica.run(k).unwrap()).collect();
-    let measured = Measured { data: &data(7), ranges: &own.ranges, rods: &shared() };
-    let of = |emulator: Emulator| super::search::fitted(&measured, &own.sides, emulator).unwrap().best.goodness.excess;
+    let excess = |fit: Fit| fit.best.goodness.excess;
+    let of = |emulator| excess(fitted(&data(7), &own.ranges, &shared(), &own.sides, emulator).unwrap());
     let (with, without) = (of(own.emulator.clone().with_alone(&rows)), of(own.emulator.clone()));
     let due = |replicas: u64| POINTS as f64 / (replicas - 1) as f64;
     // Reading, a few per cent of V, has no part in it: up to 12 % where an estimate of few replicas is small, squared.
@@ -140,8 +125,8 @@ fn a_covariance_is_bought_at_one_place() {
     let of = |rods: &Rods| {
         runs.store(0, Ordering::Relaxed);
         let counted = Watch { done: &count, ..Watch::SILENT };
-        let measured = Measured { data: &data(3), ranges: &ranges, rods };
-        let fit = search(&FitProblem { measured, model: &model, most_replicas: 1000 }, &counted).unwrap();
+        let problem = FitProblem { data: &data(3), ranges: &ranges, rods, model: &model, most_replicas: 1000 };
+        let fit = search(&problem, &counted).unwrap();
         assert_eq!(runs.load(Ordering::Relaxed), fit.runs);
         fit
     };

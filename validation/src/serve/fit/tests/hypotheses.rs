@@ -1,15 +1,8 @@
 //! Tests of hypotheses: against the textbook for a straight model, and the rate at which a true one is rejected for a
 //! curved model.
 
-use super::super::tests::{enough, mean, normal, over_box};
 use super::*;
-use crate::judge::accept::{Verdict, judge};
-use crate::methods::least_squares::Datum;
-use crate::methods::least_squares::emulator::Replica;
-use crate::methods::least_squares::likelihood::Rods;
-use rand::SeedableRng;
-use rand_pcg::Pcg64Dxsm;
-use rayon::prelude::*;
+use crate::serve::fit::{Hypothesis, Tested};
 
 const TIMES: usize = 20;
 const NOISE: f64 = 0.02;
@@ -31,13 +24,8 @@ fn places() -> impl Iterator<Item = (usize, f64)> {
 }
 
 fn points(curve: Curve, rates: [f64; 2], seed: u64) -> Vec<Datum> {
-    let mut rng = Pcg64Dxsm::seed_from_u64(seed);
-    let point = |(set, time): (usize, f64)| Datum {
-        value: curve(rates[set], time) + NOISE * normal(&mut rng),
-        u: NOISE,
-        ..Datum::place(set, "x1", time)
-    };
-    places().map(point).collect()
+    let curve = places().map(|(set, time)| (set, time, curve(rates[set], time)));
+    noisy(curve, NOISE, &mut Pcg64Dxsm::seed_from_u64(seed))
 }
 
 /// The fit over one fixed box.

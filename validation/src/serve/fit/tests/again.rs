@@ -1,12 +1,9 @@
 //! Fits that begin again at a lower minimum, models that draw nothing, and points beside a model that is not fitted.
 
-use super::elsewhere::best_fit;
-use super::report::as_written;
-use super::search::{Fit, FitProblem, Measured, Watch, search};
-use super::tests::{model, points, ranges};
+use super::*;
 use crate::methods::least_squares::direct::Direct;
-use crate::methods::least_squares::emulator::Replica;
-use crate::methods::least_squares::likelihood::Rods;
+use crate::serve::fit::elsewhere::best_fit;
+use crate::serve::fit::report::as_written;
 
 /// χ² along a frequency has many minima, and a search that begins over the whole range often ends in a false one.
 #[test]
@@ -16,8 +13,8 @@ fn the_lowest_of_many_minima_is_taken() {
     let (mut refused, mut astray) = (0, 0);
     for (from, to) in (1..10).flat_map(|from| (11..49).step_by(3).map(move |to| (from, to))) {
         let ranges = ranges(&[&format!("a.f={}:{}", f64::from(from) / 10.0, f64::from(to) / 10.0)]);
-        let measured = Measured { data: &data, ranges: &ranges, rods: &Rods::none(1) };
-        let problem = FitProblem { measured, model: &of_frequency, most_replicas: 1 };
+        let (ranges, rods) = (&ranges, &Rods::none(1));
+        let problem = FitProblem { data: &data, ranges, rods, model: &of_frequency, most_replicas: 1 };
         let at = |fit: Fit| (fit.values(&fit.best.place)[0] - 1.0).abs() < 0.02;
         astray += usize::from(!search(&problem, &Watch::SILENT).is_ok_and(at));
         match best_fit(&problem, &Watch::SILENT) {
@@ -34,8 +31,8 @@ fn one_run_is_enough_for_a_model_that_draws_nothing() {
     let (data, model) = (points(0.3, 1.0, 0.01, 1), model(1, 0.0));
     let of = |most_replicas| {
         let ranges = ranges(&["a.rate=0.05:5", "a.frequency=0.8:1.25"]);
-        let measured = Measured { data: &data, ranges: &ranges, rods: &Rods::none(1) };
-        let (fit, _) = best_fit(&FitProblem { measured, model: &model, most_replicas }, &Watch::SILENT).unwrap();
+        let problem = FitProblem { data: &data, ranges: &ranges, rods: &Rods::none(1), model: &model, most_replicas };
+        let (fit, _) = best_fit(&problem, &Watch::SILENT).unwrap();
         let ends = [0, 1].map(|axis| [0.68, 0.95].map(|confidence| fit.interval(axis, confidence)));
         (fit.values(&fit.best.place), ends.as_flattened().iter().map(|i| [i.low, i.high]).collect::<Vec<_>>(), fit.runs)
     };

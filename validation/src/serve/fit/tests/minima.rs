@@ -1,10 +1,6 @@
 //! Profiles of a model with several minima.
 
-use super::search::Fit;
-use super::tests::over_box;
-use crate::methods::least_squares::Datum;
-use crate::methods::least_squares::emulator::Replica;
-use crate::methods::least_squares::likelihood::Rods;
+use super::*;
 
 /// b² determines the size of b, a b its sign given that of a, and a is hardly determined: as a passes 0, b changes its
 /// sign.
