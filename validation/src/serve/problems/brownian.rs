@@ -38,10 +38,6 @@ const fn problem(
 /// The certified answers, written by `examples/certify.rs`.
 pub(super) const TABLE: &str = include_str!("data/brownian.csv");
 
-pub(super) fn certify() -> Result<String, String> {
-    folgar_tucker::certified(&problems())
-}
-
 pub(super) fn problems() -> Vec<ProblemDef> {
     let built = |problem: &'static DiffusionProblem| {
         ProblemDef::new(problem.name, problem.title, |def| folgar_tucker::built(def, problem, TABLE, false))

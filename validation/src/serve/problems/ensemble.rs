@@ -5,8 +5,9 @@
 //! --replicas 20000 --seed 1982` wrote `data/fig7-n50.csv`, and the same with fig4-n50 wrote `data/fig4-n50.csv`; rows
 //! at other times are left out.
 
-use super::asked::period_s;
+use super::asked::periods_s;
 use super::{Built, Ensemble, Kind, Problem, ProblemDef};
+use crate::files::csv::split;
 use crate::judge::statistics::student;
 
 /// Columns `t_over_T,x1,x1_se,x2,x2_se,x3,x3_se`.
@@ -48,16 +49,12 @@ pub(super) fn because(comparisons: usize, of: &str) -> String {
 }
 
 fn built(def: &ProblemDef, sd_percent: f64, table: &str) -> Built {
-    let rows: Vec<Vec<&str>> = table.lines().skip(1).map(|line| line.split(',').collect()).collect();
-    let time_s = |row: &Vec<&str>| row[0].parse().map(|turns: f64| turns * period_s(ASPECT_RATIO));
-    let times_s: Vec<f64> = rows.iter().map(time_s).collect::<Result<_, _>>().expect("a shipped table has numbers");
-    let certified = rows.iter().zip(&times_s).map(|(row, time)| {
-        let values = row[1..].iter().map(|text| (*text).to_owned());
-        std::iter::once(format!("{time:?}")).chain(values).collect()
-    });
+    let mut certified: Vec<Vec<String>> = table.lines().skip(1).map(split).collect();
+    let turns = certified.iter().map(|row| row[0].parse().expect("a shipped table has numbers"));
+    let times_s = periods_s(ASPECT_RATIO, &turns.collect::<Vec<_>>());
+    certified.iter_mut().zip(&times_s).for_each(|(row, time)| row[0] = format!("{time:?}"));
     // Two problems, three means per time.
-    let comparisons = 2 * 3 * rows.len();
-    let certified = certified.collect();
+    let comparisons = 2 * 3 * certified.len();
     let problem = Problem {
         summary: "The model of Lee & Springer (1982) with the paper's rods in plane Couette flow: free rods turn by \
             Jeffery's equation, neighbours collide at random, and the mean projections x_i = ⟨|p_i|⟩ oscillate and die \

@@ -1,5 +1,6 @@
 //! Export of problems as folders of files.
 
+use super::problem::START;
 use super::{Built, ProblemDef, all, built, page};
 use crate::files::output::{self, Output, Refused, ResultFolder};
 use crate::files::text;
@@ -32,31 +33,28 @@ pub fn export(dir: &Path, force: bool) -> Result<Vec<&'static str>, Refused> {
 pub fn files(built: &Built) -> Vec<Output> {
     let problem = &built.problem;
     let json = text::json(problem).expect("a problem is plain data");
+    let columns: Vec<_> = problem.columns.iter().map(String::as_str).collect();
     let mut files = vec![
         ("problem.json".into(), json),
-        ("certified.csv".into(), csv(&problem.columns, &built.certified)),
+        ("certified.csv".into(), csv(&columns, built.certified.iter().cloned())),
         ("README.md".into(), page::page(built)),
     ];
     if !built.start.is_empty() {
-        let rows: Vec<Vec<String>> = (0..)
-            .zip(&built.start)
-            .map(|(rod, p): (usize, _)| [vec![rod.to_string()], p.map(|x| format!("{x:?}")).into()].concat())
-            .collect();
-        files.push(("start.csv".into(), csv(&["rod", "p1", "p2", "p3"], &rows)));
+        files.push(("start.csv".into(), csv(&START, numbered(&built.start))));
     }
     if let Some(columns) = problem.input_columns() {
-        let row = |(at, row): (usize, &Vec<f64>)| {
-            let numbers = row.iter().map(|x| format!("{x:?}"));
-            std::iter::once(at.to_string()).chain(numbers).collect()
-        };
-        let rows: Vec<Vec<String>> = built.inputs.iter().enumerate().map(row).collect();
-        files.push(("inputs.csv".into(), csv(&columns, &rows)));
+        files.push(("inputs.csv".into(), csv(&columns, numbered(&built.inputs))));
     }
     files
 }
 
-fn csv<T: AsRef<str>>(columns: &[T], rows: &[Vec<String>]) -> String {
-    let header: Vec<_> = columns.iter().map(AsRef::as_ref).collect();
-    let lines = rows.iter().map(|row| row.join(","));
-    std::iter::once(header.join(",")).chain(lines).map(|line| line + "\n").collect()
+/// The cells of rows of numbers, each after its number.
+fn numbered<R: AsRef<[f64]>>(rows: &[R]) -> impl Iterator<Item = Vec<String>> {
+    let cells = |row: &R| row.as_ref().iter().map(|x| format!("{x:?}")).collect::<Vec<_>>();
+    rows.iter().enumerate().map(move |(at, row)| [vec![at.to_string()], cells(row)].concat())
+}
+
+fn csv(columns: &[&str], rows: impl Iterator<Item = Vec<String>>) -> String {
+    let lines = rows.map(|row| row.join(","));
+    std::iter::once(columns.join(",")).chain(lines).map(|line| line + "\n").collect()
 }

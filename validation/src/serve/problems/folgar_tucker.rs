@@ -69,17 +69,8 @@ const fn ft(
     c_i: f64,
     times: &'static [f64],
 ) -> DiffusionProblem {
-    let diffusion = Diffusion::Ci(c_i);
-    DiffusionProblem {
-        name,
-        title,
-        gradient_per_s,
-        aspect_ratio,
-        diffusion,
-        planar_start: false,
-        oscillation: None,
-        times,
-    }
+    let (diffusion, planar_start, oscillation) = (Diffusion::Ci(c_i), false, None);
+    DiffusionProblem { name, title, gradient_per_s, aspect_ratio, diffusion, planar_start, oscillation, times }
 }
 
 impl DiffusionProblem {
@@ -104,10 +95,6 @@ pub(super) const FOURTH: [&str; 15] = [
 
 /// The certified answers, written by `examples/certify.rs`: a table is the same on every machine.
 pub(super) const TABLE: &str = include_str!("data/folgar-tucker.csv");
-
-pub(super) fn certify() -> Result<String, String> {
-    certified(&problems())
-}
 
 /// The table of the problems of second moments, which has the fourth ones too.
 pub(super) fn certified(problems: &[ProblemDef]) -> Result<String, String> {

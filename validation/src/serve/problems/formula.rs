@@ -224,16 +224,17 @@ impl FormulaProblem {
 
     fn built(&self, def: &ProblemDef) -> Built {
         let inputs = (self.inputs)(&self.formula);
-        let (asked, equations): (String, Vec<&str>) = match self.formula {
+        let (asked, equations, closure): (String, Vec<&str>, _) = match self.formula {
             Formula::Pdot => (
                 "ṗ in 1/s of a rod with the direction p in the flow L with the aspect ratio r_e".into(),
                 vec![
                     "Jeffery's equation (A.1 of Lee & Springer 1982): ṗ = Wp + Λ(Dp − p(p·Dp)), W = (L − Lᵀ)/2, D = \
                       (L + Lᵀ)/2, Λ = (r_e² − 1)/(r_e² + 1)",
                 ],
+                None,
             ),
             Formula::Closure { closure } => {
-                (format!("a_ijkl by the {} closure", closure.name()), vec![closure.source()])
+                (format!("a_ijkl by the {} closure", closure.name()), vec![closure.source()], Some(closure))
             }
             Formula::Dadt { closure, model } => (
                 format!(
@@ -242,11 +243,8 @@ impl FormulaProblem {
                     closure.name()
                 ),
                 vec![model.source(), closure.source(), RATE],
+                Some(closure),
             ),
-        };
-        let closure = match self.formula {
-            Formula::Pdot => None,
-            Formula::Closure { closure } | Formula::Dadt { closure, .. } => Some(closure),
         };
         let polynomials = closure.map(Closure::polynomials).unwrap_or_default();
         let problem = Problem {

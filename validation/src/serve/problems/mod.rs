@@ -94,18 +94,13 @@ impl Built {
     pub fn loaded(&self, dir: PathBuf) -> LoadedProblem {
         let number = |text: &String| text.parse::<f64>().expect("a certified number");
         let rows = self.certified.iter().map(|row| row.iter().map(number).collect());
-        let numbered = |(at, row): (usize, &Vec<f64>)| [&[at as f64], &row[..]].concat();
         LoadedProblem {
             dir,
             origin: Origin::BuiltIn,
             own_tolerance: self.problem.tolerance,
             problem: self.problem.clone(),
             start: self.start.clone(),
-            inputs: self.problem.input_columns().map(|columns| Table {
-                columns: columns.into_iter().map(String::from).collect(),
-                rows: self.inputs.iter().enumerate().map(numbered).collect(),
-                lines: Vec::new(),
-            }),
+            inputs: self.problem.input_columns().map(|columns| Table::numbered(&columns, &self.inputs)),
             certified: Table { columns: self.problem.columns.clone(), rows: rows.collect(), lines: Vec::new() },
         }
     }
@@ -134,9 +129,9 @@ pub type Certify = fn() -> Result<String, String>;
 
 /// The tables that are computed in moments, by the names of their files in `data`.
 pub const TABLES: [(&str, Certify); 4] = [
-    ("brownian", brownian::certify),
+    ("brownian", || folgar_tucker::certified(&brownian::problems())),
     ("closed", closed::certify),
-    ("folgar-tucker", folgar_tucker::certify),
+    ("folgar-tucker", || folgar_tucker::certified(&folgar_tucker::problems())),
     ("formulas", formula::certify),
 ];
 

@@ -1,5 +1,6 @@
 //! The author of a problem in a folder: this program, as `problems export` writes it, or somebody else.
 
+use super::problem::START;
 use super::table::{LONGEST_EXCERPT, Table, line_of};
 use super::{CORRECTED, LoadedProblem, Origin, named};
 use crate::files::FileError;
@@ -34,14 +35,7 @@ pub(super) fn origin(loaded: &LoadedProblem, json: &str) -> Result<Origin, FileE
         let message = format!("{key} = {found}: {}", differs(name, &due));
         return Err(FileError::at(path("problem.json"), place, 0, message));
     }
-    let starts = |start: &[[f64; 3]]| {
-        let rows = start.iter().enumerate();
-        Table {
-            columns: ["rod", "p1", "p2", "p3"].map(String::from).into(),
-            rows: rows.map(|(rod, p)| vec![rod as f64, p[0], p[1], p[2]]).collect(),
-            lines: Vec::new(),
-        }
-    };
+    let starts = |start: &[[f64; 3]]| Table::numbered(&START, start);
     same(&path("start.csv"), name, &starts(&loaded.start), &starts(&own.start))?;
     if let (Some(found), Some(due)) = (&loaded.inputs, &own.inputs) {
         same(&path("inputs.csv"), name, found, due)?;

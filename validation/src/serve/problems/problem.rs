@@ -392,6 +392,9 @@ impl LoadedProblem {
     }
 }
 
+/// The columns of `start.csv`.
+pub(super) const START: [&str; 4] = ["rod", "p1", "p2", "p3"];
+
 /// The columns of `inputs.csv`: centre (mm), axis and r_e of the rods a and b.
 #[rustfmt::skip]
 const INPUT_COLUMNS: [&str; 15] = [

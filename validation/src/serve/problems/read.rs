@@ -1,9 +1,9 @@
 //! Reading exported problems.
 
-use super::check;
-use super::origin::origin;
+use super::problem::START;
 use super::table::{self, LONGEST_EXCERPT, Table, line_of};
 use super::{FORMAT, Kind, LoadedProblem, Origin, Problem};
+use super::{check, origin};
 use crate::files::{FileError, entries, text};
 use shearbed::plan::counted;
 use std::path::Path;
@@ -31,38 +31,23 @@ fn read_one(dir: &Path) -> Result<LoadedProblem, FileError> {
     let refused =
         |(key, message): check::Refused| FileError::at(&path, line_of(&json, key), 0, format!("{key} = {message}"));
     check::check(dir, &problem).map_err(refused)?;
-    let start = match problem.kind {
-        Kind::Rods => start(&dir.join("start.csv"))?,
-        _ => Vec::new(),
-    };
+    let start = if problem.kind == Kind::Rods { start(&dir.join("start.csv"))? } else { Vec::new() };
     let inputs = problem.input_columns().map(|columns| table::read(&dir.join("inputs.csv"), &columns)).transpose()?;
     let columns: Vec<_> = problem.columns.iter().map(String::as_str).collect();
     let certified_path = dir.join("certified.csv");
     let certified = table::read(&certified_path, &columns)?;
-    let own_tolerance = problem.tolerance;
-    let mut loaded = LoadedProblem {
-        dir: dir.to_owned(),
-        origin: Origin::Foreign,
-        problem,
-        start,
-        inputs,
-        certified,
-        own_tolerance,
-    };
+    let (own_tolerance, origin) = (problem.tolerance, Origin::Foreign);
+    let mut loaded = LoadedProblem { dir: dir.to_owned(), origin, problem, start, inputs, certified, own_tolerance };
     check_keys(&certified_path, &loaded)?;
     check::tables(&loaded)?;
-    loaded.origin = origin(&loaded, &json)?;
+    loaded.origin = origin::origin(&loaded, &json)?;
     Ok(loaded)
 }
 
 fn problem(path: &Path, text: &str) -> Result<Problem, FileError> {
     let wrong = |error: serde_json::Error| {
-        FileError::at(
-            path,
-            error.line() as u64,
-            error.column() as u64,
-            text::start(&error.to_string(), LONGEST_EXCERPT),
-        )
+        let message = text::start(&error.to_string(), LONGEST_EXCERPT);
+        FileError::at(path, error.line() as u64, error.column() as u64, message)
     };
     // The version is checked first: another format may have other keys.
     let value: serde_json::Value = serde_json::from_str(text).map_err(wrong)?;
@@ -75,7 +60,7 @@ fn problem(path: &Path, text: &str) -> Result<Problem, FileError> {
 }
 
 fn start(path: &Path) -> Result<Vec<[f64; 3]>, FileError> {
-    let table = table::read(path, &["rod", "p1", "p2", "p3"])?;
+    let table = table::read(path, &START)?;
     let direction = |(rod, row): (usize, &Vec<f64>)| {
         let wrong = |column: u64, message: String| FileError::at(path, table.line(rod), column, message);
         if row[0] != rod as f64 {

@@ -19,6 +19,12 @@ pub struct Table {
 }
 
 impl Table {
+    /// A table of this program, each row after its number.
+    pub(super) fn numbered<R: AsRef<[f64]>>(columns: &[&str], rows: &[R]) -> Self {
+        let rows = rows.iter().enumerate().map(|(at, row)| [&[at as f64], row.as_ref()].concat());
+        Self { columns: columns.iter().map(|name| (*name).into()).collect(), rows: rows.collect(), lines: Vec::new() }
+    }
+
     /// The line of a row, counted from 0.
     pub fn line(&self, row: usize) -> u64 {
         self.lines.get(row).copied().unwrap_or(row as u64 + 2)
@@ -82,12 +88,8 @@ pub(super) fn tables_apart(a: &str, b: &str) -> f64 {
     assert_eq!(a.lines().next(), b.lines().next());
     assert_eq!(a.lines().count(), b.lines().count());
     let rows = a.lines().zip(b.lines()).skip(1).map(|(a, b)| (certified_row(a), certified_row(b)));
-    let each = rows.map(
-        |((name, a), (other, b))| {
-            if name == other && a[0] == b[0] { crate::oracle::apart(&a, &b) } else { 1.0 }
-        },
-    );
-    crate::oracle::worst(each)
+    let off = |a: &[f64], b: &[f64]| if a[0] == b[0] { crate::oracle::apart(a, b) } else { 1.0 };
+    crate::oracle::worst(rows.map(|((name, a), (other, b))| if name == other { off(&a, &b) } else { 1.0 }))
 }
 
 /// A table in the sources is the one that is computed, to half a unit of the twelfth decimal on either side, and the
