@@ -8,7 +8,7 @@ use super::comparison::{AlphaFit, Comparison, Point};
 use super::covariance::{Covariance, Solver};
 use super::model::{self, MeasuredAt, Model};
 use super::provenance::INPUTS;
-use super::{Measured, MeasuredCurve, OBSERVABLES};
+use super::{MeasuredCurve, OBSERVABLES};
 use crate::input::scenes;
 use nalgebra::{DMatrix, DVector, RowDVector};
 use shearbed::Scene;
@@ -118,7 +118,7 @@ impl Assessed {
         causes.push(step.transpose());
         causes.extend(inputs.iter().map(|input| input.transpose()));
         let mut covariance = Covariance { own: DVector::zeros(places.len()), shared: DMatrix::from_rows(&causes) };
-        for (k, measured) in measured(curves).enumerate() {
+        for (k, measured) in curves.iter().flat_map(|curve| &curve.points).enumerate() {
             let reading = measured.u_y.powi(2) + model.time_variance[k];
             let interpolation = model.interpolation[k].powi(2);
             covariance.own[k] = reading + interpolation;
@@ -198,10 +198,6 @@ impl Assessed {
             middle => difference / (2.0 * share * middle),
         })
     }
-}
-
-fn measured(curves: &[MeasuredCurve]) -> impl Iterator<Item = &Measured> {
-    curves.iter().flat_map(|curve| &curve.points)
 }
 
 /// The points' times in periods of this scene: a time in seconds or strain is a different t/T if r_e is different.

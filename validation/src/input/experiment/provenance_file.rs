@@ -38,7 +38,8 @@ pub(super) fn parse(file: &str, text: &str, source: &Source) -> Result<Provenanc
         tool: all.text("tool", "with which tool and version, as a text")?,
         date: all.text("date", day)?,
     };
-    if !is_day(&stated.date) {
+    // A calendar day, without a time.
+    if !stated.date.parse::<Datetime>().is_ok_and(|day| day.date.is_some() && day.time.is_none()) {
         return Err(all.refused("date", day));
     }
     Ok(Provenance {
@@ -51,11 +52,6 @@ pub(super) fn parse(file: &str, text: &str, source: &Source) -> Result<Provenanc
         inputs: inputs(&all)?,
         unread: Vec::new(),
     })
-}
-
-/// True if the text is a calendar day, as YYYY-MM-DD.
-fn is_day(text: &str) -> bool {
-    text.parse::<Datetime>().is_ok_and(|day| day.date.is_some() && day.time.is_none())
 }
 
 pub(super) fn uncertainty(least: f64, most: f64) -> String {

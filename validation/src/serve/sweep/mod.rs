@@ -56,14 +56,13 @@ pub fn points(text: &str, starts: &Starts, fixed: &[KeyValue], axes: &[Axis]) ->
     let mut starts = starts.clone();
     let point = |k| {
         let values = at(axes, k);
-        let keys = axes.iter().map(|axis| axis.key.as_str());
-        let own = keys.zip(values.iter().cloned());
-        let settings = fixed.iter().map(KeyValue::pair).chain(own);
-        let plan = plan(&base, &mut starts, settings).map_err(|why| {
-            let point = described(axes, &values);
-            GridError::Point { point, number: k + 1, count, why }
-        })?;
-        Ok(Point { values, plan })
+        let own = axes.iter().map(|axis| axis.key.as_str()).zip(values.iter().cloned());
+        let plan = with(&base, fixed.iter().map(KeyValue::pair).chain(own)).and_then(|mut scene| {
+            starts.fill(&mut scene)?;
+            Plan::new(&scene).map_err(|error| error.to_string())
+        });
+        let refused = |why| GridError::Point { point: described(axes, &values), number: k + 1, count, why };
+        Ok(Point { plan: plan.map_err(refused)?, values })
     };
     (0..count).map(point).collect()
 }
@@ -99,26 +98,15 @@ pub fn at(axes: &[Axis], mut k: usize) -> Vec<Value> {
     values
 }
 
-/// The plan of the scene `base` with the keys `settings`.
-fn plan<'a>(
-    base: &Document,
-    starts: &mut Starts,
-    settings: impl Iterator<Item = (&'a str, Value)>,
-) -> Result<Plan, String> {
-    let mut scene = with(base, settings)?;
-    starts.fill(&mut scene)?;
-    Plan::new(&scene).map_err(|error| error.to_string())
-}
-
 /// The scene in `text` with the keys `settings`, checked like a scene file.
 pub fn scene_with(text: &str, settings: &[KeyValue]) -> Result<Scene, String> {
     with(&document(text)?, settings.iter().map(KeyValue::pair))
 }
 
-fn with<'a>(base: &Document, settings: impl Iterator<Item = (&'a str, Value)>) -> Result<Scene, String> {
+fn with<'a>(base: &Document, mut settings: impl Iterator<Item = (&'a str, Value)>) -> Result<Scene, String> {
     let mut document = base.clone();
     let set = |(key, value)| scene::set(&mut document, key, value);
-    settings.into_iter().try_for_each(set).and_then(|()| of_document(&document)).map_err(messages)
+    settings.try_for_each(set).and_then(|()| of_document(&document)).map_err(messages)
 }
 
 fn document(text: &str) -> Result<Document, String> {
@@ -160,16 +148,19 @@ mod tests {
 
     #[test]
     fn every_point_is_checked_as_a_scene_file_is() {
-        let error = refused(&["particles.count=10:20:4"]);
-        let expected = "particles.count=13.333333333333334 (point 2 of 4): particles.count = 13.333333333333334 \
-                        is not allowed: expected a whole number from 1 to 100000000";
-        assert_eq!(error, expected);
-        let error = refused(&["interaction.alpa=1,2"]);
-        assert!(error.contains("unknown key `alpa`, expected one of"), "{error}");
-        let error = refused(&["interaction.update=angels"]);
-        assert!(error.ends_with("\"rotation\", \"angles\" or \"kick\""), "{error}");
-        assert!(refused(&["title.x=1"]).contains("title is not a table: it has no key x"));
-        let error = refused(&["a=1:2:1000", "b=1:2:101"]);
-        assert!(error.contains("more than 100000 points"), "{error}");
+        for (over, told) in [
+            (
+                &["particles.count=10:20:4"][..],
+                "particles.count=13.333333333333334 (point 2 of 4): particles.count = 13.333333333333334 is not \
+                 allowed: expected a whole number from 1 to 100000000",
+            ),
+            (&["interaction.alpa=1,2"], "unknown key `alpa`, expected one of"),
+            (&["interaction.update=angels"], "\"rotation\", \"angles\" or \"kick\""),
+            (&["title.x=1"], "title is not a table: it has no key x"),
+            (&["a=1:2:1000", "b=1:2:101"], "more than 100000 points"),
+        ] {
+            let error = refused(over);
+            assert!(error.contains(told), "{error}");
+        }
     }
 }

@@ -1,5 +1,5 @@
 use super::*;
-use crate::input::experiment::{Axis, Layout, Projection, Provenance, Stated, Time};
+use crate::input::experiment::{Axis, Layout, Measured, Projection, Provenance, Stated, Time};
 use approx::assert_relative_eq;
 
 /// Three synthetic points for the scene of Fig. 4 at n = 100, with the values `y` at early times, in seconds.
