@@ -194,15 +194,13 @@ fn minus(text: &str) -> String {
 
 /// 10 with its exponent as a superscript.
 pub(crate) fn power_of_ten(exponent: i32) -> String {
-    let digits = exponent.to_string();
-    let raised = digits.chars().map(|c| match c {
-        '-' => '⁻',
-        '1' => '¹',
-        '2' => '²',
-        '3' => '³',
-        digit => char::from_u32('⁰' as u32 + digit.to_digit(10).unwrap_or(0)).unwrap_or(digit),
-    });
-    format!("10{}", raised.collect::<String>())
+    let raised = |c| counterpart(c, "-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹");
+    "10".chars().chain(exponent.to_string().chars().filter_map(raised)).collect()
+}
+
+/// The character of `to` at the place that `c` has in `from`.
+fn counterpart(c: char, from: &str, to: &str) -> Option<char> {
+    from.chars().position(|other| other == c).and_then(|at| to.chars().nth(at))
 }
 
 /// The text with subscripts as Unicode characters, if there are characters for all of a subscript.
@@ -225,9 +223,7 @@ pub(crate) fn lowered(text: &str, other: impl Fn(&str) -> String) -> String {
 }
 
 fn subscript(c: char) -> Option<char> {
-    const FROM: &str = "0123456789aehijklmnoprstuvx";
-    const TO: &str = "₀₁₂₃₄₅₆₇₈₉ₐₑₕᵢⱼₖₗₘₙₒₚᵣₛₜᵤᵥₓ";
-    FROM.find(c).and_then(|at| TO.chars().nth(at))
+    counterpart(c, "0123456789aehijklmnoprstuvx", "₀₁₂₃₄₅₆₇₈₉ₐₑₕᵢⱼₖₗₘₙₒₚᵣₛₜᵤᵥₓ")
 }
 
 /// The text for a Markdown cell: on one line, without markup except for code.

@@ -4,18 +4,14 @@ use std::sync::LazyLock;
 use tiny_skia::{PathBuilder, Transform};
 use ttf_parser::{Face, GlyphId, OutlineBuilder, Rect};
 
-type Font = LazyLock<Option<Face<'static>>>;
-
 /// The fonts' files: plain and bold. They have only the letters of our pictures.
 pub(super) const FILES: [&[u8]; 2] =
     [include_bytes!("../../../fonts/DejaVuSans.ttf"), include_bytes!("../../../fonts/DejaVuSans-Bold.ttf")];
 
-static PLAIN: Font = Font::new(|| Face::parse(FILES[0], 0).ok());
-static BOLD: Font = Font::new(|| Face::parse(FILES[1], 0).ok());
-
 /// A font, if its file can be read.
 pub(super) fn face(bold: bool) -> Option<&'static Face<'static>> {
-    if bold { BOLD.as_ref() } else { PLAIN.as_ref() }
+    static FACES: LazyLock<[Option<Face<'static>>; 2]> = LazyLock::new(|| FILES.map(|file| Face::parse(file, 0).ok()));
+    FACES[usize::from(bold)].as_ref()
 }
 
 /// Before each letter of a subscript; a character of the private use area, which no font has.
@@ -51,10 +47,6 @@ impl Glyph {
 
     fn advance(self) -> f32 {
         self.ems(f32::from(self.face.glyph_hor_advance(self.id).unwrap_or(0)))
-    }
-
-    fn extent(self) -> Option<Rect> {
-        self.face.glyph_bounding_box(self.id)
     }
 }
 
@@ -183,9 +175,8 @@ impl Line {
 
 /// The shift that puts a mark over the middle of a letter, without touching it.
 fn above(letter: Glyph, mark: Glyph) -> (f32, f32) {
-    let Some((below, over)) = letter.extent().zip(mark.extent()) else {
-        return (0.0, 0.0);
-    };
+    let extent = |glyph: Glyph| glyph.face.glyph_bounding_box(glyph.id);
+    let Some((below, over)) = extent(letter).zip(extent(mark)) else { return (0.0, 0.0) };
     let middle = |extent: Rect| 0.5 * (f32::from(extent.x_min) + f32::from(extent.x_max));
     let clear = letter.ems(f32::from(below.y_max)) + 0.05;
     let up = clear - mark.ems(f32::from(over.y_min));

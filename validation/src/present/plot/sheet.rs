@@ -73,9 +73,9 @@ fn path(points: impl IntoIterator<Item = BackendCoord>) -> PathBuilder {
 }
 
 impl<C: Canvas> Sheet<C> {
-    fn fill(&mut self, path: Option<Path>, color: BackendColor, place: Transform) -> Done {
+    fn fill(&mut self, path: Option<Path>, color: BackendColor) -> Done {
         // A path without area has nothing to fill.
-        if let Some(path) = path.and_then(|path| path.transform(place)) {
+        if let Some(path) = path {
             self.canvas.fill(&path, self.theme.of(color));
         }
         Ok(())
@@ -110,7 +110,7 @@ impl<C: Canvas> DrawingBackend for &mut Sheet<C> {
 
     fn draw_pixel(&mut self, (x, y): BackendCoord, color: BackendColor) -> Done {
         let pixel = Rect::from_xywh(x as f32, y as f32, 1.0, 1.0);
-        self.fill(pixel.map(PathBuilder::from_rect), color, Transform::identity())
+        self.fill(pixel.map(PathBuilder::from_rect), color)
     }
 
     fn draw_line<S: BackendStyle>(&mut self, from: BackendCoord, to: BackendCoord, style: &S) -> Done {
@@ -126,7 +126,7 @@ impl<C: Canvas> DrawingBackend for &mut Sheet<C> {
     ) -> Done {
         let outline = Rect::from_ltrb(left as f32, top as f32, right as f32, bottom as f32);
         let outline = outline.map(PathBuilder::from_rect);
-        if fill { self.fill(outline, style.color(), Transform::identity()) } else { self.stroke(outline, style) }
+        if fill { self.fill(outline, style.color()) } else { self.stroke(outline, style) }
     }
 
     fn draw_path<S: BackendStyle, I: IntoIterator<Item = BackendCoord>>(&mut self, points: I, style: &S) -> Done {
@@ -136,12 +136,12 @@ impl<C: Canvas> DrawingBackend for &mut Sheet<C> {
     fn fill_polygon<S: BackendStyle, I: IntoIterator<Item = BackendCoord>>(&mut self, corners: I, style: &S) -> Done {
         let mut outline = path(corners);
         outline.close();
-        self.fill(outline.finish(), style.color(), Transform::identity())
+        self.fill(outline.finish(), style.color())
     }
 
     fn draw_circle<S: BackendStyle>(&mut self, (x, y): BackendCoord, radius: u32, style: &S, fill: bool) -> Done {
         let outline = PathBuilder::from_circle(x as f32, y as f32, radius as f32);
-        if fill { self.fill(outline, style.color(), Transform::identity()) } else { self.stroke(outline, style) }
+        if fill { self.fill(outline, style.color()) } else { self.stroke(outline, style) }
     }
 
     fn draw_text<S: BackendTextStyle>(&mut self, text: &str, style: &S, (x, y): BackendCoord) -> Done {

@@ -7,13 +7,8 @@ use crate::present::xml::is_well_formed;
 pub(super) use figures::{fitted, many, maps};
 
 fn wave(label: &str, phase: f64) -> Curve {
-    let x: Vec<f64> = (0..=300).map(|k| 0.02 * f64::from(k)).collect();
-    Curve {
-        label: label.into(),
-        y: x.iter().map(|x| 0.5 + (-0.3 * x).exp() * (6.0 * x + phase).sin() / 3.0).collect(),
-        half_band: Some(vec![0.03; x.len()]),
-        x,
-    }
+    let x = (0..=300).map(|k| 0.02 * f64::from(k));
+    Curve::with_band(label, x, |x| (x, 0.5 + (-0.3 * x).exp() * (6.0 * x + phase).sin() / 3.0, 0.03))
 }
 
 pub(super) fn synthetic() -> Figure {
@@ -116,7 +111,7 @@ fn residuals_stand_below_their_points_in_their_colours() {
 
 #[test]
 fn a_marker_on_the_frame_is_whole() {
-    let point = Points { label: "corner".into(), x: vec![0.0], y: vec![1.0], ..Points::default() };
+    let point = Points::of("corner", [(0.0, 1.0)], |point| point);
     let ends = Some((0.0, 1.0));
     let figure = Figure { points: vec![point], x_range: ends, y_range: ends, ..Figure::default() };
     let drawn = svg(&figure).unwrap();
@@ -134,8 +129,7 @@ fn a_marker_on_the_frame_is_whole() {
 
 #[test]
 fn shades_go_from_dark_to_light_and_have_their_values() {
-    let curve =
-        |k: usize| Curve { label: (10 * k).to_string(), x: vec![0.0, 1.0], y: vec![0.0, k as f64], half_band: None };
+    let curve = |k: usize| Curve::of((10 * k).to_string(), [0.0, 1.0], |x| (x, x * k as f64));
     let shaded = |count: usize| Figure {
         title: "Synthetic: a sweep".into(),
         curves: (1..=count).map(curve).collect(),
@@ -190,9 +184,8 @@ fn a_width_in_print_has_letters_of_eight_points() {
 
 #[test]
 fn a_power_law_is_straight_on_logarithmic_axes() {
-    let x: Vec<f64> = (0..=4).map(|k| 10f64.powi(-k)).collect();
     let figure = Figure {
-        curves: vec![Curve { y: x.iter().map(|x| 3.0 * x * x).collect(), x, ..Default::default() }],
+        curves: vec![Curve::of("", (0..=4).map(|k| 10f64.powi(-k)), |x| (x, 3.0 * x * x))],
         x_log: true,
         y_log: true,
         ..Default::default()

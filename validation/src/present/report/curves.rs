@@ -3,7 +3,6 @@
 use crate::files::csv::written;
 use crate::files::text::cell;
 use crate::present::plot::{Figure, Grid};
-use crate::present::table::{columns_csv, words};
 
 /// A figure as CSV: a row for each point of each curve, with the half widths of its 95 % intervals if it has them.
 /// Every number is the shortest text that reads back as the same bits.
@@ -26,24 +25,20 @@ pub fn csv(picture: &Figure) -> Result<String, String> {
     })
 }
 
-/// Maps as CSV: a row for each cell, with the class as a number and in words.
+/// Maps as CSV: a row for each cell, with its class in words.
 fn cells(picture: &Figure, grid: &Grid) -> Result<String, String> {
-    type Cell<'a> = (&'a str, usize, &'a str, usize);
-    let maps = grid.maps.iter();
-    let cells = maps.flat_map(|map| {
-        let rows = map.cells.iter().zip(&grid.rows);
-        rows.flat_map(move |(cells, row)| {
-            let cells = cells.iter().enumerate();
-            cells.map(move |(column, class)| (map.title.as_str(), column, row.as_str(), *class))
-        })
-    });
-    let columns = vec![
-        words("series", |cell: &Cell| cell.0),
-        words(picture.x_name.as_str(), |cell: &Cell| grid.values[cell.1].as_str()),
-        words(if picture.y_name.is_empty() { "row" } else { &picture.y_name }, |cell: &Cell| cell.2),
-        words("found", |cell: &Cell| grid.classes[cell.3].as_str()),
-    ];
-    columns_csv(cells, columns)
+    let y_name = if picture.y_name.is_empty() { "row" } else { &picture.y_name };
+    written(|table| {
+        table.write_record(["series", &picture.x_name, y_name, "found"].map(cell))?;
+        for map in &grid.maps {
+            for (classes, row) in map.cells.iter().zip(&grid.rows) {
+                for (class, value) in classes.iter().zip(&grid.values) {
+                    table.write_record([&map.title, value, row, &grid.classes[*class]].map(|text| cell(text)))?;
+                }
+            }
+        }
+        Ok(())
+    })
 }
 
 #[cfg(test)]
@@ -56,13 +51,8 @@ mod tests {
         let figure = Figure {
             x_name: "t/T".into(),
             y_name: "X̄₁, in rod lengths".into(),
-            curves: vec![Curve {
-                label: "synthetic".into(),
-                x: vec![0.0, 0.1],
-                y: vec![0.5, f64::NAN],
-                half_band: Some(vec![0.01, 0.02]),
-            }],
-            points: vec![Points { label: "a, b".into(), x: vec![1.0], y: vec![2.0], ..Default::default() }],
+            curves: vec![Curve::with_band("synthetic", [(0.0, 0.5, 0.01), (0.1, f64::NAN, 0.02)], |point| point)],
+            points: vec![Points::of("a, b", [(1.0, 2.0)], |point| point)],
             ..Default::default()
         };
         let expected = "series,t/T,\"X̄₁, in rod lengths\",± x,± y\n\

@@ -3,7 +3,7 @@
 use super::first::{cards, closest, sizes, thumbnails};
 use super::formats::{bounds, detail, number, seconds, share, verdict};
 use super::prose::Anchors;
-use super::{CaseRow, Line, Report, ReportFigure, ReportTable};
+use super::{CaseRow, Line, Report, ReportEquation, ReportFigure, ReportTable};
 use crate::files::text::readable;
 use crate::judge::accept::Verdict;
 use crate::judge::case::Judges;
@@ -124,16 +124,11 @@ fn studies(report: &Report) -> Result<Vec<Json>, String> {
     (report.sections.studies.iter())
         .map(|study| {
             let exhibits = study.exhibits.iter().map(|exhibit| view(report, exhibit));
-            Ok(json!({
-                "name": study.name,
-                "title": study.title,
-                "question": study.question,
-                "answer": study.answer,
-                "command": study.command,
-                "time": seconds(study.seconds),
-                "cases": case_links(report, &study.cases),
-                "exhibits": exhibits.collect::<Result<Vec<_>, String>>()?,
-            }))
+            let mut page = json!(study);
+            page["time"] = seconds(study.seconds).into();
+            page["cases"] = case_links(report, &study.cases).into();
+            page["exhibits"] = exhibits.collect::<Result<Vec<_>, String>>()?.into();
+            Ok(page)
         })
         .collect()
 }
@@ -169,30 +164,22 @@ fn equations(report: &Report) -> Vec<Json> {
         let controls = rows.flat_map(|row| &row.controls).filter(|control| control.caught);
         controls.map(|control| control.mistake.clone()).collect()
     };
-    let equations = report.sections.equations.iter();
-    equations
-        .map(|equation| {
-            json!({
-                "number": equation.number,
-                "says": equation.says,
-                "code": equation.code,
-                "cases": case_links(report, &equation.cases),
-                "caught": caught(&equation.cases),
-            })
-        })
-        .collect()
+    let page = |equation: &ReportEquation| {
+        let mut page = json!(equation);
+        page["cases"] = case_links(report, &equation.cases).into();
+        page["caught"] = caught(&equation.cases).into();
+        page
+    };
+    report.sections.equations.iter().map(page).collect()
 }
 
 /// A table, with a mark for each column of numbers.
 fn table(table: &ReportTable) -> Json {
     let starts_a_number = |c: char| c.is_ascii_digit() || "+−-–±<≤>≥".contains(c);
-    let is_number = |row: &Vec<String>, column| {
-        let cell: Option<&String> = row.get(column);
-        cell.is_some_and(|cell| cell.starts_with(starts_a_number))
-    };
-    let numeric = (0..table.columns.len()).map(|column| table.rows.iter().all(|row| is_number(row, column)));
+    let is_number = |cell: &String| cell.starts_with(starts_a_number);
+    let is_numeric = |column: usize| table.rows.iter().all(|row| row.get(column).is_some_and(is_number));
     json!({
-        "numeric": numeric.collect::<Vec<_>>(),
+        "numeric": (0..table.columns.len()).map(is_numeric).collect::<Vec<_>>(),
         "name": table.name,
         "title": table.title,
         "caption": table.caption,

@@ -51,10 +51,10 @@ impl Origin {
             sources: SOURCES.into(),
             rustc: BUILD.rustc.into(),
             build: BUILD.build.into(),
-            processor: processor().unwrap_or_else(unknown),
+            processor: processor().unwrap_or_else(|| "unknown".into()),
             threads: std::thread::available_parallelism().map_or(1, Into::into),
             system: format!("{} {}", std::env::consts::OS, std::env::consts::ARCH),
-            date: since_1970.map_or_else(|_| unknown(), |time| utc(time.as_secs())),
+            date: since_1970.map_or("unknown".into(), |time| utc(time.as_secs())),
             seeds: seeds(plans),
             points,
         }
@@ -70,10 +70,6 @@ fn seeds(plans: &[ScenePlan]) -> String {
     let of_scenes = scenes.iter().map(|(seed, names)| format!("; {seed} of the scenes {}", names.join(", ")));
     let of_scenes: String = of_scenes.collect();
     format!("fixed in the source of each case{of_scenes}. No result depends on the number of threads.")
-}
-
-fn unknown() -> String {
-    "unknown".into()
 }
 
 /// Size limit in bytes of the system's description of processors: some kB for each.

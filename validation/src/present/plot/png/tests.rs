@@ -84,7 +84,7 @@ fn letters_are_drawn_or_named() {
 
 #[test]
 fn a_dashed_curve_has_gaps() {
-    let level = |label: &str, y: f64| Curve { label: label.into(), x: vec![0.0, 1.0], y: vec![y, y], half_band: None };
+    let level = |label: &str, y: f64| Curve::of(label, [0.0, 1.0], |x| (x, y));
     let figure = Figure { curves: vec![level("whole", 0.2), level("dashed", 0.8)], ..Figure::default() };
     let (_, _, pixels) = read(&png(&figure).unwrap().bytes);
     let looks = looks(&figure);

@@ -13,11 +13,8 @@ pub fn many() -> Figure {
         "Lie-group RKMK4",
         "Radau IIA 5",
     ];
-    let curve = |(k, name): (usize, &&str)| Curve {
-        label: (*name).into(),
-        x: vec![1e-7, 1e-5, 1e-2],
-        y: vec![1.0, 1e-3, 1e-14 * (1.0 + k as f64)],
-        half_band: None,
+    let curve = |(k, name): (usize, &&str)| {
+        Curve::of(*name, [(1e-7, 1.0), (1e-5, 1e-3), (1e-2, 1e-14 * (1.0 + k as f64))], |point| point)
     };
     Figure {
         title: "Synthetic: many curves".into(),
@@ -33,8 +30,7 @@ pub fn many() -> Figure {
 /// Two fitted curves with points, and their residuals below.
 pub fn fitted() -> Figure {
     let names = ["X̄₁", "X̄₂"];
-    let curve =
-        |label: String, y: f64| Curve { label, x: vec![0.0, 300.0], y: vec![y; 2], half_band: Some(vec![0.01; 2]) };
+    let curve = |label: String, y: f64| Curve::with_band(label, [0.0, 300.0], |x| (x, y, 0.01));
     let points =
         |name: &str, y: f64| Points::with_bars(format!("{name}{MEASURED}"), [0.0, 150.0, 300.0], |x| (x, y, 0.012));
     Figure {

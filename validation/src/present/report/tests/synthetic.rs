@@ -25,19 +25,13 @@ pub fn synthetic() -> Report {
         outcome("synthetic-underpowered", Verdict::Underpowered, vec![mean(0.02)], &caught),
         outcome("synthetic-no-data", Verdict::NoData, vec![Rule::NoData { supply: supply.into() }], &[]),
     ];
-    let x: Vec<f64> = (0..=60).map(|k| 0.1 * f64::from(k)).collect();
     let figure = ReportFigure {
         name: "synthetic".into(),
         figure: Figure {
             title: "Synthetic curve".into(),
             x_name: "t/T (periods)".into(),
             y_name: "mean axial projection (–)".into(),
-            curves: vec![Curve {
-                label: "synthetic".into(),
-                y: x.iter().map(|x| x.sin()).collect(),
-                x,
-                half_band: None,
-            }],
+            curves: vec![Curve::of("synthetic", (0..=60).map(|k| 0.1 * f64::from(k)), |x| (x, x.sin()))],
             ..Default::default()
         },
         caption: "What to see: a wave & nothing else.".into(),
