@@ -7,7 +7,7 @@ use super::estimate::Wrong;
 use super::means;
 use super::mistakes::{self, AXES, Mistake, Setting};
 pub use super::nearness::Diagnosis;
-use super::nearness::{CURVE, NEARER, Near, VALUES, apart, said};
+use super::nearness::{CURVE, NEARER, Near, VALUES, apart, largest_within, said};
 use super::tensors;
 use super::{Graded, Verdict};
 use crate::methods::integrators::apart_rad;
@@ -225,12 +225,6 @@ fn reordered(loaded: &LoadedProblem, answer: &Answer, nearer_than: f64) -> Optio
     same.then_some("the right answer with the rods in another order")
 }
 
-/// The largest of the distances; `None` where one is missing or not finite.
-fn largest(distances: impl Iterator<Item = Option<f64>>) -> Option<f64> {
-    let finite = |distance: Option<f64>| distance.filter(|distance| distance.is_finite());
-    distances.map(finite).try_fold(0.0, |a: f64, b| Some(a.max(b?)))
-}
-
 /// The rows of an answer with this mistake, at times multiplied by `part`; `None` if the mistake does not apply.
 fn rows(loaded: &LoadedProblem, mistake: &Mistake, part: f64) -> Option<Vec<Vec<f64>>> {
     let (problem, setting) = (&loaded.problem, Setting::from(&loaded.problem));
@@ -271,16 +265,17 @@ fn second_moments(columns: &[String]) -> Option<Vec<(usize, usize)>> {
 /// The distance of rows from a mistake's curve: directions by angle, tensor components relative to the last entry of
 /// the curve's row.
 fn between(loaded: &LoadedProblem, found: &[Vec<f64>], curve: &[Vec<f64>], has_length: bool) -> Option<f64> {
-    largest(found.iter().zip(curve).map(|(found, curve)| match loaded.problem.kind {
+    let of_row = |(found, curve): (&Vec<f64>, &Vec<f64>)| match loaded.problem.kind {
         Kind::Rods => {
             let [found, curve] = [found, curve].map(|row| Vector3::from_row_slice(row));
             Some(apart(&found, &curve, has_length))
         }
         _ => {
             let (scale, components) = curve.split_last()?;
-            largest(found.iter().zip(components).map(|(a, b)| Some((a - b).abs() / scale)))
+            Some(crate::oracle::apart(found, components) / scale)
         }
-    }))
+    };
+    largest_within(f64::MAX, found.iter().zip(curve).map(of_row))
 }
 
 #[cfg(test)]

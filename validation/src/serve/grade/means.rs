@@ -4,7 +4,7 @@
 use super::answer::Answer;
 use super::compare::standard_errors;
 use super::mistakes::{self, Mistake, Setting, right_map};
-use super::nearness::Near;
+use super::nearness::{Near, largest_within};
 use crate::methods::projections::projections;
 use crate::serve::problems::{LoadedProblem, Problem};
 use nalgebra::Vector3;
@@ -57,15 +57,8 @@ fn free_of_one_shape(problem: &Problem, time_s: f64) -> Option<Vector3<f64>> {
 pub(super) fn unequal(loaded: &LoadedProblem, answer: &Answer, nearer_than: f64) -> Vec<Near> {
     let problem = &loaded.problem;
     let distance = |of: &dyn Fn(f64) -> Option<Vector3<f64>>| {
-        let mut largest: f64 = 0.0;
-        for (values, time_s) in answer.rows.iter().zip(&problem.times_s) {
-            let off = (Vector3::from_row_slice(values) - of(*time_s)?).amax();
-            if off.is_nan() || off > nearer_than {
-                return None;
-            }
-            largest = largest.max(off);
-        }
-        Some(largest)
+        let off = |(values, time_s): (&Vec<f64>, &f64)| Some((Vector3::from_row_slice(values) - of(*time_s)?).amax());
+        largest_within(nearer_than, answer.rows.iter().zip(&problem.times_s).map(off))
     };
     let mut near: Vec<_> = (mistakes::all().into_par_iter())
         .filter_map(|mistake| Some(Near::new(distance(&|time| by_mistake(problem, &mistake, time))?, &mistake.name)))

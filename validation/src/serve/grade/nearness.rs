@@ -53,6 +53,12 @@ pub(super) fn apart(found: &Vector3<f64>, expected: &Vector3<f64>, has_length: b
     }
 }
 
+/// The largest of the distances; `None` at the first that is missing, NaN or above `most`: most curves are far already
+/// in the first row.
+pub(super) fn largest_within(most: f64, distances: impl Iterator<Item = Option<f64>>) -> Option<f64> {
+    distances.map(|distance| distance.filter(|distance| *distance <= most)).try_fold(0.0, |a: f64, b| Some(a.max(b?)))
+}
+
 /// An answer that a wrong code may give.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Near {

@@ -3,7 +3,7 @@
 
 use super::answer::Answer;
 use super::mistakes::Setting;
-use super::nearness::{CURVE, Diagnosis, Near, said};
+use super::nearness::{CURVE, Diagnosis, Near, largest_within, said};
 use super::tensors;
 use super::{Claim, Graded, Order};
 use crate::judge::statistics::worst;
@@ -225,10 +225,7 @@ fn of_rods(loaded: &LoadedProblem, times: &Times, stages: &Stages, answer: &Answ
         let rows = times.rows(answer, count, rod).map(|row| Vector3::from_row_slice(row));
         worst(found.iter().zip(rows).map(|(due, found)| apart_rad(&found, due)))
     };
-    // The first rod that is far ends it.
-    FORMS.iter().find_map(|form| {
-        (0..count).map(|rod| of_rod(*form, rod)).try_fold(0.0, |a: f64, b| (b <= most).then_some(a.max(b)))
-    })
+    FORMS.iter().find_map(|form| largest_within(most, (0..count).map(|rod| Some(of_rod(*form, rod)))))
 }
 
 /// The distance of an answer about tensors from these steps of the closed equation.

@@ -18,7 +18,7 @@ pub(crate) const LENGTH_MM: f64 = 0.72;
 pub(crate) const ASPECT_RATIO: f64 = 11.6;
 
 pub use certified::certify;
-pub(crate) use doubles::{AngleRate, Both, RIGHT, Step, Variant, answers, within};
+pub(crate) use doubles::{RIGHT, Step, Variant, answers, within};
 
 /// The pair of a row of `inputs.csv`, without its number: centre, axis and r_e of a, then of b.
 type Pair = [f64; 14];

@@ -8,10 +8,10 @@ use super::LENGTH_MM;
 use nalgebra::{Matrix3, Vector3};
 
 /// φ̇′ or θ̇′ from φ, θ and ṗ′.
-pub(crate) type AngleRate = fn([f64; 2], &Vector3<f64>) -> f64;
+pub(super) type AngleRate = fn([f64; 2], &Vector3<f64>) -> f64;
 
 /// A vector of each rod.
-pub(crate) type Both = [Vector3<f64>; 2];
+pub(super) type Both = [Vector3<f64>; 2];
 
 /// What may be wrong; [`RIGHT`] has the right parts.
 #[derive(Clone, Copy, Debug)]
