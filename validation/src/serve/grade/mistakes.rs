@@ -293,26 +293,27 @@ fn by_angles(p: &Vector3<f64>, convert: fn(f64) -> f64) -> Vector3<f64> {
 /// The end of a mistake's name if the start is changed in place of the answer.
 pub const IN_THE_START: &str = ", in the start";
 
+/// The components of a vector in another order.
+pub const ORDERS: [([usize; 3], &str); 5] = [
+    ([1, 0, 2], "p_1 and p_2 exchanged"),
+    ([2, 1, 0], "p_1 and p_3 exchanged"),
+    ([0, 2, 1], "p_2 and p_3 exchanged"),
+    ([1, 2, 0], "components in the order p_2, p_3, p_1"),
+    ([2, 0, 1], "components in the order p_3, p_1, p_2"),
+];
+
 /// Components in another order or with another sign, in the answer or in the start.
 fn permuted() -> Vec<Mistake> {
     let order = |of: [usize; 3]| Matrix3::from_fn(|i, j| f64::from(u8::from(of[i] == j)));
     let mirror = |axis: usize| Matrix3::from_diagonal(&Vector3::from_fn(|i, _| if i == axis { -1.0 } else { 1.0 }));
-    let changes = [
-        ("p_1 and p_2 exchanged", order([1, 0, 2])),
-        ("p_1 and p_3 exchanged", order([2, 1, 0])),
-        ("p_2 and p_3 exchanged", order([0, 2, 1])),
-        ("components in the order p_2, p_3, p_1", order([1, 2, 0])),
-        ("components in the order p_3, p_1, p_2", order([2, 0, 1])),
-        ("axis 3 reversed (a left-handed frame)", mirror(2)),
-        ("axis 2 reversed (a left-handed frame)", mirror(1)),
-        ("axis 1 reversed (a left-handed frame)", mirror(0)),
-    ];
+    let mirrored = |axis: usize| (format!("axis {} reversed (a left-handed frame)", axis + 1), mirror(axis));
+    let changes = ORDERS.map(|(of, name)| (name.to_owned(), order(of))).into_iter().chain([2, 1, 0].map(mirrored));
     let none = Matrix3::identity();
-    (changes.into_iter())
-        .flat_map(|(name, change)| {
-            [components(name.to_owned(), none, change), components(format!("{name}{IN_THE_START}"), change, none)]
-        })
-        .collect()
+    let both = |(name, change): (String, Matrix3<f64>)| {
+        let in_the_start = components(format!("{name}{IN_THE_START}"), change, none);
+        [components(name, none, change), in_the_start]
+    };
+    changes.flat_map(both).collect()
 }
 
 /// How the names of mistakes of axes begin.

@@ -358,9 +358,8 @@ pub(super) fn advice(name: &str) -> &'static str {
 
 /// The certified values, as a curve without a name.
 fn certified(loaded: &LoadedProblem) -> (Near, Vec<Vec<f64>>) {
-    let keys = loaded.problem.kind.keys().len();
     let none = Near { distance: 0.0, name: String::new(), suspects: Vec::new(), advice: "", changes: 0 };
-    (none, loaded.certified.rows.iter().map(|row| row[keys..].to_vec()).collect())
+    (none, Answer::certified(loaded).rows)
 }
 
 /// The curves of every closure but the problem's own.

@@ -1,6 +1,6 @@
 //! A number that is off by an unknown factor: C_I, Λ, or time.
 
-use super::formulas::with_numbers;
+use super::formulas::{along, with_numbers};
 use super::{Candidate, Known, Near, OFF, ROUGH, STEP, apart, distance, near_of};
 use crate::methods::tensors::wrong::closures::{CLOSURES, WITH_OTHERS, numbered};
 use crate::methods::tensors::wrong::{drifting, is_isotropic, scaled, shaped, slowed, spread, with};
@@ -169,13 +169,7 @@ fn newton(found: &[f64], [first, slope]: [f64; 2], row: impl Fn(f64) -> Option<V
     for _ in 0..STEPS {
         let here = row(factor)?;
         let there = row(factor + slope)?;
-        let slopes = there.iter().zip(&here).map(|(there, here)| (there - here) / slope);
-        let (mut along, mut square) = (0.0, 0.0);
-        for (slope, (here, found)) in slopes.zip(here.iter().zip(found)) {
-            along += slope * (found - here);
-            square += slope * slope;
-        }
-        let step: f64 = along / square;
+        let step = slope * along(&here, &there, found)?;
         factor = (factor + step.clamp(-0.5, 2.0)).clamp(-10.0, 1000.0);
         if !factor.is_finite() {
             return None;

@@ -7,6 +7,7 @@ use crate::methods::tensors::wrong::closures::{Numbered, WITH_OTHERS, numbered};
 use crate::methods::tensors::wrong::{MISTAKES, Mistake, shaped};
 use crate::methods::tensors::{Closure, Equation, Fourth, Model, Parts};
 use crate::serve::grade::answer::Answer;
+use crate::serve::grade::mistakes::ORDERS;
 use crate::serve::grade::nearness::{Diagnosis, NEARER, VALUES, said};
 use crate::serve::problems::formula::{components, equation, tensor};
 use crate::serve::problems::{Formula, LoadedProblem};
@@ -171,7 +172,7 @@ pub(super) fn with_numbers(closure: Closure, numbered: &Numbered, others: &[(usi
 }
 
 /// The x at which one + x (two − one) is nearest to what is found by least squares; `None` if it is the same for all.
-fn along(one: &[f64], two: &[f64], found: &[f64]) -> Option<f64> {
+pub(super) fn along(one: &[f64], two: &[f64], found: &[f64]) -> Option<f64> {
     let pairs = || one.iter().zip(two).zip(found);
     let along: f64 = pairs().map(|((one, two), found)| (two - one) * (found - one)).sum();
     let square: f64 = pairs().map(|((one, two), _)| (two - one).powi(2)).sum();
@@ -333,15 +334,6 @@ fn of_each_row(
         within(near, answer, &found, most)
     })
 }
-
-/// The order of components, for ṗ.
-const ORDERS: [([usize; 3], &str); 5] = [
-    ([1, 0, 2], "p_1 and p_2 exchanged"),
-    ([2, 1, 0], "p_1 and p_3 exchanged"),
-    ([0, 2, 1], "p_2 and p_3 exchanged"),
-    ([1, 2, 0], "components in the order p_2, p_3, p_1"),
-    ([2, 0, 1], "components in the order p_3, p_1, p_2"),
-];
 
 fn of_rods(rows: &Rows, answer: &Answer, most: f64) -> Vec<Near> {
     let model = Model::FolgarTucker { c_i: 0.0 };
