@@ -282,8 +282,10 @@ fn asked(args: &Args, reference: Option<&Path>) -> Result<Vec<LoadedProblem>, Fa
 
 fn started(args: &Args, command: &str) -> Result<Program, Failure> {
     let timeout = Duration::from_secs_f64(args.timeout);
-    let program = Program::start(command, args.protocol.unwrap_or_default(), timeout);
-    Ok(program.map_err(|error| Failure::Input(format!("--command {error}")))?.with_axes(args.axes))
+    let mut program = Program::start(command, args.protocol.unwrap_or_default(), timeout)
+        .map_err(|error| Failure::Input(format!("--command {error}")))?;
+    program.axes = args.axes;
+    Ok(program)
 }
 
 fn program(args: &Args, command: &str, reference: Option<&Path>) -> Result<Done, Failure> {
@@ -294,7 +296,8 @@ fn program(args: &Args, command: &str, reference: Option<&Path>) -> Result<Done,
     let program = started(args, command)?;
     // A code for tensors alone has no first question about a rod.
     let rods = wanted.iter().any(|loaded| loaded.problem.kind == Kind::Rods);
-    let (program, mode) = if rods { live::prepared(program, args.protocol.is_none()) } else { (program, Mode::Steps) };
+    let (mut program, mode) =
+        if rods { live::prepared(program, args.protocol.is_none()) } else { (program, Mode::Steps) };
     let claim = Claim { order: args.order };
     let mut problems: Vec<_> = wanted.iter().map(|problem| live::grade(&program, problem, mode, claim)).collect();
     let last = |loaded: &LoadedProblem| match loaded.problem.kind {
@@ -304,8 +307,7 @@ fn program(args: &Args, command: &str, reference: Option<&Path>) -> Result<Done,
     let asked: Vec<_> = wanted.iter().map(last).collect();
     grade::settle(&wanted, &mut problems, claim.order);
     let observed = problems.iter().filter(|graded| graded.verdict == grade::Verdict::Pass);
-    let theory = live::theory(mode == Mode::Tolerance, observed.filter_map(|graded| graded.observed_order).next());
-    let program = program.with_theory(theory);
+    program.theory = live::theory(mode == Mode::Tolerance, observed.filter_map(|graded| graded.observed_order).next());
     let answers = problems.iter().any(|graded| graded.error.is_some()) && program.given_up().is_none();
     let studies = (!args.brief && rods && answers).then(|| live::studies(&program, &echo(program.protocol)));
     let left_out: Vec<_> = studies.iter().flat_map(live::Studies::left_out).collect();

@@ -2,10 +2,10 @@
 
 use super::pipe::{Pipe, Trouble};
 use super::protocol::{self, Protocol, Rows};
-use super::request::{Answer, Request, Turned};
+pub use super::request::Question;
+use super::request::{Request, Turned};
 use crate::methods::integrators::{Failure, Integrator, RodProblem, Setting, Theory};
 use crate::serve::grade::Axes;
-use crate::serve::problems::{LoadedProblem, Problem};
 use nalgebra::{UnitVector3, Vector3};
 use serde_json::Value;
 use std::hash::{BuildHasher, RandomState};
@@ -18,48 +18,19 @@ const MOST_HANGS: u32 = 2;
 /// The program is not started again after this number of breaches of the protocol.
 const MOST_BREACHES: u32 = 20;
 
-/// A question about free rods: their directions at `end_s`.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Question {
-    /// L in 1/s.
-    pub gradient_per_s: [[f64; 3]; 3],
-    /// ω in rad/s of a gradient that turns.
-    pub rotation_rad_per_s: Option<[f64; 3]>,
-    /// r_e.
-    pub aspect_ratio: f64,
-    /// Directions at t = 0.
-    pub start: Vec<[f64; 3]>,
-    /// Time of the answer, s.
-    pub end_s: f64,
-}
-
-impl Question {
-    /// The last time of a problem about rods.
-    pub(super) fn of(last: &LoadedProblem) -> Self {
-        let Problem { gradient_per_s, rotation_rad_per_s, aspect_ratio, .. } = last.problem;
-        let end_s = last.problem.times_s.last().copied().unwrap_or_default();
-        Self { gradient_per_s, rotation_rad_per_s, aspect_ratio, start: last.start.clone(), end_s }
-    }
-
-    /// In plane Couette flow with G = 1/s.
-    pub(super) fn couette(aspect_ratio: f64, start: Vec<[f64; 3]>, end_s: f64) -> Self {
-        let gradient_per_s = [[0.0; 3], [1.0, 0.0, 0.0], [0.0; 3]];
-        Self { gradient_per_s, rotation_rad_per_s: None, aspect_ratio, start, end_s }
-    }
-}
-
 /// A program behind the protocol.
 #[derive(Clone)]
 pub struct Program {
     words: Vec<String>,
     name: String,
     /// The assumed theory of its error.
-    pub(super) theory: Theory,
+    pub theory: Theory,
     /// The longest time for one answer.
     pub(super) timeout: Duration,
     /// The form of its lines.
     pub protocol: Protocol,
-    pub(super) axes: Axes,
+    /// The axes in which it is asked and understood.
+    pub axes: Axes,
     state: Arc<Mutex<State>>,
 }
 
@@ -117,16 +88,6 @@ impl Program {
         Self { protocol, state: Arc::default(), ..self.clone() }
     }
 
-    /// The same program with an assumed theory of its error.
-    pub fn with_theory(self, theory: Theory) -> Self {
-        Self { theory, ..self }
-    }
-
-    /// The same program, asked and understood in these axes.
-    pub fn with_axes(self, axes: Axes) -> Self {
-        Self { axes, ..self }
-    }
-
     /// Sets the task of the following questions, for messages.
     pub fn during(&self, what: &str) {
         self.state().during = what.to_owned();
@@ -144,19 +105,38 @@ impl Program {
 
     /// Asks a question and returns the answer and the time that it took.
     pub fn ask(&self, question: &Question, setting: Setting) -> Result<(Turned, Duration), Asked> {
-        self.asked(|state| state.ask(self, question, setting))
+        let axes = self.axes;
+        let question = Question {
+            gradient_per_s: axes.tensor_to_theirs(question.gradient_per_s),
+            rotation_rad_per_s: question.rotation_rad_per_s.map(|rotation| axes.rotation_to_theirs(rotation)),
+            start: question.start.iter().map(|p| axes.to_theirs(*p)).collect(),
+            ..*question
+        };
+        let rods = question.start.len();
+        let (steps, tolerance) = (setting.steps().ok(), setting.tolerance().ok());
+        let write = |id| self.protocol.write(&Request { id, question, steps, tolerance });
+        let (found, took) = self.asked(write, |line, id| self.protocol.read(line, id, rods))?;
+        let p = found.p.into_iter().map(|p| axes.to_ours(p)).collect();
+        Ok((Turned { p, ..found }, took))
     }
 
     /// Asks for a table of so many rows and columns, as JSON alone, and returns it, with the standard errors of a
     /// random code, and the time that the answer took. `request` has all keys but the id.
     pub fn ask_table(&self, request: &Value, size: [usize; 2]) -> Result<((Rows, Option<Rows>), Duration), Asked> {
-        self.asked(|state| state.ask_table(self, request, size))
+        let mut request = request.clone();
+        let write = |id: u64| {
+            request["id"] = id.into();
+            Ok(request.to_string())
+        };
+        self.asked(write, |line, id| protocol::table(line, id, size))
     }
 
-    /// Asks unless the program is given up or out of time; `ask` returns the answer or the program's own error.
+    /// Asks unless the program is given up or out of time; `write` gives the request of an id, and `read` its answer or
+    /// the program's own error.
     fn asked<T>(
         &self,
-        ask: impl FnOnce(&mut State) -> Result<Result<T, String>, Breach>,
+        write: impl FnOnce(u64) -> Result<String, String>,
+        read: impl FnOnce(&str, u64) -> Result<Result<T, String>, String>,
     ) -> Result<(T, Duration), Asked> {
         let mut state = self.state();
         if let Some(reason) = &state.given_up {
@@ -167,7 +147,13 @@ impl Program {
             return Err(Asked::Late("not asked: out of time".to_owned()));
         }
         let asked = Instant::now();
-        let answer = ask(&mut state).map_err(|breach| state.breached(breach))?;
+        state.asked = next_id(state.asked);
+        let id = state.asked;
+        let answer = write(id).map_err(wrong).and_then(|request| {
+            let (line, text) = state.exchange(self, request)?;
+            read(&text, id).map_err(|reason| wrong(format!("line {line} of standard output: {reason}")))
+        });
+        let answer = answer.map_err(|breach| state.breached(breach))?;
         answer.map(|answer| (answer, asked.elapsed())).map_err(Asked::Says)
     }
 
@@ -226,43 +212,6 @@ fn wrong(what: String) -> Breach {
 }
 
 impl State {
-    fn ask(&mut self, program: &Program, question: &Question, setting: Setting) -> Result<Answer, Breach> {
-        self.asked = next_id(self.asked);
-        let axes = program.axes;
-        let start: Vec<_> = question.start.iter().map(|p| axes.to_theirs(*p)).collect();
-        let request = Request {
-            id: self.asked,
-            gradient_per_s: &axes.tensor_to_theirs(question.gradient_per_s),
-            rotation_rad_per_s: question.rotation_rad_per_s.map(|rotation| axes.rotation_to_theirs(rotation)),
-            aspect_ratio: question.aspect_ratio,
-            start: &start,
-            end_s: question.end_s,
-            steps: setting.steps().ok(),
-            tolerance: setting.tolerance().ok(),
-        };
-        let request = program.protocol.write(&request).map_err(wrong)?;
-        let (line, text) = self.exchange(program, request)?;
-        let answer = (program.protocol.read(&text, self.asked, question.start.len()))
-            .map_err(|reason| wrong(format!("line {line} of standard output: {reason}")))?;
-        let ours = |p: Vec<_>| p.into_iter().map(|p| axes.to_ours(p)).collect();
-        Ok(answer.map(|found| Turned { p: ours(found.p), ..found }))
-    }
-
-    /// The table of the answer, or the program's own error.
-    fn ask_table(
-        &mut self,
-        program: &Program,
-        request: &Value,
-        size: [usize; 2],
-    ) -> Result<Result<(Rows, Option<Rows>), String>, Breach> {
-        self.asked = next_id(self.asked);
-        let mut request = request.clone();
-        request["id"] = self.asked.into();
-        let (line, text) = self.exchange(program, request.to_string())?;
-        let reason = |reason| wrong(format!("line {line} of standard output: {reason}"));
-        protocol::table(&text, self.asked, size).map_err(reason)
-    }
-
     /// Sends a line and returns the next one with its number.
     fn exchange(&mut self, program: &Program, request: String) -> Result<(u64, String), Breach> {
         let pipe = match &mut self.pipe {

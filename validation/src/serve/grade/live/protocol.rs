@@ -38,7 +38,7 @@ impl Protocol {
         }
     }
 
-    pub(super) fn write(self, request: &Request<'_>) -> Result<String, String> {
+    pub(super) fn write(self, request: &Request) -> Result<String, String> {
         match self {
             Self::Json => serde_json::to_string(request).map_err(|error| error.to_string()),
             Self::Text => text::write(request),
@@ -177,20 +177,14 @@ fn parse(line: &str) -> Result<Line, String> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::request::Question;
     use super::*;
 
     #[test]
     fn a_request_is_one_line_in_the_documented_form() {
-        let request = Request {
-            id: 7,
-            gradient_per_s: &[[0.0; 3], [0.5, 0.0, 0.0], [0.0; 3]],
-            rotation_rad_per_s: None,
-            aspect_ratio: 11.6,
-            start: &[[1.0, 0.0, 0.0]],
-            end_s: 2.0,
-            steps: Some(64),
-            tolerance: None,
-        };
+        let gradient_per_s = [[0.0; 3], [0.5, 0.0, 0.0], [0.0; 3]];
+        let question = Question { gradient_per_s, ..Question::couette(11.6, vec![[1.0, 0.0, 0.0]], 2.0) };
+        let request = Request { id: 7, question, steps: Some(64), tolerance: None };
         let expected = concat!(
             r#"{"id":7,"gradient_per_s":[[0.0,0.0,0.0],[0.5,0.0,0.0],[0.0,0.0,0.0]],"aspect_ratio":11.6,"#,
             r#""start":[[1.0,0.0,0.0]],"end_s":2.0,"steps":64}"#

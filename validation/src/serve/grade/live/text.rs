@@ -12,15 +12,15 @@ pub const AFTER_ID: &str = "after the id";
 /// The request as one line: `id`, the nine ∂u_i/∂x_j row by row, r_e, the time in s, the number of steps or 0, the
 /// tolerance or 0, the number of rods, and three numbers for each rod. `Err` in a flow that turns, which has no place
 /// in it.
-pub fn write(request: &Request<'_>) -> Result<String, String> {
-    if request.rotation_rad_per_s.is_some() {
+pub fn write(Request { id, question, steps, tolerance }: &Request) -> Result<String, String> {
+    if question.rotation_rad_per_s.is_some() {
         return Err("a flow that turns needs lines of JSON".to_owned());
     }
     let joined = |numbers: &[f64]| numbers.iter().map(|number| format!(" {number:e}")).collect::<String>();
-    let gradient = joined(request.gradient_per_s.as_flattened());
-    let [r_e, end, tolerance] = [request.aspect_ratio, request.end_s, request.tolerance.unwrap_or(0.0)];
-    let (steps, rods, start) = (request.steps.unwrap_or(0), request.start.len(), joined(request.start.as_flattened()));
-    Ok(format!("{}{gradient} {r_e:e} {end:e} {steps} {tolerance:e} {rods}{start}", request.id))
+    let [gradient, start] = [question.gradient_per_s.as_flattened(), question.start.as_flattened()].map(joined);
+    let [r_e, end, tolerance] = [question.aspect_ratio, question.end_s, tolerance.unwrap_or(0.0)];
+    let (steps, rods) = (steps.unwrap_or(0), question.start.len());
+    Ok(format!("{id}{gradient} {r_e:e} {end:e} {steps} {tolerance:e} {rods}{start}"))
 }
 
 /// Parses the answer to request `id` about `rods` rods: `id` and three numbers for each rod, or `id error REASON`.
@@ -61,25 +61,22 @@ fn number(word: &str) -> Result<f64, String> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::request::Question;
     use super::*;
 
     #[test]
     fn a_request_is_one_line_in_the_documented_form() {
-        let request = Request {
-            id: 7,
-            gradient_per_s: &[[0.0; 3], [0.5, 0.0, 0.0], [0.0, 0.0, -1e-7]],
-            rotation_rad_per_s: None,
-            aspect_ratio: 11.6,
-            start: &[[1.0, 0.0, 0.0], [0.6, 0.8, 0.0]],
-            end_s: 2.0,
-            steps: Some(64),
-            tolerance: None,
+        let question = Question {
+            gradient_per_s: [[0.0; 3], [0.5, 0.0, 0.0], [0.0, 0.0, -1e-7]],
+            ..Question::couette(11.6, vec![[1.0, 0.0, 0.0], [0.6, 0.8, 0.0]], 2.0)
         };
+        let request = Request { id: 7, question: question.clone(), steps: Some(64), tolerance: None };
         let expected = "7 0e0 0e0 0e0 5e-1 0e0 0e0 0e0 0e0 -1e-7 1.16e1 2e0 64 0e0 2 1e0 0e0 0e0 6e-1 8e-1 0e0";
         assert_eq!(write(&request).unwrap(), expected);
         let request = Request { steps: None, tolerance: Some(1e-6), ..request };
         assert_eq!(write(&request).unwrap(), expected.replace(" 64 0e0 ", " 0 1e-6 "));
-        assert!(write(&Request { rotation_rad_per_s: Some([0.0, 0.0, 1.0]), ..request }).is_err());
+        let question = Question { rotation_rad_per_s: Some([0.0, 0.0, 1.0]), ..question };
+        assert!(write(&Request { question, ..request }).is_err());
     }
 
     #[test]
