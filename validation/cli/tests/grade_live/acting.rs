@@ -3,7 +3,9 @@
 use crate::tensors;
 use serde_json::{Value, json};
 use shearbed::nalgebra::{Matrix3, Rotation3, Vector3};
-use shearbed_validation::methods::textbook::extrapolated::{extrapolated, jeffery_rate, rk4_in_p};
+use shearbed_validation::methods::integrators::Setting;
+use shearbed_validation::methods::textbook::tableaus::extrapolated_euler;
+use shearbed_validation::methods::textbook::{Form, Method, advance, jeffery_rate, rate_matrix, rk4_in_p};
 use std::fs;
 use std::io::{BufRead, Write};
 use std::process::{Command, ExitCode, Stdio};
@@ -134,8 +136,7 @@ fn answer(name: &str, request: &Value, count: u64) -> Value {
     if name == "flows_along_1" {
         l = Matrix3::from_fn(|i, j| if (i, j) == (0, 1) { l[(i, j)] } else { 0.0 });
     }
-    let square = number(&request["aspect_ratio"]).powi(2);
-    let a = (square * l - l.transpose()) / (square + 1.0);
+    let (ratio, rows) = (number(&request["aspect_ratio"]), l.transpose().into());
     let finer = if name == "ends_after_a_right_answer" { 1024 } else { 1 };
     let steps = finer * request["steps"].as_u64().unwrap();
     let end_s = number(&request["end_s"]);
@@ -145,10 +146,13 @@ fn answer(name: &str, request: &Value, count: u64) -> Value {
     let always = name == "turns_for_the_same_time" && rotation.is_some();
     let h = if always { *FIRST_S.get_or_init(|| end_s) } else { end_s } / steps as f64;
     let steps = if name == "cuts_its_steps" { (end_s / h) as u64 } else { steps };
-    let moved = |p: Vector3<f64>| match method(name) {
-        _ if let Some(rotation) = rotation => in_turning_flow(name, (l, rotation), square, p, h, steps),
-        (Some(order), normalised) => extrapolated(order, normalised, &a, p, h, steps),
-        (None, _) => rk4_in_p(&a, p, h, steps),
+    let moved = |p: Vector3<f64>| match (rotation, method(name)) {
+        (Some(rotation), _) => in_turning_flow(name, (l, rotation), ratio, p, h, steps),
+        (None, Some((order, form))) => {
+            let method = Method::RungeKutta(extrapolated_euler("", order));
+            advance(&method, form, &rows, ratio, &p.into(), end_s, Setting::Steps(steps)).unwrap().into()
+        }
+        (None, None) => rk4_in_p(&rate_matrix(&rows, ratio), p, h, steps),
     };
     let rods = request["start"].as_array().unwrap();
     let mut p: Vec<_> = (rods.iter())
@@ -172,7 +176,7 @@ fn answer(name: &str, request: &Value, count: u64) -> Value {
 fn in_turning_flow(
     name: &str,
     flow: (Matrix3<f64>, Vector3<f64>),
-    square: f64,
+    ratio: f64,
     p: Vector3<f64>,
     h: f64,
     steps: u64,
@@ -186,8 +190,7 @@ fn in_turning_flow(
             "turns_back" | "turns_with_the_spin_reversed" => -spin,
             _ => spin,
         };
-        let l = turned * l * turned.transpose() + spin;
-        (square * l - l.transpose()) / (square + 1.0)
+        rate_matrix(&(turned * l * turned.transpose() + spin).transpose().into(), ratio)
     };
     let when = |time: f64, begun: f64| match name {
         "turns_by_steps" => begun,
@@ -205,13 +208,10 @@ fn in_turning_flow(
 }
 
 /// The order of a Runge–Kutta method by its name, `rk_P` or `rk_P_normalised`, and whether it takes |p| back to 1.
-fn method(name: &str) -> (Option<usize>, bool) {
-    let words: Vec<_> = name.split('_').collect();
-    match words[..] {
-        ["rk", order] => (order.parse().ok(), false),
-        ["rk", order, "normalised"] => (order.parse().ok(), true),
-        _ => (None, false),
-    }
+fn method(name: &str) -> Option<(usize, Form)> {
+    let rest = name.strip_prefix("rk_")?;
+    let (order, form) = rest.strip_suffix("_normalised").map_or((rest, Form::Raw), |order| (order, Form::Normalised));
+    Some((order.parse().ok()?, form))
 }
 
 /// Turned by 10⁻⁸ rad.

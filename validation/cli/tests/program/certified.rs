@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 use shearbed::nalgebra::{Matrix3, Vector3};
-use shearbed_validation::methods::textbook::extrapolated::{jeffery_rate, rk4_in_p};
+use shearbed_validation::methods::textbook::{jeffery_rate, rk4_in_p};
 use shearbed_validation::oracle::naive::{self, Mistake, Naive};
 use shearbed_validation::serve::problems::{self, Kind, LoadedProblem, Metric};
 use std::sync::LazyLock;

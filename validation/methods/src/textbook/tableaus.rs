@@ -64,7 +64,7 @@ pub fn all() -> Vec<Tableau> {
             &[0.0, 0.0, 0.0, 0.0, (-42.0 + 7.0 * s) / 18.0, (-18.0 + 28.0 * s) / 45.0, (-273.0 - 53.0 * s) / 72.0,
                 (301.0 + 53.0 * s) / 72.0, (28.0 - 28.0 * s) / 45.0, (49.0 - 7.0 * s) / 18.0]],
             &[0.05, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 49.0 / 180.0, 16.0 / 45.0, 49.0 / 180.0, 0.05]),
-        extrapolated("extrapolated Euler 7", &[1, 2, 3, 4, 5, 6, 7], false),
+        extrapolated_euler("extrapolated Euler 7", 7),
         extrapolated("extrapolated midpoint 6", &[2, 4, 6], true),
         extrapolated("extrapolated midpoint 8", &[2, 4, 6, 8], true),
     ]
@@ -101,6 +101,12 @@ pub fn pairs() -> Vec<(Tableau, Vec<f64>)> {
             &[35.0 / 384.0, 0.0, 500.0 / 1113.0, 125.0 / 192.0, -2187.0 / 6784.0, 11.0 / 84.0, 0.0]),
             vec![5179.0 / 57600.0, 0.0, 7571.0 / 16695.0, 393.0 / 640.0, -92097.0 / 339200.0, 187.0 / 2100.0, 0.025]),
     ]
+}
+
+/// Euler's method extrapolated from 1, 2, … substeps (Aitken & Neville; Hairer, Nørsett & Wanner, Solving Ordinary
+/// Differential Equations I, II.9), of order `order`.
+pub fn extrapolated_euler(name: &'static str, order: usize) -> Tableau {
+    extrapolated(name, &(1..=order).collect::<Vec<_>>(), false)
 }
 
 /// Polynomial extrapolation of Euler's steps (its order is the number of entries in `substeps`), or of Gragg's midpoint

@@ -149,23 +149,9 @@ pub type Axes = ([f64; 3], M);
 pub fn ore_by(a: &M, at: [usize; 4], sort: fn(Axes) -> Axes, change: fn(usize, usize, f64) -> f64) -> f64 {
     let (values, axes) = sort(axes_of(a));
     let [x, y, _] = values;
-    let terms = [
-        1.0,
-        x,
-        y,
-        x * y,
-        x * x,
-        y * y,
-        x * x * y,
-        x * y * y,
-        x * x * x,
-        y * y * y,
-        x * x * y * y,
-        x * x * x * y,
-        x * y * y * y,
-        x * x * x * x,
-        y * y * y * y,
-    ];
+    let (xx, yy) = (x * x, y * y);
+    let terms =
+        [1.0, x, y, x * y, xx, yy, xx * y, x * yy, xx * x, yy * y, xx * yy, xx * x * y, x * yy * y, xx * xx, yy * yy];
     let own: [f64; 3] = from_fn(|k| (0..15).map(|n| change(n, k, ORE[n][k]) * terms[n]).sum());
     // Three equations a_iikk = a_ii for the three others.
     let half = 0.5 * sum(|k| values[k] - own[k]);
