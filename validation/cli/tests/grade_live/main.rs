@@ -36,8 +36,8 @@ fn main() -> ExitCode {
         let words = if order == 1 { EXTRAPOLATED } else { &[] };
         trials.extend(["", "_normalised"].map(|end| trial(format!("rk_{order}{end}"), "PASS", words)));
     }
-    trials.push(Trial::test("program_with_axes_of_its_own", axes_of_its_own));
-    trials.push(Trial::test("program_for_tensors", for_tensors));
+    trials.push(Trial::test("program_with_axes_of_its_own", || ends_with(&AXES_OF_ITS_OWN)));
+    trials.push(Trial::test("program_for_tensors", || ends_with(&FOR_TENSORS)));
     trials.push(Trial::test("programs_of_two_orders_in_one_picture", two_in_one_picture));
     trials.push(Trial::test("program_ends_with_shearbed", ends_with_shearbed));
     #[cfg(target_os = "linux")]
@@ -63,6 +63,11 @@ fn shearbed(command: &str, out: &Path, timeout_s: &str, problems: &[&str], more:
     (output.status.code(), words.concat())
 }
 
+/// The command of this test as a program that notes its processes.
+fn acting_as(program: &str, pids: &Path) -> std::io::Result<String> {
+    Ok(format!("'{}' --program {program} '{}'", std::env::current_exe()?.display(), pids.display()))
+}
+
 fn judge(case: Case) -> Result<(), Failed> {
     // One problem shows what is wrong; several that all is right, and that a program is given up.
     let several = case.1 == "PASS" || case.0.starts_with("hangs");
@@ -72,8 +77,7 @@ fn judge(case: Case) -> Result<(), Failed> {
 fn judge_on(problems: &[&str], more: &[&str], (program, verdict, words): Case) -> Result<(), Failed> {
     let dir = tempfile::tempdir()?;
     let pids = dir.path().join("pids");
-    let own = std::env::current_exe()?;
-    let command = format!("'{}' --program {program} '{}'", own.display(), pids.display());
+    let command = acting_as(program, &pids)?;
     // Those that answer have time to, however busy the machine is; the others must run out of it.
     let runs_out = verdict == "NOT REACHED";
     let timeout_s = if runs_out { "1" } else { ANSWER_S };
@@ -138,45 +142,37 @@ fn gone(pid: i32) -> bool {
     comes(dead)
 }
 
+/// A program on a problem with further arguments, and how it ends.
+type Ends = (&'static str, &'static str, &'static [&'static str], i32);
+
+const FLOW_FIRST: &[&str] = &["--axes", "flow,gradient,vorticity"];
+
 /// The flow along the program's first axis, its gradient along the second: right with `--axes`, at rest without.
-fn axes_of_its_own() -> Result<(), Failed> {
-    let dir = tempfile::tempdir()?;
-    let own = std::env::current_exe()?;
-    let pids = dir.path().join("pids");
-    let command = format!("'{}' --program flows_along_1 '{}'", own.display(), pids.display());
-    for (axes, expected) in [("flow,gradient,vorticity", 0), ("gradient,flow,vorticity", 1)] {
-        let out = dir.path().join(axes);
-        let (code, words) = shearbed(&command, &out, ANSWER_S, &PROBLEMS[..1], &["--axes", axes]);
-        if code != Some(expected) {
-            return Err(format!("{axes}: {code:?} {words}").into());
-        }
-    }
-    Ok(())
-}
+const AXES_OF_ITS_OWN: [Ends; 2] = [
+    ("flows_along_1", PROBLEMS[0], FLOW_FIRST, 0),
+    ("flows_along_1", PROBLEMS[0], &["--axes", "gradient,flow,vorticity"], 1),
+];
 
 /// Right codes for tensors pass in their own ways: by steps that end at each time, by a tolerance alone where steps are
 /// refused, and with axes of their own if these are said.
-fn for_tensors() -> Result<(), Failed> {
+const FOR_TENSORS: [Ends; 9] = [
+    ("tensors_random", "brownian-relaxation", &[], 0),
+    ("tensors_random_slow", "brownian-relaxation", &[], 1),
+    ("tensors_random_few", "brownian-relaxation", &[], 1),
+    ("tensors_by_equal_steps", "closed-ft-quadratic-0.01", &[], 0),
+    ("tensors_lose_an_odd_step", "closed-ft-quadratic-0.01", &[], 1),
+    ("tensors_by_tolerance", "closed-ft-quadratic-0.01", &[], 0),
+    ("tensors_by_tolerance", "closed-ft-quadratic-0.01", FLOW_FIRST, 1),
+    ("tensors_flow_along_1", "closed-ft-quadratic-0.01", FLOW_FIRST, 0),
+    ("tensors_flow_along_1", "closed-ft-quadratic-0.01", &[], 1),
+];
+
+fn ends_with(all: &[Ends]) -> Result<(), Failed> {
     let dir = tempfile::tempdir()?;
-    let own = std::env::current_exe()?;
-    let pids = dir.path().join("pids");
-    let theirs = ["--axes", "flow,gradient,vorticity"];
-    for (name, more, expected) in [
-        ("tensors_random", &[][..], 0),
-        ("tensors_random_slow", &[], 1),
-        ("tensors_random_few", &[], 1),
-        ("tensors_by_equal_steps", &[], 0),
-        ("tensors_lose_an_odd_step", &[], 1),
-        ("tensors_by_tolerance", &[], 0),
-        ("tensors_by_tolerance", &theirs, 1),
-        ("tensors_flow_along_1", &theirs, 0),
-        ("tensors_flow_along_1", &[], 1),
-    ] {
-        let command = format!("'{}' --program {name} '{}'", own.display(), pids.display());
-        let out = dir.path().join(format!("{name}{}", more.len()));
-        let problem = if name.contains("random") { "brownian-relaxation" } else { "closed-ft-quadratic-0.01" };
-        let (code, words) = shearbed(&command, &out, ANSWER_S, &[problem], more);
-        if code != Some(expected) {
+    for (k, (name, problem, more, expected)) in all.iter().enumerate() {
+        let command = acting_as(name, &dir.path().join("pids"))?;
+        let (code, words) = shearbed(&command, &dir.path().join(k.to_string()), ANSWER_S, &[problem], more);
+        if code != Some(*expected) {
             return Err(format!("{name} {more:?}: {code:?} {words}").into());
         }
     }
@@ -187,9 +183,10 @@ fn for_tensors() -> Result<(), Failed> {
 /// own.
 fn two_in_one_picture() -> Result<(), Failed> {
     let dir = tempfile::tempdir()?;
-    let (own, pids, out) = (std::env::current_exe()?, dir.path().join("pids"), dir.path().join("out"));
-    let command = |order: u32| format!("of-{order}='{}' --program rk_{order} '{}'", own.display(), pids.display());
-    let (code, words) = shearbed(&command(2), &out, "5", &PROBLEMS[..1], &["--command", &command(4)]);
+    let out = dir.path().join("out");
+    let [second, fourth] = [2, 4].map(|order| acting_as(&format!("rk_{order}"), &dir.path().join("pids")));
+    let [second, fourth] = [format!("of-2={}", second?), format!("of-4={}", fourth?)];
+    let (code, words) = shearbed(&second, &out, "5", &PROBLEMS[..1], &["--command", &fourth]);
     let read = |file: &str| fs::read_to_string(out.join(file));
     let (runs, programs, picture) = (read("runs.csv")?, read("programs.csv")?, read("steps.csv")?);
     for order in [2, 4] {
@@ -214,7 +211,7 @@ fn two_in_one_picture() -> Result<(), Failed> {
 fn ends_with_shearbed() -> Result<(), Failed> {
     let dir = tempfile::tempdir()?;
     let pids = dir.path().join("pids");
-    let command = format!("'{}' --program hangs_with_a_child '{}'", std::env::current_exe()?.display(), pids.display());
+    let command = acting_as("hangs_with_a_child", &pids)?;
     let mut shearbed = Command::new(env!("CARGO_BIN_EXE_shearbed"))
         .args(["grade", "--timeout", "1000", "--quiet", "--command", &command, "--out"])
         .arg(dir.path().join("out"))
