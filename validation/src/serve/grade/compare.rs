@@ -10,7 +10,7 @@ use shearbed::model::{jeffery, orientation};
 use std::f64::consts::{PI, TAU};
 
 /// The result of comparing an answer with the certified one.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Compared {
     /// The largest error of a row by the problem's metric; for directions at least ||p| − 1|. NaN if a value is
     /// not finite.

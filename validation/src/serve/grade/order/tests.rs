@@ -118,6 +118,8 @@ fn a_claim_that_is_too_low_fails_where_no_problem_shows_it_and_none_explains_it(
         settled(&[(space, Order::Higher, Verdict::NotReached), (space, Order::Unclear, Verdict::Pass)]),
         [(Verdict::NotReached, none()), (Verdict::Pass, none())]
     );
+    // Tensors have no rods in a plane.
+    assert_eq!(settled(&[("closed-ft-linear-0.1", Order::Higher, Verdict::Pass)]), [(Verdict::Fail, too_low.into())]);
 }
 
 #[test]
@@ -154,20 +156,6 @@ fn it_is_said_why_no_order_is_judged_and_which_low_ones_pass() {
     assert_eq!(unclaimed(3.98), None);
     let wrong = Graded { verdict: Verdict::Fail, ..of_order(1.0) };
     assert_eq!(remark(&[wrong], None), None);
-}
-
-/// A claim that is too low is refuted for tensors too, which have no rods in a plane.
-#[test]
-fn a_claim_too_low_is_refuted_for_tensors() {
-    let problems = [loaded("closed-ft-linear-0.1")];
-    let mut graded = [Graded {
-        verdict: Verdict::Pass,
-        order_found: Some(Order::Higher),
-        observed_order: Some(4.0),
-        ..Graded::without_answer(&problems[0])
-    }];
-    settle(&problems, &mut graded, Some(2.0));
-    assert_eq!(graded[0].verdict, Verdict::Fail);
 }
 
 #[test]

@@ -21,16 +21,7 @@ pub(super) fn rung(setting: Setting, error: f64, seconds: f64) -> Rung {
     Rung {
         setting,
         answer: Answer { path: "a test".into(), rows: vec![vec![error.cos(), error.sin(), 0.0]], lines: vec![0] },
-        compared: Compared {
-            error,
-            errors: vec![error],
-            row: 0,
-            remark: None,
-            length_drift: None,
-            orbit_drift: None,
-            phase_lost_per_period: None,
-            too_little_data: false,
-        },
+        compared: Compared { error, errors: vec![error], ..Compared::default() },
         took: Duration::from_secs_f64(seconds),
     }
 }
@@ -157,8 +148,8 @@ fn what_may_yet_come_within_the_tolerance_is_asked_on() {
     assert_eq!(climbed(|k| (second(k), start(k))), None);
 }
 
-/// Climbs on one problem with a timeout of a minute: returns the problem, the errors that were asked for, and the end.
-fn climbed_in(mode: Mode, claimed: Option<f64>, rungs: impl Fn(i32) -> (f64, f64)) -> (LoadedProblem, Vec<f64>, End) {
+/// Climbs on one problem with a timeout of a minute: returns the problem, the rungs, and the end.
+fn climbed_in(mode: Mode, claimed: Option<f64>, rungs: impl Fn(i32) -> (f64, f64)) -> (LoadedProblem, Vec<Rung>, End) {
     let problem = loaded("mid-flip-2");
     let asked = Cell::new(0);
     let ask = |setting: Setting| -> Result<Rung, Asked> {
@@ -166,26 +157,26 @@ fn climbed_in(mode: Mode, claimed: Option<f64>, rungs: impl Fn(i32) -> (f64, f64
         Ok(rung(setting, error, seconds))
     };
     let (rungs, end) = climb(&problem, mode, Duration::from_secs(60), claimed, ask);
-    (problem, rungs.iter().map(Rung::error).collect(), end)
+    (problem, rungs, end)
 }
 
 #[test]
 fn an_order_is_no_answer_and_one_that_is_unclear_is_asked_on_to_round_off() {
     let fourth = |k: i32| (0.05 * 16f64.powi(-k), 0.0);
     for claimed in [None, Some(4.0)] {
-        let (problem, errors, end) = climbed_in(Mode::Steps, claimed, fourth);
+        let (problem, rungs, end) = climbed_in(Mode::Steps, claimed, fourth);
         assert_eq!(end, End::Reached);
         let tolerance = problem.problem.tolerance;
-        assert!(errors[errors.len() - 1] <= tolerance && errors[errors.len() - 2] > tolerance, "{errors:?}");
+        assert!(within(&rungs, tolerance) && !within(&rungs[..rungs.len() - 1], tolerance), "{:?}", errors(&rungs));
     }
     // A program that chooses its steps shows none: it is asked no further than the answer.
     let tenth = |k: i32| (0.05 * 10f64.powi(-k), 0.0);
     let [with, without] = [Some(4.0), None].map(|claimed| climbed_in(Mode::Tolerance, claimed, tenth));
-    assert_eq!((with.1, with.2), (without.1, without.2));
+    assert_eq!((with.1.len(), with.2), (without.1.len(), without.2));
     // Neither the claimed order nor lower by a whole order.
-    let (problem, errors, end) = climbed_in(Mode::Steps, Some(4.6), fourth);
+    let (problem, rungs, end) = climbed_in(Mode::Steps, Some(4.6), fourth);
     assert_eq!(end, End::Reached);
-    assert!(errors[errors.len() - 1] <= 0.01 * problem.own_tolerance, "{errors:?}");
+    assert!(within(&rungs, 0.01 * problem.own_tolerance), "{:?}", errors(&rungs));
 }
 
 #[test]
@@ -230,10 +221,7 @@ fn errors_that_grow_with_the_steps_are_wrong_where_time_ends() {
 #[test]
 fn errors_that_fall_with_the_smallest_tolerances_are_no_failure() {
     let ladder = |error: &dyn Fn(i32) -> f64| {
-        let problem = loaded("mid-flip-2");
-        let asked = Cell::new(0);
-        let ask = |setting: Setting| Ok(rung(setting, error(asked.replace(asked.get() + 1)), 0.0));
-        let (rungs, end) = climb(&problem, Mode::Tolerance, Duration::from_secs(60), None, ask);
+        let (problem, rungs, end) = climbed_in(Mode::Tolerance, None, |k| (error(k), 0.0));
         (converges(&problem, &rungs).is_some(), end)
     };
     let tolerance = loaded("mid-flip-2").problem.tolerance;
