@@ -112,32 +112,20 @@ impl Axes {
         let axis = |digit: u8| usize::from(digit.wrapping_sub(b'1'));
         let digits = stem.bytes().rev().take_while(|byte| (b'1'..=b'3').contains(byte)).count();
         let name = &stem[..stem.len() - digits];
-        match stem.as_bytes()[name.len()..] {
-            [i, j] => {
-                let (a, b) = (self.theirs[axis(i)], self.theirs[axis(j)]);
-                let sign = self.sign[axis(i)] * self.sign[axis(j)];
-                (format!("{name}{}{}{tail}", a.min(b) + 1, a.max(b) + 1), sign_of(sign, tail))
-            }
-            // x1 is a mean of |p_1|.
-            [i] => {
-                let sign = if name == "x" { 1.0 } else { self.sign[axis(i)] };
-                (format!("{name}{}{tail}", self.theirs[axis(i)] + 1), sign_of(sign, tail))
-            }
-            // A fourth moment.
-            [_, _, _, _] => {
-                let axes = stem.bytes().skip(name.len()).map(axis);
-                let sign = axes.clone().map(|axis| self.sign[axis]).product();
-                let digits: String = axes.map(|axis| (self.theirs[axis] + 1).to_string()).collect();
-                (format!("{name}{digits}{tail}"), sign_of(sign, tail))
-            }
-            _ => (column.to_owned(), 1.0),
+        if ![1, 2, 4].contains(&digits) {
+            return (column.to_owned(), 1.0);
         }
+        let ours: Vec<_> = stem.bytes().skip(name.len()).map(axis).collect();
+        let mut theirs: Vec<_> = ours.iter().map(|axis| self.theirs[*axis] + 1).collect();
+        if digits == 2 {
+            theirs.sort_unstable();
+        }
+        let theirs: String = theirs.iter().map(usize::to_string).collect();
+        // x1 is a mean of |p_1|, and standard errors have no sign.
+        let is_unsigned = name == "x" || tail == "_se";
+        let sign = if is_unsigned { 1.0 } else { ours.iter().map(|axis| self.sign[*axis]).product() };
+        (format!("{name}{theirs}{tail}"), sign)
     }
-}
-
-/// The sign of a column's values; standard errors have none.
-fn sign_of(sign: f64, tail: &str) -> f64 {
-    if tail == "_se" { 1.0 } else { sign }
 }
 
 #[cfg(test)]

@@ -104,12 +104,7 @@ fn drawn(graded: &Graded) -> Vec<(u64, f64)> {
 }
 
 fn curve(label: String, errors: &[(u64, f64)]) -> Curve {
-    Curve {
-        label,
-        x: errors.iter().map(|(steps, _)| *steps as f64).collect(),
-        y: errors.iter().map(|(_, error)| error.max(LEAST)).collect(),
-        half_band: None,
-    }
+    Curve::of(label, errors, |(steps, error)| (*steps as f64, error.max(LEAST)))
 }
 
 /// G in 1/s of a problem about rods in plane Couette flow u_2 = G x_1, G > 0.

@@ -131,28 +131,9 @@ fn fields(line: &str, layout: &Layout, problem: &LoadedProblem) -> Result<(Vec<f
 
 /// True of the unit of a column, as s, (rad), [1/s] or -.
 fn is_unit(field: &str) -> bool {
-    const UNITS: [&str; 18] = [
-        "s",
-        "sec",
-        "seconds",
-        "min",
-        "h",
-        "rad",
-        "radians",
-        "deg",
-        "degrees",
-        "mm",
-        "cm",
-        "m",
-        "um",
-        "µm",
-        "pa",
-        "unit",
-        "none",
-        "dimensionless",
-    ];
+    const UNITS: &str = "s sec seconds min h rad radians deg degrees mm cm m um µm pa unit none dimensionless";
     let mut words = field.split(|c: char| !c.is_alphabetic()).filter(|word| !word.is_empty());
-    number(field).is_err() && words.all(|word| UNITS.contains(&word.to_lowercase().as_str()))
+    number(field).is_err() && words.all(|word| UNITS.split(' ').any(|unit| unit == word.to_lowercase()))
 }
 
 #[test]
