@@ -10,15 +10,13 @@ pub(super) use args::Args;
 use super::choice::unknown as unknown_name;
 use super::{Failure, refuse, spares_inputs, write};
 use serde_json::Value;
-use shearbed_validation::files::FileError;
 use shearbed_validation::files::output::{self, RECORD, Record, ResultFolder};
 use shearbed_validation::files::text::Shown;
+use shearbed_validation::files::{FileError, build};
 use shearbed_validation::present::plot::{self, Figure};
 use shearbed_validation::present::report::figure_csv;
 use shearbed_validation::serve::grade::live::{self, Mode, Program, Protocol};
-use shearbed_validation::serve::grade::{
-    self, Axes, Claim, DumpOptions, FileOptions, Graded, LineEnds, Options, Report,
-};
+use shearbed_validation::serve::grade::{self, Axes, DumpOptions, FileOptions, Graded, LineEnds, Options, Report};
 use shearbed_validation::serve::problems::{self, Kind, LoadedProblem};
 use std::io;
 use std::path::Path;
@@ -63,7 +61,7 @@ pub(super) fn grade(args: &Args) -> Result<(), Failure> {
     let svg = pictures.iter().filter(|(name, _)| name.ends_with(".svg"));
     let inside: Vec<_> = svg.map(|(_, svg)| svg.as_str()).collect();
     let html = grade::html(&report, report.passes(), &inside).map_err(Failure::Failed)?;
-    let pages = [grade::json(&report).map_err(Failure::Failed)?, html, grade::markdown(&report), grade::junit(&report)];
+    let pages = [build::json(&report).map_err(Failure::Failed)?, html, grade::markdown(&report), grade::junit(&report)];
     let mut files: Vec<_> = PAGES.map(str::to_owned).into_iter().zip(pages).collect();
     files.extend(pictures);
     let replaced = write(&folder(args, inputs), files)?;
@@ -128,7 +126,7 @@ fn options(args: &Args) -> Options {
             ends: if args.windows_text { LineEnds::Windows } else { LineEnds::Unix },
         },
         dump: DumpOptions { timestep_s: args.timestep_s, rod_axis: args.rod_axis },
-        claim: Claim { order: args.order },
+        order: args.order,
     }
 }
 
@@ -298,14 +296,13 @@ fn program(args: &Args, command: &str, reference: Option<&Path>) -> Result<Done,
     let rods = wanted.iter().any(|loaded| loaded.problem.kind == Kind::Rods);
     let (mut program, mode) =
         if rods { live::prepared(program, args.protocol.is_none()) } else { (program, Mode::Steps) };
-    let claim = Claim { order: args.order };
-    let mut problems: Vec<_> = wanted.iter().map(|problem| live::grade(&program, problem, mode, claim)).collect();
+    let mut problems: Vec<_> = wanted.iter().map(|problem| live::grade(&program, problem, mode, args.order)).collect();
     let last = |loaded: &LoadedProblem| match loaded.problem.kind {
         Kind::Rods => live::last_time(loaded),
         _ => loaded.clone(),
     };
     let asked: Vec<_> = wanted.iter().map(last).collect();
-    grade::settle(&wanted, &mut problems, claim.order);
+    grade::settle(&wanted, &mut problems, args.order);
     let observed = problems.iter().filter(|graded| graded.verdict == grade::Verdict::Pass);
     program.theory = live::theory(mode == Mode::Tolerance, observed.filter_map(|graded| graded.observed_order).next());
     let answers = problems.iter().any(|graded| graded.error.is_some()) && program.given_up().is_none();
@@ -314,7 +311,7 @@ fn program(args: &Args, command: &str, reference: Option<&Path>) -> Result<Done,
     const LEFT_OUT: &str = "not measured, as the program needs longer for it than --timeout, or broke off";
     let mut remarks: Vec<_> =
         (!left_out.is_empty()).then(|| format!("{}: {LEFT_OUT}", left_out.join(", "))).into_iter().collect();
-    remarks.extend(on_all(&asked, &problems, claim.order));
+    remarks.extend(on_all(&asked, &problems, args.order));
     remarks.extend(program.breaches());
     remarks.extend(program.given_up().map(|reason| format!("the program was given up: {reason}")));
     if let Err(end) = program.close() {

@@ -9,7 +9,7 @@ pub struct Entry {
     /// Its name, and in a wrong one what is wrong.
     pub name: String,
     /// What it is one of, in the table.
-    pub family: String,
+    pub family: &'static str,
     pub method: Method,
     pub form: Form,
     /// The order that is claimed; none of an adaptive one.
@@ -132,12 +132,17 @@ fn form_name(form: Form) -> &'static str {
     }
 }
 
+/// Every method, the right ones first.
+pub fn all() -> impl Iterator<Item = Entry> {
+    right().into_iter().chain(wrong())
+}
+
 /// Every right method.
 pub fn right() -> Vec<Entry> {
     let entries = families().into_iter().flat_map(|(name, method, order, forms)| {
         forms.iter().map(move |form| Entry {
             name: format!("{name} {}", form_name(*form)),
-            family: family(&method, order).to_owned(),
+            family: family(&method, order),
             method: method.clone(),
             form: *form,
             order,
@@ -151,26 +156,17 @@ pub fn right() -> Vec<Entry> {
 pub fn wrong() -> Vec<Entry> {
     let mut all = Vec::new();
     for entry in right() {
-        let mut count = 0;
-        // The number of coefficients that are not 0.
-        with(&mut entry.method.clone(), &mut |_| count += 1);
+        let count = coefficients(&mut entry.method.clone()).len();
         // The first, the last, and one between: a long tableau has many that are alike.
         let mut chosen: Vec<usize> = if count == 0 { Vec::new() } else { vec![0, count / 2, count - 1] };
         chosen.dedup();
         for at in chosen {
             let mut method = entry.method.clone();
-            let mut k = 0;
-            with(&mut method, &mut |coefficient| {
-                if k == at {
-                    *coefficient *= 0.9;
-                }
-                k += 1;
-            });
+            *coefficients(&mut method)[at] *= 0.9;
             let name = format!("{}, coefficient {at} times 0.9", entry.name);
-            if still_right(&method, entry.form, entry.order) {
-                continue;
+            if !still_right(&method, entry.form, entry.order) {
+                all.push(Entry { name, method, right: false, ..entry.clone() });
             }
-            all.push(Entry { name, method, right: false, ..entry.clone() });
         }
     }
     all
@@ -196,28 +192,21 @@ fn still_right(method: &Method, form: Form, order: Option<u32>) -> bool {
     }
 }
 
-/// Calls for each coefficient that is not 0 and that the answer depends on.
-fn with(method: &mut Method, of: &mut dyn FnMut(&mut f64)) {
-    let mut each = |numbers: &mut Vec<f64>| numbers.iter_mut().filter(|x| **x != 0.0).for_each(&mut *of);
-    match method {
+/// The coefficients that are not 0 and that the answer depends on.
+fn coefficients(method: &mut Method) -> Vec<&mut f64> {
+    let all: Vec<&mut Vec<f64>> = match method {
         Method::RungeKutta(tableau) | Method::LieGroup { tableau, .. } => {
-            tableau.a.iter_mut().for_each(&mut each);
-            each(&mut tableau.b);
+            tableau.a.iter_mut().chain([&mut tableau.b]).collect()
         }
-        Method::Adams { b, .. } => each(b),
-        Method::PredictorCorrector { moulton, .. } => each(moulton),
-        Method::Implicit { a, b } => {
-            a.iter_mut().for_each(&mut each);
-            each(b);
-        }
-        Method::Composed(parts) => each(parts),
-        Method::Splitting { turning, stretching } => {
-            each(turning);
-            each(stretching);
+        Method::Implicit { a, b } => a.iter_mut().chain([b]).collect(),
+        Method::Splitting { turning, stretching } => vec![turning, stretching],
+        Method::Adams { b: own, .. } | Method::PredictorCorrector { moulton: own, .. } | Method::Composed(own) => {
+            vec![own]
         }
         // The step control sees a wrong stage and takes shorter steps: its answers stay right. The weights it does not.
-        Method::Adaptive { tableau, .. } => each(&mut tableau.b),
+        Method::Adaptive { tableau, .. } => vec![&mut tableau.b],
         // Its coefficients are its library's.
-        Method::DormandPrince8 => {}
-    }
+        Method::DormandPrince8 => Vec::new(),
+    };
+    all.into_iter().flatten().filter(|x| **x != 0.0).collect()
 }

@@ -14,7 +14,7 @@ use rayon::prelude::*;
 use shearbed_validation::methods::integrators::Setting;
 use shearbed_validation::methods::textbook::{Form, advance};
 use shearbed_validation::serve::grade::live::{self, Mode, Program, Protocol};
-use shearbed_validation::serve::grade::{Claim, Graded, Order, Verdict, settle};
+use shearbed_validation::serve::grade::{Graded, Order, Verdict, settle};
 use shearbed_validation::serve::problems::LoadedProblem;
 use std::io::{BufRead, Write};
 use std::process::ExitCode;
@@ -41,8 +41,7 @@ fn main() -> ExitCode {
 
 /// Acts as the program of this name: numbers in, numbers out (docs/src/user/grading.md).
 fn act(name: &str) -> ExitCode {
-    let entries = catalogue::right().into_iter().chain(catalogue::wrong());
-    let entry = entries.into_iter().find(|entry| entry.name == name).expect("an integrator of this name");
+    let entry = catalogue::all().find(|entry| entry.name == name).expect("an integrator of this name");
     let mut out = std::io::stdout();
     for line in std::io::stdin().lock().lines() {
         let line = line.expect("a line");
@@ -83,7 +82,7 @@ fn graded(entry: &Entry, problems: &[LoadedProblem], timeout_s: f64) -> Vec<Grad
     let command = format!("'{}' --program '{}'", own.display(), entry.name);
     let start = || Program::start(&command, Protocol::Text, Duration::from_secs_f64(timeout_s)).expect("it starts");
     let mode = if entry.order.is_some() { Mode::Steps } else { Mode::Tolerance };
-    let claim = Claim { order: entry.order.map(f64::from) };
+    let claimed = entry.order.map(f64::from);
     let mut program = start();
     let mut all = Vec::new();
     let mut wanted = Vec::new();
@@ -97,13 +96,13 @@ fn graded(entry: &Entry, problems: &[LoadedProblem], timeout_s: f64) -> Vec<Grad
             program = start();
         }
         let problem = problem.clone().with_tolerance(tolerance(entry), "--tolerance");
-        all.push(live::grade(&program, &problem, mode, claim));
+        all.push(live::grade(&program, &problem, mode, claimed));
         wanted.push(problem);
         if !entry.right && all.last().is_some_and(|graded| graded.verdict == Verdict::Fail) {
             break;
         }
     }
-    settle(&wanted, &mut all, claim.order);
+    settle(&wanted, &mut all, claimed);
     all
 }
 
@@ -139,8 +138,7 @@ fn complaint(entry: &Entry, graded: &[Graded]) -> Option<String> {
 fn all(only: &str, timeout_s: f64, quick: bool) -> ExitCode {
     let rods = shearbed_validation::serve::problems::free_rods();
     let problems = live::built_in(|name| if quick { QUICK.contains(&name) } else { rods.contains(&name) });
-    let entries: Vec<_> = catalogue::right().into_iter().chain(catalogue::wrong()).collect();
-    let entries: Vec<_> = entries.into_iter().filter(|entry| entry.name.contains(only)).collect();
+    let entries: Vec<_> = catalogue::all().filter(|entry| entry.name.contains(only)).collect();
     let results: Vec<_> = (entries.par_iter())
         .map(|entry| {
             let graded = graded(entry, &problems, timeout_s);
@@ -157,7 +155,7 @@ fn all(only: &str, timeout_s: f64, quick: bool) -> ExitCode {
         .collect();
     let mut families: Vec<(&str, bool)> = Vec::new();
     for entry in &entries {
-        let family = (entry.family.as_str(), entry.right);
+        let family = (entry.family, entry.right);
         if !families.contains(&family) {
             families.push(family);
         }
@@ -165,7 +163,7 @@ fn all(only: &str, timeout_s: f64, quick: bool) -> ExitCode {
     println!("| integrators | how many | graded | PASS | NOT REACHED | FAIL | order seen | verdict right |");
     println!("| --- | --- | --- | --- | --- | --- | --- | --- |");
     for (family, right) in families {
-        let own = || entries.iter().zip(&results).filter(|(entry, _)| (&*entry.family, entry.right) == (family, right));
+        let own = || entries.iter().zip(&results).filter(|(entry, _)| (entry.family, entry.right) == (family, right));
         let count = |is: &dyn Fn(&Graded) -> bool| own().flat_map(|(_, all)| all).filter(|one| is(one)).count();
         let [pass, late, fail] = [Verdict::Pass, Verdict::NotReached, Verdict::Fail]
             .map(|verdict| count(&|graded| graded.verdict == verdict));

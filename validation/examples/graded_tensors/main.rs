@@ -14,7 +14,7 @@ use rayon::prelude::*;
 use shearbed_validation::methods::tensors::Model;
 use shearbed_validation::methods::textbook::tensors::{self as code, Code, M};
 use shearbed_validation::methods::textbook::tensors::{along, delta, hybrid, iard, ibof, linear, quadratic};
-use shearbed_validation::serve::grade::{self, Claim, DumpOptions, FileOptions, Graded, Options, Verdict};
+use shearbed_validation::serve::grade::{self, Graded, Options, Verdict};
 use shearbed_validation::serve::problems::{self, Formula, LoadedProblem};
 use std::array::from_fn;
 use std::fs;
@@ -63,12 +63,11 @@ fn problems_of(closure: &str) -> Vec<LoadedProblem> {
     all.map(|name| problems::named(name).expect("a problem").loaded(name.into())).collect()
 }
 
-/// The rows of a code's answer: a time or a number, and the components.
-type Rows = Vec<(f64, Vec<f64>)>;
+/// The rows of a code's answer: the components, without times and numbers.
+type Rows = Vec<Vec<f64>>;
 
 fn apart(a: &Rows, b: &Rows) -> f64 {
-    let each = a.iter().zip(b).flat_map(|((_, a), (_, b))| a.iter().zip(b).map(|(a, b)| (a - b).abs()));
-    shearbed_validation::oracle::worst(each)
+    shearbed_validation::oracle::worst(a.iter().zip(b).map(|(a, b)| shearbed_validation::oracle::apart(a, b)))
 }
 
 fn values(code: &Code, loaded: &LoadedProblem, strain: f64) -> Rows {
@@ -81,13 +80,12 @@ fn values(code: &Code, loaded: &LoadedProblem, strain: f64) -> Rows {
     };
     match (&problem.formula, &loaded.inputs) {
         (Some(Formula::Closure { .. }), Some(inputs)) => {
-            let of = |row: &Vec<f64>| (row[0], code.fourth(&matrix(&row[1..]), PAIRS));
-            inputs.rows.iter().map(of).collect()
+            inputs.rows.iter().map(|row| code.fourth(&matrix(&row[1..]), PAIRS)).collect()
         }
         (Some(Formula::Dadt { model, .. }), Some(inputs)) => {
             let of = |row: &Vec<f64>| {
                 let l: M = from_fn(|i| from_fn(|j| row[7 + 3 * i + j]));
-                (row[0], six(&code.rate(&matrix(&row[1..]), &l, row[16], parameters(*model))))
+                six(&code.rate(&matrix(&row[1..]), &l, row[16], parameters(*model)))
             };
             inputs.rows.iter().map(of).collect()
         }
@@ -97,8 +95,7 @@ fn values(code: &Code, loaded: &LoadedProblem, strain: f64) -> Rows {
                 .closed
                 .map_or((random, problem.c_i), |closed| (closed.start, Some(parameters(closed.model)[0])));
             let (l, r, times) = (&problem.gradient_per_s, problem.aspect_ratio, &problem.times_s);
-            let path = code.path(&start, l, r, c_i.unwrap_or(f64::NAN), times, strain);
-            times.iter().zip(&path).map(|(time, a)| (*time, six(a))).collect()
+            code.path(&start, l, r, c_i.unwrap_or(f64::NAN), times, strain).iter().map(six).collect()
         }
     }
 }
@@ -110,33 +107,25 @@ const PAIRS: [(usize, usize); 6] = [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 
 const DIFFERENCE: f64 = 1e-9;
 
 fn certified(loaded: &LoadedProblem) -> Rows {
-    loaded.certified.rows.iter().map(|row| (row[0], row[1..].to_vec())).collect()
+    let keys = loaded.problem.kind.keys().len();
+    loaded.certified.rows.iter().map(|row| row[keys..].to_vec()).collect()
 }
 
-fn text(loaded: &LoadedProblem, rows: &Rows) -> String {
-    let row = |(key, values): &(f64, Vec<f64>)| {
-        let values: Vec<_> = values.iter().map(|x| format!("{x:e}")).collect();
-        format!("{key},{}\n", values.join(","))
-    };
-    format!("{}\n{}", loaded.problem.columns.join(","), rows.iter().map(row).collect::<String>())
-}
-
-fn graded(problems: &[LoadedProblem], answers: impl Iterator<Item = String>) -> (Vec<Graded>, Vec<String>) {
+/// The grader on answers in files.
+fn graded(problems: &[LoadedProblem], answers: &[Rows]) -> (Vec<Graded>, Vec<String>) {
     let dir = tempfile::tempdir().expect("a folder");
     for (loaded, answer) in problems.iter().zip(answers) {
+        let keys = loaded.certified.rows.iter().map(|row| &row[..loaded.problem.kind.keys().len()]);
+        let numbers = keys.zip(answer).map(|(keys, row)| [keys, row].concat().iter().map(f64::to_string).collect());
+        let lines = numbers.map(|words: Vec<_>| words.join(","));
+        let text: Vec<_> = std::iter::once(loaded.problem.columns.join(",")).chain(lines).collect();
         let folder = dir.path().join(&loaded.problem.name);
         fs::create_dir(&folder).expect("a folder");
-        fs::write(folder.join("answer.csv"), answer).expect("a file");
+        fs::write(folder.join("answer.csv"), text.join("\n") + "\n").expect("a file");
     }
-    let dump = DumpOptions { timestep_s: None, rod_axis: None };
-    let options = Options { file: FileOptions::default(), dump, claim: Claim::default() };
-    let mut graded = grade::grade(problems, dir.path(), &options);
+    let mut graded = grade::grade(problems, dir.path(), &Options::default());
     let overall = grade::overall(problems, &mut graded);
     (graded, overall)
-}
-
-fn of_rows(problems: &[LoadedProblem], answers: &[Rows]) -> (Vec<Graded>, Vec<String>) {
-    graded(problems, problems.iter().zip(answers).map(|(loaded, rows)| text(loaded, rows)))
 }
 
 /// Answers with steps of this strain: short ones for a code that is to pass.
@@ -183,7 +172,7 @@ fn judged((name, expected, spoil): &Wrong, setting: &Setting) -> Row {
             *spoilt = certified(loaded);
         }
     }
-    let (graded, overall) = of_rows(&setting.problems, &answers);
+    let (graded, overall) = graded(&setting.problems, &answers);
     // A mistake that makes no difference, as of Λ where Λ = 1, is none; a value that is not finite has no name.
     let differs = |(found, loaded, spoilt): &(&Graded, &LoadedProblem, &Rows)| {
         found.error.is_some() && apart(&certified(loaded), spoilt) > DIFFERENCE
@@ -242,7 +231,7 @@ fn right_codes_pass_and_wrong_ones_are_caught_and_named() {
     for Setting { closure, problems, right, .. } in &settings {
         let own = |loaded: &&LoadedProblem| loaded.problem.c_i.is_none();
         let problems: Vec<_> = problems.iter().filter(own).cloned().collect();
-        let (graded, overall) = of_rows(&problems, &answers(right, &problems, 0.005));
+        let (graded, overall) = graded(&problems, &answers(right, &problems, 0.005));
         for graded in &graded {
             assert!(graded.verdict == Verdict::Pass && graded.diagnosis.is_none(), "{closure} {graded:?}");
         }

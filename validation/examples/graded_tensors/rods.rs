@@ -1,6 +1,6 @@
 //! Codes for single rods, right or wrong in one part, in plain arrays: they share nothing with the project's own.
 
-use super::{Row, graded};
+use super::{Row, Rows, graded};
 use rayon::prelude::*;
 use shearbed_validation::serve::grade::Verdict;
 use shearbed_validation::serve::problems::{self, LoadedProblem};
@@ -127,7 +127,7 @@ impl Code {
     }
 
     /// The rows of an answer, by RK4 in steps of `strain`.
-    fn answer(&self, loaded: &LoadedProblem, strain: f64) -> Vec<V> {
+    fn answer(&self, loaded: &LoadedProblem, strain: f64) -> Rows {
         let problem = &loaded.problem;
         let (l, r) = ((self.gradient)(&problem.gradient_per_s), problem.aspect_ratio);
         let size = l.iter().map(|row| dot(row, row)).sum::<f64>().sqrt();
@@ -149,15 +149,13 @@ impl Code {
                 }
             }
             now = time;
-            rows.extend((0..rods.len()).map(|k| (self.end)(rods[(self.order)(k, rods.len())])));
+            rows.extend((0..rods.len()).map(|k| (self.end)(rods[(self.order)(k, rods.len())]).to_vec()));
         }
         rows
     }
 
-    fn written(&self, loaded: &LoadedProblem, strain: f64) -> String {
-        let rows = self.answer(loaded, strain).into_iter().zip(&loaded.certified.rows);
-        let row = |([x, y, z], key): (V, &Vec<f64>)| format!("{},{},{x:e},{y:e},{z:e}\n", key[0], key[1]);
-        format!("time_s,rod,p1,p2,p3\n{}", rows.map(row).collect::<String>())
+    fn answers(&self, problems: &[LoadedProblem], strain: f64) -> Vec<Rows> {
+        problems.iter().map(|loaded| self.answer(loaded, strain)).collect()
     }
 }
 
@@ -172,7 +170,7 @@ fn problems() -> Vec<LoadedProblem> {
 fn judged(problems: &[LoadedProblem], (name, expected, spoil): &Wrong) -> Row {
     let mut code = RIGHT;
     spoil(&mut code);
-    let (graded, mut said) = graded(problems, problems.iter().map(|loaded| code.written(loaded, 0.01)));
+    let (graded, mut said) = graded(problems, &code.answers(problems, 0.01));
     let caught = graded.iter().any(|graded| graded.verdict == Verdict::Fail);
     said.extend(graded.iter().filter_map(|graded| Some(format!("{}: {}", graded.name, graded.diagnosis.as_ref()?))));
     let own = |said: &&String| said.contains(expected) || said.contains("nothing has moved");
@@ -190,7 +188,7 @@ pub fn all(only: &str) -> Vec<Row> {
 #[test]
 fn right_rods_pass_and_wrong_ones_are_caught_and_named() {
     let problems = problems();
-    let (graded, overall) = graded(&problems, problems.iter().map(|loaded| RIGHT.written(loaded, 0.002)));
+    let (graded, overall) = graded(&problems, &RIGHT.answers(&problems, 0.002));
     assert!(graded.iter().all(|graded| graded.verdict == Verdict::Pass), "{graded:#?}");
     assert_eq!(overall, [""; 0]);
     for Row { name, named, said, .. } in all("") {

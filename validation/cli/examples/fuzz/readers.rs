@@ -3,7 +3,7 @@
 use crate::{Files, Taken, Target};
 use shearbed_validation::files::FileError;
 use shearbed_validation::input::experiment::{self, SOURCES};
-use shearbed_validation::serve::grade::{self, Claim, DumpOptions, FileOptions, Options};
+use shearbed_validation::serve::grade::{self, Options};
 use shearbed_validation::serve::problems::{self, LoadedProblem};
 use std::fs;
 use std::path::Path;
@@ -147,9 +147,7 @@ pub fn answers() -> Target {
             let (name, answer) = &files[0];
             put(&folder.join(name), &[("answer.csv", answer.clone())])?;
             let asked = loaded.iter().find(|loaded| loaded.problem.name == *name).ok_or("no such problem")?;
-            let dump = DumpOptions { timestep_s: None, rod_axis: None };
-            let options = Options { file: FileOptions::default(), dump, claim: Claim::default() };
-            match grade::grade_one(asked, &folder.join(name), &options) {
+            match grade::grade_one(asked, &folder.join(name), &Options::default()) {
                 Ok(graded) => {
                     let numbers = [graded.error, graded.length_drift, graded.orbit_drift];
                     Taken::if_finite(numbers.into_iter().flatten().all(f64::is_finite), "a number")

@@ -2,7 +2,7 @@
 
 use crate::grading::{REFERENCE, names, problem, some, text, write};
 use serde_json::{Value, json};
-use shearbed_validation::serve::grade::{self, Axes, Claim, DumpOptions, FileOptions, LineEnds, Options};
+use shearbed_validation::serve::grade::{self, Options};
 use shearbed_validation::serve::problems::{self, LoadedProblem};
 use std::collections::BTreeSet;
 use std::fs;
@@ -26,14 +26,6 @@ fn values() -> Vec<Value> {
     all
 }
 
-fn options() -> Options {
-    Options {
-        file: FileOptions { columns: None, foreign: None, axes: Axes::default(), ends: LineEnds::Unix },
-        dump: DumpOptions { timestep_s: None, rod_axis: None },
-        claim: Claim { order: None },
-    }
-}
-
 /// Answers with the problem's own certified rows, and with each of their values moved.
 fn judged(loaded: &LoadedProblem, mine: &Path) -> Result<(), String> {
     for moved in [0.0, 0.3] {
@@ -47,7 +39,7 @@ fn judged(loaded: &LoadedProblem, mine: &Path) -> Result<(), String> {
         }
         write(mine, &loaded.problem.name, "answer.csv", text(&rows));
         let one = std::slice::from_ref(loaded);
-        let graded = catch_unwind(AssertUnwindSafe(|| grade::grade(one, mine, &options())));
+        let graded = catch_unwind(AssertUnwindSafe(|| grade::grade(one, mine, &Options::default())));
         let graded = graded.map_err(|_| "a panic".to_owned())?;
         if let (None, Some(note)) = (graded[0].error, &graded[0].note) {
             return Err(note.clone());

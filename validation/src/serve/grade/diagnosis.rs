@@ -26,13 +26,7 @@ pub fn diagnose(loaded: &LoadedProblem, answer: &Answer, error: f64, steps: Opti
     // Many curves meet their own values of other times.
     let off =
         (in_time && found.suspects.is_empty() && found.said.is_none()).then(|| row_off(loaded, answer, NEARER * error));
-    match off.flatten() {
-        Some(off) => {
-            let said = Some(format!("this is the right answer {off}"));
-            Diagnosis { said, suspects: vec![off.to_owned()], ..Diagnosis::default() }
-        }
-        None => found,
-    }
+    off.flatten().map_or(found, |off| Diagnosis::named("this is the right answer", off))
 }
 
 fn named(loaded: &LoadedProblem, answer: &Answer, error: f64, steps: Option<u64>) -> Diagnosis {
@@ -67,20 +61,18 @@ fn named(loaded: &LoadedProblem, answer: &Answer, error: f64, steps: Option<u64>
                         .or_else(|| frozen(loaded, answer, nearer_than, steps))
                 });
                 if let Some(off) = off.or_else(|| reordered(loaded, answer, nearer_than)) {
-                    let said = Some(format!("this is {off}"));
-                    return Diagnosis { said, suspects: vec![off.to_owned()], ..Diagnosis::default() };
+                    return Diagnosis::named("this is", off);
                 }
                 if let Some(said) = not_unit(loaded, answer, nearer_than) {
                     return Diagnosis::sentence(&said);
                 }
             }
-            let rests = |name: &String| {
-                let mistake = known.iter().find(|mistake| mistake.name == *name);
-                mistake.is_some_and(|mistake| has_come_to_rest(loaded, mistake, nearer_than))
-            };
             // A result that other mistakes reach as well is no evidence for this one.
-            let said = found.said.take().filter(|_| !found.suspects.iter().any(rests));
-            Diagnosis { said, ..found }
+            let mut suspected = known.iter().filter(|mistake| found.suspects.contains(&mistake.name));
+            if suspected.any(|mistake| has_come_to_rest(loaded, mistake, nearer_than)) {
+                found.said = None;
+            }
+            found
         }
     }
 }

@@ -8,6 +8,7 @@ use super::layout::FileOptions;
 use super::live::converging;
 use super::order;
 use super::read::{self, read};
+use super::report::joined;
 use super::slips;
 use super::{Graded, Verdict};
 use crate::files::text::Shown;
@@ -16,22 +17,15 @@ use crate::serve::problems::{Kind, LoadedProblem, Metric};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-/// A user's claim about the error of a program.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Claim {
-    /// The order with which the error falls with the step.
-    pub order: Option<f64>,
-}
-
 /// Options for reading and judging answers.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Options {
     /// The form of the answer files.
     pub file: FileOptions,
     /// Information that a LAMMPS dump lacks.
     pub dump: lammps::DumpOptions,
-    /// The user's claim about the program.
-    pub claim: Claim,
+    /// The order with which the user claims that the error falls with the step.
+    pub order: Option<f64>,
 }
 
 /// Grades the answers in `mine/NAME/` to each problem. A file that cannot be read fails its problem.
@@ -43,7 +37,7 @@ pub fn grade(problems: &[LoadedProblem], mine: &Path, options: &Options) -> Vec<
         })
     };
     let mut all: Vec<_> = problems.iter().map(of).collect();
-    order::settle(problems, &mut all, options.claim.order);
+    order::settle(problems, &mut all, options.order);
     all
 }
 
@@ -108,11 +102,11 @@ pub fn grade_one(loaded: &LoadedProblem, dir: &Path, options: &Options) -> Resul
         graded.note = Some(format!("no answer.csv and no steps-N.csv in {}", dir.shown()));
         return Ok(graded);
     };
-    graded.set_orders(errors, loaded, options.claim.order);
+    graded.set_orders(errors, loaded, options.order);
     graded.steps = steps;
-    judge(&mut graded, loaded, &answer, options.claim);
-    slips::name(&mut graded, loaded, options.claim, ladder);
-    let refuted = graded.order_off(options.claim.order).is_some();
+    judge(&mut graded, loaded, &answer, options.order);
+    slips::name(&mut graded, loaded, options.order, ladder);
+    let refuted = graded.order_off(options.order).is_some();
     let fails = graded.verdict == Verdict::Fail && steps.is_some() && !refuted;
     if let Some(words) = fails.then(|| converging(loaded, &answers)).flatten() {
         (graded.verdict, graded.note) = (Verdict::Pass, Some(words));
@@ -121,19 +115,19 @@ pub fn grade_one(loaded: &LoadedProblem, dir: &Path, options: &Options) -> Resul
 }
 
 /// Sets the verdict on `answer` and the reasons in `graded`.
-pub(super) fn judge(graded: &mut Graded, loaded: &LoadedProblem, answer: &Answer, claim: Claim) {
+pub(super) fn judge(graded: &mut Graded, loaded: &LoadedProblem, answer: &Answer, claimed: Option<f64>) {
     let compared = compare(loaded, answer);
     let within = compared.error <= loaded.problem.tolerance && !compared.too_little_data;
     // Standard errors scatter.
     let exact = loaded.problem.metric != Metric::StandardErrors;
     // An error that is allowed may be rounding, which grows with the steps.
     let outlier = exact.then(|| order::outlier(&graded.errors, loaded.problem.tolerance)).flatten();
-    let off = graded.order_off(claim.order).or(outlier);
+    let off = graded.order_off(claimed).or(outlier);
     graded.verdict = if within && off.is_none() { Verdict::Pass } else { Verdict::Fail };
     graded.set_answer(loaded, answer, &compared, f64::INFINITY);
     let digits = digits::remark(answer, compared.error, graded.steps).filter(|_| !compared.too_little_data);
     graded.note = if within {
-        off.map(|off| [Some(off), digits].into_iter().flatten().collect::<Vec<_>>().join("; "))
+        off.map(|off| joined([Some(off), digits]))
     } else {
         let worst = place(loaded, answer, compared.row);
         let place = match compared.remark {
@@ -143,7 +137,7 @@ pub(super) fn judge(graded: &mut Graded, loaded: &LoadedProblem, answer: &Answer
             Some(remark) => format!("{remark}; {worst}"),
         };
         let needed = graded.steps_needed().filter(|_| off.is_none());
-        Some(off.into_iter().chain(needed).chain([place]).chain(digits).collect::<Vec<_>>().join("; "))
+        Some(joined([off, needed, Some(place), digits]))
     };
 }
 

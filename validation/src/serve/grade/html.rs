@@ -1,6 +1,6 @@
 //! The report as one self-contained HTML file with its pictures.
 
-use super::report::{BUILT_IN, COLUMNS, Column, NOTHING, missing, tables, words};
+use super::report::{BUILT_IN, COLUMNS, Column, NOTHING, grouped, missing, tables, words};
 use super::{Graded, Report, Verdict};
 use crate::present::report::{digits, rendered, typeset};
 use serde_json::{Value as Json, json};
@@ -11,13 +11,7 @@ fn shown(number: Option<f64>) -> String {
 
 /// Each reason for a tolerance, with the problems to which it applies.
 fn reasons(graded: &[&Graded]) -> Vec<Json> {
-    let mut reasons: Vec<(&str, Vec<&str>)> = Vec::new();
-    for graded in graded {
-        match reasons.iter_mut().find(|(text, _)| *text == graded.because) {
-            Some((_, names)) => names.push(&graded.name),
-            None => reasons.push((&graded.because, vec![&graded.name])),
-        }
-    }
+    let reasons = grouped(graded.iter().map(|graded| (&graded.because, &graded.name)));
     reasons.into_iter().map(|(text, names)| json!({ "text": text, "names": names })).collect()
 }
 

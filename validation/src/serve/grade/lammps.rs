@@ -11,7 +11,7 @@ use crate::serve::problems::{Kind, LoadedProblem};
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
 /// Options for a LAMMPS dump.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub struct DumpOptions {
     /// The length of a time step in s, for a dump without `ITEM: TIME`.
     pub timestep_s: Option<f64>,

@@ -29,15 +29,16 @@ pub use crate::files::csv::LineEnds;
 pub use axes::Axes;
 pub use diagnosis::loose;
 pub use digits::single;
-pub use files::{Claim, Options, grade, grade_one};
+pub use files::{Options, grade, grade_one};
 pub use html::html;
 pub use lammps::DumpOptions;
 pub use layout::{FileOptions, Foreign};
 pub use nearness::LAID_OUT;
 pub use order::{Order, remark, settle};
 pub use overall::overall;
-pub use report::{Report, json, junit, markdown, terminal};
+pub use report::{Report, junit, markdown, terminal};
 
+use crate::methods::integrators::Setting;
 use crate::serve::problems::{Kind, LoadedProblem, Origin};
 use serde::Serialize;
 
@@ -155,6 +156,11 @@ impl Graded {
             orbit_drift: None,
             phase_lost_per_period: None,
         }
+    }
+
+    /// Sets the steps or the tolerance with which the answer was made.
+    fn set_setting(&mut self, setting: Setting) {
+        (self.steps, self.asked_tolerance) = (setting.steps().ok(), setting.tolerance().ok());
     }
 
     /// Sets the errors (steps, error) from coarse to fine, and their orders compared with the claimed one.

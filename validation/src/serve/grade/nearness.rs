@@ -37,6 +37,11 @@ impl Diagnosis {
         Self { said: Some(said.to_owned()), ..Self::default() }
     }
 
+    /// A finding that is its own name.
+    pub(super) fn named(what: &str, name: &str) -> Self {
+        Self { suspects: vec![name.to_owned()], ..Self::sentence(&format!("{what} {name}")) }
+    }
+
     /// Nothing, where the answer is farther from the curve than `most`.
     pub(super) fn within(self, most: f64) -> Self {
         if self.distance <= most { self } else { Self::default() }
@@ -92,15 +97,19 @@ pub(super) fn said(what: &str, mut near: Vec<Near>, tolerance: f64, rest: &str) 
     // A mistake is likelier than other axes.
     near.sort_by_key(|near| near.name.starts_with(LAID_OUT));
     let names: Vec<_> = near.iter().map(|near| near.name.as_str()).collect();
-    let advice = near[0].advice;
-    let shared = !advice.is_empty() && near.iter().all(|near| near.advice == advice);
-    let advice = if shared { format!("; {advice}") } else { String::new() };
+    let advice = shared(near.iter().map(|near| near.advice));
     let said = format!("{what} of {}, to {nearest:.0e}{rest}{advice}", names.join(" or of "));
     let said = (names.len() <= MOST_NAMES).then_some(said);
     let mut suspects: Vec<_> = near.into_iter().flat_map(|near| near.suspects).collect();
     suspects.sort();
     suspects.dedup();
     Diagnosis { said, suspects, distance: nearest }
+}
+
+/// Advice that all give, to stand at the end of a sentence.
+pub(super) fn shared<'a>(mut advice: impl Iterator<Item = &'a str>) -> String {
+    let first = advice.next().filter(|first| !first.is_empty() && advice.all(|other| other == *first));
+    first.map_or(String::new(), |advice| format!("; {advice}"))
 }
 
 #[test]

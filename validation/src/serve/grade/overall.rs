@@ -3,7 +3,7 @@
 
 use super::diagnosis::shows;
 use super::estimate::{self, Wrong};
-use super::nearness::{CURVE, VALUES};
+use super::nearness::{CURVE, VALUES, shared};
 use super::{Graded, Verdict, tensors};
 use crate::serve::problems::{Kind, LoadedProblem};
 
@@ -116,9 +116,7 @@ fn by_name(problems: &[LoadedProblem], graded: &[Graded], wrong: &[&Graded]) -> 
             let (what, its, theirs) =
                 if without_time { (VALUES, "its values fit", "values") } else { (CURVE, "its curve fits", "curves") };
             let either = if names.len() > 1 { format!(" (their {theirs} are equal here)") } else { String::new() };
-            let advice = tensors::advice(&names[0]);
-            let shared = !advice.is_empty() && names.iter().all(|name| tensors::advice(name) == advice);
-            let advice = if shared { format!("; {advice}") } else { String::new() };
+            let advice = shared(names.iter().map(|name| tensors::advice(name)));
             said.push(Finding {
                 of: of.iter().map(|name| (*name).to_owned()).collect(),
                 instead: format!("{what} of {}", names.join(" or of ")),

@@ -34,6 +34,10 @@ pub struct Report {
 }
 
 impl Report {
+    fn title(&self) -> String {
+        format!("{} on {}", self.answers, self.reference)
+    }
+
     fn count(&self, verdict: Verdict) -> usize {
         self.problems.iter().filter(|graded| graded.verdict == verdict).count()
     }
@@ -86,11 +90,6 @@ impl Report {
     }
 }
 
-/// The content of grade.json.
-pub fn json(report: &Report) -> Result<String, String> {
-    crate::files::build::json(report)
-}
-
 fn number(value: Option<f64>) -> String {
     value.map_or(NOTHING.into(), |value| format!("{value:.1e}"))
 }
@@ -129,20 +128,25 @@ pub(super) const COLUMNS: [Column; 8] = [
     Column { title: "phase lost/period", numeric: true, of: |graded, number| number(graded.phase_lost_per_period) },
 ];
 
-/// The table of verdicts, without problems that have no answer.
-fn verdicts(report: &Report) -> ReportTable {
+/// The table of verdicts with these columns and names, without problems that have no answer.
+fn verdicts(report: &Report, title: &str, columns: &[Column], name: impl Fn(&Graded) -> String) -> ReportTable {
     let row = |graded: &Graded| {
-        let cells = COLUMNS.iter().map(|column| (column.of)(graded, number));
-        [graded.verdict.word().to_owned(), graded.name.clone()].into_iter().chain(cells).collect()
+        let cells = columns.iter().map(|column| (column.of)(graded, number));
+        [graded.verdict.word().to_owned(), name(graded)].into_iter().chain(cells).collect()
     };
-    let titles: Vec<_> = ["verdict", "problem"].into_iter().chain(COLUMNS.map(|column| column.title)).collect();
+    let titles: Vec<_> = ["verdict", "problem"].into_iter().chain(columns.iter().map(|column| column.title)).collect();
     of_words(
         "grade",
-        &format!("{} on {}", report.answers, report.reference),
+        title,
         &format!("{}.", report.headline()),
         &titles,
         report.problems.iter().filter(|graded| graded.verdict != Verdict::Missing).map(row).collect(),
     )
+}
+
+/// The parts that there are, as one text.
+pub(super) fn joined(parts: impl IntoIterator<Item = Option<String>>) -> String {
+    parts.into_iter().flatten().collect::<Vec<_>>().join("; ")
 }
 
 pub(super) fn words(graded: &Graded) -> Vec<&str> {
@@ -150,30 +154,35 @@ pub(super) fn words(graded: &Graded) -> Vec<&str> {
     parts.into_iter().flatten().collect()
 }
 
-/// Findings from several problems, the remarks on each (equal ones once, faults of a running program only where the
-/// other remarks have them), all missing problems in one line, and the other remarks.
-fn lines(report: &Report) -> Vec<String> {
-    let mut said: Vec<(Verdict, String, Vec<&str>)> = Vec::new();
-    for graded in report.problems.iter().filter(|graded| graded.verdict != Verdict::Missing) {
-        let mut text = words(graded);
-        if graded.is_said_over_all {
-            text.remove(0);
-        }
-        let text = text.join("; ");
-        match said.iter_mut().find(|(verdict, same, _)| *verdict == graded.verdict && *same == text) {
-            Some((.., names)) => names.push(&graded.name),
-            None => said.push((graded.verdict, text, vec![&graded.name])),
+/// Each key with all its values, in the order of the first of each.
+pub(super) fn grouped<K: PartialEq, V>(pairs: impl Iterator<Item = (K, V)>) -> Vec<(K, Vec<V>)> {
+    let mut groups: Vec<(K, Vec<V>)> = Vec::new();
+    for (key, value) in pairs {
+        match groups.iter_mut().find(|(known, _)| *known == key) {
+            Some((_, values)) => values.push(value),
+            None => groups.push((key, vec![value])),
         }
     }
+    groups
+}
+
+/// Findings from several problems, the remarks on each (equal ones once, faults of a running program only where the
+/// other remarks have them), all missing problems in one line, and the other remarks.
+fn lines<'a>(report: &'a Report) -> Vec<String> {
+    let remark = |graded: &'a Graded| {
+        let words = words(graded);
+        ((graded.verdict, words[usize::from(graded.is_said_over_all)..].join("; ")), graded.name.as_str())
+    };
+    let answered = report.problems.iter().filter(|graded| graded.verdict != Verdict::Missing);
     let is_fault = |text: &str| {
         let cause = text.strip_prefix("asked for ").and_then(|text| text.split_once(": "));
         cause.is_some_and(|(_, cause)| report.remarks.iter().any(|remark| remark.contains(cause)))
     };
-    let of = |(verdict, text, names): (Verdict, String, Vec<&str>)| {
+    let of = |((verdict, text), names): ((Verdict, String), Vec<&str>)| {
         (!text.is_empty() && !is_fault(&text)).then(|| format!("{} {}: {text}", verdict.word(), names.join(", ")))
     };
     let mut lines = report.diagnosis.clone();
-    lines.extend(said.into_iter().filter_map(of));
+    lines.extend(grouped(answered.map(remark)).into_iter().filter_map(of));
     lines.extend(missing(report));
     lines.extend(report.remarks.iter().cloned());
     lines
@@ -203,30 +212,19 @@ pub(super) fn missing(report: &Report) -> Option<String> {
 
 /// The table of verdicts, then those of the studies.
 pub(super) fn tables(report: &Report) -> Vec<ReportTable> {
-    let mut tables = vec![verdicts(report)];
+    let mut tables = vec![verdicts(report, &report.title(), &COLUMNS, |graded| graded.name.clone())];
     tables.extend(report.live.iter().flat_map(Studies::tables));
     tables
 }
 
 /// The report for the terminal, in 80 columns: missing answers share a line; the drifts are only in the files.
 pub fn terminal(report: &Report) -> String {
-    let answered = |graded: &&Graded| graded.verdict != Verdict::Missing;
-    let row = |graded: &Graded| {
-        let foreign = if graded.reference == Origin::Foreign { " (FOREIGN)" } else { "" };
-        let name = format!("{}{foreign}", graded.name);
-        let numbers = [number(graded.error), number(Some(graded.tolerance)), graded.order_text()];
-        [vec![graded.verdict.word().to_owned(), name], numbers.into(), vec![graded.setting_text()]].concat()
-    };
-    let title = format!("{} on {}", report.answers, report.reference);
     // Two blanks in a row would mark a table's row.
-    let title = title.split_whitespace().collect::<Vec<_>>().join(" ");
-    let table = of_words(
-        "grade",
-        &title,
-        &format!("{}.", report.headline()),
-        &["verdict", "problem", "error", "tolerance", "order", "setting"],
-        report.problems.iter().filter(answered).map(row).collect(),
-    );
+    let title = report.title().split_whitespace().collect::<Vec<_>>().join(" ");
+    let table = verdicts(report, &title, &COLUMNS[1..5], |graded| match graded.reference {
+        Origin::Foreign => format!("{} (FOREIGN)", graded.name),
+        Origin::BuiltIn => graded.name.clone(),
+    });
     let mut parts = vec![table.text(), lines(report).join("\n")];
     parts.extend(tables(report).iter().skip(1).map(ReportTable::text));
     let parts: Vec<&str> = parts.iter().map(|part| part.trim_end()).filter(|part| !part.is_empty()).collect();

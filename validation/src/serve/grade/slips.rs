@@ -5,7 +5,7 @@ use super::answer::Answer;
 use super::mistakes::Setting;
 use super::nearness::{CURVE, Diagnosis, Near, largest_within, said};
 use super::tensors;
-use super::{Claim, Graded, Order};
+use super::{Graded, Order};
 use crate::judge::statistics::worst;
 use crate::methods::integrators::apart_rad;
 use crate::serve::problems::{Kind, LoadedProblem};
@@ -87,10 +87,10 @@ const LOW: f64 = 3.5;
 pub(super) fn name<'a>(
     graded: &mut Graded,
     loaded: &LoadedProblem,
-    claim: Claim,
+    claimed: Option<f64>,
     answers: impl Iterator<Item = (u64, f64, &'a Answer)>,
 ) {
-    let low = match claim.order {
+    let low = match claimed {
         Some(_) => graded.order_found == Some(Order::Lower),
         None => graded.observed_order.is_some_and(|order| order < LOW),
     };
@@ -98,7 +98,7 @@ pub(super) fn name<'a>(
         return;
     }
     let found = diagnose(loaded, answers);
-    if claim.order.is_some() || found.suspects.iter().all(|name| name.starts_with("RK4")) {
+    if claimed.is_some() || found.suspects.iter().all(|name| name.starts_with("RK4")) {
         (graded.diagnosis, graded.suspects) = (found.said, found.suspects);
     }
 }

@@ -17,8 +17,9 @@ use crate::serve::grade::answer::Answer;
 use crate::serve::grade::compare::{Compared, compare};
 use crate::serve::grade::diagnosis::{Diagnosis, diagnose};
 use crate::serve::grade::digits;
-use crate::serve::grade::files::{Claim, judge, place};
+use crate::serve::grade::files::{judge, place};
 use crate::serve::grade::order::other;
+use crate::serve::grade::report::joined;
 use crate::serve::grade::{Graded, Order, Verdict, slips};
 use crate::serve::problems::{Kind, LoadedProblem, Metric};
 use climb::{End, climb, converges, fall_with_tolerances, fewest, is_smooth, resolving, within};
@@ -100,14 +101,14 @@ fn errors(rungs: &[Rung]) -> Vec<(u64, f64)> {
 
 /// Grades a program on a problem: about free rods at the last time, about tensors at all times; and at other
 /// times, once each.
-pub fn grade(program: &Program, problem: &LoadedProblem, mode: Mode, claim: Claim) -> Graded {
+pub fn grade(program: &Program, problem: &LoadedProblem, mode: Mode, claimed: Option<f64>) -> Graded {
     program.during(&problem.problem.name);
     let begun = Instant::now();
-    let graded = timeless(program, problem, mode, claim);
+    let graded = timeless(program, problem, mode, claimed);
     Graded { seconds: begun.elapsed().as_secs_f64(), ..graded }
 }
 
-fn timeless(program: &Program, problem: &LoadedProblem, mode: Mode, claim: Claim) -> Graded {
+fn timeless(program: &Program, problem: &LoadedProblem, mode: Mode, claimed: Option<f64>) -> Graded {
     let is_line_of_numbers = problem.problem.kind == Kind::Rods && problem.problem.rotation_rad_per_s.is_none();
     if program.protocol == Protocol::Text && !is_line_of_numbers {
         let note = Some("not asked: a request about it needs lines of JSON".to_owned());
@@ -116,7 +117,7 @@ fn timeless(program: &Program, problem: &LoadedProblem, mode: Mode, claim: Claim
     match problem.problem.kind {
         Kind::Rods => {
             let others = others(problem).iter().map(last_time).collect();
-            climbed(program, &last_time(problem), others, mode, claim, |of, setting| {
+            climbed(program, &last_time(problem), others, mode, claimed, |of, setting| {
                 let (found, took) = program.ask(&Question::of(of), setting)?;
                 Ok((found.p.into_iter().map(Vec::from).collect(), took))
             })
@@ -141,7 +142,7 @@ fn timeless(program: &Program, problem: &LoadedProblem, mode: Mode, claim: Claim
                 let ((rows, _), took) = table(of, setting)?;
                 Ok((rows.iter().map(|row| axes.row_to_ours(columns, row)).collect(), took))
             };
-            let graded = climbed(program, problem, others(problem), mode, claim, ask);
+            let graded = climbed(program, problem, others(problem), mode, claimed, ask);
             // A program that refuses every number of steps may choose its own.
             if graded.verdict != Verdict::Refused || graded.steps.is_some() || mode == Mode::Tolerance {
                 return graded;
@@ -151,7 +152,7 @@ fn timeless(program: &Program, problem: &LoadedProblem, mode: Mode, claim: Claim
                 Ok(((_, Some(_)), _)) if problem.problem.closed.is_none() => {
                     random::graded(program, problem, Mode::Tolerance, |setting| asked(problem, setting))
                 }
-                _ => climbed(program, problem, others(problem), Mode::Tolerance, claim, ask),
+                _ => climbed(program, problem, others(problem), Mode::Tolerance, claimed, ask),
             }
         }
     }
@@ -173,7 +174,7 @@ fn formula(program: &Program, problem: &LoadedProblem) -> Graded {
     let mut graded = Graded::without_answer(problem);
     let size = [problem.certified.rows.len(), problem.problem.columns.len() - 1];
     match program.ask_table(&tables::of_formula(problem), size) {
-        Ok(((rows, _), _)) => judge(&mut graded, problem, &printed(rows), Claim::default()),
+        Ok(((rows, _), _)) => judge(&mut graded, problem, &printed(rows), None),
         Err(asked) => {
             graded.note = Some(asked.to_string());
             graded.verdict = match asked {
@@ -194,7 +195,7 @@ fn climbed(
     problem: &LoadedProblem,
     others: Vec<LoadedProblem>,
     mode: Mode,
-    claim: Claim,
+    claimed: Option<f64>,
     answer: impl Fn(&LoadedProblem, Setting) -> Table,
 ) -> Graded {
     let of = &problem.problem;
@@ -203,7 +204,7 @@ fn climbed(
         Ok(Rung::of(problem, setting, rows, took))
     };
     let ask = |setting: Setting| ask_of(problem, setting);
-    let (rungs, mut end) = climb(problem, mode, program.timeout, claim.order, ask);
+    let (rungs, mut end) = climb(problem, mode, program.timeout, claimed, ask);
     let rounding = |rung: &Rung| digits::remark(&rung.answer, rung.error(), rung.setting.steps().ok());
     // Rounding that explains the error hides the order, and refutes none.
     let hidden = matches!(end, End::Lower) && rungs.last().and_then(rounding).is_some();
@@ -228,7 +229,7 @@ fn climbed(
         }
     }
     let mut graded = Graded::without_answer(problem);
-    graded.set_orders(errors(&rungs), problem, claim.order);
+    graded.set_orders(errors(&rungs), problem, claimed);
     match end {
         End::Lower => graded.order_found = Some(Order::Lower),
         _ if hidden => graded.order_found = Some(Order::Unclear),
@@ -236,23 +237,23 @@ fn climbed(
     }
     let refuted = graded.order_found == Some(Order::Lower);
     // Whether a mistake is named must not depend on how fast the machine is; that of a step is of order 1.
-    let mistaken = matches!(end, End::NotReached(_)) && claim.order != Some(1.0) && stays_on_a_mistake(problem, &rungs);
+    let mistaken = matches!(end, End::NotReached(_)) && claimed != Some(1.0) && stays_on_a_mistake(problem, &rungs);
     let unfinished = matches!(end, End::NotReached(_) | End::NoFiner(_) | End::Stays(_)) && !mistaken;
     let converging = unfinished.then(|| converges(problem, &rungs)).flatten().filter(|_| !refuted);
     graded.verdict = match converging {
         Some(_) => Verdict::Pass,
         None => verdict(&end, mistaken),
     };
-    if let Some(finest) = best(&rungs) {
-        graded.steps = finest.setting.steps().ok();
-        graded.asked_tolerance = finest.setting.tolerance().ok();
+    let finest = best(&rungs);
+    if let Some(finest) = finest {
+        graded.set_setting(finest.setting);
         graded.set_answer(problem, &finest.answer, &finest.compared, settled(&rungs));
     }
     if named.said.is_some() {
         (graded.diagnosis, graded.suspects) = (named.said, named.suspects);
     }
     let answers = rungs.iter().filter_map(|rung| Some((rung.setting.steps().ok()?, rung.error(), &rung.answer)));
-    slips::name(&mut graded, problem, claim, answers);
+    slips::name(&mut graded, problem, claimed, answers);
     // What converges as far as it goes is not wrong.
     let falls = || graded.steps_needed().is_some() || fall_with_tolerances(&rungs).is_some();
     // Nor is what has taken coarse steps alone, unless it lies on the curve of a mistake.
@@ -264,31 +265,25 @@ fn climbed(
     graded.note = match end {
         _ if converging.is_some() => converging,
         End::Broke(words) | End::Jumps(words) | End::Refused(words) => Some(words),
-        End::Lower => claim.order.map(|claimed| other(&graded, claimed)),
+        End::Lower => claimed.map(|claimed| other(&graded, claimed)),
         End::Reached => not_finite(&rungs),
         End::Stays(words) | End::Wrong(words) | End::NoFiner(words) | End::NotReached(words) => {
-            let finite = best(&rungs).filter(|finest| finest.error().is_finite());
             // Of directions there is no worst component.
-            let finite = finite.filter(|_| problem.problem.metric == Metric::Absolute);
+            let is_absolute = of.metric == Metric::Absolute;
+            let finite = finest.filter(|finest| finest.error().is_finite() && is_absolute);
             let worst = finite.map(|finest| place(problem, &finest.answer, finest.compared.row));
             // Few digits are the reason why errors end.
-            let few = best(&rungs).and_then(rounding);
+            let few = finest.and_then(rounding);
             let words = if few.is_some() { String::new() } else { words };
-            let remark = best(&rungs).and_then(|finest| finest.compared.remark.clone());
-            let remark = remark.filter(|_| finite.is_some());
+            let remark = finite.and_then(|finest| finest.compared.remark.clone());
             let wrong = graded.verdict == Verdict::Fail && graded.diagnosis.is_none();
             let long = graded.length_drift.filter(|drift| wrong && *drift > 0.1);
             let long = long.map(|drift| format!("the length of p is off 1 by up to {drift:.1}: are these components?"));
             let on_axis = problem.start.iter().any(|p| p[0].hypot(p[1]) < 1e-9);
-            let pole = (on_axis && best(&rungs).is_some_and(|finest| !finest.error().is_finite()))
+            let pole = (on_axis && finest.is_some_and(|finest| !finest.error().is_finite()))
                 .then(|| "a rod lies along axis 3, where φ is undefined and p does not move".to_owned());
-            let all = std::iter::once(why(&graded, best(&rungs), words, may_be_reached))
-                .chain(pole)
-                .chain(long)
-                .chain(remark)
-                .chain(worst)
-                .chain(few);
-            Some(all.collect::<Vec<_>>().join("; "))
+            let why = why(&graded, finest, words, may_be_reached);
+            Some(joined([Some(why), pole, long, remark, worst, few]))
         }
     };
     graded
@@ -366,9 +361,5 @@ fn why(graded: &Graded, finest: Option<&Rung>, words: String, may_be_reached: bo
         _ => format!("with {setting} it is off by {error:.1e}"),
     };
     let words = Some(words).filter(|words| !words.is_empty());
-    [Some(said), graded.steps_needed().filter(|_| may_be_reached), words]
-        .into_iter()
-        .flatten()
-        .collect::<Vec<_>>()
-        .join("; ")
+    joined([Some(said), graded.steps_needed().filter(|_| may_be_reached), words])
 }

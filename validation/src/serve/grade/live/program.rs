@@ -6,6 +6,7 @@ pub use super::request::Question;
 use super::request::{Request, Turned};
 use crate::methods::integrators::{Failure, Integrator, RodProblem, Setting, Theory};
 use crate::serve::grade::Axes;
+use crate::serve::grade::report::grouped;
 use nalgebra::{UnitVector3, Vector3};
 use serde_json::Value;
 use std::hash::{BuildHasher, RandomState};
@@ -251,18 +252,16 @@ fn next_id(last: u64) -> u64 {
 
 /// A line for each fault, in the order of the first of each, with the tasks in which it occurred and how often.
 fn together(log: &[[String; 2]]) -> Vec<String> {
-    let first = |k: usize| log[..k].iter().all(|[_, before]| *before != log[k][1]);
-    let line = |k: usize| {
-        let of = log.iter().filter(|[_, what]| *what == log[k][1]);
-        let mut tasks: Vec<_> = of.map(|[during, _]| during.as_str()).collect();
-        let times = tasks.len();
+    let line = |(what, mut tasks): (&String, Vec<&str>)| {
+        let times = if tasks.len() > 1 { format!(" ({} times)", tasks.len()) } else { String::new() };
         tasks.dedup();
-        let rest = if tasks.len() > 3 { format!(" and {} more", tasks.len() - 1) } else { String::new() };
-        let tasks = if rest.is_empty() { tasks.join(", ") } else { tasks[0].to_owned() };
-        let times = if times > 1 { format!(" ({times} times)") } else { String::new() };
-        format!("{tasks}{rest}: {}{times}", log[k][1])
+        let tasks = match tasks.len() {
+            ..=3 => tasks.join(", "),
+            many => format!("{} and {} more", tasks[0], many - 1),
+        };
+        format!("{tasks}: {what}{times}")
     };
-    (0..log.len()).filter(|k| first(*k)).map(line).collect()
+    grouped(log.iter().map(|[during, what]| (what, during.as_str()))).into_iter().map(line).collect()
 }
 
 #[test]

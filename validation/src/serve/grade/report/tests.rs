@@ -1,4 +1,5 @@
 use super::*;
+use crate::files::build::json;
 use crate::present::xml::is_well_formed;
 use crate::serve::problems::loaded;
 

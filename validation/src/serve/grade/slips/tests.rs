@@ -68,7 +68,7 @@ fn a_slip_is_named_where_its_order_is_low() {
         let mut graded = Graded { diagnosis, ..Graded::without_answer(&loaded) };
         graded.set_orders(errors.into(), &loaded, order);
         let ladder = answers.iter().zip(errors).map(|((steps, answer), (_, error))| (*steps, error, answer));
-        name(&mut graded, &loaded, Claim { order }, ladder);
+        name(&mut graded, &loaded, order, ladder);
         graded.diagnosis
     };
     let slip = &SLIPS.iter().find(|(name, _)| name.ends_with("k3 from k1, not k2")).unwrap().1;

@@ -3,9 +3,10 @@
 use super::climb::{End, climb};
 use super::{Mode, Rung, verdict};
 use crate::methods::integrators::Setting;
-use crate::serve::grade::files::{Claim, judge};
+use crate::serve::grade::files::judge;
 use crate::serve::grade::live::program::{Asked, Program};
 use crate::serve::grade::live::protocol::Rows;
+use crate::serve::grade::report::joined;
 use crate::serve::grade::{Graded, Verdict};
 use crate::serve::problems::LoadedProblem;
 use std::time::Duration;
@@ -33,9 +34,8 @@ pub(super) fn graded(
     let mut graded = Graded::without_answer(problem);
     graded.verdict = verdict(&end, false);
     if let Some(finest) = rungs.last() {
-        graded.steps = finest.setting.steps().ok();
-        graded.asked_tolerance = finest.setting.tolerance().ok();
-        judge(&mut graded, problem, &finest.answer, Claim::default());
+        graded.set_setting(finest.setting);
+        judge(&mut graded, problem, &finest.answer, None);
         // Out of time it is no failure, unless it is on the curve of a mistake.
         let late = matches!(end, End::NotReached(_)) && graded.diagnosis.is_none();
         if matches!(end, End::Broke(_)) {
@@ -45,7 +45,7 @@ pub(super) fn graded(
         }
     }
     if let End::Broke(words) | End::Refused(words) | End::NotReached(words) = end {
-        graded.note = Some(graded.note.into_iter().chain([words]).collect::<Vec<_>>().join("; "));
+        graded.note = Some(joined([graded.note, Some(words)]));
     }
     graded
 }
