@@ -49,8 +49,9 @@ fn free(problem: &Problem, time_s: f64) -> Option<Vector3<f64>> {
     over_shapes(problem, |r| projections(&right_map(&setting(problem, r), time_s)?))
 }
 
-fn free_of_one_shape(problem: &Problem, time_s: f64) -> Option<Vector3<f64>> {
-    projections(&right_map(&setting(problem, problem.aspect_ratio), time_s)?)
+/// The same problem with rods of one r_e, the mean.
+fn of_one_shape(problem: &Problem) -> Problem {
+    Problem { aspect_ratio_sd_percent: 0.0, ..problem.clone() }
 }
 
 /// The mistakes about free unequal rods whose answers are nearer than `nearer_than`, each with its distance.
@@ -63,8 +64,10 @@ pub(super) fn unequal(loaded: &LoadedProblem, answer: &Answer, nearer_than: f64)
     let mut near: Vec<_> = (mistakes::all().into_par_iter())
         .filter_map(|mistake| Some(Near::new(distance(&|time| by_mistake(problem, &mistake, time))?, &mistake.name)))
         .collect();
-    let one_shape = distance(&|time| free_of_one_shape(problem, time));
-    near.extend(one_shape.map(|distance| Near::new(distance, "rods of one r_e, the mean")));
+    let one_shape = of_one_shape(problem);
+    near.extend(
+        distance(&|time| free(&one_shape, time)).map(|distance| Near::new(distance, "rods of one r_e, the mean")),
+    );
     near
 }
 
@@ -122,17 +125,14 @@ pub(super) fn ensemble(loaded: &LoadedProblem, answer: &Answer) -> Option<String
     ];
     known.extend(interpretations(problem));
     if problem.aspect_ratio_sd_percent > 0.0 {
-        known.push(("free rods of one r_e, without collisions", exact(&free_of_one_shape)));
+        let one_shape = of_one_shape(problem);
+        known.push(("free rods of one r_e, without collisions", exact(&|_, time_s| free(&one_shape, time_s))));
     }
-    let off = |rows: &Vec<Vec<f64>>| {
-        let rows = answer.rows.iter().zip(rows);
-        rows.map(|(found, expected)| standard_errors(names, found, expected))
-            .fold(0.0, |a: f64, b| if b.is_nan() { f64::INFINITY } else { a.max(b) })
+    let off = |rows: Vec<Vec<f64>>| {
+        let off = answer.rows.iter().zip(&rows).map(|(found, due)| Some(standard_errors(names, found, due)));
+        largest_within(problem.tolerance, off)
     };
-    let near: Vec<_> = (known.into_iter())
-        .filter_map(|(name, rows)| Some((name, off(&rows?))))
-        .filter(|(_, off)| *off <= problem.tolerance)
-        .collect();
+    let near: Vec<_> = known.into_iter().filter_map(|(name, rows)| Some((name, off(rows?)?))).collect();
     let (_, nearest) = near.iter().min_by(|a, b| a.1.total_cmp(&b.1))?;
     let names: Vec<_> = near.iter().map(|(name, _)| *name).collect();
     Some(format!("these are the means of {}, to {nearest:.1} standard errors", names.join(" or of ")))
