@@ -2,6 +2,7 @@
 
 use super::answer::Answer;
 use super::compare::distance;
+use super::mistakes::angles_of;
 use super::nearness::{Near, largest_within};
 use crate::serve::problems::LoadedProblem;
 use crate::serve::problems::contact::{ASPECT_RATIO, LENGTH_MM, RIGHT, Step, Variant, answers, within};
@@ -200,7 +201,7 @@ const OF_ANGLES: &[(&str, Spoil)] = &[
     ("a step of p, not of its angles", |v| {
         v.stepped = |step| {
             let p = step.p + step.rate * step.step_s;
-            [p.y.atan2(p.x), p.x.hypot(p.y).atan2(p.z)]
+            angles_of(&p)
         };
     }),
 ];

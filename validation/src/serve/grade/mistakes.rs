@@ -10,6 +10,7 @@ use super::Axes;
 use crate::serve::problems::Problem;
 use nalgebra::{Matrix3, Rotation3, Vector3};
 use shearbed::model::flow::VelocityGradient;
+use shearbed::model::orientation::from_angles;
 use shearbed::motion::{Propagator, Span};
 
 /// The flow and the aspect ratio of a free rod.
@@ -225,10 +226,10 @@ pub fn all() -> Vec<Mistake> {
         [("degrees for radians", f64::to_degrees as fn(f64) -> f64), ("radians for degrees", f64::to_radians)]
     {
         all.push(curve(&format!("{name} in the start"), move |setting, p, time| {
-            Some(right_map(setting, time)? * by_angles(p, convert))
+            Some(right_map(setting, time)? * by_angles(angles_of(p).map(convert)))
         }));
         all.push(curve(&format!("{name} in the answer"), move |setting, p, time| {
-            Some(by_angles(&(right_map(setting, time)? * p).normalize(), convert))
+            Some(by_angles(angles_of(&(right_map(setting, time)? * p)).map(convert)))
         }));
     }
     all.push(Mistake { has_length: true, ..linear("p that is not normalised", right_map) });
@@ -283,11 +284,14 @@ fn turned(aspect_ratio: f64, k: f64, phase: f64) -> Matrix3<f64> {
     Matrix3::new(cos, -k * sin, 0.0, aspect_ratio * sin, cos, 0.0, 0.0, 0.0, 1.0)
 }
 
-/// The direction whose angles φ and θ are those of `p`, converted.
-fn by_angles(p: &Vector3<f64>, convert: fn(f64) -> f64) -> Vector3<f64> {
-    let phi = convert(p.y.atan2(p.x));
-    let theta = convert(p.x.hypot(p.y).atan2(p.z));
-    Vector3::new(theta.sin() * phi.cos(), theta.sin() * phi.sin(), theta.cos())
+/// φ and θ of a direction.
+pub fn angles_of(p: &Vector3<f64>) -> [f64; 2] {
+    [p.y.atan2(p.x), p.x.hypot(p.y).atan2(p.z)]
+}
+
+/// The direction with these φ and θ.
+pub fn by_angles([phi, theta]: [f64; 2]) -> Vector3<f64> {
+    from_angles(phi, theta).into_inner()
 }
 
 /// The end of a mistake's name if the start is changed in place of the answer.

@@ -2,7 +2,7 @@
 //! order is refuted and no curve is wrong. What names a slip is its own steps, to rounding.
 
 use super::answer::Answer;
-use super::mistakes::Setting;
+use super::mistakes::{Setting, angles_of, by_angles};
 use super::nearness::{CURVE, Diagnosis, Near, largest_within, said};
 use super::tensors;
 use super::{Graded, Order};
@@ -188,7 +188,7 @@ fn directions(form: Form, a: &Matrix3<f64>, stages: &Stages, times: &Times, star
         Form::Linear => a * state,
         Form::Angles => {
             let ((sin, cos), (sin_phi, cos_phi)) = (state.y.sin_cos(), state.x.sin_cos());
-            let pull = a * direction(state);
+            let pull = a * by_angles([state.x, state.y]);
             let phi = Vector3::new(-sin_phi, cos_phi, 0.0);
             let theta = Vector3::new(cos * cos_phi, cos * sin_phi, -sin);
             Vector3::new(phi.dot(&pull) / sin, theta.dot(&pull), 0.0)
@@ -202,14 +202,9 @@ fn directions(form: Form, a: &Matrix3<f64>, stages: &Stages, times: &Times, star
     if form != Form::Angles {
         return times.states(stages, start, &rate, &ended);
     }
-    let start = Vector3::new(start.y.atan2(start.x), start.x.hypot(start.y).atan2(start.z), 0.0);
-    times.states(stages, start, &rate, &ended).into_iter().map(direction).collect()
-}
-
-/// p from φ and θ.
-fn direction(angles: Vector3<f64>) -> Vector3<f64> {
-    let ((sin, cos), (sin_phi, cos_phi)) = (angles.y.sin_cos(), angles.x.sin_cos());
-    Vector3::new(sin * cos_phi, sin * sin_phi, cos)
+    let [phi, theta] = angles_of(&start);
+    let found = times.states(stages, Vector3::new(phi, theta, 0.0), &rate, &ended);
+    found.iter().map(|state| by_angles([state.x, state.y])).collect()
 }
 
 /// The distance in rad of an answer about rods from these steps in one of the variables; none if it exceeds `most`.
