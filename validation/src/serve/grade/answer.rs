@@ -43,9 +43,19 @@ impl Answer {
 
     /// The largest difference of a value from the same value of `other`; NaN if one of them is not finite.
     pub fn largest_change(&self, other: &Self) -> f64 {
-        let pairs = self.rows.iter().flatten().zip(other.rows.iter().flatten());
-        worst(pairs.map(|(a, b)| (a - b).abs()))
+        apart(&self.rows, &other.rows)
     }
+}
+
+/// The largest difference of a value; NaN if one is not finite.
+pub(super) fn apart(rows: &[Vec<f64>], others: &[Vec<f64>]) -> f64 {
+    worst(rows.iter().zip(others).map(|(row, other)| crate::oracle::apart(row, other)))
+}
+
+/// The keys of a row with their values, in words.
+pub(super) fn keys_of(loaded: &LoadedProblem, row: usize) -> String {
+    let keys = loaded.problem.kind.keys().iter().zip(&loaded.certified.rows[row]);
+    keys.map(|(name, value)| format!("{name} = {value}")).collect::<Vec<_>>().join(", ")
 }
 
 /// Collects rows by their keys. They must come in the problem's order: a shuffled file suggests a mistake.
@@ -130,10 +140,8 @@ impl<'a> Collector<'a> {
     /// The index of the time `found`; `None` at the start if the problem does not ask for it.
     fn time(&self, found: f64) -> Result<Option<usize>, (usize, String)> {
         let times = &self.problem.problem.times_s;
-        let after = times.partition_point(|time| *time < found);
-        let near = [after.checked_sub(1), (after < times.len()).then_some(after)];
-        let nearest =
-            (near.into_iter().flatten()).min_by(|a, b| (times[*a] - found).abs().total_cmp(&(times[*b] - found).abs()));
+        let off = |at: usize| (times[at] - found).abs();
+        let nearest = (0..times.len()).min_by(|a, b| off(*a).total_cmp(&off(*b)));
         let gap = |at: usize| {
             let below = at.checked_sub(1).map_or(0.0, |before| times[before]);
             let above = times.get(at + 1).map_or(f64::INFINITY, |next| next - times[at]);
@@ -141,7 +149,7 @@ impl<'a> Collector<'a> {
         };
         match nearest {
             _ if self.steady && found > 0.0 => Ok(Some(0)),
-            Some(at) if (times[at] - found).abs() <= LABEL * gap(at) => Ok(Some(at)),
+            Some(at) if off(at) <= LABEL * gap(at) => Ok(Some(at)),
             _ if found == 0.0 => Ok(None),
             Some(at) => {
                 Err((0, format!("time_s = {found} is not asked for; the nearest that is asked for is {}", times[at])))
@@ -154,11 +162,8 @@ impl<'a> Collector<'a> {
         let lines = &self.lines[self.ahead..];
         let missing = lines.iter().filter(|line| line.is_none()).count();
         if let Some(first) = lines.iter().position(Option::is_none) {
-            let names = self.problem.problem.kind.keys();
-            let keys = &self.problem.certified.rows[first];
-            let key: Vec<_> = (names.iter().zip(keys)).map(|(name, key)| format!("{name} = {key}")).collect();
             let other = self.skipped.map_or(String::new(), |(line, why)| format!("; line {line}: {why}"));
-            let key = key.join(", ");
+            let key = keys_of(self.problem, first);
             let (line, what) = match lines[first..].iter().flatten().next() {
                 Some(next) => (*next, format!("the row of {key} is missing before this one")),
                 None => (last, format!("the file ends before {key}")),

@@ -8,7 +8,7 @@ use super::means;
 use super::mistakes::{self, AXES, Mistake, Setting};
 pub use super::nearness::Diagnosis;
 use super::nearness::{CURVE, NEARER, Near, VALUES, apart, largest_within, said};
-use super::tensors;
+use super::tensors::{self, columns::indices};
 use super::{Graded, Verdict};
 use crate::methods::integrators::apart_rad;
 use crate::serve::problems::{Kind, LoadedProblem, Metric};
@@ -247,11 +247,7 @@ fn rows(loaded: &LoadedProblem, mistake: &Mistake, part: f64) -> Option<Vec<Vec<
 
 /// Indices of the components of a_ij that a problem asks for; `None` if it asks for other columns.
 fn second_moments(columns: &[String]) -> Option<Vec<(usize, usize)>> {
-    let one = |name: &String| match name.as_bytes() {
-        [b'a', i @ b'1'..=b'3', j @ b'1'..=b'3'] => Some((usize::from(i - b'1'), usize::from(j - b'1'))),
-        _ => None,
-    };
-    columns.iter().skip(1).map(one).collect()
+    columns.iter().skip(1).map(|name| indices(name)?.try_into().ok().map(|[i, j]: [usize; 2]| (i, j))).collect()
 }
 
 /// The distance of rows from a mistake's curve: directions by angle, tensor components relative to the last entry of

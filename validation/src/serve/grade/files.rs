@@ -1,6 +1,6 @@
 //! Verdicts on answers in files.
 
-use super::answer::Answer;
+use super::answer::{Answer, keys_of};
 use super::compare::{compare, worst_entry};
 use super::digits;
 use super::lammps;
@@ -143,9 +143,6 @@ pub(super) fn judge(graded: &mut Graded, loaded: &LoadedProblem, answer: &Answer
 
 /// The place of the largest error, in words, and the component there.
 pub(super) fn place(loaded: &LoadedProblem, answer: &Answer, row: usize) -> String {
-    let keys = loaded.problem.kind.keys();
-    let values = &loaded.certified.rows[row];
-    let key: Vec<_> = keys.iter().zip(values).map(|(name, value)| format!("{name} = {value}")).collect();
     let unit = match loaded.problem.metric {
         Metric::Angle => "rad",
         Metric::Absolute => "absolute",
@@ -153,5 +150,5 @@ pub(super) fn place(loaded: &LoadedProblem, answer: &Answer, row: usize) -> Stri
         Metric::StandardErrors => "standard errors",
     };
     let entry = worst_entry(loaded, answer, row).map_or(String::new(), |entry| format!(": {entry}"));
-    format!("worst ({unit}) at {}{entry}", key.join(", "))
+    format!("worst ({unit}) at {}{entry}", keys_of(loaded, row))
 }

@@ -73,13 +73,15 @@ pub struct Orders {
     pub ended: bool,
 }
 
+/// The order with which an error falls from one number of steps to another.
+pub(super) fn between((coarse, error): (u64, f64), (fine, finer): (u64, f64)) -> f64 {
+    (error / finer).ln() / (fine as f64 / coarse as f64).ln()
+}
+
 /// The orders of `errors` (steps, error) from coarse to fine, for a problem with this tolerance of its own, and with
 /// the one that passes, which may be larger: below it a code of few digits may have reached its round-off.
 pub fn orders(errors: &[(u64, f64)], [tolerance, allowed]: [f64; 2]) -> Orders {
-    let order = |pair: &[(u64, f64)]| {
-        let order = (pair[0].1 / pair[1].1).ln() / (pair[1].0 as f64 / pair[0].0 as f64).ln();
-        order.is_finite().then_some(order)
-    };
+    let order = |pair: &[(u64, f64)]| Some(between(pair[0], pair[1])).filter(|order| order.is_finite());
     let all: Vec<_> = errors.windows(2).map(order).collect();
     let mut found = Orders { all, tolerance, ..Orders::default() };
     for (pair, order) in errors.windows(2).zip(&found.all) {
@@ -196,7 +198,7 @@ pub fn outlier(errors: &[(u64, f64)], tolerance: f64) -> Option<String> {
     let steps = |k: usize| errors[k].0 as f64;
     let size = |k: usize| if errors[k].1.is_finite() { errors[k].1 } else { f64::INFINITY };
     let law = |[a, b]: [usize; 2], at: usize| {
-        let order = ((size(a) / size(b)).ln() / (steps(b) / steps(a)).ln()).clamp(0.0, HIGHEST);
+        let order = between((errors[a].0, size(a)), (errors[b].0, size(b))).clamp(0.0, HIGHEST);
         size(a) * (steps(a) / steps(at)).powf(if order.is_nan() { 0.0 } else { order })
     };
     let foretold = |k: usize| match (k.checked_sub(2), k + 1 < errors.len()) {

@@ -1,13 +1,13 @@
 //! Diagnosis of answers about orientation tensors: another closure, a mistake in one part of the equation, another
 //! layout of the columns, or two of these.
 
-mod columns;
+pub(super) mod columns;
 mod distribution;
 mod estimate;
 pub(super) mod formulas;
 mod layouts;
 
-use super::answer::Answer;
+use super::answer::{Answer, apart};
 use super::nearness::{CURVE, Diagnosis, NEARER, Near, said};
 use crate::judge::statistics::worst;
 use crate::methods::tensors::fourth::PAIRS;
@@ -204,12 +204,6 @@ fn candidates(changes: &[Change], own: Option<usize>) -> Vec<Candidate<'static>>
         all.filter_map(of).collect::<Vec<_>>()
     };
     changes.iter().flat_map(with).collect()
-}
-
-/// The largest difference of a value; NaN if one is not finite.
-fn apart(rows: &[Vec<f64>], expected: &[Vec<f64>]) -> f64 {
-    let pairs = rows.iter().zip(expected).flat_map(|(row, expected)| row.iter().zip(expected));
-    worst(pairs.map(|(a, b)| (a - b).abs()))
 }
 
 /// False if the trace of a_ij is not 1 within what values that are off by `most` allow; true of other columns.

@@ -26,6 +26,7 @@ pub use tables::can_be_asked;
 
 use crate::serve::problems::{self, LoadedProblem};
 use rayon::prelude::*;
+use std::ops::Range;
 
 /// Problems of this build, as they would be exported, whose names `wanted` accepts.
 pub fn built_in(wanted: impl Fn(&str) -> bool + Sync) -> Vec<LoadedProblem> {
@@ -35,9 +36,15 @@ pub fn built_in(wanted: impl Fn(&str) -> bool + Sync) -> Vec<LoadedProblem> {
 
 /// The problem with only its last time, as in a request.
 pub fn last_time(problem: &LoadedProblem) -> LoadedProblem {
-    let mut last = problem.clone();
-    let rods = problem.start.len();
-    last.problem.times_s.drain(..problem.problem.times_s.len() - 1);
-    last.certified.rows.drain(..problem.certified.rows.len() - rods);
-    last
+    let times = problem.problem.times_s.len();
+    at_times(problem, times - 1..times)
+}
+
+/// The problem with only these of its times.
+fn at_times(problem: &LoadedProblem, times: Range<usize>) -> LoadedProblem {
+    let mut other = problem.clone();
+    let each = problem.certified.rows.len() / problem.problem.times_s.len().max(1);
+    other.certified.rows = problem.certified.rows[each * times.start..each * times.end].to_vec();
+    other.problem.times_s = problem.problem.times_s[times].to_vec();
+    other
 }

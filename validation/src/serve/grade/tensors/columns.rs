@@ -6,7 +6,7 @@ use crate::serve::problems::Problem;
 use nalgebra::Matrix3;
 
 /// The indices in the name of a component, from 0; `None` for another column.
-fn indices(name: &str) -> Option<Vec<usize>> {
+pub(in crate::serve::grade) fn indices(name: &str) -> Option<Vec<usize>> {
     name.strip_prefix('a')?.bytes().map(|digit| usize::from(digit).checked_sub(usize::from(b'1'))).collect()
 }
 

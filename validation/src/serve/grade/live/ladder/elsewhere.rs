@@ -7,6 +7,7 @@ use crate::judge::statistics::worst;
 use crate::methods::integrators::Setting;
 use crate::serve::grade::compare::distance;
 use crate::serve::grade::diagnosis::{Diagnosis, STEPS_OFF, diagnose};
+use crate::serve::grade::live::at_times;
 use crate::serve::grade::live::program::Asked;
 use crate::serve::grade::order::FAR;
 use crate::serve::problems::{Kind, LoadedProblem};
@@ -27,15 +28,9 @@ const CANDIDATES: u64 = 1000;
 pub(super) fn others(problem: &LoadedProblem) -> Vec<LoadedProblem> {
     let (times_s, rows, keys) = (&problem.problem.times_s, &problem.certified.rows, problem.problem.kind.keys().len());
     let (times, each) = (times_s.len(), rows.len() / times_s.len().max(1));
-    let at = |from: usize, to: usize| {
-        let mut other = problem.clone();
-        other.problem.times_s = times_s[from..to].to_vec();
-        other.certified.rows = rows[each * from..each * to].to_vec();
-        other
-    };
     if problem.problem.kind != Kind::Rods {
         let first = (1..times).take(1);
-        return first.chain((times > 2).then(|| times - 1)).map(|from| at(from, times)).collect();
+        return first.chain((times > 2).then(|| times - 1)).map(|from| at_times(problem, from..times)).collect();
     }
     let off = |time: &usize| {
         let of = |(row, last): (&Vec<f64>, &Vec<f64>)| distance(problem, &row[keys..], &last[keys..]);
@@ -45,7 +40,7 @@ pub(super) fn others(problem: &LoadedProblem) -> Vec<LoadedProblem> {
     let farthest = moving().max_by(|a, b| off(a).total_cmp(&off(b)));
     let mut chosen: Vec<_> = moving().next().into_iter().chain(farthest).collect();
     chosen.dedup();
-    chosen.into_iter().map(|time| at(0, time + 1)).collect()
+    chosen.into_iter().map(|time| at_times(problem, 0..time + 1)).collect()
 }
 
 /// The end of a program that has given `passed` and is asked the same again, if it has time to: a right one gives the

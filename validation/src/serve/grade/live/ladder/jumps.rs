@@ -5,11 +5,11 @@
 //! ends at each time. A method that is unstable with long steps, or misses the motion, becomes correct gradually,
 //! over many N. Answers that are wrong at N and right at N + 1 do not come from a method.
 
-use super::Rung;
 use super::climb::End;
+use super::{Rung, errors};
 use crate::methods::integrators::Setting;
 use crate::serve::grade::live::program::Asked;
-use crate::serve::grade::order::{FAR, HIGHEST};
+use crate::serve::grade::order::{FAR, HIGHEST, between};
 use std::f64::consts::FRAC_PI_2;
 
 /// An error in rad of a method that follows the motion closely: at larger errors a correct method may lose the motion
@@ -98,16 +98,10 @@ fn far(rung: &Rung, foretold: f64) -> bool {
 
 /// The median order between settings that follow the motion and are above the tolerance.
 pub(super) fn falling_order(rungs: &[Rung], tolerance: f64) -> f64 {
-    let follows = |rung: &Rung| rung.error() > tolerance && rung.error() < 0.1;
-    let order = |pair: &[Rung]| {
-        let steps = [&pair[0], &pair[1]].map(|rung| rung.setting.steps().ok());
-        let [Some(coarse), Some(fine)] = steps else {
-            return None;
-        };
-        let order = (pair[0].error() / pair[1].error()).ln() / (fine as f64 / coarse as f64).ln();
-        (pair.iter().all(follows) && order > 0.5).then_some(order)
-    };
-    let mut orders: Vec<_> = rungs.windows(2).filter_map(order).collect();
+    let follows = |(_, error): &(u64, f64)| *error > tolerance && *error < 0.1;
+    let order =
+        |pair: &[(u64, f64)]| Some(between(pair[0], pair[1])).filter(|order| pair.iter().all(follows) && *order > 0.5);
+    let mut orders: Vec<_> = errors(rungs).windows(2).filter_map(order).collect();
     orders.sort_by(f64::total_cmp);
     orders.get(orders.len() / 2).copied().unwrap_or(HIGHEST)
 }
