@@ -1,7 +1,10 @@
-//! Codes for single rods, right or wrong in one part, in plain arrays: they share nothing with the project's own.
+//! Codes for single rods, right or wrong in one part.
 
 use super::{Row, Rows, graded};
+use nalgebra::{Matrix3, Vector3};
 use rayon::prelude::*;
+use shearbed_validation::methods::integrators::rk4;
+use shearbed_validation::methods::textbook::{jeffery_rate, rk4_in_p};
 use shearbed_validation::serve::grade::Verdict;
 use shearbed_validation::serve::problems::{self, LoadedProblem};
 use std::array::from_fn;
@@ -102,54 +105,37 @@ const WRONG: &[Wrong] = &[
     ("length", "only the directions' length is wrong", |c| c.end = |p| p.map(|x| 1.01 * x)),
 ];
 
-fn dot(a: &V, b: &V) -> f64 {
-    (0..3).map(|i| a[i] * b[i]).sum()
+/// ṗ with another factor on θ̇, from p_3.
+fn tilted(a: &Matrix3<f64>, p: Vector3<f64>, tilt: fn(f64) -> f64) -> Vector3<f64> {
+    let (free, plane) = (jeffery_rate(a, p), p.x.hypot(p.y));
+    if plane == 0.0 {
+        return free;
+    }
+    let across = Vector3::new(p.x * p.z / plane, p.y * p.z / plane, -plane);
+    free + across * across.dot(&free) * (tilt(p.z) - 1.0)
 }
 
 impl Code {
-    fn rate(&self, l: &M, r: f64, p: &V) -> V {
-        let shape = (self.shape)(r);
-        let [turning, stretching] = self.parts;
-        let of =
-            |i: usize, j: usize| 0.5 * turning * (l[i][j] - l[j][i]) + 0.5 * stretching * shape * (l[i][j] + l[j][i]);
-        let pull: V = from_fn(|i| (0..3).map(|j| of(i, j) * p[j]).sum());
-        let along = dot(p, &pull);
-        let free: V = from_fn(|i| pull[i] - along * p[i]);
-        let plane = p[0].hypot(p[1]);
-        match self.tilt {
-            Some(tilt) if plane > 0.0 => {
-                let across = [p[0] * p[2] / plane, p[1] * p[2] / plane, -plane];
-                let more = (tilt(p[2]) - 1.0) * dot(&across, &free);
-                from_fn(|i| free[i] + more * across[i])
-            }
-            _ => free,
-        }
-    }
-
     /// The rows of an answer, by RK4 in steps of `strain`.
     fn answer(&self, loaded: &LoadedProblem, strain: f64) -> Rows {
-        let problem = &loaded.problem;
-        let (l, r) = ((self.gradient)(&problem.gradient_per_s), problem.aspect_ratio);
-        let size = l.iter().map(|row| dot(row, row)).sum::<f64>().sqrt();
-        let add = |p: &V, k: &V, h: f64| -> V { from_fn(|i| p[i] + h * k[i]) };
-        let (mut rods, mut now) = (loaded.start.iter().map(|p| (self.start)(*p)).collect::<Vec<V>>(), 0.0);
-        let mut rows = Vec::new();
+        let (problem, r) = (&loaded.problem, loaded.problem.aspect_ratio);
+        let l = Matrix3::from((self.gradient)(&problem.gradient_per_s)).transpose();
+        let [turning, stretching] = [0.5 * self.parts[0], 0.5 * self.parts[1] * (self.shape)(r)];
+        let a = turning * (l - l.transpose()) + stretching * (l + l.transpose());
+        let step = |p: Vector3<f64>, h: f64| match self.tilt {
+            None => rk4_in_p(&a, p, h, 1),
+            Some(tilt) => rk4(|p| tilted(&a, p, tilt), p, h),
+        };
+        let mut rods: Vec<_> = loaded.start.iter().map(|p| Vector3::from((self.start)(*p))).collect();
+        let (mut rows, mut now) = (Vec::new(), 0.0);
         for time in problem.times_s.iter().map(|time| time * (self.time)(r)) {
-            let steps = ((time - now) * size / strain).ceil();
+            let steps = ((time - now) * l.norm() / strain).ceil();
             let h = (time - now) / steps;
             for p in &mut rods {
-                for _ in 0..steps as usize {
-                    let k1 = self.rate(&l, r, p);
-                    let k2 = self.rate(&l, r, &add(p, &k1, h / 2.0));
-                    let k3 = self.rate(&l, r, &add(p, &k2, h / 2.0));
-                    let k4 = self.rate(&l, r, &add(p, &k3, h));
-                    *p = from_fn(|i| p[i] + h / 6.0 * (k1[i] + 2.0 * k2[i] + 2.0 * k3[i] + k4[i]));
-                    let length = dot(p, p).sqrt();
-                    *p = p.map(|x| x / length);
-                }
+                *p = (0..steps as usize).fold(*p, |p, _| step(p, h).normalize());
             }
             now = time;
-            rows.extend((0..rods.len()).map(|k| (self.end)(rods[(self.order)(k, rods.len())]).to_vec()));
+            rows.extend((0..rods.len()).map(|k| (self.end)(rods[(self.order)(k, rods.len())].into()).to_vec()));
         }
         rows
     }

@@ -3,42 +3,25 @@
 use crate::grading::{answers, problem, text, write};
 use shearbed::nalgebra::Matrix3;
 use shearbed_validation::methods::integrators::rk4;
+use shearbed_validation::methods::textbook::tensors::{Closure, Code, determinant, hybrid, hybrid_by, quadratic};
 use shearbed_validation::oracle::diffusion::{Motion, Start, at};
 
 type M = Matrix3<f64>;
-
-/// ȧ by Folgar & Tucker with 𝔸 = `share` aa + (1 − share) of what is random alone, in shear u₂ = G x₁, Λ = 1.
-fn rate(a: &M, c_i: f64, g: f64, closure: fn(&M) -> f64) -> M {
-    let l = M::new(0.0, 0.0, 0.0, g, 0.0, 0.0, 0.0, 0.0, 0.0);
-    let d = 0.5 * (l + l.transpose());
-    let (ad, share) = (a.dot(&d), closure(a));
-    let linear = (2.0 * (d * a + a * d) + ad * M::identity()) / 7.0 - 2.0 / 35.0 * d;
-    let contracted = share * ad * a + (1.0 - share) * linear;
-    // Λ = 1: Wa − aW + Da + aD = La + aLᵀ.
-    l * a + a * l.transpose() - 2.0 * contracted + 2.0 * c_i * g * (M::identity() - 3.0 * a)
-}
-
-fn quadratic(_: &M) -> f64 {
-    1.0
-}
-
-fn hybrid(a: &M) -> f64 {
-    1.0 - 27.0 * a.determinant()
-}
 
 /// A step of a rate.
 type Step = fn(&dyn Fn(M) -> M, M, f64) -> M;
 
 /// The rows of a problem by RK4 with steps of about 0.01 of strain.
-fn answer(name: &str, c_i: f64, closure: fn(&M) -> f64) -> Vec<Vec<String>> {
+fn answer(name: &str, c_i: f64, closure: Closure) -> Vec<Vec<String>> {
     answer_by(|rate, a, h| rk4(rate, a, h), 0.01, name, c_i, closure)
 }
 
 /// The rows of a problem with steps of about `strain`; late times end at a strain of 600.
-fn answer_by(step: Step, strain: f64, name: &str, c_i: f64, closure: fn(&M) -> f64) -> Vec<Vec<String>> {
+fn answer_by(step: Step, strain: f64, name: &str, c_i: f64, closure: Closure) -> Vec<Vec<String>> {
     const G: f64 = 0.5;
     let (_, mut rows) = problem(name);
-    let rate = |a: M| rate(&a, c_i, G, closure);
+    let (code, l) = (Code { shape: |_| 1.0, ..Code::right(closure) }, [[0.0; 3], [G, 0.0, 0.0], [0.0; 3]]);
+    let rate = |a: M| M::from(code.rate(&a.into(), &l, 1.0, [c_i, f64::NAN]));
     let (mut a, mut now) = (M::identity() / 3.0, 0.0);
     for row in rows.iter_mut().skip(1) {
         let time: f64 = row[0].parse::<f64>().unwrap().min(1200.0);
@@ -110,7 +93,10 @@ fn a_coefficient_that_is_off_is_named_and_half_a_closure_is_not() {
     let expected = "this is the curve of 2D:D for γ̇, with the hybrid closure or of half the C_I (C_I γ̇ (δ − 3a), \
         without the 2, or γ̇ = (D:D/2)^½), with the hybrid closure, to ";
     assert!(half.as_str().unwrap().starts_with(expected), "{half}");
-    assert_eq!(said(answer(name, 0.01, |a| 0.5 * hybrid(a))), serde_json::Value::Null);
+    assert_eq!(
+        said(answer(name, 0.01, |a, at| hybrid_by(a, at, 0.5 - 13.5 * determinant(a)))),
+        serde_json::Value::Null
+    );
 }
 
 #[test]

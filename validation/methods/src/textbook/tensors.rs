@@ -1,6 +1,7 @@
 //! A code for orientation tensors in plain arrays, each part of which can be made wrong. Its models
 //! share nothing with the project's own but coefficients.
 
+use crate::integrators::rk4;
 use crate::tensors::ibof::{COEFFICIENTS, POWERS};
 use crate::tensors::orthotropic::ORE;
 use nalgebra::Matrix3;
@@ -302,24 +303,15 @@ impl Code {
 
     /// a_ij at the times, by RK4 in steps of `strain`.
     pub fn path(&self, start: &M, l: &M, r: f64, c_i: f64, times_s: &[f64], strain: f64) -> Vec<M> {
-        let add = |a: &M, k: &M, h: f64| -> M { from_fn(|i| from_fn(|j| a[i][j] + h * k[i][j])) };
+        let rate = |a: Matrix3<f64>| Matrix3::from(self.rate(&a.into(), l, r, [c_i, f64::NAN]));
         let norm = double(l, l).sqrt();
-        let (mut a, mut now) = (*start, 0.0);
-        let to = |time: &f64| {
+        let (mut a, mut now) = (Matrix3::from(*start), 0.0);
+        // Columns are rows: all is symmetric.
+        let to = |time: &f64| -> M {
             let steps = ((time - now) * norm / strain).ceil();
             let h = (time - now) / steps;
-            for _ in 0..steps as usize {
-                let rate = |a: &M| self.rate(a, l, r, [c_i, f64::NAN]);
-                let k1 = rate(&a);
-                let k2 = rate(&add(&a, &k1, h / 2.0));
-                let k3 = rate(&add(&a, &k2, h / 2.0));
-                let k4 = rate(&add(&a, &k3, h));
-                for (k, part) in [(k1, 1.0), (k2, 2.0), (k3, 2.0), (k4, 1.0)] {
-                    a = add(&a, &k, h * part / 6.0);
-                }
-            }
-            now = *time;
-            a
+            (a, now) = ((0..steps as usize).fold(a, |a, _| rk4(rate, a, h)), *time);
+            a.into()
         };
         times_s.iter().map(to).collect()
     }

@@ -3,6 +3,7 @@
 use super::physical::inverse;
 use super::*;
 use crate::methods::integrators::apart_rad;
+use crate::methods::textbook::rk4_in_p;
 use crate::oracle::quadrature::spread;
 use std::f64::consts::TAU;
 
@@ -14,12 +15,7 @@ fn couette(aspect_ratio: f64) -> Setting {
 
 /// RK4 of ṗ = Ap − p (p·Ap) with many steps, independent of the maps above.
 fn integrated(a: &Matrix3<f64>, p: Vector3<f64>, time: f64) -> Vector3<f64> {
-    let steps = 20_000;
-    let rate = |p: Vector3<f64>| a * p - p * p.dot(&(a * p));
-    (0..steps).fold(p, |p, _| {
-        let h = time / f64::from(steps);
-        crate::methods::integrators::rk4(rate, p, h)
-    })
+    rk4_in_p(a, p, time / 20_000.0, 20_000)
 }
 
 #[test]
