@@ -2,7 +2,7 @@
 
 use super::pipe::{Pipe, Trouble};
 use super::protocol::{self, Protocol, Rows};
-pub use super::request::Question;
+pub use super::request::{Asked, Question};
 use super::request::{Request, Turned};
 use crate::methods::integrators::{Failure, Integrator, RodProblem, Setting, Theory};
 use crate::serve::grade::Axes;
@@ -52,20 +52,6 @@ struct State {
     log: Vec<[String; 2]>,
     /// The time at which the current study must end.
     deadline: Option<Instant>,
-}
-
-/// The reason why there is no answer.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum Asked {
-    /// The program's own error message.
-    #[error("the program says: {0}")]
-    Says(String),
-    /// The program broke the protocol, now or too often to be asked again.
-    #[error("{0}")]
-    Breach(String),
-    /// No answer came in time, or earlier answers were late too often.
-    #[error("{0}")]
-    Late(String),
 }
 
 impl Program {
@@ -132,12 +118,11 @@ impl Program {
         self.asked(write, |line, id| protocol::table(line, id, size))
     }
 
-    /// Asks unless the program is given up or out of time; `write` gives the request of an id, and `read` its answer or
-    /// the program's own error.
+    /// Asks unless the program is given up or out of time; `write` gives the request of an id, and `read` its answer.
     fn asked<T>(
         &self,
         write: impl FnOnce(u64) -> Result<String, String>,
-        read: impl FnOnce(&str, u64) -> Result<Result<T, String>, String>,
+        read: impl FnOnce(&str, u64) -> Result<T, Asked>,
     ) -> Result<(T, Duration), Asked> {
         let mut state = self.state();
         if let Some(reason) = &state.given_up {
@@ -150,12 +135,14 @@ impl Program {
         let asked = Instant::now();
         state.asked = next_id(state.asked);
         let id = state.asked;
-        let answer = write(id).map_err(wrong).and_then(|request| {
-            let (line, text) = state.exchange(self, request)?;
-            read(&text, id).map_err(|reason| wrong(format!("line {line} of standard output: {reason}")))
-        });
-        let answer = answer.map_err(|breach| state.breached(breach))?;
-        answer.map(|answer| (answer, asked.elapsed())).map_err(Asked::Says)
+        let answer = write(id).map_err(wrong).and_then(|request| state.exchange(self, request));
+        let (line, text) = answer.map_err(|breach| state.breached(breach))?;
+        match read(&text, id) {
+            Err(Asked::Breach(reason)) => {
+                Err(state.breached(wrong(format!("line {line} of standard output: {reason}"))))
+            }
+            answer => answer.map(|answer| (answer, asked.elapsed())),
+        }
     }
 
     /// Runs a study that may ask for as long as one answer may take, and then for the current answer. `None` if that

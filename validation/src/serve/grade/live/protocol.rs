@@ -1,7 +1,7 @@
 //! Requests and answers as lines of JSON (`docs/src/user/grading.md`), and the form of lines that a program uses.
 
 use super::pipe::excerpt;
-use super::request::{Answer, Request, Turned};
+use super::request::{Asked, Request, Turned};
 use super::text;
 use crate::files::text::start;
 use serde::Deserialize;
@@ -46,7 +46,7 @@ impl Protocol {
     }
 
     /// Parses the answer to request `id` about `rods` rods. `Err` says what is wrong with the line.
-    pub(super) fn read(self, line: &str, id: u64, rods: usize) -> Result<Answer, String> {
+    pub(super) fn read(self, line: &str, id: u64, rods: usize) -> Result<Turned, Asked> {
         match self {
             Self::Json => read(line, id, rods),
             Self::Text => text::read(line, id, rods),
@@ -70,11 +70,8 @@ impl Protocol {
 }
 
 /// Parses the answer to request `id` about `rods` rods. `Err` says what is wrong with the line.
-pub fn read(line: &str, id: u64, rods: usize) -> Result<Answer, String> {
-    let (found, evaluations) = match content(line, id, "p", |answer| Some((answer.p?, answer.evaluations)))? {
-        Ok(found) => found,
-        Err(reason) => return Ok(Err(reason)),
-    };
+pub fn read(line: &str, id: u64, rods: usize) -> Result<Turned, Asked> {
+    let (found, evaluations) = content(line, id, "p", |answer| Some((answer.p?, answer.evaluations)))?;
     let evaluations =
         match evaluations.filter(|found| !found.is_null()) {
             None => None,
@@ -84,11 +81,11 @@ pub fn read(line: &str, id: u64, rods: usize) -> Result<Answer, String> {
         };
     match found {
         Value::Array(found) if found.len() == rods => {
-            let all: Result<_, _> = found.iter().enumerate().map(|(k, p)| direction(k, p)).collect();
-            all.map(|p| Ok(Turned { p, evaluations }))
+            let p: Result<_, _> = found.iter().enumerate().map(|(k, p)| direction(k, p)).collect();
+            Ok(Turned { p: p?, evaluations })
         }
-        Value::Array(found) => Err(format!("{} rods where {rods} were asked", found.len())),
-        other => Err(format!("\"p\" is {}; a list of directions is allowed", excerpt(&other.to_string()))),
+        Value::Array(found) => Err(format!("{} rods where {rods} were asked", found.len()).into()),
+        other => Err(format!("\"p\" is {}; a list of directions is allowed", excerpt(&other.to_string())).into()),
     }
 }
 
@@ -97,13 +94,10 @@ pub type Rows = Vec<Vec<f64>>;
 
 /// Parses the table of so many rows and columns in the answer to request `id`, with that of the standard errors if it
 /// has one, or the program's own error. `Err` says what is wrong with the line.
-pub fn table(line: &str, id: u64, size: [usize; 2]) -> Result<Result<(Rows, Option<Rows>), String>, String> {
-    let (found, errors) = match content(line, id, "rows", |answer| Some((answer.rows?, answer.rows_se)))? {
-        Ok(found) => found,
-        Err(reason) => return Ok(Err(reason)),
-    };
+pub fn table(line: &str, id: u64, size: [usize; 2]) -> Result<(Rows, Option<Rows>), Asked> {
+    let (found, errors) = content(line, id, "rows", |answer| Some((answer.rows?, answer.rows_se)))?;
     let errors = errors.filter(|errors| !errors.is_null()).map(|errors| rows("rows_se", &errors, size)).transpose()?;
-    Ok(Ok((rows("rows", &found, size)?, errors)))
+    Ok((rows("rows", &found, size)?, errors))
 }
 
 /// The numbers of the key `name`.
@@ -121,20 +115,21 @@ fn rows(name: &str, found: &Value, [rows, columns]: [usize; 2]) -> Result<Rows, 
 }
 
 /// The value of an answer's key `name`, or the program's own error.
-fn content<T>(line: &str, id: u64, name: &str, of: impl Fn(Line) -> Option<T>) -> Result<Result<T, String>, String> {
+fn content<T>(line: &str, id: u64, name: &str, of: impl Fn(Line) -> Option<T>) -> Result<T, Asked> {
     let answer = parse(line)?;
     let found = answer.id.as_ref().ok_or_else(|| format!("it has no \"id\": {}", excerpt(line)))?;
     if found.as_u64() != Some(id) {
-        return Err(format!("it answers id {} where {id} was asked", start(&found.to_string(), 60)));
+        return Err(format!("it answers id {} where {id} was asked", start(&found.to_string(), 60)).into());
     }
     let error = answer.error.clone();
-    match (error, of(answer)) {
-        (Some(Value::String(_)), Some(_)) => Err(format!("both \"{name}\" and \"error\": {}", excerpt(line))),
-        (Some(Value::String(reason)), None) => Ok(Err(reason)),
-        (Some(Value::Null) | None, Some(found)) => Ok(Ok(found)),
-        (Some(Value::Null) | None, None) => Err(format!("neither \"{name}\" nor \"error\": {}", excerpt(line))),
-        (Some(other), _) => Err(format!("\"error\" is {}; a text is allowed", excerpt(&other.to_string()))),
-    }
+    let wrong = match (error, of(answer)) {
+        (Some(Value::Null) | None, Some(found)) => return Ok(found),
+        (Some(Value::String(reason)), None) => return Err(Asked::Says(reason)),
+        (Some(Value::String(_)), Some(_)) => format!("both \"{name}\" and \"error\": {}", excerpt(line)),
+        (Some(Value::Null) | None, None) => format!("neither \"{name}\" nor \"error\": {}", excerpt(line)),
+        (Some(other), _) => format!("\"error\" is {}; a text is allowed", excerpt(&other.to_string())),
+    };
+    Err(wrong.into())
 }
 
 /// A number, NaN where it is null.
@@ -196,12 +191,12 @@ mod tests {
     fn answers_are_read() {
         for (more, evaluations) in [(r#", "more": {}"#, None), (r#", "evaluations": 40"#, Some(40))] {
             let found = read(&format!(r#"{{"id": 3, "p": [[1, 0.0, -2.5]]{more}}}"#), 3, 1);
-            assert_eq!(found, Ok(Ok(Turned { p: vec![[1.0, 0.0, -2.5]], evaluations })));
+            assert_eq!(found, Ok(Turned { p: vec![[1.0, 0.0, -2.5]], evaluations }));
         }
-        assert_eq!(read(r#"{"id": 3, "error": "too stiff"}"#, 3, 1), Ok(Err("too stiff".into())));
+        assert_eq!(read(r#"{"id": 3, "error": "too stiff"}"#, 3, 1), Err(Asked::Says("too stiff".into())));
         for line in [r#"{"id":3,"p":[[NaN,0,1]]}"#, r#"{"id":3,"p":[[-Infinity,0,1]]}"#, r#"{"id":3,"p":[[null,0,1]]}"#]
         {
-            let p = read(line, 3, 1).unwrap().unwrap().p;
+            let p = read(line, 3, 1).unwrap().p;
             assert!(p[0][0].is_nan() && p[0][2] == 1.0);
         }
     }
@@ -209,17 +204,19 @@ mod tests {
     #[test]
     fn tables_are_read_and_others_refused() {
         let line = r#"{"id": 3, "rows": [[1, null], [0.5, -2]]}"#;
-        let (found, errors) = table(line, 3, [2, 2]).unwrap().unwrap();
+        let (found, errors) = table(line, 3, [2, 2]).unwrap();
         assert!(found[0][1].is_nan() && found[1] == [0.5, -2.0] && errors.is_none());
         let with_errors = r#"{"id": 3, "rows": [[1, 2]], "rows_se": [[0.1, 0.2]]}"#;
-        assert_eq!(table(with_errors, 3, [1, 2]), Ok(Ok((vec![vec![1.0, 2.0]], Some(vec![vec![0.1, 0.2]])))));
+        assert_eq!(table(with_errors, 3, [1, 2]), Ok((vec![vec![1.0, 2.0]], Some(vec![vec![0.1, 0.2]]))));
         let short = r#"{"id": 3, "rows": [[1, 2]], "rows_se": [[0.1]]}"#;
-        assert!(table(short, 3, [1, 2]).unwrap_err().contains("row 0 of \"rows_se\" is `[0.1]`; 2 numbers"));
-        assert_eq!(table(r#"{"id": 3, "error": "no"}"#, 3, [2, 2]), Ok(Err("no".into())));
+        assert!(
+            table(short, 3, [1, 2]).unwrap_err().to_string().contains("row 0 of \"rows_se\" is `[0.1]`; 2 numbers")
+        );
+        assert_eq!(table(r#"{"id": 3, "error": "no"}"#, 3, [2, 2]), Err(Asked::Says("no".into())));
         for (size, reason) in [([3, 2], "a list of 3 rows"), ([2, 3], "row 0 of \"rows\" is `[1,null]`; 3 numbers")] {
-            assert!(table(line, 3, size).unwrap_err().contains(reason), "{reason}");
+            assert!(table(line, 3, size).unwrap_err().to_string().contains(reason), "{reason}");
         }
-        assert!(table(r#"{"id": 3, "p": [[1,0,0]]}"#, 3, [1, 3]).unwrap_err().contains("neither \"rows\""));
+        assert!(table(r#"{"id": 3, "p": [[1,0,0]]}"#, 3, [1, 3]).unwrap_err().to_string().contains("neither \"rows\""));
     }
 
     #[test]
@@ -244,7 +241,7 @@ mod tests {
             (r#"{"id": 3, "p": [[0,0,1]], "p": [[1,0,0]]}"#, "duplicate field `p`"),
             (r#"{"id": 3, "error": "x", "p": [[1,0,0]]}"#, "both"),
         ] {
-            let found = read(line, 3, 1).unwrap_err();
+            let found = read(line, 3, 1).unwrap_err().to_string();
             assert!(found.contains(reason), "{line}: {found}");
         }
     }

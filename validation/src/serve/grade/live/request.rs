@@ -59,5 +59,23 @@ pub struct Turned {
     pub evaluations: Option<u64>,
 }
 
-/// The answer, or the program's own error.
-pub type Answer = Result<Turned, String>;
+/// The reason why there is no answer.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum Asked {
+    /// The program's own error message.
+    #[error("the program says: {0}")]
+    Says(String),
+    /// The program broke the protocol, now or too often to be asked again.
+    #[error("{0}")]
+    Breach(String),
+    /// No answer came in time, or earlier answers were late too often.
+    #[error("{0}")]
+    Late(String),
+}
+
+/// What is wrong with a line.
+impl From<String> for Asked {
+    fn from(what: String) -> Self {
+        Self::Breach(what)
+    }
+}

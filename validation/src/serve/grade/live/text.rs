@@ -2,7 +2,7 @@
 //! (`docs/src/user/grading.md`).
 
 use super::pipe::excerpt;
-use super::request::{Answer, Request, Turned};
+use super::request::{Asked, Request, Turned};
 use crate::files::csv;
 use shearbed::plan::counted;
 
@@ -25,26 +25,26 @@ pub fn write(Request { id, question, steps, tolerance }: &Request) -> Result<Str
 
 /// Parses the answer to request `id` about `rods` rods: `id` and three numbers for each rod, or `id error REASON`.
 /// `Err` says what is wrong with the line.
-pub fn read(line: &str, id: u64, rods: usize) -> Result<Answer, String> {
+pub fn read(line: &str, id: u64, rods: usize) -> Result<Turned, Asked> {
     let mut words = line.split_ascii_whitespace();
-    let first = words.next().ok_or("it is empty")?;
+    let first = words.next().ok_or_else(|| "it is empty".to_owned())?;
     match first.parse::<u64>() {
         Ok(found) if found == id => {}
-        Ok(found) => return Err(format!("it answers id {found} where {id} was asked")),
-        Err(_) => return Err(format!("it does not begin with the request's id: {}", excerpt(line))),
+        Ok(found) => return Err(format!("it answers id {found} where {id} was asked").into()),
+        Err(_) => return Err(format!("it does not begin with the request's id: {}", excerpt(line)).into()),
     }
     let rest: Vec<_> = words.collect();
     if rest.first() == Some(&"error") {
-        return Ok(Err(rest[1..].join(" ")));
+        return Err(Asked::Says(rest[1..].join(" ")));
     }
     if rest.len() != 3 * rods {
         let found = rest.len();
         let [due, rods] = [(3 * rods, "number"), (rods, "rod")].map(|(count, what)| counted(count as u64, what));
-        return Err(format!("{AFTER_ID} there are {found} where {due} were asked for {rods}"));
+        return Err(format!("{AFTER_ID} there are {found} where {due} were asked for {rods}").into());
     }
     let numbers: Result<Vec<_>, _> = rest.iter().map(|word| number(word)).collect();
     let numbers = numbers.map_err(|why| format!("{AFTER_ID}: {why}"))?;
-    Ok(Ok(Turned { p: numbers.chunks(3).map(|p| [p[0], p[1], p[2]]).collect(), evaluations: None }))
+    Ok(Turned { p: numbers.chunks(3).map(|p| [p[0], p[1], p[2]]).collect(), evaluations: None })
 }
 
 /// Parses a number as printed by C, C++, Fortran, Julia, Octave or Python. Infinities become NaN.
@@ -81,15 +81,15 @@ mod tests {
 
     #[test]
     fn answers_are_read_and_whatever_else_is_refused_with_its_reason() {
-        let p = |x: f64| Ok(Ok(Turned { p: vec![[1.0, x, -2.5]], evaluations: None }));
+        let p = |x: f64| Ok(Turned { p: vec![[1.0, x, -2.5]], evaluations: None });
         for line in ["3 1 0.125 -2.5", " 3  1.0\t1.25E-01 -2.5 ", "3 1.D0 0.125d0 -25.0D-1\r"] {
             assert_eq!(read(line, 3, 1), p(0.125), "{line}");
         }
         for word in ["NaN", "nan", "-inf", "Infinity", "-Infinity"] {
-            let p = read(&format!("3 1 {word} -2.5"), 3, 1).unwrap().unwrap().p;
+            let p = read(&format!("3 1 {word} -2.5"), 3, 1).unwrap().p;
             assert!(p[0][1].is_nan() && p[0][2] == -2.5);
         }
-        assert_eq!(read("3 error too stiff", 3, 1), Ok(Err("too stiff".into())));
+        assert_eq!(read("3 error too stiff", 3, 1), Err(Asked::Says("too stiff".into())));
         for (line, reason) in [
             ("", "empty"),
             ("step 1 of 10", "does not begin with the request's id"),
@@ -101,7 +101,7 @@ mod tests {
             ("3 1 0 1e400", "too large"),
             ("3 1 0 ********", "not a number"),
         ] {
-            let found = read(line, 3, 1).unwrap_err();
+            let found = read(line, 3, 1).unwrap_err().to_string();
             assert!(found.contains(reason), "{line}: {found}");
         }
     }
