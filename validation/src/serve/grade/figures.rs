@@ -76,13 +76,9 @@ fn of_tensors(graded: &[Graded]) -> Option<Figure> {
 }
 
 fn of_rods(problems: &[LoadedProblem], graded: &[Graded]) -> Option<Figure> {
-    let with_steps = |name: &str| {
-        let of = |graded: &&Graded| graded.name == name && drawn(graded).len() >= 2;
-        graded.iter().find(of)
-    };
     let candidates = problems.iter().filter_map(|loaded| {
-        let graded = with_steps(&loaded.problem.name)?;
-        Some((loaded, graded, couette_per_s(loaded)?))
+        let of = |graded: &&Graded| graded.name == loaded.problem.name && drawn(graded).len() >= 2;
+        Some((loaded, graded.iter().find(of)?, couette_per_s(loaded)?))
     });
     // Prefers the paper's aspect ratio.
     let (loaded, graded, rate) = candidates.min_by_key(|(loaded, ..)| loaded.problem.name != "mid-flip-11.6")?;

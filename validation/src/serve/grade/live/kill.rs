@@ -7,6 +7,8 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
+pub(super) use family::processor_time;
+
 /// The longest that killed processes are waited for.
 const PATIENCE: Duration = Duration::from_secs(3);
 
@@ -46,11 +48,6 @@ pub(super) fn end(child: &mut Child) -> (Option<ExitStatus>, Vec<String>) {
         left.push(format!("process {} cannot be stopped", child.id()));
     }
     (status, left)
-}
-
-/// The processor time that a program and its descendants have used, if the system says it.
-pub(super) fn processor_time(id: u32) -> Option<Duration> {
-    family::processor_time(id)
 }
 
 /// Kills every program that still runs with its descendants, before this program ends.
@@ -128,7 +125,8 @@ mod family {
         Some(Process { parent, zombie: matches!(state, "Z" | "X"), ticks })
     }
 
-    pub(super) fn processor_time(id: u32) -> Option<Duration> {
+    /// The processor time that a program and its descendants have used.
+    pub(in super::super) fn processor_time(id: u32) -> Option<Duration> {
         let all = all();
         let family = with_descendants(BTreeSet::from([id]), &all);
         let ticks: u64 = family.iter().filter_map(|id| Some(all.get(id)?.ticks)).sum();
@@ -208,7 +206,7 @@ mod family {
 
     pub(super) fn adopt() {}
 
-    pub(super) fn processor_time(_: u32) -> Option<std::time::Duration> {
+    pub(in super::super) fn processor_time(_: u32) -> Option<std::time::Duration> {
         None
     }
 

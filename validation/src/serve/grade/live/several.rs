@@ -141,14 +141,11 @@ impl Several {
             Curve::of(label(&curve.integrator), curve.points.iter().filter_map(place), |place| place)
         };
         let mut curves: Vec<_> = self.bench.curves.iter().map(drawn).filter(|curve| !curve.x.is_empty()).collect();
-        let span = |curves: &[Curve]| {
-            let all = || curves.iter().flat_map(|curve| curve.x.iter().copied());
-            [all().fold(f64::INFINITY, f64::min), all().fold(0.0, crate::oracle::larger)]
-        };
-        let ends = span(&curves);
         if curves.is_empty() {
             return None;
         }
+        let all = || curves.iter().flat_map(|curve| curve.x.iter().copied());
+        let ends = [all().fold(f64::INFINITY, f64::min), all().fold(0.0, crate::oracle::larger)];
         if x_name.ends_with("tolerance") {
             curves.push(Curve::of("error = tolerance, theory", ends, |x| (x, x)));
         }

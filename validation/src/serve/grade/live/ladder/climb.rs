@@ -160,22 +160,15 @@ pub(super) fn climb(
             return (rungs, End::NotReached(words));
         }
     }
-    if let (true, Some(words)) = (rungs.is_empty(), &says) {
-        return (rungs, End::Refused(words.clone()));
-    }
-    // No finer setting can confirm the last one.
-    if within(&rungs, tolerance) {
-        (rungs, End::Reached)
-    } else {
-        let end = match says {
-            Some(words) => End::NoFiner(words),
-            None if fall_with_tolerances(&rungs).is_some() => {
-                End::NotReached("no smaller tolerance is asked for".into())
-            }
-            None => End::Wrong("there is no finer setting".to_owned()),
-        };
-        (rungs, end)
-    }
+    let end = match says {
+        Some(words) if rungs.is_empty() => End::Refused(words),
+        // No finer setting can confirm the last one.
+        _ if within(&rungs, tolerance) => End::Reached,
+        Some(words) => End::NoFiner(words),
+        None if fall_with_tolerances(&rungs).is_some() => End::NotReached("no smaller tolerance is asked for".into()),
+        None => End::Wrong("there is no finer setting".to_owned()),
+    };
+    (rungs, end)
 }
 
 /// True if there is time for one more setting. A setting that would confirm an answer is allowed if it can finish
