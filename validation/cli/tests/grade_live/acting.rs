@@ -66,6 +66,7 @@ pub fn program(name: &str, pids: Option<&str>) -> ExitCode {
                 answer["p"] = before;
             }
         }
+        let mut text = answer.to_string();
         match (name, k) {
             ("is_right_on_one_line_of_stderr_each", _) => eprintln!("working"),
             ("floods_stderr", 2) => (0..20_000).for_each(|_| eprintln!("{}", "x".repeat(1000))),
@@ -82,24 +83,17 @@ pub fn program(name: &str, pids: Option<&str>) -> ExitCode {
             }
             ("ends_after_a_right_answer", 2) => return ExitCode::from(4),
             ("aborts", 2) => std::process::abort(),
-            ("prints_junk", 2) => writeln!(out, "step 1 of 10").unwrap(),
+            ("prints_junk", 2) => text = format!("step 1 of 10\n{text}"),
             ("floods_stdout_with_lines", 1) => while writeln!(out, "flood").is_ok() {},
             ("floods_stdout_without_lines", 2) => while write!(out, "flood").is_ok() {},
-            ("answers_twice", 0) => writeln!(out, "{answer}").unwrap(),
+            ("answers_twice", 0) => text = format!("{text}\n{text}"),
             ("answers_the_next_in_advance", 2) => {
                 // Both lines at once: which of them is read when is the system's to say.
                 let mut next = answer.clone();
                 next["id"] = json!(request["id"].as_u64().unwrap() + 1);
-                write!(out, "{answer}\n{next}\n").unwrap();
-                out.flush().unwrap();
-                continue;
+                text = format!("{text}\n{next}");
             }
-            ("has_an_id_twice", 2) => {
-                let line = answer.to_string().replacen('{', "{\"id\":0,", 1);
-                writeln!(out, "{line}").unwrap();
-                out.flush().unwrap();
-                continue;
-            }
+            ("has_an_id_twice", 2) => text = text.replacen('{', "{\"id\":0,", 1),
             #[cfg(unix)]
             ("closes_its_output", 2) => {
                 // Another program in its place, without the pipe.
@@ -109,7 +103,7 @@ pub fn program(name: &str, pids: Option<&str>) -> ExitCode {
             }
             _ => {}
         }
-        if writeln!(out, "{answer}").and_then(|()| out.flush()).is_err() {
+        if out.write_all((text + "\n").as_bytes()).and_then(|()| out.flush()).is_err() {
             return ExitCode::FAILURE;
         }
     }
