@@ -55,11 +55,8 @@ fn problems_of(closure: &str) -> Vec<LoadedProblem> {
         "quadratic" => &["closed-ft-quadratic-mixed"],
         _ => &[],
     };
-    let names = match closure {
-        own if FORMULAS_ALONE.contains(&own) => names[..2].to_vec(),
-        _ => names.to_vec(),
-    };
-    let all = names.iter().map(String::as_str).chain(further.iter().copied());
+    let own = if FORMULAS_ALONE.contains(&closure) { &names[..2] } else { &names[..] };
+    let all = own.iter().map(String::as_str).chain(further.iter().copied());
     all.map(|name| problems::named(name).expect("a problem").loaded(name.into())).collect()
 }
 

@@ -189,11 +189,6 @@ impl Graded {
         (self.diagnosis, self.suspects, self.answer) = (found.said, found.suspects, Some(answer.clone()));
     }
 
-    /// True if the diagnosis names this mistake.
-    fn is_called(&self, name: &str) -> bool {
-        self.diagnosis.as_ref().is_some_and(|said| said.contains(name))
-    }
-
     /// A message about the order if it is refuted.
     fn order_off(&self, claimed: Option<f64>) -> Option<String> {
         let lower = self.order_found == Some(Order::Lower);

@@ -10,10 +10,8 @@
 
 use super::{Graded, Verdict};
 use crate::serve::problems::{Kind, LoadedProblem};
+use crate::studies::work_precision::order::ORDER_TOLERANCE;
 use serde::Serialize;
-
-/// The largest difference between an observed order and the claimed one, and between two orders that agree.
-pub const ORDER_TOLERANCE: f64 = crate::studies::work_precision::order::ORDER_TOLERANCE;
 
 /// A whole order, less what may be missing from it before it settles.
 const WHOLE: f64 = 0.8;

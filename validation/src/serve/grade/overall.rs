@@ -6,6 +6,7 @@ use super::estimate::{self, Wrong};
 use super::nearness::{CURVE, VALUES, shared};
 use super::{Graded, Verdict, tensors};
 use crate::serve::problems::{Kind, LoadedProblem};
+use std::collections::BTreeSet;
 
 /// The largest number of names in a finding.
 const MOST_NAMES: usize = 3;
@@ -16,8 +17,10 @@ pub fn overall(problems: &[LoadedProblem], graded: &mut [Graded]) -> Vec<String>
     let found = findings(problems, graded);
     for Finding { names, of, instead, .. } in &found {
         for graded in graded.iter_mut().filter(|graded| of.contains(&graded.name)) {
-            if names.iter().all(|name| !graded.is_called(name)) {
-                graded.diagnosis = graded.diagnosis.as_ref().map(|_| instead.clone());
+            if let Some(said) = &mut graded.diagnosis
+                && !names.iter().any(|name| said.contains(name))
+            {
+                said.clone_from(instead);
             }
             // Two changes are more than the one over all.
             let has_two = |said: &String| [", with ", ", in "].iter().any(|second| said.contains(second));
@@ -81,18 +84,16 @@ fn passing<'a>(problems: &'a [LoadedProblem], graded: &[Graded]) -> Vec<&'a Load
 /// rest.
 fn by_name(problems: &[LoadedProblem], graded: &[Graded], wrong: &[&Graded]) -> Vec<Finding> {
     let passing = passing(problems, graded);
-    let mut all: Vec<&String> = wrong.iter().flat_map(|graded| &graded.suspects).collect();
-    all.sort();
-    all.dedup();
+    let mut all: BTreeSet<&String> = wrong.iter().flat_map(|graded| &graded.suspects).collect();
     // A mistake in one of a program's formulas need not be in the others.
     let formulas = wrong.iter().all(|graded| graded.kind == Kind::Formula);
     let explains_all = |name: &String| formulas && wrong.iter().all(|graded| graded.suspects.contains(name));
     all.retain(|name| explains_all(name) || !passing.iter().any(|loaded| shows(loaded, name)));
-    let mut left: Vec<&Graded> = wrong.to_vec();
+    let mut left = wrong.to_vec();
     let mut said = Vec::new();
     loop {
         let explained = |name: &String| -> Vec<&str> {
-            let of = left.iter().filter(|graded| graded.suspects.contains(name));
+            let of = left.iter().copied().filter(|graded| graded.suspects.contains(name));
             of.map(|graded| graded.name.as_str()).collect()
         };
         let Some(most) = all.iter().map(|name| explained(name).len()).max().filter(|most| *most > 1) else {
@@ -101,7 +102,7 @@ fn by_name(problems: &[LoadedProblem], graded: &[Graded], wrong: &[&Graded]) -> 
         let best: Vec<_> = all.iter().copied().filter(|name| explained(name).len() == most).collect();
         let of = explained(best[0]);
         // Where a curve has come to rest, many share its end: some problem must tell the mistake by itself.
-        let theirs: Vec<_> = left.iter().filter(|graded| of.contains(&graded.name.as_str())).collect();
+        let theirs: Vec<_> = left.iter().copied().filter(|graded| of.contains(&graded.name.as_str())).collect();
         let alone = theirs.iter().any(|graded| graded.diagnosis.is_some());
         // If others explain as many problems, but not the same ones, no mistake is certain.
         let alike = best.iter().all(|name| explained(name) == of);
@@ -124,8 +125,7 @@ fn by_name(problems: &[LoadedProblem], graded: &[Graded], wrong: &[&Graded]) -> 
                 names,
             });
         }
-        let done: Vec<String> = explained(best[0]).iter().map(|name| (*name).to_owned()).collect();
-        left.retain(|graded| !done.contains(&graded.name));
+        left.retain(|graded| !of.contains(&graded.name.as_str()));
     }
 }
 

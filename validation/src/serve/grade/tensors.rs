@@ -328,7 +328,7 @@ fn from_isotropic(problem: &Problem, answer: &Answer, known: &Known, most: f64) 
 /// How far the certified answer is from that of a code with this mistake, or in this layout; `None` if the mistake is
 /// unknown here or makes no difference.
 pub(super) fn off(loaded: &LoadedProblem, name: &str) -> Option<f64> {
-    let (problem, rows) = (&loaded.problem, certified(loaded).1);
+    let (problem, rows) = (&loaded.problem, Answer::certified(loaded).rows);
     let known = known(problem)?;
     let change = known.changes.iter().find(|change| change.names.iter().any(|(own, _)| *own == name));
     let of_change = |change: &Change| {
@@ -352,8 +352,7 @@ pub(super) fn advice(name: &str) -> &'static str {
 
 /// The certified values, as a curve without a name.
 fn certified(loaded: &LoadedProblem) -> (Near, Vec<Vec<f64>>) {
-    let none = Near { distance: 0.0, name: String::new(), suspects: Vec::new(), advice: "", changes: 0 };
-    (none, Answer::certified(loaded).rows)
+    (Near { changes: 0, ..Near::new(0.0, "") }, Answer::certified(loaded).rows)
 }
 
 /// The curves of every closure but the problem's own.

@@ -31,8 +31,7 @@ pub(super) fn of_wrong_distribution(problem: &Problem, answer: &Answer, most: f6
     }
     let of = |(rods, oscillation, name): &(Motion, Option<[f64; 2]>, &str)| {
         let distance = off(problem, rods, *oscillation, &answer.rows, most)?;
-        let (name, suspects) = (format!("the distribution with {name}"), vec![(*name).to_owned()]);
-        Some(Near { distance, name, suspects, advice: "", changes: 1 })
+        Some(Near { name: format!("the distribution with {name}"), ..Near::new(distance, name) })
     };
     wrong.par_iter().filter_map(of).collect()
 }

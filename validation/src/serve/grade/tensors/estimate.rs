@@ -92,10 +92,7 @@ pub(super) fn near(quantity: &str, factor: f64, model: Model, closure: usize, ow
 
 /// The curves of equations with another C_I or Λ, found at the first time, that fit at all times.
 pub(super) fn of_curve(problem: &Problem, answer: &Answer, known: &Known, steps: Option<u64>, most: f64) -> Vec<Near> {
-    let [first, others]: [Vec<_>; 2] = {
-        let (own, other) = tried(known.own).partition(|(_, closure)| known.own == Some(*closure));
-        [own, other]
-    };
+    let (first, others): (Vec<_>, Vec<_>) = tried(known.own).partition(|(_, closure)| known.own == Some(*closure));
     let fit = |((name, change), closure): &(&Quantity, usize)| {
         let name = if problem.d_r_per_s.is_some() { name.replace("C_I", "D_r") } else { (*name).to_owned() };
         let with = |factor: f64| Some(Candidate::new(change(known.parts, factor)?, &CLOSURES[*closure], Vec::new()));

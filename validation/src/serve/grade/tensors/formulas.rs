@@ -45,8 +45,7 @@ pub(in crate::serve::grade) fn off(loaded: &LoadedProblem, name: &str) -> Option
         Formula::Closure { .. } => None,
         Formula::Dadt { closure, model } => {
             let mistake = MISTAKES.iter().find(|mistake| mistake.name == name)?;
-            let parts = spoilt(&parts_of(&rows, closure, model), Some(mistake))?;
-            Some(apart(&right.rows, &rates(&rows, &parts, &fourths(&rows, &CLOSURES[index(closure)?]))))
+            Some(apart(&right.rows, &dadt(&rows, closure, model, Some(mistake))?))
         }
     };
     super::of_layout(&right.rows, name).or_else(of_mistake)
@@ -64,10 +63,7 @@ fn right(formula: &Formula, rows: &Rows) -> Option<Rows> {
         Formula::Closure { closure } => {
             Some(rows.iter().map(|row| components(&closure.fourth(&tensor(row)))).collect())
         }
-        Formula::Dadt { closure, model } => {
-            let parts = parts_of(rows, closure, model);
-            Some(rates(rows, &parts, &fourths(rows, &CLOSURES[index(closure)?])))
-        }
+        Formula::Dadt { closure, model } => dadt(rows, closure, model, None),
     }
 }
 
@@ -223,6 +219,12 @@ fn spoilt(all: &[Parts], mistake: Option<&Mistake>) -> Option<Vec<Parts>> {
     let Some(mistake) = mistake else { return Some(all.to_vec()) };
     let changed: Vec<_> = all.iter().map(|parts| mistake.of(parts)).collect();
     changed.iter().any(Option::is_some).then(|| all.iter().zip(changed).map(|(own, new)| new.unwrap_or(*own)).collect())
+}
+
+/// da_ij/dt of each row with a mistake, or without one; `None` if it makes no difference.
+fn dadt(rows: &Rows, closure: Closure, model: Model, mistake: Option<&Mistake>) -> Option<Rows> {
+    let parts = spoilt(&parts_of(rows, closure, model), mistake)?;
+    Some(rates(rows, &parts, &fourths(rows, &CLOSURES[index(closure)?])))
 }
 
 fn parts_of(rows: &Rows, closure: Closure, model: Model) -> Vec<Parts> {
