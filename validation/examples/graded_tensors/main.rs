@@ -12,6 +12,7 @@ mod rods;
 use catalogue::{WRONG, WRONG_INSIDE, WRONG_MODELS, Wrong};
 use rayon::prelude::*;
 use shearbed_validation::methods::tensors::Model;
+use shearbed_validation::methods::tensors::fourth::PAIRS;
 use shearbed_validation::methods::textbook::tensors::{self as code, Code, M};
 use shearbed_validation::methods::textbook::tensors::{along, delta, hybrid, iard, ibof, linear, quadratic};
 use shearbed_validation::serve::grade::{self, Graded, Options, Verdict};
@@ -96,9 +97,6 @@ fn values(code: &Code, loaded: &LoadedProblem, strain: f64) -> Rows {
         }
     }
 }
-
-/// 11, 22, 33, 12, 13, 23.
-const PAIRS: [(usize, usize); 6] = [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)];
 
 /// The smallest difference that a mistake makes: what steps of 0.04 are off is more.
 const DIFFERENCE: f64 = 1e-9;

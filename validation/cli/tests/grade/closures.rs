@@ -3,6 +3,7 @@
 use crate::grading::{answers, problem, text, write};
 use shearbed::nalgebra::Matrix3;
 use shearbed_validation::methods::integrators::rk4;
+use shearbed_validation::methods::tensors::fourth::PAIRS;
 use shearbed_validation::methods::textbook::tensors::{Closure, Code, determinant, hybrid, hybrid_by, quadratic};
 use shearbed_validation::oracle::diffusion::{Motion, Start, at};
 
@@ -29,7 +30,7 @@ fn answer_by(step: Step, strain: f64, name: &str, c_i: f64, closure: Closure) ->
         let h = (time - now) / steps;
         a = (0..steps as usize).fold(a, |a, _| step(&rate, a, h));
         now = time;
-        for (at, place) in [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)].into_iter().enumerate() {
+        for (at, place) in PAIRS.into_iter().enumerate() {
             row[1 + at] = format!("{:e}", a[place]);
         }
     }

@@ -4,6 +4,7 @@
 use serde_json::{Value, json};
 use shearbed::nalgebra::Matrix3;
 use shearbed_validation::methods::integrators::rk4;
+use shearbed_validation::methods::tensors::fourth::PAIRS;
 
 type M = Matrix3<f64>;
 
@@ -30,7 +31,7 @@ fn at_rest(name: &str, request: &Value) -> Value {
     let mut gauss = || (0..12).map(|_| next()).sum::<f64>();
     let row = |time: &Value| {
         let fades = (-6.0 * d_r * number(time)).exp();
-        PLACES.map(|place| {
+        PAIRS.map(|place| {
             let random = M::identity()[place] / 3.0;
             random + (start[place] - random) * fades + scatter * gauss()
         })
@@ -38,8 +39,6 @@ fn at_rest(name: &str, request: &Value) -> Value {
     let rows: Vec<_> = request["times_s"].as_array().unwrap().iter().map(row).collect();
     json!({"id": request["id"], "rows": rows, "rows_se": vec![[scatter; 6]; rows.len()]})
 }
-
-const PLACES: [(usize, usize); 6] = [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)];
 
 /// The table that is asked for, or the program's own error.
 pub fn answer(name: &str, request: &Value) -> Value {
@@ -78,7 +77,7 @@ pub fn answer(name: &str, request: &Value) -> Value {
             }
             a = rk4(rate, a, h);
         }
-        rows.push(PLACES.map(|place| a[place]));
+        rows.push(PAIRS.map(|place| a[place]));
     }
     json!({"id": id, "rows": rows})
 }

@@ -1,8 +1,10 @@
 //! The meaning of each field of a row: by the header, by `--columns`, or by the layout of a known program.
 
 use super::axes::Axes;
+use super::tensors::columns::indices;
 use crate::files::csv::{self, LineEnds};
 use crate::files::text::start;
+use crate::methods::tensors::fourth::PAIRS;
 use crate::serve::problems::{Kind, Problem};
 
 /// The meaning of a field.
@@ -130,24 +132,18 @@ fn split(line: &str, separator: char) -> impl Iterator<Item = &str> {
 /// The name of a fourth moment whose indices are in order: all four of moments, those of each pair and the pairs of a
 /// closure, for which a_1122 need not be a_1212. Other names stay.
 fn in_order(name: &str, kind: Kind) -> String {
-    let digits =
-        name.strip_prefix('a').filter(|digits| digits.len() == 4 && digits.bytes().all(|b| b.is_ascii_digit()));
-    let Some(digits) = digits else { return name.to_owned() };
-    let mut digits: Vec<char> = digits.chars().collect();
+    let Some(mut at) = indices(name).filter(|at| at.len() == 4) else { return name.to_owned() };
     if kind == Kind::Formula {
-        digits.chunks_mut(2).for_each(<[char]>::sort_unstable);
-        let place = |pair: &[char]| PAIRS.iter().position(|(i, j)| pair.iter().copied().eq([*i, *j]));
-        if place(&digits[..2]) > place(&digits[2..]) {
-            digits.rotate_left(2);
+        at.chunks_mut(2).for_each(<[usize]>::sort_unstable);
+        let place = |pair: &[usize]| PAIRS.iter().position(|(i, j)| pair == [*i, *j]);
+        if place(&at[..2]) > place(&at[2..]) {
+            at.rotate_left(2);
         }
     } else {
-        digits.sort_unstable();
+        at.sort_unstable();
     }
-    format!("a{}", digits.iter().collect::<String>())
+    format!("a{}", at.iter().map(|k| (k + 1).to_string()).collect::<String>())
 }
-
-/// Index pairs in the order of columns.
-const PAIRS: [(char, char); 6] = [('1', '1'), ('2', '2'), ('3', '3'), ('1', '2'), ('1', '3'), ('2', '3')];
 
 fn fields(names: &[&str], problem: &Problem, axes: Axes) -> Result<Vec<Field>, (usize, String)> {
     let keys = problem.kind.keys();

@@ -7,7 +7,7 @@ use nalgebra::Matrix3;
 
 /// The indices in the name of a component, from 0; `None` for another column.
 pub(in crate::serve::grade) fn indices(name: &str) -> Option<Vec<usize>> {
-    name.strip_prefix('a')?.bytes().map(|digit| usize::from(digit).checked_sub(usize::from(b'1'))).collect()
+    name.strip_prefix('a')?.chars().map(|digit| (digit.to_digit(10)? as usize).checked_sub(1)).collect()
 }
 
 /// The values of the problem's columns for a, with the fourth moments by the closure; `None` for other columns.
