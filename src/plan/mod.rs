@@ -36,7 +36,7 @@ pub(crate) enum Clock {
 ///
 /// ```
 /// let plan = shearbed::Plan::new(&shearbed::Scene::default())?;
-/// assert_eq!((plan.steps(), plan.outputs()), (0, 51)); // free rods take no steps
+/// assert_eq!((plan.steps(), plan.outputs()), (0, 401)); // free rods take no steps
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug)]

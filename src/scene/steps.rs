@@ -13,6 +13,9 @@ const MULTIPLE: u64 = 50;
 /// stress of a start-up is missed by 4 % at most.
 const OUTPUT_STRAIN: f64 = 1.5;
 
+/// The same of free rods, whose outputs cost little: a turn of |p_i| between two of them is cut by (0.2/2)²/2 = 0.5 %.
+const FREE_OUTPUT_STRAIN: f64 = 0.2;
+
 /// The most default outputs per period.
 const MOST_OUTPUTS: u64 = 1000;
 
@@ -49,7 +52,7 @@ impl Scene {
     }
 
     /// Outputs per unit of time that do not exceed the default: the fewest fifties a period with a strain of at most
-    /// [`OUTPUT_STRAIN`] between them, 10 a unit of strain.
+    /// [`OUTPUT_STRAIN`] or [`FREE_OUTPUT_STRAIN`] between them, 10 a unit of strain.
     pub(crate) fn default_outputs(&self) -> u64 {
         match self.time.unit {
             TimeUnit::Period => match self.least_outputs() {
@@ -65,12 +68,13 @@ impl Scene {
         }
     }
 
-    /// The fewest outputs a period that follow the motion of long rods, whose flips 50 a period would miss; `u64::MAX`
-    /// for others.
+    /// The fewest outputs a period that follow flips which 50 a period would miss, those of free or long rods;
+    /// `u64::MAX` for others.
     pub(crate) fn least_outputs(&self) -> u64 {
-        let least = (self.flow_per_unit() / OUTPUT_STRAIN).ceil() as u64;
-        let is_long = self.time.unit == TimeUnit::Period && least > MULTIPLE;
-        if is_long { least.min(MOST_OUTPUTS) } else { u64::MAX }
+        let strain = if self.steps() { OUTPUT_STRAIN } else { FREE_OUTPUT_STRAIN };
+        let least = (self.flow_per_unit() / strain).ceil() as u64;
+        let would_miss = self.time.unit == TimeUnit::Period && least > MULTIPLE;
+        if would_miss { least.min(MOST_OUTPUTS) } else { u64::MAX }
     }
 
     /// The number of outputs, including that at t = 0 unless the scene gives their times.

@@ -196,6 +196,11 @@ pub fn derived(plan: &shearbed::Plan, results: &shearbed::Results) -> Result<[St
     derived::files(plan, results, &derived::of(plan, results)).map(|files| files.map(|(_, text)| text))
 }
 
+/// T, GΔt, n a³ and the cost on one core, as `shearbed plan` prints them.
+pub fn facts(plan: &shearbed::Plan) -> String {
+    facts::Facts::of(plan).text() + &duration::of_scene(plan, duration::of_replica(plan, true), None)
+}
+
 /// Checks that a plan fits into memory with a replica on each thread, and that it takes less than a day unless `yes`;
 /// the error says why it may not run.
 pub fn may_run(plan: &shearbed::Plan, threads: Option<u64>, source: &str, yes: bool) -> Result<(), String> {

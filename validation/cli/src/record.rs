@@ -4,6 +4,7 @@ use super::facts::Facts;
 use super::until::Ended;
 use serde::Serialize;
 use shearbed::model::work::Counters;
+use shearbed::motion::Propagator;
 use shearbed::plan::Entry;
 use shearbed::{Plan, Results, Scene};
 use shearbed_validation::files::build::{BUILD, Build};
@@ -35,6 +36,9 @@ struct Record<'a> {
     /// Reasons to doubt the results.
     warnings: Vec<String>,
     counters: Counters,
+    /// How often a rod collides in a period; none without collisions or period.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    collisions_per_rod_and_period: Option<f64>,
     /// The choice of the number of replicas by `--until-se`; none without it.
     #[serde(skip_serializing_if = "Option::is_none")]
     until_se: Option<&'a Ended>,
@@ -44,6 +48,16 @@ struct Record<'a> {
     threads: usize,
     seconds: Seconds,
     files: Vec<&'a str>,
+}
+
+/// Both rods of a pair collide.
+fn per_rod_and_period(plan: &Plan, results: &Results) -> Option<f64> {
+    let Scene { particles, ensemble, .. } = plan.scene();
+    let period_s = Propagator::new(plan.flow(), particles.aspect_ratio).period_s()?;
+    let periods = results.elapsed.last()?.seconds / period_s;
+    let rods = particles.count as f64 * ensemble.replicas as f64;
+    let collisions = 2.0 * results.counters.collisions as f64;
+    (collisions > 0.0 && periods > 0.0).then(|| collisions / (rods * periods))
 }
 
 /// The text of `run.json`.
@@ -65,6 +79,7 @@ pub(super) fn json(
         plan_text: plan.to_string(),
         warnings: plan.warnings(),
         counters: results.counters,
+        collisions_per_rod_and_period: per_rod_and_period(plan, results),
         until_se,
         ranks: shearbed_validation::files::cluster::size(),
         threads,

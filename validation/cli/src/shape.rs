@@ -60,7 +60,10 @@ const OF_SPHERE: f64 = 4.0 * std::f64::consts::PI;
 /// given: relative ones, taken as independent, add in squares to that of GT, on which alone r_e depends.
 fn of_period((period_s, period_u): (f64, Option<f64>), (g, g_u): (f64, Option<f64>)) -> Result<(), Failure> {
     let strain = g * period_s;
-    let Some(r) = aspect_ratio_of_period(strain) else {
+    let u = strain * (period_u.unwrap_or(0.0) / period_s).hypot(g_u.unwrap_or(0.0) / g);
+    // A measured time may fall below that of a sphere, by two uncertainties at most.
+    let of_sphere = || (strain + 2.0 * u >= OF_SPHERE).then_some(1.0);
+    let Some(r) = aspect_ratio_of_period(strain).or_else(of_sphere) else {
         return Err(Failure::Input(format!(
             "--period-s {period_s}: GT = {strain:.4} is less than 4π = {OF_SPHERE:.4}, that of a sphere, and all rods \
              and discs turn more slowly; a time of at least {} s at {g} 1/s is allowed. T is that of a whole turn: \
@@ -71,7 +74,6 @@ fn of_period((period_s, period_u): (f64, Option<f64>), (g, g_u): (f64, Option<f6
     let with = |value: f64, u: Option<f64>| u.map_or(value.to_string(), |u| format!("{value} ± {u}"));
     let (period, rate) = (with(period_s, period_u), with(g, g_u));
     let mut text = format!("T = {period} s at G = {rate} 1/s: GT = {} = 2π(r_e + 1/r_e)\n\n", rounded(strain, 6));
-    let u = strain * (period_u.unwrap_or(0.0) / period_s).hypot(g_u.unwrap_or(0.0) / g);
     let ends = (u > 0.0).then(|| [strain - u, strain + u].map(aspect_ratio_of_period));
     for (whose, of) in [("rod", (|r| r) as fn(f64) -> f64), ("disc of the same period", |r| 1.0 / r)] {
         let (value, ends) = (of(r), ends.map(|ends| ends.map(|end| end.map(of))));

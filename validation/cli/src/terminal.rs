@@ -97,6 +97,7 @@ pub(super) fn progress(steps: u64, what: &str, quiet: bool) -> ProgressBar {
         let elapsed = state.elapsed().as_secs_f64();
         let words = match (state.pos(), state.len()) {
             (0, _) | (_, None) => format!("{elapsed:.0} s so far"),
+            (done, Some(all)) if steps == 0 && done >= all => format!("{elapsed:.0} s so far, more may follow"),
             (done, Some(all)) => {
                 let rate = done as f64 / elapsed.max(1e-9);
                 format!("{rate:.2} a second, {least}{:.0} s left", all.saturating_sub(done) as f64 / rate)

@@ -73,6 +73,12 @@ fn describe(name: &str, text: &str) -> PyResult<(String, String, Vec<String>, Op
     Ok((toml_of(&plan.scene().resolved())?, plan.to_string(), plan.warnings(), start))
 }
 
+/// T, GΔt, n a³ and the cost of a scene, as `shearbed plan` prints them.
+#[pyfunction]
+fn facts(name: &str, text: &str) -> PyResult<String> {
+    Ok(shearbed_cli::facts(&plan(name, text, None, None)?))
+}
+
 /// The text of a scene with values, which are TOML, at dotted keys; a key without a value is taken out.
 #[pyfunction]
 fn changed(name: &str, text: &str, values: Vec<(String, Option<String>)>) -> PyResult<String> {
@@ -262,6 +268,7 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(keys, module)?)?;
     module.add_function(wrap_pyfunction!(built_in_scenes, module)?)?;
     module.add_function(wrap_pyfunction!(describe, module)?)?;
+    module.add_function(wrap_pyfunction!(facts, module)?)?;
     module.add_function(wrap_pyfunction!(changed, module)?)?;
     module.add_function(wrap_pyfunction!(observables, module)?)?;
     module.add_function(wrap_pyfunction!(run, module)?)?;

@@ -139,7 +139,7 @@ def fit(
     rods: int | None = None,
     u: float | None = None,
     u_contains: str | None = None,
-    columns: Sequence[str] | None = None,
+    columns: Sequence[str] | str | None = None,
     set: Mapping[str, Any] | None = None,
     design: bool = False,
     test: Sequence[str] = (),
@@ -151,7 +151,8 @@ def fit(
     """Fits keys of a scene to measured points, as ``shearbed fit`` does, with the same result.
 
     ``data`` is a CSV file or its columns: a time (``t_over_T``, ``t_s`` or ``strain``), and channels each with one standard
-    deviation, as ``x1`` and ``x1_u``, or ``u`` for all points; ``u_contains`` is ``"reading"`` or ``"rods"``; NaN was not measured. Columns may be a dict,
+    deviation, as ``x1`` and ``x1_u``, or ``u`` for all points; ``u_contains`` is ``"reading"`` or ``"rods"``; NaN was not measured. Columns may be a dict, in which one number
+    stands for every row,
     a DataFrame, or an array with named fields. ``columns=["t_s", "x1", "-"]`` names the columns of files that have other
     names, or none, and of an array with a row for each time. Without ``over`` nothing is fitted: how well the scene as it
     is describes the points. ``over={"interaction.alpha": (0.05, 5)}`` are up to three keys
@@ -183,7 +184,7 @@ def fit(
         words += options(replicas=replicas, seed=seed, rods=rods, threads=threads, set=set)
         words += [] if u_contains is None else ["--u-contains", u_contains]
         words += [] if u is None else ["--u", repr(float(u))]
-        words += [] if columns is None else ["--columns", ",".join(columns)]
+        words += [] if columns is None else ["--columns", columns if isinstance(columns, str) else ",".join(columns)]
         words += ["--design"] if design else []
         words += [word for held in test for word in ("--test", held)]
         words += [] if checkpoint is None else ["--checkpoint", os.path.abspath(checkpoint)]
@@ -196,7 +197,12 @@ def fit(
             if told and counts:
                 told(*counts[-1])
 
-        said = program(words, folder, watch if told else None)
+        try:
+            said = program(words, folder, watch if told else None)
+        except (ValueError, RuntimeError) as error:
+            # The caller has columns, not these files.
+            named = lambda file: "data" if file[1] == "1" else f"data of also[{int(file[1]) - 2}]"
+            raise type(error)(re.sub(r"(?<![\w/.-])points-(\d+)\.csv", named, str(error))) from None
         if said.startswith("goes on from"):
             said = said.split("\n", 1)[1]
         # The last line names a folder that is no more.
@@ -214,12 +220,23 @@ def _file(points: Points, place: Path) -> str:
         points = {name: points[name] for name in names}
     if isinstance(points, (str, os.PathLike)):
         return os.path.abspath(points)
-    columns = {str(name): np.asarray(values, dtype=float) for name, values in points.items()}
+    columns = {str(name): np.asarray(values) for name, values in points.items()}
+    # One number stands for every row.
+    most = max((values.shape for values in columns.values()), key=len, default=())
+    columns = {name: np.full(most, values) if values.shape == () else values for name, values in columns.items()}
     lengths = {name: values.shape for name, values in columns.items()}
     if len(set(lengths.values())) != 1 or any(len(shape) != 1 for shape in lengths.values()):
         raise ValueError(f"data: columns of one length are allowed; there are {lengths}")
     with open(place, "w", encoding="utf-8", newline="") as text:
         writer = csv.writer(text, lineterminator="\n")
         writer.writerow(columns)
-        writer.writerows([["" if value != value else repr(float(value)) for value in row] for row in zip(*columns.values())])
+        writer.writerows([[_cell(value) for value in row] for row in zip(*columns.values())])
     return place.name
+
+
+def _cell(value: Any) -> str:
+    """A number, nothing for NaN, or the text of a column that is no data."""
+    try:
+        return "" if value != value else repr(float(value))
+    except (TypeError, ValueError):
+        return str(value)

@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 from . import _core
 from ._results import Results
-from ._scene import Scene, _toml, _value, scene_of
+from ._scene import _TABLE_OF, Scene, _toml, _value, scene_of
 
 DERIVED = ("extremes", "derived")
 """The tables of what is derived from a run's means."""
@@ -56,6 +56,8 @@ def run(
     Raises :class:`SceneError` for a scene that cannot be run, ``RuntimeError`` for a run that cannot go on.
     """
     scene = scene_of(scene).replace(**set) if set else scene_of(scene)
+    if threads is not None and threads < 1:
+        raise ValueError(f"threads = {threads}: a whole number from 1 to 1024 is allowed")
     if until_se or checkpoint is not None or vtk is not None:
         if progress:
             raise TypeError("progress: runs with until_se, checkpoint or vtk do not tell how far they are")
@@ -149,8 +151,8 @@ def sweep(
     """Runs a scene at every combination of its keys' values, as ``shearbed sweep`` does.
 
     ``sweep(scene, {"interaction.alpha": [0.25, 0.5, 1]})`` gives the columns of ``sweep.csv``, one row a point: the swept
-    keys, then time, means and standard errors at the last output; with ``times="all"`` one row for each output of each
-    point. All points have the same seed. ``set={"particles.count": 50}`` gives keys of the scene another value.
+    keys, then time, means and standard errors at the last output, damping rates and steady values; with ``times="all"``
+    one row for each output of each point. All points have the same seed. ``set={"particles.count": 50}`` gives keys of the scene another value.
     ``progress(done, of)`` counts points; ``progress=True`` draws a bar with tqdm where it is installed. ``xarray=True`` gives an
     ``xarray.Dataset`` in place of the columns: one dimension for each swept key, and with ``times="all"`` ``output``, with the
     times as its coordinate where all points have the same. Work of over a day begins with ``yes=True`` alone.
@@ -161,6 +163,7 @@ def sweep(
         if isinstance(values, str) or not isinstance(values, Iterable):
             raise ValueError(f"over: {key} = {values!r}: a list of values is allowed, as [{values!r}]")
     scene = scene_of(scene)
+    over = {f"{_TABLE_OF[key]}.{key}" if key in _TABLE_OF else key: values for key, values in over.items()}
     with tempfile.TemporaryDirectory(prefix="shearbed-") as made:
         folder = Path(made)
         words = ["sweep", scene._written(folder).name, "--out", "out", "--quiet"] + ["--yes"] * yes
@@ -306,4 +309,7 @@ def program(words: Sequence[str], folder: Path, watch: Callable[[], object] | No
 
 def keywords(message: str) -> str:
     """The program's words with keywords for flags, which are called alike; a name of a file may hold two dashes too."""
+    message = message.split("\n\nFor more information, try")[0]
+    message = re.sub(r"invalid value '([^']*)' for '--([a-z-]+)[^']*'", r"--\2 = \1", message)
+    message = re.sub(r"\n +\[possible values: (.*)\]", r": \1 are allowed", message)
     return re.sub(r"(?<![\w.-])--([a-z]+(?:-[a-z]+)*)", lambda flag: flag[1].replace("-", "_"), message)

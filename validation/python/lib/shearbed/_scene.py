@@ -137,8 +137,9 @@ class Scene:
 
     @property
     def plan(self) -> str:
-        """What a run does, what it leaves out, and why."""
-        return self._plan
+        """What a run does, what it leaves out, and why; T, n a³ and what it costs. ``warnings`` are apart."""
+        stages = [line for line in self._plan.splitlines(True) if not line.startswith("warning: ")]
+        return "".join(stages) + _core.facts(self._name, self._text)
 
     @property
     def warnings(self) -> list[str]:

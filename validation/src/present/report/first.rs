@@ -31,7 +31,12 @@ pub(super) fn sizes(report: &Report) -> Vec<String> {
     let red = summary.fail + summary.underpowered;
     let verdict = match red {
         0 => format!("Verdict: nothing is red; {} of {} cases pass.", summary.pass, report.cases.len()),
-        _ => format!("Verdict: {red} of {} cases are red.", report.cases.len()),
+        _ => format!(
+            "Verdict: {red} of {} cases are red: {} fail, {} under-powered.",
+            report.cases.len(),
+            summary.fail,
+            summary.underpowered
+        ),
     };
     let free = error("propagator-closed-form").map(|error| {
         format!(

@@ -65,7 +65,7 @@ fn row(case: &CaseRow) -> String {
 /// A study: question, answer, and data and table of each picture.
 fn study(study: &ReportStudy) -> String {
     let mut text = format!(
-        "## {}\n\n*{}* {}\n\nRepeat: {}\n\n",
+        "## {}\n\n*{}* {}\n\nIn full: {}\n\n",
         markdown(&study.title),
         markdown(&study.question),
         markdown(&study.answer),

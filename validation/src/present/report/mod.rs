@@ -164,10 +164,11 @@ impl Report {
     /// What passes, by kind, what does not, and the false-alarm probability.
     pub fn headline(&self) -> String {
         let parts: Vec<_> = self.summary.parts.iter().map(Part::to_string).collect();
-        format!("Passed: {}. {}", parts.join("; "), self.alarms())
+        let Summary { fail, underpowered, .. } = self.summary;
+        format!("Passed: {}. {fail} fail, {underpowered} under-powered. {}", parts.join("; "), self.alarms())
     }
 
-    /// What does not pass, and the false-alarm probability.
+    /// The false-alarm probability, in words.
     pub fn alarms(&self) -> String {
         let summary = &self.summary;
         let over = if summary.false_alarm > FALSE_ALARM_BUDGET {
@@ -176,11 +177,8 @@ impl Report {
             String::new()
         };
         format!(
-            "{} fail, {} under-powered. By chance alone statistical checks turn correct code red with a probability of \
-             at most {}{over}.",
-            summary.fail,
-            summary.underpowered,
-            formats::number(summary.false_alarm),
+            "By chance alone statistical checks turn correct code red with a probability of at most {}{over}.",
+            formats::number(summary.false_alarm)
         )
     }
 }

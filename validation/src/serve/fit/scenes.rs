@@ -109,8 +109,20 @@ impl Scenes {
         Ok(scenes)
     }
 
-    /// Refuses to fit the interaction of rods that never disturb each other: their curves do not depend on it.
+    /// Refuses to fit what no curve depends on: the interaction of rods that never disturb each other; the shear rate
+    /// where times are strains or periods, but for diffusion.
     fn says_something(&self, set: usize, scene: &Scene) -> Result<(), SceneError> {
+        let of_rate = |range: &&Range| range.is_of(set) && range.key == "flow.shear_rate_per_s";
+        let free_of_it = self.sets[set].time != TimeColumn::Seconds && scene.particles.rotary_diffusion_per_s == 0.0;
+        if let Some(range) = self.ranges.iter().find(of_rate).filter(|_| free_of_it) {
+            return Err(SceneError::Parameters {
+                scene: self.sets[set].source.clone(),
+                parameters: vec![range.label()],
+                why: "means are functions of the strain Gt, which the points' times give, so they do not determine G; \
+                      times as t_s do"
+                    .to_owned(),
+            });
+        }
         let fitted = self.ranges.iter().find(|range| range.is_of(set) && range.key.starts_with("interaction."));
         match (fitted, scene.particles.undisturbed()) {
             (Some(range), Some(why)) => Err(SceneError::Parameters {

@@ -176,7 +176,8 @@ fn lines<'a>(report: &'a Report) -> Vec<String> {
     let answered = report.problems.iter().filter(|graded| graded.verdict != Verdict::Missing);
     let is_fault = |text: &str| {
         let cause = text.strip_prefix("asked for ").and_then(|text| text.split_once(": "));
-        cause.is_some_and(|(_, cause)| report.remarks.iter().any(|remark| remark.contains(cause)))
+        let cause = cause.map_or(text, |(_, cause)| cause);
+        report.remarks.iter().any(|remark| remark.contains(cause))
     };
     let of = |((verdict, text), names): ((Verdict, String), Vec<&str>)| {
         (!text.is_empty() && !is_fault(&text)).then(|| format!("{} {}: {text}", verdict.word(), names.join(", ")))
