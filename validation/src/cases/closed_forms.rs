@@ -190,7 +190,7 @@ fn in_plane_start(change: &Change, effort: &Effort) -> Vec<Evidence> {
     let mut scene = lab::free_scene(effort);
     scene.particles.orientation = Orientation::Given { phi_deg: 30.0, theta_deg: 90.0 };
     scene.particles.count = 3;
-    scene.time.duration = 2.0;
+    scene.time = Time { outputs_per_unit: Some(50), ..Time::periods(2.0) };
     let r = scene.particles.aspect_ratio;
     change(&mut scene);
     let results = ensemble::run(&lab::plan(&scene));

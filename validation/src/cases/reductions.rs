@@ -69,7 +69,7 @@ pub(super) fn difference(a: &Scene, b: &Scene) -> f64 {
 }
 
 fn reductions(limits: &Limits, effort: &Effort) -> [Evidence; 6] {
-    let uniform = lab::free_scene(effort);
+    let uniform = lab::changed(lab::free_scene(effort), |scene| scene.time.outputs_per_unit = Some(50));
     let free = lab::changed(uniform.clone(), |scene| scene.particles.aspect_ratio_sd_percent = 3.6);
     let interacting = Scene { interaction: lab::interacting_scene(effort).interaction, ..free.clone() };
     let long = lab::changed(uniform.clone(), |scene| scene.time.duration = 3.0);

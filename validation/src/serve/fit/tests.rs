@@ -172,7 +172,7 @@ fn another_minimum_of_the_range_is_seen() {
     let mut best = over(["a.rate=0.05:5", "a.frequency=0.95:9.4"]);
     best.best.chi_square = 1e6;
     let said = look_at(&wrong, &best).unwrap_err().to_string();
-    assert!(said.contains("no value describes the"), "{said}");
+    assert!(said.contains("no value that the search found describes the"), "{said}");
     let unsearched = look(&over(["a.rate=0.05:5", "a.frequency=-900:1.25"]));
     assert!(unsearched.is_err() || unsearched.is_ok_and(|warnings| warnings[0].to_string().contains("too fast")));
     let mut off = found;
