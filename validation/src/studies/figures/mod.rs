@@ -31,7 +31,7 @@ pub const STUDY: Study = Study {
         "steady-mean-angle",
         "in-plane-rods",
     ],
-    command: "cargo run --release -- validate",
+    command: "cargo run --release -- validate --full",
     parts: &[],
     shared: true,
     run,

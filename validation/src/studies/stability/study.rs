@@ -23,7 +23,7 @@ pub const STUDY: Study = Study {
         "frozen-limit",
         "extreme-motion",
     ],
-    command: "cargo run --release -- validate",
+    command: "cargo run --release -- validate --full",
     parts: &[],
     shared: false,
     run,
