@@ -295,6 +295,22 @@ mod tests {
         (ratios.iter().sum::<f64>() / 4000.0, ratios[3800])
     }
 
+    /// More replicas begin only where the rest takes no longer than allowed.
+    #[test]
+    fn work_that_takes_too_long_ends_with_what_there_is() {
+        let plan = Plan::new(&shearbed::Scene::default()).unwrap();
+        let until = Until { rules: vec![("x1".into(), 0.001)] };
+        let grow = |most_h: f64| {
+            let add = |target: u64, _: Option<Instant>, _: &Measure| Ok((target, vec![0.1 / target as f64]));
+            until.grow(&plan, (0, None, most_h), add, |_| ()).unwrap()
+        };
+        let (whole, stopped) = (grow(f64::INFINITY), grow(0.0));
+        assert!(whole.holds && whole.failure().is_ok(), "{whole:?}");
+        assert_eq!((whole.replicas, stopped.replicas), (102, LEAST));
+        let why = stopped.failure().unwrap_err().message_and_code().0;
+        assert!(why.contains("go on with --yes or --time-limit alone"), "{why}");
+    }
+
     #[test]
     fn a_noisy_standard_error_ends_the_run_little_too_early() {
         // Two standard deviations of a standard error over 32 replicas, 2/√62, are 25 %.
