@@ -77,9 +77,21 @@ def test_the_result_is_that_of_the_program(points: dict[str, np.ndarray], tmp_pa
     assert shearbed.fit(SCENE, tmp_path / "points.csv", OVER, replicas=60, seed=3)["interaction.alpha"] == alpha
     bare = {name: column for name, column in points.items() if name != "x1_u"}
     assert shearbed.fit(SCENE, bare, OVER, u=0.01, u_contains="reading", replicas=60, seed=3)["interaction.alpha"] == alpha
+    # One number for every row, and a column that is no data.
+    with pytest.warns(UserWarning, match="who"):
+        one = shearbed.fit(SCENE, bare | {"x1_u": 0.01, "who": ["me"] * 10}, OVER, replicas=60, seed=3)
+    assert one["interaction.alpha"] == alpha
     np.savetxt(tmp_path / "bare.txt", np.stack([points["x1"], points["t_over_T"]], axis=1), fmt="%.17g", delimiter=",")
     named = shearbed.fit(SCENE, tmp_path / "bare.txt", OVER, columns=["x1", "t_over_T"], u=0.01, replicas=60, seed=3)
     assert named["interaction.alpha"] == alpha
+    for wrong, why in [
+        (dict(replicas=5), "^replicas = 5: a whole number from 20"),
+        (dict(u_contains="foo"), "^u_contains = foo: reading, rods are allowed"),
+        (dict(columns="t_over_T,x9,x1_u"), "^data"),
+    ]:
+        with pytest.raises(ValueError, match=why) as refused:
+            shearbed.fit(SCENE, points, OVER, **wrong)
+        assert "--" not in str(refused.value) and ".csv" not in str(refused.value)
     halves = [{name: column[half] for name, column in points.items()} for half in (slice(0, 5), slice(5, 10))]
     halves[1]["x1"] = np.where(np.arange(5) == 2, np.nan, halves[1]["x1"])
     both = shearbed.fit(SCENE, halves[0], OVER, also=[(SCENE, halves[1])], replicas=60, seed=3)

@@ -214,6 +214,17 @@ def test_what_a_sweep_is_over_is_a_list() -> None:
         shearbed.sweep(SMALL, {"interaction.alpha": 0.5})
 
 
+def test_no_threads_are_refused() -> None:
+    with pytest.raises(ValueError, match="threads = 0: a whole number from 1"):
+        shearbed.run(SMALL, threads=0)
+
+
+def test_a_plan_has_period_concentration_and_cost() -> None:
+    plan = shearbed.Scene(**SMALL).replace(concentration_per_cm3=50_000).plan
+    assert "T = 146.8532 s" in plan and "n a³ = 1.866e1 (concentrated)" in plan and "rods × steps" in plan
+    assert "warning" not in plan
+
+
 def test_a_dense_scene_warns_here_too() -> None:
     [warning] = shearbed.Scene(**SMALL).replace(concentration_per_cm3=50_000).warnings
     assert "n a³ = 18.662: concentrated" in warning
@@ -248,6 +259,8 @@ def test_a_sweep_as_a_dataset() -> None:
     assert float(picked) == table["x1"][4]
     every = shearbed.sweep(SMALL, over, replicas=2, times="all", xarray=True)
     assert np.array_equal(every["x1"].isel(output=-1).values, found["x1"].values) and every.sizes["output"] == 26
+    short = shearbed.sweep(SMALL, {"alpha": [0.25, 1.0]}, replicas=2, xarray=True)
+    assert dict(short.sizes) == {"interaction.alpha": 2} and "interaction.alpha" not in short.data_vars
 
 
 def test_seed_and_replicas_stand_in_place_of_the_scenes_own() -> None:
