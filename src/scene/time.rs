@@ -101,7 +101,7 @@ table! {
         steps_per_second: Option<u64> = None, "", PER_UNIT, Other("as many as resolve the motion"),
             "steps of interacting rods per second";
         outputs_per_period: Option<u64> = None, "", PER_UNIT,
-            Other("of free rods one per strain of 0.2; else 50, or one per strain of 1.5 above r_e = 11.8"),
+            Other("free rods: 0.2 of strain apart; others: 50, or 1.5"),
             "outputs; of interacting rods a divisor of the steps";
         outputs_per_strain: Option<u64> = None, "", PER_UNIT, Other("10, or the largest divisor below"),
             "outputs per unit of strain, likewise";
