@@ -44,8 +44,8 @@ pub fn step_strain(scene: &Scene) -> f64 {
     strain_per_period(scene.particles.aspect_ratio) / scene.steps_per_unit() as f64
 }
 
-/// Numbers of kicks above each of [`THRESHOLDS_RAD`]: in the row [`CLOSING`] where the gap was closing, ℓ·D·ℓ < 0, in
-/// the row [`OPENING`] where it was opening.
+/// Numbers of kicks above each of [`THRESHOLDS_RAD`]: in the row `CLOSING` where the gap was closing, ℓ·D·ℓ < 0, in
+/// the row `OPENING` where it was opening.
 pub type Sides = SMatrix<f64, 2, 4>;
 pub(crate) const CLOSING: usize = 0;
 pub(crate) const OPENING: usize = 1;
