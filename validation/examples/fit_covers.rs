@@ -116,7 +116,7 @@ fn main() -> Result<(), String> {
     let mut refused: BTreeMap<String, u32> = BTreeMap::new();
     println!(
         "repeat,chi2,p,replicas,runs,share_of_replicas,share_of_emulator,\
-         feigned,key,estimate,low_68,high_68,low_95,high_95"
+         noise_share,key,estimate,low_68,high_68,low_95,high_95"
     );
     for k in repeats.clone() {
         let fit = match whole_fit(k, &truth, &over) {

@@ -57,12 +57,12 @@ def test_the_result_is_that_of_the_program(points: dict[str, np.ndarray], tmp_pa
     loaded = shearbed.load(tmp_path / "out")
     assert loaded.parameters == found.parameters and repr(loaded) == repr(found) == str(loaded)
     assert found.covariance.shape == (1, 1) and found.degrees_of_freedom == 9
-    told: list[tuple[int, int]] = []
+    calls: list[tuple[int, int]] = []
     watched = shearbed.fit(
-        SCENE, points, OVER, replicas=60, seed=3, threads=1, progress=lambda done, of: told.append((done, of))
+        SCENE, points, OVER, replicas=60, seed=3, threads=1, progress=lambda done, of: calls.append((done, of))
     )
-    assert str(watched) == str(found) and told and told == sorted(told)
-    assert all(0 <= done <= of for done, of in told) and max(told)[0] > 1
+    assert str(watched) == str(found) and calls and calls == sorted(calls)
+    assert all(0 <= done <= of for done, of in calls) and max(calls)[0] > 1
     for _ in range(2):
         kept = shearbed.fit(SCENE, points, OVER, replicas=60, seed=3, threads=2, checkpoint=tmp_path / "fit.ckpt")
         assert kept.record["parameters"] == record["parameters"] and str(kept) == str(found)

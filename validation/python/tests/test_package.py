@@ -25,9 +25,9 @@ def test_the_example_grades_fiberoripy(tmp_path: Path, monkeypatch: pytest.Monke
     pytest.importorskip("fiberoripy", reason="fiberoripy, scipy and matplotlib are not here")
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("MPLBACKEND", "Agg")
-    told = runpy.run_path(str(HERE / "examples" / "verify_my_code.py"))
+    names = runpy.run_path(str(HERE / "examples" / "verify_my_code.py"))
     # What the example says of it, and docs/src/user/grading.md.
-    verdicts = {problem["name"]: problem["verdict"] for problem in told["report"].problems}
+    verdicts = {problem["name"]: problem["verdict"] for problem in names["report"].problems}
     assert verdicts == {
         "mid-flip-2": "PASS", "mid-flip-11.6": "PASS", "mid-flip-100": "FAIL", "mid-flip-10000": "FAIL"
     }

@@ -333,9 +333,9 @@ def test_the_tensor_is_symmetric_and_has_the_trace_1() -> None:
 
 
 def test_progress_is_told_and_may_stop_the_run() -> None:
-    told: list[tuple[int, int]] = []
-    shearbed.run(SMALL, replicas=200, progress=lambda done, of: told.append((done, of)))
-    assert told[-1] == (200, 200)
+    calls: list[tuple[int, int]] = []
+    shearbed.run(SMALL, replicas=200, progress=lambda done, of: calls.append((done, of)))
+    assert calls[-1] == (200, 200)
 
     def stop(done: int, of: int) -> None:
         raise KeyError("enough")

@@ -119,9 +119,9 @@ def test_a_built_in_scene_has_a_name() -> None:
 
 
 def test_help_lists_the_keys() -> None:
-    told = shearbed.Scene.__doc__ or ""
+    text = shearbed.Scene.__doc__ or ""
     for _, name, meaning, *_ in shearbed._core.keys():
-        assert f"\n    {name}\n        {meaning}" in told, name
+        assert f"\n    {name}\n        {meaning}" in text, name
         assert name in inspect.signature(shearbed.Scene).parameters, name
     assert all(len(repr(problem)) < 200 for problem in shearbed.problems())
 
@@ -143,13 +143,13 @@ def test_reference_of_diffusing_rods() -> None:
 
 
 def test_a_sweep_gives_all_times_and_says_how_far_it_is() -> None:
-    told: list[tuple[int, int]] = []
+    calls: list[tuple[int, int]] = []
     given: dict[str, Any] = {"replicas": 2, "seed": 5, "set": {"time.periods": 1}}
     over = {"interaction.alpha": [0.2, 0.6]}
-    every = shearbed.sweep("fig4-n50", over, times="all", progress=lambda done, of: told.append((done, of)), threads=1, **given)
+    every = shearbed.sweep("fig4-n50", over, times="all", progress=lambda done, of: calls.append((done, of)), threads=1, **given)
     last = shearbed.sweep("fig4-n50", over, **given)
     ends = np.flatnonzero(np.r_[np.diff(every["t_over_T"]) < 0, True])
-    assert len(ends) == 2 and told[-1] == (2, 2)
+    assert len(ends) == 2 and calls[-1] == (2, 2)
     for name, values in every.items():
         assert np.array_equal(values[ends], last[name]), name
     # One value a point.

@@ -4,6 +4,8 @@
 use crate::bounded::{Bounded, bash};
 use crate::pages::{Page, places, readmes, root, under};
 use pulldown_cmark::Event;
+use shearbed_validation::cases;
+use shearbed_validation::judge::case::Judges;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 
@@ -172,4 +174,18 @@ fn the_table_of_problems_has_each_once_with_its_tolerance() {
         let [least, most] = [of_row[0], of_row[of_row.len() - 1]].map(tolerance);
         assert_eq!(row[3], if least == most { least } else { format!("{least}–{most}") }, "{}", row[0]);
     }
+}
+
+/// What README shows of its first command, which builds and is not run here.
+#[test]
+fn readme_shows_the_totals_of_all_cases() {
+    let all = cases::all();
+    let part = |judges: Judges| {
+        let count = all.iter().filter(|case| case.about.judges == judges).count();
+        let passed = if judges == Judges::Measurement { 0 } else { count };
+        let without = if judges == Judges::Measurement { format!(" (no data for {count})") } else { String::new() };
+        format!("{} {passed} of {count}{without}", judges.name())
+    };
+    let line = format!("\nPassed: {}. 0 fail, 0 under-powered. …\n", Judges::ALL.map(part).join("; "));
+    assert!(readmes()[0].text.contains(&line), "{line}");
 }

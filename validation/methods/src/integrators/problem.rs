@@ -6,7 +6,7 @@ use std::f64::consts::TAU;
 
 /// One free rod in plane Couette flow, in units of 1/G, over a number of its periods.
 ///
-/// The right-hand sides are written anew, apart from the core's, without cancellation at large r_e.
+/// The right-hand sides are written apart from the core's, without cancellation at large r_e.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RodProblem {
     /// The aspect ratio r_e > 0.

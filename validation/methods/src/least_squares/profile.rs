@@ -117,7 +117,7 @@ pub fn profile(best: &Best, axis: usize) -> Profile {
 impl Profile {
     /// The larger share of the replicas' noise in the rise at the two ends of an interval; 0 if the profile does not
     /// reach `level`.
-    pub fn feigned(&self, level: f64) -> f64 {
+    pub fn noise_share(&self, level: f64) -> f64 {
         let outside = |k: &usize| self.rise[*k] > level;
         let inside: Vec<usize> = (0..self.place.len()).filter(|k| !outside(k)).collect();
         let next = [

@@ -188,17 +188,17 @@ def fit(
         words += ["--design"] if design else []
         words += [word for held in test for word in ("--test", held)]
         words += [] if checkpoint is None else ["--checkpoint", os.path.abspath(checkpoint)]
-        told = bar_of("run") if progress is True else progress or None
-        words += ["--log-every", "0.1"] if told else []
+        show = bar_of("run") if progress is True else progress or None
+        words += ["--log-every", "0.1"] if show else []
 
         def watch() -> None:
             found = [re.fullmatch(r"progress: .*: (\d+) of (\d+) runs", line) for line in complained(folder)]
             counts = [(int(match[1]), int(match[2])) for match in found if match]
-            if told and counts:
-                told(*counts[-1])
+            if show and counts:
+                show(*counts[-1])
 
         try:
-            said = program(words, folder, watch if told else None)
+            said = program(words, folder, watch if show else None)
         except (ValueError, RuntimeError) as error:
             # The caller has columns, not these files.
             named = lambda file: "data" if file[1] == "1" else f"data of also[{int(file[1]) - 2}]"

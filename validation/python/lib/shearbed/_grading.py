@@ -104,33 +104,33 @@ def _exported() -> tempfile.TemporaryDirectory[str]:
 
 
 def _problem(folder: Path) -> Problem:
-    told = json.loads((folder / "problem.json").read_text(encoding="utf-8"))
+    record = json.loads((folder / "problem.json").read_text(encoding="utf-8"))
     start, inputs = folder / "start.csv", folder / "inputs.csv"
     rods = np.stack([columns(start)[name] for name in ("p1", "p2", "p3")], axis=1) if start.exists() else np.empty((0, 3))
     return Problem(
-        name=told["name"],
-        title=told["title"],
-        kind=told["kind"],
-        gradient_per_s=np.array(told["gradient_per_s"]),
-        aspect_ratio=told["aspect_ratio"],
-        times_s=np.array(told["times_s"]),
+        name=record["name"],
+        title=record["title"],
+        kind=record["kind"],
+        gradient_per_s=np.array(record["gradient_per_s"]),
+        aspect_ratio=record["aspect_ratio"],
+        times_s=np.array(record["times_s"]),
         start=rods,
         certified=columns(folder / "certified.csv"),
-        tolerance=told["tolerance"],
-        because=told["because"],
-        equations=tuple(told["equations"]),
-        columns=tuple(told["columns"]),
-        formula=told.get("formula"),
+        tolerance=record["tolerance"],
+        because=record["because"],
+        equations=tuple(record["equations"]),
+        columns=tuple(record["columns"]),
+        formula=record.get("formula"),
         inputs=columns(inputs) if inputs.exists() else None,
-        rotation_rad_per_s=tuple(told["rotation_rad_per_s"]) if "rotation_rad_per_s" in told else None,
+        rotation_rad_per_s=tuple(record["rotation_rad_per_s"]) if "rotation_rad_per_s" in record else None,
     )
 
 
 class Report:
     """What was found: a verdict for each problem. True where a problem passes, and none fails or was not reached."""
 
-    def __init__(self, told: dict[str, Any], runs: Sequence[tuple[str, int, float, float]] = ()) -> None:
-        self.problems: list[dict[str, Any]] = told["problems"]
+    def __init__(self, record: dict[str, Any], runs: Sequence[tuple[str, int, float, float]] = ()) -> None:
+        self.problems: list[dict[str, Any]] = record["problems"]
         """name, verdict, reference, error, tolerance, observed_order, diagnosis, raised, ... of each problem."""
         self._runs = runs
 
@@ -313,8 +313,8 @@ def grade(
     # Nobody can open these folders any more: files are named by problem.
     for gone in (str(mine), _exported().name):
         text = text.replace(json.dumps(gone + os.sep)[1:-1], "")
-    told = json.loads(text)
-    for judged in told["problems"]:
+    record = json.loads(text)
+    for judged in record["problems"]:
         judged["raised"] = raised.get(judged["name"])
         if judged["verdict"] == "MISSING" and judged["raised"]:
             judged["note"] = None
@@ -326,7 +326,7 @@ def grade(
         if judged["name"] in late and judged["verdict"] == "FAIL" and judged["order_found"] != "lower":
             judged["verdict"] = "NOT REACHED"
             judged["note"] = f"time ran out (timeout_s = {timeout_s:g}) after {late[judged['name']]} steps; {judged['note']}"
-    return Report(told, runs)
+    return Report(record, runs)
 
 
 def _ladder(problem: Problem) -> list[int]:

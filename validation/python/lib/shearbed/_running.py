@@ -69,8 +69,8 @@ def run(
         return _apart(scene, words + options(replicas=replicas, seed=seed, threads=threads), vtk)
     if time_limit_s is not None:
         raise TypeError("time_limit_s: it goes with until_se")
-    told = bar_of("replica") if progress is True else progress or None
-    found = _core.run(scene._name, scene._text, replicas, seed, threads, told, yes)
+    show = bar_of("replica") if progress is True else progress or None
+    found = _core.run(scene._name, scene._text, replicas, seed, threads, show, yes)
     for warning in scene.warnings:
         warnings.warn(warning, stacklevel=2)
     return Results(found | {name: table(found[name].splitlines()) for name in DERIVED})
@@ -126,13 +126,13 @@ def bar_of(unit: str) -> Callable[[int, int], object] | None:
         return None
     bar = tqdm(unit=unit)
 
-    def told(done: int, of: int) -> None:
+    def show(done: int, of: int) -> None:
         if done < bar.n:
             bar.reset()
         bar.total = of
         bar.update(done - bar.n)
 
-    return told
+    return show
 
 
 def sweep(
@@ -171,13 +171,13 @@ def sweep(
             words += ["--over", f"{key}=" + ",".join(_value(value) for value in values)]
         words += options(replicas=replicas, seed=seed, threads=threads, set=set)
         points = int(np.prod([len(values) for values in over.values()]))
-        told = bar_of("point") if progress is True else progress or None
+        show = bar_of("point") if progress is True else progress or None
 
         def watch() -> None:
-            if told:
-                told(len(list(folder.glob("out/points/*/shearbed.json"))), points)
+            if show:
+                show(len(list(folder.glob("out/points/*/shearbed.json"))), points)
 
-        program(words, folder, watch if told else None)
+        program(words, folder, watch if show else None)
         swept = columns(folder / "out" / "sweep.csv")
         if times == "last":
             return _dataset(swept, over) if xarray else swept

@@ -150,10 +150,10 @@ class Scene:
         """The scene with other values of some keys: ``scene.replace(alpha=0.3)``, or, dotted as in a sweep,
         ``scene.replace(**{"interaction.alpha": 0.3})``. ``None`` takes a key out, so that another can stand for it."""
         dotted = {f"{_TABLE_OF[key]}.{key}" if key in _TABLE_OF else key: value for key, value in values.items()}
-        told = [(key, None if value is None else _value(value)) for key, value in dotted.items()]
+        changes = [(key, None if value is None else _value(value)) for key, value in dotted.items()]
         scene = Scene.__new__(Scene)
         scene._name = self._name
-        scene._text = _core.changed(self._name, self._text, told)
+        scene._text = _core.changed(self._name, self._text, changes)
         scene._describe()
         return scene
 

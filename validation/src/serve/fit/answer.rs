@@ -84,7 +84,7 @@ impl Fit {
 
     /// The largest share of the replicas' noise in the rise of χ² at the ends of the 95 % intervals.
     pub fn noise_share(&self) -> f64 {
-        let all = self.profiles.iter().map(|profile| profile.feigned(rise_of(0.95)));
+        let all = self.profiles.iter().map(|profile| profile.noise_share(rise_of(0.95)));
         crate::oracle::worst(all)
     }
 

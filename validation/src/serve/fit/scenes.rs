@@ -373,8 +373,8 @@ mod tests {
         ] {
             // The scatter of lengths is relative: it is no length of its own.
             for scatter in [&[][..], &["particles.length_sd_percent=10"]] {
-                let told = refused(text, sets, scatter, over, "x1");
-                assert!(told.contains("by α·a·n^(1/3) alone; fix "), "{over:?}: {told}");
+                let why = refused(text, sets, scatter, over, "x1");
+                assert!(why.contains("by α·a·n^(1/3) alone; fix "), "{over:?}: {why}");
             }
         }
         for (text, sets, settings, over, column) in [

@@ -148,7 +148,7 @@ mod tests {
 
     #[test]
     fn every_point_is_checked_as_a_scene_file_is() {
-        for (over, told) in [
+        for (over, expected) in [
             (
                 &["particles.count=10:20:4"][..],
                 "particles.count=13.333333333333334 (point 2 of 4): particles.count = 13.333333333333334 is not \
@@ -160,7 +160,7 @@ mod tests {
             (&["a=1:2:1000", "b=1:2:101"], "more than 100000 points"),
         ] {
             let error = refused(over);
-            assert!(error.contains(told), "{error}");
+            assert!(error.contains(expected), "{error}");
         }
     }
 }

@@ -45,7 +45,7 @@ fn names_and_an_uncertainty_can_be_given_beside_the_file() {
     // Without a header, the first point is in the first line.
     let found = read_as("0.5,0.5,1\n0.5,0.4,2\n", &reading("-,x1,t_s", Some(0.02))).unwrap();
     assert!(found.points.iter().zip(&expected.points).all(|(a, b)| a.line + 1 == b.line && a.value == b.value));
-    for (text, names, u, told) in [
+    for (text, names, u, expected) in [
         ("a,b,c\n1,2,3\n", "t_s,x1", None, "points.csv:1: 3 cells where 2 columns are named"),
         ("a,b\n1,2\n", "t_s,x4", None, "column `x4` is not allowed"),
         ("a,b,c\n1,2,3\n", "t_s,x1,x1", Some(0.1), "column `x1` is there twice"),
@@ -53,7 +53,7 @@ fn names_and_an_uncertainty_can_be_given_beside_the_file() {
         ("t_s,-\n1,0.5\n", "", Some(0.1), "no column of measured values among t_s, -"),
     ] {
         let error = read_as(text, &reading(names, u)).unwrap_err();
-        assert!(error.contains(told), "{error}");
+        assert!(error.contains(expected), "{error}");
     }
 }
 

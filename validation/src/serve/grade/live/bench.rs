@@ -85,7 +85,7 @@ pub fn bench(program: &Program, echo: &str) -> Bench {
         aspect_ratio: ASPECT_RATIO,
         program: curve(&program.integrator(), ASPECT_RATIO, budget),
         pipe_s: pipe_s(echo, program.protocol, program.timeout),
-        ours: integrators::all().iter().map(|subject| curve(subject, ASPECT_RATIO, Budget::QUICK)).collect(),
+        ours: integrators::all().iter().map(|integrator| curve(integrator, ASPECT_RATIO, Budget::QUICK)).collect(),
     }
 }
 

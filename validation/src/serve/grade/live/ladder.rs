@@ -37,7 +37,7 @@ pub enum Mode {
 }
 
 /// Asks for a rod of r_e = 2 over a short time, with steps; if the program returns an error there and none with a
-/// tolerance, its mode is the tolerance. If `any_form` and it does not understand its form of lines, it is started anew
+/// tolerance, its mode is the tolerance. If `any_form` and it does not understand its form of lines, it starts again
 /// with numbers.
 pub fn prepared(program: Program, any_form: bool) -> (Program, Mode) {
     let ask = |program: &Program, setting| {

@@ -25,14 +25,14 @@ pub struct Along {
 
 /// The errors of a program over two periods; those that are finite.
 pub(super) fn path(program: &Program) -> Vec<Along> {
-    let (subject, start) = (program.integrator(), UnitVector3::new_normalize(Vector3::from(START)));
+    let (integrator, start) = (program.integrator(), UnitVector3::new_normalize(Vector3::from(START)));
     let at = |request: u64| {
         let turns = request as f64 / 16.0;
         let setting = match program.theory {
             Theory::Adaptive => Setting::Tolerance(TOLERANCE),
             _ => Setting::Steps(STEPS * request),
         };
-        let errors = grade(&subject, &RodProblem::new(ASPECT_RATIO, turns), &start, setting).ok()?;
+        let errors = grade(&integrator, &RodProblem::new(ASPECT_RATIO, turns), &start, setting).ok()?;
         Some(Along { turns, error_rad: errors.orientation_rad })
     };
     (1..=REQUESTS).filter_map(at).collect()

@@ -70,7 +70,7 @@ impl Program {
         })
     }
 
-    /// The same program, started anew with lines of another form.
+    /// The same program, started again with lines of another form.
     pub fn restarted(&self, protocol: Protocol) -> Self {
         Self { protocol, state: Arc::default(), ..self.clone() }
     }

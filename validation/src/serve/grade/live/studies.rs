@@ -72,11 +72,11 @@ pub fn studies(program: &Program, echo: &str) -> Studies {
 }
 
 fn limits(program: &Program) -> Vec<Longest> {
-    let subject = program.integrator();
+    let integrator = program.integrator();
     let of = |property: Property, aspect_ratio: f64| Longest {
         property,
         aspect_ratio,
-        strain: longest_on(LADDER, &subject, property, aspect_ratio),
+        strain: longest_on(LADDER, &integrator, property, aspect_ratio),
     };
     [Property::Turning, Property::Length, Property::Orbit]
         .into_iter()
@@ -85,14 +85,14 @@ fn limits(program: &Program) -> Vec<Longest> {
 }
 
 fn rows(program: &Program) -> Vec<MapRow> {
-    let subject = program.integrator();
+    let integrator = program.integrator();
     let cell = |aspect_ratio: f64, k: usize| {
         let mut run = map::by_step(program.theory, aspect_ratio, STEPS[k], MOST_STEPS);
         if program.theory == Theory::Adaptive {
             run = map::by_step(Theory::Order(1), aspect_ratio, 0.1, MOST_STEPS);
             run.setting = Setting::Tolerance(TOLERANCES[k]);
         }
-        run.of(&subject).found
+        run.of(&integrator).found
     };
     let found = |aspect_ratio: f64| (0..STEPS.len()).map(|k| cell(aspect_ratio, k)).collect();
     MAP_RATIOS.map(|aspect_ratio| MapRow { aspect_ratio, found: found(aspect_ratio) }).into()

@@ -9,7 +9,7 @@ const DIGITS: usize = 25;
 
 pub(super) type Vector = [Big; 3];
 
-/// Computes the certified answers of both problems afresh, by name: a header, and one row per pair.
+/// Computes the certified answers of both problems, by name: a header, and one row per pair.
 pub fn certify() -> Vec<(&'static str, String)> {
     let pairs = pairs();
     let rods: Vec<_> = pairs.par_iter().map(|pair| touched(&pair.map(|x| BITS.of(x)))).collect();

@@ -39,9 +39,9 @@ fn what_comes_right_over_many_numbers_of_steps_is_a_method() {
         let unstable = |steps: u64| right(steps) + 1e-12 * 1.5f64.powi(200 - steps as i32);
         assert_eq!(judged(|steps, _| unstable(steps)), End::Reached, "{order}");
         // Not finite, or too long, where it is unstable.
-        for wild in [f64::NAN, f64::INFINITY, 1e30] {
-            let found = judged(|steps, _| if steps < 16 { wild } else { right(steps) });
-            assert_eq!(found, End::Reached, "{order} {wild}");
+        for wrong in [f64::NAN, f64::INFINITY, 1e30] {
+            let found = judged(|steps, _| if steps < 16 { wrong } else { right(steps) });
+            assert_eq!(found, End::Reached, "{order} {wrong}");
         }
         // An accidental zero at a rung.
         let crossing = |steps: u64| right(steps) * (1.0 - 64.0 / steps as f64).abs();
@@ -54,11 +54,11 @@ fn answers_that_are_wrong_at_some_numbers_of_steps_are_no_methods() {
     for order in [2.0, 4.0, 5.0, 8.0] {
         let right = |steps: u64| 0.5 * (steps as f64 / 16.0).powf(-order);
         let jumps = |found: End| matches!(&found, End::Jumps(words) if words.contains("does not jump"));
-        for wild in [1.2, f64::NAN] {
-            let below = judged(|steps, _| if steps < 512 && steps > 8 { wild } else { right(steps) });
-            assert!(jumps(below), "{order} {wild}");
-            let third = judged(|steps, asked| if asked % 3 == 0 && steps > 100 { wild } else { right(steps) });
-            assert!(order > 5.0 || jumps(third), "{order} {wild}");
+        for wrong in [1.2, f64::NAN] {
+            let below = judged(|steps, _| if steps < 512 && steps > 8 { wrong } else { right(steps) });
+            assert!(jumps(below), "{order} {wrong}");
+            let third = judged(|steps, asked| if asked % 3 == 0 && steps > 100 { wrong } else { right(steps) });
+            assert!(order > 5.0 || jumps(third), "{order} {wrong}");
         }
         let once = judged(|steps, _| if steps == 512 { 1.2 } else { right(steps) });
         assert!(order > 4.0 || jumps(once), "{order}");
