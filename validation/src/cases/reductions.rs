@@ -56,7 +56,8 @@ fn run(scene: &Scene) -> Option<Results> {
     ensemble::run(&lab::plan(scene)).ok()
 }
 
-/// The largest difference of any channel at any output between the scenes `a` and `b`; NaN if one of them stops.
+/// The largest difference of any channel at any output between the scenes `a` and `b`; NaN if one of them stops,
+/// or if they have different outputs.
 pub(super) fn difference(a: &Scene, b: &Scene) -> f64 {
     let (Some(a), Some(b)) = (run(a), run(b)) else {
         return f64::NAN;
@@ -64,8 +65,9 @@ pub(super) fn difference(a: &Scene, b: &Scene) -> f64 {
     let channels = |results: &Results| -> Vec<f64> {
         results.series.iter().flat_map(|series| &series.columns).flat_map(|c| c.mean.clone()).collect()
     };
-    let pairs = channels(&a).into_iter().zip(channels(&b));
-    worst(pairs.map(|(a, b)| (a - b).abs()))
+    let (a, b) = (channels(&a), channels(&b));
+    // Series of different lengths differ.
+    if a.len() == b.len() { worst(a.into_iter().zip(b).map(|(a, b)| (a - b).abs())) } else { f64::NAN }
 }
 
 fn reductions(limits: &Limits, effort: &Effort) -> [Evidence; 6] {
