@@ -32,6 +32,9 @@ fn with_rods(plan: Plan, rods_at: Vec<f64>) -> Plan {
     planned(&scene)
 }
 
+/// The time of free rods.
+const FREE: &str = "periods = 3\noutputs_per_period = 50";
+
 /// Scenes that keep something different each, and how often they are looked at in one replica.
 fn scenes() -> Vec<(Plan, usize)> {
     let general = format!("gradient_per_s = {}", any_gradient::GENERAL);
@@ -49,9 +52,9 @@ fn scenes() -> Vec<(Plan, usize)> {
         (plan(70_000, COUETTE, DENSE, "periods = 0.03\noutputs_per_period = 100\nsteps_per_period = 200", 3), 6),
         // Every rod at some outputs.
         (with_rods(plan(40, COUETTE, DENSE, STEPS, 3), vec![0.1, 0.3, 0.5]), 50),
-        (with_rods(plan(40, COUETTE, "", "periods = 3\noutputs_per_period = 50", 3), vec![0.0, 2.0]), 3),
+        (with_rods(plan(40, COUETTE, "", FREE, 3), vec![0.0, 2.0]), 3),
         // Free rods, more outputs than are made at once.
-        (plan(40, COUETTE, "", "periods = 3\noutputs_per_period = 50", 3), 3),
+        (plan(40, COUETTE, "", FREE, 3), 3),
         (
             plan(40, "gradient_per_s = [[0.5,0,0],[0,-0.5,0],[0.1,0,0]]", "", "strain = 8\noutputs_per_strain = 20", 3),
             3,
@@ -95,7 +98,7 @@ fn a_replica_goes_on_bit_for_bit_from_wherever_it_was() {
 
 #[test]
 fn what_is_of_no_replica_of_the_plan_is_refused() {
-    let plans = [plan(40, COUETTE, DENSE, STEPS, 3), plan(40, COUETTE, "", "periods = 3\noutputs_per_period = 50", 3)];
+    let plans = [plan(40, COUETTE, DENSE, STEPS, 3), plan(40, COUETTE, "", FREE, 3)];
     let [interacting, free] = plans.each_ref().map(|plan| {
         let (states, _) = watched(plan, None);
         serde_json::to_value(&states[states.len() / 2]).unwrap()

@@ -50,7 +50,8 @@ fn default_outputs_follow_the_strain() {
     let default = [1.0, 5.0, 11.6, 11.8, 11.9, 14.2, 20.0, 50.0, 1e6].map(of);
     assert_eq!(default, [100, 200, 400, 400, 400, 450, 650, 1000, 1000]);
     for r in [2.0, 11.84, 12.0, 30.0, 100.0, 238.0] {
-        let allowed = if r > 31.0 { 1.5 } else { 0.2 };
+        // There are 1000 outputs at most.
+        let allowed = f64::max(0.2, strain_per_period(r) / 1000.0);
         assert!(strain_per_period(r) / of(r) as f64 <= allowed, "{r}");
         // T/2 is the time of an output, and outputs are at steps.
         let (scene, outputs) = (colliding(r), colliding(r).outputs_per_unit());
