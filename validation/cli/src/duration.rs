@@ -1,7 +1,7 @@
 //! A rough estimate of the run time of suspensions before they start.
 
 use super::fit::MOST_REPLICAS;
-use super::{Failure, threads};
+use super::{Failure, memory, threads};
 use shearbed::Plan;
 use shearbed::plan::{Stage, counted};
 use shearbed::run::ensemble;
@@ -57,6 +57,15 @@ impl Long {
             about(seconds)
         )))
     }
+}
+
+/// Checks that a plan fits into memory with a replica on each thread, and that it takes less than a day unless `yes`;
+/// the error says why it may not run.
+pub fn may_run(plan: &Plan, threads: Option<u64>, source: &str, yes: bool) -> Result<(), String> {
+    let replicas = plan.scene().ensemble.replicas;
+    memory::check(plan, threads, source)
+        .and_then(|()| Long { yes }.check(source, threads, &[(plan, replicas)]))
+        .map_err(|failure| failure.message_and_code().0)
 }
 
 /// Seconds of a replica on one core: the time of the first replica, with its collisions; a guess by rods and steps

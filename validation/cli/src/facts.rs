@@ -1,6 +1,6 @@
 //! Properties of a scene that are known before a run: its period, its step, its shape factor, and how dilute it is.
 
-use super::rods;
+use super::{duration, rods};
 use serde::Serialize;
 use shearbed::Plan;
 use shearbed::motion::Propagator;
@@ -91,4 +91,9 @@ impl Facts {
         });
         parts.join(", ") + &rods.unwrap_or_default() + "\n"
     }
+}
+
+/// T, GΔt, n a³ and the cost on one core, as `shearbed plan` prints them.
+pub fn facts(plan: &Plan) -> String {
+    Facts::of(plan).text() + &duration::of_scene(plan, duration::of_replica(plan, true), None)
 }

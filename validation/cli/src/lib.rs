@@ -41,6 +41,8 @@ mod until;
 mod validate;
 mod words;
 
+pub use duration::may_run;
+pub use facts::facts;
 pub use manual::commands;
 pub use threads::code_of_panic;
 
@@ -194,20 +196,6 @@ fn with_name(arguments: Vec<OsString>) -> Vec<OsString> {
 /// The tables `extremes.csv` and `derived.csv` of a run.
 pub fn derived(plan: &shearbed::Plan, results: &shearbed::Results) -> Result<[String; 2], String> {
     derived::files(plan, results, &derived::of(plan, results)).map(|files| files.map(|(_, text)| text))
-}
-
-/// T, GΔt, n a³ and the cost on one core, as `shearbed plan` prints them.
-pub fn facts(plan: &shearbed::Plan) -> String {
-    facts::Facts::of(plan).text() + &duration::of_scene(plan, duration::of_replica(plan, true), None)
-}
-
-/// Checks that a plan fits into memory with a replica on each thread, and that it takes less than a day unless `yes`;
-/// the error says why it may not run.
-pub fn may_run(plan: &shearbed::Plan, threads: Option<u64>, source: &str, yes: bool) -> Result<(), String> {
-    let replicas = plan.scene().ensemble.replicas;
-    memory::check(plan, threads, source)
-        .and_then(|()| duration::Long { yes }.check(source, threads, &[(plan, replicas)]))
-        .map_err(|failure| failure.message_and_code().0)
 }
 
 /// The message with the value that it is about on one line.
