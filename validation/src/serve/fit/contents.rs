@@ -80,13 +80,8 @@ pub fn warning(
         }
         // A single rod does not scatter.
         (Some(rods), None) if times > 0.7 && times.is_finite() => {
-            let other = best(data, &fit.emulator, &self::rods(measured, Some(Contents::Rods), counts))?;
-            differs(fit, &other).then(|| Warning::ReadingAlone {
-                times,
-                rods,
-                answer: own,
-                with_rods: answer(fit, &other),
-            })
+            let other = other(&self::rods(measured, Some(Contents::Rods), counts))?;
+            Some(Warning::ReadingAlone { times, rods, answer: own, with_rods: answer(fit, &other) })
         }
         (Some(rods), Some(Contents::Rods)) if times < 0.7 => Some(Warning::TooSmall(times, rods)),
         (Some(rods), Some(Contents::Rods)) if times > 1.5 => Some(Warning::TooLarge(times, rods)),
