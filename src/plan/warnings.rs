@@ -298,8 +298,8 @@ mod tests {
             (rods, n, t, none),
             (rods, n, "periods = 0.3", none),
             (rods, n, "periods = 0", none),
-            (rods, n, "periods = 0.35", "time.periods = 0.35 ends between two outputs: the last one is at 0.34;"),
-            (rods, n, "periods = 0.005", "time.periods = 0.005 ends between two outputs: the last one is at 0;"),
+            (rods, n, "periods = 0.353", "time.periods = 0.353 ends between two outputs: the last one is at 0.35;"),
+            (rods, n, "periods = 0.004", "time.periods = 0.004 ends between two outputs: the last one is at 0;"),
             (rods, "concentration_per_cm3 = 260", t, none),
             (
                 rods,

@@ -316,9 +316,9 @@ impl Scene {
         }
     }
 
-    /// Outputs per unit of time, given or by default: 50 a period up to r_e = 11.8, more above and of free rods; or 10
-    /// a unit of strain (a second: rounded up). If rods take steps, it divides them: the largest divisor up to that,
-    /// and above 50 the least even one with a strain of at most 1.5 between outputs.
+    /// Outputs per unit of time, given or by default: a strain of 0.2 apart, of rods that take steps 0.4, at least 50 a
+    /// period; or 10 a unit of strain (a second: rounded up). If rods take steps, it divides them: the least even
+    /// divisor that is enough, or the largest.
     pub fn outputs_per_unit(&self) -> u64 {
         self.time.outputs_per_unit.unwrap_or_else(|| {
             let most = self.default_outputs();

@@ -9,9 +9,9 @@ use nalgebra::Matrix3;
 /// Steps per period come in multiples of this, so that the default outputs fall on steps.
 const MULTIPLE: u64 = 50;
 
-/// The longest strain between default outputs: a flip takes a strain of about 2 at any r_e, and the largest shear
-/// stress of a start-up is missed by 4 % at most.
-const OUTPUT_STRAIN: f64 = 1.5;
+/// The longest strain between default outputs, about that of a default step: a flip takes a strain of about 2 at any
+/// r_e, and lines between outputs follow the peaks of the means.
+const OUTPUT_STRAIN: f64 = 0.4;
 
 /// The same of free rods, whose outputs cost little: a turn of |p_i| between two of them is cut by (0.2/2)²/2 = 0.5 %.
 const FREE_OUTPUT_STRAIN: f64 = 0.2;

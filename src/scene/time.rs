@@ -15,8 +15,7 @@ pub struct Time {
     pub duration: f64,
     /// Steps of interacting rods per unit (`steps_per_period` and so on); by default as many as resolve the motion.
     pub steps_per_unit: Option<u64>,
-    /// Outputs per unit (`outputs_per_period` and so on); by default 50 a period, more for long or free rods, or 10 a
-    /// unit of strain.
+    /// Outputs per unit (`outputs_per_period` and so on); by default [`super::Scene::outputs_per_unit`].
     pub outputs_per_unit: Option<u64>,
 }
 
@@ -101,7 +100,7 @@ table! {
         steps_per_second: Option<u64> = None, "", PER_UNIT, Other("as many as resolve the motion"),
             "steps of interacting rods per second";
         outputs_per_period: Option<u64> = None, "", PER_UNIT,
-            Other("free rods: 0.2 of strain apart; others: 50, or 1.5"),
+            Other("0.2 of strain apart, 0.4 if rods take steps"),
             "outputs; of interacting rods a divisor of the steps";
         outputs_per_strain: Option<u64> = None, "", PER_UNIT, Other("10, or the largest divisor below"),
             "outputs per unit of strain, likewise";

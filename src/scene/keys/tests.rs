@@ -56,9 +56,10 @@ fn default_outputs_follow_the_strain() {
         // T/2 is the time of an output, and outputs are at steps.
         let (scene, outputs) = (colliding(r), colliding(r).outputs_per_unit());
         assert!(scene.steps_per_unit().is_multiple_of(outputs) && outputs.is_multiple_of(2), "{r}: {outputs}");
-        assert!(strain_per_period(r) / outputs as f64 <= 1.5, "{r}: {outputs}");
+        let allowed = f64::max(0.4, strain_per_period(r) / 1000.0);
+        assert!(strain_per_period(r) / outputs as f64 <= allowed, "{r}: {outputs}");
     }
-    assert_eq!([11.6, 14.2, 15.0, 20.0].map(|r| colliding(r).outputs_per_unit()), [50, 60, 70, 100]);
+    assert_eq!([11.6, 14.2, 15.0, 20.0].map(|r| colliding(r).outputs_per_unit()), [200, 300, 350, 600]);
 }
 
 /// A number of hundreds of digits is a power of ten in a message.

@@ -10,7 +10,7 @@ use serde_json::json;
 use shearbed::Scene;
 use shearbed::model::jeffery::strain_per_period;
 use shearbed::plan::Stage;
-use shearbed::scene::{MAX_REPLICAS, resolved_strain};
+use shearbed::scene::{MAX_REPLICAS, Time, resolved_strain};
 use shearbed_validation::files::output::Output;
 use shearbed_validation::files::text::complain;
 use shearbed_validation::files::{build, cluster};
@@ -53,7 +53,7 @@ pub(super) fn converge(args: &Args) -> Result<(), Failure> {
         let (key, steps) = (named.scene.time.unit.steps_key(), named.scene.steps_per_unit());
         let (half, quarter) = (2 * steps, 4 * steps);
         return Err(Failure::Input(at(format!(
-            "converge of interacting rods needs plane Couette flow, only ∂u_2/∂x_1 other than 0, time.periods and no \
+            "converge of interacting rods needs plane Couette flow, only ∂u_2/∂x_1 other than 0, and no \
              particles.rods; else halve the time step and compare: sweep --over {key}={steps},{half},{quarter}"
         ))));
     }
@@ -64,14 +64,16 @@ pub(super) fn converge(args: &Args) -> Result<(), Failure> {
     spares_inputs(&out, &names, named.files())?;
     let folder = result_folder(&out, ("converge", input, args.writing.force), 0, &names)?;
     let replicas = args.replicas.map_or(Replicas::CONVERGE, Replicas::Each);
+    let couette = plan.flow().shear_rate_per_s().is_some();
+    let scene = if couette { law::by_periods(&plan) } else { named.scene.clone() };
     let done = match plan.runs(Stage::Contacts) {
         true => {
-            let warnings = [plan.warnings(), vec![coarse(&named.scene)], other_end(&named.scene)].concat();
+            let warnings = [plan.warnings(), vec![coarse(&scene)], other_end(&named.scene, &scene)].concat();
             scene::warn(&named.source, &warnings);
-            on_threads(args.threads.given, || interacting(&named.scene, replicas, warnings, args))?
+            on_threads(args.threads.given, || interacting(&scene, replicas, warnings, args))?
         }
         // This takes milliseconds, so that the root does it alone.
-        false if cluster::is_root() => free(&named.scene).map(Some),
+        false if cluster::is_root() => free(&scene).map(Some),
         false => Ok(None),
     }
     .map_err(|failure| match failure {
@@ -105,17 +107,15 @@ fn done(tables: Vec<ReportTable>, files: Vec<(&str, Result<String, String>)>) ->
 /// Studies every fixed-step integrator on one rod of the scene's mean aspect ratio, from its start, for its number of
 /// periods.
 fn free(scene: &Scene) -> Result<Done, Failure> {
-    if scene.flow.shear_rate_per_s().is_none() {
-        return Err(Failure::Input(
+    let shear_rate_per_s = scene.flow.shear_rate_per_s().ok_or_else(|| {
+        Failure::Input(
             "flow: converge compares integrators of free rods in plane Couette flow; give shear_rate_per_s".into(),
-        ));
-    }
+        )
+    })?;
     refuse(Some(scene.particles.rotary_diffusion_per_s).filter(|d_r| *d_r > 0.0), |d_r| {
         format!("particles.rotary_diffusion_per_s = {d_r}: converge compares integrators of free rods; 0 is allowed")
     })?;
-    let orders = order::of_scene(scene).ok_or_else(|| {
-        Failure::Input("time: converge compares integrators of free rods over periods; give periods".into())
-    })?;
+    let orders = order::of_scene(scene, shear_rate_per_s);
     let (csv, json) = (orders_csv(&orders.studies), build::json(&orders));
     let picture = plot::svg(&orders_figure(&orders).figure);
     let wrong: Vec<_> = (orders.studies.iter())
@@ -126,14 +126,14 @@ fn free(scene: &Scene) -> Result<Done, Failure> {
     Ok(Done { wrong: (!wrong.is_empty()).then(|| wrong.join(", ")), ..done(vec![orders_table(&orders)], files)? })
 }
 
-/// A sentence where the scene ends at another time than the study's runs.
-fn other_end(scene: &Scene) -> Vec<String> {
-    let periods = Some(scene.time.duration).filter(|periods| *periods != 1.0);
-    let said = |periods| {
+/// A sentence where the scene ends at another time than the study's runs; `by_periods` is the scene in periods.
+fn other_end(scene: &Scene, by_periods: &Scene) -> Vec<String> {
+    let other = Some(&scene.time).filter(|_| by_periods.time.duration != 1.0);
+    let said = |time: &Time| {
         let why = "every run of this study ends after one period, whose means it compares";
-        format!("time.periods = {periods} is not used: {why}")
+        format!("{} = {} is not used: {why}", time.unit.duration_key(), time.duration)
     };
-    periods.map(said).into_iter().collect()
+    other.map(said).into_iter().collect()
 }
 
 /// A sentence on the tried steps that are coarser than the default.

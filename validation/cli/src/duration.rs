@@ -1,6 +1,5 @@
 //! A rough estimate of the run time of suspensions before they start.
 
-use super::fit::MOST_REPLICAS;
 use super::{Failure, memory, threads};
 use shearbed::Plan;
 use shearbed::plan::{Stage, counted};
@@ -132,11 +131,11 @@ pub(super) fn nodes(parameters: usize) -> u64 {
 }
 
 /// The cost of a fit of so many parameters, as text, if a replica of `plan` takes `each_s`: its first runs, and as many
-/// as are allowed in one range and in all; `corners` are the ends of the ranges.
+/// as are allowed in one range and in all, with `most` replicas at each value; `corners` are the ends of the ranges.
 pub(super) fn of_fit<'a>(
     plan: &Plan,
     each_s: f64,
-    parameters: usize,
+    (parameters, most): (usize, u64),
     corners: impl ExactSizeIterator<Item = &'a Plan>,
 ) -> String {
     let nodes = nodes(parameters);
@@ -146,8 +145,8 @@ pub(super) fn of_fit<'a>(
         let runs = nodes * replicas;
         format!("{runs} runs, {} of one core", about(each_s * runs as f64))
     };
-    let [first, most] = [FIRST_REPLICAS, MOST_REPLICAS].map(of);
-    let all = about(each_s * (nodes * MOST_REPLICAS * MOST_ROUNDS) as f64);
+    let all = about(each_s * (nodes * most * MOST_ROUNDS) as f64);
+    let [first, most] = [FIRST_REPLICAS.min(most), most].map(of);
     format!(
         "fit: at first {first}; then up to {most}, in each range that it tries: mostly 2 to 6, at most \
         {MOST_ROUNDS} ({all})\n"
@@ -176,9 +175,9 @@ pub(super) fn of_scene(plan: &Plan, each_s: f64, threads: Option<u64>) -> String
     }
     let own = rods * plan.steps() as f64;
     let study = if law::judges(plan) {
-        of_jobs(&law::jobs(scene, Replicas::CONVERGE))
+        of_jobs(&law::jobs(&law::by_periods(plan), Replicas::CONVERGE))
     } else {
-        "only plane Couette flow by periods, and no particles.rods".to_owned()
+        "only plane Couette flow, and no particles.rods".to_owned()
     };
     format!("run: {own:.1e} rods × steps, {took}\nconverge: {study}\n")
 }

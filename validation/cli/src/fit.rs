@@ -5,6 +5,7 @@ mod input;
 mod shifts;
 mod terminal;
 
+use super::derived::{self, DERIVED, EXTREMES};
 use super::duration::{Long, USUAL_ROUNDS, nodes};
 use super::{
     Failure, Threads, Writing, checkpoint, log_progress, number, on_threads, progress, result_folder, scene,
@@ -15,6 +16,7 @@ use input::{Input, input};
 use serde_json::{Value, json};
 use shearbed::Plan;
 use shearbed::plan::counted;
+use shearbed::run::ensemble;
 use shearbed::scene::{MAX_REPLICAS, MAX_SEED};
 use shearbed_validation::files::build::BUILD;
 use shearbed_validation::files::output::{Output, ResultFolder};
@@ -116,6 +118,8 @@ struct Done {
     report: Report,
     warnings: Vec<String>,
     figures: Vec<(String, plot::Figure)>,
+    /// Tables of what is derived from each set's curves.
+    derived: Vec<Output>,
     candidates: Vec<Candidate>,
 }
 
@@ -164,7 +168,8 @@ fn check_duration(args: &Args, input: &Input) -> Result<(), Failure> {
 /// The folder for the results, which may replace none of the files that are read.
 fn folder(args: &Args, input: &Input, asked: &Value) -> Result<ResultFolder, Failure> {
     let out = (args.out.clone()).unwrap_or_else(|| Path::new("out").join(format!("fit-{}", input.stem)));
-    let names = [FIT, "residuals.csv", "profiles.csv", "samples.csv", "design.csv", super::plot::FIGURES];
+    let names =
+        [FIT, "residuals.csv", "profiles.csv", "samples.csv", "design.csv", EXTREMES, DERIVED, super::plot::FIGURES];
     let scenes = input.scenes.sets.iter();
     let scenes = scenes.flat_map(|set| set.starts.files().chain([PathBuf::from(&set.source)]));
     spares_inputs(&out, &names, input.files.iter().cloned().chain(scenes))?;
@@ -192,12 +197,14 @@ fn write(args: &Args, input: &Input, folder: &ResultFolder, asked: &Value, done:
 /// Tables and pictures.
 fn files(args: &Args, done: &Done, times: &[&str]) -> Result<Vec<Output>, String> {
     let mut files: Vec<Output> = vec![("residuals.csv".into(), report::residuals_csv(&done.report, times)?)];
-    let Some(fit) = &done.fit else { return Ok(files) };
-    files.push(("profiles.csv".into(), report::profiles_csv(fit)?));
-    files.push(("samples.csv".into(), samples_csv(fit)?));
-    if args.design {
-        files.push(("design.csv".into(), report::design_csv(fit, &done.candidates, times)?));
+    if let Some(fit) = &done.fit {
+        files.push(("profiles.csv".into(), report::profiles_csv(fit)?));
+        files.push(("samples.csv".into(), samples_csv(fit)?));
+        if args.design {
+            files.push(("design.csv".into(), report::design_csv(fit, &done.candidates, times)?));
+        }
     }
+    files.extend(done.derived.iter().cloned());
     let figures = text::json(&done.figures).map_err(|error| error.to_string())?;
     files.push((super::plot::FIGURES.into(), figures));
     for (stem, figure) in &done.figures {
@@ -248,8 +255,11 @@ fn work(args: &Args, input: &Input, watch: &Watch<'_>) -> Result<Done, Failure> 
     let drawn = |values: &[f64]| model_of(scenes, &places, values);
     let curves = pictures::best_curves(&fit, &places, &drawn, watch).map_err(Failure::Input)?;
     let times: Vec<&str> = scenes.sets.iter().map(|set| set.time.name()).collect();
-    let figures = pictures::figures(&fit, &report, data, (&places, &curves), &input.names, &times);
-    Ok(Done { fit: Some(fit), report, warnings, figures, candidates })
+    let drawn = (&places[..], &curves[..], plot::FITTED);
+    let figures = pictures::of_points(&report, (data, &pictures::u_of_points(&fit)), drawn, &input.names, &times);
+    let figures = figures.into_iter().chain(pictures::of_parameters(&fit)).collect();
+    let derived = derived(input, &fit.values(&fit.best.place), fit.emulator.behind_covariance() as u64)?;
+    Ok(Done { fit: Some(fit), report, warnings, figures, derived, candidates })
 }
 
 /// The points beside the scene as it is.
@@ -259,11 +269,33 @@ fn as_written(input: &Input, problem: &FitProblem<'_>, watch: &Watch<'_>) -> Res
     let replica = model(&[]).map_err(Failure::Input)?;
     let rows = watch.replicas(most_replicas, |k| replica.run(k)).map_err(Failure::Input)?;
     let found = Direct::of(data, &rows, rods).ok_or("the covariance of the points is not positive");
-    let report = found.map_err(String::from).and_then(|found| report::as_written(data, &found, rods, rows.len()));
-    let report = report.map_err(Failure::Input)?;
+    let found = found.map_err(|error| Failure::Input(error.into()))?;
+    let report = report::as_written(data, &found, rods, rows.len()).map_err(Failure::Input)?;
     let mut warnings: Vec<String> = report.warnings.iter().map(of_warning).collect();
     warnings.extend(of_plans(input, &[])?);
-    Ok(Done { fit: None, report, warnings, figures: Vec::new(), candidates: Vec::new() })
+    let places = pictures::places(data);
+    let model = |values: &[f64]| advice::model(&input.scenes, &places, AS_WRITTEN, values);
+    let curves = pictures::own_curves(&model, most_replicas, watch).map_err(Failure::Input)?;
+    let times: Vec<&str> = input.scenes.sets.iter().map(|set| set.time.name()).collect();
+    let drawn = (&places[..], &curves[..], "");
+    let figures = pictures::of_points(&report, (data, &found.u_of_points()), drawn, &input.names, &times);
+    let derived = derived(input, &[], most_replicas)?;
+    Ok(Done { fit: None, report, warnings, figures, derived, candidates: Vec::new() })
+}
+
+/// Tables of what is derived from the means of each set's scene with these values, up to its last point.
+fn derived(input: &Input, values: &[f64], replicas: u64) -> Result<Vec<Output>, Failure> {
+    let plans = input.plans(values)?;
+    let mut files = Vec::new();
+    for (set, plan) in plans.iter().enumerate() {
+        let plan = plan.with_replicas(replicas.min(pictures::MOST_REPLICAS));
+        let results = ensemble::run(&plan).map_err(|error| Failure::Input(error.to_string()))?;
+        for (name, text) in derived::files(&plan, &results, &derived::of(&plan, &results)).map_err(Failure::Failed)? {
+            let of_set = name.replace(".csv", &format!("_{}.csv", set + 1));
+            files.push((if plans.len() == 1 { name } else { of_set }, text));
+        }
+    }
+    Ok(files)
 }
 
 /// The warnings of the scenes' plans with these values, each once.

@@ -29,7 +29,7 @@ pub(super) struct Chosen {
 pub(super) struct Ensemble {
     /// Replicas, independent runs of the scene, in place of the scene's own number
     #[arg(long, value_name = "N", value_parser = whole(1, MAX_REPLICAS), allow_negative_numbers = true)]
-    replicas: Option<u64>,
+    pub(super) replicas: Option<u64>,
     /// The seed of all random numbers, in place of the scene's own
     #[arg(long, value_name = "S", value_parser = whole(0, MAX_SEED), allow_negative_numbers = true)]
     seed: Option<u64>,

@@ -1,6 +1,7 @@
 //! `shearbed plan` and `shearbed scenes`.
 
 use super::facts::Facts;
+use super::fit::MOST_REPLICAS;
 use super::scene::{Chosen, Ensemble, Named};
 use super::until::{LEAST, Until};
 use super::{Failure, Threads, duration, memory, print, scene, sweep};
@@ -46,7 +47,8 @@ impl Over {
 }
 
 /// The cost of a sweep or a fit over these keys, as text.
-fn of_keys(named: &Named, plan: &Plan, each_s: f64, over: &[Over]) -> Result<(String, Vec<String>), Failure> {
+fn of_keys(args: &PlanArgs, named: &Named, plan: &Plan, each_s: f64) -> Result<(String, Vec<String>), Failure> {
+    let over = &args.over;
     let refused = |why: String| Err(Failure::Input(format!("--over: {why}")));
     let ranges = over.iter().filter(|over| over.is_range).count();
     if over.is_empty() {
@@ -60,7 +62,7 @@ fn of_keys(named: &Named, plan: &Plan, each_s: f64, over: &[Over]) -> Result<(St
     let points = sweep::points(named, &axes)?;
     let plans = points.iter().map(|point| &point.plan);
     let cost = if ranges > 0 {
-        duration::of_fit(plan, each_s, ranges, plans)
+        duration::of_fit(plan, each_s, (ranges, args.ensemble.replicas.unwrap_or(MOST_REPLICAS)), plans)
     } else {
         duration::of_sweep(plan, each_s, plans)
     };
@@ -87,7 +89,7 @@ pub(super) fn plan(args: &PlanArgs) -> Result<(), Failure> {
     // A plan that `run` would refuse here is still shown: it may fit on another machine.
     let fits = memory::check(&plan, args.threads.given, &named.source);
     let each_s = duration::of_replica(&plan, fits.is_ok());
-    let (of_keys, warned) = of_keys(&named, &plan, each_s, &args.over)?;
+    let (of_keys, warned) = of_keys(args, &named, &plan, each_s)?;
     let (plan, replicas) = if args.until.is_empty() {
         (plan, String::new())
     } else {

@@ -30,7 +30,7 @@ pub(super) struct Args {
     /// combination is a point
     #[arg(long, value_name = "KEY=VALUES", required = true, value_parser = Axis::parse)]
     over: Vec<Axis>,
-    /// The folder for sweep.csv, sweep.json and points/ [default: out/sweep-<scene>]
+    /// The folder for sweep.csv, extremes.csv, sweep.json and points/ [default: out/sweep-<scene>]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     #[command(flatten)]
@@ -82,7 +82,7 @@ pub(super) fn sweep(args: &Args) -> Result<(), Failure> {
     let mut folder = None;
     let open = || {
         let bytes = (points.iter()).map(|point| tables::most_bytes(&point.plan)).sum();
-        spares_inputs(&out, &["sweep.csv", "sweep.json"], named.files())?;
+        spares_inputs(&out, &["sweep.csv", EXTREMES, "sweep.json"], named.files())?;
         let points = Points {
             pairs: (points.iter()).map(|point| sweep::pairs(&args.over, &point.values)).collect(),
             beside: vec![EXTREMES.to_owned()],
@@ -140,7 +140,8 @@ pub(super) fn sweep(args: &Args) -> Result<(), Failure> {
     let rows = folder.gather(&args.over, &values)?;
     let swept: Vec<_> = args.over.iter().map(|axis| axis.key.as_str()).collect();
     args.writing.print(&format!(
-        "{}\npoints: {total}, of which {finished} were finished before\n\n{}\nin {}: sweep.csv, sweep.json, points\n",
+        "{}\npoints: {total}, of which {finished} were finished before\n\n{}\nin {}: sweep.csv, {EXTREMES}, \
+         sweep.json, points\n",
         text::line(&names::title_without(&named.scene.title, &swept)),
         table(&rows, args.over.len()),
         out.shown(),

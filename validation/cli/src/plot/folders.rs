@@ -1,6 +1,7 @@
 //! The runs in folders of `shearbed run` and `shearbed sweep`, checked to be unchanged.
 
 use crate::Failure;
+use crate::derived::EXTREMES;
 use serde_json::{Value, json as value};
 use shearbed::Scene;
 use shearbed_validation::files::output::{RECORD, Record, Sum};
@@ -115,7 +116,7 @@ fn points(dir: &Path, record: &Record) -> Result<Vec<Run>, Failure> {
     if let Some(name) = names.iter().find(|name| !record.files.contains_key(*name)) {
         return Err(refused(RECORD, format!("{name} is not listed")).into());
     }
-    let is_own = |name: &String| names.contains(name) || ["sweep.csv", "sweep.json"].contains(&name.as_str());
+    let is_own = |name: &String| names.contains(name) || ["sweep.csv", EXTREMES, "sweep.json"].contains(&name.as_str());
     if let Some(name) = record.files.keys().find(|name| !is_own(name)) {
         return Err(refused(RECORD, format!("{name} is listed, and the sweep has {count} points")).into());
     }

@@ -49,6 +49,11 @@ impl Direct {
         self.covariance[0].diagonal().map(f64::sqrt)
     }
 
+    /// The standard uncertainty of each point alone, without the replicas'.
+    pub fn u_of_points(&self) -> Vec<f64> {
+        self.u().zip_map(&self.se, |u, se| (u * u - se * se).max(0.0).sqrt()).as_slice().to_vec()
+    }
+
     /// χ² and its law where no parameter was fitted; `None` if the covariance is not positive definite.
     pub fn goodness(&self, data: &[Datum], rods: &Rods) -> Option<Goodness> {
         let [covariance, of_replica] = &self.covariance;

@@ -230,16 +230,15 @@ fn mesh<'a, DB: Backend + 'a>(
 /// Draws the translucent band with a thin edge, cut at the frame.
 fn band<DB: Backend>(chart: &mut Chart<DB>, curve: &[Placed], index: usize, window: &Window) -> Drawn {
     for run in curve.split(|p| !p.is_finite() || !p.high.is_finite()) {
-        let above = run.iter().map(|p| (p.x, p.high));
+        let above = window.thinned(run.iter().map(|p| (p.x, p.high)));
         // A logarithmic axis has no place for values below 0.
-        let below = run.iter().map(|p| (p.x, if p.low.is_nan() { window.y.0 } else { p.low }));
+        let below = window.thinned(run.iter().map(|p| (p.x, if p.low.is_nan() { window.y.0 } else { p.low })));
         if run.len() > 1 {
-            let outline = above.clone().chain(below.clone().rev()).collect();
-            let outline = window.area(outline);
+            let outline = window.area(above.iter().chain(below.iter().rev()).copied().collect());
             if outline.len() > 2 {
                 chart.draw_series([Polygon::new(outline, colour(index).mix(0.25).filled())])?;
             }
-            for edge in window.lines(above).into_iter().chain(window.lines(below)) {
+            for edge in [above, below].into_iter().flat_map(|edge| window.lines(edge)) {
                 let style = colour(index).mix(0.5).stroke_width(EDGE_WIDTH);
                 chart.draw_series([PathElement::new(edge, style)])?;
             }
@@ -258,7 +257,7 @@ fn line<DB: Backend>(chart: &mut Chart<DB>, points: &[Placed], index: usize, win
                 chart.draw_series([dot])?;
             }
             run => {
-                for path in window.lines(run.iter().map(|p| (p.x, p.y))) {
+                for path in window.lines(window.thinned(run.iter().map(|p| (p.x, p.y)))) {
                     chart.draw_series([PathElement::new(path, curve(index))])?;
                 }
             }

@@ -2,7 +2,7 @@
 //! as near to the end of its curve as the others allow. Shades are shown in a bar above.
 
 use super::style::{
-    FINE, MARGIN, MARKER, ROW, SMALL_MARKER, TEXT, colour, curve, cut, in_rows, is_shade, looks, marker, text,
+    FINE, FITTED, MARGIN, MARKER, ROW, SMALL_MARKER, TEXT, colour, curve, cut, in_rows, is_shade, looks, marker, text,
     text_width, wrap,
 };
 use super::{Backend, Drawn, Figure};
@@ -61,13 +61,30 @@ impl Legend {
             .filter(|(series, label)| !label.is_empty() && !is_shade(looks[*series]))
             .map(|(series, label)| (series, mark(series), label.clone()))
             .collect();
+        let (of_curves, of_points) = looks.split_at(figure.curves.len());
+        // Several curves, each with its points: one entry for both, and what is which is said once.
+        let mut kinds = String::new();
+        if of_points.len() > 1 && of_points.iter().all(|look| of_curves.contains(look)) {
+            series.retain(|(series, ..)| *series < figure.curves.len());
+            for (series, mark, label) in series.iter_mut().filter(|(series, ..)| of_points.contains(&looks[*series])) {
+                *mark = Mark::Curve(looks[*series], true);
+                *label = label.strip_suffix(FITTED).unwrap_or(label).to_owned();
+            }
+            let fitted = figure.curves.iter().any(|curve| curve.label.ends_with(FITTED));
+            let bars = figure.points.iter().all(|points| points.y_error.is_some());
+            kinds = format!(
+                "{}; markers: measured{}",
+                if fitted { " of the best fit" } else { "" },
+                if bars { " ± u" } else { "" }
+            );
+        }
         let beside = if series.len() > MOST { std::mem::take(&mut series) } else { Vec::new() };
         let beside = (beside.into_iter())
             .map(|(series, mark, label)| (series, mark, wrap(&label, 2 * width / 5, SMALL)))
             .collect();
         let band = figure.curves.iter().any(|curve| curve.half_band.is_some());
         let above = series.into_iter().map(|(_, mark, label)| (mark, label));
-        let above = above.chain(band.then(|| (Mark::Band, "95 % band".to_string())));
+        let above = above.chain(band.then(|| (Mark::Band, format!("95 % band{kinds}"))));
         let sized = |(mark, label): (Mark, String)| {
             let lines = wrap(&label, width - 2 * MARGIN - SAMPLE - GAP, TEXT);
             let own = SAMPLE + GAP + widest(&lines, TEXT) + 2 * GAP;

@@ -2,6 +2,9 @@
 
 type Point = (f64, f64);
 
+/// The distance from a line that nobody sees, in widths or heights of the frame: an eighth of a pixel of 500.
+const UNSEEN: f64 = 1.0 / 4000.0;
+
 /// The ranges of both axes, in placed values.
 pub(super) struct Window {
     pub(super) x: (f64, f64),
@@ -19,9 +22,37 @@ impl Window {
         [x - self.x.0, self.x.1 - x, y - self.y.0, self.y.1 - y]
     }
 
-    /// The parts of a line that are inside (Liang & Barsky 1984).
-    pub(super) fn lines(&self, points: impl Iterator<Item = Point>) -> Vec<Vec<Point>> {
+    /// A line through fewer points, from which those left out are nowhere farther than [`UNSEEN`] of the frame (Douglas
+    /// & Peucker 1973).
+    pub(super) fn thinned(&self, points: impl Iterator<Item = Point>) -> Vec<Point> {
         let points: Vec<Point> = points.collect();
+        let scaled = |k: usize| (points[k].0 / (self.x.1 - self.x.0), points[k].1 / (self.y.1 - self.y.0));
+        let far = |k: usize, first: usize, last: usize| {
+            let ((x, y), (from, to)) = (scaled(k), (scaled(first), scaled(last)));
+            let along = (to.0 - from.0, to.1 - from.1);
+            let square = along.0 * along.0 + along.1 * along.1;
+            let share = ((x - from.0) * along.0 + (y - from.1) * along.1) / square.max(f64::MIN_POSITIVE);
+            let near = between(from, to, share.clamp(0.0, 1.0));
+            (x - near.0).hypot(y - near.1)
+        };
+        let mut kept = vec![false; points.len()];
+        let mut parts = Vec::new();
+        if let Some(last) = points.len().checked_sub(1) {
+            [kept[0], kept[last]] = [true; 2];
+            parts.push((0, last));
+        }
+        while let Some((first, last)) = parts.pop() {
+            let inner = (first + 1..last).map(|k| (k, far(k, first, last)));
+            if let Some((k, _)) = inner.max_by(|a, b| a.1.total_cmp(&b.1)).filter(|(_, far)| *far > UNSEEN) {
+                kept[k] = true;
+                parts.extend([(first, k), (k, last)]);
+            }
+        }
+        points.into_iter().zip(kept).filter(|(_, kept)| *kept).map(|(point, _)| point).collect()
+    }
+
+    /// The parts of a line that are inside (Liang & Barsky 1984).
+    pub(super) fn lines(&self, points: Vec<Point>) -> Vec<Vec<Point>> {
         let mut parts: Vec<Vec<Point>> = Vec::new();
         let mut goes_on = false;
         for ends in points.windows(2) {
@@ -82,12 +113,13 @@ fn between(a: Point, b: Point, share: f64) -> Point {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::f64::consts::TAU;
 
     const SQUARE: Window = Window { x: (0.0, 1.0), y: (0.0, 1.0) };
 
     #[test]
     fn a_line_is_cut_where_it_meets_the_frame() {
-        let lines = |points: &[Point]| SQUARE.lines(points.iter().copied());
+        let lines = |points: &[Point]| SQUARE.lines(points.to_vec());
         // In and out twice, by hand.
         let zigzag = [(-1.0, 0.5), (0.5, 0.5), (0.5, 2.0), (0.75, 2.0), (0.75, 0.5), (0.9, 0.5)];
         let expected = vec![vec![(0.0, 0.5), (0.5, 0.5), (0.5, 1.0)], vec![(0.75, 1.0), (0.75, 0.5), (0.9, 0.5)]];
@@ -98,6 +130,22 @@ mod tests {
         // A line inside is unchanged.
         let inside = vec![(0.1, 0.3), (0.7, 0.9), (1.0, 0.0)];
         assert_eq!(lines(&inside), vec![inside]);
+    }
+
+    /// Of points on lines only the corners are left; of a circle, chords as near to it as nobody sees.
+    #[test]
+    fn points_on_a_line_are_left_out() {
+        let thinned = |points: &[Point]| SQUARE.thinned(points.iter().copied());
+        let corners = [(0.0, 0.0), (0.5, 1.0), (1.0, 0.0)];
+        let on_lines = |k: usize| between(corners[k / 10], corners[(k / 10 + 1).min(2)], (k % 10) as f64 / 10.0);
+        assert_eq!(thinned(&(0..=20).map(on_lines).collect::<Vec<_>>()), corners);
+        assert_eq!([thinned(&[]).len(), thinned(&corners[..1]).len()], [0, 1]);
+        let circle: Vec<Point> = (0..=10_000).map(|k| (TAU * f64::from(k) / 1e4).sin_cos()).collect();
+        let few = thinned(&circle);
+        // A chord over an angle a is (a/2)²/2 from the circle at most.
+        let widest = few.windows(2).map(|ends| (ends[1].0 - ends[0].0).hypot(ends[1].1 - ends[0].1));
+        assert!((141..300).contains(&few.len()), "{}", few.len());
+        assert!(shearbed_oracle::worst(widest.map(|chord| chord * chord / 8.0)) <= UNSEEN * 1.001);
     }
 
     #[test]

@@ -8,12 +8,12 @@ use crate::methods::least_squares::Datum;
 use crate::methods::least_squares::emulator::Model;
 use crate::methods::least_squares::likelihood::REPLICAS;
 use crate::methods::least_squares::profile::{region, rise_of_several};
-use crate::present::plot::{Curve, FITTED, Figure, MEASURED, Panel, Points, names as letters};
+use crate::present::plot::{Curve, Figure, MEASURED, Panel, Points, names as letters};
 
 const TIMES: usize = 200;
 
 /// The largest number of replicas behind a drawn curve.
-const MOST_REPLICAS: u64 = 100;
+pub const MOST_REPLICAS: u64 = 100;
 
 /// Half the width of 95 % of a Gaussian, in standard deviations.
 const WIDE: f64 = 1.96;
@@ -73,30 +73,47 @@ pub fn best_curves(
         .collect())
 }
 
-/// Every picture with the stem of its file name. `names` are the names of the data sets, `times` those of their time
-/// columns.
-pub fn figures(
-    fit: &Fit,
+/// The curves of a scene as it is at `places`, by its replicas, and half their 95 % bands.
+pub fn own_curves(model: &Model<'_>, replicas: u64, watch: &Watch<'_>) -> Result<Vec<(f64, f64)>, String> {
+    let mean = mean(model, &[], replicas.min(MOST_REPLICAS), watch)?;
+    Ok(mean.into_iter().map(|(mean, square)| (mean, WIDE * square.sqrt())).collect())
+}
+
+/// The uncertainty of each point alone: reading in y and in time, and the measured rods.
+pub fn u_of_points(fit: &Fit) -> Vec<f64> {
+    let of = |k: usize| fit.best.causes[..REPLICAS].iter().map(|cause| cause[(k, k)]).sum::<f64>().sqrt();
+    (0..fit.best.causes[0].nrows()).map(of).collect()
+}
+
+/// The profiles of a fit and the regions of its pairs of parameters, each with the stem of its file name.
+pub fn of_parameters(fit: &Fit) -> Vec<(String, Figure)> {
+    let mut all: Vec<_> = (0..fit.ranges.len()).map(|axis| profile_of(fit, axis)).collect();
+    for b in 1..fit.ranges.len() {
+        all.extend((0..b).map(|a| region_of(fit, [a, b])));
+    }
+    all
+}
+
+/// A picture of each data set, with the stem of its file name: the points with `u`, the curves at `places`, which
+/// `kind` describes, and residuals. `names` are the names of the data sets, `times` those of their time columns.
+pub fn of_points(
     report: &Report,
-    data: &[Datum],
-    (places, curves): (&[Datum], &[(f64, f64)]),
+    (data, u): (&[Datum], &[f64]),
+    (places, curves, kind): (&[Datum], &[(f64, f64)], &str),
     names: &[String],
     times: &[&str],
 ) -> Vec<(String, Figure)> {
-    let mut all = Vec::new();
-    for (set, name) in names.iter().enumerate() {
+    let of_set = |(set, name): (usize, &String)| {
         let of_set: Vec<_> = kinds(data).into_iter().filter(|kind| kind.0 == set).map(|kind| kind.1).collect();
         let here = |datum: &Datum, column: &String| datum.set == set && datum.column == *column;
         let curve = |column: &String| {
             let own = places.iter().zip(curves).filter(|(place, _)| here(place, column));
-            Curve::with_band(letters::channel(column) + FITTED, own, |(place, (y, half))| (place.time, *y, *half))
+            Curve::with_band(letters::channel(column) + kind, own, |(place, (y, half))| (place.time, *y, *half))
         };
         let zero = |column: &String| {
             let best = curve(column);
             Curve { y: vec![0.0; best.x.len()], ..best }
         };
-        // The uncertainty of the point alone: reading in y and in time, and the measured rods.
-        let of_point = |k: usize| fit.best.causes[..REPLICAS].iter().map(|cause| cause[(k, k)]).sum::<f64>().sqrt();
         let points = |column: &String, value: &dyn Fn(usize) -> f64| {
             let own: Vec<usize> = (0..data.len()).filter(|k| here(&data[*k], column)).collect();
             let each = |value: &dyn Fn(usize) -> f64| own.iter().map(|k| value(*k)).collect::<Vec<f64>>();
@@ -105,7 +122,7 @@ pub fn figures(
                 x: each(&|k| data[k].time),
                 y: each(value),
                 x_error: (own.iter().any(|k| data[*k].u_time > 0.0)).then(|| each(&|k| data[k].u_time)),
-                y_error: Some(each(&of_point)),
+                y_error: Some(each(&|k| u[k])),
             }
         };
         let stem = if names.len() == 1 { String::new() } else { format!("_{}", set + 1) };
@@ -123,13 +140,9 @@ pub fn figures(
             below: Some(residuals),
             ..Figure::default()
         };
-        all.push((format!("points{stem}"), figure));
-    }
-    all.extend((0..fit.ranges.len()).map(|axis| profile_of(fit, axis)));
-    for b in 1..fit.ranges.len() {
-        all.extend((0..b).map(|a| region_of(fit, [a, b])));
-    }
-    all
+        (format!("points{stem}"), figure)
+    };
+    names.iter().enumerate().map(of_set).collect()
 }
 
 fn profile_of(fit: &Fit, axis: usize) -> (String, Figure) {

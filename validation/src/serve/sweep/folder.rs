@@ -55,7 +55,7 @@ pub struct Points {
     pub pairs: Vec<Pairs>,
     /// The names of the tables that each point has.
     pub tables: Vec<String>,
-    /// Those of them whose last rows are not in `sweep.csv`.
+    /// Those of them whose last rows are not in `sweep.csv`: all their rows are in a table of the same name.
     pub beside: Vec<String>,
 }
 
@@ -120,8 +120,10 @@ impl Folder {
         claim.report("points");
         let own = folder.is_own();
         // Without a record, points are of unknown origin, too.
-        let names = ["sweep.json", "sweep.csv", "points"];
-        folder.check(if own { &names[..2] } else { &names })?;
+        let mut names = vec!["sweep.json", "sweep.csv"];
+        names.extend(points.beside.iter().map(String::as_str));
+        names.extend((!own).then_some("points"));
+        folder.check(&names)?;
         let folder = Self { folder, first, points, claim };
         // Where its `sweep.json` is gone, a sweep begins again and keeps its points.
         if !own || folder.folder.dir().join("sweep.json").symlink_metadata().is_err() {
@@ -138,7 +140,7 @@ impl Folder {
     /// Removes the points of another sweep, unless the sweep is `own`, and writes `sweep.json`.
     fn begin(&self, own: bool) -> Result<(), Refused> {
         let earlier = self.folder.earlier(&self.claim);
-        let mut left_over = vec!["sweep.csv".to_owned()];
+        let mut left_over = [&["sweep.csv".to_owned()][..], &self.points.beside].concat();
         if !own {
             self.others()?.iter().try_for_each(|point| self.claim.remove(point))?;
             left_over.extend(earlier.keys().filter(|name| *name != "sweep.json").cloned());
@@ -270,20 +272,30 @@ impl Folder {
     }
 
     /// Writes `sweep.csv` from the tables of all points, which must all exist (the swept values, then the last row of
-    /// each of the tables), and the record of the sweep. Numbers are copied as texts from the tables. Returns the
-    /// header and the rows.
+    /// each of the tables), a table of all rows of each one beside, and the record of the sweep. Numbers are copied as
+    /// texts from the tables. Returns the header and the rows of `sweep.csv`.
     pub fn gather(&self, axes: &[Axis], values: &[Vec<toml::Value>]) -> Result<Rows, Refused> {
         let mut rows = Vec::new();
         let mut records = Vec::new();
+        let mut beside: BTreeMap<String, Rows> = BTreeMap::new();
         for (k, values) in values.iter().enumerate() {
             let mut head: Vec<_> = axes.iter().map(|axis| axis.key.clone()).collect();
             let mut row: Vec<_> = values.iter().map(|value| cell(&shown(value))).collect();
             let tables = self.tables(k)?;
             let (record, text) = self.record(k, &tables).file();
             records.push((format!("{}/{record}", self.name(k)), text));
-            for (name, text) in tables.into_iter().filter(|(name, _)| !self.points.beside.contains(name)) {
-                let (columns, last) =
-                    last_row(&self.point(k).join(&name), &text).map_err(|error| Refused(error.to_string()))?;
+            for (name, text) in tables {
+                let found = rows_of(&self.point(k).join(&name), &text);
+                let (columns, own) = found.map_err(|error| Refused(error.to_string()))?;
+                if self.points.beside.contains(&name) {
+                    let axes = axes.iter().map(|axis| axis.key.clone());
+                    let all = beside.entry(name).or_insert_with(|| vec![axes.chain(columns).collect()]);
+                    all.extend(own.into_iter().map(|cells| [&row[..values.len()], &cells].concat()));
+                    continue;
+                }
+                let empty =
+                    || Refused(format!("{}: there is no row below the header", self.point(k).join(&name).shown()));
+                let last = own.into_iter().next_back().ok_or_else(empty)?;
                 for (column, value) in columns.into_iter().zip(last) {
                     // Every table has the time; it is copied once.
                     if !head.contains(&column) {
@@ -303,11 +315,15 @@ impl Folder {
                 }
             }
         }
-        let path = self.folder.dir().join("sweep.csv");
-        let text = csv::text(&rows).map_err(|error| Refused(format!("{}: {error}", path.shown())))?;
-        let table = [("sweep.csv".to_owned(), text)];
-        let record = Record::new(self.folder.origin(), &[&table[..], &self.first, &records].concat());
-        self.claim.write(&record, &table, self.folder.earlier(&self.claim), &[])?;
+        let written = |(name, rows): (String, &Rows)| {
+            let text = csv::text(rows);
+            let text = text.map_err(|error| Refused(format!("{}: {error}", self.folder.dir().join(&name).shown())))?;
+            Ok::<_, Refused>((name, text))
+        };
+        let all = std::iter::once(("sweep.csv".to_owned(), &rows)).chain(beside.iter().map(|(k, v)| (k.clone(), v)));
+        let tables = all.map(written).collect::<Result<Vec<_>, _>>()?;
+        let record = Record::new(self.folder.origin(), &[&tables[..], &self.first, &records].concat());
+        self.claim.write(&record, &tables, self.folder.earlier(&self.claim), &[])?;
         Ok(rows)
     }
 }
@@ -315,13 +331,12 @@ impl Folder {
 /// A header and rows.
 pub type Rows = Vec<Vec<String>>;
 
-/// A table's header and last row.
-fn last_row(path: &Path, text: &str) -> Result<(Vec<String>, Vec<String>), FileError> {
+/// A table's header and rows.
+fn rows_of(path: &Path, text: &str) -> Result<(Vec<String>, Rows), FileError> {
     let mut table = Table::new(path, text.as_bytes())?;
-    let mut last = None;
+    let mut rows = Vec::new();
     while let Some(row) = table.next_row()? {
-        last = Some(row.cells);
+        rows.push(row.cells);
     }
-    let last = last.ok_or_else(|| table.error("there is no row below the header"))?;
-    Ok((table.names().to_vec(), last))
+    Ok((table.names().to_vec(), rows))
 }

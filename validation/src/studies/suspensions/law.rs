@@ -6,6 +6,7 @@ use super::blocks::{Block, blocks, replicas_exponent};
 use super::fit::{Line, Means, Order};
 use super::job::{Job, PLACES, Trace, x1};
 use super::*;
+use shearbed::scene::TimeUnit;
 use std::collections::BTreeSet;
 
 /// The numbers of steps per period that are tried.
@@ -115,12 +116,21 @@ pub struct Law {
     pub rod_steps: u64,
 }
 
-/// True if the study applies to a plan's scene: plane Couette flow, with its time in periods and rods that are drawn.
+/// True if the study applies to a plan's scene: plane Couette flow, and rods that are drawn.
 pub fn judges(plan: &Plan) -> bool {
-    let scene = plan.scene();
-    let by_periods = scene.time.unit == shearbed::scene::TimeUnit::Period;
     // A study has other numbers of rods than a file.
-    plan.flow().shear_rate_per_s().is_some() && by_periods && scene.particles.rods.is_none()
+    plan.flow().shear_rate_per_s().is_some() && plan.scene().particles.rods.is_none()
+}
+
+/// The scene of a plan that the study judges, with its time in periods and about as many steps in each.
+pub fn by_periods(plan: &Plan) -> Scene {
+    let mut scene = plan.scene().clone();
+    let per_period = plan.elapsed(1.0).strain / strain_per_period(scene.particles.mean_aspect_ratio());
+    if scene.time.unit != TimeUnit::Period {
+        let steps = scene.time.steps_per_unit.map(|steps| (steps as f64 / per_period).round().max(1.0) as u64);
+        scene.time = Time { steps_per_unit: steps, ..Time::periods(scene.time.duration * per_period) };
+    }
+    scene
 }
 
 /// The jobs of a scene: every number of steps, then every number of rods, each once.

@@ -3,7 +3,6 @@
 
 use super::*;
 use crate::studies::integrators;
-use shearbed::scene::TimeUnit;
 
 /// The largest difference of an observed order from theory (DiffEqDevTools.jl's convergence tests). Its sign is kept.
 pub const ORDER_TOLERANCE: f64 = 0.2;
@@ -86,20 +85,18 @@ pub fn of_rod(aspect_ratio: f64) -> Orders {
     of_all(aspect_ratio, 0.2, 1.0, 1.0, "as in the benches")
 }
 
-/// Convergence on a scene of free rods in plane Couette flow: one rod of its mean aspect ratio from its own start, for
-/// its own number of periods. `None` for other flows, and if the time is given as a strain.
-pub fn of_scene(scene: &Scene) -> Option<Orders> {
-    let shear_rate = scene.flow.shear_rate_per_s()?;
-    let periods = Some(scene.time.duration).filter(|_| scene.time.unit == TimeUnit::Period)?;
+/// Convergence on a scene of free rods in plane Couette flow at `shear_rate_per_s`, with its time in periods: one rod
+/// of its mean aspect ratio from its own start, for its own number of periods.
+pub fn of_scene(scene: &Scene, shear_rate_per_s: f64) -> Orders {
     let (phi, theta, whose) = match scene.particles.common_start_deg() {
         // The reversed flow is its own mirror image, φ ↔ −φ.
         Some([phi_deg, theta_deg]) => {
-            (shear_rate.signum() * phi_deg.to_radians(), theta_deg.to_radians(), "the scene's own start")
+            (shear_rate_per_s.signum() * phi_deg.to_radians(), theta_deg.to_radians(), "the scene's own start")
         }
         None if scene.particles.rods.is_some() => (0.2, 1.0, "as the scene's starts are many"),
         None => (0.2, 1.0, "as the scene draws its starts at random"),
     };
-    Some(of_all(scene.particles.aspect_ratio, phi, theta, periods, whose))
+    of_all(scene.particles.aspect_ratio, phi, theta, scene.time.duration, whose)
 }
 
 /// Convergence from GΔt of about 1 to 1/4096, or to 2²² steps if that is coarser.
