@@ -9,6 +9,9 @@ pub const MOST_PARAMETERS: usize = 3;
 /// are fewer coefficients than nodes, so that the polynomials smooth the noise of the runs instead of following it.
 const DESIGNS: [(usize, usize); MOST_PARAMETERS] = [(7, 4), (7, 6), (8, 6)];
 
+/// The lowest degree of polynomials that a fit uses.
+const LEAST_DEGREE: usize = 4;
+
 /// From so many parameters on, nodes are those whose numbers along the axes are all even or all odd: 128 of 512, which
 /// are enough for degree 6 (S. De Marchi, M. Vianello & Y. Xu, BIT 49 (2009) 55).
 const THINNED: usize = 3;
@@ -35,8 +38,23 @@ impl Basis {
     /// The basis for `parameters` parameters, 1 to [`MOST_PARAMETERS`].
     pub fn new(parameters: usize) -> Self {
         let (along, degree) = DESIGNS[parameters.clamp(1, MOST_PARAMETERS) - 1];
-        let nodes = nodes(parameters, along, parameters >= THINNED);
-        let degrees: Vec<Degrees> = (grid(parameters, degree + 1).into_iter())
+        Self::of(nodes(parameters, along, parameters >= THINNED), degree)
+    }
+
+    /// The bases of lower degrees, down to [`LEAST_DEGREE`], at the same nodes, each with the matrix that maps
+    /// coefficients of this basis to its own: those of the least squares through the nodes.
+    pub fn lower(&self) -> Vec<(Self, DMatrix<f64>)> {
+        let degree = self.degrees.iter().map(|degrees| degrees.iter().sum()).max().unwrap_or(0);
+        let of = |degree: usize| {
+            let lower = Self::of(self.nodes.clone(), degree);
+            let map = &lower.project * design(&self.degrees, &self.nodes);
+            (lower, map)
+        };
+        (LEAST_DEGREE..degree).map(of).collect()
+    }
+
+    fn of(nodes: Vec<Vec<f64>>, degree: usize) -> Self {
+        let degrees: Vec<Degrees> = (grid(nodes[0].len(), degree + 1).into_iter())
             .filter(|degrees| degrees.iter().sum::<usize>() <= degree)
             .map(|degrees| std::array::from_fn(|k| degrees.get(k).copied().unwrap_or(0)))
             .collect();

@@ -9,9 +9,12 @@ use super::range::Range;
 use crate::methods::least_squares::Datum;
 use crate::methods::least_squares::basis::Basis;
 use crate::methods::least_squares::best::SCARCE;
-use crate::methods::least_squares::emulator::{Coefficients, Emulator, Model, Prediction, Sides, coefficients};
+use crate::methods::least_squares::emulator::{
+    Coefficients, Emulator, Model, Prediction, Sides, coefficients, lowered,
+};
 use crate::methods::least_squares::likelihood::{EMULATOR, REPLICAS, Rods};
 use crate::methods::least_squares::profile::rise_of;
+use nalgebra::DMatrix;
 use rayon::prelude::*;
 
 /// Number of replicas of the first runs, which only show where to look closer.
@@ -99,6 +102,8 @@ impl Watch<'_> {
 struct Search<'a> {
     problem: &'a FitProblem<'a>,
     basis: Basis,
+    /// Bases of lower degrees, whose fewer terms follow less of the replicas' noise.
+    lower: Vec<(Basis, DMatrix<f64>)>,
     whole: Sides,
     /// The current box, and the coefficients of its replicas.
     sides: Sides,
@@ -136,9 +141,11 @@ pub(super) fn search_from(problem: &FitProblem<'_>, sides: Sides, watch: &Watch<
     let ranges = problem.ranges;
     let whole = whole(ranges);
     let first = FIRST_REPLICAS.min(problem.most_replicas);
+    let basis = Basis::new(ranges.len());
     let mut search = Search {
         problem,
-        basis: Basis::new(ranges.len()),
+        lower: basis.lower(),
+        basis,
         sides,
         whole,
         coefficients: Vec::new(),
@@ -174,9 +181,10 @@ pub(super) fn search_from(problem: &FitProblem<'_>, sides: Sides, watch: &Watch<
 }
 
 impl Search<'_> {
-    /// Runs the missing replicas and fits the box.
+    /// Runs the missing replicas and fits the box, by polynomials of the degree at which their error and the replicas'
+    /// noise are least together.
     fn run(&mut self, watch: &Watch<'_>) -> Result<Fit, FitError> {
-        let Self { problem, basis, sides, .. } = self;
+        let Self { problem, basis, lower, sides, .. } = self;
         let new = self.coefficients.len() as u64..self.replicas;
         let planned = (self.replicas - new.start) * basis.nodes.len() as u64;
         (watch.stage)(&format!("search, box {}", self.rounds));
@@ -184,9 +192,16 @@ impl Search<'_> {
         self.runs += planned;
         let value = |node: &[f64]| values(problem.ranges, sides, node);
         self.coefficients.extend(coefficients(basis, problem.model, &value, new, watch.done)?);
-        let emulator = Emulator::new(basis, &self.coefficients).with_alone(&self.alone);
-        let fit = fitted(problem.data, problem.ranges, problem.rods, sides, emulator)?;
-        Ok(Fit { runs: self.runs, rounds: self.rounds, ..fit })
+        let fit = |basis: &Basis, coefficients: &[Coefficients]| {
+            let emulator = Emulator::new(basis, coefficients).with_alone(&self.alone);
+            fitted(problem.data, problem.ranges, problem.rods, sides, emulator)
+        };
+        let mut best = fit(basis, &self.coefficients)?;
+        for (basis, map) in lower {
+            let coefficients: Vec<_> = self.coefficients.iter().map(|one| lowered(one, map)).collect();
+            best = fit(basis, &coefficients).ok().filter(|fit| error_share(fit) < error_share(&best)).unwrap_or(best);
+        }
+        Ok(Fit { runs: self.runs, rounds: self.rounds, ..best })
     }
 
     fn next(&mut self, fit: &Fit) -> Next {
@@ -236,6 +251,11 @@ impl Search<'_> {
     }
 }
 
+/// The share of a parameter's variance by the model's own errors: that of the polynomials and the replicas' noise.
+fn error_share(fit: &Fit) -> f64 {
+    fit.best.share(EMULATOR) + fit.best.share(REPLICAS).max(fit.noise_share())
+}
+
 fn whole(ranges: &[Range]) -> Sides {
     (ranges.iter()).map(|range| (range.scaled(range.from), range.scaled(range.to))).collect()
 }
@@ -252,27 +272,30 @@ fn enough(replicas: u64, share: f64, allowed: f64) -> u64 {
 /// The next box, and true if it gains enough to run again. Each side should end a quarter beyond the place where χ² has
 /// risen by `far`: nearer, the interval may be cut; farther, polynomials of this degree are too inaccurate.
 fn other_sides(fit: &Fit, whole: &Sides, far: f64) -> (Sides, bool) {
-    let mut change = false;
-    let sides = (0..whole.len())
-        .map(|axis| {
-            let (low, high) = fit.sides[axis];
-            let at = |place: f64| along((low, high), place);
-            let far = fit.within(axis, far);
-            let centre = fit.best.place[axis];
-            let end = |place: f64, open: bool| match open {
-                // The end is not known yet: go beyond this box, and far beyond it if even the best place is at its
-                // edge.
-                true if centre.abs() > 0.99 => at(place + 4.0 * place.signum()),
-                true => at(place + place.signum()),
-                false => at(place + 0.25 * (place - centre)),
-            };
-            let wanted = (end(far.low, far.open[0]).max(whole[axis].0), end(far.high, far.open[1]).min(whole[axis].1));
-            let wider = wanted.0 < low && far.open[0] || wanted.1 > high && far.open[1];
-            change |= wider || wanted.1 - wanted.0 < WORTH * (high - low);
-            wanted
-        })
-        .collect();
-    (sides, change)
+    let wanted = |axis: usize| {
+        let (low, high) = fit.sides[axis];
+        let at = |place: f64| along((low, high), place);
+        let far = fit.within(axis, far);
+        let centre = fit.best.place[axis];
+        let end = |place: f64, open: bool| match open {
+            // The end is not known yet: go beyond this box, and far beyond it if even the best place is at its edge.
+            true if centre.abs() > 0.99 => at(place + 4.0 * place.signum()),
+            true => at(place + place.signum()),
+            false => at(place + 0.25 * (place - centre)),
+        };
+        let wanted = (end(far.low, far.open[0]).max(whole[axis].0), end(far.high, far.open[1]).min(whole[axis].1));
+        // A box that ends between both rises is wide enough.
+        let near = fit.within(axis, NEAR).open;
+        let wider = wanted.0 < low && near[0] || wanted.1 > high && near[1];
+        (wanted, if wider { 0.0 } else { (wanted.1 - wanted.0) / (high - low) })
+    };
+    let all: Vec<_> = (0..whole.len()).map(wanted).collect();
+    let least = all.iter().map(|(_, left)| *left).filter(|left| *left > 0.0).fold(1.0, f64::min);
+    // While one side shrinks much, others keep their ends: over it, the polynomials tell little of the others.
+    let worth = if least < 0.5 * WORTH { 0.5 * WORTH } else { WORTH };
+    let gains = |left: f64| far < FAR || left < worth;
+    let sides = all.iter().zip(&fit.sides).map(|((wanted, left), own)| if gains(*left) { *wanted } else { *own });
+    (sides.collect(), all.iter().any(|(_, left)| *left < WORTH))
 }
 
 /// True if every 95 % interval ends inside its box or at the edge of its range.
