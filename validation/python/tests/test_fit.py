@@ -69,6 +69,8 @@ def test_the_result_is_that_of_the_program(points: dict[str, np.ndarray], tmp_pa
     assert np.array_equal(found.residuals["measured"], points["x1"])
     samples = found.samples["interaction.alpha"]
     assert len(samples) == 4000 and abs(np.median(samples) - alpha.estimate) < alpha.standard_uncertainty
+    assert len(found.extremes) == len(found.derived) == 1 and "x1_damping_rate" in found.derived[0]
+    assert np.nanmax(found.extremes[0]["x1_maximum"]) > 0.3
     values, rise = found.profiles["interaction.alpha"]
     assert len(values) == len(rise) > 5 and rise.min() >= 0
     [tested] = shearbed.fit(SCENE, points, OVER, replicas=60, seed=3, test=["interaction.alpha=0.8"]).tests
@@ -96,6 +98,7 @@ def test_the_result_is_that_of_the_program(points: dict[str, np.ndarray], tmp_pa
     halves[1]["x1"] = np.where(np.arange(5) == 2, np.nan, halves[1]["x1"])
     both = shearbed.fit(SCENE, halves[0], OVER, also=[(SCENE, halves[1])], replicas=60, seed=3)
     assert both.degrees_of_freedom == 8 and set(both.residuals["set"]) == {1.0, 2.0}
+    assert len(both.extremes) == 2
 
 
 def test_a_plot_has_the_best_curve_and_the_residuals(points: dict[str, np.ndarray]) -> None:

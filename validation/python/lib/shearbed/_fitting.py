@@ -69,7 +69,11 @@ class Fit:
         """Of each parameter: its values, and chi2 above its least there."""
         self.samples: dict[str, Array] = columns_of(folder / "samples.csv") if self.order else {}
         """Samples of the parameters, for corner plots."""
-        pictures = json.loads((folder / "figures.json").read_text(encoding="utf-8")) if self.order else []
+        self.extremes: list[dict[str, Array]] = _of_sets(folder, "extremes")
+        """Of each set of points, the best model's maxima, minima and amplitudes, as ``Results.extremes``."""
+        self.derived: list[dict[str, Array]] = _of_sets(folder, "derived")
+        """Of each set of points, the best model's damping rates and steady values; errors are those of its replicas."""
+        pictures = json.loads((folder / "figures.json").read_text(encoding="utf-8"))
         self._curves: list[dict[str, Any]] = [
             curve for name, picture in pictures if name.startswith("points") for curve in picture["curves"]
         ]
@@ -92,8 +96,8 @@ class Fit:
         return f"<Fit {', '.join([*found, f'χ² = {self.chi2:.4g}, {self.degrees_of_freedom} degrees of freedom'])}>"
 
     def plot(self, ax: Any = None) -> Any:
-        """Draws points with their uncertainties, the best model with its 95 % band, and on axes below their residuals; without
-        a fit the model at the points alone. Returns the axes of the points; on given axes no residuals are drawn."""
+        """Draws points with their uncertainties, the best model with its 95 % band, and on axes below their
+        residuals. Returns the axes of the points; on given axes no residuals are drawn."""
         import matplotlib.pyplot as plt
 
         below = None
@@ -102,19 +106,16 @@ class Fit:
         found = self.residuals
         groups = sorted(set(zip(found["set"], found["column"])))
         for k, (set_, column) in enumerate(groups):
-            curve = self._curves[k] if self._curves else None
-            symbol = column if curve is None else typeset(curve["label"].removesuffix(", best fit"))
+            curve = self._curves[k]
+            symbol, fitted, _ = typeset(curve["label"]).partition(", best fit")
             rows = (found["set"] == set_) & (found["column"] == column)
             time, u = found["time"][rows], found["u"][rows]
             drawn = ax.errorbar(time, found["measured"][rows], u, fmt="o", clip_on=False, label=f"{symbol}, measured ± u")
             colour = drawn[0].get_color()
             if below is not None:
                 below.errorbar(time, found["residual"][rows], u, fmt="o", clip_on=False, color=colour)
-            if curve is None:
-                ax.plot(time, found["simulated"][rows], color=colour, label=f"{symbol}, model")
-                continue
             x, y, half = (np.array(curve[name], dtype=float) for name in ("x", "y", "half_band"))
-            ax.plot(x, y, color=colour, label=f"{symbol}, best fit")
+            ax.plot(x, y, color=colour, label=f"{symbol}{fitted or ', model'}")
             for axes, middle in ((ax, y), (below, 0 * y)):
                 if axes is not None:
                     axes.fill_between(x, middle - half, middle + half, color=colour, alpha=0.2, linewidth=0)
@@ -126,6 +127,12 @@ class Fit:
             below.set_ylabel("residual")
         ax.legend()
         return ax
+
+
+def _of_sets(folder: Path, stem: str) -> list[dict[str, Array]]:
+    """The tables of that stem, one for each set of points."""
+    found = sorted(folder.glob(f"{stem}_*.csv"), key=lambda path: int(path.stem.rsplit("_", 1)[1]))
+    return [columns_of(path) for path in found or [folder / f"{stem}.csv"]]
 
 
 def fit(

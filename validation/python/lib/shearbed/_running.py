@@ -152,13 +152,14 @@ def sweep(
 
     ``sweep(scene, {"interaction.alpha": [0.25, 0.5, 1]})`` gives the columns of ``sweep.csv``, one row a point: the swept
     keys, then time, means and standard errors at the last output, damping rates and steady values; with ``times="all"``
-    one row for each output of each point. All points have the same seed. ``set={"particles.count": 50}`` gives keys of the scene another value.
+    one row for each output of each point, and with ``times="extremes"`` the columns of ``extremes.csv``: maxima, minima and
+    amplitudes of each point. All points have the same seed. ``set={"particles.count": 50}`` gives keys of the scene another value.
     ``progress(done, of)`` counts points; ``progress=True`` draws a bar with tqdm where it is installed. ``xarray=True`` gives an
     ``xarray.Dataset`` in place of the columns: one dimension for each swept key, and with ``times="all"`` ``output``, with the
     times as its coordinate where all points have the same. Work of over a day begins with ``yes=True`` alone.
     """
-    if times not in ("last", "all"):
-        raise ValueError(f"times = {times!r}: 'last' and 'all' are allowed")
+    if times not in ("last", "all", "extremes") or (times == "extremes" and xarray):
+        raise ValueError(f"times = {times!r}: 'last', 'all', and without xarray 'extremes', are allowed")
     for key, values in over.items():
         if isinstance(values, str) or not isinstance(values, Iterable):
             raise ValueError(f"over: {key} = {values!r}: a list of values is allowed, as [{values!r}]")
@@ -179,6 +180,8 @@ def sweep(
 
         program(words, folder, watch if show else None)
         swept = columns(folder / "out" / "sweep.csv")
+        if times == "extremes":
+            return columns(folder / "out" / "extremes.csv")
         if times == "last":
             return _dataset(swept, over) if xarray else swept
         of_points = [tables(point) for point in sorted((folder / "out" / "points").iterdir())]
