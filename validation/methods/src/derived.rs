@@ -71,7 +71,8 @@ impl Derived {
         match self.extremes[..] {
             _ if self.damping_rate.is_some() => None,
             [] | [_] if replicas < FEWEST => {
-                Some("no amplitudes: no turn is beyond the noise of so few replicas".into())
+                let of = if replicas == 1 { "rods" } else { "replicas" };
+                Some(format!("no amplitudes: no turn is beyond the noise of so few {of}"))
             }
             [] | [_] => None,
             _ => Some(format!("no damping rate: {NO_RATE}")),
@@ -90,6 +91,9 @@ pub const FEWEST: u64 = 8;
 
 /// The fewest outputs over which a mean can be steady.
 const FEWEST_OUTPUTS: usize = 10;
+
+/// Degrees of freedom beyond which Student's t is a Gaussian.
+const MANY: u64 = 1000;
 
 /// A turn of a mean: a maximum or a minimum, and the outputs between its neighbours.
 struct Turn {
@@ -128,7 +132,8 @@ impl Mean<'_> {
         let mean = &self.column.mean;
         let first = mean.first().copied().unwrap_or_default();
         let rounding = mean.iter().fold(0.0, |span: f64, x| span.max((x - first).abs())) * 1e-9;
-        let freedom = self.replicas.saturating_sub(1).clamp(1, 1000) as f64;
+        // The errors of one replica are over its rods, which are many where their turns are clear.
+        let freedom = if self.replicas == 1 { MANY } else { (self.replicas.max(2) - 1).min(MANY) } as f64;
         let errors = StudentsT::new(0.0, 1.0, freedom).map_or(f64::INFINITY, |t| -t.inverse_cdf(self.tail()));
         let above = |a: usize, b: usize| mean[a] - mean[b] > (errors * (self.se(a) + self.se(b))).max(rounding);
         let (mut highest, mut lowest) = (0, 0);

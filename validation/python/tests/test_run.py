@@ -186,7 +186,7 @@ def test_a_scene_with_other_values() -> None:
         **{key: value for key, value in SMALL.items() if key not in ("periods", "steps_per_period", "outputs_per_period")}, strain=2
     )
     assert shearbed.run(scene, set={"alpha": 0.25}).x1.tobytes() == shearbed.run(scene.replace(alpha=0.25)).x1.tobytes()
-    assert repr(scene) == "<Scene 'scene': 20 rods, 1 replica, t/T = 0.5, 26 outputs, 100 time steps>"
+    assert repr(scene) == "<Scene 'scene': 20 rods, 1 replica, t/T = 0.5, 101 outputs, 100 time steps>"
     assert "<pre>scene\n" in scene._repr_html_()
     with pytest.raises(shearbed.SceneError, match="alhpa"):
         scene.replace(alhpa=0.3)
@@ -258,7 +258,7 @@ def test_a_sweep_as_a_dataset() -> None:
     picked = found["x1"].sel({"interaction.alpha": 1.0, "interaction.update": "rotation"})
     assert float(picked) == table["x1"][4]
     every = shearbed.sweep(SMALL, over, replicas=2, times="all", xarray=True)
-    assert np.array_equal(every["x1"].isel(output=-1).values, found["x1"].values) and every.sizes["output"] == 26
+    assert np.array_equal(every["x1"].isel(output=-1).values, found["x1"].values) and every.sizes["output"] == 101
     short = shearbed.sweep(SMALL, {"alpha": [0.25, 1.0]}, replicas=2, xarray=True)
     assert dict(short.sizes) == {"interaction.alpha": 2} and "interaction.alpha" not in short.data_vars
 

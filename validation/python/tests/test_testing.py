@@ -155,7 +155,7 @@ def test_a_sweep_gives_all_times_and_says_how_far_it_is() -> None:
     # One value a point.
     derived = re.compile("x[123]_(damping_rate|steady)(_se|_from)?")
     assert all(derived.fullmatch(name) for name in set(last) - set(every)) and {"x1", "x3_se"} <= set(every)
-    extremes = shearbed.sweep("fig4-n50", over, times="extremes", **given)
+    extremes = shearbed.sweep("fig4-n50", over, times="extremes", **(given | {"replicas": 20}))
     assert set(extremes["interaction.alpha"]) == {0.2, 0.6} and np.nanmax(extremes["x1_amplitude"]) > 0.1
     with pytest.raises(ValueError, match="times = 'first'"):
         shearbed.sweep("fig4-n50", over, times="first")

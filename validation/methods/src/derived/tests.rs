@@ -81,6 +81,18 @@ fn a_damped_oscillation_has_its_extremes_amplitudes_and_rate() {
     assert_eq!(steady, None);
 }
 
+/// The errors of a single replica are over its rods: they hide turns, but not all.
+#[test]
+fn the_turns_of_one_replica_are_those_beyond_the_scatter_of_its_rods() {
+    let extremes = |se: f64| {
+        let curve = column(&damped(1, 1, 0.0));
+        let column = Column { se: vec![se; curve.mean.len()], ..curve };
+        Derived::new(&times(), &column, 1).extremes.len()
+    };
+    assert_eq!([0.0, 1e-3, 0.1].map(extremes), [17, 17, 0]);
+    assert!((2..16).contains(&extremes(0.01)));
+}
+
 /// Errors of 600 experiments: values less the truth, over the stated standard errors, have the spread 1; a control with
 /// replicas that are not independent has not.
 #[test]

@@ -24,6 +24,10 @@ pub const FIRST_REPLICAS: u64 = 50;
 /// added. At this share the interval is 5 % longer.
 pub const MOST_SHARE: f64 = 0.1;
 
+/// The largest share of the replicas' noise in the rise of χ² at the ends of an interval, from which its average is
+/// subtracted; above it replicas are added.
+const MOST_NOISE: f64 = 0.15;
+
 /// The part of that share which the covariance of few replicas may have: its replicas run at one place alone, the
 /// others at every node.
 const MOST_SCARCE: f64 = 0.03;
@@ -215,8 +219,14 @@ impl Search<'_> {
         if more && noise > CLEAR {
             return until(noise, CLEAR);
         }
-        let share = fit.best.share(REPLICAS).max(noise);
-        let due = if share <= MOST_SHARE || !more { Next::Done } else { until(share, MOST_SHARE) };
+        let share = fit.best.share(REPLICAS);
+        let due = if !more || share <= MOST_SHARE && noise <= MOST_NOISE {
+            Next::Done
+        } else if share > MOST_SHARE {
+            until(share, MOST_SHARE)
+        } else {
+            until(noise, MOST_NOISE)
+        };
         let (mut sides, mut gains) = other_sides(fit, &self.whole, if self.near { NEAR } else { FAR });
         if !gains && !self.near && fit.best.share(EMULATOR) > MOST_SHARE {
             self.near = true;
