@@ -305,11 +305,26 @@ pub(super) fn in_rows<T>(items: impl Iterator<Item = (T, i32)>, width: i32) -> V
     rows
 }
 
+/// The words of a text; a number is one with its sign and its unit.
+fn words(text: &str) -> Vec<String> {
+    let mut words: Vec<String> = Vec::new();
+    for word in text.split_whitespace() {
+        match words.last_mut() {
+            Some(last) if last.ends_with(['=', '±']) || ["=", "%", "cm⁻³"].contains(&word) => {
+                *last += " ";
+                *last += word;
+            }
+            _ => words.push(word.into()),
+        }
+    }
+    words
+}
+
 /// The lines of a text within the width `room`, four at most; a word that is too wide is cut.
 pub(super) fn wrap(text: &str, room: i32, size: f64) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
-    for word in text.split_whitespace() {
-        let word = &cut(word, room, size);
+    for word in words(text) {
+        let word = &cut(&word, room, size);
         let full = lines.len() == MOST_LINES;
         match lines.last_mut() {
             Some(line) if text_width(line, size) + text_width(word, size) < room => {
@@ -382,6 +397,7 @@ mod tests {
     fn texts_are_wrapped_at_words() {
         let room = text_width("a picture of", TEXT) + 1;
         assert_eq!(wrap("a picture of two words", room, TEXT), ["a picture of", "two words"]);
+        assert_eq!(wrap("pictures of σ = 3.6 %", room, TEXT), ["pictures of", "σ = 3.6 %"]);
         assert!(wrap("", room, TEXT).is_empty());
         let cut = &wrap("incomprehensibilities", room, TEXT)[0];
         assert!(cut.starts_with("incomp") && cut.ends_with('…') && text_width(cut, TEXT) <= room);
