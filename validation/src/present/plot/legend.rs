@@ -17,6 +17,8 @@ const LINE: i32 = 16 * FINE;
 const SHORT: i32 = 18 * FINE;
 /// Largest number of entries above the axes.
 const MOST: usize = 5;
+/// Least width of a picture with labels beside its axes.
+const LEAST: i32 = 360 * FINE;
 
 /// The sample that an entry shows beside its label.
 #[derive(Clone, Copy)]
@@ -78,7 +80,7 @@ impl Legend {
                 if bars { " ± u" } else { "" }
             );
         }
-        let beside = if series.len() > MOST { std::mem::take(&mut series) } else { Vec::new() };
+        let beside = if series.len() > MOST && width >= LEAST { std::mem::take(&mut series) } else { Vec::new() };
         let beside = (beside.into_iter())
             .map(|(series, mark, label)| (series, mark, wrap(&label, 2 * width / 5, SMALL)))
             .collect();

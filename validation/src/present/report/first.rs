@@ -108,7 +108,12 @@ pub(super) fn thumbnails(report: &Report) -> Result<Vec<Json>, String> {
                 let shown = grid.maps.iter().position(|map| map.title == "implicit midpoint in p");
                 grid.maps = grid.maps.drain(..).skip(shown.unwrap_or(0)).take(1).collect();
             }
-            Ok(json!({ "name": figure.name, "svg": plot::svg(&small)?, "map": small.grid.is_some() }))
+            Ok(json!({
+                "name": figure.name,
+                "svg": plot::svg(&small)?,
+                "narrow": plot::narrow(&small)?,
+                "map": small.grid.is_some(),
+            }))
         })
         .collect()
 }
