@@ -2,7 +2,7 @@
 
 use super::first::{cards, closest, sizes, thumbnails};
 use super::formats::{bounds, detail, number, seconds, share, verdict};
-use super::prose::Anchors;
+use super::prose::{Anchors, breakable};
 use super::{CaseRow, Line, Report, ReportEquation, ReportFigure, ReportTable};
 use crate::files::text::readable;
 use crate::judge::accept::Verdict;
@@ -49,6 +49,7 @@ pub(crate) fn rendered(
 ) -> Result<String, String> {
     let mut environment = Environment::new();
     environment.set_undefined_behavior(UndefinedBehavior::Strict);
+    environment.add_filter("code", |text: &str| Value::from_safe_string(breakable(text)));
     environment.add_filter("prose", move |text: &str| Value::from_safe_string(prose(text)));
     // The name's extension turns escaping on.
     let template = environment.template_from_named_str(name, template);
@@ -150,6 +151,7 @@ fn figure(report: &Report, figure: &ReportFigure) -> Result<Json, String> {
     Ok(json!({
         "name": figure.name,
         "svg": plot::svg(&figure.figure)?,
+        "narrow": plot::narrow(&figure.figure)?,
         "map": figure.figure.grid.is_some(),
         "caption": figure.caption,
         "source": figure.source,

@@ -64,9 +64,18 @@ impl Anchors {
     }
 }
 
-/// A name of code, which a line may break after `_` and `::`.
-fn breakable(code: &str) -> String {
-    escaped(code).replace("::", "::<wbr/>").replace('_', "_<wbr/>")
+/// Code whose lines break at blanks; a word that is wider than a phone, or in a narrow column, also after `_` and `::`.
+pub(super) fn breakable(code: &str) -> String {
+    /// Letters of code that fit a line on a phone.
+    const MOST: usize = 36;
+    let typeset = |part: &str| {
+        let word = part.trim_end();
+        let html = escaped(word).replace("::", "::<wbr/>").replace('_', "_<wbr/>");
+        let breaks = word.contains(['-', '_', ':', '/']) && word.chars().count() <= MOST;
+        let html = if breaks { format!("<span>{html}</span>") } else { html };
+        html + &part[word.len()..]
+    };
+    code.split_inclusive(char::is_whitespace).map(typeset).collect()
 }
 
 fn anchor(target: &str, html: &str) -> String {
@@ -94,7 +103,8 @@ mod tests {
         };
         for (text, html) in [
             ("`a` & `b`", "<a href=\"#case-a\"><code>a</code></a> &amp; <code>b</code>"),
-            ("`a_b::c`", "<code>a_<wbr/>b::<wbr/>c</code>"),
+            ("`a_b::c`", "<code><span>a_<wbr/>b::<wbr/>c</span></code>"),
+            ("`run --out a`", "<code>run <span>--out</span> a</code>"),
             ("eqs 5, A.7", "eqs 5, <a href=\"#equation-A.7\">A.7</a>"),
             ("Fig. 4", "<a href=\"#figure-fig4-n20\">Fig.\u{a0}4</a>"),
             ("in Figs 4 and 1", "in Figs <a href=\"#figure-fig4-n20\">4</a> and 1"),

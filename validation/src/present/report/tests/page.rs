@@ -15,7 +15,8 @@ fn html_stands_alone() {
     assert!(html.contains(&report.alarms()));
     for name in report.cases.iter().map(|row| &row.name) {
         assert_eq!(html.matches(&format!("id=\"case-{name}\"")).count(), 1, "{name}");
-        assert!(html.contains(&format!("validate --case {name}</code>")), "{name}");
+        let command = format!("validate <span>--case</span> <span>{name}</span></code>");
+        assert!(html.contains(&command), "{name}");
     }
     for text in [
         "✓ pass",
