@@ -13,7 +13,13 @@ pub fn csv(picture: &Figure) -> Result<String, String> {
     let curves = picture.curves.iter().map(|c| (&c.label, &c.x, &c.y, None, c.half_band.as_ref()));
     let points = (picture.points.iter()).map(|p| (&p.label, &p.x, &p.y, p.x_error.as_ref(), p.y_error.as_ref()));
     written(|table| {
-        table.write_record(["series", &cell(&picture.x_name), &cell(&picture.y_name), "± x", "± y"])?;
+        table.write_record([
+            "series",
+            &cell(&picture.x_name),
+            &cell(&picture.y_name),
+            "95 % half width of x",
+            "95 % half width of y",
+        ])?;
         for (label, x, y, x_half, y_half) in curves.chain(points) {
             let label = cell(label);
             for (k, (x, y)) in x.iter().zip(y).enumerate() {
@@ -55,7 +61,7 @@ mod tests {
             points: vec![Points::of("a, b", [(1.0, 2.0)], |point| point)],
             ..Default::default()
         };
-        let expected = "series,t/T,\"X̄₁, in rod lengths\",± x,± y\n\
+        let expected = "series,t/T,\"X̄₁, in rod lengths\",95 % half width of x,95 % half width of y\n\
                         synthetic,0.0,0.5,,0.01\nsynthetic,0.1,NaN,,0.02\n\"a, b\",1.0,2.0,,\n";
         assert_eq!(csv(&figure).unwrap(), expected);
     }

@@ -11,7 +11,7 @@ pub(super) fn write(report: &Report) -> String {
     let origin = &report.origin;
     let mut text = "# shearbed: verification report\n\n".to_owned();
     text.extend(sizes(report).iter().map(|line| format!("{}\n\n", markdown(line))));
-    text += &format!("{}\n\n", report.headline());
+    text += &format!("{}\n\n± is one standard error; bands and bars in figures are 95 %.\n\n", report.headline());
     text +=
         "| verdict | case | judges | claim | source | error | tolerance | unit | because | controls caught | time |\n";
     text += "| --- | --- | --- | --- | --- | ---: | ---: | --- | --- | ---: | ---: |\n";

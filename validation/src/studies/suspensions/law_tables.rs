@@ -179,12 +179,12 @@ pub fn steps_figure(law: &Law) -> ReportFigure {
     });
     ReportFigure::new(
         ["steps", "Interacting rods: X̄₁ at t/T = 1 against the step"],
-        "Convergence in law: the mean tends to a limit as Δt → 0, and the line is the first-order bias, where one \
-         fits.",
+        "Convergence in law: the mean, with 95 % bars, tends to a limit as Δt → 0, and the line is the first-order \
+         bias, where one fits.",
         ["step Δt/T", "X̄₁ (rod lengths)"],
     )
     .curves(line)
-    .points([Points::with_bars("simulated, ± 2 se", &law.steps, |s| (step(s), s.x1, 2.0 * s.se))])
+    .points([Points::with_bars("simulated", &law.steps, |s| (step(s), s.x1, 1.96 * s.se))])
     .judged("eqs 4 to 14", &["cheapest-split", "paths-do-not-converge"])
 }
 
