@@ -1,28 +1,47 @@
-//! Formulas in Markdown.
+//! Formulas and commands in Markdown.
 
-use pulldown_cmark::{Event, Options, Parser};
+use pulldown_cmark::{Event, Options, Parser, Tag, TagEnd};
 use pulldown_latex::config::{DisplayMode, RenderConfig};
 use pulldown_latex::{ParserError, Storage, push_mathml};
 
-/// `page` with MathML for each `$…$` and `$$…$$` outside of code.
+/// `page` with MathML for each `$…$` and `$$…$$` outside of code, and with options that a line does not break, except
+/// in headings, whose anchors are made from their text.
 ///
 /// # Errors
 /// The first formula that is not LaTeX, and why.
 pub fn replaced(page: &str) -> Result<String, String> {
     let options = Options::ENABLE_MATH | Options::ENABLE_TABLES | Options::ENABLE_FOOTNOTES;
     let mut text = String::new();
-    let mut end = 0;
+    let (mut end, mut in_heading) = (0, false);
     for (event, place) in Parser::new_ext(page, options).into_offset_iter() {
-        let (formula, display_mode) = match &event {
-            Event::InlineMath(formula) => (formula, DisplayMode::Inline),
-            Event::DisplayMath(formula) => (formula, DisplayMode::Block),
+        let formula = |formula, mode| mathml(formula, mode).map_err(|error| format!("${formula}$: {error}"));
+        let html = match &event {
+            Event::InlineMath(text) => formula(text, DisplayMode::Inline)?,
+            Event::DisplayMath(text) => formula(text, DisplayMode::Block)?,
+            Event::Code(code) if !in_heading && code.contains('-') => unbroken(code),
+            Event::Start(Tag::Heading { .. }) | Event::End(TagEnd::Heading(_)) => {
+                in_heading = !in_heading;
+                continue;
+            }
             _ => continue,
         };
         text += &page[end..place.start];
-        text += &mathml(formula, display_mode).map_err(|error| format!("${formula}$: {error}"))?;
+        text += &html;
         end = place.end;
     }
     Ok(text + &page[end..])
+}
+
+/// Code as HTML whose lines break at blanks, and not after a hyphen; a word that is wider than a phone breaks anywhere.
+fn unbroken(code: &str) -> String {
+    const MOST: usize = 36;
+    let sign = |sign: char| if sign.is_ascii_punctuation() { format!("&#{};", u32::from(sign)) } else { sign.into() };
+    let word = |word: &str| {
+        let html: String = word.chars().map(sign).collect();
+        // Styled by docs/formulas.css.
+        if word.chars().count() > MOST { html } else { format!("<span class=\"word\">{html}</span>") }
+    };
+    format!("<code>{}</code>", code.split(' ').map(word).collect::<Vec<_>>().join(" "))
 }
 
 fn mathml(formula: &str, display_mode: DisplayMode) -> Result<String, String> {
@@ -86,6 +105,16 @@ mod tests {
     fn a_page_without_formulas_stays() {
         let page = "It costs 5 $ or 6 $.\n\n| a | b |\n| --- | --- |\n| `$x$` | 1 |\n";
         assert_eq!(replaced(page).unwrap(), page);
+    }
+
+    #[test]
+    fn options_are_words_except_in_headings() {
+        let text = replaced("# The `--out`\n\n| [`run --set a\\|b`](c.md) | `_x_` |\n| --- | --- |\n").unwrap();
+        let words = "<code><span class=\"word\">run</span> <span class=\"word\">&#45;&#45;set</span> \
+                     <span class=\"word\">a&#124;b</span></code>";
+        assert_eq!(text, format!("# The `--out`\n\n| [{words}](c.md) | `_x_` |\n| --- | --- |\n"));
+        let long = "a-".repeat(30);
+        assert!(!replaced(&format!("`{long}`")).unwrap().contains("span"));
     }
 
     /// The rest of a page reads on as Markdown: what stands between tags is only text to it.
