@@ -5,12 +5,15 @@
 //! Nothing here judges the simulator; that is done by the oracles.
 
 pub mod coefficients;
+pub mod contact;
 pub mod derived;
 pub mod integrators;
 pub mod interpolate;
 pub mod least_squares;
 pub mod least_work;
 pub mod projections;
+pub mod stages;
 pub mod starts;
 pub mod tensors;
 pub mod textbook;
+pub mod turning;

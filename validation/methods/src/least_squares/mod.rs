@@ -12,3 +12,13 @@ pub mod profile;
 pub mod scarce;
 
 pub use datum::Datum;
+
+use nalgebra::{DMatrix, DVector};
+
+/// How much of each column explains what is found, and the length of what that leaves.
+pub fn by_svd(columns: &[DVector<f64>], found: &DVector<f64>) -> Option<(DVector<f64>, f64)> {
+    let columns = DMatrix::from_columns(columns);
+    let off = columns.clone().svd(true, true).solve(found, 0.0).ok()?;
+    let left = (found - columns * &off).norm();
+    Some((off, left))
+}

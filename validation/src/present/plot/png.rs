@@ -28,9 +28,12 @@ fn in_bands(figure: &Figure, at_once: u32) -> Result<Drawing, String> {
     let mut writer = header(&mut bytes, [width, height], inches).map_err(cannot)?;
     let mut rows = writer.stream_writer().map_err(cannot)?;
     loop {
-        for row in band_of_rows.pixels.pixels().chunks(width as usize) {
+        let mut rgb = vec![0; 3 * width as usize];
+        for row in band_of_rows.pixels.data().chunks(4 * width as usize) {
             // White is drawn first, so no pixel is transparent.
-            let rgb: Vec<u8> = row.iter().flat_map(|pixel| [pixel.red(), pixel.green(), pixel.blue()]).collect();
+            for (rgb, pixel) in rgb.chunks_exact_mut(3).zip(row.chunks_exact(4)) {
+                rgb.copy_from_slice(&pixel[..3]);
+            }
             rows.write_all(&rgb).map_err(|error| cannot(error.into()))?;
         }
         let top = band_of_rows.top + band_of_rows.pixels.height();

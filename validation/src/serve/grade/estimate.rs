@@ -2,11 +2,12 @@
 //! in the answers to all problems together, as one number that explains each of them.
 
 use super::answer::Answer;
-use super::mistakes::{Motion, Setting, right_phase};
+use super::mistakes::{Setting, right_phase};
 use super::nearness::{NEARER, apart};
 use crate::judge::statistics::worst;
+use crate::methods::turning::{Motion, moved};
 use crate::serve::problems::{Kind, LoadedProblem};
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::Vector3;
 use std::f64::consts::PI;
 
 /// The highest rate that is tried.
@@ -198,12 +199,6 @@ impl<'a> Wrong<'a> {
             times.map(|(rows, time_s)| self.off(rows, &motion, rate * time_s)).all(|off| off <= self.nearer_than)
         })
     }
-}
-
-/// The direction of a rod that starts along `start`; `None` if it is not finite.
-fn moved(map: &Matrix3<f64>, start: &[f64; 3]) -> Option<Vector3<f64>> {
-    let p = (map * Vector3::from(*start)).normalize();
-    p.iter().all(|component| component.is_finite()).then_some(p)
 }
 
 /// The places of the minima of `off` in a range, by a search around each minimum of many values.

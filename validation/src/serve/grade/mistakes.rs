@@ -7,41 +7,17 @@ mod angles;
 mod physical;
 
 use super::Axes;
+pub use crate::methods::turning::{Setting, angles_of, by_angles, right_map};
+use crate::methods::turning::{finite, halves, in_turn, map_of, rotation, shape};
 use crate::serve::problems::Problem;
-use nalgebra::{Matrix3, Rotation3, Vector3};
+use nalgebra::{Matrix3, Vector3};
 use shearbed::model::flow::VelocityGradient;
-use shearbed::model::orientation::from_angles;
-use shearbed::motion::{Propagator, Span};
-
-/// The flow and the aspect ratio of a free rod.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Setting {
-    /// L at t = 0 in 1/s, with the spin.
-    pub gradient_per_s: Matrix3<f64>,
-    /// S of a flow that turns, L(t) = Q (L − S) Qᵀ + S with Q = exp(St), in 1/s; 0 in a steady one.
-    pub spin_per_s: Matrix3<f64>,
-    /// r_e.
-    pub aspect_ratio: f64,
-}
 
 impl From<&Problem> for Setting {
     fn from(problem: &Problem) -> Self {
         let spin_per_s = problem.spin();
         Self { gradient_per_s: problem.gradient() + spin_per_s, spin_per_s, aspect_ratio: problem.aspect_ratio }
     }
-}
-
-impl Setting {
-    /// A = W + ΛD in 1/s, of ṗ = Ap − p(p·Ap), at t = 0.
-    pub fn rates_per_s(&self) -> Matrix3<f64> {
-        let (w, d) = halves(&self.gradient_per_s);
-        w + shape(self.aspect_ratio) * d
-    }
-}
-
-/// W and D of L.
-fn halves(l: &Matrix3<f64>) -> (Matrix3<f64>, Matrix3<f64>) {
-    (0.5 * (l - l.transpose()), 0.5 * (l + l.transpose()))
 }
 
 type Curve = Box<dyn Fn(&Setting, &Vector3<f64>, f64) -> Option<Vector3<f64>> + Send + Sync>;
@@ -68,11 +44,10 @@ impl Mistake {
     /// apply. The length is 1 except for mistakes with a length of their own.
     pub fn direction(&self, setting: &Setting, p: &Vector3<f64>, time_s: f64) -> Option<Vector3<f64>> {
         let q = match &self.kind {
-            Kind::Linear { map, start, end } => end * map(setting, time_s)? * start * p,
+            Kind::Linear { map, start, end } => in_turn(end, &map(setting, time_s)?, start, p),
             Kind::Curve(curve) => curve(setting, p, time_s)?,
         };
-        let q = if self.has_length { q } else { q.normalize() };
-        q.iter().all(|component| component.is_finite()).then_some(q)
+        finite(if self.has_length { q } else { q.normalize() })
     }
 
     /// The linear map of directions that were isotropic at t = 0, up to a rotation before it; `None` for a mistake that
@@ -83,58 +58,6 @@ impl Mistake {
             Kind::Curve(_) => None,
         }
     }
-}
-
-/// The correct motion.
-pub struct Motion {
-    seen_turning: Propagator,
-    spin_per_s: Matrix3<f64>,
-}
-
-impl Motion {
-    /// The motion of a rod of this aspect ratio in this flow; `None` if the gradient is not finite.
-    pub fn of(setting: &Setting) -> Option<Self> {
-        let flow = VelocityGradient::new(setting.gradient_per_s - setting.spin_per_s)?;
-        let seen_turning = Propagator::new(&flow, setting.aspect_ratio);
-        Some(Self { seen_turning, spin_per_s: setting.spin_per_s })
-    }
-
-    /// The map over a time, with determinant 1 in an incompressible flow; `None` if it is not finite.
-    pub fn map(&self, time_s: f64) -> Option<Matrix3<f64>> {
-        let (map, _) = self.seen_turning.map(Span::Seconds(time_s, 1.0))?;
-        Some(rotation(&self.spin_per_s, time_s) * unimodular(map)?)
-    }
-}
-
-/// Q = exp(St): the rotation about ω by |ω|t.
-fn rotation(spin_per_s: &Matrix3<f64>, time_s: f64) -> Matrix3<f64> {
-    let [x, y, z] = [spin_per_s.m32, spin_per_s.m13, spin_per_s.m21];
-    Rotation3::new(Vector3::new(x, y, z) * time_s).into_inner()
-}
-
-/// The correct map after a time.
-pub fn right_map(setting: &Setting, time_s: f64) -> Option<Matrix3<f64>> {
-    Motion::of(setting)?.map(time_s)
-}
-
-/// The map scaled to determinant 1, within double precision: the size of a very strongly stretched map is arbitrary.
-fn unimodular(map: Matrix3<f64>) -> Option<Matrix3<f64>> {
-    let map = map / map.amax();
-    let determinant = map.determinant();
-    let scaled = if determinant > 0.0 { map / determinant.cbrt() } else { map };
-    scaled.iter().all(|component| component.is_finite()).then_some(scaled)
-}
-
-/// exp(At) for a given A, scaled to determinant 1.
-fn map_of(a: &Matrix3<f64>, time_s: f64) -> Option<Matrix3<f64>> {
-    // r_e = √3 has Λ = ½: this flow has the strain rate 2 sym A, and so W + ΛD = A.
-    let gradient_per_s = 0.5 * (a - a.transpose()) + (a + a.transpose());
-    right_map(&Setting { gradient_per_s, spin_per_s: Matrix3::zeros(), aspect_ratio: 3f64.sqrt() }, time_s)
-}
-
-fn shape(aspect_ratio: f64) -> f64 {
-    let square = aspect_ratio * aspect_ratio;
-    (square - 1.0) / (square + 1.0)
 }
 
 /// The shear rate in 1/s of a flow u_2 = G x_1 with G > 0; `None` for other flows.
@@ -282,16 +205,6 @@ pub fn right_phase(setting: &Setting, time_s: f64) -> Option<f64> {
 fn turned(aspect_ratio: f64, k: f64, phase: f64) -> Matrix3<f64> {
     let (sin, cos) = phase.sin_cos();
     Matrix3::new(cos, -k * sin, 0.0, aspect_ratio * sin, cos, 0.0, 0.0, 0.0, 1.0)
-}
-
-/// φ and θ of a direction.
-pub fn angles_of(p: &Vector3<f64>) -> [f64; 2] {
-    [p.y.atan2(p.x), p.x.hypot(p.y).atan2(p.z)]
-}
-
-/// The direction with these φ and θ.
-pub fn by_angles([phi, theta]: [f64; 2]) -> Vector3<f64> {
-    from_angles(phi, theta).into_inner()
 }
 
 /// The end of a mistake's name if the start is changed in place of the answer.

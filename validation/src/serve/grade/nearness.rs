@@ -1,8 +1,7 @@
 //! How near an answer must be to a mistake's curve, and what is said of it then.
 
 use super::mistakes::IN_THE_START;
-use crate::methods::integrators::apart_rad;
-use nalgebra::Vector3;
+pub(super) use crate::methods::turning::apart;
 
 /// An answer belongs to a mistake's curve if it is a thousand times nearer to it than to the truth: for one direction
 /// and some fifty curves this happens by chance with a probability of 10⁻⁴, for several rows far more rarely.
@@ -45,16 +44,6 @@ impl Diagnosis {
     /// Nothing, where the answer is farther from the curve than `most`.
     pub(super) fn within(self, most: f64) -> Self {
         if self.distance <= most { self } else { Self::default() }
-    }
-}
-
-/// The angle between two directions or ||p| − 1|, whichever is larger; for a mistake with a length of its own, the
-/// relative distance. Opposite directions are the same.
-pub(super) fn apart(found: &Vector3<f64>, expected: &Vector3<f64>, has_length: bool) -> f64 {
-    if has_length {
-        (found - expected).norm().min((found + expected).norm()) / expected.norm()
-    } else {
-        apart_rad(found, expected).max((found.norm() - 1.0).abs())
     }
 }
 

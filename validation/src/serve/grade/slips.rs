@@ -2,18 +2,15 @@
 //! order is refuted and no curve is wrong. What names a slip is its own steps, to rounding.
 
 use super::answer::Answer;
-use super::mistakes::{Setting, angles_of, by_angles};
+use super::mistakes::Setting;
 use super::nearness::{CURVE, Diagnosis, Near, largest_within, said};
 use super::tensors;
 use super::{Graded, Order};
 use crate::judge::statistics::worst;
 use crate::methods::integrators::apart_rad;
+use crate::methods::stages::{FORMS, Form, Stages, Times, directions};
 use crate::serve::problems::{Kind, LoadedProblem};
-use nalgebra::{Matrix3, Vector3};
-use std::ops::{Add, Mul};
-
-/// A method of four stages: the factors of h before k1 to k3 in the arguments of k2 to k4, and those in the step.
-type Stages = ([[f64; 3]; 3], [f64; 4]);
+use nalgebra::Vector3;
 
 const THIRD: f64 = 1.0 / 3.0;
 const SIXTH: f64 = 1.0 / 6.0;
@@ -121,90 +118,9 @@ fn diagnose<'a>(loaded: &LoadedProblem, mut answers: impl Iterator<Item = (u64, 
     said(CURVE, near.collect(), most, &format!(" by {steps} steps"))
 }
 
-/// The times of a problem that lie after whole numbers of equal steps, of which the last is one.
-struct Times {
-    /// The length of a step, s.
-    step_s: f64,
-    /// The place of each time among all, and the number of steps until it.
-    at: Vec<(usize, u64)>,
-}
-
-impl Times {
-    fn new(times_s: &[f64], steps: u64) -> Self {
-        let step_s = times_s.iter().fold(0.0, |a: f64, b| a.max(*b)) / steps as f64;
-        let count = |(place, time_s): (usize, &f64)| {
-            let count = (time_s / step_s).round();
-            ((time_s / step_s - count).abs() < 1e-6).then_some((place, count as u64))
-        };
-        Self { step_s, at: times_s.iter().enumerate().filter_map(count).collect() }
-    }
-
-    /// The states at the times, by equal steps with these stages.
-    fn states<V: Copy + Add<Output = V> + Mul<f64, Output = V>>(
-        &self,
-        (rows, weights): &Stages,
-        start: V,
-        rate: &dyn Fn(V) -> V,
-        ended: &dyn Fn(V) -> V,
-    ) -> Vec<V> {
-        let h = self.step_s;
-        let mut state = start;
-        let mut found = Vec::with_capacity(self.at.len());
-        for step in 0..self.at.last().map_or(0, |(_, count)| *count) {
-            let mut k = [rate(state); 4];
-            for (stage, row) in rows.iter().enumerate() {
-                k[stage + 1] = rate(state + (k[0] * row[0] + k[1] * row[1] + k[2] * row[2]) * h);
-            }
-            state = ended(state + (k[0] * weights[0] + k[1] * weights[1] + k[2] * weights[2] + k[3] * weights[3]) * h);
-            found.extend(self.at.iter().filter(|(_, count)| *count == step + 1).map(|_| state));
-        }
-        found
-    }
-
-    /// The rows of an answer at the times, of which each has so many.
-    fn rows<'a>(&self, answer: &'a Answer, each: usize, row: usize) -> impl Iterator<Item = &'a Vec<f64>> {
-        self.at.iter().map(move |(place, _)| &answer.rows[place * each + row])
-    }
-}
-
-/// The variable in which a code turns a rod.
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Form {
-    /// p.
-    Raw,
-    /// p, divided by |p| after each step.
-    Normalised,
-    /// q with q̇ = Aq.
-    Linear,
-    /// φ and θ, and 0.
-    Angles,
-}
-
-const FORMS: [Form; 4] = [Form::Raw, Form::Normalised, Form::Linear, Form::Angles];
-
-/// The directions of a rod at the times, which turns by ṗ = Ap − p(p·Ap).
-fn directions(form: Form, a: &Matrix3<f64>, stages: &Stages, times: &Times, start: Vector3<f64>) -> Vec<Vector3<f64>> {
-    let rate = |state: Vector3<f64>| match form {
-        Form::Linear => a * state,
-        Form::Angles => {
-            let ((sin, cos), (sin_phi, cos_phi)) = (state.y.sin_cos(), state.x.sin_cos());
-            let pull = a * by_angles([state.x, state.y]);
-            let phi = Vector3::new(-sin_phi, cos_phi, 0.0);
-            let theta = Vector3::new(cos * cos_phi, cos * sin_phi, -sin);
-            Vector3::new(phi.dot(&pull) / sin, theta.dot(&pull), 0.0)
-        }
-        Form::Raw | Form::Normalised => {
-            let pull = a * state;
-            pull - state * state.dot(&pull)
-        }
-    };
-    let ended = |state: Vector3<f64>| if form == Form::Normalised { state.normalize() } else { state };
-    if form != Form::Angles {
-        return times.states(stages, start, &rate, &ended);
-    }
-    let [phi, theta] = angles_of(&start);
-    let found = times.states(stages, Vector3::new(phi, theta, 0.0), &rate, &ended);
-    found.iter().map(|state| by_angles([state.x, state.y])).collect()
+/// The rows of an answer at the times, of which each has so many.
+fn rows<'a>(times: &Times, answer: &'a Answer, each: usize, row: usize) -> impl Iterator<Item = &'a Vec<f64>> {
+    times.at.iter().map(move |(place, _)| &answer.rows[place * each + row])
 }
 
 /// The distance in rad of an answer about rods from these steps in one of the variables; none if it exceeds `most`.
@@ -217,7 +133,7 @@ fn of_rods(loaded: &LoadedProblem, times: &Times, stages: &Stages, answer: &Answ
     let count = loaded.start.len();
     let of_rod = |form: Form, rod: usize| {
         let found = directions(form, &a, stages, times, loaded.start[rod].into());
-        let rows = times.rows(answer, count, rod).map(|row| Vector3::from_row_slice(row));
+        let rows = rows(times, answer, count, rod).map(|row| Vector3::from_row_slice(row));
         worst(found.iter().zip(rows).map(|(due, found)| apart_rad(&found, due)))
     };
     FORMS.iter().find_map(|form| largest_within(most, (0..count).map(|rod| Some(of_rod(*form, rod)))))
@@ -225,9 +141,9 @@ fn of_rods(loaded: &LoadedProblem, times: &Times, stages: &Stages, answer: &Answ
 
 /// The distance of an answer about tensors from these steps of the closed equation.
 fn of_tensors(loaded: &LoadedProblem, times: &Times, stages: &Stages, answer: &Answer) -> Option<f64> {
-    let states = |rate: &dyn Fn(Matrix3<f64>) -> Matrix3<f64>, start| times.states(stages, start, rate, &|a| a);
-    let rows = tensors::by_equation(&loaded.problem, states)?;
-    Some(worst(rows.iter().zip(times.rows(answer, 1, 0)).map(|(due, found)| crate::oracle::apart(found, due))))
+    let states = |rate: &dyn Fn(_) -> _, start| times.tensors(stages, start, rate);
+    let found = tensors::by_equation(&loaded.problem, states)?;
+    Some(worst(found.iter().zip(rows(times, answer, 1, 0)).map(|(due, found)| crate::oracle::apart(found, due))))
 }
 
 #[cfg(test)]

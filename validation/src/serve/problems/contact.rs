@@ -13,12 +13,11 @@ use std::sync::LazyLock;
 pub(crate) const SNAPSHOTS: usize = 1000;
 /// The longest arm in rod lengths: a code that clips arms, at an end or at a rod's length, must fail.
 const LONGEST_ARM: f64 = 2.0;
-/// Length and aspect ratio of the paper's rods.
-pub(crate) const LENGTH_MM: f64 = 0.72;
+/// The aspect ratio of the paper's rods.
 pub(crate) const ASPECT_RATIO: f64 = 11.6;
 
+pub(crate) use crate::methods::contact::{self as doubles, LENGTH_MM, RIGHT, Step, Variant, answers, within};
 pub use certified::certify;
-pub(crate) use doubles::{RIGHT, Step, Variant, answers, within};
 
 /// The pair of a row of `inputs.csv`, without its number: centre, axis and r_e of a, then of b.
 type Pair = [f64; 14];
@@ -145,6 +144,5 @@ fn is_kept(pair: &Pair) -> bool {
 }
 
 mod certified;
-mod doubles;
 #[cfg(test)]
 mod tests;

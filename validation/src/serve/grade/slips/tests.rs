@@ -2,6 +2,7 @@ use super::*;
 use crate::serve::grade::compare::compare;
 use crate::serve::grade::live::last_time;
 use crate::serve::problems::loaded;
+use nalgebra::Matrix3;
 
 /// The answer to a problem by these stages.
 fn answered(loaded: &LoadedProblem, form: Form, stages: &Stages, steps: u64) -> Answer {
@@ -17,7 +18,7 @@ fn answered(loaded: &LoadedProblem, form: Form, stages: &Stages, steps: u64) -> 
             let at = |k: usize| rods.iter().map(move |rod| rod[k].as_slice().to_vec());
             (0..times.at.len()).flat_map(at).collect()
         }
-        _ => tensors::by_equation(&loaded.problem, |rate, start| times.states(stages, start, rate, &|a| a)).unwrap(),
+        _ => tensors::by_equation(&loaded.problem, |rate, start| times.tensors(stages, start, rate)).unwrap(),
     };
     Answer { lines: vec![0; rows.len()], rows, path: "a test".into() }
 }

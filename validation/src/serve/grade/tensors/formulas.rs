@@ -2,6 +2,7 @@
 
 use super::estimate::{self, Quantity};
 use super::{CLOSURES, Near, Stand, apart, index, near_of};
+use crate::methods::least_squares::by_svd;
 use crate::methods::tensors::fourth::PAIRS;
 use crate::methods::tensors::wrong::closures::{Numbered, WITH_OTHERS, numbered};
 use crate::methods::tensors::wrong::{MISTAKES, Mistake, shaped};
@@ -11,7 +12,7 @@ use crate::serve::grade::mistakes::ORDERS;
 use crate::serve::grade::nearness::{Diagnosis, NEARER, VALUES, said};
 use crate::serve::problems::formula::{components, equation, tensor};
 use crate::serve::problems::{Formula, LoadedProblem};
-use nalgebra::{DMatrix, DVector, Vector3};
+use nalgebra::{DVector, Vector3};
 use std::collections::BTreeMap;
 
 type Rows = Vec<Vec<f64>>;
@@ -128,12 +129,7 @@ fn of_numbers(
         |(k, (_, value)): (usize, &(String, f64))| DVector::from_vec(all(&[(k, value + 1.0)]).concat()) - &right;
     let slopes: Vec<_> = numbered.numbers.iter().enumerate().map(slope).collect();
     // By how much these numbers are off by least squares, and what that leaves.
-    let solved = |chosen: &[usize]| {
-        let columns = DMatrix::from_columns(&chosen.iter().map(|k| slopes[*k].clone()).collect::<Vec<_>>());
-        let off = columns.clone().svd(true, true).solve(&found, 0.0).ok()?;
-        let left = (&found - columns * &off).norm();
-        Some((off, left))
-    };
+    let solved = |chosen: &[usize]| by_svd(&chosen.iter().map(|k| slopes[*k].clone()).collect::<Vec<_>>(), &found);
     let tried = |chosen: &[usize]| {
         let mut chosen = chosen.to_vec();
         chosen.sort_unstable();

@@ -4,63 +4,68 @@
 //! The rule changes only the component along the contact line ℓ ∝ p_a × p_b: ṗ′ = ṗ + ℓ (v̄ − v)/r for each rod, v =
 //! ℓ·V_c the velocity of its contact point x + r p along ℓ, v̄ the mean of both.
 
-use super::LENGTH_MM;
 use nalgebra::{Matrix3, Vector3};
 
+/// The length of the paper's rods, mm.
+pub const LENGTH_MM: f64 = 0.72;
+
 /// φ̇′ or θ̇′ from φ, θ and ṗ′.
-pub(super) type AngleRate = fn([f64; 2], &Vector3<f64>) -> f64;
+pub type AngleRate = fn([f64; 2], &Vector3<f64>) -> f64;
 
 /// A vector of each rod.
-pub(super) type Both = [Vector3<f64>; 2];
+pub type Both = [Vector3<f64>; 2];
 
 /// What may be wrong; [`RIGHT`] has the right parts.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Variant {
+pub struct Variant {
     /// The factors on the change of ṗ of a and of b.
-    pub(crate) kick: [f64; 2],
+    pub kick: [f64; 2],
     /// The arms in rod lengths from those of the right rule; `None` for no contact.
-    pub(crate) arms: fn([f64; 2]) -> Option<[f64; 2]>,
+    pub arms: fn([f64; 2]) -> Option<[f64; 2]>,
     /// The arms in mm from d·p_a, d·p_b and p_a·p_b, d = x_b − x_a in mm.
-    pub(crate) feet: fn([f64; 3]) -> [f64; 2],
+    pub feet: fn([f64; 3]) -> [f64; 2],
     /// By what the changes of velocity are divided, mm, from the arms in mm.
-    pub(crate) divisors: fn([f64; 2]) -> [f64; 2],
+    pub divisors: fn([f64; 2]) -> [f64; 2],
     /// True if ṗ′ is V′_r, not divided by r.
-    pub(crate) undivided: bool,
+    pub undivided: bool,
     /// L for the right one.
-    pub(crate) gradient: fn(&Matrix3<f64>) -> Matrix3<f64>,
+    pub gradient: fn(&Matrix3<f64>) -> Matrix3<f64>,
     /// L for the right one in L x alone.
-    pub(crate) carrying: fn(&Matrix3<f64>) -> Matrix3<f64>,
+    pub carrying: fn(&Matrix3<f64>) -> Matrix3<f64>,
     /// The factors on W p, Λ D p and Λ p (p·D p) in ṗ.
-    pub(crate) parts: [f64; 3],
+    pub parts: [f64; 3],
     /// Λ of both rods from their r_e.
-    pub(crate) shapes: fn([f64; 2]) -> [f64; 2],
+    pub shapes: fn([f64; 2]) -> [f64; 2],
     /// The place, mm, at which L x counts in V_c, from a rod's centre and its arm, a vector.
-    pub(crate) place: fn([Vector3<f64>; 2]) -> Vector3<f64>,
+    pub place: fn([Vector3<f64>; 2]) -> Vector3<f64>,
     /// The factor on ṗ r in V_c.
-    pub(crate) turning: f64,
+    pub turning: f64,
     /// What is taken off V′_c as the liquid's velocity: of rod k, from what was added as L x, and L x of both centres.
-    pub(crate) taken: fn(usize, Both, Both) -> Vector3<f64>,
+    pub taken: fn(usize, Both, Both) -> Vector3<f64>,
     /// The factor on ṗ in ṗ′.
-    pub(crate) free: f64,
+    pub free: f64,
     /// The contact line from p_a, p_b and x_b − x_a.
-    pub(crate) line: fn([Vector3<f64>; 3]) -> Vector3<f64>,
+    pub line: fn([Vector3<f64>; 3]) -> Vector3<f64>,
     /// The shares of V_c of a and of b in the velocity that both take.
-    pub(crate) mean: [f64; 2],
+    pub mean: [f64; 2],
     /// How much of the velocities along and across the contact line becomes the mean.
-    pub(crate) shared: [f64; 2],
+    pub shared: [f64; 2],
     /// The factor on the mean across the contact line.
-    pub(crate) mean_across: f64,
+    pub mean_across: f64,
     /// True if ṗ′ is made normal to p, which the right rule's is already.
-    pub(crate) normal: bool,
-    pub(crate) phi_rate: AngleRate,
-    pub(crate) theta_rate: AngleRate,
+    pub normal: bool,
+    /// φ̇′.
+    pub phi_rate: AngleRate,
+    /// θ̇′.
+    pub theta_rate: AngleRate,
     /// The factor on Δt.
-    pub(crate) step: f64,
+    pub step: f64,
     /// φ and θ after the step.
-    pub(crate) stepped: fn(&Step) -> [f64; 2],
+    pub stepped: fn(&Step) -> [f64; 2],
 }
 
-pub(crate) const RIGHT: Variant = Variant {
+/// The rule of the paper.
+pub const RIGHT: Variant = Variant {
     kick: [1.0; 2],
     arms: Some,
     feet: |[along_a, along_b, cosine]| {
@@ -88,30 +93,27 @@ pub(crate) const RIGHT: Variant = Variant {
 };
 
 /// A rod before the step A.14.
-pub(crate) struct Step {
+pub struct Step {
     /// φ and θ.
-    pub(crate) angles: [f64; 2],
+    pub angles: [f64; 2],
     /// φ̇′ and θ̇′.
-    pub(crate) rates: [f64; 2],
-    pub(crate) p: Vector3<f64>,
+    pub rates: [f64; 2],
+    /// The direction.
+    pub p: Vector3<f64>,
     /// ṗ′.
-    pub(crate) rate: Vector3<f64>,
-    pub(crate) step_s: f64,
+    pub rate: Vector3<f64>,
+    /// Δt.
+    pub step_s: f64,
 }
 
 /// The components of ṗ′ in the shear plane, across φ and along it.
-pub(crate) fn within([phi, _]: [f64; 2], rate: &Vector3<f64>) -> [f64; 2] {
+pub fn within([phi, _]: [f64; 2], rate: &Vector3<f64>) -> [f64; 2] {
     [-rate.x * phi.sin() + rate.y * phi.cos(), rate.x * phi.cos() + rate.y * phi.sin()]
 }
 
 /// ṗ′ in 1/s for rods a and b of `pair` (centre in mm, axis and r_e of each), or with Δt in s the four numbers of A.13
 /// and A.14.
-pub(crate) fn answers(
-    gradient_per_s: &Matrix3<f64>,
-    pair: &[f64],
-    step_s: Option<f64>,
-    variant: Variant,
-) -> [Vec<f64>; 2] {
+pub fn answers(gradient_per_s: &Matrix3<f64>, pair: &[f64], step_s: Option<f64>, variant: Variant) -> [Vec<f64>; 2] {
     rates(gradient_per_s, pair, variant).map(|(p, rate)| match step_s {
         None => rate.as_slice().to_vec(),
         Some(step_s) => {
@@ -124,15 +126,15 @@ pub(crate) fn answers(
 }
 
 /// The place of nearest approach of two rods' lines.
-pub(super) struct Geometry {
+pub struct Geometry {
     /// The sine of the angle between the lines.
-    pub(super) sine: f64,
+    pub sine: f64,
     /// The signed arms, mm.
-    pub(super) arms: [f64; 2],
+    pub arms: [f64; 2],
 }
 
 /// The feet of the common normal: (x_b + r_b p_b − x_a − r_a p_a) ∥ ℓ.
-pub(super) fn geometry(pair: &[f64]) -> Geometry {
+pub fn geometry(pair: &[f64]) -> Geometry {
     let [x, p] = vectors(pair);
     let cosine = p[0].dot(&p[1]);
     Geometry { sine: (1.0 - cosine * cosine).sqrt(), arms: (RIGHT.feet)(lengths(x, p)) }
