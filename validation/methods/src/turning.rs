@@ -1,5 +1,5 @@
-//! The motion of a free rod in a flow that is steady or turns, and what it makes of a direction, for the curves of known
-//! mistakes: thousands of maps for one answer.
+//! The motion of a free rod in a flow that is steady or turns, and what it makes of a direction: the curves of known
+//! mistakes take thousands of maps for one answer.
 
 use crate::integrators::apart_rad;
 use nalgebra::{Matrix3, Rotation3, Vector3};
@@ -117,4 +117,26 @@ pub fn angles_of(p: &Vector3<f64>) -> [f64; 2] {
 /// The direction with these φ and θ.
 pub fn by_angles([phi, theta]: [f64; 2]) -> Vector3<f64> {
     from_angles(phi, theta).into_inner()
+}
+
+/// For each whole step |∂p(end)/∂p| at its middle, and how far it moves p; `maps` are those after each half step.
+pub fn growths(maps: &[Matrix3<f64>], p0: &[f64; 3]) -> Vec<[f64; 2]> {
+    let p = |half: usize| (maps[half] * Vector3::from(*p0)).normalize();
+    let of = |now: usize| [growth(&maps[maps.len() - 1 - now], &p(now)), (p(now + 1) - p(now - 1)).norm()];
+    (1..maps.len()).step_by(2).map(of).collect()
+}
+
+/// |∂(Fp/|Fp|)/∂p| = |(1 − qq)F|/|Fp|, q = Fp/|Fp|, for changes of p across p.
+fn growth(map: &Matrix3<f64>, p: &Vector3<f64>) -> f64 {
+    let carried = map * p;
+    let q = carried.normalize();
+    // Two directions perpendicular to p.
+    let mut other = Vector3::zeros();
+    other[p.iamin()] = 1.0;
+    let first = p.cross(&other).normalize();
+    let squares = [first, p.cross(&first)].map(|across| {
+        let moved = map * across;
+        (moved - q * moved.dot(&q)).norm_squared()
+    });
+    (squares[0] + squares[1]).sqrt() / carried.norm()
 }

@@ -2,10 +2,10 @@
 
 use crate::tensors;
 use serde_json::{Value, json};
-use shearbed::nalgebra::{Matrix3, Rotation3, Vector3};
+use shearbed::nalgebra::{Matrix3, Vector3};
 use shearbed_validation::methods::integrators::Setting;
 use shearbed_validation::methods::textbook::tableaus::extrapolated_euler;
-use shearbed_validation::methods::textbook::{Form, Method, advance, jeffery_rate, rate_matrix, rk4_in_p};
+use shearbed_validation::methods::textbook::{Form, Method, Turning, advance, rate_matrix, rk4_in_p};
 use std::fs;
 use std::io::{BufRead, Write};
 use std::process::{Command, ExitCode, Stdio};
@@ -141,7 +141,7 @@ fn answer(name: &str, request: &Value, count: u64) -> Value {
     let h = if always { *FIRST_S.get_or_init(|| end_s) } else { end_s } / steps as f64;
     let steps = if name == "cuts_its_steps" { (end_s / h) as u64 } else { steps };
     let moved = |p: Vector3<f64>| match (rotation, method(name)) {
-        (Some(rotation), _) => in_turning_flow(name, (l, rotation), ratio, p, h, steps),
+        (Some(rotation), _) => turning(name, l, rotation, ratio).rk4(p, h, steps),
         (None, Some((order, form))) => {
             let method = Method::RungeKutta(extrapolated_euler("", order));
             advance(&method, form, &rows, ratio, &p.into(), end_s, Setting::Steps(steps)).unwrap().into()
@@ -166,39 +166,20 @@ fn answer(name: &str, request: &Value, count: u64) -> Value {
     json!({"id": id, "p": p})
 }
 
-/// RK4 in the gradient L(t) = Q L Qᵀ + S with S p = ω × p of `flow` = (L, ω), formed and taken as the name says.
-fn in_turning_flow(
-    name: &str,
-    flow: (Matrix3<f64>, Vector3<f64>),
-    ratio: f64,
-    p: Vector3<f64>,
-    h: f64,
-    steps: u64,
-) -> Vector3<f64> {
-    let (l, rotation) = flow;
-    let a = |time: f64| {
-        let turned = Rotation3::new(rotation * if name == "turns_back" { -time } else { time }).into_inner();
-        let spin = rotation.cross_matrix();
-        let spin = match name {
-            "turns_without_spin" => 0.0 * spin,
-            "turns_back" | "turns_with_the_spin_reversed" => -spin,
-            _ => spin,
-        };
-        rate_matrix(&(turned * l * turned.transpose() + spin).transpose().into(), ratio)
+/// The gradient L(t) = Q L Qᵀ + S with S p = ω × p, formed and taken as the name says.
+fn turning(name: &str, l: Matrix3<f64>, rotation: Vector3<f64>, ratio: f64) -> Turning {
+    let factors = match name {
+        "turns_without_spin" => [1.0, 0.0],
+        "turns_back" => [-1.0, -1.0],
+        "turns_with_the_spin_reversed" => [1.0, -1.0],
+        _ => [1.0, 1.0],
     };
-    let when = |time: f64, begun: f64| match name {
-        "turns_by_steps" => begun,
-        "turns_at_first" => 0.0,
-        _ => time,
+    let when: fn(f64, f64) -> f64 = match name {
+        "turns_by_steps" => |_, begun| begun,
+        "turns_at_first" => |_, _| 0.0,
+        _ => |time, _| time,
     };
-    (0..steps).fold(p, |p, k| {
-        let begun = k as f64 * h;
-        let [first, half, last] = [0.0, 0.5, 1.0].map(|share| a(when(begun + share * h, begun)));
-        let one = jeffery_rate(&first, p);
-        let two = jeffery_rate(&half, p + 0.5 * h * one);
-        let three = jeffery_rate(&half, p + 0.5 * h * two);
-        p + h / 6.0 * (one + 2.0 * (two + three) + jeffery_rate(&last, p + h * three))
-    })
+    Turning { l, rotation, ratio, factors, when }
 }
 
 /// The order of a Runge–Kutta method by its name, `rk_P` or `rk_P_normalised`, and whether it takes |p| back to 1.

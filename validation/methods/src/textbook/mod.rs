@@ -105,6 +105,40 @@ pub fn rk4_in_p(a: &Matrix3<f64>, p: Vector3<f64>, h: f64, steps: u64) -> Vector
     (0..steps).fold(p, |p, _| rk4(|p| jeffery_rate(a, p), p, h))
 }
 
+/// The gradient L(t) = Q L Qᵀ + S with S p = ω × p, as a code forms it that may be wrong.
+pub struct Turning {
+    /// L at t = 0.
+    pub l: Matrix3<f64>,
+    /// ω, rad/s.
+    pub rotation: Vector3<f64>,
+    /// r_e.
+    pub ratio: f64,
+    /// The factors on t in Q and on S.
+    pub factors: [f64; 2],
+    /// The time at which it is taken, from a stage's own and that of the step's begin.
+    pub when: fn(f64, f64) -> f64,
+}
+
+impl Turning {
+    fn a(&self, time: f64) -> Matrix {
+        let turned = Rotation3::new(self.rotation * (self.factors[0] * time)).into_inner();
+        let spin = self.factors[1] * self.rotation.cross_matrix();
+        rate_matrix(&(turned * self.l * turned.transpose() + spin).transpose().into(), self.ratio)
+    }
+
+    /// p after `steps` steps of `h` s of the classical method of order 4.
+    pub fn rk4(&self, p: Vector3<f64>, h: f64, steps: u64) -> Vector3<f64> {
+        (0..steps).fold(p, |p, k| {
+            let begun = k as f64 * h;
+            let [first, half, last] = [0.0, 0.5, 1.0].map(|share| self.a((self.when)(begun + share * h, begun)));
+            let one = jeffery_rate(&first, p);
+            let two = jeffery_rate(&half, p + 0.5 * h * one);
+            let three = jeffery_rate(&half, p + 0.5 * h * two);
+            p + h / 6.0 * (one + 2.0 * (two + three) + jeffery_rate(&last, p + h * three))
+        })
+    }
+}
+
 struct Motion {
     a: Matrix,
     form: Form,

@@ -7,9 +7,10 @@
 //!   ∫ κ (2ε + 10 ε^{4/5} |dp/ds|) ds,
 //! with 2 for two such roundings and 10 for the difference between methods of one order.
 
+use crate::methods::turning::growths;
 use crate::oracle::reference::big::{Big, Bits, double};
 use crate::oracle::reference::motion::{Motion, Unit, matrix, product};
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::Matrix3;
 
 const ROUNDING: f64 = 2.0 * f64::EPSILON;
 
@@ -55,12 +56,9 @@ pub fn general(motion: &Motion, rotation_rad_per_s: f64, start: &[[f64; 3]], end
     let strain = motion.strain(end_s, Unit::Second) / STEPS as f64;
     let spun = rotation_rad_per_s * end_s / STEPS as f64 / strain;
     let lost = |p0: &[f64; 3]| {
-        let p = |half: usize| (maps[half] * Vector3::from(*p0)).normalize();
-        let sum = (0..STEPS).map(|k| {
-            let (before, now, after) = (p(2 * k), p(2 * k + 1), p(2 * k + 2));
-            let turned = (after - before).norm() / strain;
-            growth(&maps[2 * STEPS - (2 * k + 1)], &now) * (ROUNDING * (1.0 + spun) + truncation() * (turned + spun))
-        });
+        let sum = growths(&maps, p0)
+            .into_iter()
+            .map(|[growth, moved]| growth * (ROUNDING * (1.0 + spun) + truncation() * (moved / strain + spun)));
         sum.sum::<f64>() * strain
     };
     rounded_up(crate::oracle::worst(start.iter().map(lost)))
@@ -72,21 +70,6 @@ pub const BECAUSE_GENERAL: &str = "A right code in double precision evaluates �
     error made on the way reaches the end multiplied by κ = |∂p(end)/∂p|. So the integral of κ(2ε + 10 ε^(4/5)|dp/ds|) \
     over strain is allowed: two roundings an evaluation, and 10 for what separates methods of one order; rounded up to \
     one digit.";
-
-/// |∂(Fp/|Fp|)/∂p| = |(1 − qq)F|/|Fp|, q = Fp/|Fp|, for changes of p across p.
-fn growth(map: &Matrix3<f64>, p: &Vector3<f64>) -> f64 {
-    let carried = map * p;
-    let q = carried.normalize();
-    // Two directions perpendicular to p.
-    let mut other = Vector3::zeros();
-    other[p.iamin()] = 1.0;
-    let first = p.cross(&other).normalize();
-    let squares = [first, p.cross(&first)].map(|across| {
-        let moved = map * across;
-        (moved - q * moved.dot(&q)).norm_squared()
-    });
-    (squares[0] + squares[1]).sqrt() / carried.norm()
-}
 
 /// `x` > 0 rounded up to one significant digit.
 pub fn rounded_up(x: f64) -> f64 {
