@@ -1,7 +1,7 @@
 """The moving picture of README: rods seen along the vorticity axis, beside the mean that they make.
 
 python3 docs/moving.py RODS.CSV PROJECTIONS.CSV > rods.svg
-RODS.CSV has every output of one replica, PROJECTIONS.CSV the means of many.
+RODS.CSV has outputs of one replica, evenly spaced, PROJECTIONS.CSV the means of many.
 """
 
 import csv

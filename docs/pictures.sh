@@ -42,7 +42,7 @@ shearbed plot collapse --y x1_amplitude --x 'interaction.alpha*particles.length_
 [ -n "${2:-}" ] || exit 0
 
 moving() { shearbed run fig4-n50 --set time.periods=2 --out "$1" "${@:2}" --quiet; }
-moving one --replicas 1 --set output.rods_every=1
+moving one --replicas 1 --set output.rods_every=4
 moving many --replicas 400
 python3 "$ROOT/docs/moving.py" one/rods.csv many/projections.csv >"$out/rods.svg"
 

@@ -22,7 +22,7 @@ fn steady_angle(change: &Change, effort: &Effort) -> [Evidence; 3] {
     [5.0, 11.6, 30.0].map(|r| {
         let mut scene = lab::crowded_scene(effort, 50, 500.0);
         scene.particles.aspect_ratio = r;
-        scene.time.duration = 6.0;
+        (scene.time.duration, scene.time.outputs_per_unit) = (6.0, Some(50));
         scene.output.observables = vec![Observable::MeanAngle];
         change(&mut scene);
         let outputs = 6 * 50;

@@ -82,6 +82,7 @@ fn symmetries(mapping: &Mapping, effort: &Effort) -> Vec<Evidence> {
     let mut base = lab::interacting_scene(effort);
     base.particles.aspect_ratio_sd_percent = 3.6;
     base.particles.length_sd_percent = 20.0;
+    base.time.outputs_per_unit = Some(50);
     let mut lengths = base.clone();
     lengths.particles.length_mm *= 8.0;
     let n = &mut lab::interaction(&mut lengths).concentration_per_cm3;

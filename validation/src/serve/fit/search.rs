@@ -216,7 +216,7 @@ impl Search<'_> {
         let (scarce, behind) = (fit.best.share(SCARCE), fit.emulator.behind_covariance() as u64);
         let share_rods = self.problem.rods.over_measured.iter().any(|ratio| *ratio > 0.0);
         // The points, not the replicas' noise, must decide where to look closer.
-        if more && noise > CLEAR {
+        if more && noise > CLEAR && !(ends_short(fit, &self.whole) && self.rounds < MOST_ROUNDS) {
             return until(noise, CLEAR);
         }
         let share = fit.best.share(REPLICAS);
@@ -279,9 +279,24 @@ fn enough(replicas: u64, share: f64, allowed: f64) -> u64 {
     (1.1 * needed).ceil().min(10.0 * replicas as f64) as u64 + 1
 }
 
+/// True if the best place of several parameters is at an edge of the box that is none of the ranges': runs over a wider
+/// box say more than further ones here.
+fn ends_short(fit: &Fit, whole: &Sides) -> bool {
+    let is_inner = |(axis, place): (usize, &f64)| {
+        let ((low, high), (from, to)) = (fit.sides[axis], whole[axis]);
+        *place < -AT_EDGE && low > from || *place > AT_EDGE && high < to
+    };
+    whole.len() > 1 && fit.best.place.iter().enumerate().any(is_inner)
+}
+
+/// A place beyond this in a box is at its edge.
+const AT_EDGE: f64 = 0.99;
+
 /// The next box, and true if it gains enough to run again. Each side should end a quarter beyond the place where χ² has
 /// risen by `far`: nearer, the interval may be cut; farther, polynomials of this degree are too inaccurate.
 fn other_sides(fit: &Fit, whole: &Sides, far: f64) -> (Sides, bool) {
+    // A new box of several parameters is dear.
+    let beyond = if whole.len() > 1 { 2.0 } else { 1.0 };
     let wanted = |axis: usize| {
         let (low, high) = fit.sides[axis];
         let at = |place: f64| along((low, high), place);
@@ -289,8 +304,8 @@ fn other_sides(fit: &Fit, whole: &Sides, far: f64) -> (Sides, bool) {
         let centre = fit.best.place[axis];
         let end = |place: f64, open: bool| match open {
             // The end is not known yet: go beyond this box, and far beyond it if even the best place is at its edge.
-            true if centre.abs() > 0.99 => at(place + 4.0 * place.signum()),
-            true => at(place + place.signum()),
+            true if centre.abs() > AT_EDGE => at(place + 4.0 * beyond * place.signum()),
+            true => at(place + beyond * place.signum()),
             false => at(place + 0.25 * (place - centre)),
         };
         let wanted = (end(far.low, far.open[0]).max(whole[axis].0), end(far.high, far.open[1]).min(whole[axis].1));
