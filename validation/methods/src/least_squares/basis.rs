@@ -201,6 +201,26 @@ mod tests {
         assert!(cubic.amax() < 1e-14, "{cubic}");
     }
 
+    /// Coefficients of a lower degree by the map are those of its own least squares; the highest is none of them.
+    #[test]
+    fn lower_degrees_are_the_least_squares_through_the_same_nodes() {
+        assert!(Basis::new(1).lower().is_empty());
+        for parameters in [2, 3] {
+            let basis = Basis::new(parameters);
+            let wave = |node: &Vec<f64>| node.iter().enumerate().map(|(k, x)| (2.0 + k as f64) * x).sum::<f64>().sin();
+            let values = DVector::from_iterator(basis.nodes.len(), basis.nodes.iter().map(wave));
+            let lower = basis.lower();
+            assert_eq!(lower.len(), 2);
+            for (own, map) in &lower {
+                let (mapped, direct) = (map * &basis.project * &values, &own.project * &values);
+                assert!(own.degrees.len() < basis.degrees.len() && (&mapped - &direct).amax() < 1e-12);
+                // The control: the first coefficients alone, without the map, are others.
+                let first = (&basis.project * &values).rows(0, direct.len()).into_owned();
+                assert!((&first - &direct).amax() > 1e-3);
+            }
+        }
+    }
+
     /// The largest sum of |weights| by which a place depends on the nodes, over a grid that has the corners.
     fn amplified(terms_at: impl Fn(&[f64]) -> DVector<f64>, project: &DMatrix<f64>, parameters: usize) -> f64 {
         let place = |k: usize| -1.0 + 0.2 * k as f64;

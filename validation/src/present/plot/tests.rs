@@ -105,6 +105,11 @@ fn residuals_stand_below_their_points_in_their_colours() {
     assert_eq!(drawn.matches("t (s)").count(), 2, "axis and description");
     assert!(drawn.contains(">\n−0.01\n<") && drawn.contains(">\n0.01\n<") && drawn.contains("residual"));
     // Control: without the panel its points and its name are gone.
+    // One entry for a curve and its points.
+    let words: Vec<_> = drawn.lines().filter(|line| !line.starts_with('<')).collect();
+    let legend = ["X̄₁", "X̄₂", "95 % band of the best fit; markers: measured ± u"];
+    assert!(legend.iter().all(|label| words.contains(label)), "{words:?}");
+    assert!(!words.iter().any(|word| word.contains("best fit") && *word != legend[2]));
     let alone = svg(&Figure { below: None, ..fitted() }).unwrap();
     assert!(!alone.contains("residual") && alone.matches("<polygon").count() < drawn.matches("<polygon").count());
 }
