@@ -162,9 +162,9 @@ fn turning(aspect_ratio: f64, time: &str) -> String {
 #[test]
 fn steps_resolve_the_motion_by_default() {
     // 2π(r_e + 1/r_e) over 0.37, 0.37, 4.4/17, 0.09 and 0.09 is 71.5, 198.5, 414.1, 3492.1 and 6982.0.
-    // Over 1.5, in even divisors of the steps, above 50: 71.4, 209.6 and 418.9 outputs at the least.
+    // Over 0.4, in even divisors of the steps: 66.2, 183.6, 267.9, 785.7 and at most 1000 outputs at the least.
     for (r, steps, outputs) in
-        [(3.96, 100, 50), (11.6, 200, 50), (17.0, 450, 90), (50.0, 3500, 250), (100.0, 7000, 500)]
+        [(3.96, 100, 100), (11.6, 200, 200), (17.0, 450, 450), (50.0, 3500, 1750), (100.0, 7000, 1000)]
     {
         let plan = plan(&turning(r, ""));
         assert_eq!((plan.steps(), plan.outputs()), (steps, outputs + 1), "{r}");
