@@ -41,7 +41,7 @@ impl Basis {
         Self::of(nodes(parameters, along, parameters >= THINNED), degree)
     }
 
-    /// The bases of lower degrees, down to [`LEAST_DEGREE`], at the same nodes, each with the matrix that maps
+    /// The bases of lower degrees, down to 4, at the same nodes, each with the matrix that maps
     /// coefficients of this basis to its own: those of the least squares through the nodes.
     pub fn lower(&self) -> Vec<(Self, DMatrix<f64>)> {
         let degree = self.degrees.iter().map(|degrees| degrees.iter().sum()).max().unwrap_or(0);
