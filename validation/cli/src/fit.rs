@@ -178,7 +178,7 @@ fn folder(args: &Args, input: &Input, asked: &Value) -> Result<ResultFolder, Fai
 
 /// Writes the results and prints them.
 fn write(args: &Args, input: &Input, folder: &ResultFolder, asked: &Value, done: &Done) -> Result<(), Failure> {
-    let times: Vec<&str> = input.scenes.sets.iter().map(|set| set.time.name()).collect();
+    let times = input.times();
     let files = files(args, done, &times).map_err(Failure::Failed)?;
     let names: Vec<&str> = std::iter::once(FIT).chain(files.iter().map(|(name, _)| name.as_str())).collect();
     let record = record(asked, input, done, &names)?;
@@ -254,9 +254,9 @@ fn work(args: &Args, input: &Input, watch: &Watch<'_>) -> Result<Done, Failure> 
     let places = pictures::places(data);
     let drawn = |values: &[f64]| model_of(scenes, &places, values);
     let curves = pictures::best_curves(&fit, &places, &drawn, watch).map_err(Failure::Input)?;
-    let times: Vec<&str> = scenes.sets.iter().map(|set| set.time.name()).collect();
     let drawn = (&places[..], &curves[..], plot::FITTED);
-    let figures = pictures::of_points(&report, (data, &pictures::u_of_points(&fit)), drawn, &input.names, &times);
+    let figures =
+        pictures::of_points(&report, (data, &pictures::u_of_points(&fit)), drawn, &input.names, &input.times());
     let figures = figures.into_iter().chain(pictures::of_parameters(&fit)).collect();
     let derived = derived(input, &fit.values(&fit.best.place), fit.emulator.behind_covariance() as u64)?;
     Ok(Done { fit: Some(fit), report, warnings, figures, derived, candidates })
@@ -276,9 +276,8 @@ fn as_written(input: &Input, problem: &FitProblem<'_>, watch: &Watch<'_>) -> Res
     let places = pictures::places(data);
     let model = |values: &[f64]| advice::model(&input.scenes, &places, AS_WRITTEN, values);
     let curves = pictures::own_curves(&model, most_replicas, watch).map_err(Failure::Input)?;
-    let times: Vec<&str> = input.scenes.sets.iter().map(|set| set.time.name()).collect();
     let drawn = (&places[..], &curves[..], "");
-    let figures = pictures::of_points(&report, (data, &found.u_of_points()), drawn, &input.names, &times);
+    let figures = pictures::of_points(&report, (data, &found.u_of_points()), drawn, &input.names, &input.times());
     let derived = derived(input, &[], most_replicas)?;
     Ok(Done { fit: None, report, warnings, figures, derived, candidates: Vec::new() })
 }

@@ -37,6 +37,11 @@ pub(super) struct Input {
 }
 
 impl Input {
+    /// The name of the column of times of each data set.
+    pub(super) fn times(&self) -> Vec<&'static str> {
+        self.scenes.sets.iter().map(|set| set.time.name()).collect()
+    }
+
     /// The plans of the scenes with these values of the parameters.
     pub(super) fn plans(&self, values: &[f64]) -> Result<Vec<Plan>, Failure> {
         self.scenes.plans(values, &self.data, AS_WRITTEN).map_err(refused)

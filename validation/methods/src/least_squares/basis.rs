@@ -41,8 +41,8 @@ impl Basis {
         Self::of(nodes(parameters, along, parameters >= THINNED), degree)
     }
 
-    /// The bases of lower degrees, down to 4, at the same nodes, each with the matrix that maps
-    /// coefficients of this basis to its own: those of the least squares through the nodes.
+    /// The bases of lower degrees, down to 4, at the same nodes, each with the matrix that maps coefficients of this
+    /// basis to its own: those of the least squares through the nodes.
     pub fn lower(&self) -> Vec<(Self, DMatrix<f64>)> {
         let degree = self.degrees.iter().map(|degrees| degrees.iter().sum()).max().unwrap_or(0);
         let of = |degree: usize| {

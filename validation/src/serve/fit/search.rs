@@ -54,6 +54,9 @@ const NEAR: f64 = 9.0;
 /// A box is made smaller only when a side shrinks below this share of it: otherwise new runs cost more than they gain.
 const WORTH: f64 = 0.6;
 
+/// A place beyond this in a box is at its edge.
+const AT_EDGE: f64 = 0.99;
+
 /// The input of a fit.
 pub struct FitProblem<'a> {
     /// The measured points.
@@ -289,9 +292,6 @@ fn ends_short(fit: &Fit, whole: &Sides) -> bool {
     whole.len() > 1 && fit.best.place.iter().enumerate().any(is_inner)
 }
 
-/// A place beyond this in a box is at its edge.
-const AT_EDGE: f64 = 0.99;
-
 /// The next box, and true if it gains enough to run again. Each side should end a quarter beyond the place where χ² has
 /// risen by `far`: nearer, the interval may be cut; farther, polynomials of this degree are too inaccurate.
 fn other_sides(fit: &Fit, whole: &Sides, far: f64) -> (Sides, bool) {
@@ -312,15 +312,24 @@ fn other_sides(fit: &Fit, whole: &Sides, far: f64) -> (Sides, bool) {
         // A box that ends between both rises is wide enough.
         let near = fit.within(axis, NEAR).open;
         let wider = wanted.0 < low && near[0] || wanted.1 > high && near[1];
-        (wanted, if wider { 0.0 } else { (wanted.1 - wanted.0) / (high - low) })
+        Wanted { ends: wanted, wider, left: (wanted.1 - wanted.0) / (high - low) }
     };
     let all: Vec<_> = (0..whole.len()).map(wanted).collect();
-    let least = all.iter().map(|(_, left)| *left).filter(|left| *left > 0.0).fold(1.0, f64::min);
+    let least = all.iter().filter(|side| !side.wider).map(|side| side.left).fold(1.0, f64::min);
     // While one side shrinks much, others keep their ends: over it, the polynomials tell little of the others.
     let worth = if least < 0.5 * WORTH { 0.5 * WORTH } else { WORTH };
-    let gains = |left: f64| far < FAR || left < worth;
-    let sides = all.iter().zip(&fit.sides).map(|((wanted, left), own)| if gains(*left) { *wanted } else { *own });
-    (sides.collect(), all.iter().any(|(_, left)| *left < WORTH))
+    let moves = |side: &Wanted| far < FAR || side.wider || side.left < worth;
+    let sides = all.iter().zip(&fit.sides).map(|(side, own)| if moves(side) { side.ends } else { *own });
+    (sides.collect(), all.iter().any(|side| side.wider || side.left < WORTH))
+}
+
+/// A side that the next box should have.
+struct Wanted {
+    ends: (f64, f64),
+    /// True if it must go beyond the present one.
+    wider: bool,
+    /// Its length over that of the present one.
+    left: f64,
 }
 
 /// True if every 95 % interval ends inside its box or at the edge of its range.
