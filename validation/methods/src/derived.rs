@@ -132,7 +132,7 @@ impl Mean<'_> {
         let mean = &self.column.mean;
         let first = mean.first().copied().unwrap_or_default();
         let rounding = mean.iter().fold(0.0, |span: f64, x| span.max((x - first).abs())) * 1e-9;
-        // The errors of one replica are over its rods, which are many where their turns are clear.
+        // The errors of a single replica are over its rods, and count as those of many.
         let freedom = if self.replicas == 1 { MANY } else { (self.replicas.max(2) - 1).min(MANY) } as f64;
         let errors = StudentsT::new(0.0, 1.0, freedom).map_or(f64::INFINITY, |t| -t.inverse_cdf(self.tail()));
         let above = |a: usize, b: usize| mean[a] - mean[b] > (errors * (self.se(a) + self.se(b))).max(rounding);

@@ -295,7 +295,7 @@ fn ends_short(fit: &Fit, whole: &Sides) -> bool {
 /// The next box, and true if it gains enough to run again. Each side should end a quarter beyond the place where χ² has
 /// risen by `far`: nearer, the interval may be cut; farther, polynomials of this degree are too inaccurate.
 fn other_sides(fit: &Fit, whole: &Sides, far: f64) -> (Sides, bool) {
-    // A new box of several parameters is dear.
+    // With several parameters a further box costs many runs, so an open end is moved farther.
     let beyond = if whole.len() > 1 { 2.0 } else { 1.0 };
     let wanted = |axis: usize| {
         let (low, high) = fit.sides[axis];
