@@ -106,7 +106,7 @@ def test_a_plot_has_the_best_curve_and_the_residuals(points: dict[str, np.ndarra
     matplotlib.use("Agg")
     found = shearbed.fit(SCENE, points, OVER, replicas=60, seed=3)
     upper, lower = found.plot().figure.axes
-    assert [text.get_text() for text in upper.get_legend().get_texts()] == ["X̄₁, best fit", "X̄₁, measured ± u"]
+    assert [text.get_text() for text in upper.get_legend().get_texts()] == ["X̄₁, best fit", "X̄₁, 95 %", "X̄₁, measured ± u"]
     # The curve is drawn between the points too.
     assert max(len(line.get_xdata()) for line in upper.lines) > 100
     below = [line.get_ydata() for line in lower.lines if len(line.get_ydata()) == 10]
@@ -138,3 +138,12 @@ def test_ctrl_c_ends_a_fit_and_its_process(points: dict[str, np.ndarray]) -> Non
     assert time.monotonic() - start < 30
     children = Path(f"/proc/{os.getpid()}/task/{threading.get_native_id()}/children")
     assert not children.exists() or not children.read_text().split()
+
+
+def test_columns_without_names_and_values_that_were_not_measured():
+    with pytest.raises(ValueError, match='needs them: columns='):
+        shearbed.fit("fig4-n50", np.ones((3, 3)))
+    some = {"t_over_T": [0.25, 0.5, 0.75], "x1": [0.2, None, 0.2], "x1_u": 0.05}
+    found = shearbed.fit("fig4-n50", some, replicas=20, rods=50)
+    assert list(found.residuals["time"]) == [0.25, 0.75]
+    assert "--" not in "".join(found.warnings)

@@ -395,3 +395,25 @@ def test_the_program_is_there(tmp_path: Path) -> None:
     assert program("--version", cwd=tmp_path).stdout.startswith("shearbed ")
     ended = program("run", "nothing.toml", cwd=tmp_path)
     assert ended.returncode == 2 and "nothing.toml" in ended.stderr and not list(tmp_path.iterdir())
+
+
+def test_rods_start_as_arrays_dictionaries_and_tables_say():
+    directions = np.array([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.6, 0.0, 0.8]])
+    columns = dict(zip(("p1", "p2", "p3"), directions.T))
+    found = []
+    for rods in (directions, columns, pytest.importorskip("pandas").DataFrame(columns)):
+        scene = shearbed.Scene(shear_rate_per_s=0.5, aspect_ratio=11.6, length_mm=0.72, periods=1, rods=rods)
+        assert shearbed.run(scene).x1[0] == pytest.approx(1.6 / 3)
+        # Another scene with the same rods outlives the first.
+        found.append(shearbed.run(scene.replace(periods=2)).x1[-1])
+        del scene
+    assert found[0] == found[1] == found[2]
+    with pytest.raises(ValueError, match=r"\(rods, 3\), a direction in each row"):
+        shearbed.Scene(shear_rate_per_s=0.5, aspect_ratio=11.6, length_mm=0.72, periods=1, rods=directions[:, :2])
+
+
+def test_progress_without_tqdm_is_a_line(monkeypatch, capsys):
+    monkeypatch.setitem(sys.modules, "tqdm.auto", None)
+    scene = shearbed.Scene(built_in="fig4-n50").replace(periods=1)
+    shearbed.sweep(scene, {"interaction.alpha": [0.25, 0.5]}, progress=True)
+    assert "2 of 2 points\n" in capsys.readouterr().err

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import html
 import json
 import os
 import re
@@ -95,6 +96,9 @@ class Fit:
         found = [f"{key} = {at.estimate:.4g} ± {at.standard_uncertainty:.2g}" for key, at in self.parameters.items()]
         return f"<Fit {', '.join([*found, f'χ² = {self.chi2:.4g}, {self.degrees_of_freedom} degrees of freedom'])}>"
 
+    def _repr_html_(self) -> str:
+        return f"<pre>{html.escape(str(self))}</pre>"
+
     def plot(self, ax: Any = None) -> Any:
         """Draws points with their uncertainties, the best model with its 95 % band, and on axes below their
         residuals. Returns the axes of the points; on given axes no residuals are drawn."""
@@ -118,7 +122,7 @@ class Fit:
             ax.plot(x, y, color=colour, label=f"{symbol}{fitted or ', model'}")
             for axes, middle in ((ax, y), (below, 0 * y)):
                 if axes is not None:
-                    axes.fill_between(x, middle - half, middle + half, color=colour, alpha=0.2, linewidth=0)
+                    axes.fill_between(x, middle - half, middle + half, color=colour, alpha=0.2, linewidth=0, label=f"{symbol}, 95 %")
         lowest = ax if below is None else below
         times = {"t_over_T": "t/T", "t_s": "t (s)", "strain": "strain Gt"}
         lowest.set_xlabel(", ".join(times[unit] for unit in sorted(set(found["time_unit"]))))
@@ -170,7 +174,7 @@ def fit(
     uncertainties, in ``design``. ``test=["interaction.alpha=1"]`` tests values of fitted keys, and
     ``test=["1:interaction.alpha=2:interaction.alpha"]`` whether two scenes have the same: see ``tests``. ``checkpoint``
     is a file that keeps the runs: the same call goes on with them. ``progress(done, of)`` counts the runs, of those
-    that are known to be needed by then; ``progress=True`` draws a bar with tqdm where it is installed. Work of over a day
+    that are known to be needed by then; ``progress=True`` draws a bar, with tqdm where it is installed. Work of over a day
     begins with ``yes=True`` alone.
 
     The work is done in a process of its own: other Python threads go on meanwhile, and Ctrl-C ends it. Raises ``ValueError``
@@ -182,6 +186,8 @@ def fit(
         for k, (of, points) in enumerate([(scene, data), *also]):
             name = "scene.toml" if k == 0 else f"scene-{k + 1}.toml"
             scene_of(of)._written(folder, name)
+            if isinstance(points, np.ndarray) and points.dtype.names is None and columns is None:
+                raise ValueError('data: an array whose columns have no names needs them: columns=["t_s", "x1", "x1_u"]')
             file = _file(points, folder / f"points-{k + 1}.csv")
             words += ["--data", file if k == 0 else f"{name}={file}"]
         for key, ends in (over or {}).items():
@@ -242,8 +248,8 @@ def _file(points: Points, place: Path) -> str:
 
 
 def _cell(value: Any) -> str:
-    """A number, nothing for NaN, or the text of a column that is no data."""
+    """A number, nothing for NaN and None, or the text of a column that is no data."""
     try:
-        return "" if value != value else repr(float(value))
+        return "" if value is None or value != value else repr(float(value))
     except (TypeError, ValueError):
         return str(value)

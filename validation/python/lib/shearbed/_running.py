@@ -119,11 +119,12 @@ def results(folder: Path) -> Results:
 
 
 def bar_of(unit: str) -> Callable[[int, int], object] | None:
-    """A bar of tqdm, if there is tqdm, which begins again where less is done than before. It closes when it is dropped."""
+    """A bar of tqdm, which begins again where less is done than before and closes when it is dropped; without tqdm a line
+    on standard error."""
     try:
         from tqdm.auto import tqdm
     except ImportError:
-        return None
+        return lambda done, of: print(f"\r{done} of {of} {unit}s", end="\n" if done == of else "", file=sys.stderr, flush=True)
     bar = tqdm(unit=unit)
 
     def show(done: int, of: int) -> None:
@@ -154,7 +155,7 @@ def sweep(
     keys, then time, means and standard errors at the last output, damping rates and steady values; with ``times="all"``
     one row for each output of each point, and with ``times="extremes"`` the columns of ``extremes.csv``: maxima, minima and
     amplitudes of each point. All points have the same seed. ``set={"particles.count": 50}`` gives keys of the scene another value.
-    ``progress(done, of)`` counts points; ``progress=True`` draws a bar with tqdm where it is installed. ``xarray=True`` gives an
+    ``progress(done, of)`` counts points; ``progress=True`` draws a bar, with tqdm where it is installed. ``xarray=True`` gives an
     ``xarray.Dataset`` in place of the columns: one dimension for each swept key, and with ``times="all"`` ``output``, with the
     times as its coordinate where all points have the same. Work of over a day begins with ``yes=True`` alone.
     """
@@ -315,4 +316,6 @@ def keywords(message: str) -> str:
     message = message.split("\n\nFor more information, try")[0]
     message = re.sub(r"invalid value '([^']*)' for '--([a-z-]+)[^']*'", r"--\2 = \1", message)
     message = re.sub(r"\n +\[possible values: (.*)\]", r": \1 are allowed", message)
+    message = re.sub(r"--u-contains (reading|rods)", r'u_contains="\1"', message)
+    message = re.sub(r"--([a-z]+) ([A-Z])\b", r"\1=\2", message)
     return re.sub(r"(?<![\w.-])--([a-z]+(?:-[a-z]+)*)", lambda flag: flag[1].replace("-", "_"), message)

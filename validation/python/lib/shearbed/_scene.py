@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+import csv
 import difflib
 import html
 import inspect
 import json
 import os
 import shutil
+import tempfile
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
+
+import numpy as np
 
 from . import _core
 
@@ -107,6 +111,7 @@ class Scene:
         if len(given) != 1:
             raise TypeError("Scene: one of keywords, a dictionary, toml=, file= and built_in= is allowed")
         self._name = "scene"
+        self._made: list[Any] = []
         if built_in is not None:
             if built_in not in _BUILT_IN:
                 raise ValueError(_unknown(built_in))
@@ -118,8 +123,35 @@ class Scene:
         elif toml is not None:
             self._text = toml
         else:
-            self._text = _toml(_gathered(keywords if tables is None else tables))
+            gathered = _gathered(keywords if tables is None else tables)
+            if "rods" in gathered.get("particles", {}):
+                gathered["particles"]["rods"] = self._rods_file(gathered["particles"]["rods"])
+            self._text = _toml(gathered)
         self._describe()
+
+    def _rods_file(self, rods: Any) -> Any:
+        """``{"file": ...}`` as it is; else a file, which lives as long as the scene, of a DataFrame's or a dictionary's
+        columns, or of an array with a direction in each row."""
+        if isinstance(rods, Mapping) and "file" in rods:
+            return rods
+        array = None if isinstance(rods, Mapping) or hasattr(rods, "columns") else np.asarray(rods)
+        if array is not None and array.dtype.names is None:
+            if array.ndim != 2 or array.shape[1] != 3:
+                raise ValueError(f"rods: an array of {array.shape}: one of (rods, 3), a direction in each row, is allowed")
+            rods = dict(zip(("p1", "p2", "p3"), array.T))
+        names = list(array.dtype.names) if array is not None and array.dtype.names else list(rods)
+        columns = [np.asarray(rods[name]).tolist() for name in names]
+        if len({len(column) for column in columns}) != 1:
+            raise ValueError(f"rods: columns of one length are allowed; there are {[len(column) for column in columns]}")
+        made = tempfile.TemporaryDirectory(prefix="shearbed-")
+        self._made.append(made)
+        file = Path(made.name) / "rods.csv"
+        with open(file, "w", encoding="utf-8", newline="") as text:
+            writer = csv.writer(text, lineterminator="\n")
+            writer.writerow(names)
+            # NaN stands for what a rod does not have, as the place of a free one.
+            writer.writerows([["" if value != value else value for value in row] for row in zip(*columns)])
+        return {"file": str(file)}
 
     def _written(self, folder: Path, name: str = "scene.toml") -> Path:
         """The scene as a file in ``folder``, with the one that its rods start from beside it."""
@@ -152,7 +184,7 @@ class Scene:
         dotted = {f"{_TABLE_OF[key]}.{key}" if key in _TABLE_OF else key: value for key, value in values.items()}
         changes = [(key, None if value is None else _value(value)) for key, value in dotted.items()]
         scene = Scene.__new__(Scene)
-        scene._name = self._name
+        scene._name, scene._made = self._name, self._made
         scene._text = _core.changed(self._name, self._text, changes)
         scene._describe()
         return scene
