@@ -78,6 +78,8 @@ pub struct Results {
     pub snapshots: Vec<Snapshot>,
     /// Work over all replicas.
     pub counters: Counters,
+    /// The mean number of collisions of a replica, and its standard error: NaN for a single replica.
+    pub collisions: [f64; 2],
 }
 
 impl Results {
@@ -184,6 +186,8 @@ pub(crate) fn batch(plan: &Plan, width: usize) -> u64 {
 pub struct Tally {
     replicas: u64,
     counters: Counters,
+    /// The running mean and squared deviation of the collisions of a replica.
+    collisions: [f64; 2],
     mean: Vec<f64>,
     deviation: Vec<f64>,
     /// Standard errors over the rods of a single replica.
@@ -205,6 +209,7 @@ impl Tally {
         Self {
             replicas: 0,
             counters: Counters::default(),
+            collisions: [0.0; 2],
             mean: vec![0.0; len],
             deviation: vec![0.0; len],
             over_rods: vec![f64::NAN; len],
@@ -246,6 +251,10 @@ impl Tally {
     pub fn add(&mut self, replica: Replica) {
         self.counters.add(&replica.counters);
         self.add_sums(replica.rods, &replica.sums);
+        let (collisions, [mean, deviation]) = (replica.counters.collisions as f64, &mut self.collisions);
+        let change = collisions - *mean;
+        *mean += change / self.replicas as f64;
+        *deviation += change * (collisions - *mean);
         self.snapshots.extend(replica.snapshots);
     }
 
@@ -322,6 +331,8 @@ impl Tally {
     /// The results of the replicas added.
     pub fn results(self, plan: &Plan) -> Results {
         let width = width(plan);
+        let replicas = self.replicas as f64;
+        let [collisions, deviation] = self.collisions;
         let mut start = 0;
         let series = (plan.observables().into_iter())
             .map(|observable| {
@@ -340,6 +351,8 @@ impl Tally {
             series,
             snapshots: self.snapshots,
             counters: self.counters,
+            // 0/0 for a single replica.
+            collisions: [collisions, (deviation / (replicas - 1.0) / replicas).sqrt()],
         }
     }
 }

@@ -1,17 +1,19 @@
 //! Tables of what is derived from each mean of a run: extremes and amplitudes, and damping rates and steady values.
 
 use super::tables;
+use shearbed::motion::Propagator;
 use shearbed::plan::Stage;
 use shearbed::run::ensemble::Column;
-use shearbed::{Plan, Results};
+use shearbed::{Observable, Plan, Results};
 use shearbed_validation::files::csv;
 use shearbed_validation::files::output::Output;
+use shearbed_validation::methods::coefficients;
 use shearbed_validation::methods::derived::{Derived, Estimate, Extreme, FEWEST, NO_RATE};
 use std::collections::BTreeMap;
 
 /// Maxima, minima and amplitudes, a row each.
 pub(super) const EXTREMES: &str = "extremes.csv";
-/// Damping rates and steady values, in one row.
+/// Damping rates and steady values, collisions and C_I, in one row.
 pub(super) const DERIVED: &str = "derived.csv";
 
 /// The largest number of extremes of each channel in a table: the first.
@@ -51,9 +53,54 @@ pub(super) fn lacks(channel: &str) -> String {
         "none is beyond noise: more replicas or periods are needed".into()
     } else if is_rate(channel) {
         NO_RATE.into()
+    } else if channel == COLLISIONS {
+        "its flow has no period".into()
+    } else if [C_I, C_I_PER_COLLISION].contains(&channel) {
+        "it needs plane Couette flow, one aspect ratio, two periods, and outputs at most a strain of 1 apart".into()
     } else {
         format!("the mean still changes in the last quarter of the run, or replicas are fewer than {FEWEST}")
     }
+}
+
+/// How often a rod collides in a period.
+const COLLISIONS: &str = "collisions_per_rod_and_period";
+/// Folgar & Tucker's coefficient, over the last whole periods of the run's second half.
+const C_I: &str = "c_i";
+/// That over the collisions of a rod in a unit of strain.
+const C_I_PER_COLLISION: &str = "c_i_per_collision";
+
+/// The collisions of a rod in each of `units` that the run takes. Both rods of a pair collide.
+fn per_rod(plan: &Plan, results: &Results, units: f64) -> Option<Estimate> {
+    let [value, se] = results.collisions.map(|all| 2.0 * all / plan.scene().particles.count as f64 / units);
+    let collide = plan.runs(Stage::Contacts) && value.is_finite();
+    collide.then_some(Estimate { value, se: Some(se).filter(|se| se.is_finite()) })
+}
+
+/// How often a rod collides in a period; none without collisions or a period.
+pub(super) fn per_rod_and_period(plan: &Plan, results: &Results) -> Option<Estimate> {
+    let period_s = Propagator::new(plan.flow(), plan.scene().particles.aspect_ratio).period_s()?;
+    per_rod(plan, results, results.elapsed.last()?.seconds / period_s)
+}
+
+/// The values of a whole run, by name; the names depend on the scene's keys of output and collisions alone.
+fn of_run(plan: &Plan, results: &Results) -> Vec<(&'static str, Option<Estimate>)> {
+    let scene = plan.scene();
+    let mut all = Vec::new();
+    if scene.interaction.is_some() {
+        all.push((COLLISIONS, per_rod_and_period(plan, results)));
+    }
+    let observed = |of| scene.output.observables.contains(&of);
+    if observed(Observable::OrientationTensor) && observed(Observable::OrientationTensor4) {
+        let g = plan.flow().shear_rate_per_s().filter(|_| !plan.runs(Stage::AspectRatios));
+        let (r_e, replicas) = (scene.particles.aspect_ratio, scene.ensemble.replicas);
+        let c_i = g.and_then(|g| coefficients::of_run(results, r_e, g, replicas));
+        all.push((C_I, c_i));
+        if scene.interaction.is_some() {
+            let each = results.elapsed.last().and_then(|end| per_rod(plan, results, end.strain));
+            all.push((C_I_PER_COLLISION, c_i.zip(each).and_then(|(c_i, each)| c_i.over(each))));
+        }
+    }
+    all
 }
 
 type Cells = Vec<Option<f64>>;
@@ -106,7 +153,12 @@ fn scalars(plan: &Plan, results: &Results, all: &[OfChannel]) -> Result<String, 
         row.extend(cells(derived.steady.map(|steady| steady.value)));
         row.push(derived.steady.map(|steady| steady.from));
     }
-    table(head(results, &kinds, all), [row])
+    let mut header = head(results, &kinds, all);
+    for (name, value) in of_run(plan, results) {
+        header.extend([name.to_owned(), format!("{name}_se")]);
+        row.extend(cells(value));
+    }
+    table(header, [row])
 }
 
 /// The CSV text; undefined values are empty.
@@ -122,7 +174,7 @@ pub(super) fn most_bytes(plan: &Plan) -> u64 {
     let observables = plan.observables().into_iter().filter(|observable| !observable.is_density());
     let channels: usize = observables.map(|observable| observable.width()).sum();
     let rows = plan.outputs().min(MOST) * channels;
-    ((rows + 1) * (6 * channels + 10 * tables::NUMBER) + 11 * channels * tables::NUMBER) as u64
+    ((rows + 1) * (6 * channels + 10 * tables::NUMBER) + (11 * channels + 12) * tables::NUMBER) as u64
 }
 
 /// The unit of a rate of decay in a column of times.
@@ -134,9 +186,10 @@ pub(super) fn per(time_name: &str) -> &'static str {
     }
 }
 
-/// A line for the terminal on each channel whose oscillation decays or that is steady, and on each reason why others
-/// have no rate.
-pub(super) fn summary(plan: &Plan, time_name: &str, all: &[OfChannel]) -> String {
+/// A line for the terminal on each channel whose oscillation decays or that is steady, on each reason why others have
+/// no rate, and on C_I where it is known.
+pub(super) fn summary(plan: &Plan, results: &Results, all: &[OfChannel]) -> String {
+    let time_name = results.time_name;
     let replicas = plan.scene().ensemble.replicas;
     let number =
         |estimate: Estimate, decimals: usize| tables::with_error(estimate.value, estimate.se.unwrap_or(0.0), decimals);
@@ -166,5 +219,14 @@ pub(super) fn summary(plan: &Plan, time_name: &str, all: &[OfChannel]) -> String
             text += &format!("{}: {}\n", column.name, said.join("; "));
         }
     }
-    without.into_iter().fold(text, |text, (why, names)| text + &format!("{}: {why}\n", names.join(", ")))
+    text = without.into_iter().fold(text, |text, (why, names)| text + &format!("{}: {why}\n", names.join(", ")));
+    let known = |(name, value): (&str, Option<Estimate>)| {
+        let Estimate { value, se } = value?;
+        let small = || format!("{value:.2e}{}", se.map_or(String::new(), |se| format!(" ± {se:.1e}")));
+        Some(format!("{name} = {}", if value.abs() < 0.01 { small() } else { number(Estimate { value, se }, 2) }))
+    };
+    let of_run = of_run(plan, results);
+    let has_c_i = of_run.iter().any(|(name, value)| *name == C_I && value.is_some());
+    let known: Vec<_> = of_run.into_iter().filter_map(known).filter(|_| has_c_i).collect();
+    if known.is_empty() { text } else { text + &known.join(", ") + "\n" }
 }

@@ -1,10 +1,10 @@
 //! `run.json`: a record of the run, which allows to repeat it.
 
+use super::derived::per_rod_and_period;
 use super::facts::Facts;
 use super::until::Ended;
 use serde::Serialize;
 use shearbed::model::work::Counters;
-use shearbed::motion::Propagator;
 use shearbed::plan::Entry;
 use shearbed::{Plan, Results, Scene};
 use shearbed_validation::files::build::{BUILD, Build};
@@ -50,16 +50,6 @@ struct Record<'a> {
     files: Vec<&'a str>,
 }
 
-/// Both rods of a pair collide.
-fn per_rod_and_period(plan: &Plan, results: &Results) -> Option<f64> {
-    let Scene { particles, ensemble, .. } = plan.scene();
-    let period_s = Propagator::new(plan.flow(), particles.aspect_ratio).period_s()?;
-    let periods = results.elapsed.last()?.seconds / period_s;
-    let rods = particles.count as f64 * ensemble.replicas as f64;
-    let collisions = 2.0 * results.counters.collisions as f64;
-    (collisions > 0.0 && periods > 0.0).then(|| collisions / (rods * periods))
-}
-
 /// The text of `run.json`.
 pub(super) fn json(
     plan: &Plan,
@@ -79,7 +69,9 @@ pub(super) fn json(
         plan_text: plan.to_string(),
         warnings: plan.warnings(),
         counters: results.counters,
-        collisions_per_rod_and_period: per_rod_and_period(plan, results),
+        collisions_per_rod_and_period: per_rod_and_period(plan, results)
+            .map(|each| each.value)
+            .filter(|each| *each > 0.0),
         until_se,
         ranks: shearbed_validation::files::cluster::size(),
         threads,

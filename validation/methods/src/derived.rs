@@ -17,6 +17,15 @@ pub struct Estimate {
     pub se: Option<f64>,
 }
 
+impl Estimate {
+    /// The quotient, with the errors taken as independent; `None` for a divisor of 0.
+    pub fn over(self, other: Self) -> Option<Self> {
+        let value = self.value / other.value;
+        let se = self.se.zip(other.se).map(|(a, b)| (a / other.value).hypot(value * b / other.value));
+        value.is_finite().then_some(Self { value, se })
+    }
+}
+
 /// A maximum or a minimum of a mean.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Extreme {
@@ -269,7 +278,7 @@ fn is_exponential(rate: f64, extremes: &[Extreme]) -> bool {
 
 /// The standard error of a value from its values without one group of replicas each, for groups of unequal sizes
 /// (Busing, Meijer & van der Leeden, Statistics and Computing 9 (1999) 3, eq. 10). `None` if there are fewer than two.
-fn jackknife(value: f64, without: &[f64], replicas: u64) -> Option<f64> {
+pub(crate) fn jackknife(value: f64, without: &[f64], replicas: u64) -> Option<f64> {
     let groups = without.len() as f64;
     let shares: Vec<f64> = group_sizes(replicas).map(|size| size as f64 / replicas as f64).collect();
     let rest: f64 = without.iter().zip(&shares).map(|(without, share)| (1.0 - share) * without).sum();

@@ -10,9 +10,11 @@
 
 mod diffusing;
 pub mod jumps;
+mod of_run;
 mod watched;
 
 pub use diffusing::{Diffusing, Diffusion, free};
+pub use of_run::of_run;
 pub use watched::watched;
 
 use crate::tensors::fourth::Fourth;

@@ -193,3 +193,31 @@ fn damping(quarters: &[[f64; 9]]) -> Option<Estimate> {
     let rate = Estimate::jackknife(rate(None), &without);
     (rate.value.is_finite() && rate.se.is_finite() && rate.readable()).then_some(rate)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::methods::coefficients::of_run;
+    use shearbed::run::ensemble;
+    use shearbed::{Observable, Plan};
+
+    /// C_I from the means of a run against J of every step of the same rods, which shares no sum with it.
+    #[test]
+    fn the_means_of_a_run_have_the_coefficient_of_its_steps() {
+        let mut scene = scene(kick(1.0, 5.0, 0.5, 1), &Effort::gate());
+        let steps = Means::of(&windows(&scene, Places::Carried, 4).into_iter().map(|w| w.0).collect::<Vec<_>>(), None);
+        scene.ensemble.replicas = 4;
+        scene.output.observables = vec![Observable::OrientationTensor, Observable::OrientationTensor4];
+        let mut of = |outputs: u64, r_e: f64| {
+            scene.time.outputs_per_unit = Some(outputs);
+            let results = ensemble::run(&Plan::new(&scene).unwrap()).unwrap();
+            of_run(&results, r_e, scene.flow.shear_rate_per_s().unwrap(), 4).unwrap()
+        };
+        let (due, found) = (steps.coefficient(), of(100, 5.0));
+        assert!((found.value / due - 1.0).abs() < 0.02, "{found:?} {due}");
+        assert!(found.se.is_some_and(|se| se < 0.3 * due), "{found:?}");
+        // Of a wrong shape factor the rest is no effect of collisions.
+        let wrong = of(100, 2.0);
+        assert!((wrong.value / due - 1.0).abs() > 0.1, "{wrong:?} {due}");
+    }
+}
