@@ -2,7 +2,10 @@
 
 use super::*;
 use nalgebra::{DMatrix, DVector};
-use statrs::distribution::{ChiSquared, ContinuousCDF};
+use statrs::distribution::{ContinuousCDF, FisherSnedecor};
+
+/// The fewest replicas of a level from which a line is read: fewer do not tell the errors of their means.
+pub const FEWEST: usize = 8;
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct Means {
@@ -21,7 +24,8 @@ pub struct Line {
     pub slope_se: f64,
     /// The residual sum of squares, weighted by the inverse covariances.
     pub chi_square: f64,
-    /// The probability of a larger χ² if the line is right. None if the line has only two points.
+    /// The probability of a larger χ² if the line is right, by the F distribution, as replicas are few. None if it has
+    /// only two points.
     pub p: Option<f64>,
 }
 
@@ -63,11 +67,11 @@ impl Means {
     }
 
     /// The line through the means at `x`: least squares weighted by the inverse of the covariances, equivalent to a fit
-    /// of the differences of neighbours. `None` for fewer than two levels, fewer than eight replicas of a level, or
-    /// samples without scatter.
+    /// of the differences of neighbours. `None` for fewer than two levels, fewer than [`FEWEST`] replicas of a level,
+    /// or samples without scatter.
     pub fn line(&self, x: &[f64]) -> Option<Line> {
         let count = self.values.len();
-        if self.fewest < 8 {
+        if self.fewest < FEWEST {
             return None;
         }
         let cholesky = self.covariance.clone().cholesky()?;
@@ -77,14 +81,15 @@ impl Means {
         let solution = &inverse * design.transpose() * cholesky.solve(&y);
         let rest = y - design * &solution;
         let chi_square = rest.dot(&cholesky.solve(&rest));
-        let freedom = ChiSquared::new(count as f64 - 2.0).ok();
+        let levels = count as f64 - 2.0;
+        let law = FisherSnedecor::new(levels, self.fewest as f64 - 1.0).ok();
         Some(Line {
             intercept: solution[0],
             intercept_se: inverse[(0, 0)].sqrt(),
             slope: solution[1],
             slope_se: inverse[(1, 1)].sqrt(),
             chi_square,
-            p: freedom.map(|freedom| 1.0 - freedom.cdf(chi_square)),
+            p: law.map(|law| law.sf(chi_square / levels)),
         })
     }
 

@@ -1,6 +1,7 @@
 //! Convergence in law as tables, rows of CSV and a picture.
 
 use super::blocks::Block;
+use super::fit::FEWEST;
 use super::law::{Change, JobMean, Law, QUARTERS, Quarters};
 use super::*;
 
@@ -27,9 +28,17 @@ fn order_in_words(law: &Law) -> String {
                 line.slope, line.slope_se, line.intercept, line.intercept_se
             )
         }
+        None if are_few(&law.steps) => TOO_FEW.into(),
         None => " No straight line in 1/steps fits X̄₁.".into(),
     };
     format!("Over the levels that resolve a flip (GΔt ≤ 1, from {from} steps on) {order}.{line}")
+}
+
+/// What too few replicas leave unknown.
+const TOO_FEW: &str = " Fewer than 8 replicas of a level: no straight line is read.";
+
+fn are_few(levels: &[JobMean]) -> bool {
+    levels.iter().any(|level| level.replicas < FEWEST as u64)
 }
 
 fn steps(law: &Law, strain: f64) -> ReportTable {
@@ -117,24 +126,30 @@ fn rods(law: &Law) -> ReportTable {
             line.slope_se,
             line.p.map_or("–".into(), |p| format!("{p:.1e}"))
         ),
-        None => format!("No straight line in {name} fits"),
+        None => format!("no straight line in {name}"),
     };
     /// Below this p a line does not fit.
     const POOR: f64 = 0.01;
     let poor = law.rods_lines.iter().all(|line| line.as_ref().and_then(|line| line.p).is_none_or(|p| p < POOR));
     let power = if poor {
-        format!("Neither fits, as p < {POOR}: no power of N is claimed")
+        format!("Neither fits, as p < {POOR}: no power of N is claimed.")
     } else {
-        "These points cannot distinguish N^(−1/2) from N^(−1/3)".into()
+        "These points cannot distinguish N^(−1/2) from N^(−1/3).".into()
+    };
+    let lines = if are_few(&law.rods) {
+        TOO_FEW.to_owned()
+    } else {
+        format!(
+            " Fitted: {}; {}. p is the probability that a right line fits no better by chance. {power}",
+            line(0, "N^(−1/3)"),
+            line(1, "N^(−1)")
+        )
     };
     ReportTable::new(
         ["rods", "X̄₁ at t/T = 1 against the rods"],
         format!(
             "Rods near a face of the volume lack neighbours, and the share of the volume near faces is ∝ N^(−1/3) \
-             (`faces-cost-collisions`). {}; {}. p is the probability that a right line fits no better by chance. \
-             {power}.",
-            line(0, "N^(−1/3)"),
-            line(1, "N^(−1)")
+             (`faces-cost-collisions`).{lines}"
         ),
         &law.rods,
         vec![
@@ -173,15 +188,16 @@ fn replicas(law: &Law) -> ReportTable {
 /// X̄₁ against the step, and the straight line of first order.
 pub fn steps_figure(law: &Law) -> ReportFigure {
     let step = |sample: &JobMean| 1.0 / sample.steps_per_period as f64;
+    let [coarsest, finest] = [law.steps.get(law.line_from), law.steps.last()].map(|level| level.map_or(1.0, step));
     let line = law.steps_line.as_ref().map(|line| {
-        let ends = [0.0, law.steps.get(law.line_from).map_or(0.0, step)];
-        Curve::of("first order", ends, |x| (x, line.intercept + line.slope * x))
+        let steps = (0..=60).map(|k| coarsest * (finest / coarsest).powf(f64::from(k) / 60.0));
+        Curve::of("first order", steps, |x| (x, line.intercept + line.slope * x))
     });
     ReportFigure::new(
         ["steps", "Interacting rods: X̄₁ at t/T = 1 against the step"],
-        "Convergence in law: the mean, with 95 % bars, tends to a limit as Δt → 0, and the line is the first-order \
-         bias, where one fits.",
-        ["step Δt/T", "X̄₁ (rod lengths)"],
+        "Convergence in law: the mean, with 95 % bars, tends to a limit as Δt → 0, to the left; the line is a + bΔt, \
+         where one fits.",
+        ["log step Δt/T", "X̄₁ (rod lengths)"],
     )
     .curves(line)
     .points([Points::with_bars("simulated", &law.steps, |s| (step(s), s.x1, 1.96 * s.se))])
