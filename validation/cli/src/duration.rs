@@ -6,6 +6,7 @@ use shearbed::plan::{Stage, counted};
 use shearbed::run::ensemble;
 use shearbed_validation::files::cluster;
 use shearbed_validation::methods::least_squares::basis::Basis;
+use shearbed_validation::serve::fit::pictures::MOST_REPLICAS as MOST_DRAWN;
 use shearbed_validation::serve::fit::search::{FIRST_REPLICAS, MOST_ROUNDS};
 use shearbed_validation::studies::speed::{SECONDS_PER_DRAW, SECONDS_PER_OUTPUT, SECONDS_PER_ROD_AND_STEP};
 use shearbed_validation::studies::suspensions::job::Job;
@@ -13,6 +14,9 @@ use shearbed_validation::studies::suspensions::law::{self, Replicas};
 
 /// The longest pilot, in s.
 const PILOT_S: f64 = 3.0;
+
+/// The exponent of the rods, from 100 on, in the time of one of them: some 3 times as much at a million.
+const BY_RODS: f64 = 0.11;
 
 /// The longest work that begins unasked, in hours: longer work is more often a slip in a count than meant.
 pub(super) const UNASKED_H: f64 = 24.0;
@@ -72,7 +76,7 @@ pub fn may_run(plan: &Plan, threads: Option<u64>, source: &str, yes: bool) -> Re
 pub(super) fn of_replica(plan: &Plan, may_run: bool) -> f64 {
     let rods = plan.scene().particles.count as f64;
     let guess = if plan.steps() > 0 {
-        rods * plan.steps() as f64 * SECONDS_PER_ROD_AND_STEP
+        rods * plan.steps() as f64 * SECONDS_PER_ROD_AND_STEP * (0.01 * rods).max(1.0).powf(BY_RODS)
     } else {
         rods * (SECONDS_PER_DRAW + plan.outputs() as f64 * SECONDS_PER_OUTPUT)
     };
@@ -122,34 +126,40 @@ pub(super) fn of_sweep<'a>(plan: &Plan, each_s: f64, points: impl ExactSizeItera
     format!("sweep: {}, {} of one core\n", counted(count as u64, "point"), about(each_s * all / work(plan)))
 }
 
-/// The ranges that a fit usually tries: a few of the first replicas in each.
-pub(super) const USUAL_ROUNDS: u64 = 4;
+/// The runs of usual fits of one to three parameters over those of their first box: of points of Fig. 4 some 3,000 to
+/// 7,000, 9,000 to 20,000 and 45,000 to 150,000, with those beside the search, most of them for other minima.
+const USUAL: [u64; 3] = [12, 6, 5];
+
+/// The runs that a fit usually takes, all its parts together.
+pub(super) fn usual_runs(parameters: usize, most_replicas: u64) -> u64 {
+    match parameters.checked_sub(1) {
+        // The curves and what is derived from them come after the scene as it is.
+        None => most_replicas + 2 * most_replicas.min(MOST_DRAWN),
+        Some(k) => USUAL[k.min(2)] * nodes(parameters) * FIRST_REPLICAS.min(most_replicas),
+    }
+}
 
 /// The number of values at which a fit of so many parameters runs replicas, in each range.
 pub(super) fn nodes(parameters: usize) -> u64 {
     if parameters == 0 { 1 } else { Basis::new(parameters).nodes.len() as u64 }
 }
 
-/// The cost of a fit of so many parameters, as text, if a replica of `plan` takes `each_s`: its first runs, and as many
-/// as are allowed in one range and in all, with `most` replicas at each value; `corners` are the ends of the ranges.
+/// The cost of a fit of so many parameters, as text, if a replica of `plan` takes `each_s`: of usual points, and at
+/// most, with `most` replicas at each value; `corners` are the ends of the ranges.
 pub(super) fn of_fit<'a>(
     plan: &Plan,
     each_s: f64,
     (parameters, most): (usize, u64),
     corners: impl ExactSizeIterator<Item = &'a Plan>,
 ) -> String {
-    let nodes = nodes(parameters);
     let count = corners.len() as f64;
     let each_s = each_s * corners.map(work).sum::<f64>() / (count * work(plan));
-    let of = |replicas: u64| {
-        let runs = nodes * replicas;
-        format!("{runs} runs, {} of one core", about(each_s * runs as f64))
-    };
-    let all = about(each_s * (nodes * most * MOST_ROUNDS) as f64);
-    let [first, most] = [FIRST_REPLICAS.min(most), most].map(of);
+    let took = |runs: u64| about(each_s * runs as f64);
+    let (usual, most) = (usual_runs(parameters, most), nodes(parameters) * most);
     format!(
-        "fit: at first {first}; then up to {most}, in each range that it tries: mostly 2 to 6, at most \
-        {MOST_ROUNDS} ({all})\n"
+        "fit: usually some {usual} runs, {} of one core; at most {MOST_ROUNDS} ranges of {most} runs each, {}\n",
+        took(usual),
+        took(MOST_ROUNDS * most)
     )
 }
 

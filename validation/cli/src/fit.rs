@@ -6,12 +6,13 @@ mod shifts;
 mod terminal;
 
 use super::derived::{self, DERIVED, EXTREMES};
-use super::duration::{Long, USUAL_ROUNDS, nodes};
+use super::duration::{Long, nodes, usual_runs};
 use super::{
-    Failure, Threads, Writing, checkpoint, log_progress, number, on_threads, progress, result_folder, scene,
+    Failure, Threads, Writing, checkpoint, log_progress, number, on_threads, progress_of_some, result_folder, scene,
     spares_inputs, whole,
 };
 use advice::{of_fit, of_scene, of_warning};
+pub(super) use input::check_ranges;
 use input::{Input, input};
 use serde_json::{Value, json};
 use shearbed::Plan;
@@ -34,12 +35,13 @@ use shearbed_validation::serve::fit::report::{self, Report};
 use shearbed_validation::serve::fit::runs::Runs;
 use shearbed_validation::serve::fit::samples::samples_csv;
 use shearbed_validation::serve::fit::scenes::{AS_WRITTEN, Scenes};
-use shearbed_validation::serve::fit::search::{FIRST_REPLICAS, Fit, FitProblem, Watch};
+use shearbed_validation::serve::fit::search::{Fit, FitProblem, Watch};
 use shearbed_validation::serve::fit::{Hypothesis, Range, pictures};
 use shearbed_validation::serve::sweep::KeyValue;
 use shifts::{shifts, taken_as_known};
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Duration;
 
 /// The default of the largest number of replicas at each value of the parameters.
@@ -141,25 +143,32 @@ pub(super) fn fit(args: &Args) -> Result<(), Failure> {
         args.writing.print(&format!("goes on from {}\n", counted(runs.count() as u64, "finished run")))?;
     }
     input.scenes = input.scenes.with_runs(runs.clone());
-    let bar = progress(0, "runs", args.writing.quiet);
+    let usual = usual_runs(args.over.len(), args.replicas);
+    let bar = progress_of_some(usual, "runs", args.writing.quiet);
     log_progress(&bar, "runs", args.log_every, args.writing.quiet);
+    let [planned, ended] = [AtomicU64::new(0), AtomicU64::new(0)];
     let watch = Watch {
         stage: &|name| bar.set_message(name.to_owned()),
-        planned: &|runs| bar.inc_length(runs),
-        done: &|| bar.inc(1),
+        planned: &|runs| bar.set_length(usual.max(runs + planned.fetch_add(runs, Ordering::Relaxed))),
+        done: &|| {
+            ended.fetch_add(1, Ordering::Relaxed);
+            bar.inc(1);
+        },
     };
     let done = on_threads(args.threads.given, || work(args, &input, &watch))?;
     bar.finish_and_clear();
     runs.as_ref().map_or(Ok(()), |runs| runs.write())?;
-    write(args, &input, &folder, &asked, &done?)
+    write(args, &input, &folder, &asked, &done?, ended.into_inner())
 }
 
 /// Refuses a fit that may take days: as many replicas as are asked for at each value, at the ends of the ranges. The
 /// default is a limit that few fits reach: with it the first replicas of the usual ranges count.
 fn check_duration(args: &Args, input: &Input) -> Result<(), Failure> {
-    let replicas = if args.replicas == MOST_REPLICAS { USUAL_ROUNDS * FIRST_REPLICAS } else { args.replicas };
+    let nodes = nodes(args.over.len());
+    let usual = usual_runs(args.over.len(), args.replicas);
+    let runs = if args.replicas == MOST_REPLICAS { usual } else { nodes * args.replicas };
     // Half of them at each end.
-    let runs = nodes(args.over.len()) * replicas / 2;
+    let runs = runs / 2;
     let plans = input.plans_at_ends(&args.over)?;
     let cost: Vec<_> = plans.iter().map(|plan| (plan, runs)).collect();
     args.long.check(&input.stem, args.threads.given, &cost)
@@ -176,8 +185,15 @@ fn folder(args: &Args, input: &Input, asked: &Value) -> Result<ResultFolder, Fai
     result_folder(&out, ("fit", asked.clone(), args.writing.force), 0, &names)
 }
 
-/// Writes the results and prints them.
-fn write(args: &Args, input: &Input, folder: &ResultFolder, asked: &Value, done: &Done) -> Result<(), Failure> {
+/// Writes the results and prints them; `runs` is the number of all runs.
+fn write(
+    args: &Args,
+    input: &Input,
+    folder: &ResultFolder,
+    asked: &Value,
+    done: &Done,
+    runs: u64,
+) -> Result<(), Failure> {
     let times = input.times();
     let files = files(args, done, &times).map_err(Failure::Failed)?;
     let names: Vec<&str> = std::iter::once(FIT).chain(files.iter().map(|(name, _)| name.as_str())).collect();
@@ -188,7 +204,7 @@ fn write(args: &Args, input: &Input, folder: &ResultFolder, asked: &Value, done:
     let design = done.report.design.as_ref();
     let design =
         done.fit.as_ref().zip(design).map_or(String::new(), |(fit, steps)| terminal::design(fit, steps, &times) + "\n");
-    let table = done.fit.as_ref().map_or(String::new(), |fit| terminal::table(fit, &done.report) + "\n");
+    let table = done.fit.as_ref().map_or(String::new(), |fit| terminal::table(fit, &done.report, runs) + "\n");
     let (sentence, tests) = (terminal::sentence(done.fit.as_ref(), &done.report), terminal::tests(&done.report));
     let place = folder.dir().shown();
     args.writing.print(&format!("{sentence}\n{tests}\n{table}{design}in {place}: {names}\n{replaced}"))
@@ -258,7 +274,7 @@ fn work(args: &Args, input: &Input, watch: &Watch<'_>) -> Result<Done, Failure> 
     let figures =
         pictures::of_points(&report, (data, &pictures::u_of_points(&fit)), drawn, &input.names, &input.times());
     let figures = figures.into_iter().chain(pictures::of_parameters(&fit)).collect();
-    let derived = derived(input, &fit.values(&fit.best.place), fit.emulator.behind_covariance() as u64)?;
+    let derived = derived(input, &fit.values(&fit.best.place), fit.emulator.behind_covariance() as u64, watch)?;
     Ok(Done { fit: Some(fit), report, warnings, figures, derived, candidates })
 }
 
@@ -278,17 +294,19 @@ fn as_written(input: &Input, problem: &FitProblem<'_>, watch: &Watch<'_>) -> Res
     let curves = pictures::own_curves(&model, most_replicas, watch).map_err(Failure::Input)?;
     let drawn = (&places[..], &curves[..], "");
     let figures = pictures::of_points(&report, (data, &found.u_of_points()), drawn, &input.names, &input.times());
-    let derived = derived(input, &[], most_replicas)?;
+    let derived = derived(input, &[], most_replicas, watch)?;
     Ok(Done { fit: None, report, warnings, figures, derived, candidates: Vec::new() })
 }
 
 /// Tables of what is derived from the means of each set's scene with these values, up to its last point.
-fn derived(input: &Input, values: &[f64], replicas: u64) -> Result<Vec<Output>, Failure> {
+fn derived(input: &Input, values: &[f64], replicas: u64, watch: &Watch<'_>) -> Result<Vec<Output>, Failure> {
     let plans = input.plans(values)?;
     let mut files = Vec::new();
     for (set, plan) in plans.iter().enumerate() {
         let plan = plan.with_replicas(replicas.min(pictures::MOST_REPLICAS));
-        let results = ensemble::run(&plan).map_err(|error| Failure::Input(error.to_string()))?;
+        let run = |replicas| ensemble::replicas_of(&plan, replicas, &watch.done);
+        (watch.planned)(plan.scene().ensemble.replicas);
+        let results = ensemble::fold(&plan, run).map_err(|error| Failure::Input(error.to_string()))?;
         for (name, text) in derived::files(&plan, &results, &derived::of(&plan, &results)).map_err(Failure::Failed)? {
             let of_set = name.replace(".csv", &format!("_{}.csv", set + 1));
             files.push((if plans.len() == 1 { name } else { of_set }, text));

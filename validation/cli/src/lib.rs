@@ -57,7 +57,7 @@ use shearbed_validation::present::plot::Figure;
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
-use terminal::{log, log_progress, print, progress};
+use terminal::{log, log_progress, print, progress, progress_of_some};
 use threads::{Threads, on_threads};
 
 /// Rigid slender rods in a sheared viscous liquid, after Lee & Springer (1982).

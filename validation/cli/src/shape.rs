@@ -12,8 +12,15 @@ Examples:
 pub(super) struct Args {
     /// Length over diameter of a cylinder, up to 1000; below 2, and of discs and rings, what is known
     #[arg(long, value_name = "R", value_parser = ratio, allow_negative_numbers = true)]
-    #[arg(required_unless_present = "period_s", conflicts_with = "period_s")]
+    #[arg(required_unless_present_any = ["period_s", "strain"], conflicts_with_all = ["period_s", "strain"])]
     physical: Option<f64>,
+    /// The strain GT in which a rod turns once, through 360°, in place of T and G
+    #[arg(long, value_name = "GT", value_parser = positive, allow_negative_numbers = true)]
+    #[arg(conflicts_with = "period_s")]
+    strain: Option<f64>,
+    /// One standard uncertainty of that strain
+    #[arg(long, value_name = "U", value_parser = positive, allow_negative_numbers = true, requires = "strain")]
+    strain_u: Option<f64>,
     /// The time in which a rod turns once, through 360°: r_e of T = 2π(r_e + 1/r_e)/G
     #[arg(long, value_name = "T", value_parser = positive, allow_negative_numbers = true)]
     #[arg(requires = "shear_rate_per_s")]
@@ -44,42 +51,56 @@ fn ratio(text: &str) -> Result<f64, String> {
 
 /// Prints the equivalent aspect ratio of a cylinder by every formula, or that of a period.
 pub(super) fn shape(args: &Args) -> Result<(), Failure> {
-    match (args.physical, args.period_s, args.shear_rate_per_s) {
+    match (args.physical, args.strain, args.period_s, args.shear_rate_per_s) {
         (Some(r), ..) if r < ALLOWED.0 => of_flat(r),
         (Some(r), ..) => of_cylinder(r),
-        (None, Some(period_s), Some(g)) => of_period((period_s, args.period_u), (g, args.shear_rate_u)),
+        (_, Some(strain), ..) => of_strain(strain, args.strain_u),
+        (_, _, Some(period_s), Some(g)) => of_period((period_s, args.period_u), (g, args.shear_rate_u)),
         // The parser refuses it.
-        (None, ..) => Ok(()),
+        _ => Ok(()),
     }
 }
 
 /// The least period times shear rate.
 const OF_SPHERE: f64 = 4.0 * std::f64::consts::PI;
 
-/// Prints r_e of a rod, and of a disc, with this period at this shear rate, each with its standard uncertainty if
-/// given: relative ones, taken as independent, add in squares to that of GT, on which alone r_e depends.
+/// Prints r_e of a rod that turns once in this strain, with its standard uncertainty if given.
+fn of_strain(strain: f64, u: Option<f64>) -> Result<(), Failure> {
+    let (given, allowed) = (format!("--strain {strain}"), rounded(OF_SPHERE, 6));
+    print(&of_turn(with(strain, u), [strain, u.unwrap_or(0.0)], &given, &format!("a strain of at least {allowed}"))?)
+}
+
+/// Prints the same of this period at this shear rate: relative uncertainties, taken as independent, add in squares to
+/// that of GT, on which alone r_e depends.
 fn of_period((period_s, period_u): (f64, Option<f64>), (g, g_u): (f64, Option<f64>)) -> Result<(), Failure> {
     let strain = g * period_s;
     let u = strain * (period_u.unwrap_or(0.0) / period_s).hypot(g_u.unwrap_or(0.0) / g);
-    // A measured time may fall below that of a sphere, by two uncertainties at most.
+    let allowed = format!("a time of at least {} s at {g} 1/s", rounded(OF_SPHERE / g, 6));
+    let text = of_turn(rounded(strain, 6), [strain, u], &format!("--period-s {period_s}"), &allowed)?;
+    print(&format!("T = {} s at G = {} 1/s: {text}", with(period_s, period_u), with(g, g_u)))
+}
+
+fn with(value: f64, u: Option<f64>) -> String {
+    u.map_or(value.to_string(), |u| format!("{value} ± {u}"))
+}
+
+/// r_e of a rod, and of a disc, that turns once in a strain with its uncertainty, as text; `shown` is the strain.
+fn of_turn(shown: String, [strain, u]: [f64; 2], given: &str, allowed: &str) -> Result<String, Failure> {
+    // A measured strain may fall below that of a sphere, by two uncertainties at most.
     let of_sphere = || (strain + 2.0 * u >= OF_SPHERE).then_some(1.0);
     let Some(r) = aspect_ratio_of_period(strain).or_else(of_sphere) else {
         return Err(Failure::Input(format!(
-            "--period-s {period_s}: GT = {strain:.4} is less than 4π = {OF_SPHERE:.4}, that of a sphere, and all rods \
-             and discs turn more slowly; a time of at least {} s at {g} 1/s is allowed. T is that of a whole turn: \
-             means and pictures of a rod repeat with T/2",
-            rounded(OF_SPHERE / g, 6)
+            "{given}: GT = {strain:.4} is less than 4π = {OF_SPHERE:.4}, that of a sphere, and all rods and discs turn \
+             more slowly; {allowed} is allowed. T is that of a whole turn: means and pictures of a rod repeat with T/2"
         )));
     };
-    let with = |value: f64, u: Option<f64>| u.map_or(value.to_string(), |u| format!("{value} ± {u}"));
-    let (period, rate) = (with(period_s, period_u), with(g, g_u));
-    let mut text = format!("T = {period} s at G = {rate} 1/s: GT = {} = 2π(r_e + 1/r_e)\n\n", rounded(strain, 6));
+    let mut text = format!("GT = {shown} = 2π(r_e + 1/r_e)\n\n");
     let ends = (u > 0.0).then(|| [strain - u, strain + u].map(aspect_ratio_of_period));
     for (whose, of) in [("rod", (|r| r) as fn(f64) -> f64), ("disc of the same period", |r| 1.0 / r)] {
         let (value, ends) = (of(r), ends.map(|ends| ends.map(|end| end.map(of))));
         text += &format!("r_e = {}, of a {whose}\n", with_uncertainty(value, ends));
     }
-    print(&(text + &format!("\nIn a scene: aspect_ratio = {}\n", rounded(r, 6))))
+    Ok(text + &format!("\nIn a scene: aspect_ratio = {}\n", rounded(r, 6)))
 }
 
 /// A value with its uncertainty where the values at GT ± U are as far on both sides to a twentieth, else with these;

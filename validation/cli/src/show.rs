@@ -1,7 +1,7 @@
 //! `shearbed plan` and `shearbed scenes`.
 
 use super::facts::Facts;
-use super::fit::MOST_REPLICAS;
+use super::fit::{self, MOST_REPLICAS};
 use super::scene::{Chosen, Ensemble, Named};
 use super::until::{LEAST, Until};
 use super::{Failure, Threads, duration, memory, print, scene, sweep};
@@ -32,16 +32,17 @@ pub(super) struct PlanArgs {
 #[derive(Clone, Debug)]
 struct Over {
     axis: Axis,
-    is_range: bool,
+    range: Option<Range>,
 }
 
 impl Over {
     fn parse(text: &str) -> Result<Self, String> {
         match Range::parse(text) {
-            Ok(Range { key, from, to, .. }) => {
-                Ok(Self { axis: Axis { key, values: vec![from.into(), to.into()] }, is_range: true })
+            Ok(range) => {
+                let values = vec![range.from.into(), range.to.into()];
+                Ok(Self { axis: Axis { key: range.key.clone(), values }, range: Some(range) })
             }
-            Err(_) => Ok(Self { axis: Axis::parse(text)?, is_range: false }),
+            Err(_) => Ok(Self { axis: Axis::parse(text)?, range: None }),
         }
     }
 }
@@ -50,7 +51,8 @@ impl Over {
 fn of_keys(args: &PlanArgs, named: &Named, plan: &Plan, each_s: f64) -> Result<(String, Vec<String>), Failure> {
     let over = &args.over;
     let refused = |why: String| Err(Failure::Input(format!("--over: {why}")));
-    let ranges = over.iter().filter(|over| over.is_range).count();
+    let fitted: Vec<Range> = over.iter().filter_map(|over| over.range.clone()).collect();
+    let ranges = fitted.len();
     if over.is_empty() {
         return Ok((String::new(), plan.warnings()));
     } else if ranges > 0 && ranges < over.len() {
@@ -62,6 +64,7 @@ fn of_keys(args: &PlanArgs, named: &Named, plan: &Plan, each_s: f64) -> Result<(
     let points = sweep::points(named, &axes)?;
     let plans = points.iter().map(|point| &point.plan);
     let cost = if ranges > 0 {
+        fit::check_ranges(named, fitted)?;
         duration::of_fit(plan, each_s, (ranges, args.ensemble.replicas.unwrap_or(MOST_REPLICAS)), plans)
     } else {
         duration::of_sweep(plan, each_s, plans)

@@ -13,6 +13,7 @@ use shearbed_validation::files::text::{self, Shown};
 use shearbed_validation::files::{FileError, cluster};
 use shearbed_validation::present::plot::names;
 use shearbed_validation::serve::sweep::{self, Axis, Folder, GridError, Point, Points};
+use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 
 #[derive(clap::Args)]
@@ -210,9 +211,13 @@ fn table(rows: &[Vec<String>], swept: usize) -> String {
     if rows.len() > MOST.0 + 1 {
         return String::new();
     }
-    let columns = rows[0].len().min(swept + MOST.1);
+    // A pipe or a file has room for all.
+    let most = if std::io::stdout().is_terminal() { swept + MOST.1 } else { usize::MAX };
+    let columns = rows[0].len().min(most);
     let short = |column: usize, text: &String| match text.parse::<f64>() {
-        Ok(number) if column >= swept && is_bounded(&rows[0][column]) => text::four_decimals(number),
+        Ok(number) if column >= swept && is_bounded(&rows[0][column]) && (number == 0.0 || number.abs() >= 1e-3) => {
+            text::four_decimals(number)
+        }
         Ok(number) if column >= swept => format!("{number:.3e}"),
         _ => text.clone(),
     };

@@ -80,33 +80,52 @@ pub(super) fn log_progress(bar: &ProgressBar, what: &'static str, every: Duratio
 }
 
 /// A bar for slow work on a terminal, hidden elsewhere. It shows the time left once a step is done, from the mean rate;
-/// for a single step it shows the elapsed time. With 0 steps it is for work of which more becomes known as it goes on.
+/// for a single step it shows the elapsed time.
 pub(super) fn progress(steps: u64, what: &str, quiet: bool) -> ProgressBar {
+    let template = match steps {
+        1 => "{spinner} running for {elapsed} {msg}".to_owned(),
+        _ => format!("{{wide_bar}} {{pos}}/{{len}} {what}, {{left}} {{msg}}"),
+    };
+    bar(steps, &template, quiet, |_, rate, left| format!("{rate:.2} a second, {left:.0} s left"))
+}
+
+/// A bar for work that usually takes so many steps, of which more become known as it goes on.
+pub(super) fn progress_of_some(usual: u64, what: &str, quiet: bool) -> ProgressBar {
+    let template = format!("{{msg}} {{wide_bar}} {{pos}} of some {{len}} {what}, {{left}}");
+    bar(usual, &template, quiet, move |all, _, left| {
+        if all > usual {
+            format!("longer than most, {left:.0} s left or more")
+        } else {
+            format!("some {left:.0} s left")
+        }
+    })
+}
+
+/// A bar with the words of `left` from its length, the steps a second and the seconds left.
+fn bar(
+    steps: u64,
+    template: &str,
+    quiet: bool,
+    left: impl Fn(u64, f64, f64) -> String + Clone + Send + Sync + 'static,
+) -> ProgressBar {
     if quiet || !cluster::is_root() || !io::stderr().is_terminal() {
         let bar = ProgressBar::hidden();
         bar.set_length(steps);
         return bar;
     }
-    let template = match steps {
-        1 => "{spinner} running for {elapsed} {msg}".to_owned(),
-        0 => format!("{{msg}} {{wide_bar}} {{pos}}/{{len}} {what}, {{left}}"),
-        _ => format!("{{wide_bar}} {{pos}}/{{len}} {what}, {{left}} {{msg}}"),
-    };
-    let least = if steps == 0 { "at least " } else { "" };
     let left = move |state: &ProgressState, text: &mut dyn fmt::Write| {
         let elapsed = state.elapsed().as_secs_f64();
         let words = match (state.pos(), state.len()) {
             (0, _) | (_, None) => format!("{elapsed:.0} s so far"),
-            (done, Some(all)) if steps == 0 && done >= all => format!("{elapsed:.0} s so far, more may follow"),
             (done, Some(all)) => {
                 let rate = done as f64 / elapsed.max(1e-9);
-                format!("{rate:.2} a second, {least}{:.0} s left", all.saturating_sub(done) as f64 / rate)
+                left(all, rate, all.saturating_sub(done) as f64 / rate)
             }
         };
         // If even this cannot be written, there is no bar.
         let _ = text.write_str(&words);
     };
-    let style = ProgressStyle::with_template(&template);
+    let style = ProgressStyle::with_template(template);
     let style = style.unwrap_or_else(|_| ProgressStyle::default_bar());
     let bar = ProgressBar::with_draw_target(Some(steps), ProgressDrawTarget::stderr());
     bar.set_style(style.with_key("left", left));

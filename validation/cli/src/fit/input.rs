@@ -2,7 +2,7 @@
 
 use super::Args;
 use super::advice::of_scene;
-use crate::scene::one_owner;
+use crate::scene::{Named, one_owner};
 use crate::{Failure, memory, refuse, scene};
 use shearbed::Plan;
 use shearbed::plan::counted;
@@ -149,6 +149,20 @@ pub(super) fn input(args: &Args) -> Result<Input, Failure> {
     let plans = input.plans_at_ends(&args.over)?;
     memory::check_each(plans.iter().map(|plan| (plan, input.stem.clone())), args.threads.given, false, 0)?;
     Ok(input)
+}
+
+/// Refuses keys of a scene that a fit of its mean projections would refuse together.
+pub(crate) fn check_ranges(named: &Named, ranges: Vec<Range>) -> Result<(), Failure> {
+    let set = Set {
+        seed: named.scene.ensemble.seed,
+        source: named.source.clone(),
+        text: named.text.clone(),
+        starts: named.starts.clone(),
+        settings: named.settings.clone(),
+        time: TimeColumn::Seconds,
+    };
+    let scenes = Scenes::new(vec![set], ranges).map_err(refused)?;
+    scenes.one_length(&[Datum::place(0, "x1", 0.0)]).map_err(refused)
 }
 
 fn is_in(key: &str, table: &str) -> bool {

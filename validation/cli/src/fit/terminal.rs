@@ -33,8 +33,8 @@ pub(super) fn sentence(fit: Option<&Fit>, report: &Report) -> String {
 /// A share of the standard uncertainty that seeds may move an estimate by without a word.
 const LITTLE: f64 = 0.2;
 
-/// The uncertainty budget and the shifts, as text for the terminal.
-pub(super) fn table(fit: &Fit, report: &Report) -> String {
+/// The uncertainty budget and the shifts, as text for the terminal; `runs` is the number of all runs.
+pub(super) fn table(fit: &Fit, report: &Report, runs: u64) -> String {
     let names: String = fit.ranges.iter().map(|range| format!("  {:>18}", range.name())).collect();
     let numbers = |all: &[f64]| all.iter().map(|u| format!("  {u:>18.2e}")).collect::<String>();
     let mut text = format!("{:<34}{names}\n", "standard uncertainty by");
@@ -47,7 +47,7 @@ pub(super) fn table(fit: &Fit, report: &Report) -> String {
         let both: String = both.map(|text| format!("  {text:>18}")).collect();
         text += &format!("{:<34}{both}\n", format!("shift by {}", shift.change));
     }
-    text += &format!("runs: {}, replicas at each value: {}\n", report.runs, report.replicas);
+    text += &format!("runs: {runs}, of the search: {}, replicas at each value: {}\n", report.runs, report.replicas);
     let of_uncertainty = |(range, seed): (&Range, &f64)| seed / report.parameters[&range.label()].standard_uncertainty;
     let most = shearbed_validation::oracle::worst(fit.ranges.iter().zip(&report.another_seed).map(of_uncertainty));
     if most > LITTLE {
