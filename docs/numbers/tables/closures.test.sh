@@ -1,5 +1,7 @@
 # Steady a_22 by closures, and the C_I that each needs for a measured one.
 shearbed bench --case closures --out c >log
+# The picture of the same run.
+cmp c/closures-error.svg "$ROOT/docs/src/images/closures-error.svg" >&2 || { echo "bash docs/pictures.sh docs/src/images closures-error" >&2; exit 1; }
 awk -F, -v order="natural ORE ORW IBOF hybrid quadratic" '
   BEGIN { n = split(order, closure, " ") }
   FNR == 1 { file++ }
