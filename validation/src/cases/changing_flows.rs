@@ -129,7 +129,7 @@ fn changing_flows(run: &Run, effort: &Effort) -> Vec<Evidence> {
     vec![
         Evidence::on(
             "reversed shear, extension and a mixed flow: largest angle to the start over the plan's bound",
-            "–",
+            "× its bound",
         )
         .within(worst(reversals), 1.0)
         .because("what a bound is, with four roundings of a direction to double"),

@@ -95,7 +95,7 @@ fn extreme_motion(motion: &Motion, _: &Effort) -> Vec<Evidence> {
         Evidence::on("largest change of C_b in 1000 steps of 10⁻⁹ T to 10³ T", "–")
             .within(stepped_orbit, 8000.0 * f64::EPSILON)
             .because("a thousand evaluations"),
-        Evidence::on("largest angle to the closed form over 16 ε(1 + 2π max(r_e, 1/r_e)|rest|)", "–")
+        Evidence::on("largest angle to the closed form over 16 ε(1 + 2π max(r_e, 1/r_e)|rest|)", "× its bound")
             .within(most(|found| found.angle), 1.0)
             .because(
                 "the phase without whole turns is rounded to ε, and φ moves by max(r_e, 1/r_e) times that; some \

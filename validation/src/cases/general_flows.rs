@@ -193,7 +193,7 @@ fn general_flows(motion: &Motion, effort: &Effort) -> Vec<Evidence> {
     }
     let all = [
         Evidence::on("answers that are off by more than their bound", "answers").exact(wrong),
-        Evidence::on("largest error over its bound", "–").within(share, 1.0).because("what a bound is"),
+        Evidence::on("largest error over its bound", "× its bound").within(share, 1.0).because("what a bound is"),
         Evidence::on("refused, though 106 bits can answer", "answers").exact(needless),
     ];
     let by_decade = decades.into_iter().enumerate().filter(|(_, found)| found.answered + found.refused > 0);

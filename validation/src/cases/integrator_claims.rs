@@ -189,7 +189,7 @@ fn lose_length(integrators: &Integrators, _: &Effort) -> Evidence {
     };
     let all = integrators();
     let losing = all.iter().filter(|integrator| !integrator.keeps_length && integrator.theory != Theory::Exact);
-    Evidence::on("integrators that keep |p| to round-off, though theirs is not said to be", "integrators")
+    Evidence::on("integrators listed as losing |p| that keep it to round-off", "integrators")
         .exact(losing.filter(|integrator| keeps(integrator)).count() as f64)
 }
 
@@ -207,7 +207,8 @@ fn coarse(strain: &f64, _: &Effort) -> Evidence {
         };
         unlike += f64::from(!as_said);
     }
-    Evidence::on("of the two, not as said", "integrators").exact(unlike)
+    Evidence::on("of RK4 in p and projected RK4 in p, those that end otherwise than claimed", "integrators")
+        .exact(unlike)
 }
 
 fn index_bounds(integrators: &Integrators, _: &Effort) -> Evidence {
@@ -216,7 +217,7 @@ fn index_bounds(integrators: &Integrators, _: &Effort) -> Evidence {
         .filter_map(|integrator| order::study(integrator, &problem, &start, 8))
         .map(|study| study.richardson.map_or(f64::NAN, |richardson| richardson.true_error / richardson.index))
         .collect::<Vec<_>>();
-    Evidence::on("largest error over its index", "–")
+    Evidence::on("largest error over its index", "× its index")
         .within(worst(shares), 1.0)
         .because("the index is 1.25 times the error where the error falls with the order of theory")
 }

@@ -205,12 +205,12 @@ fn mean_angle(angle: &Angle, _: &Effort) -> Vec<Evidence> {
     }
     let because = "the quadrature asks for 10⁻¹⁴ on each panel of a quarter";
     vec![
-        Evidence::on("difference of ⟨φ⟩ over the quadrature's tolerance, r_e from 1 to 1000", "–")
+        Evidence::on("difference of ⟨φ⟩ over the quadrature's tolerance, r_e from 1 to 1000", "× its tolerance")
             .within(worst, 1.0)
             .because(because),
         Evidence::on(
             "difference of π/2 − ⟨φ⟩ and its first term, over that tolerance and the next term, r_e from 10⁵ to 10⁷",
-            "–",
+            "× tolerance + next term",
         )
         .within(thread, 1.0)
         .because(because),

@@ -228,6 +228,15 @@ fn subscript(c: char) -> Option<char> {
 
 /// The text for a Markdown cell: on one line, without markup except for code.
 pub(crate) fn markdown(text: &str) -> String {
+    escaped(text, str::to_owned)
+}
+
+/// The same with a minus where a hyphen is a sign, and raised powers of ten, except in code.
+pub(crate) fn typeset_markdown(text: &str) -> String {
+    escaped(text, powers)
+}
+
+fn escaped(text: &str, numbers: fn(&str) -> String) -> String {
     let mut escaped = String::new();
     // Markdown ends code at as many backticks as it begins with.
     let paired = !text.contains("``") && text.matches('`').count().is_multiple_of(2);
@@ -235,7 +244,7 @@ pub(crate) fn markdown(text: &str) -> String {
         match piece {
             Piece::Code(code) => escaped += &format!("`{}`", code.replace('\n', " ").replace('|', "\\|")),
             Piece::Text(text) | Piece::Equation(text) | Piece::Figure(text) => {
-                unicode(text).chars().for_each(|c| match c {
+                unicode(&numbers(text)).chars().for_each(|c| match c {
                     '\n' => escaped.push(' '),
                     '<' => escaped.push_str("&lt;"),
                     '&' => escaped.push_str("&amp;"),

@@ -319,13 +319,13 @@ impl ReportTable {
 
     /// The caption and the cells as Markdown.
     pub fn markdown(&self) -> String {
-        format!("{}\n\n{}", self.caption, self.cells_as_markdown())
+        format!("{}\n\n{}", self.caption, self.cells_as_markdown(markup::markdown))
     }
 
-    /// The cells as Markdown.
-    pub(crate) fn cells_as_markdown(&self) -> String {
+    /// The cells as Markdown, each written by `cell`.
+    pub(crate) fn cells_as_markdown(&self, cell: fn(&str) -> String) -> String {
         let line = |cells: &[String]| {
-            let cells: Vec<_> = cells.iter().map(|cell| markup::markdown(cell)).collect();
+            let cells: Vec<_> = cells.iter().map(|text| cell(text)).collect();
             format!("| {} |\n", cells.join(" | "))
         };
         let rows: String = self.rows.iter().map(|row| line(row)).collect();

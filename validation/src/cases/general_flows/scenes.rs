@@ -78,7 +78,7 @@ pub fn listed_scenes(run: &Run, _: &Effort) -> Vec<Evidence> {
     let a_period = |listed| lab::changed(scene(listed), |scene| scene.time = Time::periods(1.0));
     let no_period = LISTED.last().is_some_and(|listed| run(&a_period(listed)).is_none());
     vec![
-        Evidence::on("largest error of |p_i| at the end over the bound that the plan states", "–")
+        Evidence::on("largest error of |p_i| at the end over the bound that the plan states", "× its bound")
             .within(share, 1.0)
             .because("what a bound is: the start's rounding and the map's"),
         Evidence::on("scenes refused, or with an end that is no number", "scenes").exact(refused + unknown),

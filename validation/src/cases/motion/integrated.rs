@@ -20,9 +20,12 @@ pub(super) fn integrated_motion(motion: &Motion, _: &Effort) -> [Evidence; 6] {
         });
         let because = "each step is off by atol + rtol |p| = 2·10⁻¹³, and grows r_e² = 135-fold at most, from \
                        along the flow to the flip";
-        Evidence::on(format!("angle to the integrator's direction up to strain 30, over its own error, {name}"), "–")
-            .within(worst(off), 1.0)
-            .because(because)
+        Evidence::on(
+            format!("angle to the integrator's direction up to strain 30, over its own error, {name}"),
+            "× the integrator's error",
+        )
+        .within(worst(off), 1.0)
+        .because(because)
     })
 }
 

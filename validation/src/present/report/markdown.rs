@@ -4,7 +4,8 @@ use super::first::sizes;
 use super::formats::{bounds, seconds, verdict};
 use super::{CaseRow, Report, ReportEquation, ReportStudy};
 use crate::files::text::readable;
-use crate::present::markup::markdown;
+use crate::judge::accept::Verdict;
+use crate::present::markup::typeset_markdown as markdown;
 use crate::present::table::{ReportTable, of_words};
 
 pub(super) fn write(report: &Report) -> String {
@@ -50,14 +51,17 @@ fn row(case: &CaseRow) -> String {
     let (error, tolerance) = case.worst().map_or(("–".into(), "–".into()), bounds);
     let (unit, because) = case.worst().map_or(("–", "no evidence"), |line| (&line.unit, &line.because));
     format!(
-        "| {symbol} {word} | `{}` | {} | {} | {} | {error} | {tolerance} | {unit} | {} | {} of {} | {} |\n",
+        "| {symbol} {word} | `{}` | {} | {} | {} | {error} | {tolerance} | {unit} | {} | {} | {} |\n",
         case.name,
         case.judges.name(),
         markdown(&case.claim),
         markdown(&case.source),
         markdown(because),
-        case.caught,
-        case.controls.len(),
+        match case.controls.len() {
+            0 if case.verdict == Verdict::NoData => "–".into(),
+            0 => "none".into(),
+            all => format!("{} of {all}", case.caught),
+        },
         seconds(case.seconds)
     )
 }
@@ -84,7 +88,12 @@ fn study(study: &ReportStudy) -> String {
 }
 
 fn section(level: &str, table: &ReportTable) -> String {
-    format!("{level} {}\n\n{}\n\n{}\n", markdown(&table.title), markdown(&table.caption), table.cells_as_markdown())
+    format!(
+        "{level} {}\n\n{}\n\n{}\n",
+        markdown(&table.title),
+        markdown(&table.caption),
+        table.cells_as_markdown(markdown)
+    )
 }
 
 /// The equations as a table.

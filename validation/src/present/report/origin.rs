@@ -69,7 +69,7 @@ fn seeds(plans: &[ScenePlan]) -> String {
     }
     let of_scenes = scenes.iter().map(|(seed, names)| format!("; {seed} of the scenes {}", names.join(", ")));
     let of_scenes: String = of_scenes.collect();
-    format!("fixed in the source of each case{of_scenes}. No result depends on the number of threads.")
+    format!("fixed in the source of each case{of_scenes}. No result depends on the number of threads")
 }
 
 /// Size limit in bytes of the system's description of processors: some kB for each.

@@ -67,6 +67,8 @@ impl Line {
         let unit = self.spaced_unit();
         match self.judged_by {
             Rule::PValue { .. } | Rule::Above { .. } => format!("{error} ({tolerance}){unit}"),
+            // A count or a difference of bits: "0 of 0" would say nothing.
+            _ if self.tolerance == 0.0 => format!("{error}{unit} (must be 0)"),
             _ => format!("{error} of {tolerance}{unit}"),
         }
     }

@@ -237,7 +237,7 @@ pub fn markdown(report: &Report) -> String {
     let mut text = String::from("# Grades\n");
     for (k, table) in tables(report).iter().enumerate() {
         let [title, caption] = [&table.title, &table.caption].map(|text| markup::markdown(text));
-        text += &format!("\n## {title}\n\n{caption}\n\n{}", table.cells_as_markdown());
+        text += &format!("\n## {title}\n\n{caption}\n\n{}", table.cells_as_markdown(markup::markdown));
         if k == 0 {
             text += "\n";
             text += &lines(report).iter().map(|line| format!("- {}\n", markup::markdown(line))).collect::<String>();
