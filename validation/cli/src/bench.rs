@@ -5,6 +5,7 @@ use super::{Failure, Writing, checkpoint, on_threads, progress, refuse, result_f
 use serde_json::json;
 use shearbed_validation::judge::case::Effort;
 use shearbed_validation::present::plot;
+use shearbed_validation::present::report::figure_csv;
 use shearbed_validation::present::study::Request;
 use shearbed_validation::studies;
 use std::path::PathBuf;
@@ -45,11 +46,17 @@ pub(super) fn bench(args: &Args) -> Result<(), Failure> {
         let found = || study.found(&Request { effort: &effort, wanted: &wanted, finished: &|| () });
         let run = || on_threads(None, found)?.map_err(Failure::Failed);
         let Some((found, _)) = measured(finished.as_ref(), study.name, run)? else { continue };
+        // A study without records of its own has the curves of its figures.
+        let bare = found.files.is_empty();
         files.extend(found.files);
         for exhibit in found.exhibits {
             if let Some(figure) = exhibit.figure {
                 let svg = plot::svg(&figure.figure).map_err(Failure::Failed)?;
                 files.push((format!("{}.svg", figure.name), svg));
+                if bare {
+                    let curves = figure_csv(&figure.figure).map_err(Failure::Failed)?;
+                    files.push((format!("{}.csv", figure.name), curves));
+                }
             }
             tables.extend(exhibit.table.map(|table| table.for_terminal()));
         }

@@ -31,8 +31,8 @@ pub const STUDY: Study = Study {
         "steady-mean-angle",
         "in-plane-rods",
     ],
-    command: "cargo run --release -- validate --full",
-    parts: &[],
+    command: "cargo run --release -- bench --case figures",
+    parts: &["figures"],
     shared: true,
     run,
 };

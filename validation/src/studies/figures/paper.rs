@@ -68,7 +68,7 @@ fn fig4_differences(runs: &Runs) -> Result<ReportFigure, String> {
     let first = runs.get("fig4-n20")?;
     let curve = |n: u32| Ok(runs.get(&format!("fig4-n{n}"))?.less(first, "x1", format!("n = {n} less n = 20")));
     Ok(ReportFigure::new(
-        ["fig4-differences", "Fig. 4: what a larger concentration changes in X̄₁"],
+        ["fig4-differences", "Fig. 4: change of X̄₁ with concentration"],
         "Where n is larger, the maxima are lower and the minima higher. Replicas with the same random numbers are \
          compared, so that the band is narrower than those of the curves.",
         ["time t/T (periods)", "difference of X̄₁ (rod lengths)"],

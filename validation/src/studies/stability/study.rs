@@ -23,8 +23,8 @@ pub const STUDY: Study = Study {
         "frozen-limit",
         "extreme-motion",
     ],
-    command: "cargo run --release -- validate --full",
-    parts: &[],
+    command: "cargo run --release -- bench --case stability",
+    parts: &["stability"],
     shared: false,
     run,
 };
