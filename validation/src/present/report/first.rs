@@ -30,7 +30,14 @@ pub(super) fn sizes(report: &Report) -> Vec<String> {
     let summary = &report.summary;
     let red = summary.fail + summary.underpowered;
     let verdict = match red {
-        0 => format!("Verdict: nothing is red; {} of {} cases pass.", summary.pass, report.cases.len()),
+        0 => {
+            let none = match summary.nodata {
+                0 => String::new(),
+                1 => "; 1 needs measured points".into(),
+                nodata => format!("; {nodata} need measured points"),
+            };
+            format!("Verdict: {} of {} cases pass, none fails{none}.", summary.pass, report.cases.len())
+        }
         _ => format!(
             "Verdict: {red} of {} cases are red: {} fail, {} under-powered.",
             report.cases.len(),
@@ -56,7 +63,7 @@ pub(super) fn sizes(report: &Report) -> Vec<String> {
         of.dedup();
         let of = if of.is_empty() { String::new() } else { format!(": {}", of.join("; ")) };
         match judged {
-            0 => "Experiments: none at hand; that these are the right equations is not shown.".into(),
+            0 => "Experiments: none at hand; whether the model describes real suspensions is not shown.".into(),
             _ => format!("Experiments: {judged} of {} comparisons have points{of}.", part.cases),
         }
     });
@@ -90,13 +97,16 @@ fn count(part: &Part) -> String {
     }
 }
 
-/// The pictures of the first screen, if they exist: the paper's Fig. 4, error against run time, and one map of
-/// stability.
+/// The pictures of the first screen, if they exist: what a larger concentration changes in the paper's Fig. 4,
+/// error against run time, and one map of stability.
 pub(super) fn thumbnails(report: &Report) -> Result<Vec<Json>, String> {
     // Three pictures are side by side and must be legible: they are drawn narrow, with large letters, and the one of
     // most methods wider.
-    let wanted =
-        [("fig4", Some((270, 400))), ("work-precision-re11.6", Some((430, 440))), ("stability-steps", Some((270, 0)))];
+    let wanted = [
+        ("fig4-differences", Some((270, 400))),
+        ("work-precision-re11.6", Some((430, 440))),
+        ("stability-steps", Some((270, 0))),
+    ];
     let found = |(name, size)| {
         let figure = report.sections.figures().find(|figure| figure.name == name)?;
         Some((figure, Figure { size, ..figure.figure.clone() }))
