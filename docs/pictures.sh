@@ -8,8 +8,8 @@ mkdir -p "$1"
 out=$(cd "$1" && pwd)
 shift
 if ! command -v shearbed >/dev/null; then
-  cargo build --release --locked --quiet --manifest-path "$ROOT/validation/cli/Cargo.toml"
-  PATH="$ROOT/target/release:$PATH"
+  cargo build --locked --quiet --manifest-path "$ROOT/validation/cli/Cargo.toml"
+  PATH="$ROOT/target/debug:$PATH"
 fi
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
