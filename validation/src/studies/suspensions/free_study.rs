@@ -79,8 +79,8 @@ fn table(benches: &[Bench]) -> ReportTable {
         ["suspension-starts", "Free suspensions: the time for an error of X̄₁, by the sampling of the rods"],
         "Isotropic rods without collisions at t/T = 0.95, against the closed form; root mean square over trials. The \
          exponent is of the number of rods in the error, over 10³ rods and more. No time step is taken: the whole \
-         error is that of the sample (`free-suspension-rates`). Strata of unequal rods resolve the flips, and reach the \
-         exponent of theory, from 10⁵ rods on only.",
+         error is that of the sample (`free-suspension-rates`). Strata of unequal rods resolve the flips, and reach \
+         the exponent of theory, from 10⁵ rods on only.",
         rows,
         columns,
     )
