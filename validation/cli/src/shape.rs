@@ -14,11 +14,11 @@ pub(super) struct Args {
     #[arg(long, value_name = "R", value_parser = ratio, allow_negative_numbers = true)]
     #[arg(required_unless_present_any = ["period_s", "strain"], conflicts_with_all = ["period_s", "strain"])]
     physical: Option<f64>,
-    /// The strain GT in which a rod turns once, through 360°, in place of T and G
+    /// The strain of one turn, in place of T and G
     #[arg(long, value_name = "GT", value_parser = positive, allow_negative_numbers = true)]
     #[arg(conflicts_with = "period_s")]
     strain: Option<f64>,
-    /// One standard uncertainty of that strain
+    /// Its standard uncertainty
     #[arg(long, value_name = "U", value_parser = positive, allow_negative_numbers = true, requires = "strain")]
     strain_u: Option<f64>,
     /// The time in which a rod turns once, through 360°: r_e of T = 2π(r_e + 1/r_e)/G

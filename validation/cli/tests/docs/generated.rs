@@ -28,8 +28,8 @@ fn pages_and_the_schema_of_scenes_are_fresh() {
     fresh("validation/schemas/scene.json", &format!("{schema}\n"));
 }
 
-/// Those that take seconds (five by Python, where it is here); with DOCS_SLOW also the four of minutes. `closures-error`
-/// is compared where its numbers are, by the script of the table `closures`.
+/// Those that take seconds (five by Python, where it is here); with DOCS_SLOW also the four of minutes.
+/// `closures-error` is compared where its numbers are, by the script of the table `closures`.
 #[test]
 fn pictures_are_those_of_their_script() {
     let dir = tempfile::tempdir().unwrap();
