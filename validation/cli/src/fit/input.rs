@@ -191,7 +191,7 @@ fn scene_and_file<'a>(scene: &'a OsStr, given: &'a OsStr) -> (&'a OsStr, &'a Pat
 /// The message in the words of the command line.
 fn in_flags(error: FileError) -> FileError {
     let mut message = error.message.replace(", or u = ", ", or --u=");
-    if message.starts_with("no column of measured values") {
+    if ["no column of measured values", "no column of times"].iter().any(|start| message.starts_with(start)) {
         message += "; --columns=t_s,x1,x1_u or the like names columns that have other names, in their order";
     }
     FileError { message, ..error }

@@ -296,7 +296,7 @@ pub struct Row<'a> {
 impl Row<'_> {
     /// True if the cell is empty, or has a word for no value.
     pub fn is_missing(&self, place: usize) -> bool {
-        ["", "nan", "na", "n/a"].iter().any(|word| self.cells[place].eq_ignore_ascii_case(word))
+        ["", "nan", "na", "n/a", "n.a.", "-", "–"].iter().any(|word| self.cells[place].eq_ignore_ascii_case(word))
     }
 
     /// True if the cell is empty.

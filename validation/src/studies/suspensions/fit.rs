@@ -142,6 +142,7 @@ mod tests {
     use rand::SeedableRng;
     use rand_distr::{Distribution, StandardNormal};
     use rand_pcg::Pcg64Dxsm;
+    use statrs::distribution::ChiSquared;
 
     const H: [f64; 4] = [0.08, 0.04, 0.02, 0.01];
 
@@ -178,6 +179,19 @@ mod tests {
         assert!((spread / said - 1.0).abs() < 0.25, "{spread} {said}");
         let p: f64 = lines.iter().map(|line| line.p.unwrap()).sum::<f64>() / 300.0;
         assert!((p - 0.5).abs() < 0.07, "{p}");
+    }
+
+    /// Of so few replicas p < 0.05 is nearly as rare as it says; by χ², without their number, it would not be.
+    #[test]
+    fn few_replicas_refute_no_right_line() {
+        let few = |seed: u64, count: usize| samples(1.0, 0.05, seed).into_iter().map(|all| all[..count].to_vec());
+        let line = |seed: u64| Means::of(&few(seed, FEWEST).collect::<Vec<_>>()).line(&H).unwrap();
+        let lines: Vec<_> = (0..600).map(line).collect();
+        let share = |p: &dyn Fn(&Line) -> f64| lines.iter().filter(|line| p(line) < 0.05).count() as f64 / 600.0;
+        let by_chi_square = |line: &Line| ChiSquared::new(2.0).unwrap().sf(line.chi_square);
+        let (found, control) = (share(&|line| line.p.unwrap()), share(&by_chi_square));
+        assert!(found < 0.08 && control > 0.08, "{found} {control}");
+        assert_eq!(Means::of(&few(1, FEWEST - 1).collect::<Vec<_>>()).line(&H), None);
     }
 
     #[test]
