@@ -181,16 +181,17 @@ mod tests {
         assert!((p - 0.5).abs() < 0.07, "{p}");
     }
 
-    /// Of so few replicas p < 0.05 is nearly as rare as it says; by χ², without their number, it would not be.
+    /// Of so few replicas p < 0.001, which refutes a line, is as rare as it says: 3 in 3000 are due, and more than
+    /// 9 come once in a thousand times. By χ², without their number, it is not.
     #[test]
     fn few_replicas_refute_no_right_line() {
-        let few = |seed: u64, count: usize| samples(1.0, 0.05, seed).into_iter().map(|all| all[..count].to_vec());
+        let few = |seed: u64, count: usize| samples(1.0, 0.05, seed).into_iter().map(move |all| all[..count].to_vec());
         let line = |seed: u64| Means::of(&few(seed, FEWEST).collect::<Vec<_>>()).line(&H).unwrap();
-        let lines: Vec<_> = (0..600).map(line).collect();
-        let share = |p: &dyn Fn(&Line) -> f64| lines.iter().filter(|line| p(line) < 0.05).count() as f64 / 600.0;
+        let lines: Vec<_> = (0..3000).map(line).collect();
+        let refuted = |p: &dyn Fn(&Line) -> f64| lines.iter().filter(|line| p(line) < 1e-3).count();
         let by_chi_square = |line: &Line| ChiSquared::new(2.0).unwrap().sf(line.chi_square);
-        let (found, control) = (share(&|line| line.p.unwrap()), share(&by_chi_square));
-        assert!(found < 0.08 && control > 0.08, "{found} {control}");
+        let (found, control) = (refuted(&|line| line.p.unwrap()), refuted(&by_chi_square));
+        assert!(found <= 9 && control > 9, "{found} {control}");
         assert_eq!(Means::of(&few(1, FEWEST - 1).collect::<Vec<_>>()).line(&H), None);
     }
 
