@@ -228,5 +228,9 @@ pub(super) fn summary(plan: &Plan, results: &Results, all: &[OfChannel]) -> Stri
     let of_run = of_run(plan, results);
     let has_c_i = of_run.iter().any(|(name, value)| *name == C_I && value.is_some());
     let known: Vec<_> = of_run.into_iter().filter_map(known).filter(|_| has_c_i).collect();
-    if known.is_empty() { text } else { text + &known.join(", ") + "\n" }
+    if known.is_empty() {
+        text
+    } else {
+        text + &known.join(", ") + " (c_i over the second half; it falls until the state is steady)\n"
+    }
 }

@@ -20,6 +20,7 @@ pub(super) struct Args {
     strain: Option<f64>,
     /// Its standard uncertainty
     #[arg(long, value_name = "U", value_parser = positive, allow_negative_numbers = true, requires = "strain")]
+    #[arg(conflicts_with_all = ["physical", "period_s"])]
     strain_u: Option<f64>,
     /// The time in which a rod turns once, through 360°: r_e of T = 2π(r_e + 1/r_e)/G
     #[arg(long, value_name = "T", value_parser = positive, allow_negative_numbers = true)]
@@ -27,9 +28,11 @@ pub(super) struct Args {
     period_s: Option<f64>,
     /// One standard uncertainty of that time
     #[arg(long, value_name = "U", value_parser = positive, allow_negative_numbers = true, requires = "period_s")]
+    #[arg(conflicts_with_all = ["physical", "strain"])]
     period_u: Option<f64>,
     /// The shear rate G at which it turns
     #[arg(long, value_name = "G", value_parser = positive, allow_negative_numbers = true, requires = "period_s")]
+    #[arg(conflicts_with_all = ["physical", "strain"])]
     shear_rate_per_s: Option<f64>,
     /// One standard uncertainty of G
     #[arg(long, value_name = "U", value_parser = positive, allow_negative_numbers = true)]

@@ -60,11 +60,13 @@ fn of_keys(args: &PlanArgs, named: &Named, plan: &Plan, each_s: f64) -> Result<(
     } else if ranges > MOST_PARAMETERS {
         return refused(format!("given {ranges} times; a fit takes up to {MOST_PARAMETERS} parameters"));
     }
+    if ranges > 0 {
+        fit::check_ranges(named, fitted)?;
+    }
     let axes: Vec<_> = over.iter().map(|over| over.axis.clone()).collect();
     let points = sweep::points(named, &axes)?;
     let plans = points.iter().map(|point| &point.plan);
     let cost = if ranges > 0 {
-        fit::check_ranges(named, fitted)?;
         duration::of_fit(plan, each_s, (ranges, args.ensemble.replicas.unwrap_or(MOST_REPLICAS)), plans)
     } else {
         duration::of_sweep(plan, each_s, plans)

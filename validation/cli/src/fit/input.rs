@@ -82,10 +82,7 @@ pub(super) fn input(args: &Args) -> Result<Input, Failure> {
             let (label, sets) = (range.label(), counted(last as u64, "set"));
             format!("--over {label}: there is no set {none}; with {sets} of --data the first is 1 and the last {last}")
         })?;
-        refuse(NOT_FITTED.iter().find(|table| is_in(&range.key, table)), |table| {
-            let allowed = "keys of flow, particles and interaction are allowed";
-            format!("--over {}: points do not determine keys of {table}; {allowed}", range.key)
-        })?;
+        check_key(range)?;
     }
     let (mut sets, mut data, mut names, mut files) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
     let (mut stem, mut warnings) = (String::new(), Vec::new());
@@ -151,8 +148,16 @@ pub(super) fn input(args: &Args) -> Result<Input, Failure> {
     Ok(input)
 }
 
+fn check_key(range: &Range) -> Result<(), Failure> {
+    refuse(NOT_FITTED.iter().find(|table| is_in(&range.key, table)), |table| {
+        let allowed = "keys of flow, particles and interaction are allowed";
+        format!("--over {}: points do not determine keys of {table}; {allowed}", range.key)
+    })
+}
+
 /// Refuses keys of a scene that a fit of its mean projections would refuse together.
 pub(crate) fn check_ranges(named: &Named, ranges: Vec<Range>) -> Result<(), Failure> {
+    ranges.iter().try_for_each(check_key)?;
     let set = Set {
         seed: named.scene.ensemble.seed,
         source: named.source.clone(),

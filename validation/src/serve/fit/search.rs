@@ -109,7 +109,8 @@ impl Watch<'_> {
 struct Search<'a> {
     problem: &'a FitProblem<'a>,
     basis: Basis,
-    /// Bases of lower degrees, whose fewer terms follow less of the replicas' noise.
+    /// Bases of lower degrees, whose fewer terms follow less of the replicas' noise; of three parameters alone. With
+    /// two, α and m, they shortened intervals by a seventh: those of 68 % held the truth in 48 ± 5 % of 90 fits.
     lower: Vec<(Basis, DMatrix<f64>)>,
     whole: Sides,
     /// The current box, and the coefficients of its replicas.
@@ -151,7 +152,7 @@ pub(super) fn search_from(problem: &FitProblem<'_>, sides: Sides, watch: &Watch<
     let basis = Basis::new(ranges.len());
     let mut search = Search {
         problem,
-        lower: basis.lower(),
+        lower: if ranges.len() > 2 { basis.lower() } else { Vec::new() },
         basis,
         sides,
         whole,
