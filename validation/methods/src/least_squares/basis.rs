@@ -9,9 +9,6 @@ pub const MOST_PARAMETERS: usize = 3;
 /// are fewer coefficients than nodes, so that the polynomials smooth the noise of the runs instead of following it.
 const DESIGNS: [(usize, usize); MOST_PARAMETERS] = [(7, 4), (7, 6), (8, 6)];
 
-/// The lowest degree of polynomials that a fit uses.
-const LEAST_DEGREE: usize = 4;
-
 /// From so many parameters on, nodes are those whose numbers along the axes are all even or all odd: 128 of 512, which
 /// are enough for degree 6 (S. De Marchi, M. Vianello & Y. Xu, BIT 49 (2009) 55).
 const THINNED: usize = 3;
@@ -38,23 +35,8 @@ impl Basis {
     /// The basis for `parameters` parameters, 1 to [`MOST_PARAMETERS`].
     pub fn new(parameters: usize) -> Self {
         let (along, degree) = DESIGNS[parameters.clamp(1, MOST_PARAMETERS) - 1];
-        Self::of(nodes(parameters, along, parameters >= THINNED), degree)
-    }
-
-    /// The bases of lower degrees, down to 4, at the same nodes, each with the matrix that maps coefficients of this
-    /// basis to its own: those of the least squares through the nodes.
-    pub fn lower(&self) -> Vec<(Self, DMatrix<f64>)> {
-        let degree = self.degrees.iter().map(|degrees| degrees.iter().sum()).max().unwrap_or(0);
-        let of = |degree: usize| {
-            let lower = Self::of(self.nodes.clone(), degree);
-            let map = &lower.project * design(&self.degrees, &self.nodes);
-            (lower, map)
-        };
-        (LEAST_DEGREE..degree).map(of).collect()
-    }
-
-    fn of(nodes: Vec<Vec<f64>>, degree: usize) -> Self {
-        let degrees: Vec<Degrees> = (grid(nodes[0].len(), degree + 1).into_iter())
+        let nodes = nodes(parameters, along, parameters >= THINNED);
+        let degrees: Vec<Degrees> = (grid(parameters, degree + 1).into_iter())
             .filter(|degrees| degrees.iter().sum::<usize>() <= degree)
             .map(|degrees| std::array::from_fn(|k| degrees.get(k).copied().unwrap_or(0)))
             .collect();
@@ -199,26 +181,6 @@ mod tests {
         assert!((quartic[4] - 1.0).abs() < 1e-14, "{quartic}");
         let cubic = missed(|node| cubic(node).0);
         assert!(cubic.amax() < 1e-14, "{cubic}");
-    }
-
-    /// Coefficients of a lower degree by the map are those of its own least squares; the highest is none of them.
-    #[test]
-    fn lower_degrees_are_the_least_squares_through_the_same_nodes() {
-        assert!(Basis::new(1).lower().is_empty());
-        for parameters in [2, 3] {
-            let basis = Basis::new(parameters);
-            let wave = |node: &Vec<f64>| node.iter().enumerate().map(|(k, x)| (2.0 + k as f64) * x).sum::<f64>().sin();
-            let values = DVector::from_iterator(basis.nodes.len(), basis.nodes.iter().map(wave));
-            let lower = basis.lower();
-            assert_eq!(lower.len(), 2);
-            for (own, map) in &lower {
-                let (mapped, direct) = (map * &basis.project * &values, &own.project * &values);
-                assert!(own.degrees.len() < basis.degrees.len() && (&mapped - &direct).amax() < 1e-12);
-                // The control: the first coefficients alone, without the map, are others.
-                let first = (&basis.project * &values).rows(0, direct.len()).into_owned();
-                assert!((&first - &direct).amax() > 1e-3);
-            }
-        }
     }
 
     /// The largest sum of |weights| by which a place depends on the nodes, over a grid that has the corners.

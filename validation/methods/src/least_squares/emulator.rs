@@ -96,11 +96,6 @@ pub struct Emulator {
 /// The coefficients of one replica: at a point's time, before and after; then its values at the inner nodes.
 pub type Coefficients = [DMatrix<f64>; 4];
 
-/// The coefficients of a basis of lower degree, by the map of [`Basis::lower`].
-pub fn lowered([at, before, after, inner]: &Coefficients, map: &DMatrix<f64>) -> Coefficients {
-    [map * at, map * before, map * after, inner.clone()]
-}
-
 /// Runs `replicas` at every node of a box, in parallel, and returns their coefficients in order; `value` converts a
 /// node's coordinates to parameters. Parts with the same dependencies at several nodes run once per replica.
 // Not generic, so that it is compiled in this crate, which is optimised, and not in the suite, which is not.
