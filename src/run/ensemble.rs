@@ -251,10 +251,8 @@ impl Tally {
     pub fn add(&mut self, replica: Replica) {
         self.counters.add(&replica.counters);
         self.add_sums(replica.rods, &replica.sums);
-        let (collisions, [mean, deviation]) = (replica.counters.collisions as f64, &mut self.collisions);
-        let change = collisions - *mean;
-        *mean += change / self.replicas as f64;
-        *deviation += change * (collisions - *mean);
+        let [mean, deviation] = &mut self.collisions;
+        add(mean, deviation, replica.counters.collisions as f64, self.replicas as f64);
         self.snapshots.extend(replica.snapshots);
     }
 
@@ -266,12 +264,10 @@ impl Tally {
         let replicas = self.replicas as f64;
         for (k, sum) in sums.iter().enumerate() {
             let value = sum.value / n;
-            let change = value - self.mean[k];
-            self.mean[k] += change / replicas;
+            add(&mut self.mean[k], &mut self.deviation[k], value, replicas);
             if let Some(of_group) = self.groups.get_mut(group + k) {
                 *of_group += value;
             }
-            self.deviation[k] += change * (value - self.mean[k]);
             if let Some(spread) = &sum.spread {
                 self.over_rods[k] = spread.standard_error();
             }
@@ -303,8 +299,7 @@ impl Tally {
     }
 
     fn se(&self, k: usize) -> f64 {
-        let replicas = self.replicas as f64;
-        if self.replicas > 1 { (self.deviation[k] / (replicas - 1.0) / replicas).sqrt() } else { self.over_rods[k] }
+        if self.replicas > 1 { se_of(self.deviation[k], self.replicas) } else { self.over_rods[k] }
     }
 
     /// The column at index `place` of the `width` sums of each output.
@@ -331,7 +326,6 @@ impl Tally {
     /// The results of the replicas added.
     pub fn results(self, plan: &Plan) -> Results {
         let width = width(plan);
-        let replicas = self.replicas as f64;
         let [collisions, deviation] = self.collisions;
         let mut start = 0;
         let series = (plan.observables().into_iter())
@@ -351,8 +345,21 @@ impl Tally {
             series,
             snapshots: self.snapshots,
             counters: self.counters,
-            // 0/0 for a single replica.
-            collisions: [collisions, (deviation / (replicas - 1.0) / replicas).sqrt()],
+            collisions: [collisions, se_of(deviation, self.replicas)],
         }
     }
+}
+
+/// Adds the value of the last of `replicas` to a running mean and its squared deviations (Welford 1962).
+#[inline]
+fn add(mean: &mut f64, deviation: &mut f64, value: f64, replicas: f64) {
+    let change = value - *mean;
+    *mean += change / replicas;
+    *deviation += change * (value - *mean);
+}
+
+/// The standard error of a mean over `replicas` with these squared deviations; NaN, 0/0, for a single one.
+fn se_of(deviation: f64, replicas: u64) -> f64 {
+    let replicas = replicas as f64;
+    (deviation / (replicas - 1.0) / replicas).sqrt()
 }

@@ -69,3 +69,23 @@ fn each_group_of_replicas_is_left_out_once() {
     }
     assert_eq!(run(&Plan::new(&scene).unwrap().with_replicas(1)).unwrap().column("x1").unwrap().without.len(), 0);
 }
+
+/// The collisions of a replica have the mean and the error of those that its replicas counted, by definition.
+#[test]
+fn collisions_have_an_error_over_replicas() {
+    let scene = Scene { interaction: Some(crate::scene::Interaction::default()), ..Scene::default() };
+    let of = |replicas: u64| {
+        let plan = Plan::new(&scene).unwrap().with_replicas(replicas);
+        let counted: Vec<f64> = (replicas_of(&plan, 0..replicas, &|| ()).unwrap().iter())
+            .map(|replica| replica.counters.collisions as f64)
+            .collect();
+        (counted, run(&plan).unwrap().collisions)
+    };
+    let (counted, [mean, se]) = of(5);
+    let due = counted.iter().sum::<f64>() / 5.0;
+    let squares: f64 = counted.iter().map(|count| (count - due).powi(2)).sum();
+    assert!(due > 100.0 && squares > 0.0, "{counted:?}");
+    assert!((mean / due - 1.0).abs() < 1e-14 && (se / (squares / 4.0 / 5.0).sqrt() - 1.0).abs() < 1e-12, "{mean} {se}");
+    let (counted, [mean, se]) = of(1);
+    assert!(mean == counted[0] && se.is_nan());
+}
