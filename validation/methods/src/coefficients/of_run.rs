@@ -2,11 +2,14 @@
 
 use super::Means;
 use crate::derived::{Estimate, jackknife};
+use crate::tensors::closures::Closure;
+use crate::tensors::fourth::{Fourth, PAIRS};
+use crate::tensors::models::{Equation, Model};
 use nalgebra::Matrix3;
 use shearbed::model::jeffery::{shape_factor, strain_per_period};
 use shearbed::run::ensemble::{Column, Results};
 
-/// The components of ⟨pp⟩, and those of ⟨pp p₁p₂⟩ in the same order.
+/// The components of ⟨pp⟩, and those of ⟨pp p₁p₂⟩, both in the order of [`PAIRS`].
 const COLUMNS: [(&str, &str); 6] =
     [("a11", "a1112"), ("a22", "a1222"), ("a33", "a1233"), ("a12", "a1122"), ("a13", "a1123"), ("a23", "a1223")];
 
@@ -28,10 +31,14 @@ pub fn of_run(results: &Results, aspect_ratio: f64, shear_rate_per_s: f64, repli
     if periods < 1.0 || strain[from..].windows(2).any(|pair| pair[1] - pair[0] > FARTHEST) {
         return None;
     }
-    let of_rods = [shape_factor(aspect_ratio), shear_rate_per_s.signum()];
+    // Without collisions, and per unit of strain.
+    let mut gradient_per_s = Matrix3::zeros();
+    gradient_per_s[(1, 0)] = shear_rate_per_s.signum();
+    let (closure, model) = (Closure::Linear, Model::FolgarTucker { c_i: 0.0 });
+    let free = Equation { gradient_per_s, shape_factor: shape_factor(aspect_ratio), closure, model };
     let of = |mean: &dyn Fn(&'_ Column) -> &'_ [f64]| {
         let columns = columns.iter().map(|pair| pair.map(|column| &mean(column)[from..])).collect::<Vec<_>>();
-        over(&strain[from..], &columns, of_rods).coefficient()
+        over(&strain[from..], &columns, &free).coefficient()
     };
     let value = of(&|column| &column.mean);
     let groups = columns[0][0].without.len();
@@ -39,19 +46,20 @@ pub fn of_run(results: &Results, aspect_ratio: f64, shear_rate_per_s: f64, repli
     Some(Estimate { value, se: jackknife(value, &without, replicas) }).filter(|found| found.value.is_finite())
 }
 
-/// da/dγ of free rods with a = ⟨pp⟩ and ⟨pp p₁p₂⟩, in u_2 = ±x_1.
-fn free(a: &Matrix3<f64>, sheared: &Matrix3<f64>, shape_factor: f64, sign: f64) -> Matrix3<f64> {
-    let half = 0.5 * sign;
-    let d = Matrix3::new(0.0, half, 0.0, half, 0.0, 0.0, 0.0, 0.0, 0.0);
-    let w = Matrix3::new(0.0, -half, 0.0, half, 0.0, 0.0, 0.0, 0.0, 0.0);
-    w * a - a * w + (d * a + a * d - sheared * (2.0 * sign)) * shape_factor
-}
-
-/// ⟨pp⟩ and J over all these outputs, from the components [`COLUMNS`] at each, the shape factor, and the sign of G.
-fn over(strain: &[f64], columns: &[[&[f64]; 2]], [shape_factor, sign]: [f64; 2]) -> Means {
-    let tensor = |k: usize, place: usize| {
-        let [xx, yy, zz, xy, xz, yz] = [0, 1, 2, 3, 4, 5].map(|component| columns[component][place][k]);
-        Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz)
+/// ⟨pp⟩ and J over all these outputs, from the components [`COLUMNS`] at each, beside rods that turn by `free`.
+fn over(strain: &[f64], columns: &[[&[f64]; 2]], free: &Equation) -> Means {
+    let second = |k: usize| {
+        let mut a = Matrix3::zeros();
+        for ((i, j), column) in PAIRS.iter().zip(columns) {
+            (a[(*i, *j)], a[(*j, *i)]) = (column[0][k], column[0][k]);
+        }
+        a
+    };
+    // Shear asks for no other component of ⟨pppp⟩.
+    let sheared = |k: usize| {
+        let mut fourth = Fourth::default();
+        (0..6).for_each(|row| fourth.0[(row, 3)] = columns[row][1][k]);
+        fourth
     };
     let last = strain.len() - 1;
     let all = strain[last] - strain[0];
@@ -59,9 +67,8 @@ fn over(strain: &[f64], columns: &[[&[f64]; 2]], [shape_factor, sign]: [f64; 2])
         let areas = (0..last).map(|k| (of(k) + of(k + 1)) * (0.5 * (strain[k + 1] - strain[k])));
         areas.sum::<Matrix3<f64>>() / all
     };
-    let gain =
-        (tensor(last, 0) - tensor(0, 0)) / all - mean(&|k| free(&tensor(k, 0), &tensor(k, 1), shape_factor, sign));
-    Means { second: mean(&|k| tensor(k, 0)), gain, ..Means::default() }
+    let gain = (second(last) - second(0)) / all - mean(&|k| free.rate_with(&second(k), &sheared(k)));
+    Means { second: mean(&second), gain, ..Means::default() }
 }
 
 #[cfg(test)]
