@@ -19,19 +19,23 @@ pub(super) const DERIVED: &str = "derived.csv";
 /// The largest number of extremes of each channel in a table: the first.
 const MOST: usize = 1000;
 
-/// The derived values of each channel, except those of densities.
-pub(super) fn of<'a>(plan: &Plan, results: &'a Results) -> Vec<OfChannel<'a>> {
+/// What is derived from a run: of each channel, except those of densities, and of the whole.
+pub(super) struct All<'a> {
+    channels: Vec<(&'a Column, Derived)>,
+    /// By name; the names depend on the scene's keys of output and collisions alone.
+    whole: Vec<(&'static str, Option<Estimate>)>,
+}
+
+pub(super) fn of<'a>(plan: &Plan, results: &'a Results) -> All<'a> {
     let replicas = plan.scene().ensemble.replicas;
     let series = results.series.iter().filter(|series| !series.observable.is_density());
     let columns = series.flat_map(|series| &series.columns);
-    columns.map(|column| (column, Derived::new(&results.times, column, replicas))).collect()
+    let channels = columns.map(|column| (column, Derived::new(&results.times, column, replicas))).collect();
+    All { channels, whole: whole(plan, results) }
 }
 
-/// A channel and what is derived from its mean.
-type OfChannel<'a> = (&'a Column, Derived);
-
 /// The tables [`EXTREMES`] and [`DERIVED`].
-pub(super) fn files(plan: &Plan, results: &Results, all: &[OfChannel]) -> Result<[Output; 2], String> {
+pub(super) fn files(plan: &Plan, results: &Results, all: &All) -> Result<[Output; 2], String> {
     Ok([(EXTREMES.to_owned(), extremes(plan, results, all)?), (DERIVED.to_owned(), scalars(plan, results, all)?)])
 }
 
@@ -82,8 +86,7 @@ pub(super) fn per_rod_and_period(plan: &Plan, results: &Results) -> Option<Estim
     per_rod(plan, results, results.elapsed.last()?.seconds / period_s)
 }
 
-/// The values of a whole run, by name; the names depend on the scene's keys of output and collisions alone.
-fn of_run(plan: &Plan, results: &Results) -> Vec<(&'static str, Option<Estimate>)> {
+fn whole(plan: &Plan, results: &Results) -> Vec<(&'static str, Option<Estimate>)> {
     let scene = plan.scene();
     let mut all = Vec::new();
     if scene.interaction.is_some() {
@@ -113,22 +116,22 @@ fn time_cells(plan: &Plan, results: &Results, time: f64) -> Cells {
     tables::time_cells(results, time, plan.elapsed(time)).into_iter().map(Some).collect()
 }
 
-fn head(results: &Results, kinds: &[&str], all: &[OfChannel]) -> Vec<String> {
+fn head(results: &Results, kinds: &[&str], all: &All) -> Vec<String> {
     let time = tables::time_names(results).iter().map(|name| (*name).to_owned());
-    let of_channel = |(column, _): &OfChannel| {
+    let of_channel = |(column, _): &(&Column, Derived)| {
         let name = column.name.clone();
         kinds.iter().map(move |kind| format!("{name}_{kind}")).collect::<Vec<_>>()
     };
-    time.chain(all.iter().flat_map(of_channel)).collect()
+    time.chain(all.channels.iter().flat_map(of_channel)).collect()
 }
 
-fn extremes(plan: &Plan, results: &Results, all: &[OfChannel]) -> Result<String, String> {
+fn extremes(plan: &Plan, results: &Results, all: &All) -> Result<String, String> {
     let kinds = OF_EXTREMES.map(|kind| [kind.to_owned(), format!("{kind}_se")]).concat();
     let mut header = head(results, &kinds.iter().map(String::as_str).collect::<Vec<_>>(), all);
     let times = tables::time_names(results).len();
     header.insert(times, format!("{}_se", results.time_name));
     let mut rows: Vec<(f64, Cells)> = Vec::new();
-    for (k, (_, derived)) in all.iter().enumerate() {
+    for (k, (_, derived)) in all.channels.iter().enumerate() {
         for Extreme { is_maximum, time, value, amplitude } in derived.extremes.iter().take(MOST) {
             let mut row: Cells = time_cells(plan, results, time.value);
             row.push(time.se);
@@ -144,19 +147,19 @@ fn extremes(plan: &Plan, results: &Results, all: &[OfChannel]) -> Result<String,
     table(header, rows.into_iter().map(|(_, row)| row))
 }
 
-fn scalars(plan: &Plan, results: &Results, all: &[OfChannel]) -> Result<String, String> {
+fn scalars(plan: &Plan, results: &Results, all: &All) -> Result<String, String> {
     let kinds = ["damping_rate", "damping_rate_se", "steady", "steady_se", "steady_from"];
     let last = results.times.last().copied().unwrap_or(0.0);
     let mut row = time_cells(plan, results, last);
-    for (_, derived) in all {
+    for (_, derived) in &all.channels {
         row.extend(cells(derived.damping_rate));
         row.extend(cells(derived.steady.map(|steady| steady.value)));
         row.push(derived.steady.map(|steady| steady.from));
     }
     let mut header = head(results, &kinds, all);
-    for (name, value) in of_run(plan, results) {
-        header.extend([name.to_owned(), format!("{name}_se")]);
-        row.extend(cells(value));
+    for (name, value) in &all.whole {
+        header.extend([(*name).to_owned(), format!("{name}_se")]);
+        row.extend(cells(*value));
     }
     table(header, [row])
 }
@@ -188,8 +191,7 @@ pub(super) fn per(time_name: &str) -> &'static str {
 
 /// A line for the terminal on each channel whose oscillation decays or that is steady, on each reason why others have
 /// no rate, and on C_I where it is known.
-pub(super) fn summary(plan: &Plan, results: &Results, all: &[OfChannel]) -> String {
-    let time_name = results.time_name;
+pub(super) fn summary(plan: &Plan, time_name: &str, all: &All) -> String {
     let replicas = plan.scene().ensemble.replicas;
     let number =
         |estimate: Estimate, decimals: usize| tables::with_error(estimate.value, estimate.se.unwrap_or(0.0), decimals);
@@ -197,7 +199,7 @@ pub(super) fn summary(plan: &Plan, results: &Results, all: &[OfChannel]) -> Stri
     let least = if plan.runs(Stage::Contacts) { 1e-3 } else { 1e-2 };
     let mut text = String::new();
     let mut without: BTreeMap<String, Vec<&str>> = BTreeMap::new();
-    for (column, derived) in all.iter().filter(|(column, _)| tables::is_bounded(&column.name)) {
+    for (column, derived) in all.channels.iter().filter(|(column, _)| tables::is_bounded(&column.name)) {
         let varies = column.se.iter().any(|se| *se > 0.0);
         if let Some(why) = derived.no_rate(replicas).filter(|_| varies) {
             without.entry(why).or_default().push(&column.name);
@@ -220,17 +222,14 @@ pub(super) fn summary(plan: &Plan, results: &Results, all: &[OfChannel]) -> Stri
         }
     }
     text = without.into_iter().fold(text, |text, (why, names)| text + &format!("{}: {why}\n", names.join(", ")));
-    let known = |(name, value): (&str, Option<Estimate>)| {
-        let Estimate { value, se } = value?;
+    if !all.whole.iter().any(|(name, value)| *name == C_I && value.is_some()) {
+        return text;
+    }
+    let known = |(name, value): &(&str, Option<Estimate>)| {
+        let Estimate { value, se } = (*value)?;
         let small = || format!("{value:.2e}{}", se.map_or(String::new(), |se| format!(" ± {se:.1e}")));
         Some(format!("{name} = {}", if value.abs() < 0.01 { small() } else { number(Estimate { value, se }, 2) }))
     };
-    let of_run = of_run(plan, results);
-    let has_c_i = of_run.iter().any(|(name, value)| *name == C_I && value.is_some());
-    let known: Vec<_> = of_run.into_iter().filter_map(known).filter(|_| has_c_i).collect();
-    if known.is_empty() {
-        text
-    } else {
-        text + &known.join(", ") + " (c_i over the second half; it falls until the state is steady)\n"
-    }
+    let known: Vec<_> = all.whole.iter().filter_map(known).collect();
+    text + &format!("{} (c_i is of the second half, steady or not)\n", known.join(", "))
 }
