@@ -157,7 +157,7 @@ pub(super) fn of_fit<'a>(
     let took = |runs: u64| about(each_s * runs as f64);
     let (usual, most) = (usual_runs(parameters, most), nodes(parameters) * most);
     format!(
-        "fit: usually some {usual} runs, {} of one core; at most {MOST_ROUNDS} ranges of {most} runs each, {}\n",
+        "fit: usually some {usual} runs, {} of one core; at most {MOST_ROUNDS} boxes of {most} runs each, {}\n",
         took(usual),
         took(MOST_ROUNDS * most)
     )

@@ -146,23 +146,22 @@ pub(super) fn fit(args: &Args) -> Result<(), Failure> {
     let usual = usual_runs(args.over.len(), args.replicas);
     let bar = progress_of_some(usual, "runs", args.writing.quiet);
     log_progress(&bar, "runs", args.log_every, args.writing.quiet);
-    let [planned, ended] = [AtomicU64::new(0), AtomicU64::new(0)];
+    let planned = AtomicU64::new(0);
     let watch = Watch {
         stage: &|name| bar.set_message(name.to_owned()),
         planned: &|runs| bar.set_length(usual.max(runs + planned.fetch_add(runs, Ordering::Relaxed))),
-        done: &|| {
-            ended.fetch_add(1, Ordering::Relaxed);
-            bar.inc(1);
-        },
+        done: &|| bar.inc(1),
     };
     let done = on_threads(args.threads.given, || work(args, &input, &watch))?;
+    // Before it is finished, which moves it to its end.
+    let all = bar.position();
     bar.finish_and_clear();
     runs.as_ref().map_or(Ok(()), |runs| runs.write())?;
-    write(args, &input, &folder, &asked, &done?, ended.into_inner())
+    write(args, &input, &folder, &asked, &done?, all)
 }
 
 /// Refuses a fit that may take days: as many replicas as are asked for at each value, at the ends of the ranges. The
-/// default is a limit that few fits reach: with it the first replicas of the usual ranges count.
+/// default is a limit that few fits reach: with it the runs of usual fits count.
 fn check_duration(args: &Args, input: &Input) -> Result<(), Failure> {
     let nodes = nodes(args.over.len());
     let usual = usual_runs(args.over.len(), args.replicas);

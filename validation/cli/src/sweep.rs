@@ -12,8 +12,8 @@ use shearbed_validation::files::output::Output;
 use shearbed_validation::files::text::{self, Shown};
 use shearbed_validation::files::{FileError, cluster};
 use shearbed_validation::present::plot::names;
+use shearbed_validation::present::table::is_narrow;
 use shearbed_validation::serve::sweep::{self, Axis, Folder, GridError, Point, Points};
-use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 
 #[derive(clap::Args)]
@@ -211,8 +211,7 @@ fn table(rows: &[Vec<String>], swept: usize) -> String {
     if rows.len() > MOST.0 + 1 {
         return String::new();
     }
-    // A pipe or a file has room for all; what starts ranks gives them a terminal of its own.
-    let most = if cluster::size() == 1 && std::io::stdout().is_terminal() { swept + MOST.1 } else { usize::MAX };
+    let most = if is_narrow() { swept + MOST.1 } else { usize::MAX };
     let columns = rows[0].len().min(most);
     let short = |column: usize, text: &String| match text.parse::<f64>() {
         Ok(number) if column >= swept && is_bounded(&rows[0][column]) && (number == 0.0 || number.abs() >= 1e-3) => {

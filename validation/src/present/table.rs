@@ -297,9 +297,7 @@ impl ReportTable {
 
     /// The same; on a terminal in lines of at most 80 letters, where columns without room are named instead.
     pub fn for_terminal(&self) -> String {
-        // What starts ranks gives them a terminal of its own.
-        let is_narrow = cluster::size() == 1 && std::io::stdout().is_terminal();
-        let room = if is_narrow { WIDTH } else { usize::MAX };
+        let room = if is_narrow() { WIDTH } else { usize::MAX };
         wrapped(&self.text_within(room))
     }
 
@@ -331,6 +329,11 @@ impl ReportTable {
         let rows: String = self.rows.iter().map(|row| line(row)).collect();
         format!("{}|{}\n{rows}", line(&self.columns), " --- |".repeat(self.columns.len()))
     }
+}
+
+/// True on a terminal: a pipe or a file has room for all columns. What starts ranks gives them a terminal of its own.
+pub fn is_narrow() -> bool {
+    cluster::size() == 1 && std::io::stdout().is_terminal()
 }
 
 /// The largest number of characters of a line on a terminal.

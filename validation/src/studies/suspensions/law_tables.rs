@@ -28,17 +28,15 @@ fn order_in_words(law: &Law) -> String {
                 line.slope, line.slope_se, line.intercept, line.intercept_se
             )
         }
-        None if are_few(&law.steps) => TOO_FEW.into(),
-        None => " No straight line in 1/steps fits X̄₁.".into(),
+        None => too_few(&law.steps).unwrap_or(" No straight line in 1/steps fits X̄₁.".into()),
     };
     format!("Over the levels that resolve a flip (GΔt ≤ 1, from {from} steps on) {order}.{line}")
 }
 
-/// What too few replicas leave unknown.
-const TOO_FEW: &str = " Fewer than 8 replicas of a level: no straight line is read.";
-
-fn are_few(levels: &[JobMean]) -> bool {
-    levels.iter().any(|level| level.replicas < FEWEST as u64)
+/// What too few replicas leave unknown, as a sentence; `None` if all levels have enough.
+fn too_few(levels: &[JobMean]) -> Option<String> {
+    let are_few = levels.iter().any(|level| level.replicas < FEWEST as u64);
+    are_few.then(|| format!(" Fewer than {FEWEST} replicas of a level: no straight line is read."))
 }
 
 fn steps(law: &Law, strain: f64) -> ReportTable {
@@ -136,15 +134,14 @@ fn rods(law: &Law) -> ReportTable {
     } else {
         "These points cannot distinguish N^(−1/2) from N^(−1/3).".into()
     };
-    let lines = if are_few(&law.rods) {
-        TOO_FEW.to_owned()
-    } else {
+    let fitted = || {
         format!(
             " Fitted: {}; {}. p is the probability that a right line fits no better by chance. {power}",
             line(0, "N^(−1/3)"),
             line(1, "N^(−1)")
         )
     };
+    let lines = too_few(&law.rods).unwrap_or_else(fitted);
     ReportTable::new(
         ["rods", "X̄₁ at t/T = 1 against the rods"],
         format!(
