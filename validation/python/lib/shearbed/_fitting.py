@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 import html
 import json
 import os
@@ -18,7 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ._results import typeset
 from ._running import bar_of, columns as columns_of, complained, keywords, options, program
-from ._scene import Scene, scene_of
+from ._scene import Scene, scene_of, write_columns
 
 Array = NDArray[np.float64]
 SceneLike = Scene | Mapping[str, Any] | str | os.PathLike[str]
@@ -233,23 +232,5 @@ def _file(points: Points, place: Path) -> str:
         points = {name: points[name] for name in names}
     if isinstance(points, (str, os.PathLike)):
         return os.path.abspath(points)
-    columns = {str(name): np.asarray(values) for name, values in points.items()}
-    # One number stands for every row.
-    most = max((values.shape for values in columns.values()), key=len, default=())
-    columns = {name: np.full(most, values) if values.shape == () else values for name, values in columns.items()}
-    lengths = {name: values.shape for name, values in columns.items()}
-    if len(set(lengths.values())) != 1 or any(len(shape) != 1 for shape in lengths.values()):
-        raise ValueError(f"data: columns of one length are allowed; there are {lengths}")
-    with open(place, "w", encoding="utf-8", newline="") as text:
-        writer = csv.writer(text, lineterminator="\n")
-        writer.writerow(columns)
-        writer.writerows([[_cell(value) for value in row] for row in zip(*columns.values())])
+    write_columns(points, place, "data")
     return place.name
-
-
-def _cell(value: Any) -> str:
-    """A number, nothing for NaN and None, or the text of a column that is no data."""
-    try:
-        return "" if value is None or value != value else repr(float(value))
-    except (TypeError, ValueError):
-        return str(value)

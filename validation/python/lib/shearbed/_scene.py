@@ -124,8 +124,9 @@ class Scene:
             self._text = toml
         else:
             gathered = _gathered(keywords if tables is None else tables)
-            if "rods" in gathered.get("particles", {}):
-                gathered["particles"]["rods"] = self._rods_file(gathered["particles"]["rods"])
+            particles = gathered.get("particles")
+            if isinstance(particles, dict) and "rods" in particles:
+                particles["rods"] = self._rods_file(particles["rods"])
             self._text = _toml(gathered)
         self._describe()
 
@@ -134,23 +135,16 @@ class Scene:
         columns, or of an array with a direction in each row."""
         if isinstance(rods, Mapping) and "file" in rods:
             return rods
-        array = None if isinstance(rods, Mapping) or hasattr(rods, "columns") else np.asarray(rods)
-        if array is not None and array.dtype.names is None:
-            if array.ndim != 2 or array.shape[1] != 3:
+        if not isinstance(rods, Mapping) and not hasattr(rods, "columns"):
+            array = np.asarray(rods)
+            names = array.dtype.names
+            if names is None and (array.ndim != 2 or array.shape[1] != 3):
                 raise ValueError(f"rods: an array of {array.shape}: one of (rods, 3), a direction in each row, is allowed")
-            rods = dict(zip(("p1", "p2", "p3"), array.T))
-        names = list(array.dtype.names) if array is not None and array.dtype.names else list(rods)
-        columns = [np.asarray(rods[name]).tolist() for name in names]
-        if len({len(column) for column in columns}) != 1:
-            raise ValueError(f"rods: columns of one length are allowed; there are {[len(column) for column in columns]}")
+            rods = dict(zip(("p1", "p2", "p3"), array.T)) if names is None else {name: array[name] for name in names}
         made = tempfile.TemporaryDirectory(prefix="shearbed-")
         self._made.append(made)
         file = Path(made.name) / "rods.csv"
-        with open(file, "w", encoding="utf-8", newline="") as text:
-            writer = csv.writer(text, lineterminator="\n")
-            writer.writerow(names)
-            # NaN stands for what a rod does not have, as the place of a free one.
-            writer.writerows([["" if value != value else value for value in row] for row in zip(*columns)])
+        write_columns(rods, file, "rods")
         return {"file": str(file)}
 
     def _written(self, folder: Path, name: str = "scene.toml") -> Path:
@@ -218,6 +212,29 @@ if Scene.__doc__ is not None:  # not under python -OO
 _own = [given for given in inspect.signature(Scene).parameters.values() if given.kind is not inspect.Parameter.VAR_KEYWORD]
 _keys = [inspect.Parameter(key, inspect.Parameter.KEYWORD_ONLY, default=None) for key in ("title", *_TABLE_OF)]
 Scene.__signature__ = inspect.Signature(_own + _keys)  # type: ignore[attr-defined]
+
+
+def write_columns(columns: Any, place: Path, what: str) -> None:
+    """Writes a CSV file of a dictionary's or a DataFrame's columns of one length, in which one number stands for every row;
+    ``what`` they are is said where that cannot be."""
+    columns = {str(name): np.asarray(values) for name, values in columns.items()}
+    most = max((values.shape for values in columns.values()), key=len, default=())
+    columns = {name: np.full(most, values) if values.shape == () else values for name, values in columns.items()}
+    lengths = {name: values.shape for name, values in columns.items()}
+    if len(set(lengths.values())) != 1 or any(len(shape) != 1 for shape in lengths.values()):
+        raise ValueError(f"{what}: columns of one length are allowed; there are {lengths}")
+    with open(place, "w", encoding="utf-8", newline="") as text:
+        writer = csv.writer(text, lineterminator="\n")
+        writer.writerow(columns)
+        writer.writerows([[_cell(value) for value in row] for row in zip(*columns.values())])
+
+
+def _cell(value: Any) -> str:
+    """A number, nothing for NaN and None, or the text of a column that is no data."""
+    try:
+        return "" if value is None or value != value else repr(float(value))
+    except (TypeError, ValueError):
+        return str(value)
 
 
 def _unknown(name: str) -> str:
