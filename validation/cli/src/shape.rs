@@ -97,7 +97,11 @@ fn of_turn(shown: String, [strain, u]: [f64; 2], given: &str, allowed: &str) -> 
              more slowly; {allowed} is allowed. T is that of a whole turn: means and pictures of a rod repeat with T/2"
         )));
     };
-    let mut text = format!("GT = {shown} = 2π(r_e + 1/r_e)\n\n");
+    let mut text = if strain < OF_SPHERE {
+        format!("GT = {shown}, below 4π = {OF_SPHERE:.4} of a sphere by at most two uncertainties\n\n")
+    } else {
+        format!("GT = {shown} = 2π(r_e + 1/r_e)\n\n")
+    };
     let ends = (u > 0.0).then(|| [strain - u, strain + u].map(aspect_ratio_of_period));
     for (whose, of) in [("rod", (|r| r) as fn(f64) -> f64), ("disc of the same period", |r| 1.0 / r)] {
         let (value, ends) = (of(r), ends.map(|ends| ends.map(|end| end.map(of))));
