@@ -15,9 +15,10 @@ use std::fs::File;
 use std::io::{BufRead, BufReader};
 use std::path::Path;
 
-/// Parses a number as printed by C, C++, Fortran, Julia, Octave or Python: NaN and infinities too.
+/// Parses a number as printed by C, C++, Fortran, Julia, Octave or Python: NaN and infinities too; and as typeset, with
+/// a minus sign for the hyphen.
 pub fn number(text: &str) -> Option<f64> {
-    text.parse().ok().or_else(|| text.replace(['D', 'd'], "e").parse().ok())
+    text.parse().ok().or_else(|| text.replace(['D', 'd'], "e").replace('−', "-").parse().ok())
 }
 
 /// The same, with a decimal point or a decimal comma.
@@ -30,6 +31,9 @@ pub fn not_allowed(column: &str, cell: &str, expected: &str) -> String {
     const MOST: usize = 40;
     format!("column {column}: `{}` is not allowed: expected {expected}", start(&line(cell), MOST))
 }
+
+/// The cells of tables that hold no value, in letters of either case.
+const NO_VALUE: [&str; 12] = ["", "nan", "na", "n/a", "#n/a", "n.a.", "none", "null", "-", "--", "–", "—"];
 
 /// What [`Row::number`] expects.
 pub const FINITE: &str = "a finite number with a decimal point";
@@ -296,7 +300,7 @@ pub struct Row<'a> {
 impl Row<'_> {
     /// True if the cell is empty, or has a word for no value.
     pub fn is_missing(&self, place: usize) -> bool {
-        ["", "nan", "na", "n/a", "n.a.", "-", "–"].iter().any(|word| self.cells[place].eq_ignore_ascii_case(word))
+        NO_VALUE.iter().any(|word| self.cells[place].eq_ignore_ascii_case(word))
     }
 
     /// True if the cell is empty.
@@ -346,4 +350,14 @@ fn blanks_separate_where_nothing_else_does() {
     }
     assert_eq!(read("t, x1\n1, 2\n"), ("t|x1".into(), "1|2".into()));
     assert_eq!(read("a name,x1\na b,2\n"), ("a name|x1".into(), "a b|2".into()));
+}
+
+#[test]
+fn words_for_no_value_are_missing_and_typeset_numbers_are_numbers() {
+    let mut table = Table::new(Path::new("a.csv"), "a,b,c,d,e\n--,#N/A,None,−1.5e−3,- 2\n".as_bytes()).unwrap();
+    let row = table.next_row().unwrap().unwrap();
+    let missing: Vec<usize> = (0..5).filter(|place| row.is_missing(*place)).collect();
+    assert_eq!(missing, [0, 1, 2]);
+    assert_eq!(row.finite(3).unwrap(), -1.5e-3);
+    assert!(row.finite(4).unwrap_err().to_string().contains("column e: `- 2` is not allowed"));
 }
