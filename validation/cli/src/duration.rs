@@ -119,11 +119,22 @@ fn work(plan: &Plan) -> f64 {
     plan.scene().particles.count as f64 * plan.steps().max(plan.outputs() as u64) as f64
 }
 
-/// The cost of a sweep's points, as text, if a replica of `plan` takes `each_s`.
-pub(super) fn of_sweep<'a>(plan: &Plan, each_s: f64, points: impl ExactSizeIterator<Item = &'a Plan>) -> String {
-    let count = points.len();
-    let all: f64 = points.map(|point| work(point) * point.scene().ensemble.replicas as f64).sum();
-    format!("sweep: {}, {} of one core\n", counted(count as u64, "point"), about(each_s * all / work(plan)))
+/// The most points of which a replica is timed.
+const PILOTS: usize = 8;
+
+/// Seconds on one core for a unit of [`work`] at these points: of their first replicas, as rods that collide more take
+/// longer, at points spread evenly among them.
+fn of_work(points: &[&Plan], may_run: bool) -> f64 {
+    let timed = points.iter().step_by(points.len().div_ceil(PILOTS));
+    let [seconds, all] = timed.fold([0.0, 0.0], |[s, all], point| [s + of_replica(point, may_run), all + work(point)]);
+    seconds / all
+}
+
+/// The cost of a sweep's points, as text; `may_run` as of [`of_replica`].
+pub(super) fn of_sweep(points: &[&Plan], may_run: bool) -> String {
+    let all: f64 = points.iter().map(|point| work(point) * point.scene().ensemble.replicas as f64).sum();
+    let took = about(of_work(points, may_run) * all);
+    format!("sweep: {}, {took} of one core\n", counted(points.len() as u64, "point"))
 }
 
 /// The runs of usual fits of one to three parameters over those of their first box: of points of Fig. 4 some 3,000 to
@@ -144,16 +155,10 @@ pub(super) fn nodes(parameters: usize) -> u64 {
     if parameters == 0 { 1 } else { Basis::new(parameters).nodes.len() as u64 }
 }
 
-/// The cost of a fit of so many parameters, as text, if a replica of `plan` takes `each_s`: of usual points, and at
-/// most, with `most` replicas at each value; `corners` are the ends of the ranges.
-pub(super) fn of_fit<'a>(
-    plan: &Plan,
-    each_s: f64,
-    (parameters, most): (usize, u64),
-    corners: impl ExactSizeIterator<Item = &'a Plan>,
-) -> String {
-    let count = corners.len() as f64;
-    let each_s = each_s * corners.map(work).sum::<f64>() / (count * work(plan));
+/// The cost of a fit of so many parameters, as text: of usual points, and at most, with `most` replicas at each value;
+/// `corners` are the ends of the ranges, and `may_run` as of [`of_replica`].
+pub(super) fn of_fit((parameters, most): (usize, u64), corners: &[&Plan], may_run: bool) -> String {
+    let each_s = of_work(corners, may_run) * corners.iter().map(|plan| work(plan)).sum::<f64>() / corners.len() as f64;
     let took = |runs: u64| about(each_s * runs as f64);
     let (usual, most) = (usual_runs(parameters, most), nodes(parameters) * most);
     format!(

@@ -48,7 +48,7 @@ impl Over {
 }
 
 /// The cost of a sweep or a fit over these keys, as text.
-fn of_keys(args: &PlanArgs, named: &Named, plan: &Plan, each_s: f64) -> Result<(String, Vec<String>), Failure> {
+fn of_keys(args: &PlanArgs, named: &Named, plan: &Plan, may_run: bool) -> Result<(String, Vec<String>), Failure> {
     let over = &args.over;
     let refused = |why: String| Err(Failure::Input(format!("--over: {why}")));
     let fitted: Vec<Range> = over.iter().filter_map(|over| over.range.clone()).collect();
@@ -65,11 +65,11 @@ fn of_keys(args: &PlanArgs, named: &Named, plan: &Plan, each_s: f64) -> Result<(
     }
     let axes: Vec<_> = over.iter().map(|over| over.axis.clone()).collect();
     let points = sweep::points(named, &axes)?;
-    let plans = points.iter().map(|point| &point.plan);
+    let plans: Vec<_> = points.iter().map(|point| &point.plan).collect();
     let cost = if ranges > 0 {
-        duration::of_fit(plan, each_s, (ranges, args.ensemble.replicas.unwrap_or(MOST_REPLICAS)), plans)
+        duration::of_fit((ranges, args.ensemble.replicas.unwrap_or(MOST_REPLICAS)), &plans, may_run)
     } else {
-        duration::of_sweep(plan, each_s, plans)
+        duration::of_sweep(&plans, may_run)
     };
     // A point has the scene's warnings too, unless its own value takes them away.
     Ok((cost, sweep::warnings(&points, &axes)))
@@ -94,7 +94,7 @@ pub(super) fn plan(args: &PlanArgs) -> Result<(), Failure> {
     // A plan that `run` would refuse here is still shown: it may fit on another machine.
     let fits = memory::check(&plan, args.threads.given, &named.source);
     let each_s = duration::of_replica(&plan, fits.is_ok());
-    let (of_keys, warned) = of_keys(args, &named, &plan, each_s)?;
+    let (of_keys, warned) = of_keys(args, &named, &plan, fits.is_ok())?;
     let (plan, replicas) = if args.until.is_empty() {
         (plan, String::new())
     } else {
