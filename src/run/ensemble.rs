@@ -41,7 +41,7 @@ pub struct Column {
 const GROUPS: usize = 16;
 
 /// The largest number of sums, outputs times channels, for which those of groups are kept.
-const MOST_GROUPED: usize = 1 << 19;
+pub const MOST_GROUPED: usize = 1 << 19;
 
 /// The number of replicas in each group: replica k belongs to group k modulo 16.
 pub fn group_sizes(replicas: u64) -> impl Iterator<Item = u64> {

@@ -3,7 +3,7 @@
 use super::tables;
 use shearbed::motion::Propagator;
 use shearbed::plan::Stage;
-use shearbed::run::ensemble::Column;
+use shearbed::run::ensemble::{Column, MOST_GROUPED};
 use shearbed::{Observable, Plan, Results};
 use shearbed_validation::files::csv;
 use shearbed_validation::files::output::Output;
@@ -209,7 +209,7 @@ pub(super) fn summary(plan: &Plan, time_name: &str, all: &All) -> String {
         let law = if derived.is_exponential {
             "amplitude ∝ exp(−λt)"
         } else {
-            "amplitude falls at no one rate, on average by exp(−λt)"
+            "amplitude does not fall exponentially; on average exp(−λt)"
         };
         let rate = rate.map(|rate| format!("{law}, λ = {} {}", number(rate, 3), per(time_name)));
         let steady = derived.steady.filter(|_| varies).map(|steady| {
@@ -222,8 +222,16 @@ pub(super) fn summary(plan: &Plan, time_name: &str, all: &All) -> String {
         }
     }
     text = without.into_iter().fold(text, |text, (why, names)| text + &format!("{}: {why}\n", names.join(", ")));
-    if !all.whole.iter().any(|(name, value)| *name == C_I && value.is_some()) {
-        return text;
+    // Without a word, blank errors would look like those of a single replica.
+    if replicas > 1 && all.channels.iter().any(|(column, _)| column.without.is_empty()) {
+        text += &format!(
+            "what is derived has no standard errors: outputs times columns exceed {MOST_GROUPED}; fewer are needed\n"
+        );
+    }
+    match all.whole.iter().find(|(name, _)| *name == C_I) {
+        None => return text,
+        Some((_, None)) => return text + &format!("c_i is unknown: {}\n", lacks(C_I)),
+        Some(_) => (),
     }
     let known = |(name, value): &(&str, Option<Estimate>)| {
         let Estimate { value, se } = (*value)?;
@@ -231,5 +239,7 @@ pub(super) fn summary(plan: &Plan, time_name: &str, all: &All) -> String {
         Some(format!("{name} = {}", if value.abs() < 0.01 { small() } else { number(Estimate { value, se }, 2) }))
     };
     let known: Vec<_> = all.whole.iter().filter_map(known).collect();
-    text + &format!("{} (c_i is of the second half, steady or not)\n", known.join(", "))
+    let collides =
+        if plan.runs(Stage::Contacts) { "; rods collide again in each step: more steps, more collisions" } else { "" };
+    text + &format!("{} (c_i is of the second half, steady or not{collides})\n", known.join(", "))
 }
