@@ -158,13 +158,24 @@ pub fn estimate<'a, R, T: Into<Option<(f64, f64)>>>(
     with_errors(name, two_digits, of)
 }
 
-/// Like `estimate`, for differences, which are shown with their signs.
+/// Like `estimate`, for differences, which are shown with their signs, but for a zero.
 pub fn difference<'a, R, T: Into<Option<(f64, f64)>>>(
     name: impl Into<String>,
     of: impl Fn(&R) -> T + 'a,
 ) -> Column<'a, R> {
-    let sign = |number: f64| if number.is_sign_negative() { "−" } else { "+" };
-    with_errors(name, move |number, se| format!("{}{}", sign(number), two_digits(number.abs(), se)), of)
+    let signed = |number: f64, se| {
+        let text = two_digits(number.abs(), se);
+        let is_zero = text.split(' ').next().is_some_and(|digits| !digits.contains(|c| ('1'..='9').contains(&c)));
+        let sign = if is_zero {
+            ""
+        } else if number.is_sign_negative() {
+            "−"
+        } else {
+            "+"
+        };
+        format!("{sign}{text}")
+    };
+    with_errors(name, signed, of)
 }
 
 fn with_errors<'a, R, T: Into<Option<(f64, f64)>>>(

@@ -62,3 +62,10 @@ fn rows_are_written_by_the_names_of_their_fields() {
     assert_eq!(two_digits(-0.0, 0.0), "0");
     assert_eq!(two_digits(0.1 + 0.2, 0.0), "0.3");
 }
+
+#[test]
+fn a_difference_that_rounds_to_zero_has_no_sign() {
+    let all = [(-2e-4, 0.011), (2e-4, 0.011), (-0.02, 0.011), (0.02, 0.011)];
+    let table = ReportTable::new(["", ""], "", all, vec![difference("d", |pair: &(f64, f64)| *pair)]);
+    assert_eq!(table.rows.concat(), ["0.000 ± 0.011", "0.000 ± 0.011", "−0.020 ± 0.011", "+0.020 ± 0.011"]);
+}

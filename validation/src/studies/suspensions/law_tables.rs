@@ -4,6 +4,7 @@ use super::blocks::Block;
 use super::fit::FEWEST;
 use super::law::{Change, JobMean, Law, QUARTERS, Quarters};
 use super::*;
+use statrs::distribution::{ContinuousCDF, StudentsT};
 
 /// Tables against steps, rods and replicas; `strain` is that of a period.
 pub fn law(law: &Law, strain: f64) -> [ReportTable; 5] {
@@ -39,6 +40,14 @@ fn too_few(levels: &[JobMean]) -> Option<String> {
     are_few.then(|| format!(" Fewer than {FEWEST} replicas of a level: no straight line is read."))
 }
 
+/// The standard errors that the largest of nine differences exceeds by chance once in 20 times at most, with the fewest
+/// replicas of a level: by Student's t.
+fn by_chance(levels: &[JobMean]) -> f64 {
+    let fewest = levels.iter().map(|level| level.replicas).min().unwrap_or(2);
+    let law = StudentsT::new(0.0, 1.0, fewest.saturating_sub(1).max(1) as f64);
+    law.map_or(f64::NAN, |law| law.inverse_cdf(1.0 - 0.05 / 2.0 / 9.0))
+}
+
 fn steps(law: &Law, strain: f64) -> ReportTable {
     type Row<'a> = (&'a JobMean, Option<&'a Change>);
     let rows = (law.steps.iter().enumerate()).map(|(k, sample)| (sample, law.changes.get(k)));
@@ -53,7 +62,8 @@ fn steps(law: &Law, strain: f64) -> ReportTable {
         format!(
             "Differences are to the next finer step at the same seeds; not readable: below two standard errors. The \
              last two columns: the difference of the distribution functions of |p_1| and of C_b, of nine places where \
-             it is largest in its standard errors (below 2.8 of them it is chance, 19 times in 20). {}",
+             it is largest in its standard errors (below {:.1} of them it is chance, 19 times in 20). {}",
+            by_chance(&law.steps),
             order_in_words(law)
         ),
         rows,
