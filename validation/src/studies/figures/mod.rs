@@ -13,7 +13,8 @@ use run::Runs;
 pub const STUDY: Study = Study {
     name: "figures",
     title: "Figures 4 to 12 of the paper",
-    question: "Do the model's results look as the paper shows and describes them?",
+    question: "Are the model's results as the paper describes them? \
+               Its captions omit n (Fig. 7), length (8), σ (9) and r_e (11): ours.",
     cases: &[
         "okagawa-mason-1973",
         "anczurowski-1967",
