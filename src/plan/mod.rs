@@ -1,6 +1,6 @@
 //! The plan of a scene: which stages run, which are dropped, and why.
 //!
-//! [`Plan::new`] is the one judge of a scene. It may use `scene` and the wings before it. To add a check, add a
+//! [`Plan::new`] is the one judge of a scene. It may use `scene` and the parts before it. To add a check, add a
 //! function to `check`; to add a stage, a variant of [`Stage`] with the reason for which a scene needs it.
 
 mod check;

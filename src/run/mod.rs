@@ -2,7 +2,7 @@
 //!
 //! [`run_replica`] runs one; [`ensemble`] runs all over threads and adds them up in order, so that results do not
 //! depend on the threads; [`own`] takes an observable of the caller; [`resume`] goes on with a stopped replica;
-//! [`memory`] foretells bytes. It may use every other wing, and none uses it.
+//! [`memory`] foretells bytes. It may use every other part, and none uses it.
 
 pub mod ensemble;
 pub mod memory;

@@ -2,7 +2,7 @@
 //!
 //! One row of a `table!` makes a key: its field, unit, range, default and meaning. Reader, schema, `--keys`, the page
 //! of keys and Python's keywords follow from it. To add a key, add its row to the table it belongs to, and use the
-//! field. A [`document::Document`] keeps the line of every value, for errors. Scenes may use `observable` and the wings
+//! field. A [`document::Document`] keeps the line of every value, for errors. Scenes may use `observable` and the parts
 //! before it.
 
 use crate::model::volume::ControlVolume;

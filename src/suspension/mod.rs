@@ -1,7 +1,7 @@
 //! Interacting rods in the control volume, step by step (the paper's method of solution).
 //!
 //! A [`Suspension`] is one replica: places, directions since the last collision, and its random streams. It may use
-//! `plan` and the wings before it. A rod's state is added in `rods`, whose `state` is what a checkpoint keeps.
+//! `plan` and the parts before it. A rod's state is added in `rods`, whose `state` is what a checkpoint keeps.
 
 pub(crate) mod diffusion;
 mod liquid;

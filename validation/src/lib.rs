@@ -1,5 +1,5 @@
 //! The validation suite of shearbed: cases with tolerances and controls, the oracles that judge the core,
-//! the report, reference problems, grading and fits. Each wing may use those before it.
+//! the report, reference problems, grading and fits. Each part may use those before it.
 #![cfg_attr(not(test), deny(clippy::disallowed_methods))]
 
 pub mod files;

@@ -1,9 +1,9 @@
 //! The commands of the program `shearbed`.
 //!
-//! A command is a file: its arguments, with the texts of `--help`, and a function that calls the wings above, writes
+//! A command is a file: its arguments, with the texts of `--help`, and a function that calls the parts above, writes
 //! through `files::output` and prints. Shared arguments are in `choice`, `scene` and `threads`; errors are `Failure`s.
 //!
-//! It may use every wing. To add a command, write its file, declare it, and add its variant and its call below. Help,
+//! It may use every part. To add a command, write its file, declare it, and add its variant and its call below. Help,
 //! manual pages, completions and the page of commands follow (`UPDATE_DOCS=1 cargo test -p shearbed-cli --test docs`).
 
 mod bench;

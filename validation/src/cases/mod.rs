@@ -1,7 +1,7 @@
 //! The registry: every case, declared once. `cargo test`, the report and the page of equations are made from it.
 //!
 //! A case is a claim, its source, an implementation under test, mistakes as controls, and a check with the reason for
-//! each tolerance ([`judge::case`](crate::judge::case)). Cases may use all wings above. To add one, write an entry in a
+//! each tolerance ([`judge::case`](crate::judge::case)). Cases may use all parts above. To add one, write an entry in a
 //! file of this folder; a new file is declared here and its `cases()` listed. CONTRIBUTING.md has a whole one.
 
 mod averaged;

@@ -5,7 +5,7 @@
 //! - [`csv`]: the one reader of tables, and [`FileError`], with the place.
 //! - [`checkpoint`]: runs that go on after an interruption; [`cluster`]: the ranks of an MPI job.
 //!
-//! This wing may use the core's scenes and results, and no other wing. To add a file format, write a module that reads
+//! This part may use the core's scenes and results, and no other part. To add a file format, write a module that reads
 //! through `bounded` and writes through `output`, and add its name to the fuzzing (`examples/fuzz`).
 
 pub mod bounded;

@@ -4,7 +4,7 @@
 //! - [`accept`]: rules of acceptance with their two errors, and the sample sizes that follow.
 //! - [`statistics`]: means, standard errors, critical values. [`lab`]: the paper's problem as scenes and samples.
 //!
-//! It may use the oracles and all wings above. To add a rule, write it in `accept` with the probabilities of a false
+//! It may use the oracles and all parts above. To add a rule, write it in `accept` with the probabilities of a false
 //! alarm and of a miss, and simulate both in its test.
 
 pub mod accept;

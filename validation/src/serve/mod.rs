@@ -4,7 +4,7 @@
 //!   files or live.
 //! - [`fit`]: parameters from measured points. [`sweep`]: a scene over values of its keys.
 //!
-//! They may use `studies` and all wings above; commands only parse arguments and call them. To add a problem, write an
+//! They may use `studies` and all parts above; commands only parse arguments and call them. To add a problem, write an
 //! entry in a file of `problems`; to add a known mistake, an entry in `grade::mistakes`.
 
 pub mod fit;

@@ -3,7 +3,7 @@
 //! A study answers one question with tables and figures; it judges nothing, but names the cases that judge what it
 //! shows.
 //!
-//! They may use `present` and all wings above. To add a study, write a module with a `STUDY`, declare it here, and give
+//! They may use `present` and all parts above. To add a study, write a module with a `STUDY`, declare it here, and give
 //! it a place in [`ALL`]; `tests/program/example_study.rs` is a whole one. To add an integrator, add it to
 //! [`integrators`].
 

@@ -1,4 +1,4 @@
-//! The wings of the core and of the suite need each other one way, in the order of `lib.rs`.
+//! The parts of the core and of the suite need each other one way, in the order of `lib.rs`.
 
 use std::fs;
 use std::path::{Path, PathBuf};
