@@ -47,6 +47,9 @@ use std::time::Duration;
 /// The default of the largest number of replicas at each value of the parameters.
 pub(super) const MOST_REPLICAS: u64 = 1000;
 
+/// The least that may be given for it.
+pub(super) const FEWEST_REPLICAS: u64 = 20;
+
 #[derive(clap::Args)]
 #[command(override_usage = "shearbed fit <SCENE> --data <FILE.csv> [--over <KEY=FROM:TO>] [OPTIONS]")]
 #[command(after_help = "\
@@ -75,7 +78,7 @@ pub(super) struct Args {
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// The most replicas at each value, 20 or more, four times the points; fewer run where the model's error is small
-    #[arg(long, value_name = "N", default_value_t = MOST_REPLICAS, value_parser = whole(20, MAX_REPLICAS),
+    #[arg(long, value_name = "N", default_value_t = MOST_REPLICAS, value_parser = whole(FEWEST_REPLICAS, MAX_REPLICAS),
         allow_negative_numbers = true)]
     replicas: u64,
     /// The seed of all random numbers, in place of the scene's own

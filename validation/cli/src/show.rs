@@ -1,7 +1,7 @@
 //! `shearbed plan` and `shearbed scenes`.
 
 use super::facts::Facts;
-use super::fit::{self, MOST_REPLICAS};
+use super::fit::{self, FEWEST_REPLICAS, MOST_REPLICAS};
 use super::scene::{Chosen, Ensemble, Named};
 use super::until::{LEAST, Until};
 use super::{Failure, Threads, duration, memory, print, scene, sweep};
@@ -60,14 +60,17 @@ fn of_keys(args: &PlanArgs, named: &Named, plan: &Plan, may_run: bool) -> Result
     } else if ranges > MOST_PARAMETERS {
         return refused(format!("given {ranges} times; a fit takes up to {MOST_PARAMETERS} parameters"));
     }
-    if ranges > 0 {
+    let most = args.ensemble.replicas.unwrap_or(MOST_REPLICAS);
+    if ranges > 0 && most < FEWEST_REPLICAS {
+        return Err(Failure::Input(format!("--replicas {most}: a fit takes {FEWEST_REPLICAS} or more")));
+    } else if ranges > 0 {
         fit::check_ranges(named, fitted)?;
     }
     let axes: Vec<_> = over.iter().map(|over| over.axis.clone()).collect();
     let points = sweep::points(named, &axes)?;
     let plans: Vec<_> = points.iter().map(|point| &point.plan).collect();
     let cost = if ranges > 0 {
-        duration::of_fit((ranges, args.ensemble.replicas.unwrap_or(MOST_REPLICAS)), &plans, may_run)
+        duration::of_fit((ranges, most), &plans, may_run)
     } else {
         duration::of_sweep(&plans, may_run)
     };
