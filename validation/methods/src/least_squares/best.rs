@@ -1,6 +1,7 @@
 //! The best-fitting place in a box of parameters.
 
 use super::Datum;
+use super::bartlett;
 use super::emulator::Emulator;
 use super::likelihood::{CAUSES, Causes, ChiSquare, REPLICAS, Rods, causes, others, residuals};
 use super::minimise::minimise;
@@ -30,6 +31,8 @@ pub struct Best {
     pub goodness: Goodness,
     /// A, parameters × points: the sensitivity of each estimate to each point.
     pub influence: DMatrix<f64>,
+    /// Bartlett's factor of each parameter, by which the rise of χ² is too large where the model is not linear.
+    pub factors: Vec<f64>,
 }
 
 impl Best {
@@ -58,10 +61,12 @@ impl Best {
         }
     }
 
-    /// The smallest share, over `axes`, of a parameter's variance that the curvature of χ² shows.
+    /// The smallest share, over `axes`, of a parameter's variance that the curvature of χ² shows, over Bartlett's
+    /// factor.
     pub fn shown(&self, axes: &[usize]) -> f64 {
         let (hidden, all) = (&self.spread[CAUSES.len()], self.covariance());
-        axes.iter().map(|&axis| 1.0 - hidden[(axis, axis)] / all[(axis, axis)]).fold(1.0, f64::min)
+        let share = |axis: &usize| (1.0 - hidden[(*axis, *axis)] / all[(*axis, *axis)]) / self.factors[*axis];
+        axes.iter().map(share).fold(1.0, f64::min)
     }
 }
 
@@ -167,5 +172,9 @@ pub fn best(data: &[Datum], emulator: &Emulator, rods: &Rods) -> Option<Best> {
     spread.push(hidden.unwrap_or_else(|| linear * UNKNOWN));
     let excess = ((&projector * &scatter).trace() / (data.len() - parameters).max(1) as f64).min(1.0);
     let goodness = Goodness { chi_square, excess, freedom: data.len() - parameters };
-    Some(Best { place, chi_square, surface, causes, spread, goodness, influence })
+    let linear =
+        Best { factors: vec![1.0; parameters], place, chi_square, surface, causes, spread, goodness, influence };
+    // Of one parameter it is 1.03 at most (docs/src/theory/fits.md).
+    let factors = if parameters > 1 { bartlett::factors(&linear, emulator, bartlett::DRAWS)? } else { vec![1.0] };
+    Some(Best { factors, ..linear })
 }

@@ -3,7 +3,7 @@
 use super::Datum;
 use super::basis::Basis;
 use super::emulator::Emulator;
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
 /// The causes of differences between model and measurement, in the order of [`Causes`]; for tables.
 pub const CAUSES: [&str; 5] =
@@ -221,6 +221,21 @@ impl ChiSquare {
             reduced: self.square.clone(),
             ..self.clone()
         }
+    }
+
+    /// χ² of other points, by V's factors: the emulator's at `place` and `away` from them.
+    pub fn of_points(
+        &self,
+        emulator: &Emulator,
+        place: &[f64],
+        away: &DVector<f64>,
+        solver: &Cholesky<f64, Dyn>,
+    ) -> Self {
+        let terms = emulator.mean();
+        let error = terms.tr_mul(&(self.basis.terms(place) - &self.origin)) + away;
+        let weighted = solver.solve(&error);
+        let (constant, linear) = (error.dot(&weighted), terms * weighted + &self.noise * &self.origin);
+        Self { constant, linear, ..self.clone() }
     }
 
     /// The average contribution of the replicas' noise to χ² at `place` relative to `other`.

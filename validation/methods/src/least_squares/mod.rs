@@ -1,6 +1,7 @@
 //! The least squares of fits: polynomials fitted to the model at the nodes of a box of parameters, the covariance of
 //! points, estimates and profiles. The formulas are in `docs/src/theory/fits.md`.
 
+pub mod bartlett;
 pub mod basis;
 pub mod best;
 mod datum;

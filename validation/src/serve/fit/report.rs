@@ -216,9 +216,6 @@ fn warnings(
     let alike = pairs.filter(|[j, i]| correlation[(*i, *j)].abs() > ALIKE);
     let labels = |pair: [usize; 2]| pair.map(|axis| fit.ranges[axis].label());
     all.extend(alike.map(|[j, i]| Warning::Alike(labels([j, i]), correlation[(i, j)])));
-    if let Some(range) = fit.ranges.iter().find(|range| fit.ranges.len() > 1 && range.key == ALPHA) {
-        all.push(Warning::Other(format!("{}: {BESIDE_ANOTHER}", range.label())));
-    }
     all.extend(of_p(p_value));
     // The noise of the replicas enters the curves and their slopes.
     let replicas = fit.best.share(REPLICAS).max(fit.noise_share());
@@ -228,11 +225,6 @@ fn warnings(
     all.extend(large.map(|(warning, _)| warning));
     all
 }
-
-const ALPHA: &str = "interaction.alpha";
-
-/// What repeated fits of synthetic points found (`docs/src/theory/fits.md`).
-const BESIDE_ANOTHER: &str = "beside a second key its 68 % interval held the truth in 60 ± 3 % of trials";
 
 /// The deepest other minimum of a profile that is within its 95 % interval, with a ridge between it and the best place:
 /// of a tenth of the rise at the ends of the 68 % interval, so that an estimate that hangs on so little is not given

@@ -25,8 +25,10 @@ fn a_profile_changes_to_the_lower_minimum() {
         let inner = (0..=4000).map(|k| fit.best.surface.at(&[*place, f64::from(k) / 2000.0 - 1.0]));
         let least = inner.fold(f64::INFINITY, f64::min) - fit.best.chi_square;
         // A step of 5e-4 in b beside 0.01/(2b) = 0.007: χ² is less by 0.0013 at most in between.
-        assert!((rise - least).abs() < 0.002, "{place}: {rise}, {least}");
+        assert!((rise / profile.shown - least).abs() < 0.002, "{place}: {rise}, {least}");
     }
+    // A rise counts less than χ² says, as the model is bent.
+    assert!((profile.shown * fit.best.factors[0] - 1.0).abs() < 1e-9 && fit.best.factors[0] > 1.1, "{profile:?}");
     // a = 0.5 with b = −0.7 is 1/0.6 standard deviations from the best place.
     let ends = fit.interval(0, 0.95);
     assert!(ends.low < -0.5 && ends.high > 0.5, "{ends:?}");
