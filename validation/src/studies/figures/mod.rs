@@ -13,8 +13,8 @@ use run::Runs;
 pub const STUDY: Study = Study {
     name: "figures",
     title: "Figures 4 to 12 of the paper",
-    question: "Are the model's results as the paper describes them? \
-               Its captions omit n (Fig. 7), length (8), σ (9) and r_e (11): ours.",
+    question: "Are the model's results as the paper describes them, with n (Fig. 7), length (8), σ (9) and r_e (11), \
+               which its captions omit, chosen by us?",
     cases: &[
         "okagawa-mason-1973",
         "anczurowski-1967",
