@@ -2,6 +2,7 @@
 
 use super::best::Best;
 use super::emulator::Emulator;
+use super::likelihood::ChiSquare;
 use super::minimise::{descend, minimise};
 use super::profile::fixed;
 use nalgebra::DVector;
@@ -11,7 +12,7 @@ use rand_pcg::Pcg64Dxsm;
 use rayon::prelude::*;
 
 /// Sets of points that are drawn: the averages are known to some 4 % of a rise.
-pub(super) const DRAWS: u64 = 400;
+pub const DRAWS: u64 = 400;
 
 /// For each parameter, the rise of χ² to its true value, the others at their best, over that of a linear model, whose
 /// average is 1: the average over points that are drawn about the polynomials at the best place with the covariance V,
@@ -28,22 +29,23 @@ pub fn factors(best: &Best, emulator: &Emulator, draws: u64) -> Option<Vec<f64>>
     // Here the polynomials are the truth: nothing in their slopes is noise.
     let surface = best.surface.with_noise();
     let axes = best.place.len();
-    let excess = |draw: u64| {
+    let fixed: Vec<_> = (0..axes).map(|axis| fixed(best, &[(axis, best.place[axis])])).collect();
+    let terms = emulator.mean();
+    let from_origin = terms.tr_mul(&(emulator.basis.terms(&best.place) - surface.origin()));
+    let excess = |surface: &mut ChiSquare, draw: u64| {
         let mut rng = Pcg64Dxsm::seed_from_u64(draw);
         let away = solver.l() * DVector::from_fn(slopes.nrows(), |_, _| rng.sample::<f64, _>(StandardNormal));
-        let surface = surface.of_points(emulator, &best.place, &away, &solver);
-        let (place, least) = minimise(&surface, &vec![None; axes], &[&best.place]);
+        surface.take(&(&from_origin + &away), terms, &solver);
+        let (place, least) = minimise(surface, &vec![None; axes], &[&best.place]);
         let moved = &influence * &away;
         let of_axis = |axis: usize| {
-            let fixed = fixed(&best.place, &[(axis, best.place[axis])]);
-            let starts = [&best.place, &place].into_iter();
-            let least_there =
-                starts.map(|start| descend(&surface, &fixed, start.clone()).1).fold(f64::INFINITY, f64::min);
+            let there = |start: &Vec<f64>| descend(surface, &fixed[axis], start.clone()).1;
+            let least_there = there(&best.place).min(there(&place));
             least_there - least - moved[axis] * moved[axis] / linear[(axis, axis)]
         };
         DVector::from_fn(axes, |axis, _| of_axis(axis))
     };
-    let all: Vec<DVector<f64>> = (0..draws).into_par_iter().map(excess).collect();
+    let all: Vec<DVector<f64>> = (0..draws).into_par_iter().map_init(|| surface.clone(), excess).collect();
     let mean = all.iter().sum::<DVector<f64>>() / draws as f64;
     Some(mean.iter().map(|excess| (1.0 + excess).max(1.0)).collect())
 }

@@ -1,7 +1,6 @@
 //! The best-fitting place in a box of parameters.
 
 use super::Datum;
-use super::bartlett;
 use super::emulator::Emulator;
 use super::likelihood::{CAUSES, Causes, ChiSquare, REPLICAS, Rods, causes, others, residuals};
 use super::minimise::minimise;
@@ -31,7 +30,8 @@ pub struct Best {
     pub goodness: Goodness,
     /// A, parameters × points: the sensitivity of each estimate to each point.
     pub influence: DMatrix<f64>,
-    /// Bartlett's factor of each parameter, by which the rise of χ² is too large where the model is not linear.
+    /// Bartlett's factor of each parameter, by which the rise of χ² is too large where the model is not linear: 1
+    /// until [`super::bartlett::factors`] says more.
     pub factors: Vec<f64>,
 }
 
@@ -172,9 +172,5 @@ pub fn best(data: &[Datum], emulator: &Emulator, rods: &Rods) -> Option<Best> {
     spread.push(hidden.unwrap_or_else(|| linear * UNKNOWN));
     let excess = ((&projector * &scatter).trace() / (data.len() - parameters).max(1) as f64).min(1.0);
     let goodness = Goodness { chi_square, excess, freedom: data.len() - parameters };
-    let linear =
-        Best { factors: vec![1.0; parameters], place, chi_square, surface, causes, spread, goodness, influence };
-    // Of one parameter it is 1.03 at most (docs/src/theory/fits.md).
-    let factors = if parameters > 1 { bartlett::factors(&linear, emulator, bartlett::DRAWS)? } else { vec![1.0] };
-    Some(Best { factors, ..linear })
+    Some(Best { factors: vec![1.0; parameters], place, chi_square, surface, causes, spread, goodness, influence })
 }

@@ -184,18 +184,32 @@ impl ChiSquare {
         let measured = DVector::from_iterator(data.len(), data.iter().map(|datum| datum.value));
         let error = measured - emulator.at(near);
         let solver = covariance.clone().cholesky()?;
-        let weighted = solver.solve(&error);
         let (origin, noise) = (emulator.basis.terms(near), emulator.noise(&solver.inverse()));
         let square = terms * solver.solve(&terms.transpose());
-        Some(Self {
-            constant: error.dot(&weighted),
-            linear: terms * weighted + &noise * &origin,
+        let mut all = Self {
+            constant: 0.0,
+            linear: DVector::zeros(0),
             reduced: &square - &noise,
             square,
             noise,
             origin,
             basis: emulator.basis.clone(),
-        })
+        };
+        all.take(&error, terms, &solver);
+        Some(all)
+    }
+
+    /// Takes the points that differ by `error` from the emulator, with the coefficients `terms`, at the origin, by V's
+    /// factors.
+    pub fn take(&mut self, error: &DVector<f64>, terms: &DMatrix<f64>, solver: &Cholesky<f64, Dyn>) {
+        let weighted = solver.solve(error);
+        self.constant = error.dot(&weighted);
+        self.linear = terms * weighted + &self.noise * &self.origin;
+    }
+
+    /// The terms at the place about which χ² is expanded.
+    pub fn origin(&self) -> &DVector<f64> {
+        &self.origin
     }
 
     // Below, `tr_mul` is the product with the symmetric matrices: the library's faster one.
@@ -221,21 +235,6 @@ impl ChiSquare {
             reduced: self.square.clone(),
             ..self.clone()
         }
-    }
-
-    /// χ² of other points, by V's factors: the emulator's at `place` and `away` from them.
-    pub fn of_points(
-        &self,
-        emulator: &Emulator,
-        place: &[f64],
-        away: &DVector<f64>,
-        solver: &Cholesky<f64, Dyn>,
-    ) -> Self {
-        let terms = emulator.mean();
-        let error = terms.tr_mul(&(self.basis.terms(place) - &self.origin)) + away;
-        let weighted = solver.solve(&error);
-        let (constant, linear) = (error.dot(&weighted), terms * weighted + &self.noise * &self.origin);
-        Self { constant, linear, ..self.clone() }
     }
 
     /// The average contribution of the replicas' noise to χ² at `place` relative to `other`.

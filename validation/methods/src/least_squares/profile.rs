@@ -68,12 +68,12 @@ impl Rise {
 
     /// The rise with the parameter `axis` fixed at `place`.
     fn along(best: &Best, axis: usize, place: f64, starts: &[&[f64]]) -> Self {
-        Self::to(best, &fixed(&best.place, &[(axis, place)]), starts)
+        Self::to(best, &fixed(best, &[(axis, place)]), starts)
     }
 
     /// The rise with the parameter `axis` fixed at `place`, in the valley of `start`.
     fn from(best: &Best, axis: usize, place: f64, start: &[f64]) -> Self {
-        Self::of(best, descend(&best.surface, &fixed(&best.place, &[(axis, place)]), start.to_vec()))
+        Self::of(best, descend(&best.surface, &fixed(best, &[(axis, place)]), start.to_vec()))
     }
 
     /// The rise that counts for an interval. Noise in the slopes makes the variance of an estimate larger than the
@@ -84,9 +84,9 @@ impl Rise {
 }
 
 /// The parameters with these fixed at their places.
-pub fn fixed(best: &[f64], at: &[(usize, f64)]) -> Vec<Option<f64>> {
+pub fn fixed(best: &Best, at: &[(usize, f64)]) -> Vec<Option<f64>> {
     let place = |axis: usize| at.iter().find(|(fixed, _)| *fixed == axis).map(|(_, place)| *place);
-    (0..best.len()).map(place).collect()
+    (0..best.place.len()).map(place).collect()
 }
 
 /// The profile of one parameter over the box, with its best place among the places. The inner minima are searched from
@@ -218,7 +218,7 @@ pub fn region(best: &Best, profile: &Profile, [a, b]: [usize; 2], level: f64) ->
             continue;
         }
         let is_inside = |other: f64| {
-            let fixed = fixed(&best.place, &[(a, place), (b, other)]);
+            let fixed = fixed(best, &[(a, place), (b, other)]);
             shown * Rise::to(best, &fixed, &[&found.at]).beside_noise() <= level
         };
         let [low, high] = [-1.0, 1.0].map(|side| end(found.at[b], side, first_step, is_inside));

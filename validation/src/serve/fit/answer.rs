@@ -4,6 +4,7 @@ use super::error::{FitError, ParameterError};
 use super::range::Range;
 use super::search::FAR;
 use crate::methods::least_squares::Datum;
+use crate::methods::least_squares::bartlett::{DRAWS, factors};
 use crate::methods::least_squares::best::{Best, best};
 use crate::methods::least_squares::emulator::{Emulator, Sides};
 use crate::methods::least_squares::likelihood::Rods;
@@ -41,8 +42,12 @@ pub(super) fn along((low, high): (f64, f64), place: f64) -> f64 {
 
 /// The fit over the box `sides` with the model's emulator over it.
 pub fn fitted(data: &[Datum], ranges: &[Range], rods: &Rods, sides: &Sides, emulator: Emulator) -> Result<Fit, String> {
-    let best = best(data, &emulator, rods)
-        .ok_or("the points say nothing about a parameter: no model value changes with it")?;
+    let none = "the points say nothing about a parameter: no model value changes with it";
+    let mut best = best(data, &emulator, rods).ok_or(none)?;
+    // Of one parameter it is 1.03 at most (docs/src/theory/fits.md).
+    if sides.len() > 1 {
+        best.factors = factors(&best, &emulator, DRAWS).ok_or(none)?;
+    }
     Ok(Fit {
         ranges: ranges.to_vec(),
         sides: sides.clone(),

@@ -157,7 +157,7 @@ impl Hypothesis {
         let (rise, beyond_the_box, difference) = match self.asked(&fit.ranges)? {
             Asked::Value(axis, value) => {
                 let place = fit.place(axis, value);
-                let rise = rise_to(&fit.best, &fixed(&fit.best.place, &[(axis, place.clamp(-1.0, 1.0))]));
+                let rise = rise_to(&fit.best, &fixed(&fit.best, &[(axis, place.clamp(-1.0, 1.0))]));
                 // The value at the box's edge differs from the edge by rounding.
                 (rise, place.abs() > 1.0 + 1e-9, None)
             }
@@ -200,7 +200,7 @@ impl Tied<'_> {
             if other.abs() > 1.0 + 1e-9 {
                 return f64::INFINITY;
             }
-            rise_to(&self.fit.best, &fixed(&self.fit.best.place, &[(a, place), (b, other.clamp(-1.0, 1.0))]))
+            rise_to(&self.fit.best, &fixed(&self.fit.best, &[(a, place), (b, other.clamp(-1.0, 1.0))]))
         };
         // The part of the box in which both keys are inside it.
         let [low, high] = [-1.0, 1.0].map(|side| {
