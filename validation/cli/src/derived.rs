@@ -228,10 +228,9 @@ pub(super) fn summary(plan: &Plan, time_name: &str, all: &All) -> String {
             "what is derived has no standard errors: outputs times columns exceed {MOST_GROUPED}; fewer are needed\n"
         );
     }
-    match all.whole.iter().find(|(name, _)| *name == C_I) {
-        None => return text,
-        Some((_, None)) => return text + &format!("c_i is unknown: {}\n", lacks(C_I)),
-        Some(_) => (),
+    let Some((_, c_i)) = all.whole.iter().find(|(name, _)| *name == C_I) else { return text };
+    if c_i.is_none() {
+        return text + &format!("c_i is unknown: {}\n", lacks(C_I));
     }
     let known = |(name, value): &(&str, Option<Estimate>)| {
         let Estimate { value, se } = (*value)?;

@@ -119,21 +119,16 @@ fn work(plan: &Plan) -> f64 {
     plan.scene().particles.count as f64 * plan.steps().max(plan.outputs() as u64) as f64
 }
 
-/// The most points of which a replica is timed.
+/// The most points of a sweep of which a replica is timed.
 const PILOTS: usize = 8;
-
-/// Seconds on one core for a unit of [`work`] at these points: of their first replicas, as rods that collide more take
-/// longer, at points spread evenly among them.
-fn of_work(points: &[&Plan], may_run: bool) -> f64 {
-    let timed = points.iter().step_by(points.len().div_ceil(PILOTS));
-    let [seconds, all] = timed.fold([0.0, 0.0], |[s, all], point| [s + of_replica(point, may_run), all + work(point)]);
-    seconds / all
-}
 
 /// The cost of a sweep's points, as text; `may_run` as of [`of_replica`].
 pub(super) fn of_sweep(points: &[&Plan], may_run: bool) -> String {
     let all: f64 = points.iter().map(|point| work(point) * point.scene().ensemble.replicas as f64).sum();
-    let took = about(of_work(points, may_run) * all);
+    // Rods that collide more take longer, so points spread evenly among them are timed.
+    let timed = points.iter().step_by(points.len().div_ceil(PILOTS));
+    let [seconds, of] = timed.fold([0.0, 0.0], |[s, of], point| [s + of_replica(point, may_run), of + work(point)]);
+    let took = about(seconds / of * all);
     format!("sweep: {}, {took} of one core\n", counted(points.len() as u64, "point"))
 }
 
@@ -158,7 +153,7 @@ pub(super) fn nodes(parameters: usize) -> u64 {
 /// The cost of a fit of so many parameters, as text: of usual points, and at most, with `most` replicas at each value;
 /// `corners` are the ends of the ranges, and `may_run` as of [`of_replica`].
 pub(super) fn of_fit((parameters, most): (usize, u64), corners: &[&Plan], may_run: bool) -> String {
-    let each_s = of_work(corners, may_run) * corners.iter().map(|plan| work(plan)).sum::<f64>() / corners.len() as f64;
+    let each_s = corners.iter().map(|plan| of_replica(plan, may_run)).sum::<f64>() / corners.len() as f64;
     let took = |runs: u64| about(each_s * runs as f64);
     let (usual, most) = (usual_runs(parameters, most), nodes(parameters) * most);
     format!(

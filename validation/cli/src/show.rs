@@ -52,18 +52,17 @@ fn of_keys(args: &PlanArgs, named: &Named, plan: &Plan, may_run: bool) -> Result
     let over = &args.over;
     let refused = |why: String| Err(Failure::Input(format!("--over: {why}")));
     let fitted: Vec<Range> = over.iter().filter_map(|over| over.range.clone()).collect();
-    let ranges = fitted.len();
+    let (ranges, most) = (fitted.len(), args.ensemble.replicas.unwrap_or(MOST_REPLICAS));
     if over.is_empty() {
         return Ok((String::new(), plan.warnings()));
     } else if ranges > 0 && ranges < over.len() {
         return refused("KEY=FROM:TO of a fit beside values of a sweep; one kind is allowed".to_owned());
     } else if ranges > MOST_PARAMETERS {
         return refused(format!("given {ranges} times; a fit takes up to {MOST_PARAMETERS} parameters"));
-    }
-    let most = args.ensemble.replicas.unwrap_or(MOST_REPLICAS);
-    if ranges > 0 && most < FEWEST_REPLICAS {
+    } else if ranges > 0 && most < FEWEST_REPLICAS {
         return Err(Failure::Input(format!("--replicas {most}: a fit takes {FEWEST_REPLICAS} or more")));
-    } else if ranges > 0 {
+    }
+    if ranges > 0 {
         fit::check_ranges(named, fitted)?;
     }
     let axes: Vec<_> = over.iter().map(|over| over.axis.clone()).collect();

@@ -2,6 +2,7 @@
 
 use super::blocks::Block;
 use super::fit::FEWEST;
+use super::job::PLACES;
 use super::law::{Change, JobMean, Law, QUARTERS, Quarters};
 use super::*;
 use statrs::distribution::{ContinuousCDF, StudentsT};
@@ -45,7 +46,7 @@ fn too_few(levels: &[JobMean]) -> Option<String> {
 fn by_chance(levels: &[JobMean]) -> f64 {
     let fewest = levels.iter().map(|level| level.replicas).min().unwrap_or(2);
     let law = StudentsT::new(0.0, 1.0, fewest.saturating_sub(1).max(1) as f64);
-    law.map_or(f64::NAN, |law| law.inverse_cdf(1.0 - 0.05 / 2.0 / 9.0))
+    law.map_or(f64::NAN, |law| law.inverse_cdf(1.0 - 0.05 / 2.0 / PLACES as f64))
 }
 
 fn steps(law: &Law, strain: f64) -> ReportTable {
