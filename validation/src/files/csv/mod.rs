@@ -35,6 +35,10 @@ pub fn not_allowed(column: &str, cell: &str, expected: &str) -> String {
 /// The cells of tables that hold no value, in letters of either case.
 const NO_VALUE: [&str; 12] = ["", "nan", "na", "n/a", "#n/a", "n.a.", "none", "null", "-", "--", "–", "—"];
 
+fn says_nothing(cell: &str) -> bool {
+    NO_VALUE.iter().any(|word| cell.trim().eq_ignore_ascii_case(word))
+}
+
 /// What [`Row::number`] expects.
 pub const FINITE: &str = "a finite number with a decimal point";
 
@@ -119,7 +123,10 @@ impl<R: BufRead> Rows<R> {
     fn read(&mut self, is_first: bool) -> Result<Option<(u64, Vec<String>)>, FileError> {
         while let Some(line) = self.lines.next_line()? {
             let number = self.lines.number();
-            if let Some(comment) = line.trim_start().strip_prefix('#') {
+            // In the first cell of a row too, `#N/A` is no comment.
+            let text = line.trim_start();
+            let is_cell = !is_first && text.split(self.separator).next().is_some_and(says_nothing);
+            if let Some(comment) = text.strip_prefix('#').filter(|_| !is_cell) {
                 self.comment = is_first.then(|| (number, comment.to_owned()));
                 continue;
             }
@@ -300,7 +307,7 @@ pub struct Row<'a> {
 impl Row<'_> {
     /// True if the cell is empty, or has a word for no value.
     pub fn is_missing(&self, place: usize) -> bool {
-        NO_VALUE.iter().any(|word| self.cells[place].eq_ignore_ascii_case(word))
+        says_nothing(&self.cells[place])
     }
 
     /// True if the cell is empty.
@@ -360,4 +367,14 @@ fn words_for_no_value_are_missing_and_typeset_numbers_are_numbers() {
     assert_eq!(missing, [0, 1, 2]);
     assert_eq!(row.finite(3).unwrap(), -1.5e-3);
     assert!(row.finite(4).unwrap_err().to_string().contains("column e: `- 2` is not allowed"));
+}
+
+#[test]
+fn no_value_in_the_first_cell_begins_no_comment() {
+    let read = |text: &str| {
+        let mut table = Table::new(Path::new("a.csv"), text.as_bytes()).unwrap();
+        table.next_row().unwrap().unwrap().cells.join("|")
+    };
+    assert_eq!(read("a;b\n#N/A;2\n3;4\n"), "#N/A|2");
+    assert_eq!(read("a;b\n#N/A was written here;2\n3;4\n"), "3|4");
 }
