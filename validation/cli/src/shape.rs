@@ -5,25 +5,24 @@ use shearbed::model::jeffery::aspect_ratio_of_period;
 use shearbed::model::shape::{ALLOWED, Correlation, FORMULAS, spread};
 
 #[derive(clap::Args)]
+#[command(group(clap::ArgGroup::new("of").required(true)))]
 #[command(after_help = "\
 Examples:
   shearbed shape --physical 20
   shearbed shape --period-s 147 --period-u 2 --shear-rate-per-s 0.5")]
 pub(super) struct Args {
     /// Length over diameter of a cylinder, up to 1000; below 2, and of discs and rings, what is known
-    #[arg(long, value_name = "R", value_parser = ratio, allow_negative_numbers = true)]
-    #[arg(required_unless_present_any = ["period_s", "strain"], conflicts_with_all = ["period_s", "strain"])]
+    #[arg(long, value_name = "R", value_parser = ratio, allow_negative_numbers = true, group = "of")]
     physical: Option<f64>,
     /// The strain of one turn, in place of T and G
-    #[arg(long, value_name = "GT", value_parser = positive, allow_negative_numbers = true)]
-    #[arg(conflicts_with = "period_s")]
+    #[arg(long, value_name = "GT", value_parser = positive, allow_negative_numbers = true, group = "of")]
     strain: Option<f64>,
     /// Its standard uncertainty
     #[arg(long, value_name = "U", value_parser = positive, allow_negative_numbers = true, requires = "strain")]
     #[arg(conflicts_with_all = ["physical", "period_s"])]
     strain_u: Option<f64>,
     /// The time in which a rod turns once, through 360°: r_e of T = 2π(r_e + 1/r_e)/G
-    #[arg(long, value_name = "T", value_parser = positive, allow_negative_numbers = true)]
+    #[arg(long, value_name = "T", value_parser = positive, allow_negative_numbers = true, group = "of")]
     #[arg(requires = "shear_rate_per_s")]
     period_s: Option<f64>,
     /// One standard uncertainty of that time
@@ -107,7 +106,8 @@ fn of_turn(shown: String, [strain, u]: [f64; 2], given: &str, allowed: &str) -> 
         let (value, ends) = (of(r), ends.map(|ends| ends.map(|end| end.map(of))));
         text += &format!("r_e = {}, of a {whose}\n", with_uncertainty(value, ends));
     }
-    Ok(text + &format!("\nIn a scene: aspect_ratio = {}\n", rounded(r, 6)))
+    let r = if r == 1.0 { "1".into() } else { rounded(r, 6) };
+    Ok(text + &format!("\nIn a scene: aspect_ratio = {r}\n"))
 }
 
 /// A value with its uncertainty where the values at GT ± U are as far on both sides to a twentieth, else with these;
@@ -122,7 +122,13 @@ fn with_uncertainty(value: f64, ends: Option<[Option<f64>; 2]>) -> String {
             return format!("{value:.decimals$} ± {u:.decimals$}");
         }
     }
+    if ends == [None; 2] {
+        return "1, a sphere".into();
+    }
     let [a, b] = ends.map(|end| rounded(end.unwrap_or(1.0), 4));
+    if value == 1.0 {
+        return format!("1, a sphere, to {b} at GT + U");
+    }
     format!("{}, {a} at GT - U and {b} at GT + U", rounded(value, 6))
 }
 
