@@ -53,7 +53,7 @@ pub(super) fn problems(args: &Args) -> Result<(), Failure> {
             }
             if let Some(dir) = dir {
                 let names = problems::export(dir, writing.force)?;
-                said += &format!("in {}: {}\n", dir.shown(), names.join(", "));
+                said += &format!("in {}: {} problems\n", dir.shown(), names.len());
             }
             if let Some(file) = archive {
                 output::write_one(file, &problems::archive(), writing.force)?;

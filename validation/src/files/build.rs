@@ -26,6 +26,9 @@ pub const BUILD: Build = Build {
     build: env!("SHEARBED_PROFILE"),
 };
 
+/// The year of this version, for citations.
+pub const YEAR: u32 = 2026;
+
 /// A digest of the sources of this build, of the compiler and of its settings.
 pub const SOURCES: &str = env!("SHEARBED_SOURCES");
 

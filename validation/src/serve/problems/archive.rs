@@ -3,7 +3,7 @@
 //! A tar file (POSIX ustar, not compressed) with the same bytes each time: names ascend, times are 0.
 
 use super::{FORMAT, all, built, files};
-use crate::files::build::BUILD;
+use crate::files::build::{BUILD, YEAR};
 use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
 
@@ -80,11 +80,15 @@ fn readme() -> String {
 }
 
 fn citation() -> String {
+    let named = format!(
+        "title: \"Reference problems for rigid rods in shear flow\"\nauthors:\n  - name: \"The shearbed authors\"\n\
+         version: \"{VERSION}\"\n"
+    );
     format!(
         "cff-version: 1.2.0\nmessage: \"If you use these problems, please cite them as below.\"\ntype: dataset\n\
-         title: \"Reference problems for rigid rods in shear flow\"\nauthors:\n  - name: \"The shearbed authors\"\n\
-         version: \"{VERSION}\"\ncommit: \"{}\"\nlicense: MIT\nkeywords:\n  - verification\n  - Jeffery orbits\n  - \
-         fibre orientation\n",
+         {named}commit: \"{}\"\nlicense: MIT\nkeywords:\n  - verification\n  - Jeffery orbits\n  - fibre orientation\n\
+         preferred-citation:\n  type: data\n  year: {YEAR}\n  {}\n",
         BUILD.commit,
+        named.trim_end().replace('\n', "\n  "),
     )
 }
