@@ -85,8 +85,11 @@ pub struct Emulator {
     /// Means over replicas of the coefficients, at a point's time, before and after: a row for each coefficient, a
     /// column for each point.
     mean: [DMatrix<f64>; 3],
-    /// Deviations of each replica's coefficients from the mean, at a point's time.
+    /// Deviations of each replica's coefficients from the mean, at a point's time; of polynomials through a place, the
+    /// part of those replicas of the mean there too.
     deviations: Vec<DMatrix<f64>>,
+    /// What further replicas add to a mean through a place: their deviations there over their number.
+    further: DMatrix<f64>,
     /// Deviations of each replica itself at the inner nodes.
     inner: Vec<DMatrix<f64>>,
     /// Deviations of replicas at one place alone, a row for each; empty if none ran.
@@ -132,7 +135,39 @@ impl Emulator {
             replicas.iter().map(|one| &one[which] - &mean).collect()
         };
         let mean = [mean(0), mean(1), mean(2)];
-        Self { basis: basis.clone(), deviations: away(0), inner: away(3), mean, alone: Vec::new() }
+        let further = DMatrix::zeros(0, mean[0].ncols());
+        Self { basis: basis.clone(), deviations: away(0), further, inner: away(3), mean, alone: Vec::new() }
+    }
+
+    /// The same polynomials moved to the mean of these replicas at `place`, of which there are more than at every node:
+    /// at the nodes they need to give no more than how the model changes.
+    #[must_use]
+    pub fn through(self, place: &[f64], replicas: &[Vec<Prediction>]) -> Self {
+        let (n, m) = (self.replicas(), replicas.len());
+        if m <= n {
+            return self;
+        }
+        let Self { basis, mut mean, mut deviations, inner, alone, .. } = self;
+        let points = mean[0].ncols();
+        let table = |which: usize| DMatrix::from_fn(m, points, |replica, point| replicas[replica][point][which]);
+        // The first term is 1 everywhere, the others add this at the place.
+        let mut others = basis.terms(place);
+        others[0] = 0.0;
+        let others_of = |coefficients: &DMatrix<f64>| coefficients.tr_mul(&others).transpose();
+        for (which, mean) in mean.iter_mut().enumerate() {
+            let first = table(which).row_mean() - others_of(mean);
+            mean.set_row(0, &first);
+        }
+        let mut away = table(0);
+        let centre = away.row_mean();
+        away.row_iter_mut().for_each(|mut row| row -= &centre);
+        away /= m as f64;
+        for (replica, deviation) in deviations.iter_mut().enumerate() {
+            let first = away.row(replica) * n as f64 - others_of(deviation);
+            deviation.set_row(0, &first);
+        }
+        let further = away.rows(n, m - n).into_owned();
+        Self { basis, mean, deviations, further, inner, alone }
     }
 
     /// The same with the covariance of a replica from these, which ran at one place alone: one run gives as much of it
@@ -201,14 +236,16 @@ impl Emulator {
             (0..deviations.len()).map(of).sum()
         };
         let all: Vec<DMatrix<f64>> = self.deviations.par_chunks(TOGETHER).map(some).collect();
-        all.iter().sum::<DMatrix<f64>>() / (n * (n - 1.0).max(1.0))
+        let mut noise = all.iter().sum::<DMatrix<f64>>() / (n * (n - 1.0).max(1.0));
+        noise[(0, 0)] += (&self.further * inverse).component_mul(&self.further).sum();
+        noise
     }
 
     /// The covariance of the mean curve, points × points.
     pub fn covariance_of_mean(&self, place: &[f64]) -> DMatrix<f64> {
         let terms = self.basis.terms(place);
         let rows = self.deviations.iter().map(|one| one.tr_mul(&terms).transpose());
-        covariance(&rows.collect::<Vec<_>>()) / self.replicas() as f64
+        covariance(&rows.collect::<Vec<_>>()) / self.replicas() as f64 + self.further.tr_mul(&self.further)
     }
 
     /// The covariance of one replica's predictions, points × points: of those that ran alone, else at the inner node
@@ -245,6 +282,9 @@ fn covariance(rows: &[RowDVector<f64>]) -> DMatrix<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use rand::SeedableRng;
+    use rand_distr::{Distribution, StandardNormal};
+    use rand_pcg::Pcg64Dxsm;
     use std::sync::atomic::{AtomicUsize, Ordering};
 
     /// Two suspensions with one parameter each: each runs once per value of its own, and the result is as if all had
@@ -276,5 +316,59 @@ mod tests {
         assert_eq!(shared, alone);
         let own = (basis.nodes.len() as f64).sqrt() as usize;
         assert_eq!((fewer, all), (3 * 2 * own, 3 * 2 * own * own));
+    }
+
+    /// Two points around 0: what a replica has everywhere, and what it has at one place alone.
+    fn scattered(seed: u64, values: &[f64]) -> Replica {
+        let place = values.iter().fold(seed, |all, value| all.wrapping_mul(31).wrapping_add(value.to_bits()));
+        Replica::whole(move |replica| {
+            let [mut everywhere, mut here] =
+                [seed, place].map(|seed| Pcg64Dxsm::seed_from_u64(seed.wrapping_mul(1009).wrapping_add(replica)));
+            let mut normal = || -> f64 {
+                let [a, b]: [f64; 2] = [StandardNormal.sample(&mut everywhere), StandardNormal.sample(&mut here)];
+                a + 0.5 * b
+            };
+            Ok(vec![[normal(); 3], [normal(); 3]])
+        })
+    }
+
+    /// Polynomials through the mean of many replicas scatter as they say: their value at a place, and every
+    /// coefficient, over many sets of replicas.
+    #[test]
+    fn polynomials_through_a_place_scatter_as_they_say() {
+        const SETS: u64 = 400;
+        const AT_NODES: u64 = 10;
+        const AT_PLACE: u64 = 40;
+        let (basis, place, other) = (Basis::new(2), [0.3, -0.2], [0.5, 0.1]);
+        let one = DMatrix::identity(2, 2);
+        let sums = |move_it: bool| {
+            let mut sums = [[0.0; 2]; 4];
+            for seed in 0..SETS {
+                let model = |values: &[f64]| Ok(scattered(seed, values));
+                let at_nodes = coefficients(&basis, &model, &|node| node.to_vec(), 0..AT_NODES, &|| ()).unwrap();
+                let at_place = scattered(seed, &place);
+                let at_place: Vec<_> = (0..AT_PLACE).map(|replica| at_place.run(replica).unwrap()).collect();
+                let mut emulator = Emulator::new(&basis, &at_nodes);
+                if move_it {
+                    emulator = emulator.through(&place, &at_place);
+                    let mean = at_place.iter().map(|two| two[1][0]).sum::<f64>() / AT_PLACE as f64;
+                    assert!((emulator.at(&place)[1] - mean).abs() < 1e-12);
+                }
+                let noise = emulator.noise(&one);
+                let term = |k: usize| [emulator.mean().row(k).norm_squared(), noise[(k, k)]];
+                let value = |place| [emulator.at(place).norm_squared(), emulator.covariance_of_mean(place).trace()];
+                for (sum, [found, said]) in sums.iter_mut().zip([value(&place), value(&other), term(0), term(4)]) {
+                    *sum = [sum[0] + found, sum[1] + said];
+                }
+            }
+            sums
+        };
+        // A sum of 800 squares of normal numbers has a relative deviation of 5 %; what is said has a smaller one.
+        let ratios = |sums: [[f64; 2]; 4]| sums.map(|[found, said]| found / said);
+        let (moved, not) = (sums(true), sums(false));
+        assert!(ratios(moved).iter().chain(&ratios(not)).all(|ratio| (ratio - 1.0).abs() < 0.2), "{moved:?} {not:?}");
+        // Of four times as many replicas at the place, to what those at the nodes differ there.
+        assert!(moved[0][1] < 0.35 * not[0][1] && moved[1][1] < 0.6 * not[1][1], "{moved:?} {not:?}");
+        assert!((moved[3][1] / not[3][1] - 1.0).abs() < 1e-12, "{moved:?} {not:?}");
     }
 }

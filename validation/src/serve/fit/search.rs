@@ -51,6 +51,16 @@ const NEAR: f64 = 9.0;
 /// A box is made smaller only when a side shrinks below this share of it: otherwise new runs cost more than they gain.
 const WORTH: f64 = 0.6;
 
+/// From so many nodes on, those of three parameters, replicas at all of them are dear.
+const MANY: usize = 100;
+
+/// The same of many nodes, while the polynomials' error is below [`ACCURATE`] of each variance: the model changes
+/// less across a smaller box, its noise does not, so that the nodes need as many replicas again and more.
+const WORTH_OF_MANY: f64 = 0.3;
+
+/// A share of the polynomials' error in a parameter's variance that a smaller box need not reduce.
+const ACCURATE: f64 = 0.02;
+
 /// A place beyond this in a box is at its edge.
 const AT_EDGE: f64 = 0.99;
 
@@ -110,8 +120,10 @@ struct Search<'a> {
     /// The current box, and the coefficients of its replicas.
     sides: Sides,
     coefficients: Vec<Coefficients>,
-    /// Replicas at the best place alone, for the covariance of measured rods.
+    /// Replicas at one place alone, the best one when they ran: for the covariance of measured rods, and for the mean
+    /// where there are many nodes.
     alone: Vec<Vec<Prediction>>,
+    alone_at: Vec<f64>,
     /// The number of replicas at each node that the next fit needs.
     replicas: u64,
     /// True once polynomials over a box that ends at [`FAR`] were too inaccurate.
@@ -151,6 +163,7 @@ pub(super) fn search_from(problem: &FitProblem<'_>, sides: Sides, watch: &Watch<
         whole,
         coefficients: Vec::new(),
         alone: Vec::new(),
+        alone_at: Vec::new(),
         replicas: first,
         near: false,
         runs: 0,
@@ -163,6 +176,7 @@ pub(super) fn search_from(problem: &FitProblem<'_>, sides: Sides, watch: &Watch<
             Next::Alone(replicas) => {
                 let model = (problem.model)(&fit.values(&fit.best.place))?;
                 search.alone = watch.replicas(replicas, |replica| model.run(replica))?;
+                search.alone_at = fit.best.place;
                 search.runs += replicas;
             }
             Next::Box(sides) => {
@@ -194,7 +208,10 @@ impl Search<'_> {
         self.coefficients.extend(coefficients(basis, problem.model, &value, new, watch.done)?);
         // Of one degree: a lower one where noise seems to ask for it shortens intervals by a fifth (of 35 fits of α and
         // m, those of 68 % held α in 13, those of this degree in 23).
-        let emulator = Emulator::new(basis, &self.coefficients).with_alone(&self.alone);
+        let mut emulator = Emulator::new(basis, &self.coefficients).with_alone(&self.alone);
+        if basis.nodes.len() >= MANY {
+            emulator = emulator.through(&self.alone_at, &self.alone);
+        }
         let fit = fitted(problem.data, problem.ranges, problem.rods, sides, emulator)?;
         Ok(Fit { runs: self.runs, rounds: self.rounds, ..fit })
     }
@@ -211,17 +228,24 @@ impl Search<'_> {
             return until(noise, CLEAR);
         }
         let share = fit.best.share(REPLICAS);
-        let due = if !more || share <= MOST_SHARE && noise <= MOST_NOISE {
+        // At many nodes, replicas show how the model changes; its mean comes from others, at the best place alone.
+        let many = self.basis.nodes.len() >= MANY;
+        let ran = behind.max(self.replicas);
+        let due = if many && noise <= MOST_NOISE && share > MOST_SHARE && ran < most {
+            Next::Alone(enough(ran, share, MOST_SHARE).min(most))
+        } else if !more || share <= MOST_SHARE && noise <= MOST_NOISE {
             Next::Done
-        } else if share > MOST_SHARE {
+        } else if share > MOST_SHARE && !(many && noise > MOST_NOISE) {
             until(share, MOST_SHARE)
         } else {
             until(noise, MOST_NOISE)
         };
-        let (mut sides, mut gains) = other_sides(fit, &self.whole, if self.near { NEAR } else { FAR });
-        if !gains && !self.near && fit.best.share(EMULATOR) > MOST_SHARE {
+        let inaccurate = fit.best.share(EMULATOR);
+        let worth = if many && inaccurate <= ACCURATE { WORTH_OF_MANY } else { WORTH };
+        let (mut sides, mut gains) = other_sides(fit, &self.whole, if self.near { NEAR } else { FAR }, worth);
+        if !gains && !self.near && inaccurate > MOST_SHARE {
             self.near = true;
-            sides = other_sides(fit, &self.whole, NEAR).0;
+            sides = other_sides(fit, &self.whole, NEAR, worth).0;
             gains = sides != self.sides;
         }
         match (gains && self.rounds < MOST_ROUNDS, share_rods && scarce > MOST_SCARCE && behind < most) {
@@ -276,8 +300,9 @@ fn ends_short(fit: &Fit, whole: &Sides) -> bool {
 }
 
 /// The next box, and true if it gains enough to run again. Each side should end a quarter beyond the place where χ² has
-/// risen by `far`: nearer, the interval may be cut; farther, polynomials of this degree are too inaccurate.
-fn other_sides(fit: &Fit, whole: &Sides, far: f64) -> (Sides, bool) {
+/// risen by `far`: nearer, the interval may be cut; farther, polynomials of this degree are too inaccurate. It gains
+/// where a side shrinks below `worth`.
+fn other_sides(fit: &Fit, whole: &Sides, far: f64, worth: f64) -> (Sides, bool) {
     // With several parameters a further box costs many runs, so an open end is moved farther.
     let beyond = if whole.len() > 1 { 2.0 } else { 1.0 };
     let wanted = |axis: usize| {
@@ -300,10 +325,10 @@ fn other_sides(fit: &Fit, whole: &Sides, far: f64) -> (Sides, bool) {
     let all: Vec<_> = (0..whole.len()).map(wanted).collect();
     let least = all.iter().filter(|side| !side.wider).map(|side| side.left).fold(1.0, f64::min);
     // While one side shrinks much, others keep their ends: over it, the polynomials tell little of the others.
-    let worth = if least < 0.5 * WORTH { 0.5 * WORTH } else { WORTH };
-    let moves = |side: &Wanted| far < FAR || side.wider || side.left < worth;
+    let moved = if least < 0.5 * worth { 0.5 * worth } else { worth };
+    let moves = |side: &Wanted| far < FAR || side.wider || side.left < moved;
     let sides = all.iter().zip(&fit.sides).map(|(side, own)| if moves(side) { side.ends } else { *own });
-    (sides.collect(), all.iter().any(|side| side.wider || side.left < WORTH))
+    (sides.collect(), all.iter().any(|side| side.wider || side.left < worth))
 }
 
 /// A side that the next box should have.

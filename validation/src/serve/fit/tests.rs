@@ -2,6 +2,7 @@
 
 mod again;
 mod hypotheses;
+mod many;
 mod minima;
 mod noise;
 mod scarce;

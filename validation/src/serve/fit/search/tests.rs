@@ -12,7 +12,7 @@ fn a_closer_box_is_three_quarters_as_wide() {
     let data: Vec<_> = (0..4).map(|k| Datum { value: 0.0, u: 0.2, ..Datum::place(0, "x1", f64::from(k)) }).collect();
     let fit = searched(&data, &["a.rate=-9:9"], &model, 3);
     let width = |far: f64| {
-        let sides = other_sides(&fit, &whole(&fit.ranges), far).0;
+        let sides = other_sides(&fit, &whole(&fit.ranges), far, WORTH).0;
         sides[0].1 - sides[0].0
     };
     // Five standard deviations of 0.1 to either side, and 3.75.
