@@ -15,7 +15,7 @@ pub(super) fn check_time(scene: &Scene, flow: &VelocityGradient) -> Result<(), I
             check_counted_steps(scene, outputs)
         }
         TimeUnit::Strain if flow.magnitude_per_s() == 0.0 => {
-            Err(Invalid::new("time.strain", duration, "this flow has no strain rate: give periods"))
+            Err(Invalid::new("time.strain", duration, "this flow has no strain rate: give seconds"))
         }
         TimeUnit::Strain => {
             outputs_fit()?;
@@ -37,7 +37,8 @@ fn check_period(scene: &Scene, flow: &VelocityGradient) -> Result<f64, Invalid> 
     let propagator = Propagator::new(flow, scene.particles.aspect_ratio);
     let refused = |allowed: String| Err(Invalid::new("time.periods", periods, allowed));
     let (Some(period_s), Some(drift)) = (propagator.period_s(), propagator.drift_per_period()) else {
-        return refused("rods of this aspect ratio have no period in this flow: give strain".to_owned());
+        let other = if flow.magnitude_per_s() == 0.0 { "seconds" } else { "strain" };
+        return refused(format!("rods of this aspect ratio have no period in this flow: give {other}"));
     };
     let drift = drift * periods;
     if drift.is_nan() || drift > MAX_DRIFT {

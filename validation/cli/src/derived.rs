@@ -24,14 +24,24 @@ pub(super) struct All<'a> {
     channels: Vec<(&'a Column, Derived)>,
     /// By name; the names depend on the scene's keys of output and collisions alone.
     whole: Vec<(&'static str, Option<Estimate>)>,
+    /// The largest strain between outputs, if a rod can flip unseen in it: then there are no extremes.
+    sparse: Option<f64>,
 }
+
+/// The strain in which a rod of any length flips from 45° before the gradient axis to 45° behind it.
+const FLIP: f64 = 2.0;
 
 pub(super) fn of<'a>(plan: &Plan, results: &'a Results) -> All<'a> {
     let replicas = plan.scene().ensemble.replicas;
     let series = results.series.iter().filter(|series| !series.observable.is_density());
     let columns = series.flat_map(|series| &series.columns);
-    let channels = columns.map(|column| (column, Derived::new(&results.times, column, replicas))).collect();
-    All { channels, whole: whole(plan, results) }
+    let strains = results.elapsed.windows(2).map(|pair| pair[1].strain - pair[0].strain);
+    let sparse = Some(strains.fold(0.0, f64::max)).filter(|strain| *strain > FLIP);
+    let one = |column: &'a Column| {
+        let derived = Derived::new(&results.times, column, replicas);
+        (column, if sparse.is_some() { derived.without_extremes() } else { derived })
+    };
+    All { channels: columns.map(one).collect(), whole: whole(plan, results), sparse }
 }
 
 /// The tables [`EXTREMES`] and [`DERIVED`].
@@ -47,6 +57,11 @@ pub(super) fn is_extreme(column: &str) -> bool {
     column.rsplit_once('_').is_some_and(|(_, kind)| OF_EXTREMES.contains(&kind))
 }
 
+/// True for a column of [`DERIVED`], such as `x1_steady`.
+pub(super) fn is_of_run(column: &str) -> bool {
+    is_rate(column) || column.ends_with("_steady") || [COLLISIONS, C_I, C_I_PER_COLLISION].contains(&column)
+}
+
 pub(super) fn is_rate(column: &str) -> bool {
     column.ends_with("_damping_rate")
 }
@@ -54,9 +69,12 @@ pub(super) fn is_rate(column: &str) -> bool {
 /// What a run without the value `channel` lacks, in words.
 pub(super) fn lacks(channel: &str) -> String {
     if is_extreme(channel) {
-        "none is beyond noise: more replicas or periods are needed".into()
+        format!(
+            "none is beyond noise, where more replicas or periods are needed, or outputs are more than a strain of \
+             {FLIP} apart"
+        )
     } else if is_rate(channel) {
-        NO_RATE.into()
+        format!("{NO_RATE}, and outputs at most a strain of {FLIP} apart")
     } else if channel == COLLISIONS {
         "its flow has no period".into()
     } else if [C_I, C_I_PER_COLLISION].contains(&channel) {
@@ -220,6 +238,13 @@ pub(super) fn summary(plan: &Plan, time_name: &str, all: &All) -> String {
         if !said.is_empty() {
             text += &format!("{}: {}\n", column.name, said.join("; "));
         }
+    }
+    if let Some(strain) = all.sparse {
+        text += &format!(
+            "no extremes, amplitudes and damping rates: outputs are up to {strain:.1} of strain apart, and a rod flips \
+             within {FLIP}\n"
+        );
+        without.clear();
     }
     text = without.into_iter().fold(text, |text, (why, names)| text + &format!("{}: {why}\n", names.join(", ")));
     // Without a word, blank errors would look like those of a single replica.

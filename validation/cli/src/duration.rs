@@ -133,8 +133,8 @@ pub(super) fn of_sweep(points: &[&Plan], may_run: bool) -> String {
 }
 
 /// The runs of usual fits of one to three parameters over those of their first box. Measured, with those beside the
-/// search: 3,000 to 7,000; 15,000 (α and the spread of r_e) to 50,000 (α and m); 90,000 to 180,000.
-const USUAL: [u64; 3] = [12, 10, 20];
+/// search: 3,000 to 7,000; 15,000 (α and the spread of r_e) to 50,000 (α and m); 50,000 to 130,000.
+const USUAL: [u64; 3] = [12, 10, 13];
 
 /// The runs that a fit usually takes, all its parts together.
 pub(super) fn usual_runs(parameters: usize, most_replicas: u64) -> u64 {
@@ -150,14 +150,15 @@ pub(super) fn nodes(parameters: usize) -> u64 {
     if parameters == 0 { 1 } else { Basis::new(parameters).nodes.len() as u64 }
 }
 
-/// The cost of a fit of so many parameters, as text: of usual points, and at most, with `most` replicas at each value;
+/// The cost of a fit of so many parameters, as text: of usual points, and of a long search, with `most` replicas at
+/// each value;
 /// `corners` are the ends of the ranges, and `may_run` as of [`of_replica`].
 pub(super) fn of_fit((parameters, most): (usize, u64), corners: &[&Plan], may_run: bool) -> String {
     let each_s = corners.iter().map(|plan| of_replica(plan, may_run)).sum::<f64>() / corners.len() as f64;
     let took = |runs: u64| about(each_s * runs as f64);
     let (usual, most) = (usual_runs(parameters, most), nodes(parameters) * most);
     format!(
-        "fit: usually some {usual} runs, {} of one core; at most {MOST_ROUNDS} boxes of {most} runs each, {}\n",
+        "fit: usually some {usual} runs, {} of one core; a long search, {MOST_ROUNDS} boxes of {most} runs each, {}\n",
         took(usual),
         took(MOST_ROUNDS * most)
     )

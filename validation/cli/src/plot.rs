@@ -197,7 +197,9 @@ fn drawn_of(dirs: &[PathBuf], channels: &[String], across: Option<&str>) -> Resu
             let time = time.get_or_insert_with(|| found.time.clone());
             if *time != found.time {
                 let (own, first) = (&found.time, first.dir.shown());
-                let why = format!("its time is {own}, that of {first} is {time}: one of the two can be drawn");
+                let why = format!(
+                    "its time is {own}, that of {first} is {time}: one of the two can be drawn, or --x time_s of both"
+                );
                 return Err(FileError::whole(&run.dir, why).into());
             }
             found.curve.label = match (channels.len(), runs.len()) {

@@ -169,9 +169,10 @@ fn of_cylinder(r: f64) -> Result<(), Failure> {
 /// measured.
 fn of_flat(r: f64) -> Result<(), Failure> {
     let formula = Correlation::HarrisPittman.formula();
+    let above = if r > 1.0 && formula.value(r) > r { ", above r, as no formula below r = 2 is checked" } else { "" };
     print(&format!(
         "a body of length over diameter r = {r}: no formula is stated to hold below r = {}\n\n\
-         {:>9.3}  {}, used below r = 2: r_e = {}, for a cylinder or a disc\n           \
+         {:>9.3}  {}, used below r = 2: r_e = {}, for a cylinder or a disc{above}\n           \
          valid for: {}\n           quoted from: {}\n     \
          0.07  measured, a disc of r = 0.03 (the formula: {:.3})\n     \
          0.33  measured, a ring of r = 0.45 (the formula: {:.3})\n           \

@@ -75,6 +75,12 @@ impl Derived {
         Self { extremes, damping_rate, is_exponential, steady: mean.steady() }
     }
 
+    /// The same of outputs too far apart for maxima and minima.
+    #[must_use]
+    pub fn without_extremes(self) -> Self {
+        Self { extremes: Vec::new(), damping_rate: None, is_exponential: true, ..self }
+    }
+
     /// Why a mean of `replicas` replicas has no damping rate; `None` if it has one, or does not oscillate.
     pub fn no_rate(&self, replicas: u64) -> Option<String> {
         match self.extremes[..] {
@@ -158,6 +164,10 @@ impl Mean<'_> {
                 at.push((highest, true));
                 lowest = output;
             }
+        }
+        // Before an output later than the start the mean may have moved on.
+        if self.times.first().is_some_and(|time| *time > 0.0) && at.first().is_some_and(|(output, _)| *output == 0) {
+            at.remove(0);
         }
         let turn = |k: usize| {
             let neighbour = |k: Option<usize>, end| k.and_then(|k| at.get(k)).map_or(end, |(output, _)| *output);

@@ -48,7 +48,7 @@ pub(super) fn of_fit(error: &FitError) -> String {
     let (before, after) = match error {
         FitError::Noise(..) => ("--over: ", "; give more --replicas, more rods in the scene, or one parameter less"),
         FitError::FewReplicas { .. } => ("--", ""),
-        FitError::NotEnclosed { .. } => ("--over: ", ""),
+        FitError::NotEnclosed { .. } => ("--over: ", "; give narrower ranges near these, and more --replicas"),
         FitError::Parameter(_, ParameterError::TwoMinima(_)) => {
             ("--over ", "; more --replicas tell noise from minima, and a narrower range leaves out impossible values")
         }

@@ -2,7 +2,7 @@
 
 use super::{Drawn, Run, TIMES};
 use crate::Failure;
-use crate::derived::{is_extreme, lacks};
+use crate::derived::{is_extreme, is_of_run, lacks};
 use shearbed_validation::files::text::Shown;
 use shearbed_validation::oracle::reference::big::finite;
 use shearbed_validation::present::plot::{Curve, Figure, names};
@@ -79,6 +79,9 @@ pub(super) fn against(drawn: Drawn, key: &str, at: Option<f64>) -> Result<(Figur
 
 /// The time of values at these times, in words.
 fn time_of(channel: &str, x_name: &str, mut times: Vec<f64>) -> String {
+    if is_of_run(channel) {
+        return "of the whole run".into();
+    }
     times.sort_by(f64::total_cmp);
     let texts = times.iter().map(|time| if is_extreme(channel) { format!("{time:.2}") } else { time.to_string() });
     let mut texts: Vec<String> = texts.collect();

@@ -195,3 +195,17 @@ fn lawless_means_have_nothing() {
     let one = Derived::new(&[0.0], &column(&[vec![0.5], vec![0.7]]), 2);
     assert_eq!((one.extremes.len(), one.steady), (0, None));
 }
+
+/// Of a curve that falls from its start on, the start is a maximum, and a later first output is none.
+#[test]
+fn a_first_output_after_the_start_is_no_extreme() {
+    let curves = damped(32, 5, 0.01);
+    let from = |first: usize| {
+        let cut: Vec<Vec<f64>> = curves.iter().map(|curve| curve[first..].to_vec()).collect();
+        let derived = Derived::new(&times()[first..], &column(&cut), 32);
+        (derived.extremes[0].is_maximum, derived.extremes[0].time.value)
+    };
+    assert_eq!(from(0), (true, 0.0));
+    let (is_maximum, time) = from(20);
+    assert!(!is_maximum && (time - 0.25).abs() < 0.02, "{time}");
+}

@@ -47,7 +47,8 @@ fn misnamed(name: &str, known: impl Fn(&str) -> bool) -> Option<String> {
     if lower != name && known(&lower) {
         return Some(format!("columns have small letters: rename it `{lower}`"));
     }
-    let (value, suffix) = name.rsplit_once('_').filter(|(value, _)| known(value))?;
+    let (value, suffix) = name.rsplit_once('_')?;
+    let value = Some(value.strip_suffix("_u").unwrap_or(value)).filter(|value| known(value))?;
     match suffix {
         "plus" | "minus" | "upper" | "lower" | "low" | "high" => Some(format!(
             "errors that differ above and below are not fitted: give one standard deviation, {value}_u, the mean of \

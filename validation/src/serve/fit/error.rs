@@ -121,12 +121,12 @@ pub enum FitError {
         points: usize,
     },
     /// The best values may lie outside the last box.
-    #[error("the search did not enclose the best values in {boxes} boxes; give a narrower range near {values:?}")]
+    #[error("the search did not enclose the best values in {boxes} boxes; the last found {}", .best.join(", "))]
     NotEnclosed {
         /// The number of boxes.
         boxes: u64,
-        /// The best values in the last one.
-        values: Vec<f64>,
+        /// The best values in the last one, as `alpha = 0.9969`.
+        best: Vec<String>,
     },
     /// A parameter by its label.
     #[error("{0}: {1}")]

@@ -220,7 +220,8 @@ fn warnings(
     // The noise of the replicas enters the curves and their slopes.
     let replicas = fit.best.share(REPLICAS).max(fit.noise_share());
     let polynomials = fit.best.share(EMULATOR);
-    let own = [Warning::Replicas(replicas, CAUSES[REPLICAS]), Warning::Polynomials(polynomials, CAUSES[EMULATOR])];
+    let own =
+        [Warning::Replicas(replicas, "noise of its replicas"), Warning::Polynomials(polynomials, CAUSES[EMULATOR])];
     let large = own.into_iter().zip([replicas, polynomials]).filter(|(_, share)| *share > 1.5 * MOST_SHARE);
     all.extend(large.map(|(warning, _)| warning));
     all

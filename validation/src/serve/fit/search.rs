@@ -269,7 +269,9 @@ impl Search<'_> {
             return Err(FitError::Parameter(range.label(), error));
         }
         if !enclosed(fit, &self.whole) {
-            return Err(FitError::NotEnclosed { boxes: self.rounds, values: fit.values(&fit.best.place) });
+            let values = fit.values(&fit.best.place).into_iter().zip(ranges);
+            let best = values.map(|(value, range)| format!("{} = {value:.4}", range.name())).collect();
+            return Err(FitError::NotEnclosed { boxes: self.rounds, best });
         }
         let undescribed = || Undescribed::check(fit.best.chi_square, points, ranges.len());
         fit.is_smooth().map_err(|error| undescribed().map_or(error, FitError::from))
