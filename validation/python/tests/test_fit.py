@@ -140,6 +140,23 @@ def test_ctrl_c_ends_a_fit_and_its_process(points: dict[str, np.ndarray]) -> Non
     assert not children.exists() or not children.read_text().split()
 
 
+def test_ctrl_c_leaves_a_last_checkpoint(points: dict[str, np.ndarray], tmp_path: Path) -> None:
+    kept, counts = tmp_path / "runs", []
+    long = shearbed.Scene(toml=SCENE.toml.replace("count = 20", "count = 500"))
+
+    def stop(done: int, of: int) -> None:
+        counts.append(done)
+        if done > 20:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        shearbed.fit(long, points, OVER, replicas=40, checkpoint=kept, progress=stop)
+    first = counts[-1]
+    counts.clear()
+    shearbed.fit(long, points, OVER, replicas=40, checkpoint=kept, progress=lambda done, of: counts.append(done))
+    assert counts[0] >= first > 20, (first, counts[:3])
+
+
 def test_columns_without_names_and_values_that_were_not_measured():
     with pytest.raises(ValueError, match='needs them: columns='):
         shearbed.fit("fig4-n50", np.ones((3, 3)))

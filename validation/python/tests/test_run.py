@@ -120,6 +120,15 @@ def test_what_the_program_wrote_is_loaded_as_a_run_gives_it(tmp_path: Path) -> N
     assert shearbed.Scene(toml=loaded.scene) == scene
     with pytest.raises(FileNotFoundError):
         shearbed.load(tmp_path)
+    table = tmp_path / "out" / "projections.csv"
+    whole = table.read_text()
+    for spoilt in (whole.replace("0", "1", 1), whole[:-200]):
+        table.write_text(spoilt)
+        with pytest.raises(ValueError, match="projections.csv: is not as the program wrote it"):
+            shearbed.load(tmp_path / "out")
+    table.unlink()
+    with pytest.raises(ValueError, match="projections.csv: is gone"):
+        shearbed.load(tmp_path / "out")
 
 
 def test_what_other_commands_wrote_is_loaded_as_their_functions_give_it(tmp_path: Path) -> None:
@@ -156,6 +165,10 @@ def test_rods_for_paraview(tmp_path: Path) -> None:
     assert {file.name for file in (tmp_path / "vtk").iterdir()} == {"rods.pvd", "rods_0000.vtp", "rods_0001.vtp"}
     assert f'NumberOfLines="{SMALL["count"]}"' in (tmp_path / "vtk" / "rods_0001.vtp").read_text()
     assert written.x1.tobytes() == shearbed.run(scene).x1.tobytes()
+    (tmp_path / "vtk" / "rods_0000.vtp").write_text("mine")
+    with pytest.raises(FileExistsError, match="rods"):
+        shearbed.run(scene, vtk=tmp_path / "vtk")
+    assert (tmp_path / "vtk" / "rods_0000.vtp").read_text() == "mine"
     # Without rods there is nothing to write.
     with pytest.raises(ValueError, match="rods_at") as refused:
         shearbed.run(SMALL, vtk=tmp_path / "none")
@@ -417,3 +430,24 @@ def test_progress_without_tqdm_is_a_line(monkeypatch, capsys):
     scene = shearbed.Scene(built_in="fig4-n50").replace(periods=1)
     shearbed.sweep(scene, {"interaction.alpha": [0.25, 0.5]}, progress=True)
     assert "2 of 2 points\n" in capsys.readouterr().err
+
+
+def test_wrong_arguments_are_named_in_pythons_words():
+    for error, words, call in (
+        (TypeError, "until_se = 0.01: a dictionary", lambda: shearbed.run(SMALL, until_se=0.01)),
+        (TypeError, "until_se: x1 = 'small': a number", lambda: shearbed.run(SMALL, until_se={"x1": "small"})),
+        (TypeError, r"over = \['alpha'\]: a dictionary", lambda: shearbed.sweep(SMALL, ["alpha"])),
+        (ValueError, "over: no key has values", lambda: shearbed.sweep(SMALL, {})),
+        (shearbed.SceneError, "aplha: unknown key; did you mean alpha", lambda: shearbed.Scene(**SMALL).replace(aplha=None)),
+        (ValueError, '"file": ', lambda: shearbed.Scene(**(FREE | dict(rods="nope.csv")))),
+        (ValueError, "^aspect_ratio = -18.0: ", lambda: shearbed.reference(-18, times=[0])),
+        (ValueError, "^missing: times$", lambda: shearbed.reference(18)),
+        (ValueError, "a count of at least 2", lambda: shearbed.reference(18, times=(0, 0.5, 1))),
+        (TypeError, "c_i = 'much': a number", lambda: shearbed.reference(18, times=[0], c_i="much")),
+        (ValueError, r"gradient_per_s: an array of \(2, 2\)", lambda: shearbed.reference(2, times=[0], gradient_per_s=np.eye(2))),
+        (ValueError, "steps: -1", lambda: shearbed.grade(lambda L, r, p, dt: p, steps=[-1], names=["mid-flip-2"])),
+    ):
+        with pytest.raises(error, match=words) as refused:
+            call()
+        assert "--" not in str(refused.value) and "Usage" not in str(refused.value)
+    assert shearbed.Scene(**SMALL, title=None) == shearbed.Scene(**SMALL)

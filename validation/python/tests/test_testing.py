@@ -194,6 +194,8 @@ def test_a_plot_names_what_it_shows() -> None:
     drawn = results.plot("x1")
     assert drawn.get_ylabel() == results.labels["projections"]
     assert drawn.get_legend().get_texts()[0].get_text() == "X̄₁"
+    results.plot(["x1", "x2"], ax=drawn, label="again")
+    assert drawn.get_legend().get_texts()[-1].get_text() == "again, X̄₂"
     with pytest.raises(AttributeError, match="x9: this run has the channels x1"):
         results.plot("x9")
 

@@ -16,8 +16,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ._results import typeset
-from ._running import bar_of, columns as columns_of, complained, keywords, options, program
-from ._scene import Scene, scene_of, write_columns
+from ._running import bar_of, columns as columns_of, complained, dictionary, keywords, number, options, program
+from ._scene import _TABLE_OF, Scene, scene_of, write_columns
 
 Array = NDArray[np.float64]
 SceneLike = Scene | Mapping[str, Any] | str | os.PathLike[str]
@@ -75,7 +75,10 @@ class Fit:
         """Of each set of points, the best model's damping rates and steady values; errors are those of its replicas."""
         pictures = json.loads((folder / "figures.json").read_text(encoding="utf-8"))
         self._curves: list[dict[str, Any]] = [
-            curve for name, picture in pictures if name.startswith("points") for curve in picture["curves"]
+            curve | {"measured": points, "y_name": picture["y_name"]}
+            for name, picture in pictures
+            if name.startswith("points")
+            for curve, points in zip(picture["curves"], picture["points"])
         ]
         self.tests: list[dict[str, Any]] = self.record.get("tests", [])
         """What was asked by ``test=``: hypothesis, rise_of_chi2, p_value (at most that where beyond_the_box, and not below 1e-6), and of two keys their difference."""
@@ -86,7 +89,10 @@ class Fit:
         self._words = repr(self) if words is None else words
 
     def __getitem__(self, key: str) -> Estimate:
-        return self.parameters[key]
+        dotted = f"{_TABLE_OF[key]}.{key}" if key in _TABLE_OF else key
+        if dotted not in self.parameters:
+            raise KeyError(f"{key}: fitted are {', '.join(self.parameters) or 'no keys'}")
+        return self.parameters[dotted]
 
     def __str__(self) -> str:
         return self._words
@@ -113,15 +119,17 @@ class Fit:
             symbol, fitted, _ = typeset(curve["label"]).partition(", best fit")
             rows = (found["set"] == set_) & (found["column"] == column)
             time, u = found["time"][rows], found["u"][rows]
-            drawn = ax.errorbar(time, found["measured"][rows], u, fmt="o", clip_on=False, label=f"{symbol}, measured ± u")
+            measured = curve["measured"]
+            drawn = ax.errorbar(measured["x"], measured["y"], measured["y_error"], fmt="o", markersize=4, clip_on=False, label=typeset(measured["label"]))
             colour = drawn[0].get_color()
             if below is not None:
-                below.errorbar(time, found["residual"][rows], u, fmt="o", clip_on=False, color=colour)
+                below.errorbar(time, found["residual"][rows], u, fmt="o", markersize=4, clip_on=False, color=colour)
             x, y, half = (np.array(curve[name], dtype=float) for name in ("x", "y", "half_band"))
             ax.plot(x, y, color=colour, label=f"{symbol}{fitted or ', model'}")
             for axes, middle in ((ax, y), (below, 0 * y)):
                 if axes is not None:
                     axes.fill_between(x, middle - half, middle + half, color=colour, alpha=0.2, linewidth=0, label=f"{symbol}, 95 %")
+        ax.set_ylabel(", ".join(dict.fromkeys(typeset(curve["y_name"]) for curve in self._curves)))
         lowest = ax if below is None else below
         times = {"t_over_T": "t/T", "t_s": "t (s)", "strain": "strain Gt"}
         lowest.set_xlabel(", ".join(times[unit] for unit in sorted(set(found["time_unit"]))))
@@ -189,16 +197,17 @@ def fit(
                 raise ValueError('data: an array whose columns have no names needs them: columns=["t_s", "x1", "x1_u"]')
             file = _file(points, folder / f"points-{k + 1}.csv")
             words += ["--data", file if k == 0 else f"{name}={file}"]
-        for key, ends in (over or {}).items():
+        for key, ends in dictionary("over", over or {}, '{"interaction.alpha": (0.05, 5)}').items():
             if not isinstance(ends, Sequence) or len(ends) != 2:
                 raise ValueError(f"over: {key} = {ends!r}: a range (from, to) is allowed")
-            words += ["--over", f"{key}={float(ends[0])!r}:{float(ends[1])!r}"]
+            low, high = (number(f"over: {key}", end) for end in ends)
+            words += ["--over", f"{key}={low}:{high}"]
         words += options(replicas=replicas, seed=seed, rods=rods, threads=threads, set=set)
         words += [] if u_contains is None else ["--u-contains", u_contains]
-        words += [] if u is None else ["--u", repr(float(u))]
+        words += [] if u is None else ["--u", number("u", u)]
         words += [] if columns is None else ["--columns", columns if isinstance(columns, str) else ",".join(columns)]
         words += ["--design"] if design else []
-        words += [word for held in test for word in ("--test", held)]
+        words += [word for held in ([test] if isinstance(test, str) else test) for word in ("--test", held)]
         words += [] if checkpoint is None else ["--checkpoint", os.path.abspath(checkpoint)]
         show = bar_of("run") if progress is True else progress or None
         words += ["--log-every", "0.1"] if show else []

@@ -165,6 +165,10 @@ class Report:
                 return problem
         raise KeyError(name)
 
+    def __repr__(self) -> str:
+        verdicts = [problem["verdict"] for problem in self.problems]
+        return f"<Report: {', '.join(f'{verdicts.count(verdict)} {verdict}' for verdict in dict.fromkeys(verdicts))}>"
+
     def __str__(self) -> str:
         lines = [f"{'problem':<22} {'verdict':<11} {'error':>9} {'tolerance':>9} {'order':>6}  diagnosis"]
         for problem in self.problems:
@@ -172,7 +176,7 @@ class Report:
             foreign = "" if problem["reference"] == "built-in" else "FOREIGN "
             lines.append(
                 f"{problem['name']:<22} {problem['verdict']:<11} {_short(error):>9} {problem['tolerance']:>9.1e} "
-                f"{'–' if order is None else f'{order:.2f}':>6}  {foreign}{problem['diagnosis'] or problem['raised'] or ''}".rstrip()
+                f"{'–' if order is None else f'{order:.2f}':>6}  {foreign}{problem['diagnosis'] or problem['raised'] or _note(problem)}".rstrip()
             )
         return "\n".join(lines)
 
@@ -183,15 +187,25 @@ class Report:
         judged = [problem for problem in self.problems if problem["error"] is not None]
         if ax is None:
             _, ax = plt.subplots(figsize=(7, 0.3 * len(judged) + 1.2), layout="constrained")
-        shares = [max(problem["error"] / problem["tolerance"], 1e-6) for problem in judged]
+        shares = [problem["error"] / problem["tolerance"] for problem in judged]
+        least = min([share for share in shares if share > 0] + [1e-6]) / 10
         passed = [problem["verdict"] == "PASS" for problem in judged]
-        ax.barh(range(len(judged)), shares, color=["#0072b2" if good else "#d55e00" for good in passed], left=1e-7)
+        # A share of 0 has no bar on a scale of powers.
+        ax.barh(range(len(judged)), [max(share - least, 0.0) for share in shares], color=["#0072b2" if good else "#d55e00" for good in passed], left=least)
+        for row, share in enumerate(shares):
+            if share == 0:
+                ax.text(least, row, " 0", va="center")
         ax.set_yticks(range(len(judged)), [problem["name"] for problem in judged])
         ax.set_xscale("log")
         ax.invert_yaxis()
         ax.axvline(1.0, color="black", linewidth=1)
         ax.set_xlabel("error / tolerance")
         return ax
+
+
+def _note(problem: dict[str, Any]) -> str:
+    """Why a problem failed whose error has no size."""
+    return str(problem.get("note") or "") if problem["verdict"] == "FAIL" and problem["error"] is None else ""
 
 
 def _short(number: float | None) -> str:
@@ -256,6 +270,8 @@ def grade(
             if given is not None:
                 what = "right-hand side" if kind == "rhs" else "formula"
                 raise ValueError(f"{name} = {given!r}: a {what} has none; a step or a solver has")
+    if wrong := [number for number in steps or () if int(number) != number or number < 1]:
+        raise ValueError(f"steps: {wrong[0]!r}: whole numbers from 1 are allowed")
     raised: dict[str, str] = {}
     refused: set[str] = set()
     uneven: dict[str, str] = {}

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import zlib
 from pathlib import Path
 from typing import Any
 
@@ -15,12 +16,16 @@ def load(folder: str | os.PathLike[str]) -> Any:
     """What the program wrote in a folder, as the function of the same name gives it: :class:`Results` of a run, a :class:`Fit`,
     the columns of a sweep or of a study of convergence; of one of a sweep's ``points``, its columns at all times.
 
-    Raises ``FileNotFoundError`` where there is no ``shearbed.json``, and ``ValueError`` for results of other commands.
+    Raises ``FileNotFoundError`` where there is no ``shearbed.json``, and ``ValueError`` for results of other commands, and
+    where a table is gone or is no longer as the program wrote it.
     """
     folder = Path(folder)
     if not (folder / "shearbed.json").is_file():
         raise FileNotFoundError(f"{folder}: holds no results: there is no shearbed.json; a folder that the program wrote is allowed")
     origin = json.loads((folder / "shearbed.json").read_text(encoding="utf-8"))
+    for name, wrote in origin["files"].items():
+        if name.endswith((".csv", ".json")):
+            _intact(folder / name, wrote)
     command = origin["command"]
     if command == "run":
         return results(folder)
@@ -31,3 +36,12 @@ def load(folder: str | os.PathLike[str]) -> Any:
     if command in ("sweep", "converge"):
         return columns(folder / f"{command}.csv")
     raise ValueError(f"{folder}: results of {command}; those of run, sweep, converge and fit are allowed")
+
+
+def _intact(file: Path, wrote: dict[str, Any]) -> None:
+    """Refuses a file that is not as ``shearbed.json`` says."""
+    if not file.is_file():
+        raise ValueError(f"{file}: is gone; without it the results are not whole")
+    text = file.read_bytes()
+    if (len(text), f"{zlib.crc32(text):08x}") != (wrote["bytes"], wrote["crc32"]):
+        raise ValueError(f"{file}: is not as the program wrote it: it was changed, or cut, since")

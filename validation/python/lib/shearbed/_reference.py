@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _core
-from ._running import columns
+from ._running import columns, keywords, number
 
 
 def reference(
@@ -35,7 +35,8 @@ def reference(
     """Correctly rounded values of a free rod, or of means over isotropic ones: the columns of ``shearbed reference``.
 
     ``times`` are a list or an array, or, as a tuple, ``(first, last, count)`` for evenly spaced ones, in ``unit``:
-    ``"period"``, ``"strain"`` or ``"s"``; without it periods, and strain for ``aspect_ratio=inf``. ``start`` is
+    ``"period"``, ``"strain"`` or ``"s"``; without it periods, and strain for ``aspect_ratio=inf``. Without
+    ``shear_rate_per_s`` the shear rate is 1/s. ``start`` is
     ``"isotropic"``, ``"planar"``, one rod's angles (phi, theta) in degrees, or with diffusion (a11, a22, a33, a12, a13,
     a23) of a density of Bingham, or directions (N × 3). A value without a meaning, as t/T in a
     flow without a period, is NaN.
@@ -46,10 +47,12 @@ def reference(
     one after another, each (duration in s, shear rate or 3 × 3 gradient in 1/s), and ``oscillation_period_s`` is T of a
     flow times cos 2πt/T; times are then in s.
     """
-    words = ["reference", "--aspect-ratio", repr(float(aspect_ratio))]
+    words = ["reference", "--aspect-ratio", number("aspect_ratio", aspect_ratio)]
     order: NDArray[np.intp] | None = None
     if isinstance(times, tuple) and len(times) == 3:
         first, last, count = times
+        if int(count) != count or count < 2:
+            raise ValueError(f"times = {times}: a tuple is (first, last, count), with a count of at least 2; a list has the times themselves")
         words += ["--times", f"{float(first)!r}:{float(last)!r}:{int(count)}"]
     elif times is not None:
         every, order = np.unique(np.asarray(times, dtype=float).ravel(), return_inverse=True)
@@ -62,18 +65,20 @@ def reference(
     elif directions is not None and directions.ndim == 1:
         words += ["--start", ",".join(repr(float(angle)) for angle in directions)]
     if oscillation_period_s is not None:
-        words += ["--oscillation-period-s", repr(float(oscillation_period_s))]
+        words += ["--oscillation-period-s", number("oscillation_period_s", oscillation_period_s)]
     if shear_rate_per_s is not None:
-        words += ["--shear-rate-per-s", repr(float(shear_rate_per_s))]
+        words += ["--shear-rate-per-s", number("shear_rate_per_s", shear_rate_per_s)]
     if gradient_per_s is not None:
-        entries = np.asarray(gradient_per_s, dtype=float).reshape(9)
-        words += ["--gradient-per-s", ",".join(repr(float(entry)) for entry in entries)]
+        entries = np.asarray(gradient_per_s, dtype=float)
+        if entries.shape != (3, 3):
+            raise ValueError(f"gradient_per_s: an array of {entries.shape}: (3, 3), row i and column j for ∂u_i/∂x_j, is allowed")
+        words += ["--gradient-per-s", ",".join(repr(float(entry)) for entry in entries.ravel())]
     if aspect_ratio_sd_percent:
-        words += ["--aspect-ratio-sd-percent", repr(float(aspect_ratio_sd_percent))]
+        words += ["--aspect-ratio-sd-percent", number("aspect_ratio_sd_percent", aspect_ratio_sd_percent)]
     if c_i is not None:
-        words += ["--c-i", repr(float(c_i))]
+        words += ["--c-i", number("c_i", c_i)]
     if d_r_per_s is not None:
-        words += ["--d-r-per-s", repr(float(d_r_per_s))]
+        words += ["--d-r-per-s", number("d_r_per_s", d_r_per_s)]
     words += [flag for flag, asked in (("--steady", steady), ("--fourth", fourth), ("--optics", optics)) if asked]
     with tempfile.TemporaryDirectory(prefix="shearbed-") as folder:
         if steps is not None:
@@ -100,7 +105,7 @@ def call(words: Sequence[str], *, folder: str = "", allowed: Sequence[int] = (0,
     if code not in allowed:
         said = message.strip().removeprefix("error: ")
         said = said.replace(os.path.join(folder, ""), "") if folder else said
-        raise (RuntimeError if code == 101 else ValueError)(said)
+        raise (RuntimeError if code == 101 else ValueError)(keywords(said))
     return code
 
 

@@ -138,21 +138,25 @@ class Results:
     def _time_label(self) -> str:
         return "t/T" if self.time_name == "t_over_T" else self.time_name.replace("_", " ")
 
-    def plot(self, *channels: str, ax: Any = None) -> Any:
-        """Draws channels (by default those of the first observable) with bands of 95 %, and returns the axes."""
+    def plot(self, *channels: str, ax: Any = None, label: str | None = None) -> Any:
+        """Draws channels (by default those of the first observable) with bands of 95 %, and returns the axes; ``label`` stands
+        before their symbols in the legend, as where two runs share axes."""
         import matplotlib.pyplot as plt
 
         if ax is None:
             _, ax = plt.subplots()
+        if len(channels) == 1 and isinstance(channels[0], (list, tuple)):
+            channels = tuple(channels[0])
         drawn = list(channels) or next(iter(self.observables.values()))
         for name in drawn:
             if name not in self._channels:
                 raise AttributeError(f"{name}: this run has the channels {', '.join(self._channels)}")
             mean, se = self._channels[name]
-            (line,) = ax.plot(self.t, mean, label=typeset(self.symbols[name]))
+            (line,) = ax.plot(self.t, mean, label=f"{label + ', ' if label else ''}{typeset(self.symbols[name])}")
             ax.fill_between(self.t, mean - 1.96 * se, mean + 1.96 * se, color=line.get_color(), alpha=0.2, linewidth=0)
         ax.set_xlabel(self._time_label)
-        ax.set_ylabel(", ".join(label for of, label in self.labels.items() if set(drawn) & set(self.observables[of])))
+        shown = [name for of, name in self.labels.items() if set(drawn) & set(self.observables[of])]
+        ax.set_ylabel(shown[0] if len(shown) == 1 else ", ".join(typeset(self.symbols[name]) for name in drawn))
         ax.legend()
         return ax
 

@@ -61,7 +61,8 @@ def run(
     if until_se or checkpoint is not None or vtk is not None:
         if progress:
             raise TypeError("progress: runs with until_se, checkpoint or vtk do not tell how far they are")
-        words = [word for channel, se in (until_se or {}).items() for word in ("--until-se", f"{channel}={float(se)!r}")]
+        asked = dictionary("until_se", until_se or {}, '{"x1": 0.001}').items()
+        words = [word for channel, se in asked for word in ("--until-se", f"{channel}={number(f'until_se: {channel}', se)}")]
         words += [] if time_limit_s is None else ["--time-limit", f"{time_limit_s}s"]
         words += [] if checkpoint is None else ["--checkpoint", os.path.abspath(checkpoint)]
         words += [] if vtk is None else ["--vtk"]
@@ -78,6 +79,9 @@ def run(
 
 def _apart(scene: Scene, words: Sequence[str], vtk: str | os.PathLike[str] | None) -> Results:
     """Runs a scene in a process of its own."""
+    there = next(Path(vtk).glob("rods*.[pv][vt][dp]"), None) if vtk is not None else None
+    if there is not None:
+        raise FileExistsError(f"vtk: {there} is there already; a folder without files of rods is allowed")
     with tempfile.TemporaryDirectory(prefix="shearbed-") as made:
         folder = Path(made)
         try:
@@ -161,9 +165,11 @@ def sweep(
     """
     if times not in ("last", "all", "extremes") or (times == "extremes" and xarray):
         raise ValueError(f"times = {times!r}: 'last', 'all', and without xarray 'extremes', are allowed")
-    for key, values in over.items():
+    for key, values in dictionary("over", over, '{"interaction.alpha": [0.25, 0.5, 1]}').items():
         if isinstance(values, str) or not isinstance(values, Iterable):
             raise ValueError(f"over: {key} = {values!r}: a list of values is allowed, as [{values!r}]")
+    if not over:
+        raise ValueError('over: no key has values; {"interaction.alpha": [0.25, 0.5, 1]} is allowed')
     scene = scene_of(scene)
     over = {f"{_TABLE_OF[key]}.{key}" if key in _TABLE_OF else key: values for key, values in over.items()}
     with tempfile.TemporaryDirectory(prefix="shearbed-") as made:
@@ -249,6 +255,21 @@ def options(*, set: Mapping[str, Any] | None = None, **numbers: int | None) -> l
     return words
 
 
+def dictionary(name: str, value: Any, example: str) -> Mapping[str, Any]:
+    """The argument ``name`` if it is a dictionary."""
+    if not isinstance(value, Mapping):
+        raise TypeError(f"{name} = {value!r}: a dictionary is allowed, as {example}")
+    return value
+
+
+def number(name: str, value: Any) -> str:
+    """The argument ``name`` as text if it is a number."""
+    try:
+        return repr(float(value))
+    except (TypeError, ValueError):
+        raise TypeError(f"{name} = {value!r}: a number is allowed") from None
+
+
 def columns(file: Path) -> dict[str, NDArray[Any]]:
     """The columns of a CSV file; a blank among numbers is NaN."""
     with open(file, encoding="utf-8", newline="") as lines:
@@ -297,9 +318,13 @@ def program(words: Sequence[str], folder: Path, watch: Callable[[], object] | No
         if watch is not None and not running.returncode:
             watch()
     except BaseException:
-        # Nothing of it stays, not even its entry in the table of processes.
-        running.kill()
-        running.communicate()
+        # It may write a last checkpoint. Nothing of it stays, not even its entry in the table of processes.
+        running.terminate()
+        try:
+            running.communicate(timeout=10)
+        except BaseException:
+            running.kill()
+            running.communicate()
         raise
     if running.returncode:
         lines = [line for line in complained(folder) if not line.startswith("progress: ")]
@@ -313,7 +338,10 @@ def program(words: Sequence[str], folder: Path, watch: Callable[[], object] | No
 
 def keywords(message: str) -> str:
     """The program's words with keywords for flags, which are called alike; a name of a file may hold two dashes too."""
-    message = message.split("\n\nFor more information, try")[0]
+    message = re.split(r"\n\n(?:Usage:|For more information, try)", message)[0]
+    missing = message.removeprefix("the following required arguments were not provided:\n")
+    if missing != message:
+        message = "missing: " + ", ".join(line.split(" <")[0].strip() for line in missing.splitlines())
     message = re.sub(r"invalid value '([^']*)' for '--([a-z-]+)[^']*'", r"--\2 = \1", message)
     message = re.sub(r"\n +\[possible values: (.*)\]", r": \1 are allowed", message)
     message = re.sub(r"--u-contains (reading|rods)", r'u_contains="\1"', message)

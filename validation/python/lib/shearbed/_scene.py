@@ -17,6 +17,7 @@ from typing import Any
 import numpy as np
 
 from . import _core
+from ._core import SceneError
 
 # Which table of a scene file holds a key: keywords are given without it.
 _TABLE_OF = {name: table for table, name, *_ in _core.keys()}
@@ -107,6 +108,7 @@ class Scene:
         built_in: str | None = None,
         **keywords: Any,
     ) -> None:
+        keywords = {key: value for key, value in keywords.items() if value is not None}
         given = [way for way in (tables, toml, file, built_in, keywords or None) if way is not None]
         if len(given) != 1:
             raise TypeError("Scene: one of keywords, a dictionary, toml=, file= and built_in= is allowed")
@@ -135,6 +137,8 @@ class Scene:
         columns, or of an array with a direction in each row."""
         if isinstance(rods, Mapping) and "file" in rods:
             return rods
+        if isinstance(rods, (str, os.PathLike)):
+            raise ValueError(f'rods = {rods!r}: {{"file": {os.fspath(rods)!r}}} is allowed, columns, or an array of (rods, 3)')
         if not isinstance(rods, Mapping) and not hasattr(rods, "columns"):
             array = np.asarray(rods)
             names = array.dtype.names
@@ -175,6 +179,10 @@ class Scene:
     def replace(self, **values: Any) -> Scene:
         """The scene with other values of some keys: ``scene.replace(alpha=0.3)``, or, dotted as in a sweep,
         ``scene.replace(**{"interaction.alpha": 0.3})``. ``None`` takes a key out, so that another can stand for it."""
+        gone = [key for key, value in values.items() if value is None and key.rsplit(".", 1)[-1] not in ("title", *_TABLE_OF, *_TABLE_OF.values())]
+        if gone:
+            close = difflib.get_close_matches(gone[0], _TABLE_OF)
+            raise SceneError(f"{gone[0]}: unknown key; {'did you mean ' + close[0] if close else 'allowed are ' + ', '.join(_TABLE_OF)}")
         dotted = {f"{_TABLE_OF[key]}.{key}" if key in _TABLE_OF else key: value for key, value in values.items()}
         changes = [(key, None if value is None else _value(value)) for key, value in dotted.items()]
         scene = Scene.__new__(Scene)
@@ -187,7 +195,7 @@ class Scene:
         self._resolved, self._plan, self._warnings, self._start = _core.describe(self._name, self._text)
 
     def __eq__(self, other: object) -> bool:
-        """Whether a run gives the same: every key has the same value, and rods start from the same file."""
+        """Whether every key has the same value, the title too, and rods start from the same file: runs give the same."""
         return isinstance(other, Scene) and self._identity() == other._identity()
 
     def __hash__(self) -> int:
