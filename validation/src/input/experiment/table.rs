@@ -87,6 +87,10 @@ pub(crate) fn columns(
         if y_places.iter().all(|(place, _)| row.is_missing(*place)) {
             continue;
         }
+        if row.is_missing(x_place) {
+            let message = format!("column {x}: a measured value without a time; give it, or take the row out");
+            return Err(row.error(message));
+        }
         let (x, u_x) = (row.finite(x_place)?, uncertainty(&row, u_x_place)?);
         for (dataset, (y_place, u_y_place)) in datasets.iter_mut().zip(&y_places) {
             if !row.is_missing(*y_place) {

@@ -76,7 +76,7 @@ fn files_of_other_programs_are_the_plain_file() {
     for text in [
         "t_s;x1;x1_u\n1,5;0,5;0,125\n2;0,25;0,125\n;;\n",
         "# t_s,x1,x1_u\n1.5,0.5,0.125\n2,0.25,0.125\n",
-        "t_s,x1,x1_u\n1.5,0.5,0.125\n# a pause\n1.7,NaN,NaN\n1.8,,\n2,0.25,0.125\n",
+        "t_s,x1,x1_u\n1.5,0.5,0.125\n# a pause\n1.7,NaN,NaN\n#N/A,,\n1.8,,\n2,0.25,0.125\n",
         "\"t_s\",\"x1_percent\",\"x1_percent_u\"\n1.5,50,12.5\n2,25,12.5\n",
         "t_s,temperature_C,x1,x1_u,note\n1.5,20,0.5,0.125,a\n2,21,0.25,0.125,b\n",
     ] {
@@ -84,5 +84,9 @@ fn files_of_other_programs_are_the_plain_file() {
         let of = |points: &[Datum]| points.iter().map(|p| (p.time, p.column.clone(), p.value, p.u)).collect::<Vec<_>>();
         assert_eq!(of(&found.points), of(&plain), "{text}");
         assert_eq!(found.unread.len(), 2 * usize::from(text.contains("note")), "{text}");
+    }
+    for time in ["", "#N/A"] {
+        let refused = read_of(&format!("t_s,x1,x1_u\n1.5,0.5,0.125\n{time},0.25,0.125\n")).unwrap_err().to_string();
+        assert!(refused.contains(":3: column t_s: a measured value without a time"), "{refused}");
     }
 }
