@@ -23,5 +23,5 @@ rows 800 $alpha
 rows 135 $alpha interaction.m=1.2:6
 rows 60 particles.aspect_ratio=10:30
 rows 50 $alpha particles.aspect_ratio_sd_percent=0:20
-rows 30 $alpha particles.aspect_ratio=10:30
+rows 90 $alpha particles.aspect_ratio=10:30
 rows 30 $alpha interaction.concentration_per_cm3=500:5000

@@ -56,7 +56,7 @@ const MANY: usize = 100;
 
 /// The same of many nodes, while the polynomials' error is below [`ACCURATE`] of each variance: the model changes
 /// less across a smaller box, its noise does not, so that the nodes need as many replicas again and more.
-const WORTH_OF_MANY: f64 = 0.3;
+const WORTH_OF_MANY: f64 = 0.2;
 
 /// A share of the polynomials' error in a parameter's variance that a smaller box need not reduce.
 const ACCURATE: f64 = 0.02;
