@@ -163,6 +163,7 @@ fn what_a_flow_does_not_have_is_refused_with_its_reason() {
         (far_apart(1.0), 1e91, 2, "the flow's rates cancel, or differ"),
         (far_apart(0.0), 1e91, 2, ""),
         (real, 2.0, 1, "have no period in this flow: give strain"),
+        ([[0.0; 3]; 3], 2.0, 1, "have no period in this flow: give seconds"),
         (rotated, 11.6, 10, ""),
         (rotated, 1e8, 10, "have no exact period in this flow: over this time the rotating part grows by e^"),
     ] {

@@ -220,7 +220,7 @@ pub(super) fn summary(plan: &Plan, time_name: &str, all: &All) -> String {
     let mut without: BTreeMap<String, Vec<&str>> = BTreeMap::new();
     for (column, derived) in all.channels.iter().filter(|(column, _)| tables::is_bounded(&column.name)) {
         let varies = column.se.iter().any(|se| *se > 0.0);
-        if let Some(why) = derived.no_rate(replicas).filter(|_| varies) {
+        if let Some(why) = derived.no_rate(replicas).filter(|_| varies && all.sparse.is_none()) {
             without.entry(why).or_default().push(&column.name);
         }
         let decays = |rate: &Estimate| rate.value.abs() > (3.0 * rate.se.unwrap_or(0.0)).max(least);
@@ -245,7 +245,6 @@ pub(super) fn summary(plan: &Plan, time_name: &str, all: &All) -> String {
             "no extremes, amplitudes and damping rates: outputs are up to {strain:.1} of strain apart, and a rod flips \
              within {FLIP}\n"
         );
-        without.clear();
     }
     text = without.into_iter().fold(text, |text, (why, names)| text + &format!("{}: {why}\n", names.join(", ")));
     // Without a word, blank errors would look like those of a single replica.

@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ._results import typeset
 from ._running import bar_of, columns as columns_of, complained, dictionary, keywords, number, options, program
-from ._scene import _TABLE_OF, Scene, scene_of, write_columns
+from ._scene import Scene, dotted, scene_of, write_columns
 
 Array = NDArray[np.float64]
 SceneLike = Scene | Mapping[str, Any] | str | os.PathLike[str]
@@ -89,10 +89,9 @@ class Fit:
         self._words = repr(self) if words is None else words
 
     def __getitem__(self, key: str) -> Estimate:
-        dotted = f"{_TABLE_OF[key]}.{key}" if key in _TABLE_OF else key
-        if dotted not in self.parameters:
+        if dotted(key) not in self.parameters:
             raise KeyError(f"{key}: fitted are {', '.join(self.parameters) or 'no keys'}")
-        return self.parameters[dotted]
+        return self.parameters[dotted(key)]
 
     def __str__(self) -> str:
         return self._words

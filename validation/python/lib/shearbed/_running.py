@@ -20,7 +20,10 @@ from numpy.typing import NDArray
 
 from . import _core
 from ._results import Results
-from ._scene import _TABLE_OF, Scene, _toml, _value, scene_of
+from ._scene import Scene, _toml, _value, dotted, scene_of
+
+OF_RODS = "rods*.[pv][vt][dp]"
+"""ParaView's files of rods."""
 
 DERIVED = ("extremes", "derived")
 """The tables of what is derived from a run's means."""
@@ -79,7 +82,7 @@ def run(
 
 def _apart(scene: Scene, words: Sequence[str], vtk: str | os.PathLike[str] | None) -> Results:
     """Runs a scene in a process of its own."""
-    there = next(Path(vtk).glob("rods*.[pv][vt][dp]"), None) if vtk is not None else None
+    there = next(Path(vtk).glob(OF_RODS), None) if vtk is not None else None
     if there is not None:
         raise FileExistsError(f"vtk: {there} is there already; a folder without files of rods is allowed")
     with tempfile.TemporaryDirectory(prefix="shearbed-") as made:
@@ -93,7 +96,7 @@ def _apart(scene: Scene, words: Sequence[str], vtk: str | os.PathLike[str] | Non
             warnings.warn(str(error), stacklevel=3)
         if vtk is not None:
             os.makedirs(vtk, exist_ok=True)
-            for file in (folder / "out").glob("rods*.[pv][vt][dp]"):
+            for file in (folder / "out").glob(OF_RODS):
                 shutil.copyfile(file, Path(vtk) / file.name)
         return results(folder / "out")
 
@@ -171,7 +174,7 @@ def sweep(
     if not over:
         raise ValueError('over: no key has values; {"interaction.alpha": [0.25, 0.5, 1]} is allowed')
     scene = scene_of(scene)
-    over = {f"{_TABLE_OF[key]}.{key}" if key in _TABLE_OF else key: values for key, values in over.items()}
+    over = {dotted(key): values for key, values in over.items()}
     with tempfile.TemporaryDirectory(prefix="shearbed-") as made:
         folder = Path(made)
         words = ["sweep", scene._written(folder).name, "--out", "out", "--quiet"] + ["--yes"] * yes

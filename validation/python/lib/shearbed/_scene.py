@@ -22,6 +22,12 @@ from ._core import SceneError
 # Which table of a scene file holds a key: keywords are given without it.
 _TABLE_OF = {name: table for table, name, *_ in _core.keys()}
 
+
+def dotted(key: str) -> str:
+    """A key with its table, as ``interaction.alpha``; one that has none stays."""
+    return f"{_TABLE_OF[key]}.{key}" if key in _TABLE_OF else key
+
+
 _BUILT_IN = dict(_core.built_in_scenes())
 
 
@@ -183,8 +189,7 @@ class Scene:
         if gone:
             close = difflib.get_close_matches(gone[0], _TABLE_OF)
             raise SceneError(f"{gone[0]}: unknown key; {'did you mean ' + close[0] if close else 'allowed are ' + ', '.join(_TABLE_OF)}")
-        dotted = {f"{_TABLE_OF[key]}.{key}" if key in _TABLE_OF else key: value for key, value in values.items()}
-        changes = [(key, None if value is None else _value(value)) for key, value in dotted.items()]
+        changes = [(dotted(key), None if value is None else _value(value)) for key, value in values.items()]
         scene = Scene.__new__(Scene)
         scene._name, scene._made = self._name, self._made
         scene._text = _core.changed(self._name, self._text, changes)

@@ -51,7 +51,7 @@ const NEAR: f64 = 9.0;
 /// A box is made smaller only when a side shrinks below this share of it: otherwise new runs cost more than they gain.
 const WORTH: f64 = 0.6;
 
-/// From so many nodes on, those of three parameters, replicas at all of them are dear.
+/// From so many nodes on, those of three parameters, replicas at all of them cost most of a fit.
 const MANY: usize = 100;
 
 /// The same of many nodes, while the polynomials' error is below [`ACCURATE`] of each variance: the model changes
@@ -209,7 +209,7 @@ impl Search<'_> {
         // Of one degree: a lower one where noise seems to ask for it shortens intervals by a fifth (of 35 fits of α and
         // m, those of 68 % held α in 13, those of this degree in 23).
         let mut emulator = Emulator::new(basis, &self.coefficients).with_alone(&self.alone);
-        if basis.nodes.len() >= MANY {
+        if is_dear(basis) {
             emulator = emulator.through(&self.alone_at, &self.alone);
         }
         let fit = fitted(problem.data, problem.ranges, problem.rods, sides, emulator)?;
@@ -229,7 +229,7 @@ impl Search<'_> {
         }
         let share = fit.best.share(REPLICAS);
         // At many nodes, replicas show how the model changes; its mean comes from others, at the best place alone.
-        let many = self.basis.nodes.len() >= MANY;
+        let many = is_dear(&self.basis);
         let ran = behind.max(self.replicas);
         let due = if many && noise <= MOST_NOISE && share > MOST_SHARE && ran < most {
             Next::Alone(enough(ran, share, MOST_SHARE).min(most))
@@ -276,6 +276,11 @@ impl Search<'_> {
         let undescribed = || Undescribed::check(fit.best.chi_square, points, ranges.len());
         fit.is_smooth().map_err(|error| undescribed().map_or(error, FitError::from))
     }
+}
+
+/// True if replicas at all nodes are dear.
+fn is_dear(basis: &Basis) -> bool {
+    basis.nodes.len() >= MANY
 }
 
 fn whole(ranges: &[Range]) -> Sides {
