@@ -220,6 +220,12 @@ impl Plan {
         self.scene.output_times().map(|time| time / each).collect()
     }
 
+    /// The largest shear strain between two outputs.
+    pub fn strain_between_outputs(&self) -> f64 {
+        let strains: Vec<f64> = self.times().into_iter().map(|time| self.elapsed(time).strain).collect();
+        strains.windows(2).map(|pair| pair[1] - pair[0]).max_by(f64::total_cmp).unwrap_or(0.0)
+    }
+
     /// The outputs at which the scene asks for every rod, without repetition, in the order of time.
     pub fn rods_outputs(&self) -> Vec<usize> {
         let times = self.scene.output.rods_at.iter();

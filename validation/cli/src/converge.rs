@@ -60,7 +60,7 @@ pub(super) fn converge(args: &Args) -> Result<(), Failure> {
     let out = (args.out.clone()).unwrap_or_else(|| Path::new("out").join(format!("converge-{}", named.stem)));
     let input = json!({ "scene": named.scene.resolved(), "replicas": args.replicas });
     agree("converge", input.clone())?;
-    let names = ["converge.csv", "converge.svg", "converge.json", "replicas.csv"];
+    let names = ["converge.csv", "converge.svg", "converge.json", "times.csv", "replicas.csv"];
     spares_inputs(&out, &names, named.files())?;
     let folder = result_folder(&out, ("converge", input, args.writing.force), 0, &names)?;
     let replicas = args.replicas.map_or(Replicas::CONVERGE, Replicas::Each);
@@ -128,12 +128,13 @@ fn free(scene: &Scene) -> Result<Done, Failure> {
 
 /// A sentence where the scene ends at another time than the study's runs; `by_periods` is the scene in periods.
 fn other_end(scene: &Scene, by_periods: &Scene) -> Vec<String> {
-    let other = Some(&scene.time).filter(|_| by_periods.time.duration != 1.0);
+    let end = law::end(by_periods);
+    let time = Some(&scene.time).filter(|_| (end / by_periods.time.duration - 1.0).abs() > 1e-5);
     let said = |time: &Time| {
-        let why = "every run of this study ends after one period, whose means it compares";
+        let why = format!("the runs of this study end after {end} periods: whole quarters, and 10 at most");
         format!("{} = {} is not used: {why}", time.unit.duration_key(), time.duration)
     };
-    other.map(said).into_iter().collect()
+    time.map(said).into_iter().collect()
 }
 
 /// A sentence on the tried steps that are coarser than the default.
@@ -186,11 +187,17 @@ fn interacting(scene: &Scene, replicas: Replicas, warnings: Vec<String>, args: &
         .flat_map(|constants| scopes.map(|scope| TARGETS.map(|target| constants.cheapest(scope, target))))
         .flatten()
         .collect();
-    tables.extend((constants.iter()).map(|constants| splits_table(constants, &splits)));
+    tables.extend((constants.iter()).map(|constants| splits_table(constants, &splits, law.end)));
     let picture = plot::svg(&law_tables::steps_figure(&law).figure);
     let (csv, blocks) = (law_tables::law_csv(&law), rows_csv(law.blocks.iter().copied()));
+    let times = law_tables::times_csv(&law);
     let json = build::json(&Written { warnings, law, constants, splits });
-    let files =
-        vec![("converge.csv", csv), ("converge.svg", picture), ("replicas.csv", blocks), ("converge.json", json)];
-    done(tables, files).map(Some)
+    let files = [
+        ("converge.csv", csv),
+        ("converge.svg", picture),
+        ("times.csv", times),
+        ("replicas.csv", blocks),
+        ("converge.json", json),
+    ];
+    done(tables, files.into()).map(Some)
 }

@@ -9,7 +9,6 @@ use shearbed_validation::files::csv;
 use shearbed_validation::files::output::Output;
 use shearbed_validation::methods::coefficients;
 use shearbed_validation::methods::derived::{Derived, Estimate, Extreme, FEWEST, NO_RATE};
-use shearbed_validation::oracle::worst;
 use std::collections::BTreeMap;
 
 /// Maxima, minima and amplitudes, a row each.
@@ -30,14 +29,13 @@ pub(super) struct All<'a> {
 }
 
 /// The strain in which a rod of any length flips from 45° before the gradient axis to 45° behind it.
-const FLIP: f64 = 2.0;
+pub(super) const FLIP: f64 = 2.0;
 
 pub(super) fn of<'a>(plan: &Plan, results: &'a Results) -> All<'a> {
     let replicas = plan.scene().ensemble.replicas;
     let series = results.series.iter().filter(|series| !series.observable.is_density());
     let columns = series.flat_map(|series| &series.columns);
-    let strains = results.elapsed.windows(2).map(|pair| pair[1].strain - pair[0].strain);
-    let sparse = Some(worst(strains)).filter(|strain| *strain > FLIP);
+    let sparse = Some(plan.strain_between_outputs()).filter(|strain| *strain > FLIP);
     let one = |column: &'a Column| {
         let derived = Derived::new(&results.times, column, replicas);
         (column, if sparse.is_some() { derived.without_extremes() } else { derived })

@@ -1,9 +1,10 @@
-//! Results as pictures: each observable's means against time with 95 % bands.
+//! Results as pictures: each observable's means against time with 95 % bands, or bars where outputs are far apart.
 
+use super::derived::FLIP;
 use shearbed::run::ensemble::{Column, Series};
-use shearbed::{Observable, Results, Scene};
+use shearbed::{Observable, Plan, Results, Scene};
 use shearbed_validation::judge::statistics::student;
-use shearbed_validation::present::plot::{Curve, Figure, names};
+use shearbed_validation::present::plot::{Curve, Figure, Points, names};
 
 /// The stems of the names of an observable's pictures.
 pub(super) fn stems(observable: Observable) -> Vec<String> {
@@ -12,8 +13,8 @@ pub(super) fn stems(observable: Observable) -> Vec<String> {
 }
 
 /// The pictures of an observable, each with the stem of its file's name.
-pub(super) fn figures(scene: &Scene, results: &Results, series: &Series) -> Vec<(String, Figure)> {
-    let stem = series.observable.name();
+pub(super) fn figures(plan: &Plan, results: &Results, series: &Series) -> Vec<(String, Figure)> {
+    let (scene, stem, apart) = (plan.scene(), series.observable.name(), are_apart(plan));
     let figure = |x_name: &str, y_name: &str, curves| Figure {
         title: scene.title.clone(),
         x_name: x_name.to_owned(),
@@ -29,7 +30,9 @@ pub(super) fn figures(scene: &Scene, results: &Results, series: &Series) -> Vec<
             y: channel.mean.clone(),
             half_band: band(scene, channel.se.iter().copied()),
         };
-        figure(&time_name, series.observable.label(), channels.iter().map(curve).collect())
+        let mut figure = figure(&time_name, series.observable.label(), channels.iter().map(curve).collect());
+        part(&mut figure, |_| apart);
+        figure
     };
     match (series.observable.is_density(), series.columns.split_first()) {
         (true, Some((mean, density))) => {
@@ -45,6 +48,26 @@ pub(super) fn figures(scene: &Scene, results: &Results, series: &Series) -> Vec<
         }
         _ => vec![(stem.to_owned(), against_time(&series.columns))],
     }
+}
+
+/// With so many outputs a line shows what they have.
+const MANY: usize = 100;
+
+/// True if a line through a plan's outputs would cut peaks.
+pub(super) fn are_apart(plan: &Plan) -> bool {
+    plan.outputs() <= MANY && plan.strain_between_outputs() > FLIP
+}
+
+/// Makes the chosen curves points with bars, before the other points.
+pub(super) fn part(figure: &mut Figure, chosen: impl Fn(usize) -> bool) {
+    let curves = std::mem::take(&mut figure.curves).into_iter().enumerate();
+    let (apart, joined): (Vec<_>, Vec<_>) = curves.partition(|(k, _)| chosen(*k));
+    figure.curves = joined.into_iter().map(|(_, curve)| curve).collect();
+    let points = |(_, Curve { label, x, y, half_band: y_error })| {
+        let bars = if y_error.is_some() { ", bars: 95 %" } else { "" };
+        Points { label: label + bars, x, y, y_error, x_error: None }
+    };
+    figure.points = apart.into_iter().map(points).chain(std::mem::take(&mut figure.points)).collect();
 }
 
 /// Half the width of a 95 % band: the standard errors times Student's t for the number of replicas, or of rods for a

@@ -9,11 +9,12 @@ mod measured;
 mod shades;
 mod table;
 
-use super::{Failure, derived, ending_in, number, print, refuse, scene, spares};
+use super::{Failure, derived, ending_in, number, pictures, print, refuse, scene, spares};
 use against::against;
 pub(super) use folders::FIGURES;
 use folders::{Run, kept, runs_in};
 use look::Look;
+use shearbed::Plan;
 use shearbed::plan::counted;
 use shearbed_validation::files::text::Shown;
 use shearbed_validation::files::{FileError, output};
@@ -120,6 +121,7 @@ fn of_runs(args: &Args) -> Result<(Figure, String), Failure> {
     if let Some(path) = &args.reference {
         drawn.figure.curves.extend(exact::curves(path, &drawn.time, &drawn.channels, &drawn.runs[0])?);
     }
+    drawn.part();
     Ok((drawn.figure, format!("{channels} of {}", counted(runs as u64, "run"))))
 }
 
@@ -161,12 +163,24 @@ impl Drawn {
         let (run, channel) = (&self.runs[k / self.channels.len()], &self.channels[k % self.channels.len()]);
         Err(FileError::whole(&run.dir, format!("has no {channel}: {}", derived::lacks(channel))).into())
     }
+
+    /// Leaves out lines through outputs that are far apart, except among curves in shades.
+    fn part(&mut self) {
+        let Self { figure, channels, runs, .. } = self;
+        let is_apart = |run: &Run| Plan::new(&run.scene).is_ok_and(|plan| pictures::are_apart(&plan));
+        let apart: Vec<bool> = runs.iter().map(is_apart).collect();
+        let is_derived = |k: usize| derived::is_extreme(&channels[k % channels.len()]);
+        if figure.shaded_by.is_none() {
+            pictures::part(figure, |k| apart.get(k / channels.len()) == Some(&true) && !is_derived(k));
+        }
+    }
 }
 
 /// Channels of every folder against time; by default the first channel of the first folder.
 pub(super) fn figure(dirs: &[PathBuf], channels: &[String]) -> Result<Figure, Failure> {
-    let drawn = drawn_of(dirs, channels, None)?;
+    let mut drawn = drawn_of(dirs, channels, None)?;
     drawn.is_defined()?;
+    drawn.part();
     Ok(drawn.figure)
 }
 

@@ -182,7 +182,7 @@ fn files(plan: &Plan, results: &Results) -> Result<Vec<Output>, String> {
     let mut files = Vec::new();
     for series in &results.series {
         files.push((format!("{}.csv", series.observable.name()), tables::csv(results, series)?));
-        for (stem, figure) in pictures::figures(plan.scene(), results, series) {
+        for (stem, figure) in pictures::figures(plan, results, series) {
             files.push((format!("{stem}.svg"), plot::svg(&figure)?));
         }
     }

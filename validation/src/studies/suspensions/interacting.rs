@@ -32,7 +32,7 @@ pub const STUDY: Study = Study {
 fn run(request: &Request) -> Result<Option<Findings>, String> {
     let amount = request.effort.pick(Amount::QUICK, Amount::FULL);
     let study = measure(amount, request.effort.pick(Budget::QUICK, Budget::FULL))?;
-    let [steps, law @ ..] = law_tables::law(&study.law, study.strain_per_period);
+    let [_, steps, law @ ..] = law_tables::law(&study.law, study.strain_per_period);
     let mut exhibits = vec![
         Exhibit::both(figure(&study), answers(&study)),
         Exhibit::both(law_tables::steps_figure(&study.law), steps),
@@ -116,6 +116,7 @@ struct Interacting {
 fn measure(amount: Amount, budget: Budget) -> Result<Interacting, String> {
     let built_in = scenes::find(SCENE).ok_or("no such scene")?;
     let scene = built_in.scene().map_err(|error| error.to_string())?;
+    let scene = Scene { time: Time { duration: 1.0, ..scene.time.clone() }, ..scene };
     let own = Scope::OwnRods(scene.particles.count);
     let jobs = law::jobs(&scene, amount.replicas);
     let law = law::read(&scene, &jobs, &law::run(&jobs, &|| ())?);
@@ -219,14 +220,14 @@ fn split_columns<'a, R>(constants: &Constants, of: impl Fn(&R) -> Split + Copy +
         field("replicas", move |r| of(r).replicas),
         number("bias ≤", powers(1), move |r| of(r).bias),
         number("scatter", powers(1), move |r| of(r).scatter),
-        number("rods × steps", powers(1), move |r| of(r).rod_steps() as f64),
+        number("rods × steps a period", powers(1), move |r| of(r).rod_steps() as f64),
     ]
 }
 
-/// The table of the splits for given errors, for any scene.
-pub fn splits_table(constants: &Constants, splits: &[Split]) -> ReportTable {
+/// The table of the splits for given errors at the time `end`, for any scene.
+pub fn splits_table(constants: &Constants, splits: &[Split], end: f64) -> ReportTable {
     ReportTable::new(
-        ["splits", "The cheapest steps, rods and replicas for an error of X̄₁ at t/T = 1"],
+        ["splits", &format!("The cheapest steps, rods and replicas for an error of X̄₁ at t/T = {end}")],
         rule(constants),
         splits,
         split_columns(constants, |split: &Split| *split),

@@ -1,9 +1,9 @@
-//! Convergence in law: how an interacting scene's X̄₁ at t/T = 1, and the distribution of its directions, depend on the
-//! steps per period, the rods and the replicas. The study is a list of independent jobs, and an evaluation of their
-//! results.
+//! Convergence in law: how an interacting scene's X̄₁ and the distribution of its directions depend on the steps per
+//! period, the rods and the replicas, at the scene's end and within its first and last period. The study is a list of
+//! independent jobs, and an evaluation of their results.
 
 use super::blocks::{Block, blocks, replicas_exponent};
-use super::fit::{Line, Means, Order};
+use super::fit::{FEWEST, Line, Means, Order};
 use super::job::{Job, PLACES, Trace, x1};
 use super::*;
 use shearbed::scene::TimeUnit;
@@ -19,8 +19,8 @@ pub const RODS: [usize; 6] = [25, 50, 100, 200, 400, 1000];
 /// a rod length of a face is ∝ 1/H ∝ N^(−1/3).
 pub const FACES: f64 = -1.0 / 3.0;
 
-/// The times t/T at which X̄₁ is compared between steps.
-pub const QUARTERS: [f64; 4] = [0.25, 0.5, 0.75, 1.0];
+/// The largest t/T of a run.
+const LONGEST: f64 = 10.0;
 
 /// Number of replicas whose rods are compared one by one between two steps.
 const FOLLOWED: u64 = 16;
@@ -30,7 +30,8 @@ const FOLLOWED: u64 = 16;
 pub enum Replicas {
     /// The same number for all jobs.
     Each(u64),
-    /// The largest number that keeps a job below `rod_steps`, at least 8 and at most `most`.
+    /// The largest number that keeps a job below `rod_steps`, at most `most`; steps and rods that allow fewer than 8
+    /// are left out, except the scene's own, which have 8.
     Within {
         /// Rods times steps of a job, over all replicas.
         rod_steps: u64,
@@ -43,15 +44,19 @@ impl Replicas {
     /// The choice for `shearbed converge`: about three minutes of one core.
     pub const CONVERGE: Self = Self::Within { rod_steps: 400_000_000, most: 20_000 };
 
-    fn of_job(self, steps_per_period: u64, rods: usize) -> u64 {
+    /// The number of replicas of so many steps in all; `None` if too few are allowed.
+    fn of_job(self, steps: f64, rods: usize) -> Option<u64> {
         match self {
-            Self::Each(replicas) => replicas,
-            Self::Within { rod_steps, most } => (rod_steps / (steps_per_period * rods as u64)).clamp(8, most),
+            Self::Each(replicas) => Some(replicas),
+            Self::Within { rod_steps, most } => {
+                let allowed = (rod_steps as f64 / (steps * rods as f64)) as u64;
+                (allowed >= FEWEST as u64).then_some(allowed.min(most))
+            }
         }
     }
 }
 
-/// The result of one job for X̄₁ at t/T = 1.
+/// The result of one job for X̄₁ at its end.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct JobMean {
     pub(crate) steps_per_period: u64,
@@ -79,22 +84,43 @@ pub struct Change {
     pub unrelated_rad: f64,
 }
 
-/// X̄₁ at [`QUARTERS`] of the period at one number of steps, which they divide.
+/// X̄₁ at one time, and what the scene's own steps, rods and replicas leave of an error there.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Quarters {
+pub struct AtTime {
+    #[serde(rename = "t_over_T")]
+    pub(crate) time: f64,
+    /// At the scene's own steps and rods, with the replicas of the study.
+    pub(crate) x1: Estimate,
+    /// The slope b of X̄₁ against 1/(steps per period): first order; `None` if no straight line fits.
+    pub steps_slope: Option<Estimate>,
+    /// b over the scene's own steps: X̄₁ less that at Δt = 0.
+    pub steps_bias: Option<Estimate>,
+    /// X̄₁ less that at the largest number of rods, at other seeds; `None` if that is the scene's own.
+    pub rods_bias: Option<Estimate>,
+    /// The standard error of the scene's own replicas.
+    pub scatter: f64,
+}
+
+/// The scene's own steps per period, rods and replicas.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub struct Own {
     pub(crate) steps_per_period: u64,
-    pub(crate) x1: [Estimate; 4],
-    /// X̄₁ less that at the finest step, at the same seeds; `None` for the finest itself.
-    pub less_finest: Option<[Estimate; 4]>,
+    pub(crate) rods: usize,
+    pub(crate) replicas: u64,
 }
 
 /// The results of the study.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Law {
+    /// The end t/T of the runs, at which X̄₁ is compared where no other time is said.
+    #[serde(rename = "t_over_T")]
+    pub end: f64,
+    /// The scene as it is.
+    pub own: Own,
+    /// The times that a step of the scene's ends at, of the quarters of the first period and of the last.
+    pub times: Vec<AtTime>,
     pub(crate) steps: Vec<JobMean>,
     pub(crate) changes: Vec<Change>,
-    /// Results within the period against the steps per period, coarse to fine.
-    pub quarters: Vec<Quarters>,
     /// The first of the levels with GΔt ≤ 1, which resolve a flip: from it on an order may be determined.
     pub resolved_from: usize,
     /// The weak order over those levels, if the noise allows it and two differences are distinct from 0.
@@ -133,22 +159,44 @@ pub fn by_periods(plan: &Plan) -> Scene {
     scene
 }
 
+/// The end t/T of the study's runs: that of the scene, in whole quarters of a period, and at most [`LONGEST`].
+pub fn end(scene: &Scene) -> f64 {
+    // A third in six digits is meant as one.
+    ((4.0 * scene.time.duration * (1.0 - 1e-5)).ceil() / 4.0).clamp(0.25, LONGEST)
+}
+
+/// The times t/T at which X̄₁ is looked at: the quarters of the first period and of the last.
+fn times(end: f64) -> Vec<f64> {
+    let quarters = (4.0 * end) as u64;
+    let chosen = (1..=quarters).filter(|k| *k <= 4 || k + 4 > quarters);
+    chosen.map(|k| k as f64 / 4.0).collect()
+}
+
+/// The scene as it is; if its end is between two periods, its steps are rounded up so that one ends there.
+fn own(scene: &Scene) -> Own {
+    let steps = scene.steps_per_unit();
+    Own {
+        steps_per_period: if end(scene).fract() == 0.0 { steps } else { steps.next_multiple_of(4) },
+        rods: scene.particles.count,
+        replicas: scene.ensemble.replicas,
+    }
+}
+
 /// The jobs of a scene: every number of steps, then every number of rods, each once.
 pub fn jobs(scene: &Scene, replicas: Replicas) -> Vec<Job> {
-    let (own_steps, own_rods) = (scene.steps_per_unit(), scene.particles.count);
-    let job = |steps, rods| Job::new(scene, steps, rods, replicas.of_job(steps, rods), 1);
-    let every_steps: BTreeSet<_> = STEPS_PER_PERIOD.into_iter().chain([own_steps]).collect();
-    let mut jobs: Vec<_> = (every_steps.into_iter())
-        .map(|steps| {
-            let followed = FOLLOWED.min(replicas.of_job(steps, own_rods));
-            let job = job(steps, own_rods);
-            let marks = if steps % 4 == 0 { [1, 2, 3, 4].map(|k| k * steps / 4).to_vec() } else { job.marks };
-            Job { followed, marks, ..job }
-        })
-        .collect();
-    let rods = RODS.iter().filter(|rods| **rods != own_rods);
-    jobs.extend(rods.map(|rods| job(own_steps, *rods)));
-    jobs
+    let (own, end) = (own(scene), end(scene));
+    let job = |steps: u64, rods: usize| {
+        let mark = |time: f64| Some(time * steps as f64).filter(|mark| mark.fract() == 0.0).map(|mark| mark as u64);
+        let marks = times(end).into_iter().filter_map(mark).collect();
+        let least = (steps == own.steps_per_period && rods == own.rods).then_some(FEWEST as u64);
+        let replicas = replicas.of_job(end * steps as f64, rods).or(least).filter(|_| mark(end).is_some())?;
+        Some(Job { marks, ..Job::new(scene, steps, rods, replicas, end.ceil() as u64) })
+    };
+    let every_steps: BTreeSet<_> = STEPS_PER_PERIOD.into_iter().chain([own.steps_per_period]).collect();
+    let followed = |job: Job| Job { followed: FOLLOWED.min(job.replicas), ..job };
+    let of_steps = every_steps.into_iter().filter_map(|steps| job(steps, own.rods).map(followed));
+    let rods = RODS.into_iter().filter(|rods| *rods != own.rods);
+    of_steps.chain(rods.filter_map(|rods| job(own.steps_per_period, rods))).collect()
 }
 
 /// Runs every job, one after the other, on the threads of the current pool. `finished` is called after each replica.
@@ -156,27 +204,65 @@ pub fn run(jobs: &[Job], finished: &(dyn Fn() + Sync)) -> Result<Vec<Vec<Trace>>
     jobs.iter().map(|job| job.run(finished)).collect()
 }
 
+/// X̄₁ of each replica of a job at the mark after `time` periods; `None` if there is none.
+fn x1_at(job: &Job, traces: &[Trace], time: f64) -> Option<Vec<f64>> {
+    let mark = time * job.scene.steps_per_unit() as f64;
+    let look = job.marks.iter().position(|own| *own as f64 == mark)?;
+    Some(traces.iter().map(|trace| trace.looks[look].x1).collect())
+}
+
+/// Jobs of one kind at one time, ascending in their steps or rods.
+struct Levels<'a> {
+    jobs: Vec<&'a Job>,
+    x1: Vec<Vec<f64>>,
+}
+
+impl Levels<'_> {
+    fn means(&self) -> Means {
+        Means::of(&self.x1)
+    }
+
+    /// The steps of a job in periods.
+    fn h(&self) -> Vec<f64> {
+        self.jobs.iter().map(|job| 1.0 / job.scene.steps_per_unit() as f64).collect()
+    }
+
+    fn samples(&self) -> Vec<JobMean> {
+        self.jobs.iter().zip(&self.x1).map(|(job, x1)| sample(job, x1)).collect()
+    }
+
+    fn find(&self, which: impl Fn(&Job) -> bool) -> Option<usize> {
+        self.jobs.iter().position(|job| which(job))
+    }
+}
+
+/// The first of the levels that resolve a flip, or the finest.
+fn resolved_from(h: &[f64], strain: f64) -> usize {
+    h.iter().position(|h| strain * h <= 1.0).unwrap_or(h.len().saturating_sub(1))
+}
+
 /// Evaluates the traces of the jobs of [`jobs`].
 pub fn read(scene: &Scene, jobs: &[Job], traces: &[Vec<Trace>]) -> Law {
-    let (own_steps, own_rods) = (scene.steps_per_unit(), scene.particles.count);
-    let x1: Vec<_> = traces.iter().map(|of_job| x1(of_job)).collect();
+    let (own, end) = (own(scene), end(scene));
     let chosen = |which: &dyn Fn(&Job) -> bool| -> Vec<usize> {
         let mut chosen: Vec<_> = (0..jobs.len()).filter(|k| which(&jobs[*k])).collect();
         chosen.sort_by_key(|k| (jobs[*k].scene.particles.count, jobs[*k].scene.steps_per_unit()));
         chosen
     };
-    let steps = chosen(&|job| job.scene.particles.count == own_rods);
-    let rods = chosen(&|job| job.scene.steps_per_unit() == own_steps);
-    let samples = |which: &[usize]| which.iter().map(|k| sample(&jobs[*k], &x1[*k])).collect();
-    let of = |which: &[usize]| Means::of(&which.iter().map(|k| x1[*k].clone()).collect::<Vec<_>>());
-
-    let (means, h) = (of(&steps), steps.iter().map(|k| 1.0 / jobs[*k].scene.steps_per_unit() as f64));
-    let h: Vec<f64> = h.collect();
-    let changes: Vec<_> =
-        (steps.windows(2).enumerate()).map(|(k, pair)| change(&means, k, &traces[pair[0]], &traces[pair[1]])).collect();
-    let by_steps: Vec<_> = steps.iter().map(|k| (jobs[*k].scene.steps_per_unit(), &traces[*k][..])).collect();
+    let of_steps = chosen(&|job| job.scene.particles.count == own.rods);
+    let of_rods = chosen(&|job| job.scene.steps_per_unit() == own.steps_per_period);
+    let levels = |which: &[usize], time: f64| {
+        let found = which.iter().filter_map(|k| Some((&jobs[*k], x1_at(&jobs[*k], &traces[*k], time)?)));
+        let (jobs, x1) = found.unzip();
+        Levels { jobs, x1 }
+    };
+    let (steps, rods) = (levels(&of_steps, end), levels(&of_rods, end));
     let strain = strain_per_period(scene.particles.aspect_ratio);
-    let resolved_from = h.iter().position(|h| strain * h <= 1.0).unwrap_or(h.len().saturating_sub(1));
+
+    let (means, h) = (steps.means(), steps.h());
+    let change = |(k, pair): (usize, &[usize])| change(&means, k, &traces[pair[0]], &traces[pair[1]]);
+    let changes: Vec<_> = of_steps.windows(2).enumerate().map(change).collect();
+    let resolved_from = resolved_from(&h, strain);
     let known = changes[resolved_from.min(changes.len())..].iter().filter(|change| change.x1.readable());
     let order = match known.count() {
         0 | 1 => None,
@@ -184,29 +270,48 @@ pub fn read(scene: &Scene, jobs: &[Job], traces: &[Vec<Trace>]) -> Law {
     };
     let (line_from, steps_line) = first_order(&means, &h, resolved_from);
 
-    let of_rods = of(&rods);
-    let counts: Vec<f64> = (rods.iter()).map(|k| jobs[*k].scene.particles.count as f64).collect();
     let against = |exponent: f64| {
-        let x: Vec<_> = counts.iter().map(|count| count.powf(exponent)).collect();
-        of_rods.line(&x)
+        let x: Vec<_> = rods.jobs.iter().map(|job| (job.scene.particles.count as f64).powf(exponent)).collect();
+        rods.means().line(&x)
     };
-    let own = (steps.iter()).find(|k| jobs[**k].scene.steps_per_unit() == own_steps);
-    let own = own.map_or(&[][..], |k| &x1[*k]);
+    let own_x1 = steps.find(|job| job.scene.steps_per_unit() == own.steps_per_period).map_or(&[][..], |k| &steps.x1[k]);
+    let at = |time: f64| at_time(own, time, strain, &levels(&of_steps, time), &levels(&of_rods, time));
     Law {
-        steps: samples(&steps),
+        end,
+        own,
+        times: times(end).into_iter().filter_map(at).collect(),
+        steps: steps.samples(),
         changes,
-        quarters: quarters(&by_steps),
         resolved_from,
         order,
         steps_line,
         line_from,
-        rods: samples(&rods),
+        rods: rods.samples(),
         rods_lines: [against(FACES), against(-1.0)],
-        blocks: blocks(own),
-        replicas_exponent: replicas_exponent(own),
-        variance_per_rod: super::covariance(own, own) * own_rods as f64,
+        blocks: blocks(own_x1),
+        replicas_exponent: replicas_exponent(own_x1),
+        variance_per_rod: super::covariance(own_x1, own_x1) * own.rods as f64,
         rod_steps: jobs.iter().map(Job::rod_steps).sum(),
     }
+}
+
+/// What the scene's own settings leave of an error at `time`; `None` if no step of its own ends there.
+fn at_time(own: Own, time: f64, strain: f64, steps: &Levels<'_>, rods: &Levels<'_>) -> Option<AtTime> {
+    let level = steps.find(|job| job.scene.steps_per_unit() == own.steps_per_period)?;
+    let (means, h, x1) = (steps.means(), steps.h(), &steps.x1[level]);
+    let (_, line) = first_order(&means, &h, resolved_from(&h, strain));
+    let slope = line.map(|line| Estimate { value: line.slope, se: line.slope_se });
+    let over = |slope: Estimate| Estimate { value: slope.value * h[level], se: slope.se * h[level] };
+    let most = rods.jobs.len().saturating_sub(1);
+    let own_rods = rods.find(|job| job.scene.particles.count == own.rods).filter(|own| *own != most);
+    Some(AtTime {
+        time,
+        x1: Estimate::mean_of(x1),
+        steps_slope: slope,
+        steps_bias: slope.map(over),
+        rods_bias: own_rods.map(|own| rods.means().difference(own, most)),
+        scatter: (super::covariance(x1, x1) / own.replicas as f64).sqrt(),
+    })
 }
 
 fn sample(job: &Job, x1: &[f64]) -> JobMean {
@@ -218,20 +323,6 @@ fn sample(job: &Job, x1: &[f64]) -> JobMean {
         x1: mean.value,
         se: mean.se,
     }
-}
-
-/// X̄₁ within the period at the levels that were looked at there.
-fn quarters(levels: &[(u64, &[Trace])]) -> Vec<Quarters> {
-    let seen: Vec<_> = levels.iter().filter(|(_, traces)| traces[0].looks.len() == QUARTERS.len()).collect();
-    let of = |traces: &[Trace], k: usize| traces.iter().map(|trace| trace.looks[k].x1).collect::<Vec<_>>();
-    let means = [0, 1, 2, 3].map(|k| Means::of(&seen.iter().map(|(_, traces)| of(traces, k)).collect::<Vec<_>>()));
-    let finest = seen.len().saturating_sub(1);
-    let row = |(level, (steps_per_period, traces)): (usize, &&(u64, &[Trace]))| Quarters {
-        steps_per_period: *steps_per_period,
-        x1: [0, 1, 2, 3].map(|k| Estimate::mean_of(&of(traces, k))),
-        less_finest: (level != finest).then(|| means.each_ref().map(|means| means.difference(level, finest))),
-    };
-    seen.iter().enumerate().map(row).collect()
 }
 
 /// The line a + b/S over the resolved levels, or from a finer level if the line is refuted (p < 0.001), with its first
@@ -282,4 +373,81 @@ pub fn apart(one: &[Trace], other: &[Trace], shift: usize) -> f64 {
         }));
     }
     (squares.iter().sum::<f64>() / squares.len() as f64).sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::studies::suspensions::law_tables;
+    use rand::SeedableRng;
+    use rand_distr::{Distribution, StandardNormal};
+    use rand_pcg::Pcg64Dxsm;
+
+    fn scene(periods: f64, steps: u64, replicas: u64) -> Scene {
+        let mut scene =
+            Scene { time: Time::periods(periods), ..crate::input::scenes::find("fig7-n50").unwrap().scene().unwrap() };
+        (scene.time.steps_per_unit, scene.ensemble.replicas) = (Some(steps), replicas);
+        scene
+    }
+
+    /// Made up: X̄₁ = 0.3 + t·b/S + 0.5/N with the noise of so many replicas of the scene.
+    fn synthetic(scene: &Scene, b: f64, noise: f64) -> Law {
+        let jobs = jobs(scene, Replicas::Each(200));
+        let mut rng = Pcg64Dxsm::seed_from_u64(7);
+        let mut trace = |job: &Job| {
+            let (steps, rods) = (job.scene.steps_per_unit() as f64, job.scene.particles.count as f64);
+            let mut look = |mark: &u64| {
+                let normal: f64 = StandardNormal.sample(&mut rng);
+                let x1 = 0.3 + *mark as f64 / steps * b / steps + 0.5 / rods + noise * normal;
+                super::super::job::Look { x1, p1_below: [0.5; PLACES], orbit_below: [0.5; PLACES] }
+            };
+            Trace { looks: job.marks.iter().map(&mut look).collect(), directions: Vec::new() }
+        };
+        let traces: Vec<Vec<_>> = jobs.iter().map(|job| (0..job.replicas).map(|_| trace(job)).collect()).collect();
+        read(scene, &jobs, &traces)
+    }
+
+    #[test]
+    fn the_times_are_quarters_of_the_first_and_the_last_period() {
+        let of = |periods| (end(&scene(periods, 200, 2)), times(end(&scene(periods, 200, 2))));
+        assert_eq!(of(0.3), (0.5, vec![0.25, 0.5]));
+        assert_eq!(of(1.0), (1.0, vec![0.25, 0.5, 0.75, 1.0]));
+        assert_eq!(of(6.0), (6.0, vec![0.25, 0.5, 0.75, 1.0, 5.25, 5.5, 5.75, 6.0]));
+        assert_eq!(of(1e4).0, LONGEST);
+        // 250 steps a period have no step at a quarter: an end there takes 252.
+        assert_eq!([1.0, 1.25].map(|periods| own(&scene(periods, 250, 2)).steps_per_period), [250, 252]);
+    }
+
+    #[test]
+    fn settings_are_judged_at_each_time() {
+        let (b, noise) = (-0.8, 0.004);
+        let scene = scene(3.0, 250, 16);
+        let law = synthetic(&scene, b, noise);
+        let times: Vec<_> = law.times.iter().map(|at| at.time).collect();
+        assert_eq!(times, [0.5, 1.0, 2.5, 3.0]);
+        for at in &law.times {
+            let (slope, bias, rods) = (at.steps_slope.unwrap(), at.steps_bias.unwrap(), at.rods_bias.unwrap());
+            assert!((slope.value - b * at.time).abs() < 4.0 * slope.se && slope.se < 0.1, "{at:?}");
+            assert!((bias.value - slope.value / 250.0).abs() < 1e-12, "{at:?}");
+            let fewer = 0.5 / scene.particles.count as f64 - 0.5 / 1000.0;
+            assert!((rods.value - fewer).abs() < 4.0 * rods.se && rods.se < 6e-4, "{at:?}");
+            // 200 replicas tell their scatter to 5 %.
+            assert!((at.scatter / (noise / 4.0) - 1.0).abs() < 0.2, "{at:?}");
+        }
+    }
+
+    #[test]
+    fn what_limits_a_scene_is_named() {
+        let said = |b: f64, noise: f64, replicas: u64| {
+            let law = synthetic(&scene(1.0, 200, replicas), b, noise);
+            law_tables::law(&law, 50.0)[0].caption.clone()
+        };
+        // A bias of 0.005 and standard errors of 0.02, 0.005 and 0.0005.
+        for (noise, replicas, words) in
+            [(0.02, 1, "More replicas first: "), (0.02, 16, "Half of both"), (0.005, 100, "Finer steps first")]
+        {
+            assert!(said(1.0, noise, replicas).contains(words), "{} {words}", said(1.0, noise, replicas));
+        }
+        assert!(said(0.0, 0.02, 2000).contains("no bias of the steps is seen"), "{}", said(0.0, 0.02, 2000));
+    }
 }

@@ -3,13 +3,80 @@
 use super::blocks::Block;
 use super::fit::FEWEST;
 use super::job::PLACES;
-use super::law::{Change, JobMean, Law, QUARTERS, Quarters};
+use super::law::{AtTime, Change, JobMean, Law};
 use super::*;
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
-/// Tables against steps, rods and replicas; `strain` is that of a period.
+/// Tables of the scene as it is, and against steps, rods and replicas; `strain` is that of a period.
 pub fn law(law: &Law, strain: f64) -> [ReportTable; 5] {
-    [steps(law, strain), quarters(law), paths(law), rods(law), replicas(law)]
+    [as_it_is(law), steps(law, strain), paths(law), rods(law), replicas(law)]
+}
+
+/// The largest of some parts of an error, with its time.
+fn largest(times: &[AtTime], of: impl Fn(&AtTime) -> Option<f64>) -> Option<(f64, f64)> {
+    let parts = times.iter().filter_map(|at| Some((of(at)?, at.time)));
+    parts.max_by(|a, b| a.0.abs().total_cmp(&b.0.abs()))
+}
+
+/// What limits the scene as it is and what to change first, in words.
+fn advice(law: &Law) -> String {
+    let (own, times) = (law.own, &law.times);
+    let Some((scatter, at)) = largest(times, |at| Some(at.scatter)) else {
+        return String::new();
+    };
+    let scattered = format!("The replicas' standard error is up to {scatter:.1e} (t/T = {at})");
+    let seen = largest(times, |at| at.steps_bias.filter(Estimate::readable).map(|bias| bias.value));
+    let room = largest(times, |at| at.steps_bias.map(|bias| bias.value.abs() + 2.0 * bias.se));
+    let (bias, steps) = match (seen, room) {
+        (Some((bias, at)), _) => (bias.abs(), format!("the steps' bias up to {bias:+.1e} (t/T = {at})")),
+        (None, Some((room, _))) => (room, format!("no bias of the steps is seen, which leaves room for {room:.1e}")),
+        (None, None) => {
+            let why = too_few(&law.steps).unwrap_or(" The steps' bias follows no straight line.".into());
+            return format!("{scattered}.{why}");
+        }
+    };
+    let ratio = scatter / bias;
+    let first = if ratio > 2.0 {
+        let replicas = own.replicas as f64 * ratio * ratio;
+        format!("More replicas first: {replicas:.0} for a standard error like that bias")
+    } else if seen.is_none() {
+        "These steps do".into()
+    } else if ratio > 0.5 {
+        "Half of both takes twice the steps and four times the replicas".into()
+    } else {
+        let steps = own.steps_per_period as f64 / ratio;
+        format!("Finer steps first: {steps:.0} a period for a bias like that standard error")
+    };
+    format!("{scattered}, {steps}. {first}.")
+}
+
+/// What the scene's own steps, rods and replicas leave of an error.
+fn as_it_is(law: &Law) -> ReportTable {
+    let own = law.own;
+    let most = law.rods.last().map_or(own.rods, |sample| sample.rods);
+    ReportTable::new(
+        [
+            "as-it-is",
+            &format!(
+                "The scene as it is: {} steps a period, {} rods, {} replicas",
+                own.steps_per_period, own.rods, own.replicas
+            ),
+        ],
+        format!(
+            "{} The bias is b/steps, from a straight line through all steps that resolve a flip. The last column: \
+             rods near a face of the volume lack neighbours, fewer of them in a larger volume.",
+            advice(law)
+        ),
+        &law.times,
+        vec![
+            number("t/T", decimals(2), |at: &AtTime| at.time),
+            number("X̄₁", decimals(4), |at: &AtTime| at.x1.value),
+            number("se of its replicas", decimals(4), |at: &AtTime| at.scatter),
+            difference("bias of its steps", |at: &AtTime| at.steps_bias.map(Into::into)),
+            difference("b", |at: &AtTime| at.steps_slope.map(Into::into)),
+            difference(format!("less {most} rods"), |at: &AtTime| at.rods_bias.map(Into::into)),
+        ],
+    )
 }
 
 /// A sentence on the weak order, or on why there is none.
@@ -59,7 +126,7 @@ fn steps(law: &Law, strain: f64) -> ReportTable {
         None => "–",
     };
     ReportTable::new(
-        ["steps", "X̄₁ at t/T = 1 against the steps per period: convergence in law"],
+        ["steps", &format!("X̄₁ at t/T = {} against the steps per period: convergence in law", law.end)],
         format!(
             "Differences are to the next finer step at the same seeds; not readable: below two standard errors. The \
              last two columns: the difference of the distribution functions of |p_1| and of C_b, of nine places where \
@@ -82,28 +149,10 @@ fn steps(law: &Law, strain: f64) -> ReportTable {
     )
 }
 
-fn quarters(law: &Law) -> ReportTable {
-    let less = |k: usize| move |r: &Quarters| r.less_finest.map(|less| less[k].into());
-    let mut columns = vec![field("steps per period", |r: &Quarters| r.steps_per_period)];
-    columns.extend((0..4).map(|k| difference(format!("at t/T = {}", QUARTERS[k]), less(k))));
-    let finest = law.quarters.last().map_or(String::new(), |finest| {
-        let means = finest.x1.map(|x1| format!("{:.4}", x1.value));
-        format!(", where X̄₁ is {}", means.join(", "))
-    });
-    ReportTable::new(
-        ["quarters", "Differences of X̄₁ from the finest step, within the period"],
-        format!(
-            "At the same seeds; the last row is the finest step{finest}. The time that matters may not be t/T = 1."
-        ),
-        &law.quarters,
-        columns,
-    )
-}
-
 fn paths(law: &Law) -> ReportTable {
     type Row<'a> = (&'a [JobMean], &'a Change);
     ReportTable::new(
-        ["paths", "Paths do not converge: the same rods at two steps, t/T = 1"],
+        ["paths", &format!("Paths do not converge: the same rods at two steps, t/T = {}", law.end)],
         "A rod's direction is the exact motion plus kicks ∝ Δt/r at contact arms r down to 0. Halving Δt doubles the \
          collisions and halves what each does, but other draws decide which arms are met: the large kicks, at a rate \
          that does not depend on Δt, come at other times to other rods. So the angle between the same rod at two steps \
@@ -154,7 +203,7 @@ fn rods(law: &Law) -> ReportTable {
     };
     let lines = too_few(&law.rods).unwrap_or_else(fitted);
     ReportTable::new(
-        ["rods", "X̄₁ at t/T = 1 against the rods"],
+        ["rods", &format!("X̄₁ at t/T = {} against the rods", law.end)],
         format!(
             "Rods near a face of the volume lack neighbours, and the share of the volume near faces is ∝ N^(−1/3) \
              (`faces-cost-collisions`).{lines}"
@@ -178,7 +227,7 @@ fn replicas(law: &Law) -> ReportTable {
         None => "Fewer than 1024 replicas: the exponent of M is not read.".into(),
     };
     ReportTable::new(
-        ["replicas", "The scatter of X̄₁ at t/T = 1 against the replicas M"],
+        ["replicas", &format!("The scatter of X̄₁ at t/T = {} against the replicas M", law.end)],
         format!(
             "The standard deviation of means over blocks of M replicas; the last column is constant where it falls as \
              1/√M. {exponent}"
@@ -202,7 +251,7 @@ pub fn steps_figure(law: &Law) -> ReportFigure {
         Curve::of("first order", steps, |x| (x, line.intercept + line.slope * x))
     });
     ReportFigure::new(
-        ["steps", "Interacting rods: X̄₁ at t/T = 1 against the step"],
+        ["steps", &format!("Interacting rods: X̄₁ at t/T = {} against the step", law.end)],
         "Convergence in law: the mean, with 95 % bars, tends to a limit as Δt → 0, to the left; the line is a + bΔt, \
          where one fits.",
         ["log step Δt/T", "X̄₁ (rod lengths)"],
@@ -210,6 +259,22 @@ pub fn steps_figure(law: &Law) -> ReportFigure {
     .curves(line)
     .points([Points::with_bars("simulated", &law.steps, |s| (step(s), s.x1, 1.96 * s.se))])
     .judged("eqs 4 to 14", &["cheapest-split", "paths-do-not-converge"])
+}
+
+/// times.csv of an interacting scene.
+pub fn times_csv(law: &Law) -> Result<String, String> {
+    columns_csv(
+        &law.times,
+        vec![
+            field("t_over_T", |at: &AtTime| at.time),
+            field("x1", |at: &AtTime| at.x1.value),
+            field("se_of_own_replicas", |at: &AtTime| at.scatter),
+            field("steps_bias", |at: &AtTime| at.steps_bias.map(|bias| bias.value)),
+            field("steps_bias_se", |at: &AtTime| at.steps_bias.map(|bias| bias.se)),
+            field("less_most_rods", |at: &AtTime| at.rods_bias.map(|bias| bias.value)),
+            field("less_most_rods_se", |at: &AtTime| at.rods_bias.map(|bias| bias.se)),
+        ],
+    )
 }
 
 /// converge.csv of an interacting scene.

@@ -1,4 +1,4 @@
-//! The cost of a given error of X̄₁ at t/T = 1: the cheapest steps per period, rods and replicas, from measured
+//! The cost of a given error of X̄₁ at a run's end: the cheapest steps per period, rods and replicas, from measured
 //! constants alone.
 //!
 //! Mean-square error = (b/S + c N^(−1/3))² + v/(N M) for S steps per period, N rods and M replicas; cost = N M S rods
@@ -234,7 +234,7 @@ mod tests {
     #[test]
     fn a_bias_that_was_not_seen_is_said_to_be_none() {
         let of = |steps_bias_seen| {
-            let table = interacting::splits_table(&Constants { steps_bias_seen, ..SYNTHETIC }, &[]);
+            let table = interacting::splits_table(&Constants { steps_bias_seen, ..SYNTHETIC }, &[], 1.0);
             (table.caption.contains("Bias of the steps: none seen"), table.columns[2].ends_with('≤'))
         };
         assert_eq!([of(true), of(false)], [(false, false), (true, true)]);
