@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Makes the pictures of README and book: all that take seconds, those that take minutes too, or the named ones.
+# Makes the pictures of README and book: all that take a few seconds, those that take longer too, or the named ones.
 # The test `docs` compares them byte for byte: the quick ones, and with DOCS_SLOW all.
 # Usage: bash docs/pictures.sh DIR [slow | NAME...]      into DIR, as `bash docs/pictures.sh made damping`; builds the program if it is not installed
 set -euo pipefail
@@ -79,11 +79,11 @@ draw_closures-error() { bench closures closures-error; }
 draw_brownian() { bench brownian brownian-start-up brownian-relaxation brownian-angle; }
 draw_folgar-tucker() { bench folgar-tucker effective-ci folgar-tucker kicks-and-diffusion steady-orbits; }
 
-names=(fig4-n50 damping lengths collapse orders fit-points brownian)
+names=(fig4-n50 damping lengths collapse brownian)
 if command -v python3 >/dev/null; then names+=(diagrams rods); fi
 case ${1:-} in
 '') ;;
-slow) names+=(closures-error folgar-tucker) ;;
+slow) names+=(orders fit-points closures-error folgar-tucker) ;;
 *) names=("$@") ;;
 esac
 for name in "${names[@]}"; do

@@ -82,23 +82,21 @@ fn check(wrong: &Wrong, effort: &Effort) -> Vec<Evidence> {
 }
 
 fn compared(full: bool) -> Vec<Compared> {
-    let one = |what, most, because, pairs| Compared { what, most, because, pairs };
-    let mut all = vec![
-        one(ROD, 1e-24, "25 digits; arithmetic is shared", rods(full)),
-        one(ISOTROPIC, 1e-21, "22 digits; F and arithmetic are shared", isotropic(full)),
-        one(UNEQUAL, 4e-12, "eleven decimals; the Gaussian is shared", unequal()),
-        one(DIFFUSING, 5e-12, "eleven decimals; nothing shared", diffusing(full, 6)),
-        one(FOURTH, 5e-12, "eleven decimals; nothing shared", diffusing(full, 15)),
-        one(STEADY, 5e-12, "eleven decimals; nothing shared", steady(full)),
-        one(CLOSED, 1e-12, "twelve decimals; coefficients of fits are shared", closed(full)),
-        one(CONTACT, 1e-22, "22 digits; arithmetic is shared", contacts(full)),
-        one(STRESS, 1e-12, "rounding; Jeffery's integrals are shared", stress()),
+    type Part = (&'static str, f64, &'static str, fn(bool) -> Vec<(Big, Big)>);
+    let parts: [Part; 10] = [
+        (ROD, 1e-24, "25 digits; arithmetic is shared", rods),
+        (ISOTROPIC, 1e-21, "22 digits; F and arithmetic are shared", isotropic),
+        (UNEQUAL, 4e-12, "eleven decimals; the Gaussian is shared", |_| unequal()),
+        (DIFFUSING, 5e-12, "eleven decimals; nothing shared", |full| diffusing(full, 6)),
+        (FOURTH, 5e-12, "eleven decimals; nothing shared", |full| diffusing(full, 15)),
+        (STEADY, 5e-12, "eleven decimals; nothing shared", steady),
+        (CLOSED, 1e-12, "twelve decimals; coefficients of fits are shared", closed),
+        (CONTACT, 1e-22, "22 digits; arithmetic is shared", contacts),
+        (STRESS, 1e-12, "rounding; Jeffery's integrals are shared", |_| stress()),
+        (FINE, 1e-21, "22 digits; means at one r_e are shared", |_| fine()),
     ];
-    if full {
-        let pairs = fine();
-        all.push(one(FINE, 1e-21, "22 digits; means at one r_e are shared", pairs));
-    }
-    all
+    let asked = parts.into_par_iter().filter(|(what, ..)| full || *what != FINE);
+    asked.map(|(what, most, because, pairs)| Compared { what, most, because, pairs: pairs(full) }).collect()
 }
 
 fn named(name: &str) -> &'static Built {
@@ -126,21 +124,22 @@ fn rods(full: bool) -> Vec<(Big, Big)> {
             "turning-axes-5",
         ]
     };
-    let mut pairs = Vec::new();
-    for built in names.iter().map(|name| named(name)) {
+    let of = |name: &&str| {
+        let (built, mut pairs) = (named(name), Vec::new());
         let problem = &built.problem;
         for (at, start) in built.start.iter().enumerate().take(if full { 2 } else { 1 }) {
             let start = start.map(|x| BITS.of(x));
             let size = length(&start);
             let start = start.map(|x| x / &size);
-            for (time, time_s) in problem.times_s.iter().enumerate() {
-                let (l, rotation) = (&problem.gradient_per_s, problem.rotation_rad_per_s.unwrap_or_default());
-                let p = second::direction(l, rotation, problem.aspect_ratio, &start, &BITS.of(*time_s));
+            let (l, rotation) = (&problem.gradient_per_s, problem.rotation_rad_per_s.unwrap_or_default());
+            let found = second::directions(l, rotation, problem.aspect_ratio, &start, &problem.times_s);
+            for (time, p) in found.into_iter().enumerate() {
                 pairs.extend(row(built, time * built.start.len() + at).into_iter().zip(p));
             }
         }
-    }
-    pairs
+        pairs
+    };
+    names.par_iter().flat_map(of).collect()
 }
 
 fn isotropic(full: bool) -> Vec<(Big, Big)> {

@@ -34,15 +34,15 @@ fn pages_and_the_schema_of_scenes_are_fresh() {
 fn pictures_are_those_of_their_script() {
     let dir = tempfile::tempdir().unwrap();
     let drawn = if bash(dir.path(), "command -v python3").ended().status.success() { 5 } else { 0 };
-    let mut count = 9 + drawn;
+    let mut count = 7 + drawn;
     let draw = |names: &str| {
         let ended = bash(dir.path(), &format!("bash '{}/docs/pictures.sh' made {names}", root().display())).ended();
         assert!(ended.status.success(), "{names}: {}", String::from_utf8_lossy(&ended.stderr));
     };
     draw("");
     if std::env::var_os("DOCS_SLOW").is_some() {
-        draw("folgar-tucker");
-        count += 4;
+        draw("orders fit-points folgar-tucker");
+        count += 6;
     }
     let pictures: Vec<_> = fs::read_dir(dir.path().join("made")).unwrap().map(|entry| entry.unwrap()).collect();
     assert_eq!(pictures.len(), count);

@@ -3,7 +3,7 @@
 use super::best::Best;
 use super::emulator::Emulator;
 use super::likelihood::ChiSquare;
-use super::minimise::{descend, minimise};
+use super::minimise::{Grid, descend};
 use super::profile::fixed;
 use nalgebra::DVector;
 use rand::{RngExt, SeedableRng};
@@ -29,6 +29,7 @@ pub fn factors(best: &Best, emulator: &Emulator, draws: u64) -> Option<Vec<f64>>
     // Here the polynomials are the truth: nothing in their slopes is noise.
     let surface = best.surface.with_noise();
     let axes = best.place.len();
+    let grid = Grid::new(&surface, &vec![None; axes]);
     let fixed: Vec<_> = (0..axes).map(|axis| fixed(best, &[(axis, best.place[axis])])).collect();
     let terms = emulator.mean();
     let from_origin = terms.tr_mul(&(emulator.basis.terms(&best.place) - surface.origin()));
@@ -36,7 +37,7 @@ pub fn factors(best: &Best, emulator: &Emulator, draws: u64) -> Option<Vec<f64>>
         let mut rng = Pcg64Dxsm::seed_from_u64(draw);
         let away = solver.l() * DVector::from_fn(slopes.nrows(), |_, _| rng.sample::<f64, _>(StandardNormal));
         surface.take(&(&from_origin + &away), terms, &solver);
-        let (place, least) = minimise(surface, &vec![None; axes], &[&best.place]);
+        let (place, least) = grid.minimise(surface, &[&best.place]);
         let moved = &influence * &away;
         let of_axis = |axis: usize| {
             let there = |start: &Vec<f64>| descend(surface, &fixed[axis], start.clone()).1;

@@ -226,14 +226,17 @@ impl Emulator {
     pub fn noise(&self, inverse: &DMatrix<f64>) -> DMatrix<f64> {
         let n = self.replicas() as f64;
         let (terms, points) = self.mean().shape();
-        // One product with V⁻¹ for many replicas: a replica alone has too few rows for the fast kernels.
+        // Two products for many replicas: a replica alone has too few rows for the fast kernels.
         let some = |deviations: &[DMatrix<f64>]| {
-            let stacked = DMatrix::from_fn(points, terms * deviations.len(), |point, column| {
+            let count = deviations.len();
+            let stacked = DMatrix::from_fn(points, terms * count, |point, column| {
                 deviations[column / terms][(column % terms, point)]
             });
-            let weighted = inverse * &stacked;
-            let of = |k: usize| stacked.columns(k * terms, terms).tr_mul(&weighted.columns(k * terms, terms));
-            (0..deviations.len()).map(of).sum()
+            let weighted = inverse * stacked;
+            let all = deviations.iter().flat_map(|one| one.iter().copied());
+            let beside = DMatrix::from_iterator(terms, points * count, all);
+            let below = |row: usize, term: usize| weighted[(row % points, row / points * terms + term)];
+            beside * DMatrix::from_fn(points * count, terms, below)
         };
         let all: Vec<DMatrix<f64>> = self.deviations.par_chunks(TOGETHER).map(some).collect();
         let mut noise = all.iter().sum::<DMatrix<f64>>() / (n * (n - 1.0).max(1.0));

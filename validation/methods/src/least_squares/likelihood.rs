@@ -176,6 +176,13 @@ pub struct ChiSquare {
     reduced: DMatrix<f64>,
 }
 
+/// Many places, for χ² of many sets of points.
+pub struct Places {
+    /// The terms at each place less those at the origin: terms × places.
+    away: DMatrix<f64>,
+    squares: DVector<f64>,
+}
+
 impl ChiSquare {
     /// χ² of the data with this covariance, expanded about the parameters `near`; `None` if the covariance is not
     /// positive definite.
@@ -217,6 +224,20 @@ impl ChiSquare {
     pub fn at(&self, place: &[f64]) -> f64 {
         let away = self.basis.terms(place) - &self.origin;
         self.constant - 2.0 * self.linear.dot(&away) + away.dot(&self.reduced.tr_mul(&away))
+    }
+
+    /// What χ² at these places owes to no point.
+    pub fn places(&self, places: &[Vec<f64>]) -> Places {
+        let away: Vec<_> = places.iter().map(|place| self.basis.terms(place) - &self.origin).collect();
+        let away = DMatrix::from_columns(&away);
+        let squares = (&self.reduced * &away).component_mul(&away).row_sum().transpose();
+        Places { away, squares }
+    }
+
+    /// χ² at the places; they may be from a surface that differs in its points alone.
+    pub fn at_all(&self, Places { away, squares }: &Places) -> DVector<f64> {
+        let linear = away.tr_mul(&self.linear);
+        squares.zip_map(&linear, |square, linear| self.constant - 2.0 * linear + square)
     }
 
     /// Half the gradient by the parameters `free`, and half the second derivatives without those of the model

@@ -1,7 +1,7 @@
 //! The minimum of χ² in a box of one to three parameters.
 
 use super::basis::grid;
-use super::likelihood::ChiSquare;
+use super::likelihood::{ChiSquare, Places};
 use nalgebra::{DMatrix, DVector};
 
 /// Grid points along each free axis, by the number of free axes; the search starts at the best of them.
@@ -10,18 +10,48 @@ const STARTS: [usize; 4] = [1, 33, 13, 9];
 /// Largest number of Levenberg–Marquardt steps: a few suffice, except in flat valleys.
 const STEPS: usize = 100;
 
-/// The place with the smallest χ² in the box [−1, 1]^p, and that χ². Parameters with a value in `fixed` keep it. The
-/// search descends from the best point of a grid and from each of `starts`, to find the deepest of several valleys.
-pub fn minimise(surface: &ChiSquare, fixed: &[Option<f64>], starts: &[&[f64]]) -> (Vec<f64>, f64) {
-    let free = free(fixed);
-    let mut best = descend(surface, fixed, best_of_grid(surface, fixed, &free));
-    for start in starts.iter().filter(|_| !free.is_empty()) {
-        let found = descend(surface, fixed, start.to_vec());
-        if found.1 < best.1 {
-            best = found;
-        }
+/// The points of a grid over the axes without a value in `fixed`, where a search may start.
+pub struct Grid {
+    fixed: Vec<Option<f64>>,
+    points: Vec<Vec<f64>>,
+    places: Places,
+}
+
+impl Grid {
+    /// The grid for surfaces that differ from `surface` in their points alone.
+    pub fn new(surface: &ChiSquare, fixed: &[Option<f64>]) -> Self {
+        let free = free(fixed);
+        let along = STARTS[free.len()];
+        let point = |indices: Vec<usize>| {
+            let mut place: Vec<f64> = fixed.iter().map(|fixed| fixed.unwrap_or(0.0)).collect();
+            for (axis, index) in free.iter().zip(indices) {
+                place[*axis] = -1.0 + 2.0 * index as f64 / (along - 1) as f64;
+            }
+            place
+        };
+        let points: Vec<_> = grid(free.len(), along).into_iter().map(point).collect();
+        Self { fixed: fixed.to_vec(), places: surface.places(&points), points }
     }
-    best
+
+    /// The place with the smallest χ² in the box [−1, 1]^p, and that χ². Parameters with a value in `fixed` keep it.
+    /// The search descends from the best point of the grid and from each of `starts`, to find the deepest of several
+    /// valleys.
+    pub fn minimise(&self, surface: &ChiSquare, starts: &[&[f64]]) -> (Vec<f64>, f64) {
+        let start = self.points[surface.at_all(&self.places).imin()].clone();
+        let mut best = descend(surface, &self.fixed, start);
+        for start in starts.iter().filter(|_| self.points.len() > 1) {
+            let found = descend(surface, &self.fixed, start.to_vec());
+            if found.1 < best.1 {
+                best = found;
+            }
+        }
+        best
+    }
+}
+
+/// [`Grid::minimise`] of one surface.
+pub fn minimise(surface: &ChiSquare, fixed: &[Option<f64>], starts: &[&[f64]]) -> (Vec<f64>, f64) {
+    Grid::new(surface, fixed).minimise(surface, starts)
 }
 
 fn free(fixed: &[Option<f64>]) -> Vec<usize> {
@@ -74,20 +104,4 @@ pub fn descend(surface: &ChiSquare, fixed: &[Option<f64>], start: Vec<f64>) -> (
         }
     }
     (place, value)
-}
-
-fn best_of_grid(surface: &ChiSquare, fixed: &[Option<f64>], free: &[usize]) -> Vec<f64> {
-    let along = STARTS[free.len()];
-    let mut best = (f64::INFINITY, fixed.iter().map(|fixed| fixed.unwrap_or(0.0)).collect::<Vec<_>>());
-    for indices in grid(free.len(), along) {
-        let mut place = best.1.clone();
-        for (axis, index) in free.iter().zip(indices) {
-            place[*axis] = -1.0 + 2.0 * index as f64 / (along - 1) as f64;
-        }
-        let value = surface.at(&place);
-        if value < best.0 {
-            best = (value, place);
-        }
-    }
-    best.1
 }

@@ -16,44 +16,45 @@ fn cross(a: &[Big; 3], b: &[Big; 3]) -> [Big; 3] {
     [0, 1, 2].map(|i| &a[(i + 1) % 3] * &b[(i + 2) % 3] - &a[(i + 2) % 3] * &b[(i + 1) % 3])
 }
 
-/// p after `time_s` from the unit vector `start`, by Taylor's series of Jeffery's equation ṗ = Wp + Λ(Dp − p p·Dp)
-/// itself (A.1): no exponential, no linear equation and no closed form.
+/// p at each of `times_s`, which ascend, from the unit vector `start`, by Taylor's series of Jeffery's equation
+/// ṗ = Wp + Λ(Dp − p p·Dp) itself (A.1): no exponential, no linear equation and no closed form.
 ///
-/// `gradient_per_s` has ∂u_i/∂x_j in row i and column j. For |L| `time_s` up to some hundreds. In a flow that turns by
+/// `gradient_per_s` has ∂u_i/∂x_j in row i and column j. For |L| t up to some hundreds. In a flow that turns by
 /// ω = `rotation_rad_per_s`, ṗ has L(t) = M + S with S p = ω × p, and M obeys Ṁ = SM − MS: its series too are taken,
 /// without a rotation.
-pub fn direction(
+pub fn directions(
     gradient_per_s: &[[f64; 3]; 3],
     rotation_rad_per_s: [f64; 3],
     aspect_ratio: f64,
     start: &[Big; 3],
-    time_s: &Big,
-) -> [Big; 3] {
+    times_s: &[f64],
+) -> Vec<[Big; 3]> {
     const TERMS: usize = 32;
     let squares = gradient_per_s.as_flattened().iter().chain(&rotation_rad_per_s).map(|x| x * x);
     let norm = squares.sum::<f64>().sqrt();
-    let steps = (16.0 * norm * super::big::double(time_s).abs()).ceil().max(1.0);
-    let h = time_s / BITS.of(steps);
     let square = BITS.of(aspect_ratio).sqr();
     let shape = (&square - BITS.of(1.0)) / (&square + BITS.of(1.0));
     let l = |i: usize, j: usize| BITS.of(0.5 * gradient_per_s[i][j]);
     // W + ΛD of M, which turns as M does.
     let mut pull = matrix(|i, j| l(i, j) - l(j, i) + &shape * (l(i, j) + l(j, i)));
+    let turns = rotation_rad_per_s != [0.0; 3];
     let [x, y, z] = rotation_rad_per_s.map(|x| BITS.of(x));
     let zero = || BITS.of(0.0);
     let spin: Matrix = [[zero(), -&z, y.clone()], [z, zero(), -&x], [-y, x, zero()]];
-    let mut p = start.clone();
-    for _ in 0..steps as usize {
+    let (mut p, mut now) = (start.clone(), zero());
+    let mut step = |h: &Big| {
         // The coefficients of p, of Wp + ΛDp and of Λ p·Dp, times powers of h.
-        let (mut series, mut pulls, mut stretches) = (vec![p], Vec::new(), Vec::new());
-        let mut turning = vec![pull];
+        let (mut series, mut pulls, mut stretches) = (vec![p.clone()], Vec::new(), Vec::new());
+        let mut turning = vec![pull.clone()];
         for k in 0..TERMS {
-            let scale = &h / BITS.of((k + 1) as f64);
-            let pulled = (0..=k).map(|j| image(&turning[j], &series[k - j]));
+            let scale = h / BITS.of((k + 1) as f64);
+            let pulled = turning.iter().enumerate().map(|(j, turning)| image(turning, &series[k - j]));
             let spun = image(&spin, &series[k]);
             pulls.push(pulled.fold(spun, |[x, y, z], [a, b, c]| [x + a, y + b, z + c]));
-            let [before, after] = [product(&spin, &turning[k]), product(&turning[k], &spin)];
-            turning.push(matrix(|i, j| (&before[i][j] - &after[i][j]) * &scale));
+            if turns {
+                let [before, after] = [product(&spin, &turning[k]), product(&turning[k], &spin)];
+                turning.push(matrix(|i, j| (&before[i][j] - &after[i][j]) * &scale));
+            }
             stretches.push((0..=k).fold(BITS.of(0.0), |sum, j| sum + dot(&series[j], &pulls[k - j])));
             let entry = |i: usize| {
                 let taken = (0..=k).fold(BITS.of(0.0), |sum, j| sum + &stretches[j] * &series[k - j][i]);
@@ -64,8 +65,16 @@ pub fn direction(
         pull = matrix(|i, j| turning.iter().rev().fold(zero(), |sum, term| sum + &term[i][j]));
         let sum = |i: usize| series.iter().rev().fold(BITS.of(0.0), |sum, term| sum + &term[i]);
         p = [0, 1, 2].map(sum);
-    }
-    p
+        p.clone()
+    };
+    let at = |time_s: &f64| {
+        let span = BITS.of(*time_s) - &now;
+        now = BITS.of(*time_s);
+        let steps = (16.0 * norm * super::big::double(&span).abs()).ceil().max(1.0);
+        let h = span / BITS.of(steps);
+        (0..steps as usize).map(|_| step(&h)).last().unwrap_or_else(|| start.clone())
+    };
+    times_s.iter().map(at).collect()
 }
 
 /// Nodes and weights of the double-exponential rule on (0, 1) (Takahasi & Mori 1974), with steps of `1/per_unit`.

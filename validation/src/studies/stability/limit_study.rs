@@ -83,13 +83,14 @@ fn table(shown: &Shown, integrators: &[&Integrator]) -> ReportTable {
         _ => (&LIMIT_RATIOS[..], 1000),
     };
     let mut rows = Vec::new();
-    for integrator in integrators {
-        let search = |r: &f64| longest(integrator, shown.property, *r);
-        let limits: Vec<_> = ratios.iter().map(search).collect();
+    let each = ratios.len();
+    let search = |k: usize| longest(integrators[k / each], shown.property, ratios[k % each]);
+    let all: Vec<_> = (0..integrators.len() * each).into_par_iter().map(search).collect();
+    for (integrator, limits) in integrators.iter().zip(all.chunks(each)) {
         if limits.iter().all(|limit| matches!(limit, Limit::Beyond(_))) {
             continue;
         }
-        rows.push([vec![integrator.name.clone()], limits.into_iter().map(text).collect()].concat());
+        rows.push([vec![integrator.name.clone()], limits.iter().map(text).collect()].concat());
         let theory = THEORIES.iter().find(|theory| theory.0 == integrator.name && theory.1 == shown.property);
         if let Some((_, _, theory)) = theory {
             let expected = |r: &f64| match theory(*r) {
@@ -105,7 +106,7 @@ fn table(shown: &Shown, integrators: &[&Integrator]) -> ReportTable {
     of_words(shown.name, shown.title, &format!("{} {rest}", shown.caption), &columns, rows)
 }
 
-fn text(limit: Limit) -> String {
+fn text(limit: &Limit) -> String {
     match limit {
         Limit::At(strain) => format!("{strain:.4}"),
         Limit::Beyond(strain) => format!("> {strain:.0}"),
