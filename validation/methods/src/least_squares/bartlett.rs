@@ -65,17 +65,22 @@ mod tests {
     /// Half of the box, in standard deviations of the points.
     const HALF: f64 = 5.0;
 
-    /// The factor of θ if the two points, of standard deviation 1, are θ and bend·θ², at θ = 0.
-    fn found(bend: f64) -> f64 {
+    /// The fit of θ if the two points, of this value and standard deviation 1, are θ and bend·θ².
+    fn fitted(bend: f64, value: f64) -> (Best, Emulator) {
         let model = move |values: &[f64]| {
             let theta = values[0];
             Ok(Replica::whole(move |_| Ok(vec![[theta; 3], [bend * theta * theta; 3]])))
         };
         let basis = Basis::new(1);
         let runs = coefficients(&basis, &model, &|node| vec![HALF * node[0]], 0..1, &|| ()).unwrap();
-        let datum = Datum { value: 0.0, u: 1.0, ..Datum::place(0, "x1", 0.0) };
+        let datum = Datum { value, u: 1.0, ..Datum::place(0, "x1", 0.0) };
         let emulator = Emulator::new(&basis, &runs);
-        let best = best(&[datum.clone(), datum], &emulator, &Rods::none(1)).unwrap();
+        (best(&[datum.clone(), datum], &emulator, &Rods::none(1)).unwrap(), emulator)
+    }
+
+    /// The factor of θ at θ = 0.
+    fn found(bend: f64) -> f64 {
+        let (best, emulator) = fitted(bend, 0.0);
         factors(&best, &emulator, MANY).unwrap()[0]
     }
 
@@ -106,6 +111,16 @@ mod tests {
             assert!((found(bend) - 1.0 - excess).abs() < 3.0 * se, "{} {excess} {se}", found(bend));
             // The control: a model half as bent has another factor.
             assert!((found(bend) - 1.0 - summed(0.5 * bend)[0]).abs() > 3.0 * se);
+        }
+    }
+
+    #[test]
+    fn chi_square_of_many_places_is_that_of_each() {
+        let surface = fitted(0.4, 1.0).0.surface;
+        let places: Vec<_> = (0..9).map(|k| vec![0.25 * f64::from(k) - 1.0]).collect();
+        let at_all = surface.at_all(&surface.places(&places));
+        for (place, found) in places.iter().zip(&at_all) {
+            assert!((found - surface.at(place)).abs() < 1e-12 * (1.0 + found), "{place:?} {found}");
         }
     }
 }
