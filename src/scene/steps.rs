@@ -129,12 +129,13 @@ impl Scene {
         self.motion_per_unit() / self.steps_per_unit() as f64
     }
 
-    /// The smallest number of steps (a multiple of the outputs, if given, and of 50 for periods) with a strain per step
-    /// of at most [`resolved_strain`] of the rods' mean r_e: 200 a period at r_e = 11.6. `u64::MAX` if there is none.
+    /// The smallest number of steps (a multiple of the outputs, if given, and of 50 for periods; else a round one) with
+    /// a strain per step of at most [`resolved_strain`] of the rods' mean r_e: at r_e = 11.6 200 a period, or 4 a unit
+    /// of strain. `u64::MAX` if there is none.
     pub fn resolving_steps(&self) -> u64 {
         let outputs = self.time.outputs_per_unit;
         let unit = match self.time.unit {
-            TimeUnit::Strain | TimeUnit::Second => outputs.unwrap_or_else(|| self.default_outputs()).max(1),
+            TimeUnit::Strain | TimeUnit::Second => outputs.unwrap_or(1).max(1),
             TimeUnit::Period => {
                 let outputs = outputs.unwrap_or(1).max(1);
                 (outputs / common_divisor(outputs, MULTIPLE)).saturating_mul(MULTIPLE)
@@ -145,7 +146,11 @@ impl Scene {
         let multiples = (motion / (resolved * unit as f64)).ceil().max(1.0) as u64;
         let steps = multiples.saturating_mul(unit);
         // The rounded quotient may be an integer that is just too small.
-        if motion / steps as f64 <= resolved { steps } else { steps.saturating_add(unit) }
+        let steps = if motion / steps as f64 <= resolved { steps } else { steps.saturating_add(unit) };
+        match (self.time.unit, outputs) {
+            (TimeUnit::Strain | TimeUnit::Second, None) => round_above(steps),
+            _ => steps,
+        }
     }
 
     /// Seconds per unit of the scene's time: a period of the mean aspect ratio, a unit of strain or a second. NaN if
@@ -199,6 +204,17 @@ pub(crate) fn step_maps<'a>(
     let mean = Propagator::general(flow, scene.particles.aspect_ratio);
     let of = move |r: &f64| Propagator::general(flow, *r).map_beside(&mean, span);
     aspect_ratios.iter().map(of)
+}
+
+/// The smallest number with one digit, 1, 2, 4, 5 or 8, before zeros that is not below `least`: times of steps and
+/// outputs have few decimals then.
+fn round_above(least: u64) -> u64 {
+    let ten = 10u64.checked_pow(least.max(1).ilog10()).unwrap_or(u64::MAX);
+    [1, 2, 4, 5, 8, 10]
+        .map(|digit: u64| digit.saturating_mul(ten))
+        .into_iter()
+        .find(|all| *all >= least)
+        .unwrap_or(least)
 }
 
 fn common_divisor(a: u64, b: u64) -> u64 {

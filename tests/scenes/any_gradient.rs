@@ -42,7 +42,7 @@ fn apart(one: &Results, other: &Results) -> f64 {
 fn rods_that_do_not_meet_are_free() {
     let rods = "count = 100\naspect_ratio = 5\naspect_ratio_sd_percent = 10";
     for (gradient, time) in
-        [(SHEAR, "strain = 30"), (EXTENSION, "strain = 6"), (GENERAL, "strain = 6"), (ELLIPTIC, "periods = 2")]
+        [(SHEAR, "strain = 30"), (EXTENSION, "strain = 15"), (GENERAL, "strain = 15"), (ELLIPTIC, "periods = 2")]
     {
         let [free, stepped] = [0.0, 1e-15].map(|alpha| run(&scene(gradient, rods, alpha, time)));
         assert_eq!((free.counters.steps, stepped.counters.collisions), (0, 0));
@@ -67,16 +67,17 @@ fn many_unequal_rods_that_do_not_meet_are_free() {
 }
 
 /// By hand: it turns by (2 W:W)^½ = 2 where it strains by (2 D:D)^½ = 0.1, so 20 for each unit of strain, 0.37 in a
-/// step at most: 55 steps, or 60 with ten outputs.
+/// step at most: 55 steps, or a number with one digit before zeros.
 #[test]
 fn a_flow_that_mostly_turns_takes_more_steps() {
     let turning = "[[0.05, -1, 0], [1, 0, 0], [0, 0, -0.05]]";
     let steps =
         |gradient: &str, time: &str| scene(gradient, "count = 10\naspect_ratio = 5", 0.5, time).steps_per_unit();
     assert_eq!(steps(turning, "strain = 1\noutputs_per_strain = 1"), 55);
-    assert_eq!(steps(turning, "strain = 1"), 60);
+    assert_eq!(steps(turning, "strain = 1"), 80);
     assert_eq!(steps(EXTENSION, "strain = 1\noutputs_per_strain = 1"), 3);
-    assert_eq!(steps(SHEAR, "strain = 1"), 10);
+    assert_eq!(steps(turning, "strain = 1\noutputs_per_strain = 10"), 60);
+    assert_eq!(steps(SHEAR, "strain = 1"), 4);
 }
 
 /// Rods and liquid that turn as one body have no velocity along a contact line: collisions change nothing, if they are

@@ -69,8 +69,7 @@ pub(super) fn is_rate(column: &str) -> bool {
 pub(super) fn lacks(channel: &str) -> String {
     if is_extreme(channel) {
         format!(
-            "none is beyond noise, where more replicas or periods are needed, or outputs are more than a strain of \
-             {FLIP} apart"
+            "none is beyond noise with these replicas and periods, or outputs are more than a strain of {FLIP} apart"
         )
     } else if is_rate(channel) {
         format!("{NO_RATE}, and outputs at most a strain of {FLIP} apart")
