@@ -126,7 +126,7 @@ fn free(scene: &Scene) -> Result<Done, Failure> {
     Ok(Done { wrong: (!wrong.is_empty()).then(|| wrong.join(", ")), ..done(vec![orders_table(&orders)], files)? })
 }
 
-/// A sentence where the scene ends at another time than the study's runs; `by_periods` is the scene in periods.
+/// Sentences where the scene has another end or other steps than the study's runs; `by_periods` is it in periods.
 fn other_end(scene: &Scene, by_periods: &Scene) -> Vec<String> {
     let end = law::end(by_periods);
     let time = Some(&scene.time).filter(|_| (end / by_periods.time.duration - 1.0).abs() > 1e-5);
@@ -134,7 +134,9 @@ fn other_end(scene: &Scene, by_periods: &Scene) -> Vec<String> {
         let why = format!("the runs of this study end after {end} periods: whole quarters, and 10 at most");
         format!("{} = {} is not used: {why}", time.unit.duration_key(), time.duration)
     };
-    time.map(said).into_iter().collect()
+    let (exact, own) = (by_periods.steps_per_unit(), law::own(by_periods).steps_per_period);
+    let steps = (exact != own).then(|| format!("{exact} steps a period are {own} here, so that one ends at the end"));
+    time.map(said).into_iter().chain(steps).collect()
 }
 
 /// A sentence on the tried steps that are coarser than the default.
@@ -177,10 +179,8 @@ fn interacting(scene: &Scene, replicas: Replicas, warnings: Vec<String>, args: &
     };
     let law = law::read(scene, &jobs, &found);
     let mut tables = law_tables::law(&law, strain_per_period(scene.particles.aspect_ratio)).to_vec();
-    if law.blocks.is_empty() {
-        // The last table is that of blocks of replicas, which are too few.
-        tables.pop();
-    }
+    // Without the tables that too few replicas leave empty.
+    tables.retain(|table| !table.rows.is_empty());
     let constants = Constants::of(&law);
     let scopes = [Scope::OwnRods(scene.particles.count), Scope::Unbounded];
     let splits: Vec<_> = (constants.iter())

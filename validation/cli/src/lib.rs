@@ -227,13 +227,10 @@ impl Command {
         }
     }
 
-    /// True if the memory that a plan needs is checked, or nothing needs any.
-    fn checks_a_plan(&self) -> bool {
-        self.is_shared() && !matches!(self, Self::Validate(_))
-            || matches!(
-                self,
-                Self::Plan(_) | Self::Fit(_) | Self::Scenes(_) | Self::Cite | Self::Completions(_) | Self::Man(_)
-            )
+    /// True if the command may start threads for its work.
+    fn takes_threads(&self) -> bool {
+        let works = !matches!(self, Self::Plot(_) | Self::Compare(_) | Self::Shape(_) | Self::Scenes(_));
+        works && !matches!(self, Self::Cite | Self::Completions(_) | Self::Man(_))
     }
 
     /// True if ranks share the command's work; such a command checks itself that their inputs agree.
@@ -247,9 +244,7 @@ fn command(command: Command) -> Result<(), Failure> {
     if command.only_prints() {
         terminal::is_open()?;
     }
-    if !command.checks_a_plan() {
-        memory::check_start(!matches!(command, Command::Plot(_) | Command::Compare(_) | Command::Shape(_)))?;
-    }
+    memory::check_start(command.takes_threads())?;
     if !command.is_shared() {
         agree(&words::command(), json!({}))?;
         if !cluster::is_root() {

@@ -53,9 +53,9 @@ pub(super) fn figures(plan: &Plan, results: &Results, series: &Series) -> Vec<(S
 /// With so many outputs a line shows what they have.
 const MANY: usize = 100;
 
-/// True if a line through a plan's outputs would cut peaks.
+/// True if a line through a plan's outputs would cut peaks, or there is one alone.
 pub(super) fn are_apart(plan: &Plan) -> bool {
-    plan.outputs() <= MANY && plan.strain_between_outputs() > FLIP
+    plan.outputs() == 1 || plan.outputs() <= MANY && plan.strain_between_outputs() > FLIP
 }
 
 /// Makes the chosen curves points with bars, before the other points.

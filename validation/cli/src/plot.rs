@@ -114,14 +114,16 @@ fn of_runs(args: &Args) -> Result<(Figure, String), Failure> {
         return Ok((figure, format!("{channels} of {}", counted(runs as u64, "point"))));
     }
     drawn.is_defined()?;
-    shades::colour(&mut drawn);
+    if !drawn.part() {
+        shades::colour(&mut drawn);
+    }
     if let Some(path) = &args.data {
-        drawn.figure.points = measured::points(path, args.columns.as_ref(), &drawn)?;
+        let measured = measured::points(path, args.columns.as_ref(), &drawn)?;
+        drawn.figure.points.extend(measured);
     }
     if let Some(path) = &args.reference {
         drawn.figure.curves.extend(exact::curves(path, &drawn.time, &drawn.channels, &drawn.runs[0])?);
     }
-    drawn.part();
     Ok((drawn.figure, format!("{channels} of {}", counted(runs as u64, "run"))))
 }
 
@@ -164,15 +166,16 @@ impl Drawn {
         Err(FileError::whole(&run.dir, format!("has no {channel}: {}", derived::lacks(channel))).into())
     }
 
-    /// Leaves out lines through outputs that are far apart, except among curves in shades.
-    fn part(&mut self) {
-        let Self { figure, channels, runs, .. } = self;
+    /// Leaves out lines through outputs that are far apart; false if there are none.
+    fn part(&mut self) -> bool {
         let is_apart = |run: &Run| Plan::new(&run.scene).is_ok_and(|plan| pictures::are_apart(&plan));
-        let apart: Vec<bool> = runs.iter().map(is_apart).collect();
+        let apart: Vec<bool> = self.runs.iter().map(is_apart).collect();
+        let Self { figure, channels, .. } = self;
         let is_derived = |k: usize| derived::is_extreme(&channels[k % channels.len()]);
-        if figure.shaded_by.is_none() {
-            pictures::part(figure, |k| apart.get(k / channels.len()) == Some(&true) && !is_derived(k));
-        }
+        let parted = |k: usize| apart[k / channels.len()] && !is_derived(k);
+        let any = (0..figure.curves.len()).any(parted);
+        pictures::part(figure, parted);
+        any
     }
 }
 

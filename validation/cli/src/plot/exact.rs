@@ -24,6 +24,9 @@ pub(super) fn curves(path: &Path, time: &str, channels: &[String], run: &Run) ->
         table.place(name).ok_or_else(|| at(format!("has no column {name}, which the picture needs; it has {known}")))
     };
     let x = place(time)?;
+    if let Some(u) = channels.iter().map(|channel| format!("{channel}_u")).find(|u| table.place(u).is_some()) {
+        return Err(at(format!("has {u}, so that its points are measured: they go to --data")));
+    }
     let y = channels.iter().map(|channel| place(channel)).collect::<Result<Vec<_>, _>>()?;
     let mut curves: Vec<Curve> = (channels.iter())
         .map(|channel| Curve { label: names::channel(channel) + REFERENCE, ..Curve::default() })

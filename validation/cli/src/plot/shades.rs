@@ -3,6 +3,7 @@
 use super::Drawn;
 use shearbed_validation::oracle::reference::big::finite;
 use shearbed_validation::present::plot::names;
+use std::collections::BTreeSet;
 
 /// With fewer curves their colours and names in the legend are easier to read.
 const LEAST: usize = 6;
@@ -16,7 +17,12 @@ pub(super) fn colour(drawn: &mut Drawn) {
     };
     let Some(points) = drawn.runs.iter().map(|run| value(&run.point)).collect::<Option<Vec<_>>>() else { return };
     let key = points[0].0.clone();
-    if drawn.channels.len() > 1 || points.len() < LEAST || points.iter().any(|(other, _)| *other != key) {
+    let values: BTreeSet<u64> = points.iter().map(|(_, value)| value.to_bits()).collect();
+    if drawn.channels.len() > 1
+        || values.len() < points.len()
+        || points.len() < LEAST
+        || points.iter().any(|(other, _)| *other != key)
+    {
         return;
     }
     let mut order: Vec<usize> = (0..points.len()).collect();

@@ -127,6 +127,21 @@ impl Means {
         }
     }
 
+    /// The mean of level `one` less the best mean of the levels from `first` on, as if they were one; `None` if there
+    /// are none, or samples without scatter.
+    pub fn less_finer(&self, one: usize, first: usize) -> Option<Estimate> {
+        if first >= self.values.len() {
+            return None;
+        }
+        let finer = self.from(first);
+        let inverse = finer.covariance.clone().cholesky()?.inverse();
+        let weights = inverse.column_sum() / inverse.sum();
+        let mean = weights.iter().zip(&finer.values).map(|(weight, value)| weight * value).sum::<f64>();
+        let shared = self.covariance.row(one).columns(first, weights.len()).transpose().dot(&weights);
+        let variance = self.covariance[(one, one)] + 1.0 / inverse.sum() - 2.0 * shared;
+        Some(Estimate { value: self.values[one] - mean, se: variance.max(0.0).sqrt() })
+    }
+
     /// The mean of level `one` less that of level `other`.
     pub fn difference(&self, one: usize, other: usize) -> Estimate {
         let c = &self.covariance;
@@ -166,6 +181,21 @@ mod tests {
             assert!((fitted.order - order).abs() < 4.0 * fitted.se && fitted.se < 0.1, "{fitted:?}");
         }
         assert_eq!(Means::of(&samples(1.0, 0.3, 1)).order(&H), None);
+    }
+
+    #[test]
+    fn a_level_less_the_finer_ones_has_the_errors_of_repeats() {
+        // h to this power is no bias.
+        let of = |seed: u64| Means::of(&samples(12.0, 0.05, seed)).less_finer(0, 2).unwrap();
+        let all: Vec<_> = (0..300).map(of).collect();
+        let Estimate { value: mean, se } = Estimate::mean_of(&all.iter().map(|one| one.value).collect::<Vec<_>>());
+        assert!(mean.abs() < 4.0 * se, "{mean} {se}");
+        let (spread, said) = (se * 300f64.sqrt(), all[0].se);
+        assert!((spread / said - 1.0).abs() < 0.25, "{spread} {said}");
+        // A bias is seen.
+        let biased = Means::of(&samples(1.0, 1e-3, 1)).less_finer(0, 2).unwrap();
+        assert!((biased.value - H[0] + 0.5 * (H[2] + H[3])).abs() < 0.01, "{biased:?}");
+        assert_eq!(Means::of(&samples(1.0, 1e-3, 1)).less_finer(0, 4), None);
     }
 
     #[test]

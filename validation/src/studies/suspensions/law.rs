@@ -19,6 +19,9 @@ pub const RODS: [usize; 6] = [25, 50, 100, 200, 400, 1000];
 /// a rod length of a face is ∝ 1/H ∝ N^(−1/3).
 pub const FACES: f64 = -1.0 / 3.0;
 
+/// How many times finer steps are those that the scene's own are compared with.
+pub const FINER: u64 = 8;
+
 /// The largest t/T of a run.
 const LONGEST: f64 = 10.0;
 
@@ -91,9 +94,7 @@ pub struct AtTime {
     pub(crate) time: f64,
     /// At the scene's own steps and rods, with the replicas of the study.
     pub(crate) x1: Estimate,
-    /// The slope b of X̄₁ against 1/(steps per period): first order; `None` if no straight line fits.
-    pub steps_slope: Option<Estimate>,
-    /// b over the scene's own steps: X̄₁ less that at Δt = 0.
+    /// X̄₁ at the scene's own steps less that at [`FINER`] times as many and more; `None` if none so fine are tried.
     pub steps_bias: Option<Estimate>,
     /// X̄₁ less that at the largest number of rods, at other seeds; `None` if that is the scene's own.
     pub rods_bias: Option<Estimate>,
@@ -104,7 +105,8 @@ pub struct AtTime {
 /// The scene's own steps per period, rods and replicas.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct Own {
-    pub(crate) steps_per_period: u64,
+    /// Steps per period.
+    pub steps_per_period: u64,
     pub(crate) rods: usize,
     pub(crate) replicas: u64,
 }
@@ -117,7 +119,8 @@ pub struct Law {
     pub end: f64,
     /// The scene as it is.
     pub own: Own,
-    /// The times that a step of the scene's ends at, of the quarters of the first period and of the last.
+    /// The times that a step of the scene's ends at, of the quarters of the first period and of the last; empty if
+    /// replicas are too few.
     pub times: Vec<AtTime>,
     pub(crate) steps: Vec<JobMean>,
     pub(crate) changes: Vec<Change>,
@@ -153,16 +156,15 @@ pub fn by_periods(plan: &Plan) -> Scene {
     let mut scene = plan.scene().clone();
     let per_period = plan.elapsed(1.0).strain / strain_per_period(scene.particles.mean_aspect_ratio());
     if scene.time.unit != TimeUnit::Period {
-        let steps = scene.time.steps_per_unit.map(|steps| (steps as f64 / per_period).round().max(1.0) as u64);
-        scene.time = Time { steps_per_unit: steps, ..Time::periods(scene.time.duration * per_period) };
+        let steps = (scene.steps_per_unit() as f64 / per_period).round().max(1.0) as u64;
+        scene.time = Time { steps_per_unit: Some(steps), ..Time::periods(scene.time.duration * per_period) };
     }
     scene
 }
 
-/// The end t/T of the study's runs: that of the scene, in whole quarters of a period, and at most [`LONGEST`].
+/// The end t/T of the study's runs: that of the scene, to the nearest quarter of a period, and at most 10.
 pub fn end(scene: &Scene) -> f64 {
-    // A third in six digits is meant as one.
-    ((4.0 * scene.time.duration * (1.0 - 1e-5)).ceil() / 4.0).clamp(0.25, LONGEST)
+    ((4.0 * scene.time.duration).round() / 4.0).clamp(0.25, LONGEST)
 }
 
 /// The times t/T at which X̄₁ is looked at: the quarters of the first period and of the last.
@@ -172,11 +174,11 @@ fn times(end: f64) -> Vec<f64> {
     chosen.map(|k| k as f64 / 4.0).collect()
 }
 
-/// The scene as it is; if its end is between two periods, its steps are rounded up so that one ends there.
-fn own(scene: &Scene) -> Own {
+/// The scene as it is; if its end is between two periods, its steps are rounded so that one ends there.
+pub fn own(scene: &Scene) -> Own {
     let steps = scene.steps_per_unit();
     Own {
-        steps_per_period: if end(scene).fract() == 0.0 { steps } else { steps.next_multiple_of(4) },
+        steps_per_period: if end(scene).fract() == 0.0 { steps } else { steps.saturating_add(2).max(4) / 4 * 4 },
         rods: scene.particles.count,
         replicas: scene.ensemble.replicas,
     }
@@ -236,11 +238,6 @@ impl Levels<'_> {
     }
 }
 
-/// The first of the levels that resolve a flip, or the finest.
-fn resolved_from(h: &[f64], strain: f64) -> usize {
-    h.iter().position(|h| strain * h <= 1.0).unwrap_or(h.len().saturating_sub(1))
-}
-
 /// Evaluates the traces of the jobs of [`jobs`].
 pub fn read(scene: &Scene, jobs: &[Job], traces: &[Vec<Trace>]) -> Law {
     let (own, end) = (own(scene), end(scene));
@@ -262,7 +259,7 @@ pub fn read(scene: &Scene, jobs: &[Job], traces: &[Vec<Trace>]) -> Law {
     let (means, h) = (steps.means(), steps.h());
     let change = |(k, pair): (usize, &[usize])| change(&means, k, &traces[pair[0]], &traces[pair[1]]);
     let changes: Vec<_> = of_steps.windows(2).enumerate().map(change).collect();
-    let resolved_from = resolved_from(&h, strain);
+    let resolved_from = h.iter().position(|h| strain * h <= 1.0).unwrap_or(h.len().saturating_sub(1));
     let known = changes[resolved_from.min(changes.len())..].iter().filter(|change| change.x1.readable());
     let order = match known.count() {
         0 | 1 => None,
@@ -275,7 +272,7 @@ pub fn read(scene: &Scene, jobs: &[Job], traces: &[Vec<Trace>]) -> Law {
         rods.means().line(&x)
     };
     let own_x1 = steps.find(|job| job.scene.steps_per_unit() == own.steps_per_period).map_or(&[][..], |k| &steps.x1[k]);
-    let at = |time: f64| at_time(own, time, strain, &levels(&of_steps, time), &levels(&of_rods, time));
+    let at = |time: f64| at_time(own, time, &levels(&of_steps, time), &levels(&of_rods, time));
     Law {
         end,
         own,
@@ -295,20 +292,21 @@ pub fn read(scene: &Scene, jobs: &[Job], traces: &[Vec<Trace>]) -> Law {
     }
 }
 
-/// What the scene's own settings leave of an error at `time`; `None` if no step of its own ends there.
-fn at_time(own: Own, time: f64, strain: f64, steps: &Levels<'_>, rods: &Levels<'_>) -> Option<AtTime> {
+/// What the scene's own settings leave of an error at `time`; `None` if no step of its own ends there, or replicas are
+/// too few to tell their scatter.
+fn at_time(own: Own, time: f64, steps: &Levels<'_>, rods: &Levels<'_>) -> Option<AtTime> {
     let level = steps.find(|job| job.scene.steps_per_unit() == own.steps_per_period)?;
-    let (means, h, x1) = (steps.means(), steps.h(), &steps.x1[level]);
-    let (_, line) = first_order(&means, &h, resolved_from(&h, strain));
-    let slope = line.map(|line| Estimate { value: line.slope, se: line.slope_se });
-    let over = |slope: Estimate| Estimate { value: slope.value * h[level], se: slope.se * h[level] };
+    if steps.x1.iter().chain(&rods.x1).any(|x1| x1.len() < FEWEST) {
+        return None;
+    }
+    let (means, x1) = (steps.means(), &steps.x1[level]);
+    let finer = steps.find(|job| job.scene.steps_per_unit() >= FINER * own.steps_per_period);
     let most = rods.jobs.len().saturating_sub(1);
     let own_rods = rods.find(|job| job.scene.particles.count == own.rods).filter(|own| *own != most);
     Some(AtTime {
         time,
         x1: Estimate::mean_of(x1),
-        steps_slope: slope,
-        steps_bias: slope.map(over),
+        steps_bias: finer.and_then(|finer| means.less_finer(level, finer)),
         rods_bias: own_rods.map(|own| rods.means().difference(own, most)),
         scatter: (super::covariance(x1, x1) / own.replicas as f64).sqrt(),
     })
@@ -325,12 +323,12 @@ fn sample(job: &Job, x1: &[f64]) -> JobMean {
     }
 }
 
-/// The line a + b/S over the resolved levels, or from a finer level if the line is refuted (p < 0.001), with its first
+/// The line a + b/S over the resolved levels, or from a finer level if the line is refuted (p < 0.05), with its first
 /// level.
 fn first_order(means: &Means, h: &[f64], resolved_from: usize) -> (usize, Option<Line>) {
     let mut lines = (resolved_from..h.len().saturating_sub(2))
         .filter_map(|first| Some((first, means.from(first).line(&h[first..])?)));
-    let fitting = lines.find(|(_, line)| line.p.is_none_or(|p| p >= 1e-3));
+    let fitting = lines.find(|(_, line)| line.p.is_none_or(|p| p >= 0.05));
     fitting.map_or((resolved_from, None), |(first, line)| (first, Some(line)))
 }
 
@@ -390,9 +388,9 @@ mod tests {
         scene
     }
 
-    /// Made up: X̄₁ = 0.3 + t·b/S + 0.5/N with the noise of so many replicas of the scene.
-    fn synthetic(scene: &Scene, b: f64, noise: f64) -> Law {
-        let jobs = jobs(scene, Replicas::Each(200));
+    /// Made up: X̄₁ = 0.3 + t·b/S + 0.5/N with noise, of so many replicas.
+    fn synthetic(scene: &Scene, [b, noise]: [f64; 2], replicas: u64) -> Law {
+        let jobs = jobs(scene, Replicas::Each(replicas));
         let mut rng = Pcg64Dxsm::seed_from_u64(7);
         let mut trace = |job: &Job| {
             let (steps, rods) = (job.scene.steps_per_unit() as f64, job.scene.particles.count as f64);
@@ -410,44 +408,54 @@ mod tests {
     #[test]
     fn the_times_are_quarters_of_the_first_and_the_last_period() {
         let of = |periods| (end(&scene(periods, 200, 2)), times(end(&scene(periods, 200, 2))));
-        assert_eq!(of(0.3), (0.5, vec![0.25, 0.5]));
-        assert_eq!(of(1.0), (1.0, vec![0.25, 0.5, 0.75, 1.0]));
+        assert_eq!(of(0.3), (0.25, vec![0.25]));
+        assert_eq!(of(2.007), (2.0, [1, 2, 3, 4, 5, 6, 7, 8].map(|k| f64::from(k) / 4.0).to_vec()));
         assert_eq!(of(6.0), (6.0, vec![0.25, 0.5, 0.75, 1.0, 5.25, 5.5, 5.75, 6.0]));
-        assert_eq!(of(1e4).0, LONGEST);
+        assert_eq!((of(0.0).0, of(1e4).0), (0.25, LONGEST));
         // 250 steps a period have no step at a quarter: an end there takes 252.
-        assert_eq!([1.0, 1.25].map(|periods| own(&scene(periods, 250, 2)).steps_per_period), [250, 252]);
+        let steps = |periods, steps| own(&scene(periods, steps, 2)).steps_per_period;
+        assert_eq!([steps(1.0, 250), steps(1.25, 250), steps(1.25, 249), steps(1.25, 1)], [250, 252, 248, 4]);
     }
 
     #[test]
     fn settings_are_judged_at_each_time() {
         let (b, noise) = (-0.8, 0.004);
         let scene = scene(3.0, 250, 16);
-        let law = synthetic(&scene, b, noise);
+        let law = synthetic(&scene, [b, noise], 200);
         let times: Vec<_> = law.times.iter().map(|at| at.time).collect();
         assert_eq!(times, [0.5, 1.0, 2.5, 3.0]);
         for at in &law.times {
-            let (slope, bias, rods) = (at.steps_slope.unwrap(), at.steps_bias.unwrap(), at.rods_bias.unwrap());
-            assert!((slope.value - b * at.time).abs() < 4.0 * slope.se && slope.se < 0.1, "{at:?}");
-            assert!((bias.value - slope.value / 250.0).abs() < 1e-12, "{at:?}");
+            let (bias, rods) = (at.steps_bias.unwrap(), at.rods_bias.unwrap());
+            // Less 3200, 6400 and 12800 steps.
+            let off = b * at.time * (1.0 / 250.0 - 7.0 / 12_800.0 / 3.0);
+            assert!((bias.value - off).abs() < 4.0 * bias.se && bias.se < 5e-4, "{at:?}");
             let fewer = 0.5 / scene.particles.count as f64 - 0.5 / 1000.0;
             assert!((rods.value - fewer).abs() < 4.0 * rods.se && rods.se < 6e-4, "{at:?}");
             // 200 replicas tell their scatter to 5 %.
             assert!((at.scatter / (noise / 4.0) - 1.0).abs() < 0.2, "{at:?}");
         }
+        assert!(synthetic(&scene, [b, noise], 7).times.is_empty());
+        assert_eq!(synthetic(&self::scene(1.0, 6400, 16), [b, noise], 8).times[0].steps_bias, None);
     }
 
     #[test]
     fn what_limits_a_scene_is_named() {
-        let said = |b: f64, noise: f64, replicas: u64| {
-            let law = synthetic(&scene(1.0, 200, replicas), b, noise);
-            law_tables::law(&law, 50.0)[0].caption.clone()
+        let said = |of: [f64; 2], replicas: u64| {
+            let mut scene = scene(1.0, 200, replicas);
+            scene.set_count(1000);
+            law_tables::law(&synthetic(&scene, of, 200), 50.0)[0].caption.clone()
         };
         // A bias of 0.005 and standard errors of 0.02, 0.005 and 0.0005.
         for (noise, replicas, words) in
             [(0.02, 1, "More replicas first: "), (0.02, 16, "Half of both"), (0.005, 100, "Finer steps first")]
         {
-            assert!(said(1.0, noise, replicas).contains(words), "{} {words}", said(1.0, noise, replicas));
+            let said = said([1.0, noise], replicas);
+            assert!(said.contains(words), "{said} {words}");
         }
-        assert!(said(0.0, 0.02, 2000).contains("no bias of the steps is seen"), "{}", said(0.0, 0.02, 2000));
+        let quiet = said([0.0, 0.02], 2000);
+        assert!(quiet.contains("no bias of the steps is seen") && !quiet.contains("first: "), "{quiet}");
+        // With 100 rods X̄₁ is 0.0045 higher than with 1000.
+        let few = law_tables::law(&synthetic(&scene(1.0, 200, 400), [0.2, 0.01], 200), 50.0)[0].caption.clone();
+        assert!(few.contains("More rods first"), "{few}");
     }
 }

@@ -3,8 +3,9 @@
 use super::blocks::Block;
 use super::fit::FEWEST;
 use super::job::PLACES;
-use super::law::{AtTime, Change, JobMean, Law};
+use super::law::{AtTime, Change, FINER, JobMean, Law};
 use super::*;
+use shearbed::plan::counted;
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
 /// Tables of the scene as it is, and against steps, rods and replicas; `strain` is that of a period.
@@ -24,47 +25,45 @@ fn advice(law: &Law) -> String {
     let Some((scatter, at)) = largest(times, |at| Some(at.scatter)) else {
         return String::new();
     };
-    let scattered = format!("The replicas' standard error is up to {scatter:.1e} (t/T = {at})");
-    let seen = largest(times, |at| at.steps_bias.filter(Estimate::readable).map(|bias| bias.value));
+    let replicas = |se: f64| (own.replicas as f64 * (scatter / se).powi(2)).ceil().max(1.0);
+    let mut said = format!("The replicas' standard error is up to {scatter:.1e} (t/T = {at})");
+    let readable = |bias: Option<Estimate>| bias.filter(Estimate::readable).map(|bias| bias.value);
+    let steps = largest(times, |at| readable(at.steps_bias));
     let room = largest(times, |at| at.steps_bias.map(|bias| bias.value.abs() + 2.0 * bias.se));
-    let (bias, steps) = match (seen, room) {
-        (Some((bias, at)), _) => (bias.abs(), format!("the steps' bias up to {bias:+.1e} (t/T = {at})")),
-        (None, Some((room, _))) => (room, format!("no bias of the steps is seen, which leaves room for {room:.1e}")),
-        (None, None) => {
-            let why = too_few(&law.steps).unwrap_or(" The steps' bias follows no straight line.".into());
-            return format!("{scattered}.{why}");
-        }
+    said += &match (steps, room) {
+        (Some((bias, at)), _) => format!(", the steps' bias {bias:+.1e} (t/T = {at})"),
+        (None, Some((room, _))) => format!(", no bias of the steps is seen, but one of {room:.1e} might not be"),
+        (None, None) => ", no steps much finer were tried".into(),
     };
-    let ratio = scatter / bias;
-    let first = if ratio > 2.0 {
-        let replicas = own.replicas as f64 * ratio * ratio;
-        format!("More replicas first: {replicas:.0} for a standard error like that bias")
-    } else if seen.is_none() {
-        "These steps do".into()
-    } else if ratio > 0.5 {
-        "Half of both takes twice the steps and four times the replicas".into()
+    let rods = largest(times, |at| readable(at.rods_bias));
+    said += &rods.map_or(String::new(), |(bias, at)| format!(", that of few rods {bias:+.1e} (t/T = {at})"));
+    let [steps, rods] = [steps, rods].map(|bias| bias.map_or(0.0, |(bias, _)| bias.abs()));
+    let first = if rods > scatter.max(steps) {
+        " More rods first, in a larger volume.".to_owned()
+    } else if steps > 2.0 * scatter {
+        " Finer steps first.".to_owned()
+    } else if steps > 0.5 * scatter {
+        " Half of both takes twice the steps or more, and four times the replicas.".to_owned()
+    } else if steps > 0.0 {
+        format!(" More replicas first: {:.0} for a standard error like that of the steps.", replicas(steps))
     } else {
-        let steps = own.steps_per_period as f64 / ratio;
-        format!("Finer steps first: {steps:.0} a period for a bias like that standard error")
+        String::new()
     };
-    format!("{scattered}, {steps}. {first}.")
+    let asked = [1e-2, 3e-3, 1e-3].map(|se| format!("{:.0} for {se}", replicas(se)));
+    format!("{said}.{first} Replicas for a standard error: {}.", asked.join(", "))
 }
 
 /// What the scene's own steps, rods and replicas leave of an error.
 fn as_it_is(law: &Law) -> ReportTable {
     let own = law.own;
     let most = law.rods.last().map_or(own.rods, |sample| sample.rods);
+    let of = [(own.steps_per_period, "step"), (own.rods as u64, "rod"), (own.replicas, "replica")];
+    let [steps, rods, replicas] = of.map(|(count, name)| counted(count, name));
     ReportTable::new(
-        [
-            "as-it-is",
-            &format!(
-                "The scene as it is: {} steps a period, {} rods, {} replicas",
-                own.steps_per_period, own.rods, own.replicas
-            ),
-        ],
+        ["as-it-is", &format!("The scene as it is: {steps} a period, {rods}, {replicas}")],
         format!(
-            "{} The bias is b/steps, from a straight line through all steps that resolve a flip. The last column: \
-             rods near a face of the volume lack neighbours, fewer of them in a larger volume.",
+            "{} Bias of its steps: X̄₁ less that at {FINER} times as many steps and more. Rods near a face of the \
+             volume lack neighbours: a larger volume has fewer of them.",
             advice(law)
         ),
         &law.times,
@@ -73,7 +72,6 @@ fn as_it_is(law: &Law) -> ReportTable {
             number("X̄₁", decimals(4), |at: &AtTime| at.x1.value),
             number("se of its replicas", decimals(4), |at: &AtTime| at.scatter),
             difference("bias of its steps", |at: &AtTime| at.steps_bias.map(Into::into)),
-            difference("b", |at: &AtTime| at.steps_slope.map(Into::into)),
             difference(format!("less {most} rods"), |at: &AtTime| at.rods_bias.map(Into::into)),
         ],
     )
