@@ -51,7 +51,7 @@ pub(super) fn figures(plan: &Plan, results: &Results, series: &Series) -> Vec<(S
 }
 
 /// With so many outputs a line shows what they have.
-const MANY: usize = 100;
+pub(super) const MANY: usize = 100;
 
 /// True if a line through a plan's outputs would cut peaks, or there is one alone.
 pub(super) fn are_apart(plan: &Plan) -> bool {

@@ -168,14 +168,16 @@ impl Drawn {
 
     /// Leaves out lines through outputs that are far apart; false if there are none.
     fn part(&mut self) -> bool {
-        let is_apart = |run: &Run| Plan::new(&run.scene).is_ok_and(|plan| pictures::are_apart(&plan));
-        let apart: Vec<bool> = self.runs.iter().map(is_apart).collect();
-        let Self { figure, channels, .. } = self;
-        let is_derived = |k: usize| derived::is_extreme(&channels[k % channels.len()]);
-        let parted = |k: usize| apart[k / channels.len()] && !is_derived(k);
-        let any = (0..figure.curves.len()).any(parted);
-        pictures::part(figure, parted);
-        any
+        let Self { figure, channels, runs, .. } = self;
+        // A plan of many outputs may take long.
+        let is_apart = |k: usize| {
+            let (few, channel) = (figure.curves[k].x.len() <= pictures::MANY, &channels[k % channels.len()]);
+            few && !derived::is_extreme(channel)
+                && Plan::new(&runs[k / channels.len()].scene).is_ok_and(|plan| pictures::are_apart(&plan))
+        };
+        let apart: Vec<bool> = (0..figure.curves.len()).map(is_apart).collect();
+        pictures::part(figure, |k| apart[k]);
+        apart.contains(&true)
     }
 }
 

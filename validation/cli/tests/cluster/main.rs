@@ -177,7 +177,7 @@ fn other_ranks_need_the_scene_and_write_nothing() {
 
 #[test]
 fn converge_has_the_bytes_of_one_process() {
-    for (scene, files) in [("small.toml", 5), ("one.toml", 4)] {
+    for (scene, files) in [("small.toml", 6), ("one.toml", 4)] {
         let dir = folder();
         let [alone, shared] = both(dir.path(), 4, &format!("converge {scene} --replicas 8"));
         assert_eq!(alone.len(), files);
