@@ -135,7 +135,8 @@ fn other_end(scene: &Scene, by_periods: &Scene) -> Vec<String> {
         format!("{} = {} is not used: {why}", time.unit.duration_key(), time.duration)
     };
     let (exact, own) = (by_periods.steps_per_unit(), law::own(by_periods).steps_per_period);
-    let steps = (exact != own).then(|| format!("{exact} steps a period are {own} here, so that one ends at the end"));
+    let steps = (exact != own)
+        .then(|| format!("this study takes {own} steps a period, not {exact}: a step ends where its runs end"));
     time.map(said).into_iter().chain(steps).collect()
 }
 

@@ -50,7 +50,7 @@ pub(super) fn figures(plan: &Plan, results: &Results, series: &Series) -> Vec<(S
     }
 }
 
-/// With so many outputs a line shows what they have.
+/// A line through more outputs than these is dense enough on a page.
 pub(super) const MANY: usize = 100;
 
 /// True if a line through a plan's outputs would cut peaks, or there is one alone.

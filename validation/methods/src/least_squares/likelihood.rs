@@ -226,7 +226,7 @@ impl ChiSquare {
         self.constant - 2.0 * self.linear.dot(&away) + away.dot(&self.reduced.tr_mul(&away))
     }
 
-    /// What χ² at these places owes to no point.
+    /// The part of χ² at these places that does not depend on the points.
     pub fn places(&self, places: &[Vec<f64>]) -> Places {
         let away: Vec<_> = places.iter().map(|place| self.basis.terms(place) - &self.origin).collect();
         let away = DMatrix::from_columns(&away);

@@ -32,11 +32,11 @@ fn advice(law: &Law) -> String {
     let room = largest(times, |at| at.steps_bias.map(|bias| bias.value.abs() + 2.0 * bias.se));
     said += &match (steps, room) {
         (Some((bias, at)), _) => format!(", the steps' bias {bias:+.1e} (t/T = {at})"),
-        (None, Some((room, _))) => format!(", no bias of the steps is seen, but one of {room:.1e} might not be"),
-        (None, None) => ", no steps much finer were tried".into(),
+        (None, Some((room, _))) => format!(", no bias of the steps is seen, one of up to {room:.1e} may be hidden"),
+        (None, None) => ", its steps were not compared with much finer ones".into(),
     };
     let rods = largest(times, |at| readable(at.rods_bias));
-    said += &rods.map_or(String::new(), |(bias, at)| format!(", that of few rods {bias:+.1e} (t/T = {at})"));
+    said += &rods.map_or(String::new(), |(bias, at)| format!(", that of the few rods {bias:+.1e} (t/T = {at})"));
     let [steps, rods] = [steps, rods].map(|bias| bias.map_or(0.0, |(bias, _)| bias.abs()));
     let first = if rods > scatter.max(steps) {
         " More rods first, in a larger volume.".to_owned()
