@@ -215,10 +215,18 @@ impl Plan {
         let last = *self.times().last()?;
         // An end that differs from an output by rounding is not between outputs.
         (self.scene.output.times.is_empty() && last < end * (1.0 - 1e-12)).then(|| {
-            format!(
-                "{key} = {end} ends between two outputs: the last one is at {last}; choose an output interval that \
-                 divides {end}"
-            )
+            let (outputs, own) = (time.unit.outputs_key(), self.scene.outputs_per_unit());
+            let steps = time.steps_per_unit.filter(|_| self.scene.steps());
+            let ends = |outputs: &u64| {
+                let of_end = end * *outputs as f64;
+                (of_end - of_end.round()).abs() < 1e-9 && steps.is_none_or(|steps| steps.is_multiple_of(*outputs))
+            };
+            // Of many outputs a look at some is enough: each point of a sweep is asked.
+            let fit = (own..=10 * own)
+                .take(10_000)
+                .find(ends)
+                .map_or(String::new(), |fit| format!("; with {fit} the last is at the end"));
+            format!("{key} = {end} ends between two outputs: the last one is at {last}; {outputs} is {own}{fit}")
         })
     }
 
@@ -294,11 +302,12 @@ mod tests {
         let [spread, spread_in_plane] =
             [45.0, 90.0].map(|theta| start(90.0, theta) + "\naspect_ratio_sd_percent = 3.6");
         let none = "";
+        let short = "time.periods = 0.353 ends between two outputs: the last one is at 0.35; time.outputs_per_period";
         for (particles, interaction, time, expected) in [
             (rods, n, t, none),
             (rods, n, "periods = 0.3", none),
             (rods, n, "periods = 0", none),
-            (rods, n, "periods = 0.353", "time.periods = 0.353 ends between two outputs: the last one is at 0.35;"),
+            (rods, n, "periods = 0.353", &format!("{short} is 200; with 1000 the last is at the end")),
             (rods, n, "periods = 0.004", "time.periods = 0.004 ends between two outputs: the last one is at 0;"),
             (rods, "concentration_per_cm3 = 260", t, none),
             (
@@ -343,6 +352,8 @@ mod tests {
             assert_eq!(found.len(), usize::from(!expected.is_empty()), "{particles} {interaction} {time}: {found:?}");
             assert!(found.iter().all(|warning| warning.starts_with(expected)), "{found:?}");
         }
+        // Outputs are at steps of their own.
+        assert_eq!(warnings(rods, n, "periods = 0.353\nsteps_per_period = 200"), [format!("{short} is 200")]);
     }
 
     #[test]

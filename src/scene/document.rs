@@ -103,10 +103,14 @@ impl Document {
 
     /// Takes a dotted key of the text out; one that was set stays.
     pub(super) fn drop_written(&mut self, key: &str) {
-        let path: Vec<_> = key.split('.').map(str::to_owned).collect();
-        if self.places.contains_key(&path) {
+        if self.is_of_text(key) {
             self.remove(key);
         }
+    }
+
+    /// True for a dotted key of the text, also if it was taken out since, but not if it was set.
+    pub(super) fn is_of_text(&self, key: &str) -> bool {
+        self.places.contains_key(&key.split('.').map(str::to_owned).collect::<Vec<_>>())
     }
 
     /// Takes a dotted key out, where it is.

@@ -42,8 +42,11 @@ pub const DENSE: f64 = 0.1;
 const CONCENTRATIONS: [&str; 3] =
     ["interaction.concentration_per_cm3", "interaction.box_mm", "particles.volume_fraction"];
 
-/// Sets a key of a scene's document. A concentration replaces that of the text, under whichever key that stands, and a
-/// duration one in another unit, with the steps and outputs per that unit.
+/// The key of given times of outputs.
+const TIMES: &str = "output.times";
+
+/// Sets a key of a scene's document. A concentration replaces that of the text, under whichever key that stands, a
+/// duration one in another unit, with the steps and outputs per that unit, and times of outputs their number per unit.
 ///
 /// # Errors
 ///
@@ -60,8 +63,11 @@ fn alternatives(key: &str) -> Vec<&'static str> {
     if CONCENTRATIONS.contains(&key) {
         return CONCENTRATIONS.to_vec();
     }
+    let outputs = TimeUnit::ALL.map(TimeUnit::outputs_key);
     match TimeUnit::ALL.into_iter().find(|unit| unit.duration_key() == key) {
         Some(own) => TimeUnit::ALL.into_iter().filter(|unit| *unit != own).flat_map(TimeUnit::keys).collect(),
+        None if key == TIMES => outputs.to_vec(),
+        None if outputs.contains(&key) => vec![TIMES],
         None => Vec::new(),
     }
 }

@@ -5,7 +5,7 @@ mod tests;
 
 use super::document::{self, Document, as_toml, shortened};
 use super::keys::{Field, Holds, Key, TABLES, TITLE, find};
-use super::{Absent, Ensemble, Error, Flow, Interaction, Liquid, Output, Particles, Scene, Time, keys};
+use super::{Absent, Ensemble, Error, Flow, Interaction, Liquid, Output, Particles, Scene, Time, TimeUnit, keys};
 
 /// A byte offset in the text, and a message.
 type Mistake = (Option<usize>, String);
@@ -62,9 +62,19 @@ pub fn of_document(document: &Document) -> Result<Scene, Error> {
         })
     };
     match scene().filter(|_| wrong.is_empty()) {
-        Some(scene) => Ok(scene),
+        Some(scene) => in_other_units(document, scene.time.unit).map_or(Ok(scene), Err),
         None => Err(document.refused(wrong)),
     }
+}
+
+/// The refusal of times in the text that are in the unit of its duration, where one in another unit was set.
+fn in_other_units(document: &Document, unit: TimeUnit) -> Option<Error> {
+    let was = TimeUnit::ALL.into_iter().find(|other| *other != unit && document.is_of_text(other.duration_key()))?;
+    let output = document.root().table("output")?;
+    let key = ["times", "rods_at"].into_iter().find(|key| document.is_of_text(&format!("output.{key}")))?;
+    let (was, is) = (was.duration_key(), unit.duration_key());
+    let allowed = format!("it goes with {was} of the scene; {is} is set, and this key has to be set too");
+    Some(document.refused(vec![(output.offset(key), output.refusal(key, allowed))]))
 }
 
 /// Reads a table of the document and collects mistakes.

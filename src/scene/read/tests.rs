@@ -77,10 +77,10 @@ fn of_a_long_line_or_value_the_start_is_shown() {
     assert!(error.contains("particles.count = \"x\" is not allowed"), "{error}");
 }
 
-/// A concentration or a duration that is set replaces that of the text, whatever the key; of two that are set none
-/// gives way.
+/// A concentration, a duration or times that are set replace those of the text, whatever the key; of two that are set
+/// none gives way.
 #[test]
-fn a_concentration_or_a_duration_that_is_set_replaces_the_texts() {
+fn what_is_set_replaces_what_the_text_gives_by_another_key() {
     use crate::scene::{document::Document, of_document, set};
     let text = "title = 't'\n[flow]\nshear_rate_per_s = 1\n[particles]\ncount = 5\nlength_mm = 1\naspect_ratio = 10\n\
                 orientation = 'isotropic'\n[interaction]\nconcentration_per_cm3 = 20\nalpha = 0.5\n\
@@ -105,6 +105,30 @@ fn a_concentration_or_a_duration_that_is_set_replaces_the_texts() {
     assert_eq!((time.duration, time.steps_per_unit, time.outputs_per_unit), (3.0, Some(60), Some(60)));
     assert!(with(&[("time.strain", 3.0.into()), ("time.seconds", 3.0.into())]).is_err());
     assert!(with(&[("time.steps_per_period", 30.into()), ("time.strain", 3.0.into())]).is_err());
+    let times = ("output.times", toml::Value::from(vec![0.5, 1.0]));
+    let scene = with(std::slice::from_ref(&times)).unwrap();
+    assert_eq!((scene.time.steps_per_unit, scene.time.outputs_per_unit), (Some(60), None));
+    let both = with(&[times, ("time.outputs_per_period", 60.into())]).unwrap();
+    assert!(crate::Plan::new(&both).is_err());
+    // Times of the text are in the unit of its duration.
+    let listed = text.replace("outputs_per_period = 60\n", "[output]\ntimes = [0.5, 1]\n");
+    let set_in = |text: &str, settings: &[(&str, toml::Value)]| {
+        let mut document = Document::parse("t.toml", text)?;
+        settings.iter().try_for_each(|(key, value)| set(&mut document, key, value.clone()))?;
+        of_document(&document).map(|scene| scene.output.times)
+    };
+    let with = |settings: &[(&str, toml::Value)]| set_in(&listed, settings);
+    assert_eq!(with(&[("time.outputs_per_period", 20.into())]).unwrap(), [] as [f64; 0]);
+    let (seconds, times) = (("time.seconds", 100.0.into()), ("output.times", toml::Value::from(vec![7.0])));
+    let why = with(std::slice::from_ref(&seconds)).unwrap_err().to_string();
+    assert!(why.contains("t.toml:16: output.times = [0.5, 1] is not allowed: it goes with time.periods"), "{why}");
+    let rods = text.to_owned() + "[output]\nrods_at = [0.5]\n";
+    let why = set_in(&rods, std::slice::from_ref(&seconds)).unwrap_err().to_string();
+    assert!(why.contains("t.toml:17: output.rods_at = [0.5] is not allowed: it goes with time.periods"), "{why}");
+    assert_eq!(with(&[seconds.clone(), times.clone()]).unwrap(), [7.0]);
+    assert_eq!(with(&[times, seconds]).unwrap(), [7.0]);
+    assert_eq!(with(&[("time.periods", 3.0.into())]).unwrap(), [0.5, 1.0]);
+    assert_eq!(with(&[("interaction.alpha", 1.0.into())]).unwrap(), [0.5, 1.0]);
 }
 
 /// A key that is taken out is gone, with or without a place in the text.
