@@ -10,16 +10,19 @@ pub(super) fn watch() {
     use signal_hook::iterator::Signals;
     use signal_hook::low_level::signal_name;
 
+    #[cfg(target_os = "linux")]
+    with_parent();
     // If this fails, the system ends the program in its usual way.
     let Ok(mut signals) = Signals::new([SIGINT, SIGTERM, SIGHUP]) else {
         return;
     };
-    let wait = move || {
-        let Some(signal) = signals.forever().next() else {
-            return;
-        };
+    let stop = |(before, signal): (usize, i32)| {
         let name = signal_name(signal).unwrap_or("SIGHUP");
         let code = 128 + signal;
+        if before > 0 {
+            // The results are there, but nobody reads what is said of them.
+            std::process::exit(code);
+        }
         super::terminal::clear();
         let kept = checkpoint::last_words().unwrap_or_else(|| match super::words::command().as_str() {
             "sweep" => "finished points are saved, and the same command goes on from them".to_owned(),
@@ -32,12 +35,30 @@ pub(super) fn watch() {
                 format!("`shearbed {command}` saves nothing before it ends{how}")
             }
         });
-        let message = format!("stopped by {name}: files that were not complete were not written; {kept}");
-        cluster::failed(&message, code as u8);
-        shearbed_validation::serve::grade::live::end_all();
-        output::stop(code)
+        let message = format!("stopped by {name}: no file is half written; {kept}");
+        let say = || {
+            cluster::failed(&message, code as u8);
+            shearbed_validation::serve::grade::live::end_all();
+        };
+        output::stop(code, say);
     };
+    let wait = move || signals.forever().enumerate().for_each(stop);
     let _ = std::thread::Builder::new().spawn(wait);
+}
+
+/// Has the program end with the process whose number is in SHEARBED_PARENT, as Python gives its own: what goes on after
+/// a script that was killed would replace results of later ones.
+#[cfg(target_os = "linux")]
+fn with_parent() {
+    use rustix::process::{Signal, getppid, set_parent_process_death_signal};
+    let Some(parent) = std::env::var("SHEARBED_PARENT").ok().and_then(|text| text.parse::<i32>().ok()) else {
+        return;
+    };
+    let _ = set_parent_process_death_signal(Some(Signal::TERM));
+    // It may have ended before.
+    if getppid().is_none_or(|now| now.as_raw_nonzero().get() != parent) {
+        std::process::exit(1);
+    }
 }
 
 /// Makes a limit on the size of files (`ulimit -f`) an error of the write that meets it; the system would end the

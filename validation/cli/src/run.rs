@@ -153,7 +153,7 @@ impl<'a> Run<'a> {
             self.named.scene.particles.count,
             plan.scene().ensemble.replicas,
             tables::summary(&results),
-            derived::summary(&plan, results.time_name, &derived),
+            derived::summary(&plan, &results, &derived),
             until.as_ref().map(|until| format!("{}\n\n", until.text())).unwrap_or_default(),
         );
         self.args.writing.write(&self.folder, files, &text)?;

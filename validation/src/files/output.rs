@@ -61,10 +61,12 @@ fn at(path: &Path) -> impl FnOnce(io::Error) -> OutputError {
 }
 
 /// Checks, for commands that work long before they write, that a folder can be made and filled in `dir`, or if it does
-/// not exist in the folder above it, and that there is room for `bytes` bytes. Fails if another process is writing in
-/// the folder.
-pub fn probe(dir: &Path, bytes: u64) -> Result<(), OutputError> {
-    Claim::open(dir, PATIENCE)?;
+/// not exist in the folder above it, that files can have these names, and that there is room for `bytes` bytes. Fails
+/// if another process is writing in the folder.
+pub fn probe<N: AsRef<str>>(dir: &Path, bytes: u64, names: &[N]) -> Result<(), OutputError> {
+    if let Some(claim) = Claim::open(dir, PATIENCE)? {
+        names.iter().map(AsRef::as_ref).chain([RECORD]).try_for_each(|name| claim.is_free(name))?;
+    }
     let (above, _) = claim::existing(dir);
     let folder = Dir::open_ambient_dir(above, ambient_authority()).map_err(at(dir))?;
     let stage = Stage::new(&folder).map_err(at(dir))?;

@@ -112,7 +112,7 @@ fn a_signal_keeps_the_run_and_says_how_to_go_on() {
         let ended = running.end();
         let last = ended.stderr.lines().find(|line| line.starts_with("error: ")).unwrap();
         assert_eq!(ended.code, Some(code), "{last}");
-        let (_, how) = last.split_once("files that were not complete were not written; ").unwrap();
+        let (_, how) = last.split_once("no file is half written; ").unwrap();
         let way = "; the run is saved in kept, and the same command goes on from there";
         let progress = how.strip_suffix(way).unwrap_or_else(|| panic!("{last}"));
         assert!(progress.contains(" of 10000000 replicas are done, "), "{last}");

@@ -122,14 +122,18 @@ impl Claim {
         stage.appear(Path::new(&last)).map_err(at(&path))
     }
 
-    /// Removes a file, or a folder with all that is in it.
-    pub fn remove(&self, name: &str) -> Result<(), OutputError> {
-        let remove = || match beneath(&self.dir, name)? {
-            Some((folder, last)) if folder.symlink_metadata(&last)?.is_dir() => folder.remove_dir_all(last),
-            Some((folder, last)) => folder.remove_file(last),
-            None => Ok(()),
-        };
-        match remove() {
+    pub(super) fn remove(&self, name: &str) -> Result<(), OutputError> {
+        self.within(name, |folder, last| folder.remove_file(last))
+    }
+
+    /// Removes a folder with all that is in it, by one move.
+    pub fn remove_folder(&self, name: &str) -> Result<(), OutputError> {
+        self.within(name, |folder, last| folder.rename(last, &Stage::new(folder)?.dir, "gone"))
+    }
+
+    /// Does something to a file or folder, if it is there.
+    fn within(&self, name: &str, does: impl Fn(&Dir, &Path) -> io::Result<()>) -> Result<(), OutputError> {
+        match beneath(&self.dir, name).and_then(|found| found.map_or(Ok(()), |(folder, last)| does(&folder, &last))) {
             Err(error) if error.kind() != io::ErrorKind::NotFound => Err(at(&self.path.join(name))(error)),
             _ => Ok(()),
         }
@@ -146,7 +150,7 @@ impl Claim {
     }
 
     /// Fails if a file cannot have this name: a folder has it, or one above it is a link or a file.
-    fn is_free(&self, name: &str) -> Result<(), OutputError> {
+    pub(super) fn is_free(&self, name: &str) -> Result<(), OutputError> {
         let is_free = || match beneath(&self.dir, name)? {
             Some((folder, last)) if folder.symlink_metadata(&last).is_ok_and(|found| found.is_dir()) => {
                 Err(io::ErrorKind::IsADirectory.into())

@@ -3,8 +3,10 @@
 
 use super::beneath::beneath;
 use super::record::{Origin, RECORD, Record, State, Sum};
+use super::stage::RESULTS;
 use super::{Claim, Output, PATIENCE, Refused, at};
 use crate::files::build::BUILD;
+use crate::files::locked;
 use crate::files::text::Shown;
 use cap_std::ambient_authority;
 use cap_std::fs::Dir;
@@ -28,6 +30,8 @@ pub struct ResultFolder {
     origin: Origin,
     /// True if files may be overwritten whoever wrote them.
     pub(crate) force: bool,
+    /// What was here to begin with.
+    before: Option<Origin>,
     /// True if results of the same command from other inputs stay too.
     from_same_input: bool,
     /// How to give the command another folder, for messages.
@@ -41,6 +45,7 @@ impl ResultFolder {
         Self {
             dir: dir.to_owned(),
             origin: Origin::new(command, inputs),
+            before: Record::read(dir).ok().flatten().map(|record| record.origin),
             force,
             from_same_input: false,
             other: OTHER_OUT,
@@ -73,8 +78,8 @@ impl ResultFolder {
     }
 
     /// Fails if files with these names must not be written. They may be written if none exists, or if this command
-    /// wrote the folder before and the files have not been changed since; with [`Self::from_same_input`], from the same
-    /// inputs.
+    /// wrote the folder before and the files have not been changed since, nor made read-only; with
+    /// [`Self::from_same_input`], or if they appeared after [`Self::new`], from the same inputs.
     ///
     /// # Errors
     ///
@@ -108,13 +113,17 @@ impl ResultFolder {
             let what = format!("results of `shearbed {}` are here", found.origin.command);
             return Err(in_the_way(&record, &what));
         }
-        if let Some(difference) = found.origin.difference(&self.origin).filter(|_| self.from_same_input) {
-            let what = format!("results of `shearbed {command}` from other input are here: {difference}");
+        // Another process that replaces results may have begun later, and have reported success.
+        let is_later = self.before.as_ref() != Some(&found.origin);
+        if let Some(difference) = found.origin.difference(&self.origin).filter(|_| self.from_same_input || is_later) {
+            let since = if is_later { " since" } else { "" };
+            let what = format!("results of `shearbed {command}` from other input are here{since}: {difference}");
             return Err(in_the_way(&record, &what));
         }
         names.try_for_each(|(name, path)| {
             let why = match found.state(&dir, name) {
                 Ok(State::Absent | State::AsWritten(_)) => return Ok(()),
+                Ok(State::ReadOnly) => "is read-only".into(),
                 Ok(State::Changed) => format!("was changed after `shearbed {command}` wrote it"),
                 Ok(State::Foreign) => format!("was not written by `shearbed {command}`"),
                 Err(error) => format!("cannot be read: {error}"),
@@ -131,9 +140,16 @@ impl ResultFolder {
     ///
     /// Those of [`Self::check`], or if writing fails; then nothing has changed.
     pub fn write(&self, files: Vec<Output>) -> Result<Option<String>, Refused> {
-        let record = Record::new(&self.origin, &files);
+        let mut are_there = locked(&RESULTS);
+        let replaced = self.replace(&files)?;
+        *are_there = true;
+        Ok(replaced)
+    }
+
+    fn replace(&self, files: &[Output]) -> Result<Option<String>, Refused> {
+        let record = Record::new(&self.origin, files);
         let names: Vec<String> = files.iter().map(|(name, _)| name.clone()).collect();
-        let all = [&files[..], &[record.file()]].concat();
+        let all = [files, &[record.file()]].concat();
         let (claim, is_new) = Claim::open_or_appear(&self.dir, PATIENCE, &all)?;
         if is_new {
             return Ok(None);
@@ -142,8 +158,18 @@ impl ResultFolder {
         let earlier = self.earlier(&claim);
         let left_over: Vec<_> = earlier.keys().filter(|name| !names.contains(name)).cloned().collect();
         let replaced = self.own().and_then(|record| record.origin.difference(&self.origin));
-        claim.write(&record, &files, earlier, &left_over)?;
+        claim.write(&record, files, earlier, &left_over)?;
         Ok(replaced)
+    }
+
+    /// Writes files into the first of `<folder>-2` to `<folder>-99` that does not exist, and names it: what has been
+    /// worked for is not lost where the folder was changed meanwhile.
+    pub fn write_beside(&self, files: Vec<Output>) -> Option<PathBuf> {
+        let name = self.dir.file_name()?.to_str()?;
+        let mut beside = (2..100).map(|k| self.dir.with_file_name(format!("{name}-{k}")));
+        let dir = beside.find(|dir| dir.symlink_metadata().is_err())?;
+        let folder = Self { dir, origin: self.origin.clone(), before: None, ..*self };
+        folder.write(files).ok().map(|_| folder.dir)
     }
 
     /// The record of earlier results of this command in the folder.

@@ -183,6 +183,7 @@ impl Record {
         let most = listed.iter().map(|sum| sum.bytes).max();
         match most {
             None => Ok(State::Foreign),
+            Some(_) if found.permissions().readonly() => Ok(State::ReadOnly),
             Some(most) if found.is_file() && found.len() <= most => {
                 let (bytes, crc32) = bounded::length_and_crc32_of(bounded::open_in(&folder, &last)?, most)?;
                 let sum = Sum::from_parts(bytes, crc32);
@@ -198,6 +199,7 @@ impl Record {
 pub(super) enum State {
     Absent,
     AsWritten(Sum),
+    ReadOnly,
     Changed,
     Foreign,
 }

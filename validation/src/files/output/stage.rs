@@ -21,10 +21,18 @@ pub(super) const PATIENCE: Duration = Duration::from_secs(20);
 /// Held while a hidden folder is there.
 static WRITING: Mutex<()> = Mutex::new(());
 
-/// Waits until no files are being written, then ends the process, so that no hidden folder is left.
-pub fn stop(code: i32) -> ! {
+/// Held while results are being written; true once they are there.
+pub(super) static RESULTS: Mutex<bool> = Mutex::new(false);
+
+/// Waits until no files are being written, then ends the process after `last`, so that no hidden folder is left.
+/// Returns if the results are there: all that is left to the command is to say so.
+pub fn stop(code: i32, last: impl FnOnce()) {
+    let are_there = locked(&RESULTS);
     let _writing = locked(&WRITING);
-    std::process::exit(code)
+    if !*are_there {
+        last();
+        std::process::exit(code)
+    }
 }
 
 /// A hidden folder, which is removed when this is dropped. No signal ends the process meanwhile.
@@ -138,19 +146,22 @@ pub(super) fn report(dir: &Dir, path: &Path) {
         let random = name
             .strip_prefix(PREFIX)
             .is_some_and(|random| random.len() == 16 && random.bytes().all(|digit| digit.is_ascii_hexdigit()));
-        // A process at work locks its folder before it writes to it: an empty one may be about to be locked.
-        let is_left = || {
-            let left = dir.open_dir(&name)?;
-            let _lock = lock(&left, Duration::ZERO)?;
-            Ok::<_, io::Error>(left.entries()?.next().is_some())
-        };
         let is_dir = random && dir.symlink_metadata(&name).is_ok_and(|found| found.is_dir());
         let left_over = path.join(&name);
-        if is_dir && is_left().unwrap_or(false) && locked(&SAID).insert(left_over.clone()) {
+        let is_left = || dir.open_dir(&name).is_ok_and(|found| is_left(dir, &name, &found));
+        if is_dir && is_left() && locked(&SAID).insert(left_over.clone()) {
             complain(&format!(
                 "warning: {}: a shearbed that was killed left this folder of unfinished files; remove it\n",
                 left_over.shown()
             ));
         }
     }
+}
+
+/// True if a killed process left the folder `found`, which had the hidden name when it was opened.
+pub(super) fn is_left(dir: &Dir, name: &str, found: &Dir) -> bool {
+    // A process at work locks its folder before it writes to it: an empty one may be about to be locked. One that has
+    // finished since has given it another name.
+    let Ok(_lock) = lock(found, Duration::ZERO) else { return false };
+    found.entries().is_ok_and(|mut entries| entries.next().is_some()) && dir.symlink_metadata(name).is_ok()
 }

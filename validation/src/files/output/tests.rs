@@ -87,6 +87,78 @@ fn a_reader_finds_one_whole_set_or_is_told() {
     assert_eq!(contents(shared).len(), names.len() + 1);
 }
 
+/// A file that is edited while a command works stays, and so does the command's work.
+#[test]
+fn an_edit_meanwhile_costs_no_results() {
+    let above = tempfile::tempdir().unwrap();
+    let dir = above.path().join("out");
+    let own = folder(&dir, false);
+    own.write(outputs(&["a", "b"], "old")).unwrap();
+    fs::write(dir.join("a"), "mine").unwrap();
+    fs::write(above.path().join("out-2"), "mine too").unwrap();
+    let Refused(why) = own.write(outputs(&["a", "b"], "new")).unwrap_err();
+    assert!(why.contains("out/a: was changed after"), "{why}");
+    assert_eq!(own.write_beside(outputs(&["a", "b"], "new")), Some(above.path().join("out-3")));
+    let [kept, new] = ["out", "out-3"].map(|name| contents(&above.path().join(name)));
+    assert_eq!([&kept["a"], &kept["b"]].map(Option::as_deref), [Some("mine"), Some("old")]);
+    assert_eq!([&new["a"], &new["b"]].map(Option::as_deref), [Some("new"), Some("new")]);
+    let record = Record::read(&above.path().join("out-3")).unwrap().unwrap();
+    assert!(record.check("a", &Sum::of(b"new")).is_ok());
+}
+
+/// What another process wrote from other inputs since a command began is not replaced by it; a command that begins now
+/// replaces it.
+#[test]
+fn results_of_another_process_meanwhile_stay() {
+    let above = tempfile::tempdir().unwrap();
+    let dir = above.path().join("out");
+    let begun = |alpha: f64| ResultFolder::new(&dir, "run", json!({ "alpha": alpha }), false);
+    let [first, second, same] = [begun(1.0), begun(2.0), begun(1.0)];
+    first.write(outputs(&["a"], "1")).unwrap();
+    same.write(outputs(&["a"], "1")).unwrap();
+    let Refused(why) = second.write(outputs(&["a"], "2")).unwrap_err();
+    assert!(why.contains("`shearbed run` from other input are here since: alpha was 1.0 and is 2.0 now"), "{why}");
+    assert_eq!(second.write_beside(outputs(&["a"], "2")), Some(above.path().join("out-2")));
+    assert_eq!(contents(&dir)["a"].as_deref(), Some("1"));
+    begun(2.0).write(outputs(&["a"], "2")).unwrap();
+    assert_eq!(contents(&dir)["a"].as_deref(), Some("2"));
+}
+
+/// Read-only results of a command stay, except by force.
+#[test]
+fn read_only_results_stay() {
+    let above = tempfile::tempdir().unwrap();
+    let dir = above.path().join("out");
+    folder(&dir, false).write(outputs(&["a"], "old")).unwrap();
+    let mut permissions = fs::metadata(dir.join("a")).unwrap().permissions();
+    permissions.set_readonly(true);
+    fs::set_permissions(dir.join("a"), permissions).unwrap();
+    let Refused(why) = folder(&dir, false).write(outputs(&["a"], "new")).unwrap_err();
+    assert!(why.contains("out/a: is read-only"), "{why}");
+    assert_eq!(contents(&dir)["a"].as_deref(), Some("old"));
+    folder(&dir, true).write(outputs(&["a"], "new")).unwrap();
+    assert_eq!(contents(&dir)["a"].as_deref(), Some("new"));
+}
+
+/// A hidden folder is one that a killed process left if it is not locked, holds something and still has its name.
+#[test]
+fn what_another_process_is_writing_is_not_taken_for_left_over() {
+    let above = tempfile::tempdir().unwrap();
+    let dir = Dir::open_ambient_dir(above.path(), ambient_authority()).unwrap();
+    let name = ".shearbed-0123456789abcdef";
+    dir.create_dir(name).unwrap();
+    let found = dir.open_dir(name).unwrap();
+    let is_left = || stage::is_left(&dir, name, &found);
+    assert!(!is_left());
+    let lock = stage::lock(&found, PATIENCE).unwrap();
+    dir.write(format!("{name}/a"), "half").unwrap();
+    assert!(!is_left());
+    drop(lock);
+    assert!(is_left());
+    dir.rename(name, &dir, "out").unwrap();
+    assert!(!is_left());
+}
+
 #[cfg(unix)]
 #[test]
 fn no_link_below_the_folder_is_followed() {

@@ -112,3 +112,21 @@ fn a_signal_before_the_checkpoint_is_opened_says_that_it_stays() {
         assert!(message.contains(said), "{message}");
     }
 }
+
+/// A signal ends a run before its results are there, and says that nothing is saved; or the run ends as without one.
+#[cfg(unix)]
+#[test]
+fn a_signal_while_results_are_written_changes_nothing() {
+    let dir = folder();
+    for delay_ms in 0..60 {
+        let out = format!("x{delay_ms}");
+        let mut run = command(dir.path(), &format!("run small.toml --out {out}"));
+        let child = run.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
+        std::thread::sleep(std::time::Duration::from_millis(delay_ms));
+        kill(child.id(), "-TERM");
+        let ended = end("a run", child);
+        let message = String::from_utf8(ended.stderr).unwrap();
+        assert_eq!(ended.status.code() == Some(0), dir.at(&out).join(RECORD).exists(), "{delay_ms}: {message}");
+        assert!(ended.status.code() != Some(0) || message.is_empty(), "{delay_ms}: {message}");
+    }
+}
