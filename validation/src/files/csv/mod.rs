@@ -5,6 +5,8 @@
 //! begin with `#`, CR LF and a byte order mark are skipped. An error names line and column.
 
 mod lines;
+#[cfg(test)]
+mod tests;
 
 pub use lines::{LineEnds, Lines};
 
@@ -73,17 +75,24 @@ const BLANK: char = ' ';
 
 /// The cells of a line, with a point in numbers where commas do not separate cells.
 fn cells(line: &str, separator: char) -> Vec<String> {
+    marked(line, separator).0
+}
+
+/// The same, with the last number that had a point, and the last that had a comma, if commas do not separate cells.
+fn marked(line: &str, separator: char) -> (Vec<String>, [Option<String>; 2]) {
     let mut cells: Vec<_> = match separator {
         BLANK => line.split_whitespace().map(|word| word.trim_matches('"').to_owned()).collect(),
         other => split_at(line, other),
     };
-    for cell in cells.iter_mut().filter(|cell| separator != ',' && cell.contains(',')) {
+    let mut marks = [None, None];
+    for cell in cells.iter_mut().filter(|cell| separator != ',' && cell.contains(['.', ','])) {
         let pointed = cell.replace(',', ".");
         if number(&pointed).is_some() {
-            *cell = pointed;
+            let mark = usize::from(cell.contains(','));
+            marks[mark] = Some(std::mem::replace(cell, pointed));
         }
     }
-    cells
+    (cells, marks)
 }
 
 fn split_at(text: &str, separator: char) -> Vec<String> {
@@ -111,12 +120,14 @@ pub struct Rows<R> {
     separator: char,
     /// The last comment before the first row, and its line.
     comment: Option<(u64, String)>,
+    /// A number with a decimal point, and one with a decimal comma: in one file `1.234` beside `0,5` may be 1234.
+    marks: [Option<String>; 2],
 }
 
 impl<R: BufRead> Rows<R> {
     /// The rows of `reader`; `path` is for messages.
     pub fn new(path: &Path, reader: R) -> Self {
-        Self { lines: Lines::new(path, reader, LineEnds::Windows), separator: ',', comment: None }
+        Self { lines: Lines::new(path, reader, LineEnds::Windows), separator: ',', comment: None, marks: [None, None] }
     }
 
     /// The next line's number and cells.
@@ -133,7 +144,17 @@ impl<R: BufRead> Rows<R> {
             if is_first {
                 self.separator = separator(&line);
             }
-            return Ok(Some((number, cells(&line, self.separator))));
+            let (cells, marks) = marked(&line, self.separator);
+            for (known, found) in self.marks.iter_mut().zip(marks) {
+                *known = known.take().or(found);
+            }
+            if let [Some(point), Some(comma)] = &self.marks {
+                let (point, comma) = (start(point, 40), start(comma, 40));
+                let what =
+                    format!("`{point}` has a decimal point and `{comma}` a decimal comma; one of the two is allowed");
+                return Err(self.lines.error(0, what));
+            }
+            return Ok(Some((number, cells)));
         }
         Ok(None)
     }
@@ -278,12 +299,16 @@ impl<R: BufRead> Table<R> {
             return Ok(None);
         };
         // NumPy's savetxt writes blanks below a header of any form.
-        let cells = match &cells[..] {
+        let mut cells = match &cells[..] {
             [one] if self.names.len() > 1 && one.split_whitespace().count() == self.names.len() => {
                 self::cells(one, BLANK)
             }
             _ => cells,
         };
+        // Some instruments end rows with a separator.
+        if cells.len() == self.names.len() + 1 && cells.last().is_some_and(String::is_empty) {
+            cells.pop();
+        }
         let row = Row { path: self.rows.lines.path(), names: &self.names, line, cells };
         match (row.cells.len(), row.names.len()) {
             (found, due) if found != due => {
@@ -343,38 +368,4 @@ impl Row<'_> {
     pub fn error(&self, message: impl Into<String>) -> FileError {
         FileError::line(self.path, self.line, message)
     }
-}
-
-#[test]
-fn blanks_separate_where_nothing_else_does() {
-    let read = |text: &str| {
-        let mut table = Table::new(Path::new("a.csv"), text.as_bytes()).unwrap();
-        let names = table.names().join("|");
-        (names, table.next_row().unwrap().unwrap().cells.join("|"))
-    };
-    for text in ["t x1\n1 2\n", "# t,x1\n1 2\n", "# t x1\n1   2\n", "t,x1\n 1  2\n", "t;x1\n1 2", "\"t\",x1\n1,2\n"] {
-        assert_eq!(read(text), ("t|x1".into(), "1|2".into()), "{text:?}");
-    }
-    assert_eq!(read("t, x1\n1, 2\n"), ("t|x1".into(), "1|2".into()));
-    assert_eq!(read("a name,x1\na b,2\n"), ("a name|x1".into(), "a b|2".into()));
-}
-
-#[test]
-fn words_for_no_value_are_missing_and_typeset_numbers_are_numbers() {
-    let mut table = Table::new(Path::new("a.csv"), "a,b,c,d,e\n--,#N/A,None,−1.5e−3,- 2\n".as_bytes()).unwrap();
-    let row = table.next_row().unwrap().unwrap();
-    let missing: Vec<usize> = (0..5).filter(|place| row.is_missing(*place)).collect();
-    assert_eq!(missing, [0, 1, 2]);
-    assert_eq!(row.finite(3).unwrap(), -1.5e-3);
-    assert!(row.finite(4).unwrap_err().to_string().contains("column e: `- 2` is not allowed"));
-}
-
-#[test]
-fn no_value_in_the_first_cell_begins_no_comment() {
-    let read = |text: &str| {
-        let mut table = Table::new(Path::new("a.csv"), text.as_bytes()).unwrap();
-        table.next_row().unwrap().unwrap().cells.join("|")
-    };
-    assert_eq!(read("a;b\n#N/A;2\n3;4\n"), "#N/A|2");
-    assert_eq!(read("a;b\n#N/A was written here;2\n3;4\n"), "3|4");
 }
