@@ -20,8 +20,8 @@ rows() {
 }
 alpha=interaction.alpha=0.2:3
 rows 800 $alpha
-rows 135 $alpha interaction.m=1.2:6
+rows 100 $alpha interaction.m=1.2:6
 rows 60 particles.aspect_ratio=10:30
 rows 50 $alpha particles.aspect_ratio_sd_percent=0:20
 rows 90 $alpha particles.aspect_ratio=10:30
-rows 30 $alpha interaction.concentration_per_cm3=500:5000
+rows 50 $alpha interaction.concentration_per_cm3=500:5000

@@ -45,7 +45,8 @@ fn deviations(fit: &Fit, covariance: &DMatrix<f64>) -> Vec<f64> {
 const MOST_REPLICAS: u64 = 200;
 
 /// The change of the estimates, to first order, if the model were `changed` instead of `own`: from pairs of replicas at
-/// the best values, with the standard error over the pairs.
+/// the best values, with the standard error over the pairs and by the noise of the covariance, which moves an estimate
+/// by as much as the change is no change of the parameters.
 pub fn shift(
     fit: &Fit,
     change: &'static str,
@@ -57,17 +58,33 @@ pub fn shift(
     let (own, changed) = (own(&values)?, changed(&values)?);
     let replicas = (fit.emulator.behind_covariance() as u64).min(MOST_REPLICAS);
     (watch.stage)(&format!("shift by {change}"));
-    let moves: Vec<DVector<f64>> = watch.replicas(replicas, |replica| {
+    let differences: Vec<DVector<f64>> = watch.replicas(replicas, |replica| {
         let (before, after) = (own.run(replica)?, changed.run(replica)?);
         let difference = before.iter().zip(&after).map(|(before, after)| after[0] - before[0]);
-        // The points are fixed: where the model rises, the estimate must fall.
-        Ok(-&fit.best.influence * DVector::from_iterator(before.len(), difference))
+        Ok(DVector::from_iterator(before.len(), difference))
     })?;
-    let n = moves.len() as f64;
-    let mean = moves.iter().sum::<DVector<f64>>() / n;
-    let square: DVector<f64> = moves.iter().map(|one| (one - &mean).map(|d| d * d)).sum();
+    let n = differences.len() as f64;
+    let away = differences.iter().sum::<DVector<f64>>() / n;
+    // The points are fixed: where the model rises, the estimate must fall.
+    let mean = -&fit.best.influence * &away;
+    let off = |one: &DVector<f64>| (&fit.best.influence * (one - &away)).map(|d| d * d);
+    let square: DVector<f64> = differences.iter().map(off).sum();
+    let scarce = fit.best.spread[SCARCE].diagonal() * (0.5 * per_freedom(fit, &away));
     let scaled = |vector: &DVector<f64>| (0..vector.len()).map(|axis| vector[axis] * fit.scale(axis)).collect();
-    Ok(Shift { change, shift: scaled(&mean), se: scaled(&square.map(|square| (square / (n * (n - 1.0))).sqrt())) })
+    let se = (square / (n * (n - 1.0)) + scarce).map(f64::sqrt);
+    Ok(Shift { change, shift: scaled(&mean), se: scaled(&se) })
+}
+
+/// χ² of points that are `away` from the model, at the best parameters, per degree of freedom: dᵀV⁻¹d less
+/// (Ad)ᵀ(AVAᵀ)⁻¹Ad with the influence A of the points.
+fn per_freedom(fit: &Fit, away: &DVector<f64>) -> f64 {
+    let covariance: DMatrix<f64> = fit.best.causes.iter().sum();
+    let influence = &fit.best.influence;
+    let moved = influence * away;
+    let fitted = influence * &covariance * influence.transpose();
+    let squares = [(covariance, away), (fitted, &moved)]
+        .map(|(covariance, d)| covariance.cholesky().map_or(0.0, |covariance| d.dot(&covariance.solve(d))));
+    (squares[0] - squares[1]).max(0.0) / (away.len() - moved.len()).max(1) as f64
 }
 
 /// The residual of each point of `data` at the best values.
@@ -87,10 +104,11 @@ pub(super) fn residual(datum: &Datum, simulated: f64, u: f64) -> Residual {
 }
 
 /// The standard deviation of each estimate over seeds of the model: its replicas' noise, and half of what their number
-/// adds to the covariance; the other half corrects one that is too small.
-pub fn another_seed(fit: &Fit) -> Vec<f64> {
+/// adds to the covariance; the other half corrects one that is too small. A wrong covariance moves estimates by as much
+/// as the points are off the best model, of whose χ² is `per_freedom` of the degrees of freedom.
+pub fn another_seed(fit: &Fit, per_freedom: f64) -> Vec<f64> {
     let spread = &fit.best.spread;
-    deviations(fit, &(&spread[REPLICAS] + &spread[SCARCE] * 0.5))
+    deviations(fit, &(&spread[REPLICAS] + &spread[SCARCE] * (0.5 * per_freedom)))
 }
 
 /// Writes the index of a data set as the messages count, from 1.

@@ -124,7 +124,7 @@ pub fn report(fit: &Fit, data: &[Datum], shifts: Vec<Shift>) -> Report {
         covariance: rows(&covariance),
         correlation: rows(&correlation),
         budget: budget::parts(fit),
-        another_seed: budget::another_seed(fit),
+        another_seed: budget::another_seed(fit, fit.best.goodness.chi_square_of_points() / freedom.max(1) as f64),
         shifts,
         tests: Vec::new(),
         design: None,

@@ -97,6 +97,65 @@ fn a_covariance_of_few_replicas_makes_no_interval_short() {
     judged_share(Verdict::Fail, all.iter().map(|(_, believed, _)| believed.1 > 0.5), 0.5, RULE);
 }
 
+/// Of given points the estimates of other seeds scatter as is said, also where the points are off the model by more
+/// than their uncertainties; the control: what is said of points that are not is too little for these.
+#[test]
+fn another_seed_moves_an_estimate_by_as_much_as_is_said() {
+    const SEEDS: u64 = 300;
+    let points = data(7);
+    let ratio = |off: f64, believed: bool| {
+        let of = |(point, mean): (&Datum, f64)| Datum { value: mean + off * (point.value - mean), ..point.clone() };
+        let points: Vec<_> = points.iter().zip(curve(PLANTED)).map(of).collect();
+        let one = |seed: u64| {
+            let fit = over_box(&points, &shared(), &[RANGE], &vec![(-1.0, 1.0)], &model(seed), REPLICAS);
+            let per_freedom = fit.best.goodness.chi_square_of_points() / (POINTS - 1) as f64;
+            let said = crate::serve::fit::budget::another_seed(&fit, if believed { 1.0 } else { per_freedom })[0];
+            (fit.values(&fit.best.place)[0], said)
+        };
+        let all: Vec<_> = (0..SEEDS).into_par_iter().map(|k| one(5000 + k)).collect();
+        let n = SEEDS as f64;
+        let mean = all.iter().map(|(value, _)| value).sum::<f64>() / n;
+        let square = all.iter().map(|(value, _)| (value - mean).powi(2)).sum::<f64>() / (n - 1.0);
+        (square / (all.iter().map(|(_, said)| said * said).sum::<f64>() / n)).sqrt()
+    };
+    // The scatter of 300 is known to 4 %.
+    let [near, far, control] = [ratio(1.0, false), ratio(2.5, false), ratio(2.5, true)];
+    assert!((near - 1.0).abs() < 0.25 && (far - 1.0).abs() < 0.25, "{near} {far} {control}");
+    assert!(control > 1.5, "{control}");
+}
+
+/// A change of the model by a fixed curve moves estimates by what scatters over seeds of the model as much as is said,
+/// as its covariance does; one by what the parameter does, the control, moves all alike.
+#[test]
+fn a_shift_has_the_error_that_it_is_said_to_have() {
+    const SEEDS: u64 = 300;
+    let points = data(7);
+    let ratio = |by: fn(f64) -> f64| {
+        let one = |seed: u64| {
+            let fit = over_box(&points, &shared(), &[RANGE], &vec![(-1.0, 1.0)], &model(seed), REPLICAS);
+            let changed = |values: &[f64]| {
+                let own = model(seed)(values)?;
+                Ok(Replica::whole(move |replica| {
+                    let own = own.run(replica)?.into_iter().enumerate();
+                    Ok(own.map(|(k, [value, ..])| [value + 0.02 * by(0.7 * k as f64); 3]).collect())
+                }))
+            };
+            let shift = crate::serve::fit::budget::shift(&fit, "", &model(seed), &changed, &Watch::SILENT).unwrap();
+            (shift.shift[0], shift.se[0])
+        };
+        let all: Vec<_> = (0..SEEDS).into_par_iter().map(|k| one(5000 + k)).collect();
+        let n = SEEDS as f64;
+        let mean = all.iter().map(|(shift, _)| shift).sum::<f64>() / n;
+        let square = all.iter().map(|(shift, _)| (shift - mean).powi(2)).sum::<f64>() / (n - 1.0);
+        let said = (all.iter().map(|(_, se)| se * se).sum::<f64>() / n).sqrt();
+        [square.sqrt() / said, said]
+    };
+    let [scatter, said] = ratio(|x| (1.3 * x).cos());
+    assert!((scatter - 1.0).abs() < 0.3, "{scatter} {said}");
+    let [_, control] = ratio(f64::sin);
+    assert!(control < 0.05 * said, "{control} {said}");
+}
+
 /// The excess of χ² with replicas alone behind the covariance is theirs, (1 + q)/(N − 1) less what the mean curve's
 /// fewer replicas add; the control: without them it is that of the curve's.
 #[test]
