@@ -76,9 +76,11 @@ pub(super) fn lacks(channel: &str) -> String {
     } else if channel == COLLISIONS {
         "its flow has no period".into()
     } else if [C_I, C_I_PER_COLLISION].contains(&channel) {
-        "it needs plane Couette flow, one aspect ratio, two periods, and outputs at most a strain of 1 apart".into()
+        "it needs both orientation tensors, plane Couette flow, one aspect ratio, two periods, and outputs at most a \
+         strain of 1 apart"
+            .into()
     } else {
-        format!("the mean still changes in the last quarter of the run, or replicas are fewer than {FEWEST}")
+        format!("the mean drifts in the second half of the run, or seems to, or replicas are fewer than {FEWEST}")
     }
 }
 
@@ -164,11 +166,12 @@ fn extremes(plan: &Plan, results: &Results, all: &All) -> Result<String, String>
 }
 
 fn scalars(plan: &Plan, results: &Results, all: &All) -> Result<String, String> {
-    let kinds = ["damping_rate", "damping_rate_se", "steady", "steady_se", "steady_from"];
+    let kinds = ["damping_rate", "damping_rate_se", "damping_from", "damping_to", "steady", "steady_se", "steady_from"];
     let last = results.times.last().copied().unwrap_or(0.0);
     let mut row = time_cells(plan, results, last);
     for (_, derived) in &all.channels {
-        row.extend(cells(derived.damping_rate));
+        row.extend(cells(derived.damping.map(|damping| damping.rate)));
+        row.extend([0, 1].map(|end| derived.damping.map(|damping| damping.between[end])));
         row.extend(cells(derived.steady.map(|steady| steady.value)));
         row.push(derived.steady.map(|steady| steady.from));
     }
@@ -193,7 +196,7 @@ pub(super) fn most_bytes(plan: &Plan) -> u64 {
     let observables = plan.observables().into_iter().filter(|observable| !observable.is_density());
     let channels: usize = observables.map(|observable| observable.width()).sum();
     let rows = plan.outputs().min(MOST) * channels;
-    ((rows + 1) * (6 * channels + 10 * tables::NUMBER) + (11 * channels + 12) * tables::NUMBER) as u64
+    ((rows + 1) * (6 * channels + 10 * tables::NUMBER) + (14 * channels + 12) * tables::NUMBER) as u64
 }
 
 /// The unit of a rate of decay in a column of times.
@@ -207,7 +210,7 @@ pub(super) fn per(time_name: &str) -> &'static str {
 
 /// A line for the terminal on each channel whose oscillation decays or that is steady, on each reason why others have
 /// no rate, and on C_I where it is known.
-pub(super) fn summary(plan: &Plan, time_name: &str, all: &All) -> String {
+pub(super) fn summary(plan: &Plan, results: &Results, all: &All) -> String {
     let replicas = plan.scene().ensemble.replicas;
     let number =
         |estimate: Estimate, decimals: usize| tables::with_error(estimate.value, estimate.se.unwrap_or(0.0), decimals);
@@ -221,13 +224,15 @@ pub(super) fn summary(plan: &Plan, time_name: &str, all: &All) -> String {
             without.entry(why).or_default().push(&column.name);
         }
         let decays = |rate: &Estimate| rate.value.abs() > (3.0 * rate.se.unwrap_or(0.0)).max(least);
-        let rate = derived.damping_rate.filter(decays);
-        let law = if derived.is_exponential {
-            "amplitude ∝ exp(−λt)"
-        } else {
-            "amplitude does not fall exponentially; on average exp(−λt)"
-        };
-        let rate = rate.map(|rate| format!("{law}, λ = {} {}", number(rate, 3), per(time_name)));
+        let rate = derived.damping.filter(|damping| decays(&damping.rate)).map(|damping| {
+            let law = if damping.is_exponential {
+                "amplitude ∝ exp(−λt)"
+            } else {
+                "amplitude does not fall exponentially; on average exp(−λt)"
+            };
+            let [from, to] = damping.between.map(|time| (time * 1e2).round() / 1e2);
+            format!("{law}, λ = {} {} from {from} to {to}", number(damping.rate, 3), per(results.time_name))
+        });
         let steady = derived.steady.filter(|_| varies).map(|steady| {
             let from = (steady.from * 1e3).round() / 1e3;
             format!("steady from {from} on at {}", number(steady.value, 4))
@@ -249,6 +254,9 @@ pub(super) fn summary(plan: &Plan, time_name: &str, all: &All) -> String {
         text += &format!(
             "what is derived has no standard errors: outputs times columns exceed {MOST_GROUPED}; fewer are needed\n"
         );
+    }
+    if plan.runs(Stage::Contacts) && results.collisions[0] == 0.0 {
+        text += "no rods collided\n";
     }
     let Some((_, c_i)) = all.whole.iter().find(|(name, _)| *name == C_I) else { return text };
     if c_i.is_none() {

@@ -4,6 +4,7 @@
 #[cfg(test)]
 mod tests;
 
+use nalgebra::{Matrix3, Vector3};
 use shearbed::run::ensemble::{Column, group_sizes};
 use statrs::distribution::{ChiSquared, ContinuousCDF, Normal, StudentsT};
 use std::ops::RangeInclusive;
@@ -41,13 +42,27 @@ pub struct Extreme {
     pub amplitude: Option<Estimate>,
 }
 
-/// The average over the last part of a run, in which the mean does not change.
+/// The average over the last part of a run, in which no change of the mean is seen.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Steady {
-    /// The time from which on no output differs from the average by more than its error explains.
+    /// The time from which on no output differs from the average by more than its error explains, and a straight line
+    /// rises by no more than its error.
     pub from: f64,
-    /// The average over time from there to the end.
+    /// The average over time from there to the end. As noise may hide a drift, its error is that of the end of the
+    /// straight line, twice that of an average of independent outputs.
     pub value: Estimate,
+}
+
+/// The decay of an oscillation, from its maxima between two minima of at least a fifth of the first.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Damping {
+    /// The rate λ of A ∝ e^(−λt) for the amplitudes A, in 1 over the unit of time: the slope of ln A, weighted by
+    /// (A/u)² with the standard errors u of A.
+    pub rate: Estimate,
+    /// The times of the first and the last of the maxima.
+    pub between: [f64; 2],
+    /// False if ln A is off a straight line by more than the errors of A explain (χ², with the probability 0.01).
+    pub is_exponential: bool,
 }
 
 /// What is derived from a mean against time.
@@ -55,12 +70,9 @@ pub struct Steady {
 pub struct Derived {
     /// The maxima and minima in order of time.
     pub extremes: Vec<Extreme>,
-    /// The rate λ of A ∝ e^(−λt) for the amplitudes A, in 1 over the unit of time: the slope of ln A, weighted by the
-    /// relative errors. `None` for fewer than three maxima between two minima.
-    pub damping_rate: Option<Estimate>,
-    /// False if ln A is off a straight line by more than the errors of A explain (χ², with the probability 0.01).
-    pub is_exponential: bool,
-    /// `None` if the mean still changes in the last quarter of the run, and for two to seven replicas.
+    /// `None` for fewer than three maxima between two minima.
+    pub damping: Option<Damping>,
+    /// `None` if the mean changes in the second half of the run, or seems to, and for two to seven replicas.
     pub steady: Option<Steady>,
 }
 
@@ -70,21 +82,19 @@ impl Derived {
         let mean = Mean { times, column, replicas };
         let turns = mean.turns();
         let extremes: Vec<_> = (0..turns.len()).filter_map(|k| mean.extreme(&turns, k)).collect();
-        let damping_rate = mean.damping_rate(&turns, &extremes);
-        let is_exponential = damping_rate.is_none_or(|rate| is_exponential(rate.value, &extremes));
-        Self { extremes, damping_rate, is_exponential, steady: mean.steady() }
+        Self { damping: mean.damping(&turns, &extremes), extremes, steady: mean.steady() }
     }
 
     /// The same of outputs too far apart for maxima and minima.
     #[must_use]
     pub fn without_extremes(self) -> Self {
-        Self { extremes: Vec::new(), damping_rate: None, is_exponential: true, ..self }
+        Self { extremes: Vec::new(), damping: None, ..self }
     }
 
     /// Why a mean of `replicas` replicas has no damping rate; `None` if it has one, or does not oscillate.
     pub fn no_rate(&self, replicas: u64) -> Option<String> {
         match self.extremes[..] {
-            _ if self.damping_rate.is_some() => None,
+            _ if self.damping.is_some() => None,
             [] | [_] if replicas < FEWEST => {
                 let of = if replicas == 1 { "rods" } else { "replicas" };
                 Some(format!("no amplitudes: no turn is beyond the noise of so few {of}"))
@@ -104,6 +114,9 @@ pub const NO_RATE: &str = "it needs three maxima between minima, all beyond nois
 /// The fewest replicas that can show a mean to be steady: with larger errors every mean seems so.
 pub const FEWEST: u64 = 8;
 
+/// The standard errors of its rise up to which a straight line may be level.
+const DRIFT: f64 = 1.0;
+
 /// The fewest outputs over which a mean can be steady.
 const FEWEST_OUTPUTS: usize = 10;
 
@@ -114,6 +127,9 @@ const MANY: u64 = 1000;
 struct Turn {
     is_maximum: bool,
     within: RangeInclusive<usize>,
+    /// The outputs that noise does not tell from the extreme one, the same for each mean without a group; `None` if
+    /// they are three or fewer.
+    near: Option<RangeInclusive<usize>>,
 }
 
 struct Mean<'a> {
@@ -176,24 +192,58 @@ impl Mean<'_> {
                 0 => 0..=0,
                 _ => neighbour(k.checked_sub(1), 0)..=neighbour(Some(k + 1), mean.len() - 1),
             };
-            Turn { is_maximum: at[k].1, within }
+            let turn = Turn { is_maximum: at[k].1, within, near: None };
+            Turn { near: self.near(&turn), ..turn }
         };
         (0..at.len()).map(turn).collect()
     }
 
-    /// The time and the value of a turn, by a parabola through the extreme output and the two beside it.
+    /// The time and the value of a turn: the vertex of a parabola through the outputs that noise does not tell from the
+    /// extreme one, or through this and the two beside it.
     fn peak(&self, mean: &[f64], turn: &Turn) -> (f64, f64) {
-        let sign = if turn.is_maximum { 1.0 } else { -1.0 };
-        let top = turn.within.clone().max_by(|a, b| (sign * mean[*a]).total_cmp(&(sign * mean[*b]))).unwrap_or(0);
+        let top = extreme(mean, turn);
         if top == *turn.within.start() || top == *turn.within.end() {
             return (self.times[top], mean[top]);
         }
-        let [before, after] = [top - 1, top + 1].map(|k| (self.times[k] - self.times[top], mean[k] - mean[top]));
-        // y = bx + cx² through both.
-        let c = (before.1 / before.0 - after.1 / after.0) / (before.0 - after.0);
-        let b = before.1 / before.0 - c * before.0;
-        let x = if c == 0.0 { 0.0 } else { -b / (2.0 * c) };
-        (self.times[top] + x, mean[top] + x * (b + c * x))
+        let outputs = turn.near.clone().unwrap_or(top - 1..=top + 1);
+        self.vertex(mean, turn, outputs).unwrap_or((self.times[top], mean[top]))
+    }
+
+    /// From the first to the last output of a turn that are less than three standard errors from the extreme one, or
+    /// twice as many until they bend, but less than a quarter of the turn's height.
+    fn near(&self, turn: &Turn) -> Option<RangeInclusive<usize>> {
+        let mean = &self.column.mean;
+        let top = extreme(mean, turn);
+        let below = |k: usize| (mean[top] - mean[k]).abs();
+        let height = below(*turn.within.start()).min(below(*turn.within.end()));
+        [3.0, 6.0, 12.0, 24.0].into_iter().find_map(|errors| {
+            let least = (errors * self.se(top)).min(0.25 * height);
+            let mut near = turn.within.clone().filter(|k| below(*k) < least);
+            let first = near.next()?;
+            let outputs = first..=near.next_back()?;
+            let bends = outputs.end() - first > 2 && self.vertex(mean, turn, outputs.clone()).is_some();
+            bends.then_some(outputs)
+        })
+    }
+
+    /// The vertex of the parabola through these outputs by least squares, within them; `None` if it does not bend as
+    /// the turn does.
+    fn vertex(&self, mean: &[f64], turn: &Turn, outputs: RangeInclusive<usize>) -> Option<(f64, f64)> {
+        let (first, last) = (self.times[*outputs.start()], self.times[*outputs.end()]);
+        let (centre, level) = (0.5 * (first + last), mean[*outputs.start()]);
+        let (mut squares, mut sums) = (Matrix3::zeros(), Vector3::zeros());
+        for k in outputs {
+            let x = self.times[k] - centre;
+            let powers = Vector3::new(1.0, x, x * x);
+            squares += powers * powers.transpose();
+            sums += powers * (mean[k] - level);
+        }
+        // y = a + bx + cx².
+        let found = squares.cholesky()?.solve(&sums);
+        let (a, b, c) = (found.x, found.y, found.z);
+        let bends = if turn.is_maximum { c < 0.0 } else { c > 0.0 };
+        let x = (-b / (2.0 * c)).clamp(first - centre, last - centre);
+        bends.then_some((centre + x, level + a + x * (b + c * x)))
     }
 
     /// The height of maximum `k` above the mean of the minima beside it.
@@ -214,8 +264,8 @@ impl Mean<'_> {
         })
     }
 
-    fn damping_rate(&self, turns: &[Turn], extremes: &[Extreme]) -> Option<Estimate> {
-        let maxima: Vec<_> = between_minima(extremes).collect();
+    fn damping(&self, turns: &[Turn], extremes: &[Extreme]) -> Option<Damping> {
+        let maxima = clear(extremes);
         // A relative error of 0, as of one rod, would have all the weight.
         let weight = |amplitude: Estimate| amplitude.se.map_or(1.0, |se| (amplitude.value / se).powi(2)).min(1e12);
         let weights: Vec<f64> = maxima.iter().filter_map(|k| extremes[*k].amplitude).map(weight).collect();
@@ -232,7 +282,8 @@ impl Mean<'_> {
             let moments: Option<Vec<f64>> = maxima.iter().zip(&times).map(moment).collect();
             Some(-average(&moments?) / spread).filter(|rate| rate.is_finite())
         };
-        self.estimate(rate)
+        let (rate, between) = (self.estimate(rate)?, [*times.first()?, *times.last()?]);
+        Some(Damping { rate, between, is_exponential: is_exponential(rate.value, extremes, &maxima) })
     }
 
     fn steady(&self) -> Option<Steady> {
@@ -242,43 +293,73 @@ impl Mean<'_> {
         }
         // Not Student's t, by which a few replicas would be steady from the start.
         let errors = -Normal::standard().inverse_cdf(self.tail());
-        // Of 64 beginnings in the first three quarters of the run, the first.
-        let begins = (0..64).map(|k| self.times[0] + 0.75 * f64::from(k) / 64.0 * (self.times[last] - self.times[0]));
+        // Of 64 beginnings in the first half of the run, the first.
+        let begins = (0..64).map(|k| self.times[0] + 0.5 * f64::from(k) / 64.0 * (self.times[last] - self.times[0]));
         begins.map(|begin| self.times.partition_point(|time| *time < begin)).find_map(|from| {
-            let average = self.average(&self.column.mean, from);
-            let is_same = |output: usize| {
-                (self.column.mean[output] - average).abs() <= (errors * self.se(output)).max(1e-9 * average.abs())
-            };
-            let value = || self.estimate(|mean| Some(self.average(mean, from)));
+            let (average, _) = self.line(&self.column.mean, from);
+            let rounding = 1e-9 * average.abs();
+            let is_same =
+                |output: usize| (self.column.mean[output] - average).abs() <= (errors * self.se(output)).max(rounding);
             let is_steady = last - from >= FEWEST_OUTPUTS - 1 && (from..=last).all(is_same);
-            is_steady.then(value)?.map(|value| Steady { from: self.times[from], value })
+            let rise = is_steady.then(|| self.estimate(|mean| Some(self.line(mean, from).1)))??;
+            let does_not_rise = rise.se.is_none_or(|se| rise.value.abs() <= (DRIFT * se).max(rounding));
+            let of_end = |mean: &[f64]| {
+                let (average, rise) = self.line(mean, from);
+                Some(average + rise)
+            };
+            let se = does_not_rise.then(|| self.estimate(of_end))??.se;
+            Some(Steady { from: self.times[from], value: Estimate { value: average, se } })
         })
     }
 
-    /// The average over time from output `from` to the last one, by the trapezoidal rule.
-    fn average(&self, mean: &[f64], from: usize) -> f64 {
+    /// The average over time from output `from` to the last one, by the trapezoidal rule, and how far the straight line
+    /// that is nearest to the outputs ends above it.
+    fn line(&self, mean: &[f64], from: usize) -> (f64, f64) {
         let (times, mean) = (&self.times[from..], &mean[from..]);
-        let [Some(first), Some(last)] = [times.first(), times.last()] else { return f64::NAN };
-        let area = |k: usize| (times[k + 1] - times[k]) * (mean[k + 1] + mean[k]) / 2.0;
-        if times.len() < 2 { mean[0] } else { (0..times.len() - 1).map(area).sum::<f64>() / (last - first) }
+        let Some(last) = times.len().checked_sub(1).filter(|last| *last > 0) else {
+            return (mean.first().copied().unwrap_or(f64::NAN), 0.0);
+        };
+        let weight = |k: usize| times[(k + 1).min(last)] - times[k.saturating_sub(1)];
+        let average = |of: &dyn Fn(usize) -> f64| {
+            (0..=last).map(|k| weight(k) * of(k)).sum::<f64>() / (2.0 * (times[last] - times[0]))
+        };
+        let (centre, level) = (average(&|k| times[k]), average(&|k| mean[k]));
+        let moment = average(&|k| (times[k] - centre) * (mean[k] - level));
+        let spread = average(&|k| (times[k] - centre).powi(2));
+        (level, moment / spread * (times[last] - centre))
     }
 }
 
-/// The indices of the maxima between two minima: the first and the last may have one, which is not half-way.
-fn between_minima(extremes: &[Extreme]) -> impl Iterator<Item = usize> {
-    (1..extremes.len().saturating_sub(1)).filter(|k| extremes[*k].amplitude.is_some())
+/// The extreme output of a turn.
+fn extreme(mean: &[f64], turn: &Turn) -> usize {
+    let sign = if turn.is_maximum { 1.0 } else { -1.0 };
+    turn.within.clone().max_by(|a, b| (sign * mean[*a]).total_cmp(&(sign * mean[*b]))).unwrap_or(0)
+}
+
+/// The part of the first amplitude above which maxima count for the decay: more replicas show smaller ones, over which
+/// a decay that is not exponential has another rate.
+const CLEAR: f64 = 0.2;
+
+/// The indices of the maxima between two minima (the first and the last may have one, which is not half-way), up to the
+/// last of at least [`CLEAR`] of the first amplitude, but three if there are.
+fn clear(extremes: &[Extreme]) -> Vec<usize> {
+    let amplitude = |k: usize| extremes[k].amplitude.map(|amplitude| amplitude.value);
+    let maxima = (1..extremes.len().saturating_sub(1)).filter_map(|k| Some((k, amplitude(k)?)));
+    let first = maxima.clone().next().map_or(0.0, |(_, first)| first);
+    let counts = |(place, (_, amplitude)): &(usize, (usize, f64))| *place < 3 || *amplitude >= CLEAR * first;
+    maxima.enumerate().take_while(counts).map(|(_, (k, _))| k).collect()
 }
 
 /// The relative error of an amplitude that peaks between outputs may cause.
 const PEAK: f64 = 0.01;
 
-/// True if the amplitudes fall by e^(−λt) to within their errors, so far as these are known.
-fn is_exponential(rate: f64, extremes: &[Extreme]) -> bool {
-    let point = |k: usize| {
-        let Estimate { value, se } = extremes[k].amplitude?;
-        Some((value.ln() + rate * extremes[k].time.value, 1.0 / ((se? / value).powi(2) + PEAK * PEAK)))
+/// True if the amplitudes of these maxima fall by e^(−λt) to within their errors, so far as these are known.
+fn is_exponential(rate: f64, extremes: &[Extreme], maxima: &[usize]) -> bool {
+    let point = |k: &usize| {
+        let Estimate { value, se } = extremes[*k].amplitude?;
+        Some((value.ln() + rate * extremes[*k].time.value, 1.0 / ((se? / value).powi(2) + PEAK * PEAK)))
     };
-    let Some(points) = between_minima(extremes).map(point).collect::<Option<Vec<_>>>() else { return true };
+    let Some(points) = maxima.iter().map(point).collect::<Option<Vec<_>>>() else { return true };
     let all: f64 = points.iter().map(|(_, weight)| weight).sum();
     let level = points.iter().map(|(log, weight)| weight * log).sum::<f64>() / all;
     let square: f64 = points.iter().map(|(log, weight)| weight * (log - level).powi(2)).sum();
