@@ -1,5 +1,6 @@
 //! `shearbed converge`.
 
+use super::duration::Long;
 use super::scene::{Chosen, Ensemble};
 use super::{
     Failure, Threads, Writing, agree, duration, memory, on_threads, progress, refuse, result_folder, scene,
@@ -10,12 +11,13 @@ use serde_json::json;
 use shearbed::Scene;
 use shearbed::model::jeffery::strain_per_period;
 use shearbed::plan::Stage;
-use shearbed::scene::{MAX_REPLICAS, Time, resolved_strain};
+use shearbed::scene::{MAX_REPLICAS, Time};
 use shearbed_validation::files::output::Output;
 use shearbed_validation::files::text::complain;
 use shearbed_validation::files::{build, cluster};
 use shearbed_validation::present::plot;
 use shearbed_validation::present::table::{ReportTable, rows_csv};
+use shearbed_validation::studies::speed::SECONDS_PER_INTEGRATOR_STEP;
 use shearbed_validation::studies::suspensions::interacting::splits_table;
 use shearbed_validation::studies::suspensions::law::{self, Law, Replicas};
 use shearbed_validation::studies::suspensions::law_tables;
@@ -39,6 +41,8 @@ pub(super) struct Args {
     replicas: Option<u64>,
     #[command(flatten)]
     threads: Threads,
+    #[command(flatten)]
+    long: Long,
     #[command(flatten)]
     writing: Writing,
 }
@@ -68,12 +72,17 @@ pub(super) fn converge(args: &Args) -> Result<(), Failure> {
     let scene = if couette { law::by_periods(&plan) } else { named.scene.clone() };
     let done = match plan.runs(Stage::Contacts) {
         true => {
-            let warnings = [plan.warnings(), vec![coarse(&scene)], other_end(&named.scene, &scene)].concat();
+            let warnings = [plan.warnings(), other_end(&named.scene, &scene)].concat();
             scene::warn(&named.source, &warnings);
             on_threads(args.threads.given, || interacting(&scene, replicas, warnings, args))?
         }
-        // This takes milliseconds, so that the root does it alone.
-        false if cluster::is_root() => free(&scene).map(Some),
+        // Of most rods this takes a second, so that the root does it alone.
+        false if cluster::is_root() => {
+            let why = "rods that do not interact have no replicas to compare; the flag is for interacting ones";
+            refuse(args.replicas, |replicas| format!("--replicas {replicas}: {why}"))
+                .and_then(|()| free(&scene, &named.source, args))
+                .map(Some)
+        }
         false => Ok(None),
     }
     .map_err(|failure| match failure {
@@ -106,7 +115,7 @@ fn done(tables: Vec<ReportTable>, files: Vec<(&str, Result<String, String>)>) ->
 
 /// Studies every fixed-step integrator on one rod of the scene's mean aspect ratio, from its start, for its number of
 /// periods.
-fn free(scene: &Scene) -> Result<Done, Failure> {
+fn free(scene: &Scene, source: &str, args: &Args) -> Result<Done, Failure> {
     let shear_rate_per_s = scene.flow.shear_rate_per_s().ok_or_else(|| {
         Failure::Input(
             "flow: converge compares integrators of free rods in plane Couette flow; give shear_rate_per_s".into(),
@@ -115,13 +124,23 @@ fn free(scene: &Scene) -> Result<Done, Failure> {
     refuse(Some(scene.particles.rotary_diffusion_per_s).filter(|d_r| *d_r > 0.0), |d_r| {
         format!("particles.rotary_diffusion_per_s = {d_r}: converge compares integrators of free rods; 0 is allowed")
     })?;
+    let seconds = order::steps_of_scene(scene, shear_rate_per_s) * SECONDS_PER_INTEGRATOR_STEP;
+    args.long.refuse("", seconds, 1)?;
+    if !args.writing.quiet && seconds > 5.0 {
+        let about = duration::about(seconds);
+        complain(&format!("a step has to resolve the flip: {about} of one core; nothing is saved before it ends\n"));
+    }
     let orders = order::of_scene(scene, shear_rate_per_s);
     let (csv, json) = (orders_csv(&orders.studies), build::json(&orders));
     let picture = plot::svg(&orders_figure(&orders).figure);
-    let wrong: Vec<_> = (orders.studies.iter())
-        .filter(|study| study.found == OrderVerdict::Not)
-        .map(|study| study.integrator.as_str())
-        .collect();
+    let which = |verdict: OrderVerdict| -> Vec<&str> {
+        let found = orders.studies.iter().filter(|study| study.found == verdict);
+        found.map(|study| study.integrator.as_str()).collect()
+    };
+    let (coarse, wrong) = (which(OrderVerdict::TooCoarse), which(OrderVerdict::Not));
+    let too_coarse = (!coarse.is_empty())
+        .then(|| format!("too far off at every step to show an order: {}; fewer periods show one", coarse.join(", ")));
+    scene::warn(source, &too_coarse);
     let files = vec![("converge.csv", csv), ("converge.svg", picture), ("converge.json", json)];
     Ok(Done { wrong: (!wrong.is_empty()).then(|| wrong.join(", ")), ..done(vec![orders_table(&orders)], files)? })
 }
@@ -140,21 +159,6 @@ fn other_end(scene: &Scene, by_periods: &Scene) -> Vec<String> {
     time.map(said).into_iter().chain(steps).collect()
 }
 
-/// A sentence on the tried steps that are coarser than the default.
-fn coarse(scene: &Scene) -> String {
-    let strain = |steps: u64| strain_per_period(scene.particles.aspect_ratio) / steps as f64;
-    let resolved = resolved_strain(scene.particles.aspect_ratio);
-    let steps = law::STEPS_PER_PERIOD.map(|steps| (steps, strain(steps) > resolved));
-    let coarse = steps.iter().filter(|(_, coarse)| *coarse).count();
-    let (first, last) = (law::STEPS_PER_PERIOD[0], law::STEPS_PER_PERIOD[coarse.max(1) - 1]);
-    format!(
-        "{first} to {last} steps a period (strain per step {:.3} to {:.3}) are coarser than the default step (strain \
-         per step at most {resolved:.3}): they are run on purpose, to show what a coarse step changes",
-        strain(first),
-        strain(last),
-    )
-}
-
 /// The content of converge.json for an interacting scene.
 #[derive(Serialize)]
 struct Written {
@@ -169,6 +173,7 @@ struct Written {
 fn interacting(scene: &Scene, replicas: Replicas, warnings: Vec<String>, args: &Args) -> Result<Option<Done>, Failure> {
     let jobs = law::jobs(scene, replicas);
     memory::check_jobs(&jobs, args.threads.given)?;
+    args.long.check_jobs(args.threads.given, &jobs)?;
     if !args.writing.quiet && cluster::is_root() {
         complain(&format!("{}; nothing is saved before it ends\n", duration::of_jobs(&jobs)));
     }

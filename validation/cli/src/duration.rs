@@ -50,13 +50,24 @@ impl Long {
         // A tenth of the limit is worth a pilot.
         let first = plans[0].0;
         let seconds = guessed_s * of_replica(first, true) / of_replica(first, false);
-        if seconds < 3600.0 * UNASKED_H {
+        self.refuse(&format!("{source}: "), seconds, threads)
+    }
+
+    /// Refuses a study of convergence that would take more than [`UNASKED_H`] hours.
+    pub(super) fn check_jobs(&self, given: Option<u64>, jobs: &[Job]) -> Result<(), Failure> {
+        let threads = threads::count(given)? * cluster::size() as u64;
+        self.refuse("", rod_steps(jobs) * SECONDS_PER_ROD_AND_STEP / threads as f64, threads)
+    }
+
+    /// Refuses work of so many seconds if that is more than [`UNASKED_H`] hours.
+    pub(super) fn refuse(&self, of: &str, seconds: f64, threads: u64) -> Result<(), Failure> {
+        if self.yes || seconds < 3600.0 * UNASKED_H {
             return Ok(());
         }
         let threads = counted(threads, "thread");
         Err(Failure::Input(format!(
-            "{source}: takes {} on {threads}, by a rough estimate; more than {UNASKED_H} h begin with --yes alone; \
-             fewer rods, steps or replicas are allowed",
+            "{of}takes {} on {threads}, by a rough estimate; more than {UNASKED_H} h begin with --yes alone; \
+             fewer rods, steps, periods or replicas are allowed",
             about(seconds)
         )))
     }
@@ -104,7 +115,7 @@ pub(super) fn is_pilot(replicas: u64, each_s: f64) -> bool {
     replicas as f64 * each_s <= PILOT_S
 }
 
-fn about(seconds: f64) -> String {
+pub(super) fn about(seconds: f64) -> String {
     match seconds {
         // A measured time is no better known.
         s if s < 5.0 => "below 5 s".to_owned(),
@@ -166,8 +177,12 @@ pub(super) fn of_fit((parameters, most): (usize, u64), corners: &[&Plan], may_ru
 
 /// The cost of a study's jobs, as text: `4.0e9 rods × steps, some 3 min of one core`.
 pub(super) fn of_jobs(jobs: &[Job]) -> String {
-    let rod_steps: f64 = jobs.iter().map(|job| job.rod_steps() as f64).sum();
+    let rod_steps = rod_steps(jobs);
     format!("{rod_steps:.1e} rods × steps, {} of one core", about(rod_steps * SECONDS_PER_ROD_AND_STEP))
+}
+
+fn rod_steps(jobs: &[Job]) -> f64 {
+    jobs.iter().map(|job| job.rod_steps() as f64).sum()
 }
 
 /// The cost of a run whose replicas take `each_s`, and of a study of an interacting scene, as text; of a run of free

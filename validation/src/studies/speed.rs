@@ -14,6 +14,9 @@ pub const SECONDS_PER_OUTPUT: f64 = 4e-9;
 /// Seconds to draw a rod.
 pub const SECONDS_PER_DRAW: f64 = 40e-9;
 
+/// The time of a step of one rod by an integrator, in s, on average over those of the tables.
+pub const SECONDS_PER_INTEGRATOR_STEP: f64 = 80e-9;
+
 /// The study of the core's speed, with targets.
 pub const STUDY: Study = Study {
     name: "speed",

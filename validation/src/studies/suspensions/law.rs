@@ -77,8 +77,9 @@ pub struct JobMean {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Change {
     pub(crate) x1: Estimate,
-    /// The correlation of X̄₁ between the two; its standard error is that for normal variables.
-    pub correlation: Estimate,
+    /// The correlation of X̄₁ between the two; its standard error is that for normal variables. `None` for fewer than
+    /// 8 replicas, of which two have ±1.
+    pub correlation: Option<Estimate>,
     /// The change of the share of rods with |p_1| below 0.1, 0.2, … 0.9, for the bound where it is largest in standard
     /// errors.
     pub p1_distribution: Estimate,
@@ -342,7 +343,8 @@ fn change(means: &Means, level: usize, coarse: &[Trace], fine: &[Trace]) -> Chan
     let [apart_rad, unrelated_rad] = [0, 1].map(|shift| apart(coarse, fine, shift));
     Change {
         x1: means.difference(level, level + 1),
-        correlation: Estimate { value: correlation, se: (1.0 - correlation * correlation) / (count as f64).sqrt() },
+        correlation: (count >= FEWEST)
+            .then(|| Estimate { value: correlation, se: (1.0 - correlation * correlation) / (count as f64).sqrt() }),
         p1_distribution: furthest(coarse, fine, |trace, k| trace.last().p1_below[k]),
         orbit_distribution: furthest(coarse, fine, |trace, k| trace.last().orbit_below[k]),
         apart_rad,

@@ -126,9 +126,10 @@ fn steps(law: &Law, strain: f64) -> ReportTable {
     ReportTable::new(
         ["steps", &format!("X̄₁ at t/T = {} against the steps per period: convergence in law", law.end)],
         format!(
-            "Differences are to the next finer step at the same seeds; not readable: below two standard errors. The \
-             last two columns: the difference of the distribution functions of |p_1| and of C_b, of nine places where \
-             it is largest in its standard errors (below {:.1} of them it is chance, 19 times in 20). {}",
+            "Coarse steps are here to show what they change. Differences are to the next finer step at the same seeds; \
+             not readable: below two standard errors. The last two columns: the difference of the distribution \
+             functions of |p_1| and of C_b, of nine places where it is largest in its standard errors (below {:.1} of \
+             them it is chance, 19 times in 20). {}",
             by_chance(&law.steps),
             order_in_words(law)
         ),
@@ -161,8 +162,10 @@ fn paths(law: &Law) -> ReportTable {
             words("steps per period", |r: &Row| format!("{} and {}", r.0[0].steps_per_period, r.0[1].steps_per_period)),
             number("same rod apart (rad, rms)", decimals(3), |r: &Row| r.1.apart_rad),
             number("other rods", decimals(3), |r: &Row| r.1.unrelated_rad),
-            estimate("correlation of X̄₁", |r: &Row| r.1.correlation),
-            number("variance of the difference / variance", decimals(2), |r: &Row| 2.0 * (1.0 - r.1.correlation.value)),
+            estimate("correlation of X̄₁", |r: &Row| r.1.correlation.and_then(Into::into)),
+            number("variance of the difference / variance", decimals(2), |r: &Row| {
+                r.1.correlation.map(|correlation| 2.0 * (1.0 - correlation.value))
+            }),
         ],
     )
 }
@@ -291,7 +294,7 @@ pub fn law_csv(law: &Law) -> Result<String, String> {
         field("x1_se", |r: &Row| r.1.se),
         change("x1_less_next", |c| c.x1.value),
         change("x1_less_next_se", |c| c.x1.se),
-        change("correlation", |c| c.correlation.value),
+        field("correlation", |r: &Row| r.2.and_then(|c| c.correlation).map(|correlation| correlation.value)),
         change("p1_distribution", |c| c.p1_distribution.value),
         change("p1_distribution_se", |c| c.p1_distribution.se),
         change("orbit_distribution", |c| c.orbit_distribution.value),

@@ -7,6 +7,9 @@ use crate::studies::integrators;
 /// The largest difference of an observed order from theory (DiffEqDevTools.jl's convergence tests). Its sign is kept.
 pub const ORDER_TOLERANCE: f64 = 0.2;
 
+/// The error up to which one of some step must be for an order to be seen, in rad.
+const RESOLVED_RAD: f64 = 0.1;
+
 /// Roache's safety factor for three grids.
 const SAFETY: f64 = 1.25;
 
@@ -31,10 +34,13 @@ pub enum OrderVerdict {
     AsTheory,
     /// Not within it.
     Not,
-    /// Not within it, but still coming nearer at the finest step.
+    /// Not within it, but still coming nearer at the finest step, or nearest to it and still changing, as where the
+    /// leading error passes through zero.
     Unsettled,
     /// Fewer than two pairs are above round-off.
     RoundOff,
+    /// The errors at every step are above 0.1 rad, too large to show an order.
+    TooCoarse,
 }
 
 /// Three grids' extrapolation (Roache 1994; the references are in `docs/src/verification/integrators.md`).
@@ -88,21 +94,35 @@ pub fn of_rod(aspect_ratio: f64) -> Orders {
 /// Convergence on a scene of free rods in plane Couette flow at `shear_rate_per_s`, with its time in periods: one rod
 /// of its mean aspect ratio from its own start, for its own number of periods.
 pub fn of_scene(scene: &Scene, shear_rate_per_s: f64) -> Orders {
-    let (phi, theta, whose) = match scene.particles.common_start_deg() {
+    let ([phi, theta], whose) = start(scene, shear_rate_per_s);
+    of_all(scene.particles.aspect_ratio, phi, theta, scene.time.duration, whose)
+}
+
+/// The steps that [`of_scene`] takes, all runs of all integrators together.
+pub fn steps_of_scene(scene: &Scene, shear_rate_per_s: f64) -> f64 {
+    let [phi, theta] = start(scene, shear_rate_per_s).0;
+    let (problem, _) = RodProblem::into_flip(scene.particles.aspect_ratio, phi, theta, scene.time.duration);
+    let stepped = integrators::all().iter().filter(|it| matches!(it.theory, Theory::Order(_))).count();
+    let coarsest = coarsest(&problem);
+    stepped as f64 * coarsest as f64 * (2f64.powi(doublings(coarsest) as i32 + 1) - 1.0)
+}
+
+/// φ and θ of the start of [`of_scene`], and whose they are.
+fn start(scene: &Scene, shear_rate_per_s: f64) -> ([f64; 2], &'static str) {
+    match scene.particles.common_start_deg() {
         // The reversed flow is its own mirror image, φ ↔ −φ.
         Some([phi_deg, theta_deg]) => {
-            (shear_rate_per_s.signum() * phi_deg.to_radians(), theta_deg.to_radians(), "the scene's own start")
+            ([shear_rate_per_s.signum() * phi_deg.to_radians(), theta_deg.to_radians()], "the scene's own start")
         }
-        None if scene.particles.rods.is_some() => (0.2, 1.0, "as the scene's starts are many"),
-        None => (0.2, 1.0, "as the scene draws its starts at random"),
-    };
-    of_all(scene.particles.aspect_ratio, phi, theta, scene.time.duration, whose)
+        None if scene.particles.rods.is_some() => ([0.2, 1.0], "as the scene's starts are many"),
+        None => ([0.2, 1.0], "as the scene draws its starts at random"),
+    }
 }
 
 /// Convergence from GΔt of about 1 to 1/4096, or to 2²² steps if that is coarser.
 fn of_all(aspect_ratio: f64, phi: f64, theta: f64, turns: f64, whose: &str) -> Orders {
     let (problem, start) = RodProblem::into_flip(aspect_ratio, phi, theta, turns);
-    let doublings = 22u32.saturating_sub(coarsest(&problem).ilog2()).clamp(4, 12);
+    let doublings = doublings(coarsest(&problem));
     Orders {
         problem: format!(
             "One rod of r_e = {aspect_ratio} from φ = {phi:.4} and θ = {theta:.4} rad ({whose}) over {:.5} periods, \
@@ -113,6 +133,10 @@ fn of_all(aspect_ratio: f64, phi: f64, theta: f64, turns: f64, whose: &str) -> O
             .filter_map(|integrator| study(integrator, &problem, &start, doublings))
             .collect(),
     }
+}
+
+fn doublings(coarsest: u64) -> u32 {
+    22u32.saturating_sub(coarsest.ilog2()).clamp(4, 12)
 }
 
 /// The number of steps at which GΔt is about 1.
@@ -135,13 +159,14 @@ pub fn study(
     for k in 0..=doublings {
         let steps = coarsest << k;
         let setting = Setting::Steps(steps);
-        let errors = grade(integrator, problem, start, setting).ok();
-        let value = errors.and_then(|_| integrator.advance(problem, start, setting).ok());
+        let end = integrator.advance(problem, start, setting).ok();
+        let end = end.filter(|end| end.iter().all(|component| component.is_finite()));
+        let errors = end.map(|end| Errors::of(&end, problem, start));
         let before = halvings.last().and_then(|halving| halving.errors);
         halvings.push(Halving {
             steps,
             errors,
-            value: value.map(|p| p.x.abs() / p.norm()),
+            value: end.map(|p| p.x.abs() / p.norm()),
             order: errors.zip(before).map(|(now, before)| (before.orientation_rad / now.orientation_rad).log2()),
         });
     }
@@ -210,8 +235,14 @@ fn compare(
         return (OrderVerdict::AsTheory, orders);
     }
     let above = orders_above(halvings, &most_round_off);
+    let least = halvings.iter().filter_map(|halving| halving.errors).map(|errors| errors.orientation_rad);
+    if least.fold(f64::INFINITY, f64::min) > RESOLVED_RAD {
+        return (OrderVerdict::TooCoarse, Vec::new());
+    }
     let last = above[above.len().saturating_sub(3)..].to_vec();
+    let is_nearest = |order: f64| off(order) < 0.5;
     let verdict = match *last {
+        [.., a, b] if is_nearest(a) && is_nearest(b) && (a - b).abs() > 0.5 * off(b) => OrderVerdict::Unsettled,
         [first, second, last] if off(first) > off(second) && 0.6 * off(second) > off(last) => OrderVerdict::Unsettled,
         [_, _] | [_, _, _] => OrderVerdict::Not,
         _ => OrderVerdict::RoundOff,
@@ -274,6 +305,14 @@ mod tests {
         assert_eq!(verdict(&[1.6e-12, 1e-13, 6e-15, 1e-15, 3e-15], 4), OrderVerdict::AsTheory);
         assert_eq!(verdict(&[1e-4, 6.3e-6, 4e-7, 1e-7, 5e-8, 2.5e-8], 4), OrderVerdict::Not);
         assert_eq!(verdict(&[0.4, 0.15, 0.058, 0.025], 1), OrderVerdict::Unsettled);
+        // The orders 1.1, 1.4 and 1.2, and 5.5, 3.8 and 3.5; those of a stall that changes, 3.9 and −0.5, and 3.6 and
+        // 3.6, are none of 4.
+        assert_eq!(verdict(&[0.8, 0.373, 0.141, 0.0613], 1), OrderVerdict::Unsettled);
+        assert_eq!(verdict(&[7e-7, 1.55e-8, 1.11e-9, 9.8e-11], 4), OrderVerdict::Unsettled);
+        assert_eq!(verdict(&[7e-7, 1.55e-8, 1e-9, 1.4e-9], 4), OrderVerdict::Not);
+        assert_eq!(verdict(&[7e-7, 5.8e-8, 4.8e-9, 4e-10], 4), OrderVerdict::Not);
+        assert_eq!(verdict(&[1.15, 1.15, 1.15, 0.8, 0.3], 1), OrderVerdict::TooCoarse);
+        assert_eq!(verdict(&[1.15, 0.8, 0.05, 0.05, 0.05], 1), OrderVerdict::Not);
     }
 
     #[test]

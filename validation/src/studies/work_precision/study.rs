@@ -204,8 +204,9 @@ pub fn orders_table(orders: &Orders) -> ReportTable {
     let verdict = |study: &Convergence| match study.found {
         OrderVerdict::AsTheory => "as theory",
         OrderVerdict::Not => "NOT as theory",
-        OrderVerdict::Unsettled => "coming nearer",
+        OrderVerdict::Unsettled => "still changing",
         OrderVerdict::RoundOff => "at round-off",
+        OrderVerdict::TooCoarse => "too coarse",
     };
     let observed = |study: &Convergence| {
         let observed: Vec<_> = study.observed.iter().map(|order| format!("{order:+.3}")).collect();
