@@ -4,7 +4,7 @@ use super::derived::FLIP;
 use shearbed::run::ensemble::{Column, Series};
 use shearbed::{Observable, Plan, Results, Scene};
 use shearbed_validation::judge::statistics::student;
-use shearbed_validation::present::plot::{Curve, Figure, Points, names};
+use shearbed_validation::present::plot::{BARS, Curve, Figure, Points, names};
 
 /// The stems of the names of an observable's pictures.
 pub(super) fn stems(observable: Observable) -> Vec<String> {
@@ -64,7 +64,7 @@ pub(super) fn part(figure: &mut Figure, chosen: impl Fn(usize) -> bool) {
     let (apart, joined): (Vec<_>, Vec<_>) = curves.partition(|(k, _)| chosen(*k));
     figure.curves = joined.into_iter().map(|(_, curve)| curve).collect();
     let points = |(_, Curve { label, x, y, half_band: y_error })| {
-        let bars = if y_error.is_some() { ", bars: 95 %" } else { "" };
+        let bars = if y_error.is_some() { BARS } else { "" };
         Points { label: label + bars, x, y, y_error, x_error: None }
     };
     figure.points = apart.into_iter().map(points).chain(std::mem::take(&mut figure.points)).collect();

@@ -82,20 +82,23 @@ fn picture(text: &str) -> Result<PathBuf, String> {
 /// Draws a channel of every folder, or a picture stored in a folder.
 pub(super) fn plot(args: &Args) -> Result<(), Failure> {
     spares(&args.out, [args.out.clone()], args.data.iter().chain(&args.reference).cloned())?;
-    let (mut figure, said) = match &args.dirs[..] {
-        [dir] => match kept(dir)? {
-            Some(kept) => named(args, dir, kept)?,
-            None => of_runs(args)?,
-        },
-        _ => of_runs(args)?,
+    let kept = if let [dir] = &args.dirs[..] { kept(dir)?.map(|kept| (dir, kept)) } else { None };
+    let (mut figure, said, order) = match kept {
+        Some((dir, kept)) => {
+            let (figure, said) = named(args, dir, kept)?;
+            (figure, said, Vec::new())
+        }
+        None => of_runs(args)?,
     };
+    args.look.name(&mut figure, &order)?;
     args.look.apply(&mut figure)?;
     scene::warn(&args.out.shown(), &args.look.warnings(&figure));
     let replaced = if write(&args.out, &figure, args.force)? { " (replaced an earlier picture)" } else { "" };
     print(&format!("{said} in {}{replaced}\n", args.out.shown()))
 }
 
-fn of_runs(args: &Args) -> Result<(Figure, String), Failure> {
+/// The picture, what it shows, and the place among the names of --legend of each curve and then of all points.
+fn of_runs(args: &Args) -> Result<(Figure, String, Vec<usize>), Failure> {
     let across = args.key.as_deref().filter(|key| TIMES.contains(key));
     refuse(across.zip(args.at), |(time, at)| {
         format!("--at {at}: --x {time} draws all times; --at is for a key of a sweep")
@@ -111,10 +114,12 @@ fn of_runs(args: &Args) -> Result<(Figure, String), Failure> {
         })?;
         let (figure, left_out) = against(drawn, key, args.at)?;
         scene::warn(&args.out.shown(), &left_out);
-        return Ok((figure, format!("{channels} of {}", counted(runs as u64, "point"))));
+        return Ok((figure, format!("{channels} of {}", counted(runs as u64, "point")), Vec::new()));
     }
     drawn.is_defined()?;
-    if !drawn.part() {
+    let apart = drawn.part();
+    let (apart, joined): (Vec<usize>, Vec<usize>) = (0..apart.len()).partition(|k| apart[*k]);
+    if apart.is_empty() {
         shades::colour(&mut drawn);
     }
     if let Some(path) = &args.data {
@@ -124,7 +129,11 @@ fn of_runs(args: &Args) -> Result<(Figure, String), Failure> {
     if let Some(path) = &args.reference {
         drawn.figure.curves.extend(exact::curves(path, &drawn.time, &drawn.channels, &drawn.runs[0])?);
     }
-    Ok((drawn.figure, format!("{channels} of {}", counted(runs as u64, "run"))))
+    // Names are given for the curves of runs, also of those drawn as points, then for exact curves and measured points.
+    let (own, curves) = (joined.len() + apart.len(), drawn.figure.curves.len());
+    let others = own + curves - joined.len();
+    let order = joined.into_iter().chain(own..others).chain(apart).chain(others..curves + drawn.figure.points.len());
+    Ok((drawn.figure, format!("{channels} of {}", counted(runs as u64, "run")), order.collect()))
 }
 
 /// The requested picture of a fit or a report, by default the first.
@@ -166,8 +175,8 @@ impl Drawn {
         Err(FileError::whole(&run.dir, format!("has no {channel}: {}", derived::lacks(channel))).into())
     }
 
-    /// Leaves out lines through outputs that are far apart; false if there are none.
-    fn part(&mut self) -> bool {
+    /// Leaves out lines through outputs that are far apart; of each curve whether it has none.
+    fn part(&mut self) -> Vec<bool> {
         let Self { figure, channels, runs, .. } = self;
         // A plan of many outputs may take long.
         let is_apart = |k: usize| {
@@ -177,7 +186,7 @@ impl Drawn {
         };
         let apart: Vec<bool> = (0..figure.curves.len()).map(is_apart).collect();
         pictures::part(figure, |k| apart[k]);
-        apart.contains(&true)
+        apart
     }
 }
 
@@ -242,6 +251,7 @@ fn drawn_of(dirs: &[PathBuf], channels: &[String], across: Option<&str>) -> Resu
         },
         x_name: names::time(&time),
         y_name,
+        channels: if channels.len() > 1 && runs.len() > 1 { symbols.clone() } else { Vec::new() },
         curves,
         ..Figure::default()
     };

@@ -53,6 +53,8 @@ pub(super) fn against(drawn: Drawn, key: &str, at: Option<f64>) -> Result<(Figur
         when.push(time_of(channel, &figure.x_name, times));
     }
     when.dedup();
+    when.retain(|when| !when.is_empty());
+    let when = when.join("; ");
     let curve = |((channel, others), mut points): (Of<'_>, Vec<[f64; 3]>)| {
         points.sort_by(|a, b| a[0].total_cmp(&b[0]));
         let column = |k: usize| points.iter().map(|point| point[k]).collect::<Vec<_>>();
@@ -69,7 +71,7 @@ pub(super) fn against(drawn: Drawn, key: &str, at: Option<f64>) -> Result<(Figur
         }
     };
     let figure = Figure {
-        title: format!("{}, {}", figure.title, when.join("; ")),
+        title: if when.is_empty() { figure.title } else { format!("{}, {when}", figure.title) },
         x_name: names::key(key),
         curves: curves.into_iter().map(curve).collect(),
         ..figure
@@ -80,7 +82,7 @@ pub(super) fn against(drawn: Drawn, key: &str, at: Option<f64>) -> Result<(Figur
 /// The time of values at these times, in words.
 fn time_of(channel: &str, x_name: &str, mut times: Vec<f64>) -> String {
     if is_of_run(channel) {
-        return "of the whole run".into();
+        return String::new();
     }
     times.sort_by(f64::total_cmp);
     let texts = times.iter().map(|time| if is_extreme(channel) { format!("{time:.2}") } else { time.to_string() });

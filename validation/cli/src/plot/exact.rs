@@ -1,5 +1,7 @@
 //! Exact curves over those of runs.
 
+use crate::derived::FLIP;
+use crate::pictures::MANY;
 use crate::{Failure, scene};
 use shearbed::Plan;
 use shearbed::motion::Propagator;
@@ -33,6 +35,7 @@ pub(super) fn curves(path: &Path, time: &str, channels: &[String], run: &Run) ->
         .collect();
     let of_time = ["t_over_T", "strain"].map(|name| table.place(name));
     let (mut rows, mut last) = (0, None);
+    let (mut before, mut apart) = (f64::NAN, 0f64);
     while let Some(row) = table.next_row()? {
         rows += 1;
         if rows > MOST_ROWS {
@@ -41,15 +44,23 @@ pub(super) fn curves(path: &Path, time: &str, channels: &[String], run: &Run) ->
         if let [Some(t_over_t), Some(strain)] = of_time {
             // Not every motion has a period.
             let t_over_t = if row.is_blank(t_over_t) { f64::NAN } else { row.finite(t_over_t)? };
-            last = Some([row.finite(x)?, t_over_t, row.finite(strain)?]);
+            let strain = row.finite(strain)?;
+            // Of the first row there is none: `max` takes the other number.
+            (apart, before) = (apart.max((strain - before).abs()), strain);
+            last = Some([row.finite(x)?, t_over_t, strain]);
         }
         for (curve, y) in curves.iter_mut().zip(&y) {
             curve.x.push(row.finite(x)?);
             curve.y.push(row.finite(*y)?);
         }
     }
-    let differs = last.map(|last| differences(time, last, run)).unwrap_or_default();
-    scene::warn(&format!("--reference {}", path.shown()), &differs);
+    let mut warnings = last.map(|last| differences(time, last, run)).unwrap_or_default();
+    if rows <= MANY && apart > FLIP {
+        warnings.push(format!(
+            "its rows are up to {apart:.1} of strain apart, and a rod flips within {FLIP}: its lines cut peaks"
+        ));
+    }
+    scene::warn(&format!("--reference {}", path.shown()), &warnings);
     Ok(curves)
 }
 

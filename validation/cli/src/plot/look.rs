@@ -101,6 +101,26 @@ impl Look {
         x.into_iter().chain(left_out("--log-y", self.log_y, &y)).collect()
     }
 
+    /// Gives curves and points the names of --legend; `order` has the place among these of each, in order where it is
+    /// empty.
+    pub(super) fn name(&self, figure: &mut Figure, order: &[usize]) -> Result<(), Failure> {
+        let (asked, there) = (self.legend.len(), figure.curves.len() + figure.points.len());
+        let place = |k: usize| order.get(k).copied().unwrap_or(k);
+        let mut own: Vec<_> = figure.labels().enumerate().map(|(k, label)| (place(k), label.as_str())).collect();
+        own.sort_unstable();
+        refuse((asked != 0 && asked != there).then_some(own), |own| {
+            let own: Vec<_> = own.into_iter().map(|(_, label)| label).collect();
+            format!(
+                "--legend: given {asked} times; the picture has {there} curves and sets of points, for which as many \
+                 are needed in this order: {}",
+                own.join("; ")
+            )
+        })?;
+        let name = |k: usize| self.legend[place(k)].clone();
+        figure.legend = (0..asked).map(name).collect();
+        Ok(())
+    }
+
     /// Applies the flags to a figure.
     pub(super) fn apply(&self, figure: &mut Figure) -> Result<(), Failure> {
         let set = |text: &mut String, asked: &Option<String>| asked.iter().for_each(|asked| text.clone_from(asked));
@@ -113,18 +133,6 @@ impl Look {
                  --theme are allowed"
                     .into(),
             ));
-        }
-        if !self.legend.is_empty() {
-            let curves = figure.curves.iter_mut().map(|curve| &mut curve.label);
-            let labels = curves.chain(figure.points.iter_mut().map(|points| &mut points.label));
-            let labels: Vec<_> = labels.collect();
-            let (asked, there) = (self.legend.len(), labels.len());
-            refuse((asked != there).then_some("and as many are needed"), |needed| {
-                format!("--legend: given {asked} times; the picture has {there} curves and sets of points, {needed}")
-            })?;
-            for (label, asked) in labels.into_iter().zip(&self.legend) {
-                label.clone_from(asked);
-            }
         }
         figure.x_log |= self.log_x;
         figure.y_log |= self.log_y;

@@ -1,7 +1,7 @@
 //! A channel of a run's tables, read row by row: only the drawn columns are kept in memory.
 
 use super::folders::Run;
-use crate::derived::{DERIVED, EXTREMES, is_extreme};
+use crate::derived::{DERIVED, EXTREMES, is_extreme, is_of_run, lacks};
 use crate::{Failure, pictures};
 use shearbed_validation::files::csv::Table;
 use shearbed_validation::files::output::{RECORD, Sum};
@@ -64,7 +64,8 @@ pub(super) fn channel(
     }
     Err(Failure::Input(match wanted {
         Some(wanted) => {
-            format!("--y {wanted}: {} has no such channel; there are {}", run.dir.shown(), known.join(", "))
+            let why = if is_of_run(wanted) { format!(": {}", lacks(wanted)) } else { String::new() };
+            format!("--y {wanted}: {} has no such channel{why}; there are {}", run.dir.shown(), known.join(", "))
         }
         None => format!("{}: no table in it has a column to draw", run.dir.shown()),
     }))

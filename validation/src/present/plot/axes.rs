@@ -2,10 +2,8 @@
 
 use super::axis::{Axis, STEPS, place};
 use super::legend::Legend;
-use super::style::{
-    BAR_WIDTH, BELOW, FINE, MARKER, SMALL_MARKER, TEXT, colour, curve, cut, is_coloured, looks, marker, text,
-    text_width,
-};
+use super::style::{BAR_WIDTH, BELOW, FINE, MARKER, SMALL_MARKER, TEXT, colour, curve, is_coloured, looks, marker};
+use super::texts::{cut, text, text_width};
 use super::window::Window;
 use super::{Backend, Curve, Drawn, Figure, Points};
 use plotters::coord::Shift;

@@ -1,7 +1,8 @@
 //! An axis: its range, its ticks and their labels.
 
 use super::power_of_ten;
-use super::style::{FINE, TEXT, text_width};
+use super::style::{FINE, TEXT};
+use super::texts::text_width;
 use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, Ranged, ValueFormatter};
 use std::ops::Range;
 

@@ -1,6 +1,7 @@
 //! The boxes of all texts of a picture, for tests. Widths are those of the widest font that a browser falls back to.
 
-use super::style::{FINE, text_width};
+use super::style::FINE;
+use super::texts::text_width;
 
 #[derive(Clone, Debug)]
 pub(crate) struct TextBox {

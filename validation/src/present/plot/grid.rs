@@ -1,7 +1,8 @@
 //! Maps of classes, as small multiples: a cell for each row and column; classes differ by colour and glyph.
 
 use super::power_of_ten;
-use super::style::{CLASSES, FINE, MARGIN, ROW, SMALL_BOLD, TEXT, class_ink, glyph, in_rows, shade, text, text_width};
+use super::style::{CLASSES, FINE, MARGIN, ROW, TEXT, class_ink, glyph, shade};
+use super::texts::{SMALL_BOLD, in_rows, text, text_width};
 use super::{Backend, Drawn, Figure, Grid, Map};
 use plotters::coord::Shift;
 use plotters::prelude::*;
@@ -138,7 +139,7 @@ fn panel<DB: Backend>(
     canvas.draw(&Text::new(
         map.title.as_str(),
         (left + layout.names, top + 4 * FINE),
-        super::style::bold(SMALL_BOLD),
+        super::texts::bold(SMALL_BOLD),
     ))?;
     let cells = (left + layout.names, top + ROW);
     let at = |column: i32, row: i32| (cells.0 + column * layout.cell_width, cells.1 + row * CELL_HEIGHT);

@@ -2,9 +2,9 @@
 //! as near to the end of its curve as the others allow. Shades are shown in a bar above.
 
 use super::style::{
-    FINE, FITTED, MARGIN, MARKER, ROW, SMALL_MARKER, TEXT, colour, curve, cut, in_rows, is_shade, looks, marker, text,
-    text_width, wrap,
+    BAR_WIDTH, BARS, FINE, FITTED, MARGIN, MARKER, ROW, SMALL_MARKER, TEXT, colour, curve, is_shade, looks, marker,
 };
+use super::texts::{cut, in_rows, text, text_width, wrap};
 use super::{Backend, Drawn, Figure};
 use plotters::coord::Shift;
 use plotters::prelude::*;
@@ -27,6 +27,8 @@ enum Mark {
     Curve(usize, bool),
     Points(usize),
     Band,
+    /// The bar of a point.
+    Bar,
 }
 
 /// A sample and the lines of its label.
@@ -50,8 +52,7 @@ pub(super) struct Legend {
 impl Legend {
     pub(super) fn of(figure: &Figure, width: i32) -> Self {
         let looks = looks(figure);
-        let curves = figure.curves.iter().map(|curve| &curve.label);
-        let labels = curves.chain(figure.points.iter().map(|points| &points.label));
+        let names = figure.names();
         let mark = |series: usize| {
             if series < figure.curves.len() {
                 Mark::Curve(looks[series], figure.curves[series].is_marked())
@@ -59,14 +60,14 @@ impl Legend {
                 Mark::Points(looks[series])
             }
         };
-        let mut series: Vec<_> = (labels.enumerate())
-            .filter(|(series, label)| !label.is_empty() && !is_shade(looks[*series]))
-            .map(|(series, label)| (series, mark(series), label.clone()))
+        let mut series: Vec<_> = (names.iter().enumerate())
+            .filter(|(series, name)| !name.is_empty() && !is_shade(looks[*series]))
+            .map(|(series, name)| (series, mark(series), (*name).clone()))
             .collect();
         let (of_curves, of_points) = looks.split_at(figure.curves.len());
         // Several curves, each with its points: one entry for both, and what is which is said once.
         let mut kinds = String::new();
-        if of_points.len() > 1 && of_points.iter().all(|look| of_curves.contains(look)) {
+        if figure.legend.is_empty() && of_points.len() > 1 && of_points.iter().all(|look| of_curves.contains(look)) {
             series.retain(|(series, ..)| *series < figure.curves.len());
             for (series, mark, label) in series.iter_mut().filter(|(series, ..)| of_points.contains(&looks[*series])) {
                 *mark = Mark::Curve(looks[*series], true);
@@ -80,6 +81,12 @@ impl Legend {
                 if bars { " ± u" } else { "" }
             );
         }
+        // Bars of several simulated points are named once, and those of points with names of their own.
+        let simulated = figure.points.iter().filter(|points| points.label.ends_with(BARS)).count();
+        let bars = simulated > usize::from(figure.legend.is_empty());
+        for (.., label) in series.iter_mut().filter(|_| bars) {
+            *label = label.strip_suffix(BARS).unwrap_or(label).to_owned();
+        }
         let beside = if series.len() > MOST && width >= LEAST { std::mem::take(&mut series) } else { Vec::new() };
         let beside = (beside.into_iter())
             .map(|(series, mark, label)| (series, mark, wrap(&label, 2 * width / 5, SMALL)))
@@ -87,6 +94,7 @@ impl Legend {
         let band = figure.curves.iter().any(|curve| curve.half_band.is_some());
         let above = series.into_iter().map(|(_, mark, label)| (mark, label));
         let above = above.chain(band.then(|| (Mark::Band, format!("95 % band{kinds}"))));
+        let above = above.chain(bars.then(|| (Mark::Bar, "simulated, 95 %".to_owned())));
         let sized = |(mark, label): (Mark, String)| {
             let lines = wrap(&label, width - 2 * MARGIN - SAMPLE - GAP, TEXT);
             let own = SAMPLE + GAP + widest(&lines, TEXT) + 2 * GAP;
@@ -94,8 +102,8 @@ impl Legend {
         };
         let mut rows = in_rows(above.map(sized), width);
         rows.retain(|row| !row.is_empty());
-        let shades = figure.curves.iter().zip(&looks).filter(|(_, look)| is_shade(**look));
-        let shades = shades.map(|(curve, look)| (*look, curve.label.clone())).collect();
+        let shades = names.iter().zip(&looks).filter(|(_, look)| is_shade(**look));
+        let shades = shades.map(|(name, look)| (*look, (*name).clone())).collect();
         let bar = figure.shaded_by.clone().map(|name| Bar { name, shades, width: width - 2 * MARGIN });
         Self { bar, rows, beside }
     }
@@ -236,6 +244,13 @@ fn sample<DB: Backend>(canvas: &DrawingArea<DB, Shift>, mark: Mark, (x, y): (i32
         Mark::Band => {
             let corners = [(x, y - 6 * FINE), (x + width, y + 6 * FINE)];
             canvas.draw(&Rectangle::new(corners, BLACK.mix(0.2).filled()))?;
+        }
+        Mark::Bar => {
+            let (middle, [low, high]) = (x + width / 2, [y + 7 * FINE, y - 7 * FINE]);
+            let cap = |y: i32| vec![(middle - 4 * FINE, y), (middle + 4 * FINE, y)];
+            for line in [vec![(middle, low), (middle, high)], cap(low), cap(high)] {
+                canvas.draw(&PathElement::new(line, BLACK.stroke_width(BAR_WIDTH)))?;
+            }
         }
     }
     Ok(())

@@ -18,6 +18,7 @@ mod sheet;
 mod style;
 #[cfg(test)]
 mod tests;
+mod texts;
 mod theme;
 mod window;
 
@@ -35,7 +36,7 @@ use serde::{Deserialize, Deserializer, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
 use std::error::Error;
 use style::{AXES_HEIGHT, BELOW, FINE, MARGIN, ROW, TITLE, WIDTH};
-pub use style::{FITTED, MEASURED, REFERENCE, WITHOUT_BARS};
+pub use style::{BARS, FITTED, MEASURED, REFERENCE, WITHOUT_BARS};
 pub use theme::Theme;
 
 /// A curve, optionally with its 95 % band.
@@ -202,6 +203,13 @@ pub struct Figure {
     /// and a bar with the values stands in place of the legend.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub shaded_by: Option<String>,
+    /// Where it has several channels of several runs, the channels, with which labels begin: a colour is a channel, and
+    /// dashes and a marker are a run.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub channels: Vec<String>,
+    /// Names in the legend in place of the labels of curves and then of all points, which give them their looks.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub legend: Vec<String>,
     /// A panel below, with the same horizontal axis.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub below: Option<Panel>,
@@ -228,6 +236,18 @@ fn some_numbers<'de, D: Deserializer<'de>>(record: D) -> Result<Option<Vec<f64>>
 
 fn is_light(theme: &Theme) -> bool {
     *theme == Theme::Light
+}
+
+impl Figure {
+    /// The labels of curves and then of all points.
+    pub fn labels(&self) -> impl Iterator<Item = &String> {
+        self.curves.iter().map(|curve| &curve.label).chain(self.points.iter().map(|points| &points.label))
+    }
+
+    /// Their names in the legend.
+    fn names(&self) -> Vec<&String> {
+        if self.legend.is_empty() { self.labels().collect() } else { self.legend.iter().collect() }
+    }
 }
 
 /// A picture as a file that needs no fonts.
@@ -282,7 +302,7 @@ impl Parts {
         let width = in_print.or(figure.size.map(|(width, _)| width as i32 * FINE)).unwrap_or(WIDTH);
         // The height of maps follows from their cells.
         let asked = figure.size.filter(|_| figure.grid.is_none() && in_print.is_none());
-        let title = style::wrap(&figure.title, width - 2 * MARGIN, TITLE);
+        let title = texts::wrap(&figure.title, width - 2 * MARGIN, TITLE);
         let legend = Legend::of(figure, width);
         let grid = figure.grid.as_ref().map(|grid| grid::Layout::of(grid, width));
         let head = MARGIN + title.len() as i32 * ROW + if grid.is_some() { 0 } else { legend.height() };
@@ -298,7 +318,7 @@ impl Parts {
         canvas.fill(&WHITE)?;
         for (row, line) in self.title.iter().enumerate() {
             let place = (MARGIN, MARGIN + row as i32 * ROW);
-            canvas.draw(&Text::new(line.as_str(), place, style::bold(TITLE)))?;
+            canvas.draw(&Text::new(line.as_str(), place, texts::bold(TITLE)))?;
         }
         let head = MARGIN + self.title.len() as i32 * ROW;
         if let (Some(grid), Some(layout)) = (&figure.grid, &self.grid) {
@@ -333,7 +353,7 @@ fn typeset(figure: &Figure) -> Figure {
         let names = grid.rows.iter_mut().chain(&mut grid.columns).chain(&mut grid.classes);
         titles.chain(names)
     });
-    for text in texts.chain(curves).chain(points).chain(maps) {
+    for text in texts.chain(curves).chain(points).chain(maps).chain(&mut figure.channels).chain(&mut figure.legend) {
         // XML does not allow some characters, not even escaped.
         let text_alone = powers(text).replace(LOW, "");
         let below = |part: &str| part.chars().flat_map(|letter| [LOW, letter]).collect();
@@ -364,8 +384,7 @@ fn below_the_line(drawing: &str) -> String {
 
 /// Sets the document's size, adds names for screen readers, and adds dashes, which plotters lacks.
 fn finish(figure: &Figure, drawing: &str, (width, height): (i32, i32)) -> String {
-    let labels: Vec<_> = (figure.curves.iter().map(|c| c.label.as_str()))
-        .chain(figure.points.iter().map(|p| p.label.as_str()))
+    let labels: Vec<_> = (figure.names().into_iter().map(String::as_str))
         .chain(figure.grid.iter().flat_map(|grid| &grid.maps).map(|map| map.title.as_str()))
         .collect();
     let spoken = |text: &str| escaped(&text.replace(LOW, ""));

@@ -70,11 +70,18 @@ pub const MEASURED: &str = ", measured ± u";
 pub const WITHOUT_BARS: &str = ", measured";
 /// That of a curve.
 pub const FITTED: &str = ", best fit";
+/// That of simulated points.
+pub const BARS: &str = ", bars: 95 %";
 /// That of an exact curve over those of runs.
 pub const REFERENCE: &str = ", exact";
 
 /// The looks of exact curves begin here: black, as what they are compared with has a colour, and dashed.
 const EXACT: usize = 2 * THEORY;
+
+/// The looks of several channels of several runs begin here: a colour is a channel, and dashes and a marker are a run,
+/// or the other way round where only so there are enough of them. The look of the next dashes is this much above.
+const PAIRS: usize = 200;
+const NEXT_DASHES: usize = PALETTE.len();
 
 /// The looks of shades begin here.
 pub(super) const SHADES: usize = 1000;
@@ -111,7 +118,6 @@ pub(super) fn is_shade(index: usize) -> bool {
 /// The look of every curve and then of all points: that of the integrator named in the label, or the first that is not
 /// used in the figure. Where there are several curves, points look as that of the same name.
 pub(super) fn looks(figure: &Figure) -> Vec<usize> {
-    let labels = figure.curves.iter().map(|c| &c.label).chain(figure.points.iter().map(|p| &p.label));
     let named = |label: &String| {
         let (name, theory) = match label.strip_suffix(", theory") {
             Some(name) => (name, THEORY),
@@ -119,7 +125,18 @@ pub(super) fn looks(figure: &Figure) -> Vec<usize> {
         };
         NAMED.iter().position(|known| *known == name).map(|look| look + theory)
     };
-    let mut known: Vec<_> = labels.map(named).collect();
+    let mut known: Vec<_> = figure.labels().map(named).collect();
+    let pairs: Vec<_> = figure.labels().map(|label| parts(&figure.channels, label)).collect();
+    let mut runs: Vec<&str> = Vec::new();
+    for (_, run) in pairs.iter().flatten() {
+        runs.extend((!runs.contains(run)).then_some(*run));
+    }
+    if let Some(look_of) = look_of_pair(figure.channels.len(), runs.len()) {
+        let run = |name: &str| runs.iter().position(|known| *known == name).unwrap_or(0);
+        for (look, pair) in known.iter_mut().zip(&pairs) {
+            *look = pair.map(|(channel, name)| look_of(channel, run(name))).or(*look);
+        }
+    }
     let exact = |curve: &super::Curve| curve.label.ends_with(REFERENCE);
     let shaded = figure.curves.iter().filter(|curve| figure.shaded_by.is_some() && !exact(curve)).count();
     for (k, curve) in figure.curves.iter().enumerate() {
@@ -144,10 +161,39 @@ pub(super) fn looks(figure: &Figure) -> Vec<usize> {
     looks
 }
 
+/// The channel and the run of a label `<channel>, <run>`, in a figure of several of both.
+fn parts<'a>(channels: &[String], label: &'a str) -> Option<(usize, &'a str)> {
+    channels.iter().enumerate().find_map(|(k, channel)| {
+        let run = label.strip_prefix(channel.as_str())?.strip_prefix(", ")?;
+        Some((k, run.strip_suffix(BARS).unwrap_or(run)))
+    })
+}
+
+/// The looks of pairs of a channel and a run, in a figure with labels of so many runs; `None` if they are too many.
+fn look_of_pair(channels: usize, runs: usize) -> Option<fn(usize, usize) -> usize> {
+    if channels <= PALETTE.len() && runs <= DASHES.len() {
+        Some(|channel, run| PAIRS + run * NEXT_DASHES + channel)
+    } else if channels <= DASHES.len() && runs <= PALETTE.len() {
+        Some(|channel, run| PAIRS + channel * NEXT_DASHES + run)
+    } else {
+        None
+    }
+}
+
+/// The number of the dashes of a look of a pair.
+fn pair_dashes(index: usize) -> Option<usize> {
+    (PAIRS..SHADES).contains(&index).then(|| (index - PAIRS) / NEXT_DASHES)
+}
+
 /// The colour of a look. All differ, if only in the last bits, so that `curve_stroke` identifies one curve.
 pub(super) fn colour(index: usize) -> RGBColor {
     if is_shade(index) {
         return plasma(index - SHADES);
+    }
+    if let Some(dashes) = pair_dashes(index) {
+        let RGBColor(red, green, blue) = PALETTE[(index - PAIRS) % NEXT_DASHES];
+        let bits = |from: usize| ((dashes + 1) >> from & 3) as u8;
+        return RGBColor(red ^ bits(0), green ^ bits(2), blue);
     }
     if index >= EXACT {
         return RGBColor((index - EXACT + 1) as u8, 0, 0);
@@ -221,6 +267,7 @@ pub(super) fn curve_stroke(index: usize) -> String {
 pub(super) fn dash_lengths(index: usize) -> &'static str {
     match index {
         SHADES.. => "",
+        PAIRS.. => DASHES[pair_dashes(index).unwrap_or(0) % DASHES.len()],
         EXACT.. => DASHES[1 + (index - EXACT) % (DASHES.len() - 1)],
         _ => DASHES[index % DASHES.len()],
     }
@@ -237,7 +284,8 @@ pub(super) fn dashes(index: usize) -> String {
 /// The marker of a point around the origin: a disc, a diamond, a triangle, a square, a triangle on its tip, as a
 /// polygon defined by its number of corners and the angle of the first.
 pub(super) fn marker(index: usize, size: i32) -> Polygon<(i32, i32)> {
-    let (corners, first) = [(16, 0.0), (4, 0.0), (3, 0.75), (4, 0.125), (3, 0.25)][index % 5];
+    let (corners, first) =
+        [(16, 0.0), (4, 0.0), (3, 0.75), (4, 0.125), (3, 0.25)][pair_dashes(index).unwrap_or(index) % 5];
     let radius = f64::from(size) * if corners == 16 { 0.85 } else { 1.1 };
     let outline: Vec<(i32, i32)> = (0..corners)
         .map(|corner| {
@@ -247,98 +295,6 @@ pub(super) fn marker(index: usize, size: i32) -> Polygon<(i32, i32)> {
         })
         .collect();
     Polygon::new(outline, colour(index).filled())
-}
-
-/// The style of dark text of this size, in the units of the view.
-pub(super) fn text(size: f64) -> TextStyle<'static> {
-    styled(size, FontStyle::Normal)
-}
-
-/// The style of bold dark text of this size.
-pub(super) fn bold(size: f64) -> TextStyle<'static> {
-    styled(size, FontStyle::Bold)
-}
-
-fn styled(size: f64, style: FontStyle) -> TextStyle<'static> {
-    // Plotters divides by 1.24 when it writes SVG.
-    let font = ("sans-serif", size * 1.24 * f64::from(FINE)).into_font();
-    font.style(style).color(&RGBColor(34, 34, 34))
-}
-
-/// Largest number of lines of a title.
-const MOST_LINES: usize = 4;
-
-/// The width of a text in the widest font that a browser or a printer falls back to: DejaVu Sans, bold for sizes that
-/// may be bold.
-pub(super) fn text_width(text: &str, size: f64) -> i32 {
-    let bold = size >= TITLE || size == SMALL_BOLD;
-    (super::letters::ems(text, bold) * size * f64::from(FINE)).ceil() as i32
-}
-
-/// Size of the letters of a map's title.
-pub(super) const SMALL_BOLD: f64 = 13.5;
-
-/// The part of a text that fits into `room`; `…` stands for the rest.
-pub(super) fn cut(text: &str, room: i32, size: f64) -> String {
-    if text_width(text, size) <= room {
-        return text.to_owned();
-    }
-    let fits = |end: &usize| text_width(&text[..*end], size) + text_width("…", size) <= room;
-    let end = text.char_indices().map(|(at, _)| at).take_while(fits).last().unwrap_or(0);
-    format!("{}…", &text[..end])
-}
-
-/// Items, each with its width, in rows no wider than a figure: at least one row, and the left edge of each item.
-pub(super) fn in_rows<T>(items: impl Iterator<Item = (T, i32)>, width: i32) -> Vec<Vec<(T, i32)>> {
-    let mut rows = vec![Vec::new()];
-    let mut x = MARGIN;
-    for (item, own) in items {
-        if x + own > width - MARGIN && x > MARGIN {
-            rows.push(Vec::new());
-            x = MARGIN;
-        }
-        if let Some(row) = rows.last_mut() {
-            row.push((item, x));
-        }
-        x += own;
-    }
-    rows
-}
-
-/// The words of a text; a number is one with its sign and its unit.
-fn words(text: &str) -> Vec<String> {
-    let mut words: Vec<String> = Vec::new();
-    for word in text.split_whitespace() {
-        match words.last_mut() {
-            Some(last) if last.ends_with(['=', '±']) || ["=", "%", "cm⁻³"].contains(&word) => {
-                *last += " ";
-                *last += word;
-            }
-            _ => words.push(word.into()),
-        }
-    }
-    words
-}
-
-/// The lines of a text within the width `room`, four at most; a word that is too wide is cut.
-pub(super) fn wrap(text: &str, room: i32, size: f64) -> Vec<String> {
-    let mut lines: Vec<String> = Vec::new();
-    for word in words(text) {
-        let word = &cut(&word, room, size);
-        let full = lines.len() == MOST_LINES;
-        match lines.last_mut() {
-            Some(line) if text_width(line, size) + text_width(word, size) < room => {
-                line.push(' ');
-                line.push_str(word);
-            }
-            Some(last) if full => {
-                *last = cut(&format!("{last} {word}"), room, size);
-                break;
-            }
-            _ => lines.push(word.to_string()),
-        }
-    }
-    lines
 }
 
 #[cfg(test)]
@@ -381,6 +337,50 @@ mod tests {
     }
 
     #[test]
+    fn a_colour_is_a_channel_and_dashes_are_a_run_where_there_are_several_of_both() {
+        let label = |k: usize| format!("{}, {}", ["x1", "x3"][k % 2], ["one", "two"][k / 2]);
+        let curves: Vec<_> = (0..3).map(|k| Curve { label: label(k), ..Curve::default() }).collect();
+        let ends = [label(3) + BARS, format!("x3{MEASURED}")];
+        let points = ends.map(|label| Points { label, ..Points::default() }).to_vec();
+        let figure = Figure { channels: vec!["x1".into(), "x3".into()], curves, points, ..Figure::default() };
+        let looks = looks(&figure);
+        let near = |a: usize, b: usize| {
+            let (RGBColor(r, g, b1), RGBColor(s, h, b2)) = (colour(looks[a]), colour(looks[b]));
+            r.abs_diff(s).max(g.abs_diff(h)).max(b1.abs_diff(b2)) < 4
+        };
+        assert!(near(0, 2) && near(1, 3) && near(1, 4) && !near(0, 1) && !near(2, 3));
+        let dashes = |k: usize| dash_lengths(looks[k]);
+        assert!(dashes(0) == dashes(1) && dashes(2) == dashes(3) && dashes(0) != dashes(2));
+        let markers: std::collections::BTreeSet<_> = [0, 2, 4].map(|k| pair_dashes(looks[k])).into();
+        assert!(markers.len() == 3 && pair_dashes(looks[2]) == pair_dashes(looks[3]));
+        // The strokes differ nevertheless, also from those of other looks.
+        let pairs = PAIRS..PAIRS + DASHES.len() * NEXT_DASHES;
+        let strokes: std::collections::BTreeSet<_> = pairs.chain(0..2 * THEORY).map(curve_stroke).collect();
+        assert_eq!(strokes.len(), DASHES.len() * NEXT_DASHES + 2 * THEORY);
+    }
+
+    /// Whatever their numbers, no two curves of channels and runs have the same colour and dashes, as far as there are
+    /// enough of both.
+    #[test]
+    fn no_two_channels_or_runs_look_the_same() {
+        for (channels, runs) in [(1, 1), (2, 2), (2, 6), (2, 7), (6, 11), (11, 6), (12, 2), (2, 12)] {
+            let names: Vec<_> = (0..channels).map(|k| format!("x_{k}")).collect();
+            let label = |k: usize| format!("{}, run {}", names[k % channels], k / channels);
+            let curves = (0..channels * runs).map(|k| Curve { label: label(k), ..Curve::default() }).collect();
+            let figure = super::super::typeset(&Figure { channels: names.clone(), curves, ..Figure::default() });
+            let looks = looks(&figure);
+            let eye = |look: usize| {
+                let pair = pair_dashes(look).map(|dashes| ((look - PAIRS) % NEXT_DASHES, dashes));
+                pair.unwrap_or((NEXT_DASHES + look, 0))
+            };
+            let seen: std::collections::BTreeSet<_> = looks.iter().map(|look| eye(*look)).collect();
+            assert_eq!(seen.len(), channels * runs, "{channels} channels of {runs} runs");
+            let pairs = looks.iter().filter(|look| pair_dashes(**look).is_some()).count();
+            assert!(pairs == looks.len() || channels.max(runs) > PALETTE.len(), "{channels} channels of {runs} runs");
+        }
+    }
+
+    #[test]
     fn every_integrator_has_a_colour_of_its_own() {
         for (a, b) in (0..NAMED.len()).flat_map(|a| (0..a).map(move |b| (a, b))) {
             let (RGBColor(r, g, b1), RGBColor(s, h, b2)) = (colour(a), colour(b));
@@ -391,17 +391,5 @@ mod tests {
         assert!(!is_coloured(NAMED.len()));
         let (RGBColor(red, ..), RGBColor(next, ..)) = (colour(NAMED.len()), colour(NAMED.len() + 1));
         assert!(red.abs_diff(next) < 8);
-    }
-
-    #[test]
-    fn texts_are_wrapped_at_words() {
-        let room = text_width("a picture of", TEXT) + 1;
-        assert_eq!(wrap("a picture of two words", room, TEXT), ["a picture of", "two words"]);
-        assert_eq!(wrap("pictures of σ = 3.6 %", room, TEXT), ["pictures of", "σ = 3.6 %"]);
-        assert!(wrap("", room, TEXT).is_empty());
-        let cut = &wrap("incomprehensibilities", room, TEXT)[0];
-        assert!(cut.starts_with("incomp") && cut.ends_with('…') && text_width(cut, TEXT) <= room);
-        let long = wrap(&"word ".repeat(100), room, TEXT);
-        assert!(long.len() == MOST_LINES && long[MOST_LINES - 1].ends_with('…'), "{long:?}");
     }
 }
