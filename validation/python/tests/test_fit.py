@@ -33,7 +33,8 @@ def points() -> dict[str, np.ndarray]:
 
 
 def test_the_result_is_that_of_the_program(points: dict[str, np.ndarray], tmp_path: Path) -> None:
-    found = shearbed.fit(SCENE, points, OVER, replicas=60, seed=3, threads=2)
+    found = shearbed.fit(SCENE, points, OVER, replicas=60, seed=3, threads=2, out=tmp_path / "kept")
+    assert shearbed.load(tmp_path / "kept").record == found.record and "\nin " not in str(found)
     (tmp_path / "scene.toml").write_text(SCENE.toml)
     with open(tmp_path / "points.csv", "w", newline="") as text:
         writer = csv.writer(text)

@@ -107,8 +107,11 @@ def test_rods_are_those_of_the_programs_table(kind: str, tmp_path: Path) -> None
 def test_what_the_program_wrote_is_loaded_as_a_run_gives_it(tmp_path: Path) -> None:
     scene = shearbed.Scene(**(SMALL | dict(replicas=2, rods_at=[0, 0.2], observables=EVERY)))
     (tmp_path / "scene.toml").write_text(scene.toml)
-    assert program("run", "scene.toml", "--out", "out", "--quiet", cwd=tmp_path).returncode == 0
+    kept = shearbed.run(scene, out=tmp_path / "out")
     loaded, own = shearbed.load(tmp_path / "out"), shearbed.run(scene)
+    assert kept.x1.tobytes() == own.x1.tobytes() and (tmp_path / "out" / "projections.svg").exists()
+    # The program takes it for its own.
+    assert program("run", "scene.toml", "--out", "out", "--quiet", cwd=tmp_path).returncode == 0
     assert loaded.observables == own.observables and loaded.labels == own.labels and loaded.time_name == own.time_name
     assert {name: loaded.symbols[name] for name in own.channels} == own.symbols
     assert (loaded.seed, loaded.replicas, loaded.warnings) == (own.seed, own.replicas, own.warnings)
@@ -129,9 +132,37 @@ def test_what_the_program_wrote_is_loaded_as_a_run_gives_it(tmp_path: Path) -> N
     table.unlink()
     with pytest.raises(ValueError, match="projections.csv: is gone"):
         shearbed.load(tmp_path / "out")
+    for spoilt in ("{", "[]", '{"command": "run", "inputs": {}, "files": null}'):
+        (tmp_path / "out" / "shearbed.json").write_text(spoilt)
+        with pytest.raises(ValueError, match="shearbed.json: is not as the program wrote it"):
+            shearbed.load(tmp_path / "out")
+    with pytest.raises(ValueError, match="out"):
+        shearbed.run(scene, out="")
 
 
-def test_what_other_commands_wrote_is_loaded_as_their_functions_give_it(tmp_path: Path) -> None:
+@pytest.mark.skipif(sys.platform != "linux", reason="the system ends no process with its parent")
+def test_a_script_that_is_killed_leaves_no_process_at_work(tmp_path: Path) -> None:
+    long = SMALL | dict(replicas=1_000_000, periods=100)
+    script = f"import shearbed; shearbed.run({long!r}, out='out', yes=True)"
+    started = subprocess.Popen([sys.executable, "-c", script], cwd=tmp_path)
+    deadline = time.monotonic() + 60
+    children = lambda: Path(f"/proc/{started.pid}/task/{started.pid}/children").read_text().split()
+    while not children() and time.monotonic() < deadline:
+        time.sleep(0.05)
+    [child] = children()
+    time.sleep(1)
+    started.kill()
+    started.wait()
+    there = lambda: Path(f"/proc/{child}/stat").exists() and ") Z" not in Path(f"/proc/{child}/stat").read_text()
+    while there() and time.monotonic() < deadline:
+        time.sleep(0.05)
+    assert not there() and not (tmp_path / "out").exists()
+
+
+def test_what_other_commands_wrote_is_loaded_as_their_functions_give_it(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
     (tmp_path / "scene.toml").write_text(shearbed.Scene(**SMALL).toml)
     (tmp_path / "free.toml").write_text(shearbed.Scene(**FREE).toml)
     for words in (
@@ -141,8 +172,9 @@ def test_what_other_commands_wrote_is_loaded_as_their_functions_give_it(tmp_path
     ):
         ended = program(*words.split(), cwd=tmp_path)
         assert ended.returncode == 0, ended.stderr
-    swept = shearbed.sweep(SMALL, {"interaction.alpha": [0.25, 1.0]})
-    for own, found in ((swept, "swept"), (shearbed.converge(FREE), "orders")):
+    swept = shearbed.sweep(SMALL, {"interaction.alpha": [0.25, 1.0]}, out="own/swept")
+    orders = shearbed.converge(FREE, out="own/orders")
+    for own, found in ((swept, "swept"), (orders, "orders"), (swept, "own/swept"), (orders, "own/orders")):
         loaded = shearbed.load(tmp_path / found)
         assert list(loaded) == list(own) and len(own) > 3
         for name, values in own.items():
@@ -252,6 +284,12 @@ def test_until_a_standard_error_is_small_and_with_a_checkpoint(tmp_path: Path) -
     with pytest.warns(UserWarning, match="x1"):
         less = shearbed.run(SMALL, until_se={"x1": 1e-5}, time_limit_s=0.2)
     assert less.replicas >= 2
+    with pytest.warns(UserWarning, match="x1"):
+        less = shearbed.run(SMALL, until_se={"x1": 1e-5}, time_limit_s=0.2, out=tmp_path / "less")
+    assert shearbed.load(tmp_path / "less").replicas == less.replicas
+    (tmp_path / "less" / "projections.csv").write_text("mine")
+    with pytest.raises((ValueError, RuntimeError), match="projections.csv: was changed"):
+        shearbed.run(SMALL, until_se={"x1": 1e-5}, time_limit_s=0.2, out=tmp_path / "less")
     kept = tmp_path / "kept"
     first = shearbed.run(SMALL, replicas=3, checkpoint=kept)
     assert kept.exists() and first.x1.tobytes() == shearbed.run(SMALL, replicas=3).x1.tobytes()
@@ -432,6 +470,24 @@ def test_progress_without_tqdm_is_a_line(monkeypatch, capsys):
     assert "2 of 2 points\n" in capsys.readouterr().err
 
 
+def test_the_scene_of_results_runs_again():
+    first = shearbed.run(SMALL, seed=5)
+    assert np.array_equal(shearbed.run(first.scene).x1, first.x1)
+
+
+def test_a_refused_folder_is_told_without_what_only_the_program_has(tmp_path):
+    scene = shearbed.Scene(built_in="fig4-n50").replace(count=20, periods=0.25, replicas=2)
+    shearbed.run(scene, out=tmp_path / "out", seed=2)
+    with pytest.warns(UserWarning, match="replaced earlier results of run: scene.ensemble.seed was 2 and is 1 now"):
+        shearbed.run(scene, out=tmp_path / "out")
+    (tmp_path / "out" / "projections.csv").write_text("mine")
+    with pytest.raises(ValueError, match="was changed after `shearbed run` wrote it; another out leaves it") as refused:
+        shearbed.run(scene, out=tmp_path / "out")
+    assert "force" not in str(refused.value)
+    with pytest.raises(ValueError, match="^fig4-n50.toml: "):
+        shearbed.sweep(scene, {"alhpa": [1, 2]}, out=tmp_path / "swept")
+
+
 def test_wrong_arguments_are_named_in_pythons_words():
     for error, words, call in (
         (TypeError, "until_se = 0.01: a dictionary", lambda: shearbed.run(SMALL, until_se=0.01)),
@@ -439,6 +495,7 @@ def test_wrong_arguments_are_named_in_pythons_words():
         (TypeError, r"over = \['alpha'\]: a dictionary", lambda: shearbed.sweep(SMALL, ["alpha"])),
         (ValueError, "over: no key has values", lambda: shearbed.sweep(SMALL, {})),
         (shearbed.SceneError, "aplha: unknown key; did you mean alpha", lambda: shearbed.Scene(**SMALL).replace(aplha=None)),
+        (shearbed.SceneError, "^alfa: unknown key; did you mean alpha$", lambda: shearbed.Scene(**SMALL, alfa=1)),
         (ValueError, '"file": ', lambda: shearbed.Scene(**(FREE | dict(rods="nope.csv")))),
         (ValueError, "^aspect_ratio = -18.0: ", lambda: shearbed.reference(-18, times=[0])),
         (ValueError, "^missing: times$", lambda: shearbed.reference(18)),

@@ -153,7 +153,7 @@ def test_a_sweep_gives_all_times_and_says_how_far_it_is() -> None:
     for name, values in every.items():
         assert np.array_equal(values[ends], last[name]), name
     # One value a point.
-    derived = re.compile("x[123]_(damping_rate|steady)(_se|_from)?|collisions_per_rod_and_period(_se)?")
+    derived = re.compile("x[123]_(damping_(rate(_se)?|from|to)|steady(_se|_from)?)|collisions_per_rod_and_period(_se)?")
     assert all(derived.fullmatch(name) for name in set(last) - set(every)) and {"x1", "x3_se"} <= set(every)
     extremes = shearbed.sweep("fig4-n50", over, times="extremes", **(given | {"replicas": 20}))
     assert set(extremes["interaction.alpha"]) == {0.2, 0.6} and np.nanmax(extremes["x1_amplitude"]) > 0.1

@@ -6,7 +6,6 @@ import html
 import json
 import os
 import re
-import tempfile
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -16,7 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ._results import typeset
-from ._running import bar_of, columns as columns_of, complained, dictionary, keywords, number, options, program
+from ._running import bar_of, columns as columns_of, complained, dictionary, keywords, number, options, program, workplace
 from ._scene import Scene, dotted, scene_of, write_columns
 
 Array = NDArray[np.float64]
@@ -162,6 +161,7 @@ def fit(
     test: Sequence[str] = (),
     threads: int | None = None,
     checkpoint: str | os.PathLike[str] | None = None,
+    out: str | os.PathLike[str] | None = None,
     progress: Callable[[int, int], object] | bool = False,
     yes: bool = False,
 ) -> Fit:
@@ -179,16 +179,16 @@ def fit(
     ``rods`` how many each point is a mean over. ``design=True`` lists further points, with what each would leave of the
     uncertainties, in ``design``. ``test=["interaction.alpha=1"]`` tests values of fitted keys, and
     ``test=["1:interaction.alpha=2:interaction.alpha"]`` whether two scenes have the same: see ``tests``. ``checkpoint``
-    is a file that keeps the runs: the same call goes on with them. ``progress(done, of)`` counts the runs, of those
+    is a file that keeps the runs: the same call goes on with them. ``out`` is a folder for all that the program writes, which
+    :func:`load` reads: tables, pictures, ``fit.json``. ``progress(done, of)`` counts the runs, of those
     that are known to be needed by then; ``progress=True`` draws a bar, with tqdm where it is installed. Work of over a day
     begins with ``yes=True`` alone.
 
     The work is done in a process of its own: other Python threads go on meanwhile, and Ctrl-C ends it. Raises ``ValueError``
     with the program's words for what is not allowed, ``RuntimeError`` for a fit that cannot go on.
     """
-    with tempfile.TemporaryDirectory(prefix="shearbed-") as made:
-        folder = Path(made)
-        words = ["fit", "scene.toml", "--out", "out"] + ["--yes"] * yes
+    with workplace(out) as (folder, kept):
+        words = ["fit", "scene.toml", "--out", str(kept)] + ["--yes"] * yes
         for k, (of, points) in enumerate([(scene, data), *also]):
             name = "scene.toml" if k == 0 else f"scene-{k + 1}.toml"
             scene_of(of)._written(folder, name)
@@ -225,8 +225,8 @@ def fit(
             raise type(error)(re.sub(r"(?<![\w/.-])points-(\d+)\.csv", named, str(error))) from None
         if said.startswith("goes on from"):
             said = said.split("\n", 1)[1]
-        # The last line names a folder that is no more.
-        return Fit(folder / "out", said.rsplit("\nin out", 1)[0])
+        # The last line names a folder that may be no more.
+        return Fit(kept, said.rsplit(f"\nin {kept}", 1)[0])
 
 
 def _file(points: Points, place: Path) -> str:

@@ -11,7 +11,8 @@ import subprocess
 import sys
 import tempfile
 import warnings
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -41,6 +42,7 @@ def run(
     time_limit_s: float | None = None,
     checkpoint: str | os.PathLike[str] | None = None,
     vtk: str | os.PathLike[str] | None = None,
+    out: str | os.PathLike[str] | None = None,
     yes: bool = False,
 ) -> Results:
     """Runs a scene: the same bits as the program, on any number of threads.
@@ -52,7 +54,8 @@ def run(
     ``until_se={"x1": 0.001}`` adds replicas until the standard error of each of these channels is at most that; with
     ``time_limit_s`` none begins after that time, and a Python warning says what was reached. ``checkpoint`` is a file that keeps
     the run, and from which the same call goes on. ``vtk`` is a folder for ParaView's files of the rods at the times of
-    ``rods_at``. All three work in a process of its own, without ``progress``. Work of over a day begins with ``yes=True`` alone.
+    ``rods_at``. ``out`` is a folder for all that the program writes, which :func:`load` reads: tables, pictures, ``run.json``. All
+    four work in a process of its own, without ``progress``. Work of over a day begins with ``yes=True`` alone.
 
     What the reader of the results should know, ``scene.warnings``, comes as Python warnings too.
 
@@ -61,16 +64,16 @@ def run(
     scene = scene_of(scene).replace(**set) if set else scene_of(scene)
     if threads is not None and threads < 1:
         raise ValueError(f"threads = {threads}: a whole number from 1 to 1024 is allowed")
-    if until_se or checkpoint is not None or vtk is not None:
+    if until_se or any(given is not None for given in (checkpoint, vtk, out)):
         if progress:
-            raise TypeError("progress: runs with until_se, checkpoint or vtk do not tell how far they are")
+            raise TypeError("progress: runs with until_se, checkpoint, vtk or out do not tell how far they are")
         asked = dictionary("until_se", until_se or {}, '{"x1": 0.001}').items()
         words = [word for channel, se in asked for word in ("--until-se", f"{channel}={number(f'until_se: {channel}', se)}")]
         words += [] if time_limit_s is None else ["--time-limit", f"{time_limit_s}s"]
         words += [] if checkpoint is None else ["--checkpoint", os.path.abspath(checkpoint)]
         words += [] if vtk is None else ["--vtk"]
         words += ["--yes"] if yes else []
-        return _apart(scene, words + options(replicas=replicas, seed=seed, threads=threads), vtk)
+        return _apart(scene, words + options(replicas=replicas, seed=seed, threads=threads), vtk, out)
     if time_limit_s is not None:
         raise TypeError("time_limit_s: it goes with until_se")
     show = bar_of("replica") if progress is True else progress or None
@@ -80,25 +83,44 @@ def run(
     return Results(found | {name: table(found[name].splitlines()) for name in DERIVED})
 
 
-def _apart(scene: Scene, words: Sequence[str], vtk: str | os.PathLike[str] | None) -> Results:
+@contextmanager
+def workplace(out: str | os.PathLike[str] | None) -> Iterator[tuple[Path, Path]]:
+    """A folder to work in, which goes, and one for results: ``out``, which stays, or one within the first."""
+    if out is not None and not os.fspath(out):
+        raise ValueError('out = "": the name of a folder is allowed')
+    with tempfile.TemporaryDirectory(prefix="shearbed-") as made:
+        yield Path(made), Path(made) / "out" if out is None else Path(os.getcwd()) / out
+
+
+def _record(folder: Path) -> bytes | None:
+    file = folder / "run.json"
+    return file.read_bytes() if file.exists() else None
+
+
+def _apart(
+    scene: Scene,
+    words: Sequence[str],
+    vtk: str | os.PathLike[str] | None,
+    out: str | os.PathLike[str] | None,
+) -> Results:
     """Runs a scene in a process of its own."""
     there = next(Path(vtk).glob(OF_RODS), None) if vtk is not None else None
     if there is not None:
         raise FileExistsError(f"vtk: {there} is there already; a folder without files of rods is allowed")
-    with tempfile.TemporaryDirectory(prefix="shearbed-") as made:
-        folder = Path(made)
+    with workplace(out) as (folder, kept):
+        earlier = _record(kept)
         try:
-            program(["run", scene._written(folder).name, "--out", "out", "--quiet", *words], folder)
+            program(["run", scene._written(folder).name, "--out", str(kept), *words], folder)
         except RuntimeError as error:
-            # Less than was asked for, if there are results.
-            if not (folder / "out" / "run.json").exists():
+            # Less than was asked for, if there are new results.
+            if _record(kept) == earlier:
                 raise
             warnings.warn(str(error), stacklevel=3)
         if vtk is not None:
             os.makedirs(vtk, exist_ok=True)
-            for file in (folder / "out").glob(OF_RODS):
+            for file in kept.glob(OF_RODS):
                 shutil.copyfile(file, Path(vtk) / file.name)
-        return results(folder / "out")
+        return results(kept)
 
 
 def results(folder: Path) -> Results:
@@ -154,6 +176,7 @@ def sweep(
     threads: int | None = None,
     progress: Callable[[int, int], object] | bool = False,
     xarray: bool = False,
+    out: str | os.PathLike[str] | None = None,
     yes: bool = False,
 ) -> Any:
     """Runs a scene at every combination of its keys' values, as ``shearbed sweep`` does.
@@ -164,7 +187,8 @@ def sweep(
     amplitudes of each point. All points have the same seed. ``set={"particles.count": 50}`` gives keys of the scene another value.
     ``progress(done, of)`` counts points; ``progress=True`` draws a bar, with tqdm where it is installed. ``xarray=True`` gives an
     ``xarray.Dataset`` in place of the columns: one dimension for each swept key, and with ``times="all"`` ``output``, with the
-    times as its coordinate where all points have the same. Work of over a day begins with ``yes=True`` alone.
+    times as its coordinate where all points have the same. ``out`` is a folder for all that the program writes, which :func:`load`
+    reads, and from which the same call goes on. Work of over a day begins with ``yes=True`` alone.
     """
     if times not in ("last", "all", "extremes") or (times == "extremes" and xarray):
         raise ValueError(f"times = {times!r}: 'last', 'all', and without xarray 'extremes', are allowed")
@@ -175,9 +199,8 @@ def sweep(
         raise ValueError('over: no key has values; {"interaction.alpha": [0.25, 0.5, 1]} is allowed')
     scene = scene_of(scene)
     over = {dotted(key): values for key, values in over.items()}
-    with tempfile.TemporaryDirectory(prefix="shearbed-") as made:
-        folder = Path(made)
-        words = ["sweep", scene._written(folder).name, "--out", "out", "--quiet"] + ["--yes"] * yes
+    with workplace(out) as (folder, kept):
+        words = ["sweep", scene._written(folder).name, "--out", str(kept), "--quiet"] + ["--yes"] * yes
         for key, values in over.items():
             words += ["--over", f"{key}=" + ",".join(_value(value) for value in values)]
         words += options(replicas=replicas, seed=seed, threads=threads, set=set)
@@ -186,15 +209,15 @@ def sweep(
 
         def watch() -> None:
             if show:
-                show(len(list(folder.glob("out/points/*/shearbed.json"))), points)
+                show(len(list(kept.glob("points/*/shearbed.json"))), points)
 
         program(words, folder, watch if show else None)
-        swept = columns(folder / "out" / "sweep.csv")
+        swept = columns(kept / "sweep.csv")
         if times == "extremes":
-            return columns(folder / "out" / "extremes.csv")
+            return columns(kept / "extremes.csv")
         if times == "last":
             return _dataset(swept, over) if xarray else swept
-        of_points = [tables(point) for point in sorted((folder / "out" / "points").iterdir())]
+        of_points = [tables(point) for point in sorted((kept / "points").iterdir())]
     rows = [len(next(iter(table.values()))) for table in of_points]
     keys = {name: np.repeat(values, rows) for name, values in swept.items() if name in over}
     found = keys | {name: np.concatenate([table[name] for table in of_points]) for name in of_points[0]}
@@ -207,17 +230,19 @@ def converge(
     replicas: int | None = None,
     set: Mapping[str, Any] | None = None,
     threads: int | None = None,
+    out: str | os.PathLike[str] | None = None,
+    yes: bool = False,
 ) -> dict[str, NDArray[Any]]:
     """How the means depend on the time step: the columns of ``converge.csv``, as ``shearbed converge`` writes them. Of free
     rods a row for each integrator and step; of interacting ones ``x1`` against steps, then against rods.
 
-    ``replicas`` is the number of runs of each row. Raises ``RuntimeError`` if an integrator has another order than theory says.
+    ``replicas`` is the number of runs of each row, ``out`` a folder for all that the program writes, which :func:`load` reads. Work
+    of over a day begins with ``yes=True`` alone. Raises ``RuntimeError`` if an integrator has another order than theory says.
     """
-    with tempfile.TemporaryDirectory(prefix="shearbed-") as made:
-        folder = Path(made)
-        words = ["converge", scene_of(scene)._written(folder).name, "--out", "out", "--quiet"]
+    with workplace(out) as (folder, kept):
+        words = ["converge", scene_of(scene)._written(folder).name, "--out", str(kept)] + ["--yes"] * yes
         program(words + options(replicas=replicas, threads=threads, set=set), folder)
-        return columns(folder / "out" / "converge.csv")
+        return columns(kept / "converge.csv")
 
 
 def _dataset(table: Mapping[str, NDArray[Any]], over: Mapping[str, Sequence[Any]]) -> Any:
@@ -309,7 +334,11 @@ def program(words: Sequence[str], folder: Path, watch: Callable[[], object] | No
     started = [sys.executable, "-m", "shearbed", *words]
     # A file, which ``watch`` can read meanwhile.
     with open(folder / COMPLAINED, "wb") as errors:
-        running = subprocess.Popen(started, cwd=folder, stdout=subprocess.PIPE, stderr=errors, text=True, encoding="utf-8")
+        # It ends with this process, where the system can do that.
+        ours = os.environ | {"SHEARBED_PARENT": str(os.getpid())}
+        running = subprocess.Popen(
+            started, cwd=folder, env=ours, stdout=subprocess.PIPE, stderr=errors, text=True, encoding="utf-8"
+        )
     try:
         while True:
             try:
@@ -331,17 +360,23 @@ def program(words: Sequence[str], folder: Path, watch: Callable[[], object] | No
         raise
     if running.returncode:
         lines = [line for line in complained(folder) if not line.startswith("progress: ")]
-        message = "\n".join(lines).strip().removeprefix("error: ") or f"the program ended with {running.returncode}"
+        first = next((k for k, line in enumerate(lines) if line.startswith("error: ")), 0)
+        message = "\n".join(lines[first:]).strip().removeprefix("error: ") or f"the program ended with {running.returncode}"
         raise (ValueError if running.returncode == 2 else RuntimeError)(keywords(message))
     for line in complained(folder):
         if line.startswith("warning: "):
             warnings.warn(keywords(line.removeprefix("warning: ")), stacklevel=3)
+    for line in said.splitlines():
+        if line.startswith("(replaced earlier results of "):
+            warnings.warn(line.strip("()"), stacklevel=3)
     return said
 
 
 def keywords(message: str) -> str:
     """The program's words with keywords for flags, which are called alike; a name of a file may hold two dashes too."""
     message = re.split(r"\n\n(?:Usage:|For more information, try)", message)[0]
+    # There is no keyword to overwrite files.
+    message = re.sub(r"--force overwrites it, |,? (?:or start over )?with --force", "", message)
     missing = message.removeprefix("the following required arguments were not provided:\n")
     if missing != message:
         message = "missing: " + ", ".join(line.split(" <")[0].strip() for line in missing.splitlines())

@@ -22,6 +22,13 @@ from ._core import SceneError
 # Which table of a scene file holds a key: keywords are given without it.
 _TABLE_OF = {name: table for table, name, *_ in _core.keys()}
 
+_KNOWN = {"title", *_TABLE_OF, *_TABLE_OF.values()}
+
+
+def _unknown_key(key: str) -> str:
+    close = difflib.get_close_matches(key, _TABLE_OF)
+    return f"{key}: unknown key; {'did you mean ' + close[0] if close else 'allowed are ' + ', '.join(_TABLE_OF)}"
+
 
 def dotted(key: str) -> str:
     """A key with its table, as ``interaction.alpha``; one that has none stays."""
@@ -131,6 +138,9 @@ class Scene:
         elif toml is not None:
             self._text = toml
         else:
+            unknown = [key for key, value in keywords.items() if key not in _KNOWN and not isinstance(value, Mapping)]
+            if unknown:
+                raise SceneError(_unknown_key(unknown[0]))
             gathered = _gathered(keywords if tables is None else tables)
             particles = gathered.get("particles")
             if isinstance(particles, dict) and "rods" in particles:
@@ -157,9 +167,9 @@ class Scene:
         write_columns(rods, file, "rods")
         return {"file": str(file)}
 
-    def _written(self, folder: Path, name: str = "scene.toml") -> Path:
-        """The scene as a file in ``folder``, with the one that its rods start from beside it."""
-        file = folder / name
+    def _written(self, folder: Path, name: str | None = None) -> Path:
+        """The scene as a file in ``folder``, called as its own in messages, with the one that its rods start from beside it."""
+        file = folder / (name or f"{Path(self._name).stem}.toml")
         file.write_text(self._text, encoding="utf-8")
         if self._start is not None and not os.path.isabs(self._start):
             (folder / self._start).parent.mkdir(parents=True, exist_ok=True)
@@ -185,10 +195,9 @@ class Scene:
     def replace(self, **values: Any) -> Scene:
         """The scene with other values of some keys: ``scene.replace(alpha=0.3)``, or, dotted as in a sweep,
         ``scene.replace(**{"interaction.alpha": 0.3})``. ``None`` takes a key out, so that another can stand for it."""
-        gone = [key for key, value in values.items() if value is None and key.rsplit(".", 1)[-1] not in ("title", *_TABLE_OF, *_TABLE_OF.values())]
+        gone = [key for key, value in values.items() if value is None and key.rsplit(".", 1)[-1] not in _KNOWN]
         if gone:
-            close = difflib.get_close_matches(gone[0], _TABLE_OF)
-            raise SceneError(f"{gone[0]}: unknown key; {'did you mean ' + close[0] if close else 'allowed are ' + ', '.join(_TABLE_OF)}")
+            raise SceneError(_unknown_key(gone[0]))
         changes = [(dotted(key), None if value is None else _value(value)) for key, value in values.items()]
         scene = Scene.__new__(Scene)
         scene._name, scene._made = self._name, self._made
@@ -257,9 +266,12 @@ def _unknown(name: str) -> str:
 
 
 def scene_of(scene: Scene | Mapping[str, Any] | str | os.PathLike[str]) -> Scene:
-    """A scene as functions take it: itself, a dictionary, a file's name, or the name of a built-in scene."""
+    """A scene as functions take it: itself, a dictionary, TOML such as ``results.scene``, a file's name, or the name of a
+    built-in scene."""
     if isinstance(scene, Scene):
         return scene
+    if isinstance(scene, str) and "\n" in scene:
+        return Scene(toml=scene)
     if isinstance(scene, Mapping):
         return Scene(scene)
     if isinstance(scene, str) and not os.path.exists(scene):
