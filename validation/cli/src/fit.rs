@@ -74,7 +74,7 @@ pub(super) struct Args {
     /// the scene of the first, second, … --data. Without it: how well the scene as it is describes the points
     #[arg(long, value_name = "[SET:]KEY=FROM:TO", value_parser = advice::range)]
     over: Vec<Range>,
-    /// The folder for fit.json, tables and pictures [default: out/fit-<scene>]
+    /// The folder for fit.json, tables and pictures [default: out/fit-<scene>; out/check-<scene> without --over]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// The most replicas at each value, 20 or more, four times the points; fewer run where the model's error is small
@@ -178,7 +178,9 @@ fn check_duration(args: &Args, input: &Input) -> Result<(), Failure> {
 
 /// The folder for the results, which may replace none of the files that are read.
 fn folder(args: &Args, input: &Input, asked: &Value) -> Result<ResultFolder, Failure> {
-    let out = (args.out.clone()).unwrap_or_else(|| Path::new("out").join(format!("fit-{}", input.stem)));
+    // The points are often compared with a scene as it is after a fit, whose results stay.
+    let what = if args.over.is_empty() { "check" } else { "fit" };
+    let out = (args.out.clone()).unwrap_or_else(|| Path::new("out").join(format!("{what}-{}", input.stem)));
     let names =
         [FIT, "residuals.csv", "profiles.csv", "samples.csv", "design.csv", EXTREMES, DERIVED, super::plot::FIGURES];
     let scenes = input.scenes.sets.iter();

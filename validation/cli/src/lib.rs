@@ -309,17 +309,24 @@ fn result_folder<N: AsRef<str>>(
     const MORE: u64 = 1 << 20;
     let folder = ResultFolder::new(dir, command, inputs, force);
     if cluster::is_root() {
-        output::probe(dir, bytes + MORE)?;
+        output::probe(dir, bytes + MORE, names)?;
         folder.check(names)?;
     }
     Ok(folder)
 }
 
-/// Writes the results of a command. A line for the terminal on those that they replaced, if these had other input.
+/// Writes the results of a command, whose folder was checked before the work; beside it if that fails. A line for the
+/// terminal on those that they replaced, if these had other input.
 fn write(folder: &ResultFolder, files: Vec<Output>) -> Result<String, Failure> {
     let line =
         |difference: String| format!("(replaced earlier results of {}: {difference})\n", folder.origin().command);
-    Ok(folder.write(files)?.map(line).unwrap_or_default())
+    match folder.write(files.clone()) {
+        Ok(replaced) => Ok(replaced.map(line).unwrap_or_default()),
+        Err(refused) => match folder.write_beside(files) {
+            Some(dir) => Err(Failure::Failed(format!("{refused}; these results are in {}", dir.shown()))),
+            None => Err(refused.into()),
+        },
+    }
 }
 
 /// Refuses a folder in which the results would replace or remove a file that the command reads, also with --force: one

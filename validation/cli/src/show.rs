@@ -86,6 +86,9 @@ pub(super) struct ScenesArgs {
     /// Print every key of a scene file: what it means, its unit, what is allowed, its default
     #[arg(long, conflicts_with = "show")]
     keys: bool,
+    // Where other commands take it.
+    #[arg(hide = true, conflicts_with_all = ["show", "keys"])]
+    name: Option<String>,
 }
 
 /// Prints a scene's plan. Fails if `run` would fail because of memory.
@@ -124,7 +127,7 @@ pub(super) fn scenes(args: &ScenesArgs) -> Result<(), Failure> {
     if args.keys {
         return print(&scene_keys::text());
     }
-    let Some(name) = &args.show else {
+    let Some(name) = args.show.as_ref().or(args.name.as_ref()) else {
         return print(&table()?);
     };
     let Some(built_in) = scenes::find(name) else {

@@ -206,13 +206,14 @@ const OTHER_NUMBERS: &str = "run again, this point gives other numbers, so anoth
 /// The largest numbers of rows and columns of a table for the terminal.
 const MOST: (usize, usize) = (32, 9);
 
-/// A table with shortened numbers; empty if there are too many rows to read.
+/// A table with shortened numbers, without columns that are empty at all points; empty if there are too many rows to
+/// read.
 fn table(rows: &[Vec<String>], swept: usize) -> String {
     if rows.len() > MOST.0 + 1 {
         return String::new();
     }
-    let most = if is_narrow() { swept + MOST.1 } else { usize::MAX };
-    let columns = rows[0].len().min(most);
+    let columns = (0..rows[0].len()).filter(|c| rows[1..].iter().any(|row| !row[*c].is_empty()));
+    let columns: Vec<_> = columns.take(if is_narrow() { swept + MOST.1 } else { usize::MAX }).collect();
     let short = |column: usize, text: &String| match text.parse::<f64>() {
         Ok(number) if column >= swept && is_bounded(&rows[0][column]) && (number == 0.0 || number.abs() >= 1e-3) => {
             text::four_decimals(number)
@@ -220,9 +221,9 @@ fn table(rows: &[Vec<String>], swept: usize) -> String {
         Ok(number) if column >= swept => format!("{number:.3e}"),
         _ => text.clone(),
     };
-    let cells: Vec<Vec<_>> = (rows.iter()).map(|row| (0..columns).map(|c| short(c, &row[c])).collect()).collect();
+    let cells: Vec<Vec<_>> = (rows.iter()).map(|row| columns.iter().map(|c| short(*c, &row[*c])).collect()).collect();
     let more = match rows[0].len() {
-        all if all > columns => format!("({columns} of the {all} columns of sweep.csv)\n"),
+        all if all > columns.len() => format!("({} of the {all} columns of sweep.csv)\n", columns.len()),
         _ => String::new(),
     };
     text::right_aligned(&cells) + &more

@@ -20,7 +20,7 @@ pub fn export(dir: &Path, force: bool) -> Result<Vec<&'static str>, Refused> {
     let always = |def: &ProblemDef| ["problem.json", "certified.csv"].map(|file| format!("{}/{file}", def.name));
     // Checked before the problems are built, which takes seconds.
     folder.check(&all().iter().flat_map(always).collect::<Vec<_>>())?;
-    output::probe(dir, 0)?;
+    output::probe(dir, 0, &[""; 0])?;
     let of_problem = |problem: &Built| {
         let files = files(problem).into_iter();
         files.map(|(file, text)| (format!("{}/{file}", problem.problem.name), text)).collect::<Vec<_>>()

@@ -118,14 +118,14 @@ fn split(text: &str, separator: char) -> Vec<&str> {
     parts
 }
 
-/// Parses a value as in a scene file; a word needs no quotes.
+/// Parses a value as in a scene file; words, as of a title, need no quotes.
 fn value(text: &str) -> Result<Value, String> {
-    let is_of_word = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
-    let is_word = text.starts_with(char::is_alphabetic) && text.chars().all(is_of_word);
-    let value = document::value(text).or_else(|| is_word.then(|| Value::String(text.to_owned())));
+    let is_text = |c: char| !c.is_control() && !"\"'[]{}#".contains(c);
+    let are_words = text.starts_with(char::is_alphabetic) && text.chars().all(is_text);
+    let value = document::value(text).or_else(|| are_words.then(|| Value::String(text.to_owned())));
     // TOML has no `.3` and no `1.`.
     let value = value.or_else(|| text.parse().ok().filter(|x: &f64| x.is_finite()).map(Value::Float));
-    value.ok_or_else(|| format!("{text:?} is no value; expected a number, a word, or what a scene file has behind `=`"))
+    value.ok_or_else(|| format!("{text:?} is no value; expected a number, words, or what a scene file has behind `=`"))
 }
 
 /// The values; an error names one that stands there twice.

@@ -142,7 +142,7 @@ impl Folder {
         let earlier = self.folder.earlier(&self.claim);
         let mut left_over = [&["sweep.csv".to_owned()][..], &self.points.beside].concat();
         if !own {
-            self.others()?.iter().try_for_each(|point| self.claim.remove(point))?;
+            self.others()?.iter().try_for_each(|point| self.claim.remove_folder(point))?;
             left_over.extend(earlier.keys().filter(|name| *name != "sweep.json").cloned());
         }
         let record = Record::new(self.folder.origin(), &self.first);
