@@ -56,8 +56,8 @@ pub struct Steady {
 /// The decay of an oscillation, from its maxima between two minima of at least a fifth of the first.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Damping {
-    /// The rate λ of A ∝ e^(−λt) for the amplitudes A, in 1 over the unit of time: the slope of ln A, weighted by
-    /// (A/u)² with the standard errors u of A.
+    /// The rate λ of A ∝ e^(−λt) for the amplitudes A, in 1 over the unit of time: minus the slope of ln A, with the
+    /// weights e^(−2λt) of amplitudes that are equally uncertain, from the fourth on less 0.04.
     pub rate: Estimate,
     /// The times of the first and the last of the maxima.
     pub between: [f64; 2],
@@ -265,25 +265,20 @@ impl Mean<'_> {
     }
 
     fn damping(&self, turns: &[Turn], extremes: &[Extreme]) -> Option<Damping> {
-        let maxima = clear(extremes);
-        // A relative error of 0, as of one rod, would have all the weight.
-        let weight = |amplitude: Estimate| amplitude.se.map_or(1.0, |se| (amplitude.value / se).powi(2)).min(1e12);
-        let weights: Vec<f64> = maxima.iter().filter_map(|k| extremes[*k].amplitude).map(weight).collect();
+        // The first and the last extreme may have an amplitude, which is not above minima on both sides.
+        let mut maxima: Vec<usize> = (1..extremes.len().saturating_sub(1)).collect();
+        maxima.retain(|k| extremes[*k].amplitude.is_some());
         let times: Vec<f64> = maxima.iter().map(|k| extremes[*k].time.value).collect();
-        if maxima.len() < 3 {
+        if times.len() < 3 {
             return None;
         }
-        let all: f64 = weights.iter().sum();
-        let average = |x: &[f64]| x.iter().zip(&weights).map(|(x, weight)| x * weight).sum::<f64>() / all;
-        let centre = average(&times);
-        let spread = average(&times.iter().map(|time| (time - centre).powi(2)).collect::<Vec<_>>());
-        let rate = |mean: &[f64]| {
-            let moment = |(k, time): (&usize, &f64)| Some(self.height(mean, turns, *k)?.ln() * (time - centre));
-            let moments: Option<Vec<f64>> = maxima.iter().zip(&times).map(moment).collect();
-            Some(-average(&moments?) / spread).filter(|rate| rate.is_finite())
-        };
-        let (rate, between) = (self.estimate(rate)?, [*times.first()?, *times.last()?]);
-        Some(Damping { rate, between, is_exponential: is_exponential(rate.value, extremes, &maxima) })
+        let rate = self.estimate(|mean| {
+            let logarithm = |k: &usize| Some(self.height(mean, turns, *k)?.ln());
+            rate(&times, &maxima.iter().map(logarithm).collect::<Option<Vec<f64>>>()?)
+        })?;
+        let count = weights(rate.value, &times).iter().take_while(|weight| **weight > 0.0).count();
+        let is_exponential = is_exponential(rate.value, extremes, &maxima[..count]);
+        Some(Damping { rate, between: [times[0], times[count - 1]], is_exponential })
     }
 
     fn steady(&self) -> Option<Steady> {
@@ -336,18 +331,36 @@ fn extreme(mean: &[f64], turn: &Turn) -> usize {
     turn.within.clone().max_by(|a, b| (sign * mean[*a]).total_cmp(&(sign * mean[*b]))).unwrap_or(0)
 }
 
-/// The part of the first amplitude above which maxima count for the decay: more replicas show smaller ones, over which
-/// a decay that is not exponential has another rate.
+/// The part of the first amplitude down to which later ones count for the decay: more replicas show smaller ones, over
+/// which a decay that is not exponential has another rate.
 const CLEAR: f64 = 0.2;
 
-/// The indices of the maxima between two minima (the first and the last may have one, which is not half-way), up to the
-/// last of at least [`CLEAR`] of the first amplitude, but three if there are.
-fn clear(extremes: &[Extreme]) -> Vec<usize> {
-    let amplitude = |k: usize| extremes[k].amplitude.map(|amplitude| amplitude.value);
-    let maxima = (1..extremes.len().saturating_sub(1)).filter_map(|k| Some((k, amplitude(k)?)));
-    let first = maxima.clone().next().map_or(0.0, |(_, first)| first);
-    let counts = |(place, (_, amplitude)): &(usize, (usize, f64))| *place < 3 || *amplitude >= CLEAR * first;
-    maxima.enumerate().take_while(counts).map(|(_, (k, _))| k).collect()
+/// The weights of logarithms of amplitudes that decay at `rate`: e^(−2λt), those of equal errors of the amplitudes.
+/// From the fourth on they are less by the one at [`CLEAR`], so that no amplitude counts or not by its own noise.
+///
+/// Weights by estimated errors would prefer amplitudes whose errors come out too small, and make that of the rate so.
+fn weights(rate: f64, times: &[f64]) -> Vec<f64> {
+    let weight = |(k, time): (usize, &f64)| {
+        let decayed = (-2.0 * rate * (time - times[0])).exp();
+        if k < 3 { decayed } else { (decayed - CLEAR * CLEAR).max(0.0) }
+    };
+    times.iter().enumerate().map(weight).collect()
+}
+
+/// The rate at which amplitudes decay that have these logarithms: minus the slope of a straight line through them, by
+/// least squares with its own [`weights`].
+fn rate(times: &[f64], logarithms: &[f64]) -> Option<f64> {
+    let next = |rate: f64| {
+        let weights = weights(rate, times);
+        let all: f64 = weights.iter().sum();
+        let average = |of: &dyn Fn(usize) -> f64| (0..times.len()).map(|k| weights[k] * of(k)).sum::<f64>() / all;
+        let centre = average(&|k| times[k]);
+        let moment = average(&|k| logarithms[k] * (times[k] - centre));
+        -moment / average(&|k| (times[k] - centre).powi(2))
+    };
+    // Half a step each time: steeper slopes have earlier weights, which may find less steep ones.
+    let found = (0..60).fold(0.0, |rate, _| 0.5 * (rate + next(rate)));
+    found.is_finite().then_some(found)
 }
 
 /// The relative error of an amplitude that peaks between outputs may cause.

@@ -14,6 +14,7 @@ mod closed_forms;
 mod coefficients;
 mod contact_rule;
 mod decay;
+mod derived;
 mod diffusion;
 mod encounters;
 mod equations;
@@ -101,6 +102,7 @@ pub fn all() -> Vec<Case> {
         work_precision::cases(),
         cheapest_split::cases(),
         decay::cases(),
+        derived::cases(),
         statements::cases(),
         experiments::cases(),
         fit_covers::cases(),

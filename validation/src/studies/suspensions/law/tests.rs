@@ -61,6 +61,13 @@ fn settings_are_judged_at_each_time() {
         assert!((at.scatter / (noise / 4.0) - 1.0).abs() < 0.2, "{at:?}");
     }
     assert!(synthetic(&scene, [b, noise], 7).times.is_empty());
+    // Two replicas correlate by ±1, whatever they are.
+    let correlated = |replicas| {
+        let law = synthetic(&scene, [b, noise], replicas);
+        law.changes.iter().filter(|change| change.correlation.is_some()).count()
+    };
+    let all = law.changes.len();
+    assert_eq!([2, 7, 8].map(correlated), [0, 0, all]);
     assert_eq!(synthetic(&self::scene(1.0, 6400, 16), [b, noise], 8).times[0].steps_bias, None);
 }
 

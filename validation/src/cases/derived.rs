@@ -1,0 +1,202 @@
+//! What a run derives from a mean against time, over many ensembles of free rods of unequal aspect ratio: their closed
+//! form has the same quantities without noise.
+//!
+//! A deviation counts in the standard errors that the ensemble states. These have 15 degrees of freedom (16 groups of
+//! replicas), so that squared deviations are 15/13 on average if the errors are right. So are those of steady values:
+//! the rods of a replica differ in their average over time, and a straight line ends where this is.
+
+use super::*;
+use crate::methods::derived::{Derived, Estimate as Found};
+use crate::oracle::{isotropic, quadrature};
+use shearbed::run::ensemble::Column;
+
+/// What derives the quantities from times, the mean and the number of replicas.
+type Deriving = fn(&[f64], &Column, u64) -> Derived;
+
+pub fn cases() -> Vec<Case> {
+    vec![
+        Case::of(Judges::Program, "derived-quantities")
+            .claim(
+                "Maxima, amplitudes, damping rates and steady values that `shearbed run` derives are those of the \
+                 closed form, and off it as far as their standard errors say.",
+            )
+            .source("eqs 4, 11; Figs 7 and 9; docs/src/reference/files.md")
+            .under_test(Derived::new as Deriving)
+            .mistake("standard errors half as large", |times, column, replicas| {
+                let mut column = column.clone();
+                for without in &mut column.without {
+                    without.iter_mut().zip(&column.mean).for_each(|(without, mean)| *without = 0.5 * (*without + mean));
+                }
+                Derived::new(times, &column, replicas)
+            })
+            .mistake("times of the output after", |times, column, replicas| {
+                let after: Vec<f64> = times.iter().map(|time| time + times[1]).collect();
+                Derived::new(&after, column, replicas)
+            })
+            .mistake("amplitudes above the minimum before alone", |times, column, replicas| {
+                let mut derived = Derived::new(times, column, replicas);
+                for k in 1..derived.extremes.len() {
+                    let height = derived.extremes[k].value.value - derived.extremes[k - 1].value.value;
+                    let amplitude = &mut derived.extremes[k].amplitude;
+                    *amplitude = amplitude.map(|amplitude| Found { value: height, ..amplitude });
+                }
+                derived
+            })
+            .mistake("the last output as the steady value", |times, column, replicas| {
+                let mut derived = Derived::new(times, column, replicas);
+                if let (Some(steady), Some(last)) = (&mut derived.steady, column.mean.last()) {
+                    steady.value.value = *last;
+                }
+                derived
+            })
+            .check(derives),
+    ]
+}
+
+const ASPECT_RATIO: f64 = 5.0;
+const SD_PERCENT: f64 = 7.2;
+const PERIODS: f64 = 8.0;
+const RODS: usize = 60;
+const REPLICAS: u64 = 32;
+
+/// The deviation of the mean, in standard errors, that would be seen in no figure.
+const BIAS: f64 = 0.35;
+/// How far squared deviations may be off: errors that are right to 15 %.
+const OFF: f64 = 0.37;
+/// Deviations and their squares, whose scatter is that of Student's t with 15 degrees of freedom, with a margin.
+const DESIGNS: [Design; 2] = [Design::new(0.7, 1.2), Design::new(1.4, 2.2)];
+
+const NAMES: [&str; 5] = ["time of the second maximum", "X̄₁ there", "amplitude there", "damping rate", "steady X̄₁"];
+
+/// The closed form's extremes in each quarter period from t = 0 on, and its average over time.
+struct Truth {
+    extremes: Vec<(f64, f64)>,
+    steady: f64,
+}
+
+fn x1(turns: f64) -> f64 {
+    isotropic::mean_projections_polydisperse(ASPECT_RATIO, SD_PERCENT, turns)[0]
+}
+
+impl Truth {
+    fn new() -> Self {
+        // X̄₁ of rods of one aspect ratio is even in t and has the period T/2.
+        let average =
+            |r: f64| 4.0 * quadrature::integrate(|t| isotropic::mean_projections(r, t)[0], &[0.0, 0.25], 1e-9);
+        let [steady] = isotropic::mean_over_aspect_ratios(ASPECT_RATIO, SD_PERCENT, 0.0, |r, _| [average(r)]);
+        Self { extremes: (0..=16_u32).map(extreme).collect(), steady }
+    }
+
+    /// The extreme that is nearest to one that was found.
+    fn near(&self, time: f64) -> Option<(usize, (f64, f64))> {
+        let nearest = (4.0 * time).round() as usize;
+        Some((nearest, *self.extremes.get(nearest)?))
+    }
+
+    /// The height of maximum `k` above the mean of the minima beside it.
+    fn amplitude(&self, k: usize) -> Option<f64> {
+        Some(self.extremes[k].1 - 0.5 * (self.extremes[k - 1].1 + self.extremes.get(k + 1)?.1))
+    }
+
+    /// The decay of the amplitudes that count in `derived`: λ where Σ w (ln A + λt − c)(t − t̄) = 0, with w
+    /// = e^(−2λt) from 1 on, from the fourth on less 0.04; by halves.
+    fn rate(&self, derived: &Derived) -> Option<f64> {
+        let [first, last] = derived.damping?.between;
+        let counts = |time: &f64| (first..=last).contains(time);
+        let maxima = derived.extremes.iter().filter(|extreme| extreme.is_maximum).map(|maximum| maximum.time.value);
+        let places: Option<Vec<_>> = maxima.filter(counts).map(|time| self.near(time)).collect();
+        let points: Option<Vec<_>> =
+            places?.into_iter().map(|(k, (time, _))| Some((time, self.amplitude(k)?.ln()))).collect();
+        let points = points?;
+        let slope = |rate: f64| {
+            let sum = |of: &dyn Fn(f64, f64) -> f64| {
+                let weight = |k: usize, time: f64| {
+                    let decayed = (-2.0 * rate * (time - points[0].0)).exp();
+                    if k < 3 { decayed } else { (decayed - 0.04).max(0.0) }
+                };
+                points.iter().enumerate().map(|(k, (time, log))| weight(k, *time) * of(*time, *log)).sum::<f64>()
+            };
+            let (all, times, logs) = (sum(&|_, _| 1.0), sum(&|time, _| time), sum(&|_, log| log));
+            let (squares, products) = (sum(&|time, _| time * time), sum(&|time, log| time * log));
+            (all * products - times * logs) + rate * (all * squares - times * times)
+        };
+        let (mut low, mut high) = (0.0, 10.0);
+        for _ in 0..60 {
+            let middle = 0.5 * (low + high);
+            if slope(middle) < 0.0 { low = middle } else { high = middle }
+        }
+        Some(low)
+    }
+
+    /// The deviations of what was derived, in standard errors; `None` where there is nothing.
+    fn deviations(&self, derived: &Derived) -> [Option<f64>; 5] {
+        let off = |found: Option<Found>, truth: Option<f64>| {
+            let Found { value, se } = found?;
+            Some((value - truth?) / se?)
+        };
+        let second = derived.extremes.iter().filter(|extreme| extreme.is_maximum).nth(1);
+        let place = second.and_then(|second| self.near(second.time.value));
+        [
+            off(second.map(|second| second.time), place.map(|(_, (time, _))| time)),
+            off(second.map(|second| second.value), place.map(|(_, (_, value))| value)),
+            off(second.and_then(|second| second.amplitude), place.and_then(|(k, _)| self.amplitude(k))),
+            off(derived.damping.map(|damping| damping.rate), self.rate(derived)),
+            off(derived.steady.map(|steady| steady.value), Some(self.steady)),
+        ]
+    }
+}
+
+/// The time and the value of the closed form's extreme near t/T = k/4, a maximum for even k, by thirds.
+fn extreme(k: u32) -> (f64, f64) {
+    let sign = if k.is_multiple_of(2) { 1.0 } else { -1.0 };
+    let (mut low, mut high) = ((0.25 * f64::from(k) - 0.1).max(0.0), 0.25 * f64::from(k) + 0.1);
+    while high - low > 1e-6 {
+        let third = (high - low) / 3.0;
+        if sign * x1(low + third) > sign * x1(high - third) { high -= third } else { low += third }
+    }
+    (low, x1(low))
+}
+
+static TRUTH: Shared<(), Truth> = Shared::new();
+/// X̄₁ at the outputs' times.
+type Run = (Vec<f64>, Column);
+
+static RUNS: Shared<(), Result<Vec<Run>, String>> = Shared::new();
+
+fn runs(effort: &Effort) -> Result<Vec<Run>, String> {
+    let ensembles = DESIGNS.map(|design| effort.samples(design)).into_iter().max().unwrap_or(0);
+    let run = |ensemble: u64| {
+        let mut scene = lab::free_scene(effort);
+        scene.ensemble.seed = effort.seed(ensemble);
+        scene.ensemble.replicas = REPLICAS;
+        scene.particles.count = RODS;
+        scene.particles.aspect_ratio = ASPECT_RATIO;
+        scene.particles.aspect_ratio_sd_percent = SD_PERCENT;
+        scene.time = Time { outputs_per_unit: Some(30), ..Time::periods(PERIODS) };
+        let results = ensemble::run(&lab::plan(&scene)).map_err(|error| error.to_string())?;
+        let column = results.column(&Channel::X[0].name()).ok_or("no column x1")?.clone();
+        Ok((results.times, column))
+    };
+    (0..ensembles).into_par_iter().map(run).collect()
+}
+
+fn derives(deriving: &Deriving, effort: &Effort) -> Result<Vec<Evidence>, String> {
+    let truth = TRUTH.get(effort, (), Truth::new);
+    let runs = RUNS.get(effort, (), || runs(effort));
+    let runs = runs.as_ref().as_ref().map_err(Clone::clone)?;
+    let one = |(times, column): &Run| truth.deviations(&deriving(times, column, REPLICAS));
+    let deviations: Vec<_> = runs.par_iter().map(one).collect();
+    let of = |quantity: usize| {
+        let found: Vec<f64> = deviations.iter().filter_map(|all| all[quantity]).collect();
+        let squares: Vec<f64> = found.iter().map(|off| off * off).collect();
+        let [bias, square] = DESIGNS;
+        let mean = Evidence::on(format!("mean deviation: {}", NAMES[quantity]), "standard errors")
+            .is(Sample::of(&found), 0.0, BIAS, bias.effect)
+            .because("a third of an error is seen in no figure");
+        let errors = Evidence::on(format!("mean squared deviation: {}", NAMES[quantity]), "–")
+            .is(Sample::of(&squares), 15.0 / 13.0, OFF, square.effect)
+            .because("15/13 if the standard errors are right; to 15 %");
+        [mean, errors]
+    };
+    Ok((0..NAMES.len()).flat_map(of).collect())
+}
