@@ -148,14 +148,14 @@ fn free_amplitude(change: &Change, effort: &Effort) -> Vec<Evidence> {
     let design = Design::new(0.09, 0.045);
     let amplitudes = amplitudes(&scene, effort.samples(design), &[0, 8]);
     let half = "\"approximately half\": 0.5 to one digit; r_e = 3 has 0.35 by the closed form";
-    let change = Sample::of_differences(&amplitudes[1], &amplitudes[0]);
+    let changes = amplitudes[1].iter().zip(&amplitudes[0]).map(|(late, first)| (late - first).abs());
     vec![
         Evidence::on("amplitude at t = 0", "rod lengths")
             .is(Sample::of(&amplitudes[0]), 0.5, 0.05, design.effect)
             .because(half),
-        Evidence::on("its change by t/T = 4", "rod lengths")
-            .is(change, 0.0, 1e-12, design.effect)
-            .because("constant: the same phases come back to round-off"),
+        Evidence::on("its largest change by t/T = 4", "rod lengths")
+            .within(worst(changes), 1e-12)
+            .because("constant: the same phases come back to round-off, in each replica"),
     ]
 }
 
