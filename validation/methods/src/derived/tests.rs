@@ -82,6 +82,18 @@ fn a_damped_oscillation_has_its_extremes_amplitudes_and_rate() {
     assert_eq!(steady, None);
 }
 
+/// Departures from a straight line with weights e^(−2λt), of the fourth less 0.04, that leave its slope λ.
+#[test]
+fn a_decay_that_is_not_exponential_has_the_rate_of_its_own_weights() {
+    let (slope, times) = (0.5_f64, [1.0, 2.0, 3.0, 3.5]);
+    let weight = |k: usize| (-2.0 * slope * (times[k] - 1.0)).exp() - if k == 3 { 0.04 } else { 0.0 };
+    for off in [[1.0, -2.0, 1.0, 0.0], [0.0, 1.0, -3.0, 2.0]] {
+        let logarithm = |k: usize| 2.0 - slope * times[k] + 0.01 * off[k] / weight(k);
+        let found = rate(&times, &[0, 1, 2, 3].map(logarithm)).unwrap();
+        assert!((found - slope).abs() < 1e-12, "{off:?} {found}");
+    }
+}
+
 /// Those maxima count that are above a fifth of the first, at t = ½, and three at least.
 #[test]
 fn small_amplitudes_count_for_no_rate() {
