@@ -203,7 +203,7 @@ fn write(
     let names: Vec<&str> = std::iter::once(FIT).chain(files.iter().map(|(name, _)| name.as_str())).collect();
     let record = record(asked, input, done, &names)?;
     let names = names.join(", ");
-    let replaced = crate::write(folder, files.into_iter().chain([(FIT.into(), record)]).collect())?;
+    let replaced = crate::write(folder, &files.into_iter().chain([(FIT.into(), record)]).collect::<Vec<_>>())?;
     scene::warn(&input.stem, input.warnings.iter().chain(&done.warnings));
     let design = done.report.design.as_ref();
     let design =

@@ -64,7 +64,7 @@ pub(super) fn grade(args: &Args) -> Result<(), Failure> {
     let pages = [build::json(&report).map_err(Failure::Failed)?, html, grade::markdown(&report), grade::junit(&report)];
     let mut files: Vec<_> = PAGES.map(str::to_owned).into_iter().zip(pages).collect();
     files.extend(pictures);
-    let replaced = write(&folder(args, inputs), files)?;
+    let replaced = write(&folder(args, inputs), &files)?;
     let place = args.out.join("grade.html");
     args.writing.print(&format!("{}\nreport: {}\n{replaced}", grade::terminal(&report), place.shown()))?;
     if report.passes() {
@@ -189,7 +189,7 @@ fn files(args: &Args, reference: &Path, mine: &Path) -> Result<Done, Failure> {
     if !mine.is_dir() {
         return Err(FileError::whole(mine, "no such folder; answers are asked for in MINE/NAME").into());
     }
-    output::probe(&args.out, 0, &[""; 0])?;
+    output::probe(&args.out, 0, [])?;
     let problems = grade::grade(&wanted, mine, &options(args));
     let mut report = report(args, [reference.shown(), mine.shown()], problems, not_read(mine, &names));
     report.diagnosis = grade::overall(&wanted, &mut report.problems);
@@ -289,7 +289,7 @@ fn started(args: &Args, command: &str) -> Result<Program, Failure> {
 fn program(args: &Args, command: &str, reference: Option<&Path>) -> Result<Done, Failure> {
     let wanted = tolerances::with(&args.tolerances, asked(args, reference)?)?;
     let inputs = inputs::of_program(args, reference, &wanted)?;
-    output::probe(&args.out, 0, &[""; 0])?;
+    output::probe(&args.out, 0, [])?;
     folder(args, inputs.clone()).check(&[&PAGES[..], &PICTURES].concat())?;
     let program = started(args, command)?;
     // A code for tensors alone has no first question about a rod.

@@ -38,7 +38,7 @@ pub(super) fn man(args: &Man) -> Result<(), Failure> {
     add_pages(&command, &mut pages).map_err(|error| Failure::Failed(error.to_string()))?;
     let names: Vec<_> = pages.iter().map(|(name, _)| name.clone()).collect();
     let folder = ResultFolder::new(&args.dir, "man", json!({}), args.writing.force).as_argument();
-    folder.write(pages)?;
+    folder.write(&pages)?;
     args.writing.print(&format!("in {}: {}\n", args.dir.shown(), names.join(", ")))
 }
 

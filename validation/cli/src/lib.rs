@@ -292,7 +292,7 @@ impl Writing {
     /// Writes the results of a command, and prints `text` with their names.
     fn write(&self, folder: &ResultFolder, files: Vec<Output>, text: &str) -> Result<(), Failure> {
         let names = files.iter().map(|(name, _)| name.clone()).collect::<Vec<_>>().join(", ");
-        let replaced = write(folder, files)?;
+        let replaced = write(folder, &files)?;
         self.print(&format!("{text}in {}: {names}\n{replaced}", folder.dir().shown()))
     }
 }
@@ -309,7 +309,7 @@ fn result_folder<N: AsRef<str>>(
     const MORE: u64 = 1 << 20;
     let folder = ResultFolder::new(dir, command, inputs, force);
     if cluster::is_root() {
-        output::probe(dir, bytes + MORE, names)?;
+        output::probe(dir, bytes + MORE, names.iter().map(AsRef::as_ref))?;
         folder.check(names)?;
     }
     Ok(folder)
@@ -317,10 +317,10 @@ fn result_folder<N: AsRef<str>>(
 
 /// Writes the results of a command, whose folder was checked before the work; beside it if that fails. A line for the
 /// terminal on those that they replaced, if these had other input.
-fn write(folder: &ResultFolder, files: Vec<Output>) -> Result<String, Failure> {
+fn write(folder: &ResultFolder, files: &[Output]) -> Result<String, Failure> {
     let line =
         |difference: String| format!("(replaced earlier results of {}: {difference})\n", folder.origin().command);
-    match folder.write(files.clone()) {
+    match folder.write(files) {
         Ok(replaced) => Ok(replaced.map(line).unwrap_or_default()),
         Err(refused) => match folder.write_beside(files) {
             Some(dir) => Err(Failure::Failed(format!("{refused}; these results are in {}", dir.shown()))),

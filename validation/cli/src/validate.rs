@@ -100,7 +100,7 @@ pub(super) fn validate(args: Args) -> Result<(), Failure> {
     let mut files = report.data().map_err(Failure::Failed)?;
     let pages = [report.html().map_err(Failure::Failed)?, report.json(), report.markdown(), report.junit()];
     files.extend(PAGES.map(str::to_owned).into_iter().zip(pages));
-    let replaced = write(&folder, files)?;
+    let replaced = write(&folder, &files)?;
     let red: String = report.cases.iter().map(CaseRow::reasons).collect();
     if !red.is_empty() && cluster::is_root() {
         // Printed even with --quiet: a failed case is an error.

@@ -63,9 +63,9 @@ fn at(path: &Path) -> impl FnOnce(io::Error) -> OutputError {
 /// Checks, for commands that work long before they write, that a folder can be made and filled in `dir`, or if it does
 /// not exist in the folder above it, that files can have these names, and that there is room for `bytes` bytes. Fails
 /// if another process is writing in the folder.
-pub fn probe<N: AsRef<str>>(dir: &Path, bytes: u64, names: &[N]) -> Result<(), OutputError> {
+pub fn probe<'a>(dir: &Path, bytes: u64, names: impl IntoIterator<Item = &'a str>) -> Result<(), OutputError> {
     if let Some(claim) = Claim::open(dir, PATIENCE)? {
-        names.iter().map(AsRef::as_ref).chain([RECORD]).try_for_each(|name| claim.is_free(name))?;
+        names.into_iter().chain([RECORD]).try_for_each(|name| claim.is_free(name))?;
     }
     let (above, _) = claim::existing(dir);
     let folder = Dir::open_ambient_dir(above, ambient_authority()).map_err(at(dir))?;

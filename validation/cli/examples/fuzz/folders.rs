@@ -124,7 +124,7 @@ fn tried(case: &Path, random: &mut Pcg64Dxsm, mutated: &str) -> Result<Taken, St
     let refused = |why: Refused| why.to_string();
     let (done, written) = match random.random_range(0..6) {
         0 => (write_one(&out.join(names[0]), b"new", force).map(drop).map_err(refused), None),
-        1 => (probe(&out, 10, &[""; 0]).map_err(|error| error.to_string()), Some(vec![])),
+        1 => (probe(&out, 10, []).map_err(|error| error.to_string()), Some(vec![])),
         2 => {
             let kept = Checkpoint::open(&out.join("kept"), "run", json!({}));
             let done = kept.map_err(refused).and_then(|kept| {
@@ -133,10 +133,7 @@ fn tried(case: &Path, random: &mut Pcg64Dxsm, mutated: &str) -> Result<Taken, St
             });
             (done, None)
         }
-        _ => (
-            ResultFolder::new(&out, "run", json!({}), force).write(files.clone()).map(drop).map_err(refused),
-            Some(files),
-        ),
+        _ => (ResultFolder::new(&out, "run", json!({}), force).write(&files).map(drop).map_err(refused), Some(files)),
     };
     let after = tree(case);
     judged(&before, &after, &done, written.as_deref(), force)?;

@@ -22,7 +22,7 @@ pub(super) fn compare(args: &Args) -> Result<(), Failure> {
     let inputs = inputs::of_program(args, args.reference.as_deref(), std::slice::from_ref(&problem))?;
     let names = ["work-precision", "steps", "evaluations", "tolerance"];
     let names: Vec<_> = names.iter().flat_map(|name| [".svg", ".csv"].map(|end| format!("{name}{end}"))).collect();
-    output::probe(&args.out, 0, &[""; 0])?;
+    output::probe(&args.out, 0, [])?;
     let folder = folder(args, inputs);
     folder.check(&names)?;
     let mut programs: Vec<(String, Program, live::Mode)> = Vec::new();
@@ -47,7 +47,7 @@ pub(super) fn compare(args: &Args) -> Result<(), Failure> {
         }
         Ok(files)
     };
-    let replaced = write(&folder, files().map_err(Failure::Failed)?)?;
+    let replaced = write(&folder, &files().map_err(Failure::Failed)?)?;
     let picture = args.out.join("work-precision.svg");
     args.writing.print(&format!("{}picture: {}\n{replaced}", table.for_terminal(), picture.shown()))?;
     match found.silent()[..] {

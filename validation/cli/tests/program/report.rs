@@ -34,7 +34,7 @@ static REPORT: LazyLock<Report> = LazyLock::new(|| {
 fn a_picture_of_a_report_is_drawn_again() {
     let dir = folder();
     let folder = ResultFolder::new(&dir.at("report"), "validate", serde_json::json!({}), false);
-    folder.write(vec![("report.json".into(), REPORT.json())]).unwrap();
+    folder.write(&[("report.json".into(), REPORT.json())]).unwrap();
     dir.runs("plot report --y fig11 --out f.svg --title Mine");
     let svg = dir.read("f.svg");
     assert!(svg.contains("Mine") && svg.contains("aspect ratio"), "{svg}");

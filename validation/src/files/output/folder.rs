@@ -139,9 +139,9 @@ impl ResultFolder {
     /// # Errors
     ///
     /// Those of [`Self::check`], or if writing fails; then nothing has changed.
-    pub fn write(&self, files: Vec<Output>) -> Result<Option<String>, Refused> {
+    pub fn write(&self, files: &[Output]) -> Result<Option<String>, Refused> {
         let mut are_there = locked(&RESULTS);
-        let replaced = self.replace(&files)?;
+        let replaced = self.replace(files)?;
         *are_there = true;
         Ok(replaced)
     }
@@ -164,7 +164,7 @@ impl ResultFolder {
 
     /// Writes files into the first of `<folder>-2` to `<folder>-99` that does not exist, and names it: what has been
     /// worked for is not lost where the folder was changed meanwhile.
-    pub fn write_beside(&self, files: Vec<Output>) -> Option<PathBuf> {
+    pub fn write_beside(&self, files: &[Output]) -> Option<PathBuf> {
         let name = self.dir.file_name()?.to_str()?;
         let mut beside = (2..100).map(|k| self.dir.with_file_name(format!("{name}-{k}")));
         let dir = beside.find(|dir| dir.symlink_metadata().is_err())?;

@@ -25,7 +25,7 @@ fn folder(dir: &Path, force: bool) -> ResultFolder {
 fn half_a_replacement_is_seen_and_completed() {
     let dir = tempfile::tempdir().unwrap();
     let own = folder(dir.path(), false);
-    own.write(outputs(&["a", "b", "gone"], "old")).unwrap();
+    own.write(&outputs(&["a", "b", "gone"], "old")).unwrap();
     let claim = Claim::open(dir.path(), PATIENCE).unwrap().unwrap();
     let begun = Record::new(own.origin(), &outputs(&["a", "b"], "new"));
     let begun = begun.replacing(own.earlier(&claim));
@@ -39,10 +39,10 @@ fn half_a_replacement_is_seen_and_completed() {
     }
     // A file that was edited meanwhile stays.
     fs::write(dir.path().join("b"), "mine").unwrap();
-    let Refused(why) = own.write(outputs(&["a", "b"], "new")).unwrap_err();
+    let Refused(why) = own.write(&outputs(&["a", "b"], "new")).unwrap_err();
     assert!(why.contains("b: was changed after"), "{why}");
     fs::write(dir.path().join("b"), "old").unwrap();
-    own.write(outputs(&["a", "b"], "new")).unwrap();
+    own.write(&outputs(&["a", "b"], "new")).unwrap();
     let found = contents(dir.path());
     assert_eq!(found.keys().collect::<Vec<_>>(), ["a", "b", "shearbed.json"]);
     assert_eq!(found["b"].as_deref(), Some("new"));
@@ -56,14 +56,14 @@ fn a_reader_finds_one_whole_set_or_is_told() {
     let dir = tempfile::tempdir().unwrap();
     let shared = &dir.path().join("shared");
     let names: Vec<_> = (10..50).map(|k| format!("f{k}")).collect();
-    let set = |text: &str| names.iter().map(|name| (name.clone(), text.to_owned())).collect();
+    let set = |text: &str| names.iter().map(|name| (name.clone(), text.to_owned())).collect::<Vec<_>>();
     let left = &AtomicUsize::new(3);
     let looked = std::thread::scope(|scope| {
         for writer in 0..3 {
             let set = &set;
             scope.spawn(move || {
                 for round in 0..10 {
-                    folder(shared, true).write(set(&format!("{writer} {round}"))).unwrap();
+                    folder(shared, true).write(&set(&format!("{writer} {round}"))).unwrap();
                 }
                 left.fetch_sub(1, Ordering::Relaxed);
             });
@@ -93,12 +93,12 @@ fn an_edit_meanwhile_costs_no_results() {
     let above = tempfile::tempdir().unwrap();
     let dir = above.path().join("out");
     let own = folder(&dir, false);
-    own.write(outputs(&["a", "b"], "old")).unwrap();
+    own.write(&outputs(&["a", "b"], "old")).unwrap();
     fs::write(dir.join("a"), "mine").unwrap();
     fs::write(above.path().join("out-2"), "mine too").unwrap();
-    let Refused(why) = own.write(outputs(&["a", "b"], "new")).unwrap_err();
+    let Refused(why) = own.write(&outputs(&["a", "b"], "new")).unwrap_err();
     assert!(why.contains("out/a: was changed after"), "{why}");
-    assert_eq!(own.write_beside(outputs(&["a", "b"], "new")), Some(above.path().join("out-3")));
+    assert_eq!(own.write_beside(&outputs(&["a", "b"], "new")), Some(above.path().join("out-3")));
     let [kept, new] = ["out", "out-3"].map(|name| contents(&above.path().join(name)));
     assert_eq!([&kept["a"], &kept["b"]].map(Option::as_deref), [Some("mine"), Some("old")]);
     assert_eq!([&new["a"], &new["b"]].map(Option::as_deref), [Some("new"), Some("new")]);
@@ -114,13 +114,13 @@ fn results_of_another_process_meanwhile_stay() {
     let dir = above.path().join("out");
     let begun = |alpha: f64| ResultFolder::new(&dir, "run", json!({ "alpha": alpha }), false);
     let [first, second, same] = [begun(1.0), begun(2.0), begun(1.0)];
-    first.write(outputs(&["a"], "1")).unwrap();
-    same.write(outputs(&["a"], "1")).unwrap();
-    let Refused(why) = second.write(outputs(&["a"], "2")).unwrap_err();
+    first.write(&outputs(&["a"], "1")).unwrap();
+    same.write(&outputs(&["a"], "1")).unwrap();
+    let Refused(why) = second.write(&outputs(&["a"], "2")).unwrap_err();
     assert!(why.contains("`shearbed run` from other input are here since: alpha was 1.0 and is 2.0 now"), "{why}");
-    assert_eq!(second.write_beside(outputs(&["a"], "2")), Some(above.path().join("out-2")));
+    assert_eq!(second.write_beside(&outputs(&["a"], "2")), Some(above.path().join("out-2")));
     assert_eq!(contents(&dir)["a"].as_deref(), Some("1"));
-    begun(2.0).write(outputs(&["a"], "2")).unwrap();
+    begun(2.0).write(&outputs(&["a"], "2")).unwrap();
     assert_eq!(contents(&dir)["a"].as_deref(), Some("2"));
 }
 
@@ -129,14 +129,14 @@ fn results_of_another_process_meanwhile_stay() {
 fn read_only_results_stay() {
     let above = tempfile::tempdir().unwrap();
     let dir = above.path().join("out");
-    folder(&dir, false).write(outputs(&["a"], "old")).unwrap();
+    folder(&dir, false).write(&outputs(&["a"], "old")).unwrap();
     let mut permissions = fs::metadata(dir.join("a")).unwrap().permissions();
     permissions.set_readonly(true);
     fs::set_permissions(dir.join("a"), permissions).unwrap();
-    let Refused(why) = folder(&dir, false).write(outputs(&["a"], "new")).unwrap_err();
+    let Refused(why) = folder(&dir, false).write(&outputs(&["a"], "new")).unwrap_err();
     assert!(why.contains("out/a: is read-only"), "{why}");
     assert_eq!(contents(&dir)["a"].as_deref(), Some("old"));
-    folder(&dir, true).write(outputs(&["a"], "new")).unwrap();
+    folder(&dir, true).write(&outputs(&["a"], "new")).unwrap();
     assert_eq!(contents(&dir)["a"].as_deref(), Some("new"));
 }
 
@@ -175,14 +175,14 @@ fn no_link_below_the_folder_is_followed() {
     let own = folder(&out, true);
     let listed = [outputs(&["sub/keys"], "mine"), outputs(&["a"], "mine")].concat();
     fs::write(out.join(RECORD), Record::new(own.origin(), &listed).file().1).unwrap();
-    let Refused(why) = own.write(outputs(&["sub/keys"], "new")).unwrap_err();
+    let Refused(why) = own.write(&outputs(&["sub/keys"], "new")).unwrap_err();
     assert!(why.contains("sub/keys: cannot be written: sub is a link, which is not followed here"), "{why}");
     let claim = Claim::open(&out, PATIENCE).unwrap().unwrap();
     assert!(claim.write_folder("sub/new", &outputs(&["x"], "")).is_err());
     assert!(claim.remove("sub/keys").is_err());
     drop(claim);
     // In place of a link a file is written; what it led to stays, also as a listed file that is no longer written.
-    own.write(outputs(&["a"], "new")).unwrap();
+    own.write(&outputs(&["a"], "new")).unwrap();
     assert!(!out.join("a").is_symlink() && out.join("sub").is_symlink());
     assert_eq!(contents(&home), BTreeMap::from([("keys".to_owned(), Some("mine".to_owned()))]));
 }

@@ -20,12 +20,12 @@ pub fn export(dir: &Path, force: bool) -> Result<Vec<&'static str>, Refused> {
     let always = |def: &ProblemDef| ["problem.json", "certified.csv"].map(|file| format!("{}/{file}", def.name));
     // Checked before the problems are built, which takes seconds.
     folder.check(&all().iter().flat_map(always).collect::<Vec<_>>())?;
-    output::probe(dir, 0, &[""; 0])?;
+    output::probe(dir, 0, [])?;
     let of_problem = |problem: &Built| {
         let files = files(problem).into_iter();
         files.map(|(file, text)| (format!("{}/{file}", problem.problem.name), text)).collect::<Vec<_>>()
     };
-    folder.write(built().into_iter().flat_map(of_problem).collect())?;
+    folder.write(&built().into_iter().flat_map(of_problem).collect::<Vec<_>>())?;
     Ok(all().iter().map(|def| def.name).collect())
 }
 
