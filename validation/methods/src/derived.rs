@@ -315,13 +315,28 @@ impl Mean<'_> {
             return (mean.first().copied().unwrap_or(f64::NAN), 0.0);
         };
         let weight = |k: usize| times[(k + 1).min(last)] - times[k.saturating_sub(1)];
-        let average = |of: &dyn Fn(usize) -> f64| {
-            (0..=last).map(|k| weight(k) * of(k)).sum::<f64>() / (2.0 * (times[last] - times[0]))
-        };
-        let (centre, level) = (average(&|k| times[k]), average(&|k| mean[k]));
-        let moment = average(&|k| (times[k] - centre) * (mean[k] - level));
-        let spread = average(&|k| (times[k] - centre).powi(2));
-        (level, moment / spread * (times[last] - centre))
+        let Straight { centre, level, slope } =
+            Straight::nearest(times, mean, &(0..=last).map(weight).collect::<Vec<_>>());
+        (level, slope * (times[last] - centre))
+    }
+}
+
+/// The straight line that is nearest to weighted points by least squares.
+struct Straight {
+    /// The mean abscissa.
+    centre: f64,
+    /// The mean ordinate, which it has there.
+    level: f64,
+    slope: f64,
+}
+
+impl Straight {
+    fn nearest(x: &[f64], y: &[f64], weights: &[f64]) -> Self {
+        let all: f64 = weights.iter().sum();
+        let average = |of: &dyn Fn(usize) -> f64| (0..x.len()).map(|k| weights[k] * of(k)).sum::<f64>() / all;
+        let (centre, level) = (average(&|k| x[k]), average(&|k| y[k]));
+        let moment = average(&|k| (x[k] - centre) * (y[k] - level));
+        Self { centre, level, slope: moment / average(&|k| (x[k] - centre).powi(2)) }
     }
 }
 
@@ -350,14 +365,7 @@ fn weights(rate: f64, times: &[f64]) -> Vec<f64> {
 /// The rate at which amplitudes decay that have these logarithms: minus the slope of a straight line through them, by
 /// least squares with its own [`weights`].
 fn rate(times: &[f64], logarithms: &[f64]) -> Option<f64> {
-    let next = |rate: f64| {
-        let weights = weights(rate, times);
-        let all: f64 = weights.iter().sum();
-        let average = |of: &dyn Fn(usize) -> f64| (0..times.len()).map(|k| weights[k] * of(k)).sum::<f64>() / all;
-        let centre = average(&|k| times[k]);
-        let moment = average(&|k| logarithms[k] * (times[k] - centre));
-        -moment / average(&|k| (times[k] - centre).powi(2))
-    };
+    let next = |rate: f64| -Straight::nearest(times, logarithms, &weights(rate, times)).slope;
     // Half a step each time: steeper slopes have earlier weights, which may find less steep ones.
     let found = (0..60).fold(0.0, |rate, _| 0.5 * (rate + next(rate)));
     found.is_finite().then_some(found)

@@ -10,6 +10,7 @@ use crate::methods::derived::{Derived, Estimate as Found};
 use crate::oracle::{isotropic, quadrature};
 use shearbed::run::ensemble::Column;
 use std::ops::Range;
+use std::sync::LazyLock;
 
 /// What derives the quantities from times, the mean and the number of replicas.
 type Deriving = fn(&[f64], &Column, u64) -> Derived;
@@ -63,7 +64,8 @@ const DESIGN: Design = Design::new(1.2, 1.6);
 /// The square that counts for a quantity that was not found.
 const MISSING: f64 = 9.0;
 
-/// The closed form's extremes in each quarter period from t = 0 on, and its average over time.
+/// The closed form's extremes in each quarter period up to t/T = 3, beyond which noise hides them, and its average over
+/// time.
 struct Truth {
     extremes: Vec<(f64, f64)>,
     steady: f64,
@@ -79,30 +81,30 @@ impl Truth {
         let average =
             |r: f64| 4.0 * quadrature::integrate(|t| isotropic::mean_projections(r, t)[0], &[0.0, 0.25], 1e-9);
         let [steady] = isotropic::mean_over_aspect_ratios(ASPECT_RATIO, SD_PERCENT, 0.0, |r, _| [average(r)]);
-        Self { extremes: (0..=16_u32).map(extreme).collect(), steady }
+        Self { extremes: (0..=12_u32).map(extreme).collect(), steady }
     }
 
     /// The extreme that is nearest to one that was found.
-    fn near(&self, time: f64) -> Option<(usize, (f64, f64))> {
-        let nearest = (4.0 * time).round() as usize;
-        Some((nearest, *self.extremes.get(nearest)?))
+    fn near(&self, time: f64) -> Option<usize> {
+        Some((4.0 * time).round() as usize).filter(|k| *k < self.extremes.len())
     }
 
     /// The height of maximum `k` above the mean of the minima beside it.
     fn amplitude(&self, k: usize) -> Option<f64> {
-        Some(self.extremes[k].1 - 0.5 * (self.extremes[k - 1].1 + self.extremes.get(k + 1)?.1))
+        let beside = self.extremes.get(k.checked_sub(1)?)?.1 + self.extremes.get(k + 1)?.1;
+        Some(self.extremes[k].1 - 0.5 * beside)
     }
 
     /// The decay of the amplitudes that count in `derived`: λ where Σ w (ln A + λt − c)(t − t̄) = 0, with w
     /// = e^(−2λt) from 1 on, from the fourth on less 0.04; by halves.
     fn rate(&self, derived: &Derived) -> Option<f64> {
         let [first, last] = derived.damping?.between;
-        let counts = |time: &f64| (first..=last).contains(time);
         let maxima = derived.extremes.iter().filter(|extreme| extreme.is_maximum).map(|maximum| maximum.time.value);
-        let places: Option<Vec<_>> = maxima.filter(counts).map(|time| self.near(time)).collect();
-        let points: Option<Vec<_>> =
-            places?.into_iter().map(|(k, (time, _))| Some((time, self.amplitude(k)?.ln()))).collect();
-        let points = points?;
+        let point = |time: f64| {
+            let k = self.near(time)?;
+            Some((self.extremes[k].0, self.amplitude(k)?.ln()))
+        };
+        let points: Vec<_> = maxima.filter(|time| (first..=last).contains(time)).map(point).collect::<Option<_>>()?;
         let slope = |rate: f64| {
             let sum = |of: &dyn Fn(f64, f64) -> f64| {
                 let weight = |k: usize, time: f64| {
@@ -132,9 +134,9 @@ impl Truth {
         let second = derived.extremes.iter().filter(|extreme| extreme.is_maximum).nth(1);
         let place = second.and_then(|second| self.near(second.time.value));
         [
-            off(second.map(|second| second.time), place.map(|(_, (time, _))| time)),
-            off(second.map(|second| second.value), place.map(|(_, (_, value))| value)),
-            off(second.and_then(|second| second.amplitude), place.and_then(|(k, _)| self.amplitude(k))),
+            off(second.map(|second| second.time), place.map(|k| self.extremes[k].0)),
+            off(second.map(|second| second.value), place.map(|k| self.extremes[k].1)),
+            off(second.and_then(|second| second.amplitude), place.and_then(|k| self.amplitude(k))),
             off(derived.damping.map(|damping| damping.rate), self.rate(derived)),
             off(derived.steady.map(|steady| steady.value), Some(self.steady)),
         ]
@@ -152,7 +154,8 @@ fn extreme(k: u32) -> (f64, f64) {
     (low, x1(low))
 }
 
-static TRUTH: Shared<(), Truth> = Shared::new();
+static TRUTH: LazyLock<Truth> = LazyLock::new(Truth::new);
+
 /// X̄₁ at the outputs' times.
 type Run = (Vec<f64>, Column);
 
@@ -175,10 +178,9 @@ fn runs(effort: &Effort) -> Result<Vec<Run>, String> {
 }
 
 fn derives(deriving: &Deriving, effort: &Effort) -> Result<[Evidence; 2], String> {
-    let truth = TRUTH.get(effort, (), Truth::new);
     let runs = RUNS.get(effort, (), || runs(effort));
     let runs = runs.as_ref().as_ref().map_err(Clone::clone)?;
-    let one = |(times, column): &Run| truth.deviations(&deriving(times, column, REPLICAS));
+    let one = |(times, column): &Run| TRUTH.deviations(&deriving(times, column, REPLICAS));
     let all: Vec<_> = runs.par_iter().map(one).collect();
     let due = |what: &str, quantities: Range<usize>| {
         let square = |off: &Option<f64>| off.map_or(MISSING, |off| off * off) / quantities.len() as f64;
