@@ -67,7 +67,7 @@ pub fn of_document(document: &Document) -> Result<Scene, Error> {
     }
 }
 
-/// The refusal of times in the text that are in the unit of its duration, where one in another unit was set.
+/// The error for times in the text if a duration in another unit was set: they are in the unit of the text.
 fn in_other_units(document: &Document, unit: TimeUnit) -> Option<Error> {
     let was = TimeUnit::ALL.into_iter().find(|other| *other != unit && document.is_of_text(other.duration_key()))?;
     let output = document.root().table("output")?;

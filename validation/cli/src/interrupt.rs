@@ -46,8 +46,8 @@ pub(super) fn watch() {
     let _ = std::thread::Builder::new().spawn(wait);
 }
 
-/// Has the program end with the process whose number is in SHEARBED_PARENT, as Python gives its own: what goes on after
-/// a script that was killed would replace results of later ones.
+/// Ends the program when the process SHEARBED_PARENT ends, which the Python package sets to its own: a run that
+/// outlives its script could replace later results.
 #[cfg(target_os = "linux")]
 fn with_parent() {
     use rustix::process::{Signal, getppid, set_parent_process_death_signal};

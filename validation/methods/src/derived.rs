@@ -346,14 +346,14 @@ fn extreme(mean: &[f64], turn: &Turn) -> usize {
     turn.within.clone().max_by(|a, b| (sign * mean[*a]).total_cmp(&(sign * mean[*b]))).unwrap_or(0)
 }
 
-/// The part of the first amplitude down to which later ones count for the decay: more replicas show smaller ones, over
-/// which a decay that is not exponential has another rate.
+/// The fraction of the first amplitude below which later ones do not count: more replicas show smaller amplitudes, and
+/// a decay that is not exponential has another rate there.
 const CLEAR: f64 = 0.2;
 
 /// The weights of logarithms of amplitudes that decay at `rate`: e^(−2λt), those of equal errors of the amplitudes.
-/// From the fourth on they are less by the one at [`CLEAR`], so that no amplitude counts or not by its own noise.
+/// From the fourth on they are reduced by the weight at [`CLEAR`], so that noise does not decide which count.
 ///
-/// Weights by estimated errors would prefer amplitudes whose errors come out too small, and make that of the rate so.
+/// Weights from estimated errors would favour errors that are too small, and underestimate the error of the rate.
 fn weights(rate: f64, times: &[f64]) -> Vec<f64> {
     let weight = |(k, time): (usize, &f64)| {
         let decayed = (-2.0 * rate * (time - times[0])).exp();

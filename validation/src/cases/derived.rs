@@ -1,9 +1,10 @@
 //! What a run derives from a mean against time, over many ensembles of free rods of unequal aspect ratio: their closed
 //! form has the same quantities without noise.
 //!
-//! A deviation counts in the standard errors that the ensemble states. These have 15 degrees of freedom (16 groups of
-//! replicas), so that squared deviations are 15/13 on average if the errors are right. So are those of steady values:
-//! the rods of a replica differ in their average over time, and a straight line ends where this is.
+//! Deviations are in units of the standard errors that each ensemble states. These have 15 degrees of freedom (16
+//! groups of replicas), so that squared deviations are 15/13 on average if the errors are right. This holds for steady
+//! values too: rods differ in their average over time, so that the end of a straight line has nearly the error of the
+//! average.
 
 use super::*;
 use crate::methods::derived::{Derived, Estimate as Found};
@@ -19,8 +20,8 @@ pub fn cases() -> Vec<Case> {
     vec![
         Case::of(Judges::Program, "derived-quantities")
             .claim(
-                "Maxima, amplitudes, damping rates and steady values that `shearbed run` derives are those of the \
-                 closed form, and off it as far as their standard errors say.",
+                "What `shearbed run` derives from X̄₁ of free rods (a maximum's time, value and amplitude, the damping \
+                 rate, the steady value) agrees with the closed form, within standard errors of the right size.",
             )
             .source("eqs 4, 11; Figs 7 and 9; docs/src/reference/files.md")
             .under_test(Derived::new as Deriving)
@@ -56,12 +57,12 @@ const PERIODS: f64 = 8.0;
 const RODS: usize = 60;
 const REPLICAS: u64 = 32;
 
-/// How far the mean square may be off: standard errors that are right to a tenth.
+/// The allowed departure of the mean square: that of standard errors wrong by a tenth.
 const OFF: f64 = 0.25;
 /// The mean square of two quantities of an ensemble or more; the square of one scatters by 1.84 by Student's t.
 const DESIGN: Design = Design::new(1.2, 1.6);
 
-/// The square that counts for a quantity that was not found.
+/// The squared deviation of a missing quantity.
 const MISSING: f64 = 9.0;
 
 /// The closed form's extremes in each quarter period up to t/T = 3, beyond which noise hides them, and its average over
@@ -187,7 +188,7 @@ fn derives(deriving: &Deriving, effort: &Effort) -> Result<[Evidence; 2], String
         let squares = all.iter().map(|off| off[quantities.clone()].iter().map(square).sum::<f64>());
         Evidence::on(format!("mean squared deviation, in standard errors, of {what}"), "–")
             .is(Sample::of(squares.collect::<Vec<_>>()), 15.0 / 13.0, OFF, DESIGN.effect)
-            .because("15/13 if nothing is biased and the standard errors are right, to a tenth")
+            .because("15/13 for values without bias whose standard errors are right; a tenth of these is allowed")
     };
     Ok([due("the second maximum's time, value and amplitude", 0..3), due("damping rate and steady value", 3..5)])
 }

@@ -45,8 +45,8 @@ fn deviations(fit: &Fit, covariance: &DMatrix<f64>) -> Vec<f64> {
 const MOST_REPLICAS: u64 = 200;
 
 /// The change of the estimates, to first order, if the model were `changed` instead of `own`: from pairs of replicas at
-/// the best values, with the standard error over the pairs and by the noise of the covariance, which moves an estimate
-/// by as much as the change is no change of the parameters.
+/// the best values. Its standard error has two causes: the scatter over the pairs, and the noise of the covariance,
+/// which counts as far as the change is one that no parameter can make.
 pub fn shift(
     fit: &Fit,
     change: &'static str,
@@ -104,8 +104,8 @@ pub(super) fn residual(datum: &Datum, simulated: f64, u: f64) -> Residual {
 }
 
 /// The standard deviation of each estimate over seeds of the model: its replicas' noise, and half of what their number
-/// adds to the covariance; the other half corrects one that is too small. A wrong covariance moves estimates by as much
-/// as the points are off the best model, of whose χ² is `per_freedom` of the degrees of freedom.
+/// adds to the covariance; the other half corrects one that is too small. A wrong covariance moves estimates in
+/// proportion to the points' distance from the best model, whose χ² per degree of freedom is `per_freedom`.
 pub fn another_seed(fit: &Fit, per_freedom: f64) -> Vec<f64> {
     let spread = &fit.best.spread;
     deviations(fit, &(&spread[REPLICAS] + &spread[SCARCE] * (0.5 * per_freedom)))
